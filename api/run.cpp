@@ -88,7 +88,7 @@ Run::Run(const Scene& of, const Options& given, const std::optional<std::filesys
 Run::~Run() {
   if (!session || finished || !failed.empty()) return;
   try {
-    session->stop(fmt::format("left at {:.6g} s without finish()", simulation->time()));
+    session->stop(fmt::format("destroyed at {:.6g} s without finish()", simulation->time()));
   } catch (const std::exception&) {
     // For example a full disk.
   }
@@ -106,13 +106,13 @@ std::unique_ptr<storage::Checkpoint> Run::goOn() {
 }
 
 coupling::Simulation& Run::now() const {
-  if (!simulation) throw InputError("the simulation is lost, since the last restore() failed midway; make another");
+  if (!simulation) throw InputError("the last restore() failed and left no valid simulation; create a new one");
   return *simulation;
 }
 
 const coupling::VehicleRig& Run::rig() const {
   const coupling::VehicleRig* rig = now().vehicle();
-  if (!rig) throw InputError("the scene has no vehicle; give it [vehicle] spec = \"vehicles/light_tracked.toml\"");
+  if (!rig) throw InputError("the scene has no vehicle; add [vehicle] spec = \"vehicles/light_tracked.toml\"");
   return *rig;
 }
 
@@ -165,25 +165,25 @@ void Run::act(std::int64_t steps) {
     const auto all = comm().gatherAll(mine);
     for (std::size_t r = 1; r < all.size(); ++r)
       if (all[r] != all[0])
-        throw InputError(fmt::format("step {}: rank {} has set other inputs than rank 0, or takes another number of "
-                                     "steps; all ranks must set the same and step alike",
+        throw InputError(fmt::format("step {}: rank {} and rank 0 differ in their inputs or number of steps; "
+                                     "set the same inputs and step count on all ranks",
                                      now().steps(), r));
   }
   if (!inputs.empty()) translated([&] { now().set(inputs); });
 }
 
 void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
-  if (isStepping) throw InputError("step() called within step(); let keepGoing return first");
+  if (isStepping) throw InputError("step() was called within step(); return from keepGoing first");
   requireOpen("step()");
   translated([this] { requireThreads(exec); });
-  if (count < 1) throw InputError(fmt::format("step({}): at least one step", count));
+  if (count < 1) throw InputError(fmt::format("step({}): count must be at least 1", count));
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / 4;
-  if (count > kMost) throw InputError(fmt::format("step({}): at most {} steps", count, kMost));
+  if (count > kMost) throw InputError(fmt::format("step({}): count must be at most {}", count, kMost));
   if (const coupling::VehicleRig* rig = now().vehicle(); rig && !rig->ended().empty())
     throw InputError("the scene's [stop] has ended the run: " + rig->ended());
   act(count);
   now().restartMeans(coupling::Means::watch);
-  std::exception_ptr thrown; // by keepGoing, between two steps: the simulation is sound
+  std::exception_ptr thrown; // by keepGoing, between two steps: the simulation stays valid
   isStepping = true;
   try {
     const auto all = [&] { thrown = advance(count, keepGoing); };

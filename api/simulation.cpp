@@ -101,7 +101,7 @@ void Simulation::readPositions(std::span<Vec3> positions) const {
   const auto& grains = run_->now().ground().grains;
   if (positions.size() != ownGrainCount())
     throw InputError(
-        fmt::format("readPositions(): room for {} grains, there are {}", positions.size(), ownGrainCount()));
+        fmt::format("readPositions(): the buffer holds {} grains, not {}", positions.size(), ownGrainCount()));
   if (!grains || positions.empty()) return;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   detail::translated([&] {
@@ -157,10 +157,8 @@ std::vector<std::string> warningsOf(const Simulation& simulation) {
   for (const setup::Notice& notice : detail::translated([&] { return setup::noticesOf(run.scene, run.now()); }))
     texts.push_back(notice.text);
   if (run.exec.threads > 1 && !std::getenv("GOMP_SPINCOUNT") && !std::getenv("OMP_WAIT_POLICY"))
-    texts.emplace_back(
-        "threads that wait for each other spin, which makes steps many times slower where other programs "
-        "use the cores: set GOMP_SPINCOUNT=5000 in the environment before this program starts, or use "
-        "one thread");
+    texts.emplace_back("idle threads spin, which makes steps many times slower if other programs use the cores: set "
+                       "GOMP_SPINCOUNT=5000 in the environment before this program starts, or use one thread");
   return texts;
 }
 
@@ -170,10 +168,10 @@ void Simulation::save(const std::filesystem::path& checkpoint) const {
   if (!std::filesystem::is_directory(folder, error) || std::filesystem::is_directory(checkpoint, error))
     throw InputError(fmt::format("save(\"{}\"): {}", checkpoint.string(),
                                  std::filesystem::is_directory(checkpoint, error)
-                                     ? "that is a folder; name a file"
-                                     : "there is no such folder; make it first"));
+                                     ? "this is a folder; give a file name"
+                                     : "the folder does not exist; create it first"));
   if (!run_->failed.empty())
-    throw InputError("save(): the simulation has failed, and its state is not sound. The cause: " + run_->failed);
+    throw InputError("save(): the simulation has failed and its state is invalid. The cause: " + run_->failed);
   run_->act();
   detail::translated([&] {
     storage::writeCheckpoint(checkpoint, session::checkpointOf(run_->now(), run_->record.provenance), run_->comm());
@@ -183,8 +181,8 @@ void Simulation::save(const std::filesystem::path& checkpoint) const {
 void Simulation::restore(const std::filesystem::path& checkpoint) {
   detail::Run& run = *run_;
   if (run.session)
-    throw InputError("restore(): a folder is being written, whose rows would come twice; make the simulation without "
-                     "a folder, or Simulation::resumed() with another");
+    throw InputError("restore(): not possible with an output folder, rows would be duplicated; create the simulation "
+                     "without a folder, or use Simulation::resumed() with another folder");
   const session::RunRequest before = run.request;
   run.request.resume = checkpoint, run.request.branch = true;
   try {

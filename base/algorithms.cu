@@ -27,7 +27,7 @@ namespace grouser::base {
 namespace {
 
 #if defined(__CUDACC__)
-/// Thrust's own memory for a moment, from the pool that Array takes its from.
+/// Thrust's temporary memory, from the same pool as Array.
 struct PoolAllocator {
   using value_type = char;
   const Exec& exec;

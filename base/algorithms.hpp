@@ -13,11 +13,11 @@ namespace grouser::base {
 void sortByKey(const Exec& exec, std::uint64_t* keys, std::uint32_t* values, std::size_t count);
 /// out[i] = in[0] + ... + in[i-1]; `out` may be `in`. Returns the total.
 std::uint32_t exclusiveScan(const Exec& exec, const std::uint32_t* in, std::uint32_t* out, std::size_t count);
-/// Of elements whose sum 32 bits may not hold.
+/// Sum of elements in 64 bits.
 std::uint64_t sum(const Exec& exec, const std::uint32_t* values, std::size_t count);
 /// Largest element; 0 for an empty range.
 std::uint32_t maximum(const Exec& exec, const std::uint32_t* values, std::size_t count);
-/// The places of all marks that are not 0, ascending.
+/// Indices of all nonzero marks, ascending.
 void listMarked(const Exec& exec, const std::uint32_t* marks, std::size_t count, Array<std::uint32_t>& list);
 /// out[i] = i.
 void iota(const Exec& exec, std::uint32_t* out, std::size_t count);

@@ -16,7 +16,7 @@ template <class T> class Array {
 public:
   Array() = default;
   explicit Array(const Exec& exec, std::size_t size = 0) : exec_(exec) { resize(size); }
-  /// Of `size` elements with undefined contents.
+  /// Array of `size` elements with undefined contents.
   static Array unset(const Exec& exec, std::size_t size) {
     Array array(exec);
     array.data_ = static_cast<T*>(allocateUnset(exec, size * sizeof(T)));
@@ -94,7 +94,7 @@ template <class T> std::vector<T> toHost(const Exec& exec, const T* device, std:
   return values;
 }
 
-/// An array on the device with a pinned twin on the host, for what crosses every step.
+/// Array on the device with a pinned copy on the host, for data transferred every step.
 template <class T> class Mirrored {
   static_assert(std::is_trivially_copyable_v<T>);
 
@@ -117,7 +117,7 @@ public:
   T* host() { return host_; }
   const T* host() const { return host_; }
   std::size_t bytes() const { return size() * sizeof(T); }
-  /// Without waiting: the host's side must stay as it is until the next synchronize().
+  /// Asynchronous: do not change the host side before the next synchronize().
   void upload() { copyToDeviceLater(exec_, device_.data(), host_, size() * sizeof(T)); }
   /// Valid after the next synchronize().
   void download() { copyToHostLater(exec_, host_, device_.data(), size() * sizeof(T)); }

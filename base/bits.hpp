@@ -8,8 +8,8 @@
 
 namespace grouser::base {
 
-/// The same bits, seen as another type of the same size; std::bit_cast is no function of a GPU's. Inlined always: what
-/// is compiled for one kind of processor alone calls it too (base/simd.hpp).
+/// Reinterprets bits as another type of the same size; std::bit_cast is not available on GPUs. Always inlined: code
+/// compiled for one processor type calls it too (base/simd.hpp).
 template <class To, class From> GROUSER_HD __attribute__((always_inline)) To bitsAs(const From& from) {
   static_assert(sizeof(To) == sizeof(From));
   To to;
@@ -26,7 +26,7 @@ GROUSER_HD int lowestBit(std::uint64_t bits) {
 #endif
 }
 
-/// How many bits are set.
+/// Number of bits set.
 GROUSER_HD std::uint32_t bitsSet(std::uint64_t bits) {
 #if defined(__CUDA_ARCH__)
   return static_cast<std::uint32_t>(__popcll(bits));

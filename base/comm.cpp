@@ -44,7 +44,7 @@ template <class Part> void inParts(std::size_t bytes, const Part& part) {
   for (std::size_t at = 0; at < bytes; at += kLargestPart) part(at, std::min(kLargestPart, bytes - at));
 }
 
-/// Whether a launcher has started more than one of us: known without calling MPI.
+/// True if a launcher has started several processes; does not call MPI.
 bool launchedWithOthers() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
     if (const char* size = std::getenv(name)) return std::atoi(size) > 1;

@@ -15,8 +15,7 @@ namespace grouser::base {
 using Bytes = std::vector<std::byte>;
 
 /// The ranks of a run. Cheap to copy. By default alone: rank 0 of 1, every call below returns at once and calls no MPI.
-/// What a call takes from all ranks is in the order of the ranks. Calls of all ranks must come in the same order.
-/// MPI's own errors end all ranks.
+/// Results are in rank order. Calls of all ranks must come in the same order. MPI's own errors end all ranks.
 class Comm {
 public:
   Comm() = default;
@@ -26,7 +25,7 @@ public:
   bool alone() const { return size_ == 1; }
   bool first() const { return rank_ == 0; }
 
-  /// In place, on all ranks. Integer sums are exact; so every order of ranks gives the same bits.
+  /// Sums over all ranks in place. Integer sums are exact, so the result does not depend on the order of ranks.
   void sum(std::int64_t* values, std::size_t count) const;
   void minimum(std::uint64_t* values, std::size_t count) const;
   void maximum(std::uint64_t* values, std::size_t count) const;
@@ -39,19 +38,19 @@ public:
     sum(&value, 1);
     return value;
   }
-  /// What all lower ranks gave, added up.
+  /// Sum of the values of all lower ranks.
   std::int64_t sumBelow(std::int64_t value) const;
   void wait() const; ///< for all ranks
-  /// The machine that a rank runs on, by the first rank there.
+  /// Machine of a rank, identified by the first rank there.
   int hostOf(int rank) const { return hosts_ ? (*hosts_)[static_cast<std::size_t>(rank)] : 0; }
   /// Time that this rank has spent waiting for others since the start [s]; 0 where it is alone.
   double waited() const { return waited_ ? *waited_ : 0.0; }
 
-  /// What every rank gave, by rank.
+  /// Data of all ranks, by rank.
   std::vector<Bytes> gather(const Bytes& mine) const;
-  /// `to[r]` goes to rank r; returns what came from each.
+  /// Sends `to[r]` to rank r; returns the data received, by rank.
   std::vector<Bytes> allToAll(const std::vector<Bytes>& to) const;
-  /// What `root` has, on all.
+  /// Copies the data of `root` to all ranks.
   Bytes broadcast(const Bytes& bytes, int root = 0) const;
   std::string broadcast(const std::string& text, int root = 0) const;
 
@@ -67,7 +66,7 @@ public:
     return all;
   }
 
-  /// A blocking message to one rank, and from one.
+  /// Blocking messages to and from one rank.
   void send(int to, const Bytes& bytes) const;
   Bytes receive(int from) const;
 
@@ -98,12 +97,12 @@ public:
   Messages(Messages&&) noexcept;
   Messages& operator=(Messages&&) noexcept;
 
-  /// `memory` stays as it is until waitAll(). Messages of one pair of ranks and one tag keep their order. No limit to
-  /// the size: what MPI cannot take at once goes in parts.
+  /// Do not change `memory` before waitAll(). Messages of one pair of ranks and one tag keep their order. Any size:
+  /// large messages are split.
   void receive(int from, void* memory, std::size_t bytes, int tag);
   void send(int to, const void* memory, std::size_t bytes, int tag);
   void waitAll();
-  /// True where MPI takes pointers to device memory as they are.
+  /// True if MPI accepts pointers to device memory.
   static bool deviceMemoryTravels();
 
 private:

@@ -92,7 +92,7 @@ void SideStream::join() {
 
 #else
 
-// Without CUDA every Exec is a CPU's: nothing is ever recorded, and no stream is made.
+// Without CUDA every Exec is a CPU: nothing is recorded and no stream is created.
 DeviceGraph::~DeviceGraph() = default;
 void DeviceGraph::begin() {}
 void DeviceGraph::end() {}

@@ -8,11 +8,11 @@
 
 namespace grouser::base {
 
-/// Work on a device that is the same every time: recorded once, then started as one, which takes the host as long as a
-/// single kernel (a CUDA graph). On a CPU it is simply done again.
+/// Repeated device work, recorded once and launched as one CUDA graph, at the host cost of a single kernel. A CPU
+/// executes it directly.
 ///
-/// Recorded are launches and copies with their pointers, counts and constants, not what the host does in between. So
-/// the work must not allocate or wait, and forget() must be called when any of these has changed.
+/// Records launches and copies with their pointers, counts and constants, but no host code. The work must not allocate
+/// or wait; call forget() when any of these has changed.
 class DeviceGraph {
 public:
   DeviceGraph() = default;
@@ -26,7 +26,7 @@ public:
   DeviceGraph& operator=(const DeviceGraph&) = delete;
   ~DeviceGraph();
 
-  /// Does `work()`, which gives work to the Exec and to side streams that fork from it and join it.
+  /// Runs `work()`, which queues work on the Exec and on side streams that fork from it and join it.
   template <class Work> void run(const Work& work) {
     if (exec_.onCpu()) return work();
     if (!recorded_) {
@@ -40,7 +40,7 @@ public:
   void forget() { recorded_ = false; }
 
 private:
-  /// While it lives, what is given to the stream is recorded instead of done.
+  /// While it lives, work queued on the stream is recorded instead of executed.
   class Recording {
   public:
     explicit Recording(DeviceGraph& graph) : graph_(graph) { graph_.begin(); }

@@ -9,14 +9,14 @@
 
 namespace grouser::base {
 
-/// How a file or a command line names one value of an enum.
+/// Name of an enum value in files and on the command line.
 template <class E> struct EnumWord {
   E value;
   std::string_view word;
 };
 
-/// The words of an enum, in the order in which messages and help list them. To be specialised for each enum that users
-/// choose from; values without a word cannot be chosen:
+/// Names of an enum's values, in the order of messages and help. Specialise for each enum that users choose from;
+/// values without a name cannot be chosen:
 ///
 ///     template <> struct EnumWords<FloorShape> {
 ///       static constexpr EnumWord<FloorShape> list[] = {{FloorShape::follow, "follow"}, {FloorShape::flat, "flat"}};

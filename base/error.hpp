@@ -25,15 +25,15 @@ inline std::string oneLine(const std::string& text) {
   return line;
 }
 
-/// What the user gave is wrong: a scene, a file, an option. Exit code 2. Nothing has been written when it is thrown.
-/// The message reads `file:line: key = value is ...; remedy`, in one line.
+/// Wrong user input: a scene, file or option. Exit code 2. Nothing has been written when it is thrown. The message
+/// reads `file:line: key = value is ...; remedy`, in one line.
 class InputError : public std::runtime_error {
 public:
   explicit InputError(const std::string& message) : std::runtime_error(oneLine(message)) {}
 };
 
-/// The simulation cannot go on soundly: NaN, overlap, a thrown track. Exit code 3.
-/// The message names step, time, id, place and remedy.
+/// The simulation cannot continue: NaN, overlap, a thrown track. Exit code 3. The message names step, time, id, place
+/// and remedy.
 class SimulationError : public std::runtime_error {
 public:
   explicit SimulationError(const std::string& message, Cause cause = Cause::unknown)

@@ -37,12 +37,12 @@ std::string processorName() {
   return "unknown processor";
 }
 
-/// Why this build can use no GPU of this machine, where it has a CUDA backend; empty where it can, or has none.
+/// Reason why a CUDA build cannot use a GPU of this machine; empty if it can, or if the build has no CUDA.
 std::string whyNoGpu() {
 #if defined(__CUDACC__)
   int count = 0, driver = 0;
   const cudaError_t code = cudaGetDeviceCount(&count);
-  if (code == cudaSuccess) return count > 0 ? "" : "the driver finds none";
+  if (code == cudaSuccess) return count > 0 ? "" : "none found by the driver";
   // The runtime calls a driver that is not there too old.
   if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0) return "NVIDIA's driver is not installed";
   return cudaGetErrorString(code);
@@ -68,14 +68,14 @@ int cudaDevices() {
 
 Exec cudaExec(int index) {
   if (const std::string why = whyNoGpu(); !why.empty())
-    throw DeviceError("no GPU can be used: " + why + "; nvidia-smi shows what there is; --device cpu needs none");
+    throw DeviceError("no usable GPU: " + why + "; run nvidia-smi to list GPUs, or use --device cpu");
   checkCuda(cudaSetDevice(index), "cudaSetDevice");
   // The pool keeps released memory for the next allocation: asking the driver takes longer than most kernels.
   cudaMemPool_t pool = nullptr;
   checkCuda(cudaDeviceGetDefaultMemPool(&pool, index), "cudaDeviceGetDefaultMemPool");
   std::uint64_t all = ~std::uint64_t{0};
   checkCuda(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all), "cudaMemPoolSetAttribute");
-  // Between those of side streams: see SideStream.
+  // Priority between those of the side streams (SideStream).
   int last = 0, greatest = 0;
   checkCuda(cudaDeviceGetStreamPriorityRange(&last, &greatest), "cudaDeviceGetStreamPriorityRange");
   cudaStream_t stream = nullptr;
@@ -173,7 +173,7 @@ bool isBusy(const Exec& exec) {
 #if defined(__CUDACC__)
 namespace {
 
-/// Gives the system back what the pool of released memory keeps.
+/// Returns the pool's released memory to the system.
 void emptyPool(const Exec& exec) {
   synchronize(exec);
   int index = 0;
@@ -189,10 +189,10 @@ DeviceError outOfMemory(std::size_t bytes) {
   int index = 0;
   cudaGetLastError(); // cleared: the exception reports it
   if (cudaGetDevice(&index) != cudaSuccess || cudaMemGetInfo(&unused, &total) != cudaSuccess) unused = total = 0;
-  return DeviceError("GPU " + std::to_string(index) + " is out of memory: " + inMiB(bytes) + " more are needed, " +
+  return DeviceError("GPU " + std::to_string(index) + " is out of memory: " + inMiB(bytes) + " more required, " +
                      inMiB(unused) + " of " + inMiB(total) +
-                     " are free; end what else runs there, use more GPUs or ranks, or fewer grains (grouser plan SCENE "
-                     "tells what a scene needs)");
+                     " free; stop other programs on it, use more GPUs or ranks, or fewer grains (grouser plan SCENE "
+                     "estimates the memory)");
 }
 
 } // namespace
@@ -205,14 +205,14 @@ void* allocateUnset(const Exec& exec, std::size_t bytes) {
     memory = std::aligned_alloc(kAlignment, (bytes + kAlignment - 1) / kAlignment * kAlignment);
     if (!memory)
       throw DeviceError("out of host memory: " + std::to_string(bytes) +
-                        " bytes asked for; use larger or fewer grains, or more ranks on several hosts");
+                        " bytes requested; use larger or fewer grains, or more ranks on several hosts");
     noteTaken(memory);
     return memory;
   }
 #if defined(__CUDACC__)
   cudaError_t code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
   if (code == cudaErrorMemoryAllocation) {
-    // What the pool keeps may lie in pieces that are too small; given back, they make larger ones.
+    // The pool may hold fragments that are too small; returned to the system, they merge.
     cudaGetLastError();
     emptyPool(exec);
     code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));

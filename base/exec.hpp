@@ -9,7 +9,7 @@ namespace grouser::base {
 
 enum class Device { Cpu, Cuda };
 
-/// Where work runs: CPU threads, or one CUDA device and its stream. Cheap to copy; owns nothing: the stream that
+/// Execution target: CPU threads, or one CUDA device and its stream. Cheap to copy; owns nothing: the stream that
 /// cudaExec() makes lives as long as the program.
 struct Exec {
   Device device{Device::Cpu};
@@ -19,7 +19,7 @@ struct Exec {
   bool onCpu() const { return device == Device::Cpu; }
 };
 
-/// Execution on the CPU. `threads` 0 takes all the cores this process may use.
+/// Execution on the CPU. `threads` 0 uses all cores available to this process.
 Exec cpuExec(int threads = 0);
 /// Execution on CUDA device `index`. Throws DeviceError where this build or machine has none.
 Exec cudaExec(int index = 0);
@@ -29,26 +29,26 @@ bool cudaAvailable();
 int multiprocessors(const Exec& exec);
 /// Usable CUDA devices of this machine; 0 where there are none.
 int cudaDevices();
-/// Which GPU of the machine this is, whatever number this process knows it by; 0 on the CPU.
+/// Identity of the GPU within the machine, independent of its index in this process; 0 on the CPU.
 std::uint64_t deviceId(const Exec& exec);
 /// One line about the device: cores and processor, or the GPU's name and memory.
 std::string describe(const Exec& exec);
-/// Memory taken on the device now, by all programs together [B]; on the CPU the most this process has held.
+/// Memory in use on the device by all programs [B]; on the CPU the peak of this process.
 std::size_t memoryTaken(const Exec& exec);
 
-/// Waits until all work given to `exec` has ended. Throws DeviceError with the code received.
+/// Waits until all work queued on `exec` has ended. Throws DeviceError with the code received.
 void synchronize(const Exec& exec);
-/// Whether work given to `exec` has not ended yet, without waiting. Throws DeviceError with the code received.
+/// True if work queued on `exec` has not ended yet; does not wait. Throws DeviceError with the code received.
 bool isBusy(const Exec& exec);
 
-/// Untyped memory on `exec`'s device, zeroed. Throws DeviceError (out of memory names the bytes asked for).
+/// Untyped memory on `exec`'s device, zeroed. Throws DeviceError (out of memory names the bytes requested).
 void* allocate(const Exec& exec, std::size_t bytes);
 /// The same, not zeroed.
 void* allocateUnset(const Exec& exec, std::size_t bytes);
 /// Frees memory in stream order: work queued on `exec` so far, and on side streams joined to it, may still use it.
 void release(const Exec& exec, void* memory) noexcept;
-/// Memory that other processes may be given a view of, as MPI does where it takes device memory; not zeroed. What
-/// allocate() gives comes from a pool of this process, which no other can open.
+/// Memory that other processes can map, as MPI does with device memory; not zeroed. Memory of allocate() comes from a
+/// pool that no other process can open.
 void* allocateForMessages(const Exec& exec, std::size_t bytes);
 /// Waits until nothing uses the memory.
 void releaseForMessages(const Exec& exec, void* memory) noexcept;

@@ -16,8 +16,8 @@
 
 namespace grouser::base {
 
-/// About what an item of a loop costs one core [ns]: what its body says, `static constexpr double kNanoseconds` or
-/// `double nanoseconds() const`, else that of a few reads and writes. Only decides whether threads share a loop.
+/// Approximate cost of a loop item on one core [ns]: the body's `static constexpr double kNanoseconds` or `double
+/// nanoseconds() const`, else that of a few reads and writes. Only decides whether threads share a loop.
 template <class Body> double nanosecondsOf(const Body& body) {
   if constexpr (requires { body.nanoseconds(); })
     return body.nanoseconds();
@@ -46,9 +46,9 @@ template <class Body> __global__ void __launch_bounds__(128, blocksTogether<Body
 } // namespace detail
 #endif
 
-/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, of all threads where its cost pays for
-/// them (nanosecondsOf()), one kernel on the GPU. `body` is a named functor of pointers and scalars; `name` appears in
-/// errors. Asynchronous on the GPU.
+/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, with all threads if the loop is long
+/// enough (nanosecondsOf()), one kernel on the GPU. `body` is a named functor of pointers and scalars; `name` appears
+/// in errors. Asynchronous on the GPU.
 template <class Body> void forEach(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {

@@ -11,8 +11,7 @@ template <int kWidth> struct ThreadGroup {
   static constexpr int width = kWidth;
   int rank;
 
-  /// After this every thread has the greatest `value` of all and, among equal values, the smallest `key`: what one
-  /// thread would have found that keeps the first of the greatest.
+  /// Gives every thread the greatest `value` of all and, among equal values, the smallest `key`.
   template <class T> GROUSER_HD void agreeOnGreatest(T& value, std::uint32_t& key) const {
 #if defined(__CUDA_ARCH__)
     const unsigned self = threadIdx.x & 31u;
@@ -51,8 +50,8 @@ template <int kWidth, class Body> __global__ void __launch_bounds__(kGroupBlock)
 #endif
 
 /// Runs `body(i, group)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
-/// work on each item. For items that walk lists long enough to keep a thread waiting. A body that has runOnCpu(first,
-/// last) is given all the items of a thread at once there.
+/// work on each item. For items that walk lists long enough to keep a thread waiting. On the CPU a body with
+/// runOnCpu(first, last) receives all items of a thread at once.
 template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;

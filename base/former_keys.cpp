@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys that have a new name: files with the former one are read for one version more.
+// Renamed keys: files with the former name are accepted for one more version.
 #include "base/table.hpp"
 
 #include <fmt/format.h>
@@ -39,11 +39,11 @@ void Document::renameKeys(const std::string& where, const std::vector<FormerKey>
       const auto entry = std::find_if(map.begin(), map.end(), [&](const Node::Entry& e) { return e.key == former; });
       if (entry == map.end()) continue;
       if (const Node* other = section->find(now))
-        throw InputError(fmt::format("{}: {}.{} is the former name of {}.{}, which stands at {} too; remove {}",
+        throw InputError(fmt::format("{}: {}.{} is the former name of {}.{}, which is also set at {}; remove {}",
                                      entry->node.origin, path, former, path, now, other->origin, former));
       entry->key = now;
       if (!isNoted)
-        notes_.push_back(fmt::format("{}: {}.{} is called {} now; rename it, for the next version knows that name only",
+        notes_.push_back(fmt::format("{}: {}.{} is now called {}; rename it (the next version rejects the old name)",
                                      entry->node.origin, path, former, now));
       isNoted = true;
     }

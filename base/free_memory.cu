@@ -17,7 +17,7 @@ namespace {
 
 void lower(std::optional<double>& room, double to) { room = std::max(0.0, room ? std::min(*room, to) : to); }
 
-/// The number in a file of one; empty where it is none ("max").
+/// The number in a file; empty if it is not a number ("max").
 std::optional<double> numberIn(const std::string& file) {
   std::ifstream in(file);
   double value = 0;
@@ -35,7 +35,7 @@ std::optional<double> freeMemoryOfHost() {
   }
   const auto most = numberIn("/sys/fs/cgroup/memory.max"), now = numberIn("/sys/fs/cgroup/memory.current");
   if (most && now) {
-    double files = 0; // that are only kept at hand, and are given back
+    double files = 0; // cached file pages, which can be reclaimed
     std::ifstream parts("/sys/fs/cgroup/memory.stat");
     for (std::string word; parts >> word;)
       if (word == "file") parts >> files;

@@ -7,11 +7,11 @@
 
 namespace grouser::base {
 
-/// Memory that this process may still take [B]: the least of what the system calls available, what the limit of its
-/// group (cgroup v2) leaves, and what `ulimit -v` leaves. Empty where the system does not tell.
+/// Memory that this process can still allocate [B]: the least of the system's available memory and the remainders of
+/// the cgroup (v2) limit and of `ulimit -v`. Empty if unknown.
 std::optional<double> freeMemoryOfHost();
 
-/// Memory that is free on the device of `exec`, whoever took the rest [B]; on a CPU as freeMemoryOfHost().
+/// Free memory on the device of `exec` [B]; on a CPU as freeMemoryOfHost().
 std::optional<double> freeMemoryOf(const Exec& exec);
 
 } // namespace grouser::base

@@ -33,7 +33,7 @@ __global__ void __launch_bounds__(128) carryBeforeGate(Watch watch, ParcelWords 
   if (i < words.count() && !raised(watch)) words(i);
 }
 
-/// Reads many words before it writes the first: the host's memory is a microsecond away.
+/// Reads many words before writing the first: access to host memory takes a microsecond.
 __device__ void carryTogether(const ParcelWords& words) {
   constexpr int kAtOnce = 10;
   for (std::int64_t first = threadIdx.x; first < words.count(); first += kAtOnce * kBlock) {
@@ -136,7 +136,7 @@ void Gate::await(Mark mark) {
   const auto told = [this, mark] {
     return std::atomic_ref(words_.host()[1 + mark].value).load(std::memory_order_acquire) >= opened_;
   };
-  constexpr int kSpins = 1 << 16; // between two looks at what the device is doing
+  constexpr int kSpins = 1 << 16; // between two queries of the device state
   while (!told()) {
     for (int k = 0; k < kSpins && !told(); ++k) {
 #if defined(__x86_64__)

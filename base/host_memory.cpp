@@ -8,7 +8,7 @@ namespace grouser::base {
 
 namespace {
 
-/// Of the process, as the system counts its memory too: no answer depends on it.
+/// Counter of the process's memory; no result depends on it.
 struct Count {
   std::atomic<std::size_t> now{0}, most{0};
 };

@@ -3,14 +3,14 @@
 
 #include <cstddef>
 
-/// What arrays hold in the memory of the host, counted for base/memory_held.hpp.
+/// Host memory held by arrays, counted for base/memory_held.hpp.
 namespace grouser::base {
 
-/// Memory that has been taken, or is about to be given back; null does nothing.
+/// Reports memory as allocated or about to be freed; null is ignored.
 void noteTaken(void* memory) noexcept;
 void noteGivenBack(void* memory) noexcept;
 
-/// [B], and the most at a time since restartHostPeak().
+/// Current size, and peak since restartHostPeak() [B].
 std::size_t heldOnHost();
 std::size_t mostHeldOnHost();
 void restartHostPeak();

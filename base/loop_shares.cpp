@@ -8,9 +8,9 @@ namespace grouser::base {
 
 namespace {
 
-// Work that a team of threads is called for [ns]: what it takes to hand them a loop and to hear of its end.
+// Minimum work for a team of threads [ns]: the cost of starting and joining a parallel loop.
 constexpr double kLeastOfTeam = 4e3, kLeastOfThread = 250;
-constexpr std::size_t kLeastShared = std::size_t{1} << 19; // [bytes] that are worth several threads
+constexpr std::size_t kLeastShared = std::size_t{1} << 19; // [bytes] from which several threads pay off
 constexpr std::size_t kPage = 4096;                        // [bytes]
 
 /// Calls work(first byte, number of bytes) for shares of whole pages.

@@ -6,9 +6,9 @@
 
 namespace grouser::base {
 
-/// All of `most` threads, or one where a loop on a CPU whose items cost one core about `nanoseconds` each does not pay
-/// for them: to hand them a loop, and to hear of its end, takes some microseconds. Never some of them: libgomp ends the
-/// threads that a smaller team has no use for, and starts others for the next loop.
+/// Number of threads for a CPU loop whose items cost about `nanoseconds` each: all of `most`, or one if the loop is too
+/// short for the start and join of a team (some microseconds). Never fewer than all: libgomp ends the threads that a
+/// smaller team does not use, and starts new ones for the next loop.
 int threadsForLoop(std::int64_t count, double nanoseconds, int most);
 
 /// memset and memcpy by threads: each of them is the first to touch the pages of its share, which on a host with

@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <limits>
 
-/// Elementary functions that give the same bits on every processor: built from + - * / and sqrt only, in a fixed order.
-/// The C library's versions differ between processors (they pick fused multiply-add paths at run time).
+/// Elementary functions with bitwise identical results on every processor: built from + - * / and sqrt only, in a fixed
+/// order. The C library's versions differ between processors (they pick fused multiply-add paths at run time).
 /// Accuracy: a few units in the last place over the ranges stated; measured in tests/base/arithmetic_test.cu.
 namespace grouser::base {
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(); ///< no number: of what was not measured
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(); ///< marks values that were not measured
 
 namespace detail {
 
@@ -126,7 +126,7 @@ GROUSER_HD double log(double x) {
   return n * 6.93147180369123816490e-01 + (2 * (s + s * p) + n * 1.90821492927058770002e-10);
 }
 
-/// Cube root of x >= 0; 0 of what is less. By Halley's method from a guess of the exponent's third (3 % off).
+/// Cube root of x >= 0; 0 for x < 0. Halley's method, started from a third of the exponent (3 % error).
 GROUSER_HD double cubeRoot(double x) {
   if (!(x > 0)) return 0;
   double y = bitsAs<double>(bitsAs<std::uint64_t>(x) / 3 + 0x2A9F7893782DA1CEull);
@@ -136,9 +136,9 @@ GROUSER_HD double cubeRoot(double x) {
   }
   return y;
 }
-/// The same of float numbers, of one or of several side by side; `Bits` has their bits.
+/// Cube root of floats, scalar or SIMD; `Bits` is the integer type of the same size.
 template <class Bits, class Float> GROUSER_HD Float cubeRootBy(const Float& x) {
-  // 1 where it will be 0: of the guess there the cube would be a denormal number, which takes processors long.
+  // 1 where the result is 0: the cube of the guess would be a denormal number, which is slow.
   Float y = x > 0 ? bitsAs<Float>(bitsAs<Bits>(x) / 3 + 0x2A512CE3u) : Float{} + 1;
   for (int k = 0; k < 2; ++k) {
     const Float cube = y * y * y;

@@ -5,11 +5,11 @@
 
 namespace grouser::base {
 
-/// What the arrays of this process hold on a device [B].
+/// Device memory held by the arrays of this process [B].
 struct MemoryHeld {
   std::size_t now;
-  std::size_t most;     ///< at a time since restartMemoryPeak(); on a GPU with what sorting and scans take for a moment
-  std::size_t reserved; ///< the most that the system has given for that; on the CPU `most`
+  std::size_t most;     ///< peak since restartMemoryPeak(); on a GPU with the temporary memory of sorts and scans
+  std::size_t reserved; ///< peak reserved from the system; on the CPU `most`
 };
 /// Throws DeviceError where the device does not answer.
 MemoryHeld memoryHeld(const Exec& exec);

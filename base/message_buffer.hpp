@@ -7,8 +7,7 @@
 
 namespace grouser::base {
 
-/// Buffer for messages between ranks, in words. Grows to the largest message and a quarter more; its contents are lost
-/// then.
+/// Buffer for messages between ranks, in words. Grows to 5/4 of the largest message, which discards its contents.
 template <void* (*kAllocate)(const Exec&, std::size_t), void (*kRelease)(const Exec&, void*) noexcept>
 class MessageWords {
 public:
@@ -33,9 +32,9 @@ private:
   std::size_t size_{0};
 };
 
-/// On the device, in memory that MPI may be given.
+/// Device buffer in memory that MPI can access.
 using DeviceMessage = MessageWords<allocateForMessages, releaseForMessages>;
-/// Page-locked on the host, for where MPI takes none of the device's.
+/// Page-locked host buffer, if MPI does not accept device memory.
 using HostMessage = MessageWords<allocatePinned, releasePinned>;
 
 } // namespace grouser::base

@@ -7,9 +7,9 @@
 
 namespace grouser::base {
 
-/// Square root, quotient and inverse of numbers from 2^-60 to 2^60: a GPU needs no branch then. Rounded correctly, as
-/// everywhere: an approximation and Newton's steps with fused multiply-adds, as the compiler's own fast paths
-/// (P. Markstein 1990, IBM J. Res. Dev. 34:111). tests/base/arithmetic_test.cu compares them with the operators.
+/// Branch-free square root, quotient and inverse of numbers from 2^-60 to 2^60 on a GPU. Correctly rounded: an
+/// approximation and Newton steps with fused multiply-adds, as the compiler's own fast paths (P. Markstein 1990, IBM J.
+/// Res. Dev. 34:111). tests/base/arithmetic_test.cu compares them with the operators.
 template <class T> GROUSER_HD T moderateRoot(const T& x) {
 #if defined(__CUDA_ARCH__)
   if constexpr (std::is_same_v<T, float>) {

@@ -14,8 +14,8 @@ namespace grouser::base {
 namespace {
 
 constexpr std::size_t kMostNamed = 3;  ///< keys that are equally near
-constexpr std::size_t kTellingKey = 3; ///< letters of a key that tell its section: x or z are in many
-constexpr int kOtherSection = 2;       ///< most that another section adds: less than two letters of the key
+constexpr std::size_t kTellingKey = 3; ///< minimum length of a key that identifies its section: x or z are in many
+constexpr int kOtherSection = 2;       ///< maximum penalty for another section: less than two letters of the key
 
 std::string sectionOf(const std::string& full) { return full.substr(0, full.rfind('.')); }
 std::string keyOf(const std::string& full) { return full.substr(full.rfind('.') + 1); }
@@ -31,7 +31,7 @@ int distance(const std::string& word, const std::string& key) {
   return isPartOf(word, key) || isPartOf(key, word) ? std::min(edits, 3) : edits;
 }
 
-/// Near enough to be what was meant: a third of the letters are wrong.
+/// Near enough for a suggestion: at most a third of the letters are wrong.
 bool isNear(int distance, const std::string& word) {
   return distance <= std::max(2, static_cast<int>(2 * word.size() / 3));
 }

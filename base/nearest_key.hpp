@@ -8,8 +8,8 @@
 
 namespace grouser::base {
 
-/// The same fault for a reader who knows all keys of the file, as "section.key": where the key is one of another
-/// section, or is nearer to one, the message names that.
+/// The same error, given all keys of the file as "section.key": if the key belongs to another section, or is nearer to
+/// one of its keys, the message names that.
 InputError amongAllKeys(const UnknownKey& unknown, const std::vector<std::string>& all);
 
 } // namespace grouser::base

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <type_traits>
 
-/// Formulas of laws are templates over a number: float, double, or several of them side by side (base/simd.hpp).
-/// Beside the operators they need the functions below. Choices are written `mask ? a : b`, which both kinds understand.
+/// Contact laws are templates over a number type: float, double or SIMD vectors of these (base/simd.hpp). Besides the
+/// operators they use the functions below. Selections are written `mask ? a : b`, which works for both.
 namespace grouser::base {
 
-/// What is known of a number; here of a single one.
+/// Traits of a number type; here of a scalar.
 template <class T> struct NumberTraits {
   using Scalar = T;
   GROUSER_HD static T broadcast(T x) { return x; }

@@ -6,14 +6,14 @@
 
 namespace grouser::base {
 
-/// Memory of the device, or pinned on the host, that is to hold what another has, or zeros.
+/// A copy into device or pinned host memory: from other memory, or zeros.
 struct Parcel {
   void* to;
   const void* from;  ///< null: zeros
   std::size_t bytes; ///< a multiple of 8
 };
 
-/// Sixteen bytes on the device that call work off where they are not as they are while all is well.
+/// Sixteen bytes on the device that cancel work if they differ from their normal values.
 struct Watch {
   const void* at = nullptr; ///< null: never
   std::uint64_t idle[2] = {0, 0};

@@ -11,7 +11,7 @@
 
 namespace grouser::base {
 
-/// Parcels as a kernel takes them: a word of eight bytes after the other.
+/// Parcels as a sequence of 8-byte words, for kernels.
 struct ParcelWords {
   std::uint64_t* to[kMostParcels];
   const std::uint64_t* from[kMostParcels];

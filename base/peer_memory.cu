@@ -24,11 +24,11 @@ using Handle = cudaIpcMemHandle_t;
 struct Handle {};
 #endif
 
-/// How other ranks can map a rank's memory.
+/// Handle by which other ranks map a rank's memory.
 struct Offer {
   std::uint64_t device;
   std::uint32_t given;
-  int process, file; ///< of CPUs: where it is found
+  int process, file; ///< CPU: process and file descriptor
   Handle handle;
 };
 
@@ -63,15 +63,15 @@ PeerMemory::~PeerMemory() {
   release();
 }
 
-/// The same on all ranks.
+/// Throws if peer memory is required but not all ranks can access each other.
 void PeerMemory::checkUse() {
   if (use_ != PeerUse::always || comm_.alone() || allSeeAll_) return;
   release();
   throw InputError(
-      "peer memory \"always\", but not all ranks see each other's memory: that takes GPUs of one machine "
-      "with a path between them (nvidia-smi topo -p2p r lists them); of CPUs that the machine has room for it, and "
-      "that "
-      "each rank may look into /proc/PID/fd of the others (one user, one container); \"auto\" does without");
+      "peer memory \"always\", but not all ranks can access each other's memory: GPUs must be on one machine and "
+      "support "
+      "peer access (nvidia-smi topo -p2p r); CPU ranks need enough shared memory and access to /proc/PID/fd of the "
+      "others (one user, one container); or use \"auto\"");
 }
 
 void PeerMemory::reserve(std::size_t bytes) {
@@ -95,7 +95,7 @@ void PeerMemory::allocate(std::size_t bytes) {
   SharedBlock block;
   if (shares_ && exec_.onCpu()) {
     block = createShared(size);
-    // CPUs share only for who insists: none takes memory of its own instead, which may be far too much.
+    // CPUs share only on request: no fallback to private memory, which may be far too much.
     if (comm_.sumOf(block.memory ? 0 : 1) > 0) {
       closeShared(block.memory, size);
       endSharing(block);
@@ -112,14 +112,14 @@ void PeerMemory::allocate(std::size_t bytes) {
   endSharing(block); // every rank has opened it by now
 }
 
-/// Offers this rank's memory to the others of its machine, and maps theirs.
+/// Exports this rank's memory to the others on its machine, and maps theirs.
 void PeerMemory::share(int file) {
   Offer mine{};
   mine.device = deviceId(exec_);
   mine.given = ownIsShared_, mine.process = getpid(), mine.file = file;
 #if defined(__CUDACC__)
   if (!exec_.onCpu()) mine.given = cudaIpcGetMemHandle(&mine.handle, own_) == cudaSuccess;
-  if (!exec_.onCpu()) cudaGetLastError(); // a GPU that cannot show its memory is no error
+  if (!exec_.onCpu()) cudaGetLastError(); // a GPU that cannot export its memory is no error
 #endif
   const std::vector<Offer> offers = comm_.gatherValue(mine);
   std::set<std::pair<int, std::uint64_t>> devices;
@@ -149,8 +149,8 @@ void PeerMemory::share(int file) {
   comm_.wait();
 }
 
-/// By rank: whether a mark written through its view arrives, both ways, and reads back. A view may open and still lead
-/// elsewhere, as under some virtual machines. wait() keeps the reads of all ranks behind the writes of all.
+/// Tests, by rank, whether data written through its mapping arrive both ways and read back. A mapping may open and
+/// still be wrong, as under some virtual machines. wait() keeps the reads of all ranks behind the writes of all.
 std::vector<bool> PeerMemory::tryViews() const {
   const auto word = [](void* memory, int r) { return static_cast<std::uint32_t*>(memory) + r; };
   const int me = comm_.rank();

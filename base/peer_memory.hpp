@@ -11,11 +11,11 @@
 
 namespace grouser::base {
 
-/// Whether ranks of one machine access each other's memory.
+/// Use of direct access to the memory of other ranks on one machine.
 enum class PeerUse {
   never,
-  automatic, ///< GPUs do where they can
-  always     ///< InputError where they cannot; CPUs too, and PeerReduction also among ranks that share one GPU
+  automatic, ///< GPUs, where supported
+  always     ///< InputError if unsupported; CPUs too, and PeerReduction also among ranks that share one GPU
 };
 
 template <> struct EnumWords<PeerUse> {
@@ -23,9 +23,9 @@ template <> struct EnumWords<PeerUse> {
       {PeerUse::automatic, "auto"}, {PeerUse::never, "never"}, {PeerUse::always, "always"}};
 };
 
-/// Memory of this rank's device, and the others' as this rank sees it: GPUs of one machine read and write each other's
-/// memory (CUDA IPC), without the host and without MPI. Whether two of them can is tried, not assumed; where they
-/// cannot a rank has its own memory alone. CPUs share memory only if asked to: messages are as fast there.
+/// Device memory of this rank, and mappings of the other ranks' memory: GPUs of one machine read and write each other's
+/// memory (CUDA IPC), without host or MPI. Access is tested, not assumed; without it a rank has only its own memory.
+/// CPUs share memory only on request: messages are as fast there.
 ///
 /// All ranks call everything that is not marked `local`, the destructor too, in the same order.
 class PeerMemory {
@@ -42,9 +42,9 @@ public:
 
   std::size_t size() const { return size_; } ///< bytes; local, on all ranks the same
   void* own() const { return own_; }         ///< local
-  /// Ranks have been asked to access each other's memory; local, on all ranks the same.
+  /// Peer access was requested; local, on all ranks the same.
   bool shares() const { return shares_; }
-  /// The memory of another rank, or null; local. If one rank sees another, that one sees it too.
+  /// The memory of another rank, or null; local. Access is mutual.
   void* of(int rank) const { return views_[static_cast<std::size_t>(rank)]; }
   bool seesAny() const {
     return std::any_of(views_.begin(), views_.end(), [](const void* view) { return view; });

@@ -38,7 +38,7 @@ struct Tables {
   Table* of[kMostRanks];
 };
 
-/// The same on CPUs; release and acquire of `run` take the place of the fences.
+/// CPU version; release and acquire of `run` replace the fences.
 void agreeOnHost(const Tables& tables, int me, int size, std::uint64_t* words) {
   Table& mine = *tables.of[me];
   const std::uint32_t run = mine.runs + 1;

@@ -16,8 +16,8 @@ class PeerReduction {
 public:
   PeerReduction(const Exec& exec, const Comm& comm, PeerUse use);
 
-  /// All ranks see each other and have a GPU each (with PeerUse::always, sharing is allowed), and they are not too
-  /// many.
+  /// True if all ranks can access each other and each has its own GPU (with PeerUse::always GPUs may be shared), up to
+  /// the maximum number of ranks.
   bool possible() const { return possible_; }
   /// words[0] becomes the least of all ranks', words[1] the union of their bits; two words on the device. Work queued
   /// after it starts only when what was queued before it has ended on all ranks, and its writes are visible to all.

@@ -14,7 +14,7 @@ struct Period {
   GROUSER_HD bool along(int axis) const { return length[axis] != 0; }
   GROUSER_HD bool any() const { return along(0) || along(1) || along(2); }
 
-  /// How many periods must be added to coordinate `u`, at most one period outside, to bring it between the boundaries.
+  /// Number of periods to add to coordinate `u`, at most one period outside, to bring it between the boundaries.
   GROUSER_HD int periodsBack(int axis, std::int64_t u) const {
     return !along(axis) ? 0 : u < low[axis] ? 1 : u >= low[axis] + length[axis] ? -1 : 0;
   }

@@ -4,7 +4,7 @@
 namespace grouser::base {
 
 PositionScale positionScale(double diameter) {
-  constexpr double kMost = 0x1p1000; // beyond, doubles end: a diameter that asks for more is no length
+  constexpr double kMost = 0x1p1000; // beyond, doubles overflow
   PositionScale scale;
   while (diameter * scale.perMetre < 1e8 && scale.perMetre < kMost) scale.perMetre *= 2, scale.unit /= 2;
   while (diameter * scale.perMetre >= 2e8) scale.perMetre /= 2, scale.unit *= 2;

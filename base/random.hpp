@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ull; ///< 2^64 / gold
 
 } // namespace detail
 
-/// What a random number is for, from a name such as "terrain.jitter" (FNV-1a). Two purposes never share a stream.
+/// Identifier of a random stream, from a name such as "terrain.jitter" (FNV-1a). Two purposes never share a stream.
 constexpr std::uint64_t purpose(std::string_view name) {
   std::uint64_t h = 0xCBF29CE484222325ull;
   for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;

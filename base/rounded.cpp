@@ -9,12 +9,12 @@ namespace grouser::base {
 
 namespace {
 
-/// The nearest with `digits`, or its neighbour of as many digits on the side of `direction`.
+/// The nearest number with `digits` digits, or its neighbour on the side of `direction`.
 std::string rounded(double value, int digits, int direction) {
   const std::string nearest = fmt::format("{:.{}e}", value, digits - 1);
   double number = std::strtod(nearest.c_str(), nullptr);
   if (std::isfinite(value) && (direction < 0 ? number > value : number < value)) {
-    // In integers: the last digit one further.
+    // Increments the last digit, in integers.
     const std::size_t e = nearest.find('e');
     std::string mantissa = nearest.substr(0, e);
     if (const std::size_t point = mantissa.find('.'); point != std::string::npos) mantissa.erase(point, 1);

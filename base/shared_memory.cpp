@@ -22,14 +22,13 @@ void* map(int file, std::size_t bytes) {
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
-/// Unlike /dev/shm such memory has no limit of its own: what this machine can never hold would fill it, and end in a
-/// kill.
+/// Unlike /dev/shm such memory has no limit of its own: a block larger than the machine's memory would end in a kill.
 bool fitsMachine(std::size_t bytes) {
   struct sysinfo machine {};
   return sysinfo(&machine) == 0 && bytes / machine.mem_unit < machine.totalram;
 }
 
-/// Whether it is one of ours: in another name space the number may be that of a stranger.
+/// Checks that the block is ours: in another namespace the number may belong to another process.
 bool isShared(const std::string& link) {
   std::array<char, 64> target{};
   const ssize_t length = readlink(link.c_str(), target.data(), target.size());

@@ -13,12 +13,11 @@
 #include <immintrin.h>
 #endif
 
-/// Numbers side by side in one register, a lane each: the compiler's own vectors, on which its operators, comparisons
-/// and `mask ? a : b` work lane by lane. A wide vector on a processor with narrow registers is split into several; the
-/// operations on each number and their order are the same, hence the same bits. None may fuse multiply and add
-/// (-ffp-contract=off).
+/// SIMD vectors: the compiler's own vector types, on which operators, comparisons and `mask ? a : b` work lane by lane.
+/// A wide vector on a processor with narrow registers is split into several; the operations on each number and their
+/// order are the same, hence the same bits. None may fuse multiply and add (-ffp-contract=off).
 ///
-/// Two ways lead to the processor's own instructions:
+/// Two ways to use the processor's instructions:
 ///   - of one width everywhere (multibody: four doubles): GROUSER_SIMD_CLONES compiles a function for each kind of
 ///     processor and chooses when the program is loaded;
 ///   - of the width that the processor has (grains: 4, 8 or 16 floats): a source file for each, compiled with its
@@ -26,13 +25,13 @@
 ///     might take that copy for the whole program. So all that it calls is inlined (GROUSER_SIMD here, `flatten` on its
 ///     one function), and the test simd.alone looks into the objects. That holds for optimised builds only.
 ///
-/// Not Highway or std::experimental::simd: their vectors do not go where float goes (members of structs and arrays, the
-/// operators of base::Vec3 with scalars), so the laws would stand a second time, written in their functions.
+/// Highway and std::experimental::simd do not fit: their vectors cannot replace float everywhere (members of structs
+/// and arrays, the operators of base::Vec3 with scalars), so each law would need a second version.
 namespace grouser::base {
 
 #define GROUSER_SIMD inline __attribute__((always_inline))
-// Tests choose for themselves. The address sanitizer is not up yet when clones are chosen; clang, which lints, refuses
-// clones that are flattened.
+// Tests may override this. The address sanitizer is not running yet when clones are chosen; clang, which lints, rejects
+// flattened clones.
 #if !defined(GROUSER_SIMD_CLONES)
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define GROUSER_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))
@@ -91,7 +90,7 @@ template <SimdVector V> struct NumberTraits<V> {
   using Scalar = std::remove_cvref_t<decltype(V{}[0])>;
   GROUSER_SIMD static V broadcast(Scalar x) { return x - V{}; }
   GROUSER_SIMD static V squareRoot(const V& x) {
-    V r = x; // begun with something: at -O1 the compiler does not see that all lanes are set
+    V r = x; // initialised: at -O1 the compiler does not see that all lanes are set
 #pragma GCC unroll 16
     for (int l = 0; l < kWidthOf<V>; ++l) r[l] = std::sqrt(x[l]);
     return r;

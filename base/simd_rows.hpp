@@ -5,15 +5,15 @@
 
 #include <utility>
 
-/// The way between rows and lanes: a row is four numbers of one thing, as records have them; in lanes stand the same
-/// number of several things.
+/// Transposes records to SIMD lanes and back: a row holds four numbers of one record, a vector one number of several
+/// records.
 namespace grouser::base {
 
 using Float4 = Simd<float, 4>;
 using Int4 = Simd<std::int32_t, 4>;
 using Double4 = Simd<double, 4>;
 
-/// Where three numbers lie alone, a fourth may be another's, or beyond the end. Two loads and no detour by the stack.
+/// Loads three numbers without reading a fourth, which may be out of bounds. Two loads, no stack copy.
 GROUSER_SIMD Float4 load3(const void* from) {
   std::uint64_t first;
   std::uint32_t last;
@@ -28,12 +28,12 @@ GROUSER_SIMD void store3(void* to, const Float4& v) {
   std::memcpy(static_cast<char*>(to) + sizeof first, &last, sizeof last);
 }
 
-// Conversions of four: the compiler's own go by pairs.
+// Conversions of four numbers: the compiler converts pairs.
 #if defined(__AVX2__)
 GROUSER_SIMD Double4 toDouble(const Float4& v) { return bitsAs<Double4>(_mm256_cvtps_pd(bitsAs<__m128>(v))); }
 GROUSER_SIMD Double4 toDouble(const Int4& v) { return bitsAs<Double4>(_mm256_cvtepi32_pd(bitsAs<__m128i>(v))); }
 GROUSER_SIMD Float4 toFloat(const Double4& v) { return bitsAs<Float4>(_mm256_cvtpd_ps(bitsAs<__m256d>(v))); }
-/// Towards zero.
+/// Rounds towards zero.
 GROUSER_SIMD Int4 toInt(const Double4& v) { return bitsAs<Int4>(_mm256_cvttpd_epi32(bitsAs<__m256d>(v))); }
 GROUSER_SIMD Double4 roundedDown(const Double4& v) { return bitsAs<Double4>(_mm256_floor_pd(bitsAs<__m256d>(v))); }
 #else
@@ -53,7 +53,7 @@ GROUSER_SIMD Int4 clamped(const Int4& v, int least, int most) {
   return below > low ? below : low;
 }
 
-/// The numbers whose bits are set, in their order, from `to` on; what follows there, up to the width, is overwritten.
+/// Stores the numbers whose bits are set, in order, starting at `to`; overwrites up to the full width.
 template <SimdVector V> GROUSER_SIMD void storeMarked(void* to, const V& v, unsigned marks) {
   static_assert(sizeof v[0] == 4);
 #if defined(__AVX512VL__)
@@ -102,7 +102,7 @@ template <SimdVector V> GROUSER_SIMD void transpose(V (&r)[4]) {
   detail::transpose(r, std::make_integer_sequence<int, kWidthOf<V>>{});
 }
 
-/// Four numbers of each of kWidth things; these stand in the lanes in an order of their own, that of `storeRows`.
+/// Loads four numbers of each of kWidth records; the lane order is that of `storeRows`.
 template <SimdVector V> GROUSER_SIMD void loadRows(const Float4* rows, V (&out)[4]) {
   constexpr int kStride = kWidthOf<V> / 4; // rows that one register holds
 #pragma GCC unroll 4
@@ -116,7 +116,8 @@ template <SimdVector V> GROUSER_SIMD void storeRows(Float4* rows, V (&in)[4]) {
   for (int k = 0; k < 4; ++k) store(rows + k * kStride, in[k]);
 }
 
-/// Of records of kBytes at `from`, those that `which` names, the first 16 bytes, by component; which[l] in lane l.
+/// Loads the first 16 bytes of the records `which` (of kBytes each, at `from`), by component; record which[l] in lane
+/// l.
 template <int kWidth, std::size_t kBytes = 16>
 GROUSER_SIMD void gatherRows(const void* from, const std::uint32_t* which, Simd<std::int32_t, kWidth> (&out)[4]) {
   const auto row = [&](int l) { return load<Int4>(static_cast<const char*>(from) + kBytes * std::size_t{which[l]}); };

@@ -39,7 +39,7 @@ struct SphereSet {
   double meshArea{};   ///< [m2] of the outer surface of that union
 };
 
-/// What a set has beside its spheres and its name, as one piece of memory: for files and other ranks.
+/// Plain data of a set besides spheres and name, for files and other ranks.
 struct SphereSetFigures {
   std::uint64_t spheres, surfaceCount;
   double spacing, radius, meshVolume, meshArea;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys that follow from others, and are read as if they stood in the file.
+// Keys derived from others, read as if they were in the file.
 #include "base/table.hpp"
 
 #include <fmt/format.h>

@@ -58,7 +58,7 @@ std::string typeText(FieldType type) {
   case FieldType::Real:
     return "a number";
   case FieldType::Text:
-    return "a text in quotes";
+    return "a string in quotes";
   case FieldType::Pair:
     return "two numbers [a, b]";
   case FieldType::Vector:
@@ -66,14 +66,14 @@ std::string typeText(FieldType type) {
   case FieldType::RealList:
     return "a list of numbers [a, b, ...]";
   case FieldType::TextList:
-    return "a list of texts";
+    return "a list of strings";
   case FieldType::BooleanPair:
-    return "two switches [true, false]";
+    return "two booleans [true, false]";
   }
   return "";
 }
 
-/// What stands in the file, for a message: cut short where it is long.
+/// Text of a node for messages; long lists are abbreviated.
 std::string nodeText(const Node& node) {
   return std::visit(Overloaded{[](bool b) { return std::string(b ? "true" : "false"); },
                                [](std::int64_t i) { return fmt::format("{}", i); },
@@ -230,7 +230,7 @@ void failMissing(const Node& section, const Field& field, const std::string& pat
                                typeText(field.type), range.empty() ? "" : ", " + range, field.help));
 }
 
-/// Whether a third of the letters are right: else a suggestion misleads.
+/// True if at least a third of the letters agree; otherwise a suggestion would mislead.
 bool resembles(const std::string& word, const std::string& other) {
   return 3 * editDistance(word, other) <= 2 * static_cast<int>(std::max(word.size(), other.size()));
 }
@@ -278,8 +278,8 @@ std::vector<std::pair<std::string, Section>> Section::named(const std::string& k
                                   [](unsigned char c) { return std::isalnum(c) || c == '_' || c == '-'; });
     const std::string full = parent.path() + "." + (bare ? e.key : quoted(e.key));
     if (!e.node.isMap())
-      throw InputError(fmt::format("{}: {} = {} is no section; name it, as in [{}.NAME]", e.node.origin, full,
-                                   nodeText(e.node), parent.path()));
+      throw InputError(fmt::format("{}: {} = {} is not a section; use [{}.NAME]", e.node.origin, full, nodeText(e.node),
+                                   parent.path()));
     sections.emplace_back(e.key, Section(e.node, full));
   }
   return sections;
@@ -291,7 +291,7 @@ std::vector<Section> Section::list(const std::string& key) const {
   if (!node) return sections;
   const std::string full = path_.empty() ? key : path_ + "." + key;
   const auto* list = std::get_if<Node::List>(&node->value);
-  // Keys of --set alone: there is no such section, and another one was perhaps meant.
+  // Keys of --set only: the section does not exist, and another one may have been meant.
   if (const auto* map = std::get_if<Node::Map>(&node->value); map && node->origin == "--set" && !map->empty())
     throw UnknownKey({node->origin, full, map->front().key, {}, {}}, "");
   if (!list || !std::all_of(list->begin(), list->end(), [](const Node& n) { return n.isMap(); }))
@@ -338,7 +338,7 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& v
   std::string best;
   int least = std::numeric_limits<int>::max();
   for (const std::string& candidate : valid) {
-    // Of two as near the one is likelier of which letters were left out: "drivr" is driver, not drive.
+    // Of two equally near words prefer the one with letters left out: "drivr" is driver, not drive.
     const int d = 2 * editDistance(word, candidate) - (isAbridged(word, candidate) ? 1 : 0);
     if (d < least) least = d, best = candidate;
   }
@@ -363,7 +363,7 @@ std::string wrapped(const std::string& text) {
 std::string describeFields(const std::string& name, const std::string& help, const std::vector<Field>& fields,
                            const std::vector<FieldValue>& defaults) {
   std::string text =
-      fmt::format("### `[{}]`\n\n{}\n\n| key | unit | default | range | what it is |\n|---|---|---|---|---|\n", name,
+      fmt::format("### `[{}]`\n\n{}\n\n| key | unit | default | range | description |\n|---|---|---|---|---|\n", name,
                   wrapped(help + "."));
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const Field& f = fields[i];

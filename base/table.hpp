@@ -33,25 +33,25 @@
 ///     const Wheel wheel = doc.root().section("wheel").read(wheelTable());
 namespace grouser::base {
 
-/// What a field can hold once read. `monostate` is an optional field that was not given.
+/// Value of a field. `monostate`: an optional field that is not set.
 using FieldValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::array<double, 2>, Vec3d,
                                 std::vector<double>, std::vector<std::string>, std::array<bool, 2>>;
 
-/// The type a field must have in the file. Whole numbers are taken for reals, never the other way round.
+/// The type a field must have in the file. Integers are accepted as reals, not vice versa.
 enum class FieldType { Boolean, Integer, Real, Text, Pair, Vector, RealList, TextList, BooleanPair };
 
-/// Everything about a field but where its value is kept. The setters return the field, so that they chain.
+/// Description of a field, except the storage of its value. The setters return the field, so that they chain.
 struct Field {
   std::string key;
   std::string unit; ///< without brackets; empty for text and switches, "-" for a dimensionless number
-  std::string help; ///< half a sentence
+  std::string help; ///< a short phrase
   FieldType type{};
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool minOpen = false, maxOpen = false;
   bool isRequired = false;
-  std::string autoWord;                ///< a word that stands for "not given", e.g. "auto"
-  std::vector<std::string> formerKeys; ///< that files may still say, for one version; Document::renameKeys reads them
+  std::string autoWord;                ///< a word that means "not set", e.g. "auto"
+  std::vector<std::string> formerKeys; ///< accepted for one version; Document::renameKeys reads them
   std::vector<std::string> choices;    ///< the words of an enum; empty: any text
 
   Field& above(double a) { return min = a, minOpen = true, *this; }
@@ -152,7 +152,7 @@ template <HasWords E> struct EnumOf<E> { using Type = E; };
 template <class T> struct EnumOf<std::vector<T>> : EnumOf<T> {};
 template <class T> struct EnumOf<std::optional<T>> : EnumOf<T> {};
 
-/// Between a member and what stands for it in a FieldValue. A word that is read is known to be one of the enum's.
+/// Converts between a member and its FieldValue. A word that is read is known to be one of the enum's.
 template <class T> struct Conversion {
   using Stored = typename FieldTypeOf<T>::Stored;
   static FieldValue toField(const T& member) { return static_cast<Stored>(member); }
@@ -240,7 +240,7 @@ public:
     }
   }
 
-  /// Texts and lists without entries are taken for not given where sections are written.
+  /// Treats empty texts and lists as not set when sections are written.
   Table& leaveOutEmpty() { return leavesOutEmpty_ = true, *this; }
 
   /// `key = value` lines of every field that has a value, in the table's order.
@@ -279,8 +279,8 @@ public:
   std::string name() const { return path_.substr(path_.rfind('.') + 1); }
 
   bool has(std::string_view key) const { return node_->find(key) != nullptr; }
-  /// What stands at a field's key, checked as where a whole table is read; nothing where the key is absent. Throws
-  /// InputError: wrong type, out of range.
+  /// Value of a field's key, checked as when a whole table is read; empty if the key is absent. Throws InputError:
+  /// wrong type, out of range.
   FieldValue value(const Field& field) const;
   /// The table `key`. Throws InputError where it is missing or no table.
   Section section(const std::string& key) const;
@@ -319,16 +319,16 @@ public:
   /// The same from text; `name` stands for the file in messages.
   static Document parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
 
-  /// Gives keys that files may still call by a former name the one of today, before anything is read. `where` is the
-  /// path of a section, whose entries are meant where it is a list, and with ".*" behind it all sections in it:
-  /// "run", "grain", "material.*". Throws InputError where both names stand.
+  /// Renames former keys of a file to their present names, before anything is read. `where` is the path of a section,
+  /// whose entries are meant where it is a list, and with ".*" behind it all sections in it: "run", "grain",
+  /// "material.*". Throws InputError where both names stand.
   void renameKeys(const std::string& where, const std::vector<FormerKey>& keys);
-  /// Has the table `section.name` say `key` = `text`, unless it says that key itself, and be at `origin` in messages;
-  /// where there is no such table, it is added. Throws InputError where one of the two is no table.
+  /// Sets `key` = `text` in the table `section.name`, unless the key is set, with `origin` as its place in messages;
+  /// adds the table if missing. Throws InputError if one of the two is not a table.
   void supply(const std::string& section, const std::string& name, const std::string& key, const std::string& text,
               const std::string& origin);
-  /// Has `section.key` be `value`, whatever it was; where there is no such section, it is added. Throws InputError
-  /// where that is no table.
+  /// Sets `section.key` to `value`, replacing any former value; adds the section if missing. Throws InputError if that
+  /// is not a table.
   void put(const std::string& section, const std::string& key, const Node& value);
   /// One line for each key that was renamed, and where: what users should change in their files.
   const std::vector<std::string>& notes() const { return notes_; }

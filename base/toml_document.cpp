@@ -35,7 +35,7 @@ Node convert(const toml::node& from, const std::string& file) {
   } else if (const auto* flag = from.as_boolean()) {
     to.value = flag->get();
   } else {
-    throw InputError(fmt::format("{}: a date or time has no meaning here; remove it or put it in quotes", to.origin));
+    throw InputError(fmt::format("{}: dates and times are not supported; remove it or put it in quotes", to.origin));
   }
   return to;
 }
@@ -128,8 +128,8 @@ void removeKey(Node& root, const std::string& text) {
   parts.pop_back();
   Node* section = nodeAt(root, parts);
   if (!section || !section->find(last))
-    throw InputError(fmt::format("--set {}: the file has no key {} to remove; correct it, or leave this --set out",
-                                 text, text.substr(1)));
+    throw InputError(
+        fmt::format("--set {}: the file has no key {} to remove; correct or remove this --set", text, text.substr(1)));
   std::erase_if(std::get<Node::Map>(section->value), [&](const Node::Entry& e) { return e.key == last; });
 }
 
@@ -137,7 +137,7 @@ void applyOverride(Node& root, const std::string& text) {
   if (text.starts_with('~')) return removeKey(root, text);
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw InputError(fmt::format("--set {}: no value is given; write key=value, e.g. --set run.duration=2", text));
+    throw InputError(fmt::format("--set {}: the value is missing; write key=value, e.g. --set run.duration=2", text));
   const std::vector<std::string> parts = splitKey(std::string_view(text).substr(0, equals), text);
   Node* node = &root;
   for (const std::string& part : parts) {
@@ -159,7 +159,7 @@ void applyOverride(Node& root, const std::string& text) {
       continue;
     }
     if (!node->isMap())
-      throw InputError(fmt::format("--set {}: what stands before {} is a value, no section", text, part));
+      throw InputError(fmt::format("--set {}: the key before {} is a value, not a section", text, part));
     Node* child = node->find(part);
     if (!child) {
       auto& map = std::get<Node::Map>(node->value);
@@ -177,8 +177,8 @@ void checkVersion(const Node& root, const std::string& name) {
     throw InputError(fmt::format("{}:1: the key version is missing; begin the file with version = {}", name, kVersion));
   const auto* number = std::get_if<std::int64_t>(&version->value);
   if (!number || *number != kVersion)
-    throw InputError(fmt::format("{}: version is not one that this program reads; it reads version = {}",
-                                 version->origin, kVersion));
+    throw InputError(
+        fmt::format("{}: unsupported version; this program reads version = {}", version->origin, kVersion));
 }
 
 } // namespace
@@ -195,9 +195,9 @@ Document Document::parse(std::string_view text, const std::string& name, const s
 Document Document::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   std::error_code error;
   const bool there = std::filesystem::exists(path, error);
-  // A device may have no end, and a pipe nobody who writes into it.
+  // A device may never end, and a pipe may have no writer.
   if (there && !std::filesystem::is_regular_file(path, error))
-    throw InputError(fmt::format("{}: is no file; name one that holds what this program reads", path.string()));
+    throw InputError(fmt::format("{}: not a file; give the path of a TOML file", path.string()));
   std::ifstream file(path, std::ios::binary);
   if (!file) throw InputError(fmt::format("{}: cannot be read; check the path and its permissions", path.string()));
   const std::string text{std::istreambuf_iterator<char>(file), {}};

@@ -12,8 +12,8 @@
 
 namespace grouser::base {
 
-/// A key or a section that its place in a file does not have. The message names the nearest one of that place; a reader
-/// who knows all keys of the file may name one of another section (base/nearest_key.hpp).
+/// Unknown key or section of a file. The message names the nearest one of that section; base/nearest_key.hpp considers
+/// the keys of all sections.
 class UnknownKey : public InputError {
 public:
   struct Place {

@@ -31,7 +31,7 @@ struct alignas(16) WideSum {
   bool operator==(const WideSum&) const = default;
 };
 
-/// Adds to a sum that threads share.
+/// Adds to a sum shared by threads.
 GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
   const auto addend = static_cast<std::uint64_t>(value);
 #if defined(__CUDA_ARCH__)

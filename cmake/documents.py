@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Puts the documents where `cmake --install` wants them, so that they fit what is installed there:
+"""Installs the documents for `cmake --install` with links and paths adjusted to the installation:
 
-    cmake/documents.py PREFIX SHARE DOC PYTHON      the last three from the prefix on, or whole; DESTDIR goes before
+    cmake/documents.py PREFIX SHARE DOC PYTHON      the last three relative to PREFIX, or absolute; respects DESTDIR
 
-A link leads to where a file is installed, and is plain text where it is not; build/bin/grouser becomes grouser, and
-a path such as runs/scenes/quickstart.toml that of the installed file.
+Links point to installed files, or become plain text if the file is not installed; build/bin/grouser becomes grouser,
+and a path such as runs/scenes/quickstart.toml that of the installed file.
 """
 import os
 import re
@@ -13,40 +13,40 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
-#: What is put below DOC by its own name.
+#: Installed below DOC under the same name.
 DOCUMENTS = ("README.md", "CHANGELOG.md", "ARCHITECTURE.md", "docs")
-#: What install.cmake puts below SHARE, and where there. Documents name it by its place in the sources.
+#: Installed by install.cmake below SHARE: {path in the sources: path below SHARE}.
 SHARED = {name: name for name in ("assets/meshes", "assets/heightmaps", "assets/vehicles", "assets/soils", "runs/scenes",
                                   "runs/mechanisms", "runs/plots", "runs/slurm.sh", "python/examples")} | {
     "tests/install/example": "example"}
 LINK = re.compile(r"(?<!!)\[([^\[\]]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
-#: The program in commands, but not where the place in a checkout is spoken of.
+#: The program in commands, except references to its path in a checkout.
 PROGRAM = re.compile(r"build/bin/grouser(?!\w|`\s+of\s+the\s+checkout)")
-#: A path in text or code; that of a link's text stays as it is.
+#: A path in text or code, but not in the text of a link.
 PATH = re.compile(r"(?<![\w./\[-])(?:assets|runs|python|tests)/[\w./*-]*\w")
 
 
 def below(path, top):
-    """The rest of a path below a folder or file; None where it is not below it."""
+    """The rest of a path below a folder or file; None if it is not below it."""
     return path[len(top):] if path == top or path.startswith(top + "/") else None
 
 
 def place(path, share, doc):
-    """Where a file of the sources, by its path there, is installed; None where it is not."""
+    """Installed path of a source file; None if it is not installed."""
     if any(below(path, top) is not None for top in DOCUMENTS):
         return f"{doc}/{path}"
     return next((f"{share}/{there}{below(path, top)}" for top, there in SHARED.items() if below(path, top) is not None), None)
 
 
 def fitted(text, document, prefix, share, doc, python):
-    """The text of a document, by its path in the sources, as it is installed."""
+    """Installed text of a document, given by its path in the sources."""
     share, doc, python = (os.path.join(prefix, path) for path in (share, doc, python))
     folder = os.path.dirname(document)
 
     def link(match):
         words, target, heading = match.groups("")
         path = os.path.normpath(os.path.join(folder, target))
-        if not (ROOT / path).exists():  # code that looks like a link, or an address
+        if not (ROOT / path).exists():  # a URL, or code that resembles a link
             return match[0]
         there = place(path, share, doc)
         return f"[{words}]({os.path.relpath(there, os.path.join(doc, folder))}{heading})" if there else words

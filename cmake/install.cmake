@@ -3,19 +3,20 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The program and what it reads, which it finds from its own place: ../share/grouser (runs/support/locations.hpp).
+# The program and its data, found relative to it: ../share/grouser (runs/support/locations.hpp).
 set(share ${CMAKE_INSTALL_DATADIR}/grouser)
 install(TARGETS grouser RUNTIME COMPONENT program)
 install(DIRECTORY assets/meshes assets/heightmaps assets/vehicles assets/soils DESTINATION ${share}/assets COMPONENT program)
 install(DIRECTORY runs/plots DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.py")
 install(DIRECTORY runs/report DESTINATION ${share}/runs COMPONENT program FILES_MATCHING
   PATTERN "*.py" PATTERN "*.js" PATTERN "*.css" PATTERN "*.html" PATTERN "*.txt")
-install(DIRECTORY runs/scenes DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY runs/scenes DESTINATION ${share}/runs COMPONENT program FILES_MATCHING PATTERN "*.toml"
+        PATTERN "*.json")
 install(DIRECTORY runs/mechanisms DESTINATION ${share}/runs COMPONENT program USE_SOURCE_PERMISSIONS FILES_MATCHING
   PATTERN "*.toml" PATTERN "*.csv" PATTERN "make_mechanisms.py")
 install(DIRECTORY python/grouser DESTINATION ${GROUSER_PYTHON_DIR} COMPONENT program FILES_MATCHING PATTERN "*.py")
 
-# The documents, which name what is installed, and the examples: cmake/documents.py says where both expect them.
+# Documents and examples; cmake/documents.py adjusts paths to the installation.
 find_program(GROUSER_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH REQUIRED)
 install(DIRECTORY python/examples DESTINATION ${share}/python COMPONENT program USE_SOURCE_PERMISSIONS
   FILES_MATCHING PATTERN "*.py")
@@ -30,7 +31,7 @@ install(CODE "execute_process(COMMAND \"${GROUSER_PYTHON}\" -B \"${PROJECT_SOURC
   COMMAND_ERROR_IS_FATAL ANY)"
   COMPONENT program)
 
-# Manual and completion, from the tables of --help.
+# Manual pages and completion, generated from --help.
 set(manual ${CMAKE_CURRENT_BINARY_DIR}/manual)
 add_custom_command(OUTPUT ${manual}/man/man1/grouser.1
   COMMAND grouser manual --folder ${manual} DEPENDS grouser COMMENT "Writing the manual" VERBATIM)
@@ -38,8 +39,8 @@ add_custom_target(grouser_manual ALL DEPENDS ${manual}/man/man1/grouser.1)
 install(DIRECTORY ${manual}/man/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
 install(DIRECTORY ${manual}/bash-completion DESTINATION ${CMAKE_INSTALL_DATADIR} COMPONENT program)
 
-# The libraries: `find_package(grouser)` and the target grouser::grouser, for the headers <grouser/...>. Those of the
-# rooms, which may change at any time, lie below <grouser/internal/...>: grouser::internal finds them.
+# The libraries: `find_package(grouser)` and the target grouser::grouser for the headers <grouser/...>. The unstable
+# headers of the rooms are below <grouser/internal/...>: target grouser::internal.
 set(rooms base contact fluid spheredecomp multibody terrain scm vehicle coupling)
 set(program_rooms support scene setup storage output render session)
 set(targets grouser_flags grouser_api)

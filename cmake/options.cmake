@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Compiler flags that keep bits equal between machines and backends, warnings, and the two helpers every room uses.
+# Compiler flags for equal bits on all machines and backends, warnings, and two helper functions for rooms.
 
 add_library(grouser_flags INTERFACE)
 target_include_directories(grouser_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-# No fused multiply-add unless written, no fast-math, no -march=native: one scene, one answer. x86-64-v2 (SSE4.2, every
-# processor since 2009) has no fused multiply-add and rounds in one instruction.
+# No implicit fused multiply-add, no fast-math, no -march=native, for equal bits. x86-64-v2 (SSE4.2, every processor
+# since 2009) has no fused multiply-add and rounds in one instruction.
 target_compile_options(grouser_flags INTERFACE
   $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wredundant-decls;-Wzero-as-null-pointer-constant;-Werror>>
   $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-march=x86-64-v2>
-  # SIMD numbers (base/simd.hpp) are passed between inlined functions only, so it does not matter how calls pass them.
+  # SIMD values (base/simd.hpp) are passed between inlined functions only, so the ABI does not matter.
   $<$<COMPILE_LANGUAGE:CXX>:-Wno-psabi>)
 
-# What `grouser --version` tells.
+# Output of `grouser --version`.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
 set(GROUSER_FLAGS "${CMAKE_BUILD_TYPE} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}} -ffp-contract=off -march=x86-64-v2")
 if(GROUSER_SANITIZE)
@@ -33,7 +33,7 @@ if(GROUSER_CUDA)
     set(CMAKE_CUDA_COMPILER /usr/local/cuda/bin/nvcc)
   endif()
   enable_language(CUDA)
-  # CMake 3.25 knows nvcc 13 only halfway: it lacks the flag for the standard.
+  # CMake 3.25 lacks the C++20 flag of nvcc 13.
   if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)
     set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
     set(CMAKE_CUDA20_EXTENSION_COMPILE_OPTION -std=c++20)
@@ -47,7 +47,7 @@ if(GROUSER_CUDA)
     $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false -Werror all-warnings -Xcompiler=-Wall,-Wextra,-ffp-contract=off,-march=x86-64-v2,-fopenmp>)
 endif()
 
-# grouser_room(NAME SOURCES... ): a static library grouser_NAME. Files in *.cu are CUDA where it is on, plain C++ where not.
+# grouser_room(NAME SOURCES... ): a static library grouser_NAME. *.cu files are CUDA if enabled, else plain C++.
 function(grouser_room name)
   add_library(grouser_${name} STATIC ${ARGN})
   target_link_libraries(grouser_${name} PUBLIC grouser_flags OpenMP::OpenMP_CXX)

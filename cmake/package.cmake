@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# `cpack -G DEB`: grouser, and grouser-dev with headers and libraries. With CUDA they are grouser-cuda and
-# grouser-cuda-dev, which take the place of the others.
+# `cpack -G DEB`: grouser, and grouser-dev with headers and libraries. With CUDA: grouser-cuda and grouser-cuda-dev,
+# which replace the others.
 
-# The maintainer is who makes the package, as Debian's own tools find out: DEBFULLNAME and DEBEMAIL, else git's user.
+# Maintainer, as in Debian's tools: DEBFULLNAME and DEBEMAIL, else the user of git.
 set(name "$ENV{DEBFULLNAME}")
 set(mail "$ENV{DEBEMAIL}")
 foreach(part name mail)
@@ -13,8 +13,8 @@ foreach(part name mail)
   endif()
 endforeach()
 if(name STREQUAL "" OR mail STREQUAL "")
-  # An address that can be none (RFC 2606).
-  set(name "Nobody who has said so by DEBFULLNAME and DEBEMAIL")
+  # A reserved invalid address (RFC 2606).
+  set(name "unknown maintainer (set DEBFULLNAME and DEBEMAIL)")
   set(mail "nobody@grouser.invalid")
 endif()
 set(CPACK_PACKAGE_CONTACT "${name} <${mail}>")
@@ -30,10 +30,10 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(suffix "")
-set(backend "This build runs on the CPU, on one host or on many by MPI.")
+set(backend "This build runs on the CPU, on one or several hosts with MPI.")
 if(GROUSER_CUDA)
   set(suffix "-cuda")
-  set(backend "This build runs on NVIDIA GPUs, and on the CPU where there is none; on one\nhost or on many by MPI.")
+  set(backend "This build runs on NVIDIA GPUs, or on the CPU if there is none, on one or\nseveral hosts with MPI.")
 endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME grouser${suffix})
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME grouser${suffix}-dev)
@@ -43,15 +43,15 @@ if(GROUSER_CUDA)
     set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_${relation} grouser-dev)
   endforeach()
 endif()
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "grouser drives a tracked vehicle over granular terrain: discrete elements
-coupled with multibody dynamics. It gives the same bits on CPU and GPU, with
-any number of processes, and says how wrong an answer is and what it cost.
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "grouser simulates tracked vehicles on granular terrain: discrete elements
+coupled with multibody dynamics. Results have the same bits on CPU and GPU and
+for any number of processes; it quantifies their error and run time.
 ${backend}")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and the CMake package of grouser, which drives
-tracked vehicles over granular terrain, for programs of one's own:
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and the CMake package of grouser, a simulation of
+tracked vehicles on granular terrain, to build other programs:
 find_package(grouser), grouser::grouser.")
 
-# Plots, reports, films and several ranks need what is recommended; the program says so where it is missing.
+# Plots, reports, films and MPI require the recommended packages; the program names missing ones.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-matplotlib, openmpi-bin, fonts-dejavu-core, libjs-three, libjs-dygraphs")
@@ -63,7 +63,7 @@ libcli11-dev, libeigen3-dev, libfmt-dev, libhdf5-openmpi-dev, libopenmpi-dev, li
 libtomlplusplus-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake")
 
-# What Debian's rules ask of files, and bytecode of the Python package as of any other.
+# Debian policy for files, and Python bytecode.
 set(debian ${PROJECT_SOURCE_DIR}/cmake/debian)
 foreach(script postinst prerm)
   configure_file(${debian}/${script} debian/${script} @ONLY)

@@ -22,7 +22,7 @@ struct CellGrid {
   GROUSER_HD std::uint64_t key(const Cell& c) const {
     return (static_cast<std::uint64_t>(c.x) * cells.y + c.y) * cells.z + c.z;
   }
-  /// Counted from the lowest representable position, or from the lower of two periodic boundaries.
+  /// Cell of a position, counted from the lowest representable position or from the lower periodic boundary.
   GROUSER_HD Cell cellOf(const base::Position& p) const {
     constexpr std::int64_t kBias = std::int64_t{1} << 41;
     const base::Vec3l u = base::toUnits(p);
@@ -31,7 +31,7 @@ struct CellGrid {
       if (period.along(a)) {
         const std::int64_t inside = u[a] + period.periodsBack(a, u[a]) * period.length[a] - period.low[a];
         const auto k = static_cast<std::uint32_t>(inside / edge[a]);
-        c[a] = k < cells[a] ? k : cells[a] - 1; // the last cell holds what the division leaves over
+        c[a] = k < cells[a] ? k : cells[a] - 1; // the last cell includes the remainder of the division
       } else {
         c[a] = static_cast<std::uint32_t>((u[a] + kBias) / edge[a]);
       }
@@ -40,11 +40,11 @@ struct CellGrid {
   }
   GROUSER_HD Cell local(const base::Position& p) const { return cellOf(p) - low; }
 
-  /// Cells in use along an axis, from `first` on; across periodic boundaries they go on at the other end.
+  /// Range of cells along an axis, starting at `first`; wraps around at periodic boundaries.
   struct Span {
     std::uint32_t first, count;
   };
-  /// Those that hold all within `range` [units] of a place in a cell in use.
+  /// Cells that contain everything within `range` [units] of a position in a cell in use.
   GROUSER_HD Span within(int axis, std::int64_t u, std::int64_t range) const {
     constexpr std::int64_t kBias = std::int64_t{1} << 41;
     const std::int64_t all = cells[axis];
@@ -54,8 +54,8 @@ struct CellGrid {
       const std::int64_t first = from > 0 ? from : 0, last = to < all ? to : all - 1;
       return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1)};
     }
-    // The last cell holds what the division leaves over, too: downwards that brings what lies there nearer, upwards
-    // farther away than counted here.
+    // The last cell includes the remainder of the division: its content is nearer downwards, and farther upwards, than
+    // counted here.
     const std::int64_t inside = u + period.periodsBack(axis, u) * period.length[axis] - period.low[axis];
     const std::int64_t own = inside / edge[axis] < all ? inside / edge[axis] : all - 1;
     const std::int64_t below = inside - own * edge[axis];

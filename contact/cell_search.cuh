@@ -12,8 +12,7 @@ namespace grouser::contact {
 
 using Cell = base::Vec3<std::uint32_t>;
 
-constexpr std::int64_t kShare =
-    32; ///< items of a thread that goes over many: a GPU of many threads reads them one after the other
+constexpr std::int64_t kShare = 32; ///< items per thread in strided loops
 
 /// Threads of kShare items each.
 GROUSER_HD constexpr std::int64_t sharesOf(std::int64_t count) { return (count + kShare - 1) / kShare; }
@@ -86,7 +85,7 @@ struct ColumnOfThree {
   }
 };
 
-/// Whether differences of the positions' low words hold: cells may have been widened for spheres far away.
+/// True if differences of the positions' low words are exact: cells may have been widened for distant spheres.
 GROUSER_HD bool differencesHold(const base::Vec3l& apart) {
   constexpr std::int64_t kSafe = std::int64_t{1} << 30;
   return apart.x < kSafe && apart.x > -kSafe && apart.y < kSafe && apart.y > -kSafe && apart.z < kSafe &&

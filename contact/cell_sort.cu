@@ -15,7 +15,7 @@ namespace {
 void checkPlaces(std::uint64_t places, std::size_t rows) {
   if (places >= std::uint64_t{1} << 32)
     throw base::SimulationError("the neighbour lists of " + std::to_string(rows) + " elements have " +
-                                std::to_string(places) + " places, 2^32 or more; use more ranks, or a smaller skin");
+                                std::to_string(places) + " entries, more than 2^32; use more ranks, or a smaller skin");
 }
 
 } // namespace

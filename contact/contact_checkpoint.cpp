@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What contacts of parts are saved as, and are restored from.
+// Saves and restores the contacts of parts.
 #include "base/algorithms.hpp"
 #include "base/bits.hpp"
 #include "base/error.hpp"

@@ -8,26 +8,25 @@
 
 namespace grouser::contact {
 
-/// What a scene's contact laws may have. Force functions and kernels take a sum of these as a template parameter: what
-/// is absent is not compiled in. With kGeneral all is compiled in, and each law's own constants decide at run time;
-/// the bits are those of the special functions.
+/// Features of a scene's contact laws. Force functions and kernels have a sum of these as template parameter: absent
+/// features are not compiled in. With kGeneral all are compiled in, and each law's constants decide at run time; the
+/// results are bitwise identical.
 inline constexpr unsigned kHertz = 1; ///< Hertz' normal and Mindlin's tangential stiffness; else constant stiffnesses
 inline constexpr unsigned kFriction = 2;        ///< tangential spring with Coulomb's limit
 inline constexpr unsigned kRollingFriction = 4; ///< rolling resistance with history
-inline constexpr unsigned kCohesion = 8;        ///< constant attraction while in touch
-/// Damping follows the effective mass of each contact, not one of the whole scene.
+inline constexpr unsigned kCohesion = 8;        ///< constant attraction during contact
+/// Damping depends on the effective mass of each contact, not of the whole scene.
 inline constexpr unsigned kManyMasses = 16;
 inline constexpr unsigned kPlastic = 32; ///< elastic-plastic normal springs, with history
 /// Kernel also sums a ContactMoment; never set in a time step.
 inline constexpr unsigned kMeasured = 1u << 30;
-inline constexpr unsigned kGeneral = 1u << 31; ///< all of it, decided at run time
+inline constexpr unsigned kGeneral = 1u << 31; ///< all features, selected at run time
 
-/// Where a contact's plastic state stands among the numbers that it keeps, behind its springs.
+/// Index of the plastic state in a contact's history, behind its springs.
 GROUSER_HD constexpr int plasticPlace(unsigned features) {
   return features & kRollingFriction ? 6 : features & (kFriction | kPlastic) ? 3 : 0;
 }
-/// Numbers that a contact with these features keeps from step to step: the tangential spring, the rolling angle, the
-/// plastic state.
+/// Size of the history of a contact with these features: tangential spring, rolling angle, plastic state.
 GROUSER_HD constexpr int historyWidth(unsigned features) {
   return plasticPlace(features) + (features & kPlastic ? kPlasticNumbers : 0);
 }
@@ -63,13 +62,13 @@ template <class T> struct BasicLaw {
   T tangentialDamping{};     ///< linear: gamma_t [1/s], >= 0;  Hertz: 0
   T friction{};              ///< Coulomb coefficient [-], >= 0; 0 switches the tangential force off
   bool attraction{};         ///< whether the dashpot may pull
-  bool hertz{};              ///< which of the two
+  bool hertz{};              ///< Hertz, else linear
   T rootDamping{};           ///< Hertz: 2 beta sqrt(2 E_eff) [sqrt(Pa)];  linear with many masses: 2 zeta sqrt(k)
-  T tangentialRootDamping{}; ///< the same of the tangential dashpot
+  T tangentialRootDamping{}; ///< the same for the tangential dashpot
   T rollingFriction{};       ///< [-], >= 0; 0 switches rolling resistance off
   T rollingDamping{};        ///< [-], >= 0: of the rolling spring's critical damping
   T pullPerRadius{};         ///< cohesion: 2 pi w [N/m], >= 0
-  T pullPerArea{};           ///< of one that grows with the radius: 2 pi dw / dR_eff [Pa], >= 0
+  T pullPerArea{};           ///< for cohesion that grows with the radius: 2 pi dw / dR_eff [Pa], >= 0
   BasicPlasticity<T> plastic{};
   /// Linear, of one mass: share of both dashpots against a grain that never moves [-], for the restitution asked for.
   T fixedShare{1};
@@ -77,7 +76,7 @@ template <class T> struct BasicLaw {
   /// they are squared: a float holds neither the squares of those of micrometre grains nor of those beyond 1e19 N. It
   /// changes no other bits; scaledFor() in strongest_force.hpp sets it.
   T squareScale{1};
-  /// Rebound over impact speed that the damping stands for [-]: what complementarity contacts have instead of it.
+  /// Coefficient of restitution of the damping [-], which complementarity contacts use instead.
   T restitution{};
 
   template <class U> BasicLaw<U> as() const {
@@ -100,13 +99,13 @@ template <class T> struct BasicLaw {
             u(squareScale),
             u(restitution)};
   }
-  /// The same with elastic contacts.
+  /// The same law without plasticity.
   BasicLaw elastic() const {
     BasicLaw law = *this;
     law.plastic = {};
     return law;
   }
-  /// The same with so much [-] of what holds surfaces together; of the same features where that is above 0.
+  /// The same law with adhesion and cohesion scaled by `share` [-]; same features if that is > 0.
   BasicLaw pulling(T share) const {
     BasicLaw law = *this;
     for (T* pull :
@@ -119,14 +118,14 @@ template <class T> struct BasicLaw {
   template <class R> GROUSER_HD R pull(R effectiveRadius) const {
     return pullPerRadius * effectiveRadius + pullPerArea * effectiveRadius * effectiveRadius;
   }
-  /// Features that a kernel needs for this law; kManyMasses is the scene's affair.
+  /// Features that a kernel needs for this law, except kManyMasses, which depends on the scene.
   unsigned features() const {
     return (hertz ? kHertz : 0u) | (friction > 0 ? kFriction : 0u) | (rollingFriction > 0 ? kRollingFriction : 0u) |
            (coheres() ? kCohesion : 0u) | (plastic.share > 0 ? kPlastic : 0u);
   }
 };
 
-/// As a scene has it; kernels take their own precision.
+/// Law in double precision; kernels convert to their own.
 using ContactLaw = BasicLaw<double>;
 
 using base::ScalarOf;
@@ -146,14 +145,14 @@ template <class T> struct BasicContactGeometry {
 };
 using ContactGeometry = BasicContactGeometry<float>;
 
-/// How the stiffness of a contact's springs has changed since the last step. Those of Hertz' law follow the contact
-/// radius, and so the root of the overlap.
+/// Change of a contact's spring stiffness since the last step. With Hertz' law it is proportional to the contact
+/// radius, hence to the root of the overlap.
 template <class T> struct StiffnessChange {
   T kept = base::broadcast<T>(1); ///< ratio of spring lengths [-]: loading keeps the force, unloading the length
   T taken{};                      ///< dissipated energy over stiffness times squared former length [-], >= 0
 };
 
-/// From the way [m] by which the surfaces have approached within the step.
+/// Stiffness change from the approach `way` of the surfaces within the step [m].
 template <class T> GROUSER_HD StiffnessChange<T> hertzChange(T overlap, T way) {
   using Scalar = ScalarOf<T>;
   const T one = base::broadcast<T>(1), share = way / overlap, within = share < one ? share : one;
@@ -162,15 +161,15 @@ template <class T> GROUSER_HD StiffnessChange<T> hertzChange(T overlap, T way) {
   return {kept, Scalar(0.5) * kept * (less < Scalar(0) ? -less : less)};
 }
 
-/// What one contact does in one step.
+/// Force and energies of one contact in one step.
 template <class T> struct BasicReaction {
   base::Vec3<T> force;         ///< on i [N]; on j it is the exact opposite
-  T damped;                    ///< by the dashpots within the step [J]
-  T rubbed;                    ///< by sliding within the step [J]
-  T pressing;                  ///< normal force without cohesion and adhesion [N], what limits friction
+  T damped;                    ///< dissipated by the dashpots within the step [J]
+  T rubbed;                    ///< dissipated by sliding within the step [J]
+  T pressing;                  ///< normal force without cohesion and adhesion [N], which limits friction
   T normalStiffness;           ///< dF_n / d overlap of the elastic spring [N/m]
   T yielded{};                 ///< plastic work within the step [J]
-  T slipped{};                 ///< by the tangential spring as it stiffens or softens within the step [J]
+  T slipped{};                 ///< dissipated by the tangential spring as its stiffness changes within the step [J]
   StiffnessChange<T> change{}; ///< Hertz: for the rolling spring too
 };
 using Reaction = BasicReaction<float>;
@@ -209,14 +208,13 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
 /// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit. `state`:
 /// of an elastic-plastic contact, carried to the end of the step; where it is null all contacts are elastic.
 ///
-/// Work of dashpots is booked with the velocity in the middle of the step, by which symplectic Euler changes the
-/// kinetic energy exactly, F . (v_old + v_new) / 2 dt, as this contact alone would make it: second order in the step
-/// for a single collision. A contact that sticks dissipates by its dashpots alone; of one that slides it is all work
-/// but what its spring gains, with the slip at the start of the step: what is held at Coulomb's limit by other contacts
-/// must not seem to move. What turning the spring into the tangent plane takes away is an error of the step's length,
-/// not a loss, and is booked nowhere here. With Hertz' law the tangential spring loses energy as k_t follows the
-/// contact radius, however short the step: that stands for the slip that begins at the rim of the contact, and is
-/// `slipped`.
+/// Dashpot work uses the velocity in the middle of the step, with which symplectic Euler changes the kinetic energy
+/// exactly, F . (v_old + v_new) / 2 dt, as if this contact acted alone: second order in the step for a single
+/// collision. A sticking contact dissipates by its dashpots only; a sliding one all work except its spring's gain, with
+/// the slip at the start of the step: a grain held at Coulomb's limit by other contacts must not appear to move.
+/// Rotating the spring into the tangent plane loses energy; that is a time-integration error and not counted here. With
+/// Hertz' law the tangential spring loses energy as k_t follows the contact radius, however short the step: that stands
+/// for the slip that begins at the rim of the contact, and is `slipped`.
 template <unsigned kFeatures, class T>
 GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const BasicContactGeometry<T>& touch,
                                          ScalarOf<T> dt, base::Vec3<T>& shear, BasicPlasticState<T>* state = nullptr) {
@@ -250,7 +248,7 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   if (hertz) reaction.change = hertzChange(touch.overlap, touch.crushes ? zero : approach * dt);
   if (!(kFeatures & (kFriction | kGeneral)) || law.friction <= 0) return reaction;
 
-  // Turn the spring into the present tangent plane, then stretch it by this step's slip.
+  // Rotate the spring into the present tangent plane, then stretch it by this step's slip.
   const base::Vec3<T> slip = touch.velocity - n * approach;
   shear -= n * dot(shear, n);
   if (hertz) {
@@ -267,8 +265,8 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   if (base::any(slides)) {
     // Sliding: the force lies on Coulomb's cone.
     tangential = base::select(slides, tangential * base::shareOf(scaledLimit, squareRoot(size2)), tangential);
-    // The spring is shortened only where it is beyond the cone by itself: one that took over the dashpot's force would
-    // be stretched without work.
+    // The spring is shortened only if it exceeds the cone by itself: taking over the dashpot's force would stretch it
+    // without work.
     const T scaledStiffness = c.tangentialStiffness * law.squareScale;
     const T spring2 = scaledStiffness * scaledStiffness * dot(shear, shear);
     if (const auto beyond = slides & (spring2 > limit2); base::any(beyond))
@@ -284,8 +282,8 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   return reaction;
 }
 
-/// Energy stored in the springs of a contact [J], and gained from its cohesion, from zero at overlap 0. `state`: of an
-/// elastic-plastic contact; null for one that no step has seen.
+/// Energy of the springs of a contact [J] minus the work of cohesion, zero at overlap 0. `state`: of an elastic-plastic
+/// contact; null for a new one.
 template <class T> GROUSER_HD double storedEnergy(const BasicLaw<T>& law, double overlap, double effectiveRadius,
                                                   const base::Vec3<T>& shear,
                                                   const BasicPlasticState<double>* state = nullptr) {

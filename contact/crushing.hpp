@@ -4,20 +4,20 @@
 #include "contact/contact_law.hpp"
 
 /// Grains that crush: the normal force of a contact is at most F_c = sigma_f d^2 (d: diameter; sigma_f: crushing
-/// strength; Jaeger 1967, Int. J. Rock Mech. Min. Sci. 4:219). Beyond it the contact yields: what it is pressed in
-/// further, its `dent`, stays, and the spring sees the elastic overlap e = overlap - dent alone:
+/// strength; Jaeger 1967, Int. J. Rock Mech. Min. Sci. 4:219). Beyond it the contact yields: the further indentation,
+/// the `dent`, is permanent, and the spring depends on the elastic overlap e = overlap - dent only:
 ///
 ///   F = F_spring(e),  0 <= e <= y,  F_spring(y) = F_c
 ///   overlap - dent > y:  dent = overlap - y, which dissipates (F_c - pull) x the growth of the dent
 ///   overlap <= dent:     the surfaces are apart in the dent: no force, no energy
 ///
 /// (the pull is that of cohesion). The stored energy is that of the spring at e: a function of the state (overlap,
-/// dent), so that loading to the cap and back gives what is elastic, along the same curve, and no more. Linear:
-/// unloading has the slope k, and what a blow of relative energy E leaves is F_c^2 / (2 k) / E of it. The dashpot adds
-/// to the spring up to F_c and not beyond.
+/// dent), so that unloading from the cap returns the elastic energy only, along the same curve. Linear: unloading has
+/// the slope k, and an impact of relative energy E keeps the share F_c^2 / (2 k) / E. The dashpot adds to the spring
+/// force up to F_c.
 namespace grouser::contact {
 
-/// Of one material; constants of its contacts with parts.
+/// Crushing constants of one material, for its contacts with parts.
 struct Crushing {
   float strength;   ///< sigma_f [Pa]; 0: does not crush
   float hertzYield; ///< y over the radius, of a Hertz contact [-]
@@ -32,12 +32,12 @@ inline Crushing crushingOf(double strength, const ContactLaw& law) {
   return {static_cast<float>(strength), static_cast<float>(y)};
 }
 
-/// What the cap makes of a contact in one step.
+/// Effect of the force cap on a contact in one step.
 struct Yielded {
   float overlap;    ///< elastic [m]; not positive where the surfaces are apart in the dent
   float damping;    ///< share of the law's normal damping that acts [-]
   float dissipated; ///< [J]
-  float cut;        ///< force that the spring would have more without the cap [N]
+  float cut;        ///< spring force removed by the cap [N]
   bool capped;
 };
 
@@ -52,7 +52,7 @@ template <unsigned kFeatures> GROUSER_HD Yielded yieldContact(const Crushing& cr
     const float growth = y.overlap - most;
     dent = overlap - most;
     y.overlap = most, y.capped = true;
-    // Where the contact has gone over from one place of the part to another it is deeper at once, without any work.
+    // A contact that has moved to another place of the part is deeper at once, without any work.
     const float way = approach > 0 ? approach * dt : 0;
     y.dissipated = (cap - law.pull(radius)) * (growth > 1.5f * way ? way : growth);
     y.cut = coefficientsOf<kFeatures>(law, overlap, mass, radius).elastic - cap;

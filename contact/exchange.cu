@@ -25,7 +25,7 @@ Fields collect(std::span<const ExchangeField> fields) {
   return all;
 }
 
-/// One word of one element between its field and the buffer, in which elements lie one after the other.
+/// Copies one word of one element between its field and the buffer, in which elements are contiguous.
 template <bool kPack> struct MoveWord {
   Fields fields;
   std::uint32_t first; ///< place in the plan of the first element of this launch
@@ -45,8 +45,8 @@ template <bool kPack> struct MoveWord {
   }
 };
 
-/// Between fields and `buffer`, which begins with the element of the place `first`. Launches count in int: elements go
-/// in groups of at most `wordsAtATime` words.
+/// Copies between fields and `buffer`, which begins with element `first`. Launches count in int: elements go in groups
+/// of at most `wordsAtATime` words.
 template <bool kPack> void moveWords(const base::Exec& exec, const Fields& fields, const std::uint32_t* slots,
                                      std::size_t first, std::size_t elements, std::uint32_t* buffer,
                                      std::size_t wordsAtATime) {
@@ -110,7 +110,7 @@ void Exchange::setPlan(base::Array<std::uint64_t>& ranks, base::Array<std::uint3
   base::copyOnDevice(exec_, sendSlots_.data(), slots.data(), count * sizeof(std::uint32_t));
   base::synchronize(exec_);
 
-  // To each rank: the first of its elements in this plan, how many it gets, and how many this plan exports in all.
+  // For each rank: its first element in this plan, its number of elements, and the total of this plan.
   std::vector<base::Bytes> mine(size);
   for (std::size_t r = 0; r < size; ++r)
     mine[r] = base::Comm::bytesOf(std::vector<std::uint32_t>{sendStart_[r], sendStart_[r + 1] - sendStart_[r],

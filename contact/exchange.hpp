@@ -25,20 +25,20 @@ template <class T> ExchangeField fieldOf(base::Array<T>& array) {
   return {array.data(), sizeof(T) / 4};
 }
 
-/// How an exchange goes about it; no bit of what arrives depends on it.
+/// Options of an exchange; the transferred data do not depend on them.
 struct ExchangeOptions {
   base::PeerUse peers;                             ///< whether GPUs of one machine unpack from each other's memory
   std::size_t wordsAtATime = std::size_t{1} << 30; ///< packed by one launch, at most
 };
 
-/// Moves elements between ranks. It knows nothing of what an element is: whoever owns the elements says which slots go
-/// to which ranks (a communication plan), names the fields to move, and says into which slots the imports go. Full
-/// state on a migration and less on a ghost update are two plans, or one plan with two lists of fields.
+/// Moves elements between ranks. It is independent of the element type: the caller specifies which slots go to which
+/// ranks (a communication plan), the fields to move, and the slots of the imports. Full state on a migration and less
+/// on a ghost update are two plans, or one plan with two lists of fields.
 ///
-/// An exchange may be run any number of times within a step. Elements are packed and unpacked on the device. Where the
-/// GPU of the receiver sees the memory of the sender's, it unpacks from there, and MPI only carries the notice that the
-/// sender has packed; else the bytes go straight to MPI where it takes device memory, and through pinned memory where
-/// it does not. All ranks call everything here, in the same order.
+/// An exchange may be run any number of times within a step. Elements are packed and unpacked on the device. If the
+/// receiver's GPU can access the sender's memory, it unpacks from there, and MPI only carries the notice that the
+/// sender has packed; otherwise MPI transfers device memory if it supports that, else pinned host memory. All ranks
+/// call everything here, in the same order.
 class Exchange {
 public:
   static constexpr std::size_t kMaxFields = 16;
@@ -75,7 +75,7 @@ public:
     finish(fields);
   }
 
-  // The same in its parts, to overlap it with other work. `exec` is the exchange's own or a side stream of it.
+  // The same in separate steps, to overlap it with other work. `exec` is the exchange's own or a side stream of it.
 
   /// Queues packing on `exec`, without waiting, into the half of the buffer that the run before did not use. Where
   /// memory has to grow it waits, for all ranks: not in the second of two runs of as many words on one plan. All ranks
@@ -106,7 +106,7 @@ private:
   }
   std::size_t placesTo(int rank) const { return placeOf(sendStart_, rank + 1) - placeOf(sendStart_, rank); }
   std::size_t placesFrom(int rank) const { return placeOf(receiveStart_, rank + 1) - placeOf(receiveStart_, rank); }
-  /// Whether elements go to or come from this peer: then each notifies the other by a message when it has packed.
+  /// True if elements are exchanged with this peer: then each notifies the other by a message when it has packed.
   bool withPeer(int rank) const { return packed_.of(rank) && placesTo(rank) + placesFrom(rank) > 0; }
   template <class Each> void forWays(const Each& each) const;
   std::uint32_t* packedBy(int rank) const;

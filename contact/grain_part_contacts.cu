@@ -65,7 +65,7 @@ struct ListParts {
   }
 };
 
-/// Finds each pair in the sorted keys of the former list and takes its history.
+/// Finds each pair in the sorted keys of the former list and copies its history.
 struct RestorePatches {
   static constexpr double kNanoseconds = 30;
   const std::uint64_t *key, *oldKey;
@@ -157,7 +157,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   for (std::size_t m = 0; crushes_ && m < materials.laws.size(); ++m)
     crushing.push_back(crushingOf(materials.crushing[m % materials.crushing.size()], materials.laws[m]));
   crushing_ = base::Array<Crushing>(exec, crushing);
-  std::vector<bool> isMet(sets.size()); // the table of another is never asked
+  std::vector<bool> isMet(sets.size()); // only parts that grains can touch need a table
   for (const GrainPart& part : parts)
     if (part.meets && part.surface >= 0) isMet[static_cast<std::size_t>(part.surface)] = true;
   std::vector<SurfaceGridView> views;
@@ -189,10 +189,10 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   moments_ = base::Array<ContactMoment>(exec);
   sums_ = base::Array<std::int64_t>(exec, kPartSums);
   deepest_ = base::Array<std::uint64_t>(exec);
-  forgetPressed();
+  resetDeepestOverlap();
 }
 
-/// What is sent with a pair.
+/// History fields sent with a pair.
 std::vector<ExchangeField> GrainPartContacts::history() {
   std::vector<ExchangeField> fields{{key_.data(), 2}, {memory_.data(), kPatches * sizeof(PatchMemory) / 4}};
   if (rolling_) fields.push_back({angle_.data(), kPatches * sizeof(Vec3f) / 4});
@@ -273,7 +273,8 @@ void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<Part
   base::forEach(exec_, "count parts near grains", n, list);
   pairs_ = base::exclusiveScan(exec_, count_.data(), range_.data(), grains.count);
   if (pairs_ >= 1u << 24)
-    throw base::SimulationError(std::to_string(pairs_) + " pairs of grains and parts; at most 16,777,215 are possible");
+    throw base::SimulationError(std::to_string(pairs_) +
+                                " pairs of grains and parts exceed the limit of 16,777,215; use more ranks");
   key_.resize(pairs_);
   slot_.resize(pairs_);
   memory_.resize(pairs_ * kPatches);
@@ -347,7 +348,7 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
     base::forEachGroup<16>(exec, "grain-part contacts", groups,
                            NearPairForces<kFeatures>{forces, near, count, static_cast<std::uint32_t>(groups)});
   };
-  // Most beds are linear with friction, soils have Hertz' law; all else takes the general functions.
+  // Most beds are linear with friction, soils use Hertz' law; all else uses the general functions.
   constexpr unsigned kSoil = kHertz | kFriction | kRollingFriction | kCohesion;
   if (allHertz_ && !(features_ & ~kSoil) && !crushes_)
     run.template operator()<kSoil>();
@@ -385,7 +386,7 @@ GrainPartContacts::Ledger GrainPartContacts::ledger() const {
           q[kSqueezedNow],
           energy(kElasticNow),
           energy(kDampedByParts),
-          energy(kRubbedByParts),
+          energy(kSlidingLossByParts),
           energy(kRolledByParts),
           energy(kSlippedByParts),
           energy(kCrushedByParts),
@@ -422,10 +423,10 @@ void GrainPartContacts::takeOut(const std::vector<std::uint32_t>& ids) {
   const base::Array<std::uint32_t> pairs(exec_, theirs);
   base::forEach(exec_, "forget grains taken out", static_cast<std::int64_t>(theirs.size()),
                 Forget{pairs.data(), memory_.data()});
-  restore(save()); // grains will lie in other slots, and perhaps on other ranks
+  restore(save()); // grains will move to other slots, and possibly ranks
 }
 
-void GrainPartContacts::forgetPressed() { deepest_.assign(std::vector<std::uint64_t>(partCount_, kNotPressed)); }
+void GrainPartContacts::resetDeepestOverlap() { deepest_.assign(std::vector<std::uint64_t>(partCount_, kNotPressed)); }
 
 std::vector<std::uint64_t> GrainPartContacts::allDeepest() const {
   std::vector<std::uint64_t> deepest = deepest_.toHost();

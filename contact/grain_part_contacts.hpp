@@ -29,7 +29,7 @@ struct PartPatches;
 /// Pairs of grain and part that may touch are listed with a margin; every step each listed pair looks up one cell of
 /// the part's table. The grains get their loads as integers, the parts exactly the opposite.
 ///
-/// On several ranks each does the pairs of its own grains; the loads on the parts are then this rank's share.
+/// Each rank computes the pairs of its own grains; the loads on the parts are then this rank's share.
 class GrainPartContacts {
 public:
   /// `sets`: the unique sphere sets; `parts`: instances of them.
@@ -44,16 +44,15 @@ public:
   /// Lists the pairs for grains in their present slots; history is restored by grain id and part.
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
-  /// Contact loads of this step. `loads` is added to: one a part, and where grains crush one more, whose force.x counts
-  /// the pairs whose grain has been crushed to its middle.
+  /// Adds the contact loads of this step to `loads`: one per part and, if grains crush, one more, whose force.x counts
+  /// the pairs whose grain is crushed to its middle.
   void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
     computeOn(exec_, grains, motion, loads);
   }
   /// The same on a side stream.
   void computeOn(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                  PartLoad* loads);
-  /// The same in work that is launched ahead, where clearedSums() and clearedCount() have been cleared. `off`: as
-  /// base::Gate has it.
+  /// The same for work launched ahead, after clearing clearedSums() and clearedCount(). `off`: see base::Gate.
   void computeOnCleared(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                         PartLoad* loads, const std::uint32_t* off);
   /// Returns the surfaces near each listed grain, for the solver of complementarity contacts, which replaces compute().
@@ -66,55 +65,54 @@ public:
   base::Parcel clearedSums();
   base::Parcel clearedCount();
 
-  /// What the grains' step needs: valid until the next refresh.
+  /// Loads for the grains' step; valid until the next refresh.
   GrainLoadsView grainLoads();
 
-  /// Contact moments of the coming step, where grains and parts are now; the pairs must have been refreshed. Changes
-  /// nothing. Valid until the next call or refresh.
+  /// Contact moments at the present positions of grains and parts; refresh the pairs first. No side effects. Valid
+  /// until the next call or refresh.
   PartMomentsView measure(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
   std::size_t pairs() const { return pairs_; }
-  /// The parts that pressed a grain in the last compute; of all ranks, which all call it.
+  /// Parts in contact with a grain in the last compute, over all ranks; collective.
   struct Press {
     int part;
     float overlap; ///< [m]
   };
   std::vector<Press> pressing(std::uint32_t grain) const;
-  /// A grain and a part in touch at the last compute.
+  /// A grain and a part in contact at the last compute.
   struct Touch {
     std::uint32_t grain;
     int part;
   };
-  /// Ascending by grain, then part; of all ranks, which all call it. Looks at all pairs that are listed: for rows, not
-  /// for steps.
+  /// Sorted by grain, then part, over all ranks; collective. Visits all listed pairs: for output rows, not for steps.
   std::vector<Touch> touching() const;
-  /// Grains that were crushed to their middle in the last compute, by id, ascending; of all ranks, which all call it.
+  /// Ids of the grains crushed to their middle in the last compute, ascending, over all ranks; collective.
   std::vector<std::uint32_t> ended() const;
-  /// Forgets grains that are taken out before the next step: what their contacts held is dissipated by crushing.
-  /// Refresh before the next compute. All ranks call it.
+  /// Removes contacts of grains that are deleted before the next step: their energy counts as dissipated by crushing.
+  /// Refresh before the next compute. Collective.
   void takeOut(const std::vector<std::uint32_t>& ids);
   bool crush() const { return crushes_; }
-  /// The grain that was pressed by the greatest share of its radius since forgetPressed(); of all ranks.
+  /// The grain with the largest overlap over radius since resetDeepestOverlap(), over all ranks.
   struct MostPressed {
     int part;
     std::uint32_t grain;
     double share; ///< of its radius [-]
   };
   std::optional<MostPressed> mostPressed() const;
-  void forgetPressed();
+  void resetDeepestOverlap();
   struct Ledger {
-    std::int64_t contacts{};             ///< patches in touch at the last compute
+    std::int64_t contacts{};             ///< patches in contact at the last compute
     std::int64_t squeezed{};             ///< pairs deeper than kSqueezed then
     double elastic{};                    ///< held in their springs [J]
-    double damped{}, rubbed{}, rolled{}; ///< dissipated since the start [J]
-    double slipped{};                    ///< the same by springs of Hertz' law as they stiffen and soften [J]
-    double crushed{};                    ///< the same where grains crush [J]
-    double cutImpulse{};                 ///< that springs would have given without it since the start [N s]
-    std::int64_t capped{};               ///< patches at the force at which their grain crushes, at the last compute
+    double damped{}, rubbed{}, rolled{}; ///< dissipated by dashpots, sliding, rolling resistance since the start [J]
+    double slipped{};                    ///< the same by changes of the stiffness of Hertz springs [J]
+    double crushed{};                    ///< the same by crushing [J]
+    double cutImpulse{};                 ///< impulse removed by the crushing force cap since the start [N s]
+    std::int64_t capped{};               ///< patches at the crushing force at the last compute
     base::Vec3d impulseOnGrains;         ///< since the start [N s], from the loads the grains were given
   };
   Ledger ledger() const; ///< of all ranks, which all call it
-  /// Of all ranks, which all call it. For hashes and checkpoints. Throws InputError when what was saved is of other
+  /// State over all ranks, for hashes and checkpoints; collective. restore() throws InputError if the state is of other
   /// parts; refresh before the next compute.
   SavedGrainPatches save() const;
   void restore(const SavedGrainPatches& saved);
@@ -136,11 +134,11 @@ private:
   base::Array<SurfaceGridView> gridViews_;
   base::Array<GrainPart> parts_;
   std::size_t pairs_{0};
-  /// Which pairs this rank holds.
+  /// Set of pairs on this rank.
   enum class Held {
     listed,     ///< those of its own grains, with their slots
     migrated,   ///< those of its own grains, some without slots: the next refresh finds them
-    everywhere, ///< all of the scene, the same on every rank: after a restore
+    everywhere, ///< all pairs of the scene, the same on every rank: after a restore
   };
   Held held_{Held::everywhere};
   std::unique_ptr<Exchange> exchange_;
@@ -163,7 +161,7 @@ private:
   base::Array<GrainLoad> load_;
   base::Array<ContactMoment> moments_; ///< [pair]; empty until measure() is called
   base::Array<std::int64_t> sums_;     ///< [kPartSums]
-  base::Array<std::uint64_t> deepest_; ///< by part, since forgetPressed()
+  base::Array<std::uint64_t> deepest_; ///< by part, since resetDeepestOverlap()
 };
 
 } // namespace grouser::contact

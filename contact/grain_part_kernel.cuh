@@ -22,7 +22,7 @@ inline constexpr float kSameFace = 0.97f;  // cosine: discs of one face are one 
 inline constexpr float kSamePatch = 0.8f;  // cosine: a patch is the one it was in the step before
 inline constexpr float kOtherSide = -0.5f; // cosine: a patch on the far side of the part
 
-/// Smallest of what is pressed by the greatest share of its radius, and of those of the first grain.
+/// Key whose minimum selects the largest overlap over radius and, among equals, the first grain.
 GROUSER_HD std::uint64_t pressKey(float share, std::uint32_t grain) {
   return static_cast<std::uint64_t>(~base::bitsAs<std::uint32_t>(share)) << 32 | grain;
 }
@@ -35,12 +35,12 @@ struct TouchedPatch {
   float overlap;
 };
 
-/// Adds to the sums that all threads share.
+/// Adds to the shared sums at once.
 struct AddAtOnce {
   std::int64_t* sums;
   GROUSER_HD void add(int which, std::int64_t value) const { base::atomicAdd64(sums + which, value); }
 };
-/// Keeps them for many pairs: threads that add to one place often wait for each other.
+/// Accumulates over many pairs first: frequent atomic additions to one address are slow.
 struct AddLater {
   std::int64_t of[kPartSums] = {};
   GROUSER_HD void add(int which, std::int64_t value) { of[which] += value; }
@@ -63,12 +63,12 @@ template <unsigned kFeatures> struct GrainPartForces {
   const Crushing* crushing; ///< by law; null where none crushes
   float* dent;              ///< of each patch [m]; null too
   std::int64_t* energyHeld; ///< in the springs of each pair [quanta]; null too
-  int endedAt;              ///< place behind the loads of the parts, whose force.x counts grains that have ended
+  int endedAt;              ///< index behind the loads of the parts; its force.x counts crushed grains
   GrainLoad* load;
   PartLoad* partLoad;
   std::int64_t* sums;       ///< [kPartSums]
-  std::uint64_t* pressed;   ///< by part, of the grain that it presses most: see pressKey()
-  const std::uint32_t* off; ///< not 0: called off, see base::Gate; null: never
+  std::uint64_t* pressed;   ///< by part, key of the grain with the largest overlap: see pressKey()
+  const std::uint32_t* off; ///< nonzero: cancelled, see base::Gate; null: never
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
     if (calledOff()) return;
@@ -114,7 +114,7 @@ protected:
     const GrainPart& of = parts[p];
     TouchedPatch patches[kPatches];
     const int found = touch(of, part.toPart(ball.x), ball.radius, group, patches);
-    if (group.rank != 0) return; // the rest is for one thread
+    if (group.rank != 0) return; // one thread does the rest
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
     int former[kPatches];
     PairLoad sum;
@@ -139,7 +139,7 @@ protected:
     if (crushes()) {
       energyHeld[e] = model.energy.quantise(sum.elastic);
       if (share >= 1 && mayCrush(of.firstLaw + ball.material, ball)) {
-        // Crushed to its middle: the host takes it out before the next step.
+        // Crushed to its middle: the host removes the grain before the next step.
         sum.onGrain.deepest = -sum.onGrain.deepest;
         base::atomicAdd64(&partLoad[endedAt].force.x, 1);
       }
@@ -168,7 +168,7 @@ protected:
     int material;
     bool fixed; ///< never moves, and does not crush
   };
-  /// The history of a patch, which its force moves on.
+  /// The history of a patch, updated by its force.
   struct Springs {
     base::Vec3f& shear;
     base::Vec3f& rolled; ///< rolling angle [rad]
@@ -180,7 +180,7 @@ protected:
     base::Vec3l torqueOnPart{};
     double elastic = 0;          ///< held in springs [J]
     float lost[4] = {};          ///< dissipated by dashpots, sliding, rolling resistance, change of stiffness [J]
-    double crushed = 0, cut = 0; ///< dissipated [J], force cut off [N] where the grain crushes
+    double crushed = 0, cut = 0; ///< dissipated by crushing [J], force removed by the cap [N]
     int capped = 0;              ///< patches
   };
   struct MeasuredPairLoad : PairLoadOfStep {
@@ -216,7 +216,7 @@ protected:
     base::atomicAdd64(&target.z, value.z);
   }
 
-  /// The patches of a part that a ball touches with its centre at `c` in the part's frame.
+  /// Finds the patches of a part in contact with a ball at `c` in the part's frame.
   template <class Group> GROUSER_HD int touch(const GrainPart& of, const base::Vec3d& c, double ballRadius,
                                               const Group& group, TouchedPatch* patches) const {
     return of.surface < 0 ? touchShape(of.shape, c, ballRadius, patches)
@@ -278,9 +278,9 @@ protected:
     return best;
   }
 
-  /// Finds which of the held patches each of the present ones was, -1 where none. Returns how deep the part has pressed
-  /// a grain that this step has carried through it: such a one touches a thin part deeply, at once, from the other
-  /// side, and counts as pressed beyond its middle. Else 0.
+  /// Matches the present patches to those of the last step, -1 where none. Returns the depth of a grain that has passed
+  /// through a thin part within this step (a deep new contact on the other side), which counts as pressed beyond its
+  /// middle; else 0.
   GROUSER_HD static float recallAll(const PatchMemory* held, const TouchedPatch* patches, int found, float radius,
                                     int* former) {
     unsigned used = 0;
@@ -295,8 +295,8 @@ protected:
     return through;
   }
 
-  /// Makes of a contact what its spring sees of it where the grain crushes. False: the surfaces are apart in the dent;
-  /// what the tangential spring still held is lost to sliding.
+  /// Reduces the overlap of a crushing contact to its elastic part. False: the surfaces are apart in the dent; the
+  /// energy of the tangential spring counts as sliding dissipation.
   GROUSER_HD static bool crush(const Crushing& crushing, ContactGeometry& touch, const Springs& springs, float dt,
                                BasicLaw<float>& law, PairLoad& sum) {
     const Yielded y = yieldContact<kFeatures>(crushing, law, touch.overlap, dot(touch.velocity, touch.normal), dt,
@@ -313,7 +313,7 @@ protected:
     return true;
   }
 
-  /// Force of one patch, in the part's frame as the history is, then quantised in the world.
+  /// Force of one patch, in the part's frame like the history, then quantised in the world.
   GROUSER_HD void apply(const PartMotion& part, int lawIndex, const Ball& ball, const TouchedPatch& patch,
                         const Springs& springs, PairLoad& sum) const {
     if (patch.overlap > sum.onGrain.deepest) sum.onGrain.deepest = patch.overlap;
@@ -349,7 +349,7 @@ protected:
                                                springs.rolled, sum.lost[2], law->hertz ? &reaction.change : nullptr);
       const float k = rollingStiffness(*law, reaction.normalStiffness, radius);
       sum.elastic += 0.5 * static_cast<double>(k * dot(springs.rolled, springs.rolled));
-      // In quanta on both sides, so that angular momentum balances to the last bit but the float of the grain's.
+      // Quantised on both sides, so that angular momentum balances exactly except for the float torque of the grain.
       const base::Vec3l turned = model.torque.quantise(part.rotation * torque.template as<double>());
       sum.onGrain.torque += model.torque.value(turned).template as<float>();
       sum.torqueOnPart -= turned;
@@ -357,7 +357,7 @@ protected:
   }
 };
 
-/// Contact moments of the listed pairs, in any order; the history stays as it is.
+/// Contact moments of the listed pairs, in any order; does not change the history.
 struct MeasurePairs : GrainPartForces<kGeneral | kMeasured> {
   ContactMoment* moments;
   GROUSER_HD void operator()(int e) const {

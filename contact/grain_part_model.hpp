@@ -10,48 +10,48 @@
 #include <algorithm>
 #include <vector>
 
-/// What contacts of grains with rigid parts are computed from, and what is kept of them.
+/// Parameters and history of contacts of grains with rigid parts.
 namespace grouser::contact {
 
 /// A grain's contact with one part merges into patches, one for each cluster of surface normals: one on a face, two in
 /// a corner or between two teeth.
 inline constexpr int kPatches = 3;
 
-/// Tangential spring of a patch, kept in the part's frame so that it turns with the part. A zero normal is a free
-/// place.
+/// Tangential spring of a patch, in the part's frame so that it rotates with the part. A zero normal marks a free
+/// entry.
 struct PatchMemory {
   base::Vec3f normal, shear;
 };
 
 /// A rigid part, for contacts with grains.
 struct GrainPart {
-  int surface{};               ///< index of its unique sphere set; of a shape in closed form -1
-  base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]; far away where grains do not meet it
-  bool meets{true};            ///< whether grains meet it
+  int surface{};               ///< index of its unique sphere set; -1 for a closed-form shape
+  base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]; far away if grains do not touch it
+  bool meets{true};            ///< whether grains touch it
   int firstLaw{};              ///< index of the law of the first grain material against the part
-  SurfaceGeometry shape{};     ///< in closed form, where it has no sphere set
+  SurfaceGeometry shape{};     ///< closed-form shape, if it has no sphere set
 };
 
-/// What the contacts of grains with parts are summed into: whole numbers, those of energies and forces in quanta.
+/// Sums over the contacts of grains with parts, as integers: energies and forces in quanta.
 enum PartSum : int {
-  kPatchesNow,    ///< in touch in this step
-  kElasticNow,    ///< held in their springs
+  kPatchesNow,    ///< patches in contact in this step
+  kElasticNow,    ///< elastic energy
   kSqueezedNow,   ///< pairs of grain and part deeper than kSqueezed
-  kCappedNow,     ///< patches at the force at which their grain crushes
-  kDampedByParts, ///< since the start, as all that follow
+  kCappedNow,     ///< patches at the crushing force
+  kDampedByParts, ///< since the start, like all that follow
   kSumsOfStep = kDampedByParts,
-  kRubbedByParts,
+  kSlidingLossByParts,
   kRolledByParts,
   kSlippedByParts,
-  kCrushedByParts,   ///< dissipated where grains crush
-  kCutByCrushing,    ///< force that springs would have had more, a step each
-  kReceivedByGrains, ///< x, y, z: force, a step each
+  kCrushedByParts,   ///< dissipated by crushing
+  kCutByCrushing,    ///< force removed by the cap, summed over steps
+  kReceivedByGrains, ///< x, y, z: force, summed over steps
   kPartSums = kReceivedByGrains + 3
 };
 
 /// Constants of the contacts between grains and parts. Kernels take a copy. Forces are computed in single precision.
 struct GrainPartModel {
-  double radius{}, mass{}; ///< of a grain, of the largest where they differ [m], [kg]
+  double radius{}, mass{}; ///< of a grain, or the largest grain [m], [kg]
   double timeStep{};       ///< [s]
   double margin{};         ///< parts may move this far relative to the grains before the pairs are listed again [m]
   ContactLaw law;
@@ -62,7 +62,7 @@ struct GrainPartModel {
   std::size_t searchFrom{0}; ///< least number of pairs for a search of near pairs; 0: 8192 on a GPU, never on a CPU
 };
 
-/// Where grains differ: by material, their law against the parts (instead of the model's) and mass over radius^3.
+/// For grains that differ, by material: law against the parts (instead of the model's) and mass over radius^3.
 struct GrainPartMaterials {
   std::vector<ContactLaw> laws;    ///< grain materials against the first material of parts, then the second...
   std::vector<double> massPerCube; ///< [kg/m3]

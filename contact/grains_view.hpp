@@ -9,7 +9,7 @@
 
 namespace grouser::contact {
 
-/// The grains' state for code that computes loads on them: device arrays by slot.
+/// State of the grains for load computations: device arrays by slot.
 struct GrainsView {
   const base::Position* position;
   const Motion* motion;

@@ -28,7 +28,7 @@ public:
   double timeStep() const { return timeStep_; }
   PatchBuffers::Ledger ledger() const;
   SavedPatches save() const;
-  /// Throws InputError where what was saved is of other patches.
+  /// Throws InputError if the state is of other patches.
   void restore(const SavedPatches& saved);
 
 private:

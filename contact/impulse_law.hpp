@@ -25,7 +25,7 @@ struct ComplementarityOptions {
   Compliance compliance{Compliance::law};
   double residual{};   ///< tolerance of a step [m/s], > 0
   int iterations{200}; ///< maximum per step, > 0
-  double recovery{};   ///< greatest speed at which rigid contacts that overlap part [m/s], >= 0
+  double recovery{};   ///< maximum separation speed of overlapping rigid contacts [m/s], >= 0
   double impact{};     ///< approach [m/s] above which a new contact has Newton's restitution; slower ones have none
   /// Largest gap of a pair at rest in the problem [m]; also limited to a share of the smallest radius.
   double reach = std::numeric_limits<double>::infinity();
@@ -46,7 +46,7 @@ template <class T> struct ImpulseTouch {
   T gap;                  ///< [m], < 0 where they overlap
   base::Vec3<T> velocity; ///< of contact point i relative to that of j [m/s]
   base::Vec3<T> spin;     ///< of i relative to j [rad/s]
-  T freely;               ///< change of the separation speed in this step without contacts [m/s]
+  T freely;               ///< change of the separation speed in this step without contact forces [m/s]
   T effectiveMass, effectiveRadius;
   T rollingInertia;               ///< see RollingMotion
   T dampingShare;                 ///< see BasicContactGeometry

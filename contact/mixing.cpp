@@ -12,7 +12,7 @@ namespace grouser::contact {
 
 namespace {
 
-/// Two complete materials, and what their pair has otherwise.
+/// Two complete materials and the overrides of their pair.
 struct MixedPair {
   MaterialProperties a, b;
   const PairProperties& pair;
@@ -39,7 +39,7 @@ void setLinear(const MixedPair& m, std::optional<double> effectiveMass, ContactL
   if (effectiveMass) {
     const auto dampingAt = [&](double mass) {
       const double omega0 = std::sqrt(stiffness / mass);
-      // The smaller restitution is the larger damping.
+      // Smaller restitution means larger damping.
       return given ? dampingOf(m.pair.restitution, m.pair.damping, law.attraction, omega0)
                    : std::max(dampingOf(m.a.restitution, m.a.damping, law.attraction, omega0),
                               dampingOf(m.b.restitution, m.b.damping, law.attraction, omega0));
@@ -52,8 +52,8 @@ void setLinear(const MixedPair& m, std::optional<double> effectiveMass, ContactL
   }
   if (!given && a.damping.has_value() != b.damping.has_value())
     throw MixingError(MixingError::Reason::dampingBesideRestitution, b.damping.has_value(), "damping",
-                      "damping [1/s] of one material cannot be compared with the restitution of the other among grains "
-                      "of many masses; give both materials the same one, or the pair its own");
+                      "damping [1/s] of one material cannot be combined with the restitution of the other for grains "
+                      "of different masses; set the same key in both materials, or one for the pair");
   const std::optional<double> damping = given       ? pair.damping
                                         : a.damping ? std::optional(std::max(*a.damping, *b.damping))
                                                     : std::nullopt;
@@ -92,7 +92,7 @@ void setHertz(const MixedPair& m, ContactLaw& law) {
                               std::sqrt(law.tangentialStiffness);
 }
 
-/// Radius of equal grains that the energies of adhesion of a pair are meant for, if they grow with it.
+/// Grain radius to which a pair's energies of adhesion refer, if they are proportional to it.
 std::optional<double> adhesionRadius(const MixedPair& m) {
   const std::optional<double>&a = m.a.adhesionRadius, &b = m.b.adhesionRadius;
   return a && b ? m.geometricMean(*a, *b) : a ? a : b;
@@ -122,16 +122,16 @@ BasicPlasticity<double> plasticityOf(const MixedPair& m, const ContactLaw& law) 
   return p;
 }
 
-/// Throws where the two have no law together.
+/// Throws if the two laws are incompatible.
 void checkLaws(const MaterialProperties& a, const MaterialProperties& b) {
   if (a.hertzian() != b.hertzian() || (a.yields() && b.yields() && a.law != b.law))
     throw MixingError(MixingError::Reason::lawsDiffer, true, "law",
-                      "law of the second material differs from that of the first: both must be hertz or eepa, or both "
-                      "linear, eepa_linear or luding, and no eepa_linear with luding; give both one of the two");
+                      "incompatible contact laws: both materials must be hertz or eepa, or both linear, eepa_linear or "
+                      "luding (not eepa_linear with luding); change law of one of them");
   for (const MaterialProperties* m : {&a, &b})
     if (m->hertzian() && !m->young)
       throw MixingError(MixingError::Reason::youngMissing, m == &b, "young",
-                        "young [Pa] of a hertz or eepa material is missing; give it, e.g. 7e7");
+                        "young [Pa] of a hertz or eepa material is missing; set it, e.g. 7e7");
 }
 
 } // namespace
@@ -187,12 +187,12 @@ Coefficients<double> stiffest(const ContactLaw& law, double effectiveMass, doubl
   const double overlap =
       law.hertz ? hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).deepest : 0;
   auto c = coefficientsOf<kGeneral>(law, overlap, effectiveMass, effectiveRadius);
-  c.normalStiffness /= 1 - law.plastic.share; // of the line along which it is unloaded
+  c.normalStiffness /= 1 - law.plastic.share; // of the unloading line
   return c;
 }
 
 double contactTime(const ContactLaw& law, double effectiveMass, double effectiveRadius, double speed) {
-  const double quicker = std::sqrt(1 - law.plastic.share); // on the line along which it is unloaded
+  const double quicker = std::sqrt(1 - law.plastic.share); // on the unloading line
   if (!law.hertz) return quicker * base::kPi * std::sqrt(effectiveMass / law.stiffness);
   return quicker * hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).duration;
 }

@@ -18,7 +18,7 @@ enum class LawKind {
   luding      ///< Luding's, on linear springs
 };
 
-/// A material. An empty value has the default that complete() sets, where the law needs it.
+/// A material. complete() sets defaults for empty values that the law needs.
 struct MaterialProperties {
   static constexpr double kStiffness = 1e6, kPoisson = 0.25, kRestitution = 0.5;
   static constexpr double kTangentialStiffnessRatio = 2.0 / 7;
@@ -39,39 +39,39 @@ struct MaterialProperties {
   double rollingFriction = 0;                     ///< [-] largest rolling torque over R_eff F_n
   double rollingDampingRatio = 0.3;               ///< [-] of the rolling spring's critical damping
   double cohesion = 0;                            ///< [J/m2] energy of adhesion
-  std::optional<double> adhesionRadius;    ///< [m] of grains that cohesion and surfaceEnergy are of; empty: of all
+  std::optional<double> adhesionRadius;    ///< [m] grain radius to which cohesion and surfaceEnergy refer; empty: any
   std::optional<double> plasticity;        ///< [-] eepa, eepaLinear, luding: 1 - k1/k2, the greatest
   std::optional<double> surfaceEnergy;     ///< [J/m2] eepa, eepaLinear: gamma of the pull-off force
   std::optional<double> adhesionExponent;  ///< [-] eepa, eepaLinear: chi of the adhesive branch, in halves
   std::optional<double> plasticDepth;      ///< [-] luding: of the smaller radius' overlap where k2 is greatest
   std::optional<double> adhesionStiffness; ///< [N/m] luding: k_c of the adhesive branch
-  std::optional<double> crushingStrength;  ///< [Pa] of its grains against parts; empty: they do not crush
+  std::optional<double> crushingStrength;  ///< [Pa] of grains against parts; empty: no crushing
   double foundationModulus = kFoundationModulus; ///< [N/m3] elastic foundation of its bodies
   bool operator==(const MaterialProperties&) const = default;
 
-  /// Whether its elastic law is Hertz'; else linear springs.
+  /// True for Hertz' elastic law, else linear springs.
   bool hertzian() const { return law == LawKind::hertz || law == LawKind::eepa; }
   bool yields() const { return law != LawKind::hertz && law != LawKind::linear; }
-  /// Sets what its law needs and nobody gave, but young: the defaults above; no adhesion; the adhesion exponent 1.5 of
-  /// eepa and 1 of eepaLinear.
+  /// Sets defaults for values that the law needs, except young: the defaults above; no adhesion; adhesion exponent 1.5
+  /// for eepa and 1 for eepaLinear.
   void complete();
 };
 
-/// What two materials have against each other otherwise than the mixing rules give. Units as above.
+/// Properties of a pair of materials that override the mixing rules. Units as above.
 struct PairProperties {
   std::optional<double> stiffness, restitution, damping, friction, rollingFriction, cohesion, plasticity, surfaceEnergy;
   bool operator==(const PairProperties&) const = default;
 };
 
-/// Two materials that have no law together.
+/// Two materials with incompatible properties.
 struct MixingError : base::InputError {
   enum class Reason {
     lawsDiffer,               ///< law: linear against hertz, or eepaLinear against luding
     dampingBesideRestitution, ///< damping: one has it, the other restitution, among grains of many masses
-    youngMissing              ///< young: a hertz or eepa material without
+    youngMissing              ///< young: not set in a hertz or eepa material
   };
   Reason reason;
-  bool inSecond;   ///< which of the two materials is at fault
+  bool inSecond;   ///< true: the second material is at fault
   const char* key; ///< the property at fault, as scene files call it
 
   MixingError(Reason why, bool second, const char* property, const std::string& message)
@@ -81,7 +81,7 @@ struct MixingError : base::InputError {
 /// The law between two materials. Damping follows from the restitution by the formula of the clamped or the free law,
 /// for bodies of the given effective mass [kg], or where there is none for any (grains of many masses).
 ///
-/// A pair takes what `pair` says; else
+/// Values of `pair` apply; else
 /// - linear: stiffness in series doubled, 2 k_a k_b / (k_a + k_b), so that equal materials keep theirs;
 /// - hertz: 1 / E_eff = (1 - nu_a^2) / E_a + (1 - nu_b^2) / E_b and 1 / G_eff = (2 - nu_a) / G_a + (2 - nu_b) / G_b;
 /// - the smaller friction, rolling friction and restitution, the smaller tangential and rolling ratios; the geometric
@@ -104,15 +104,15 @@ struct Foundation {
 /// restitution counts as one of restitution kRestitution.
 Foundation mixedFoundation(const MaterialProperties& a, const MaterialProperties& b, const PairProperties& pair = {});
 
-/// Coefficients of a contact as stiff as it gets: of a linear one always, of a Hertz one at the deepest overlap of an
-/// impact at `speed` [m/s].
+/// Coefficients of a contact at its largest stiffness: constant for a linear one, at the deepest overlap of an impact
+/// at `speed` [m/s] for a Hertz one.
 Coefficients<double> stiffest(const ContactLaw& law, double effectiveMass, double effectiveRadius, double speed);
 
-/// Duration of the undamped contact [s]; of a Hertz one at `speed` [m/s].
+/// Duration of the undamped contact [s]; for a Hertz one at `speed` [m/s].
 double contactTime(const ContactLaw& law, double effectiveMass, double effectiveRadius, double speed);
 
-/// Rebound over impact speed [-] that the law's dashpot makes where bodies of another effective mass meet, `movedMass`
-/// [kg], than the one that its damping follows from.
+/// Restitution [-] of the law for bodies of effective mass `movedMass` [kg], if its damping was derived for
+/// `effectiveMass`.
 double restitutionOf(const ContactLaw& law, double effectiveMass, double movedMass);
 
 /// Time of a Rayleigh wave along half a grain of a hertz material [s]; infinite for a linear one. `radius` [m]. Young's

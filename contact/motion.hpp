@@ -5,10 +5,10 @@
 
 namespace grouser::contact {
 
-/// How a grain moves, in one record: a contact reads all of its neighbour's, and a GPU fetches 32 bytes at a time.
+/// Motion of a grain in one record of 32 bytes, the size of a GPU fetch.
 struct alignas(32) Motion {
-  base::Vec4f velocity; ///< [m/s]; w: radius [m], where radii differ; of a fixed grain the opposite, or -1
-  base::Vec4f spin;     ///< [rad/s]; w: material, where there are several
+  base::Vec4f velocity; ///< [m/s]; w: radius [m], if radii differ; negative for fixed grains (-radius or -1)
+  base::Vec4f spin;     ///< [rad/s]; w: material, if there are several
 };
 
 } // namespace grouser::contact

@@ -18,20 +18,20 @@ using base::Position;
 namespace {
 
 constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
-constexpr std::uint32_t kMostOthers = 1024; // of spheres of several sizes
-constexpr std::uint32_t kWindow = 1024;     // spheres that are ordered among themselves
-constexpr std::size_t kSpare = 32;          // one place of so many is left free for longer lists,
-constexpr std::size_t kMostSpare = 1 << 22; // but no more than these
+constexpr std::uint32_t kMostOthers = 1024; // for spheres of several sizes
+constexpr std::uint32_t kWindow = 1024;     // spheres sorted among themselves
+constexpr std::size_t kSpare = 32;          // one spare place per so many for longer lists,
+constexpr std::size_t kMostSpare = 1 << 22; // at most this many
 constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD loads on a CPU
 
 void checkLength(std::uint32_t most, bool equal) {
   const std::uint32_t limit = equal ? kMostEqual : kMostOthers;
   if (most > limit)
-    throw base::SimulationError("a grain has " + std::to_string(most) + " neighbours within reach, more than " +
-                                std::to_string(limit) + ": the bed has collapsed into itself" +
+    throw base::SimulationError("a grain has " + std::to_string(most) + " neighbours, more than the limit of " +
+                                std::to_string(limit) + ": the bed has collapsed" +
                                 (equal ? "; use a smaller time step or stiffer grains"
-                                       : ", or its radii are too unlike; use stiffer grains, a smaller time "
-                                         "step, a smaller skin or larger small grains"));
+                                       : ", or the grain sizes differ too much; use stiffer grains, a smaller "
+                                         "time step, a smaller skin or larger smallest grains"));
 }
 
 /// Cells about as wide as a grain where these are small; as wide as the largest reach while all are nearly alike.
@@ -58,8 +58,8 @@ void NeighbourList::sort(const Position* position, std::size_t count, const std:
   if (!exec_.onCpu()) groupByContacts(rowOf);
 }
 
-/// A warp takes as long as its grain with the most contacts: grains that lie near each other change places, so that
-/// those in a warp have equally many, and rows as long. On a CPU each grain takes what it takes.
+/// A warp takes as long as its grain with the most contacts: grains near each other are reordered so that those in a
+/// warp have similar numbers of contacts and neighbours. Not needed on a CPU.
 void NeighbourList::groupByContacts(const std::uint32_t* rowOf) {
   const auto n = static_cast<std::int64_t>(sorted_);
   base::Array<std::uint64_t> key(exec_, sorted_);
@@ -94,7 +94,7 @@ base::Array<std::uint32_t> NeighbourList::largestNear(const RadiiInW& radii) con
 void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins,
                           const RadiiInW& radii) {
   const auto n = static_cast<std::int64_t>(sorted_);
-  // Of the former list only its contacts are needed: they are cached, and the new list takes its memory.
+  // Only the contacts of the former list are needed: they are cached, and the new list reuses its memory.
   const std::uint32_t former = rows();
   base::Array<std::uint32_t> keptStart(exec_, std::size_t{former} + 1), keptId(exec_);
   base::Array<float> keptHistory(exec_);
@@ -124,7 +124,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const RowLayout layout = layRows(exec_, count_, start_, kSlotsRead);
   stride_ = layout.stride;
   const std::size_t places = layout.places + kSlotsRead;
-  // More than is needed now, so that not every rebuild allocates.
+  // Reserve more than needed, so that not every rebuild allocates.
   const auto width = static_cast<std::size_t>(width_);
   if (places > slot_.size())
     slot_.resize(places + std::min(places / kSpare, kMostSpare)), history_.resize(slot_.size() * width);

@@ -17,14 +17,14 @@ struct TouchingRows;
 /// Every pair of spheres whose surfaces are closer than the skin, listed from both sides, with contact history; from
 /// one side only where the other sphere never moves.
 ///
-/// Valid while no grain has moved more than half the skin. Rows are as long as they need to be: no neighbour is ever
-/// dropped. Grains are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not
-/// depend on when the list is rebuilt: candidates that do not touch add nothing, and the order is that of the ids.
+/// Valid while no grain has moved more than half the skin. Rows have variable length: no neighbour is dropped. Grains
+/// are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not depend on the time of
+/// rebuilds: neighbours that do not touch add nothing, and the order is that of the ids.
 class NeighbourList {
 public:
-  /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: numbers of history
-  /// that each contact has, 0 for none. `period`: periodic boundaries, at least three diameters and skins apart, none
-  /// along z. `smallest`: diameter of the smallest sphere, about; 0: they are all alike.
+  /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: history values per
+  /// contact, 0 for none. `period`: periodic boundaries, at least three diameters and skins apart, none along z.
+  /// `smallest`: approximate diameter of the smallest sphere; 0: equal spheres.
   NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                 const base::Period& period = {}, std::int64_t smallest = 0);
 
@@ -35,15 +35,15 @@ public:
 
   /// Lists the neighbours of grains already permuted by `order()`, and restores history from the last list.
   /// `id` is ascending-comparable global id by new slot.
-  /// `origins`: on one of several ranks, else null; `radii`: of spheres of several sizes.
+  /// `origins`: with several ranks, else null; `radii`: for spheres of several sizes.
   void build(const base::Position* position, const std::uint32_t* id, const RowOrigins* origins = nullptr,
              const RadiiInW& radii = {});
 
-  /// Neighbours in touch, at most, of the grains in `slots` (device array).
+  /// Largest number of contacts of the grains in `slots` (device array).
   std::uint32_t mostTouching(const std::uint32_t* slots, std::size_t count) const;
   /// Writes the rows of these slots for other ranks.
   void exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& travelling) const;
-  /// Grains that have a row; those that were added since the last build have none.
+  /// Number of grains with a row; grains added since the last build have none.
   std::uint32_t rows() const { return haveRows_ ? static_cast<std::uint32_t>(count_.size()) : 0; }
 
   /// The next list begins without history: other grains have taken the slots.
@@ -55,7 +55,7 @@ public:
   std::size_t places() const { return slot_.size(); } ///< in all rows, padding included
 
   NeighbourView view();
-  /// Between builds; a build needs more, for the contacts that it sets aside and for its grid of cells [B].
+  /// Memory between builds [B]; a build also needs memory for cached contacts and the cell grid.
   std::size_t bytes() const;
 
   /// Contacts with history, for checkpoints and the state hash: arrays by slot, host side.
@@ -70,7 +70,7 @@ public:
     std::int64_t at(std::size_t i, std::uint32_t k) const { return start[i] + k * stride; }
   };
   HostCopy toHost() const;
-  /// Takes over touching bits and history of a host copy of the present list.
+  /// Sets touching bits and history from a host copy of the present list.
   void setHistory(const HostCopy& copy);
 
 private:
@@ -81,7 +81,7 @@ private:
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;
-  int finer_; ///< cells are so many times finer than the largest reach
+  int finer_; ///< cells per largest reach
   base::Period period_;
   int width_;
   std::size_t sorted_{0}; ///< grains of the next list

@@ -7,10 +7,10 @@
 
 #include <cstring>
 
-/// Where the rows of a neighbour list lie, and how the history of contacts gets from one list into the next.
+/// Layout of neighbour rows, and transfer of contact history from one list to the next.
 namespace grouser::contact {
 
-/// Rows that are read by one warp of the GPU lie side by side, as long as the longest of them.
+/// Rows read by one warp of the GPU are interleaved and padded to the longest.
 constexpr int kSlice = 32;
 
 struct LongestOfSlice {
@@ -38,7 +38,7 @@ struct TouchingRows {
   const float* history;
   const std::uint64_t* touching;
   std::int64_t maskWords;
-  std::uint32_t rowCount; ///< slots from here on have no row yet
+  std::uint32_t rowCount; ///< slots at or above this have no row yet
   int width;
 
   GROUSER_HD std::uint32_t contactsOf(std::uint32_t i) const {
@@ -46,7 +46,7 @@ struct TouchingRows {
     for (std::int64_t w = 0; i < rowCount && w < maskWords; ++w) bits += base::bitsSet(touching[i * maskWords + w]);
     return bits;
   }
-  /// Ids of the neighbours in touch, ascending, and their histories. Returns how many.
+  /// Copies ids (ascending) and histories of the touching neighbours. Returns their number.
   GROUSER_HD std::uint32_t copy(std::uint32_t i, std::uint32_t* ids, void* histories) const {
     std::uint32_t n = 0;
     const std::size_t size = static_cast<std::size_t>(width) * sizeof(float);
@@ -124,7 +124,7 @@ struct RestoreHistory {
   }
 
 private:
-  /// Both ascend in the neighbours' ids.
+  /// Merges two lists sorted by neighbour id.
   GROUSER_HD void merge(int i, std::uint32_t contacts, const std::uint32_t* ids, const void* histories) const {
     const std::size_t size = static_cast<std::size_t>(width) * sizeof(float);
     const std::uint32_t n = count[i];

@@ -6,12 +6,12 @@
 #include "contact/neighbour_rows.cuh"
 #include "contact/neighbour_view.hpp"
 
-/// How neighbours are found: spheres are sorted by the cells of a grid. Cells as wide as the largest reach have each
-/// look into the 27 around its own; where small spheres are much smaller than the largest, cells are finer, and each
-/// looks as far as the largest one that is near it.
+/// Neighbour search: spheres are sorted by grid cells. With cells as wide as the largest reach each sphere searches the
+/// 27 cells around its own; if small spheres are much smaller than the largest, cells are finer, and each sphere
+/// searches as far as the largest one near it requires.
 namespace grouser::contact {
 
-/// The spheres near one: those whose surfaces are closer than the skin.
+/// Finds the spheres near one: those whose surfaces are closer than the skin.
 struct NearSpheres {
   CellGrid grid;
   const base::Position* position;
@@ -21,7 +21,7 @@ struct NearSpheres {
   RadiiInW radii;
   std::int64_t skin;
   const std::uint32_t* ghost; ///< by slot: not 0 for one that needs no row; null where all have rows
-  /// By cell: the largest radius of a sphere that may reach into it [units]; null where cells are as wide as that.
+  /// By cell: largest radius of a sphere that may reach into it [units]; null if cells are as wide as that.
   const std::uint32_t* largest;
 
   /// Calls `visit(j)` for the slots near slot i, in the order of the cells.
@@ -49,7 +49,7 @@ private:
         eachBetween(i, cellStart[row], cellStart[row + z.count], visit); // never periodic along z
       }
   }
-  /// Those among the places first to last - 1 in the cells.
+  /// Visits neighbours among the sorted places [first, last).
   template <class Visit>
   GROUSER_HD void eachBetween(int i, std::uint32_t first, std::uint32_t last, const Visit& visit) const {
     const base::Position p = position[i];
@@ -63,7 +63,7 @@ private:
       if (base::squaredNorm(apart.as<std::int32_t>()) < (radii.sphere ? reach * reach : reach2)) visit(j);
     }
   }
-  /// Whether there is such a cell beside one in use along x or y; across periodic boundaries it is at the other end.
+  /// True if the cell is in use along x or y; wraps around at periodic boundaries.
   GROUSER_HD bool besides(int axis, std::uint32_t& c) const {
     const std::uint32_t cells = grid.cells[axis];
     if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;
@@ -108,14 +108,13 @@ struct LargestAlong {
   }
 };
 
-/// Orders spheres that lie near each other by their contacts, and among equally many by the length of their rows: rows
-/// that stand side by side are all as long as the longest of them.
+/// Sorts nearby spheres by number of contacts, then by row length: interleaved rows are padded to the longest.
 struct AssignContactKeys {
-  static constexpr std::uint64_t kMost = 255; ///< contacts and neighbours told apart
+  static constexpr std::uint64_t kMost = 255; ///< largest distinguished number of contacts and neighbours
   TouchingRows former;
   const std::uint32_t* order; ///< former slots, in the order of the cells
   const std::uint32_t* rowOf; ///< row of the former list by former slot; null: the slot's own
-  std::uint32_t window;       ///< spheres that are ordered among themselves
+  std::uint32_t window;       ///< spheres sorted among themselves
   std::uint64_t* key;
   GROUSER_HD void operator()(int k) const {
     const std::uint32_t slot = order[k], row = rowOf ? rowOf[slot] : slot;
@@ -164,7 +163,7 @@ struct ListNear {
   }
 };
 
-/// Beside each neighbour the sum of both radii: a step would fetch them from all over the bed.
+/// Stores the sum of both radii with each neighbour, to avoid scattered reads in each step.
 struct ListReach {
   static constexpr double kNanoseconds = 25;
   RadiiInW radii;

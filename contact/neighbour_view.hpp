@@ -6,20 +6,20 @@
 #include <cmath>
 #include <cstdint>
 
-/// What kernels see of a neighbour list, and what a build of it is given.
+/// Kernel views of a neighbour list, and inputs of its build.
 namespace grouser::contact {
 
-/// Where rows lie, one for each grain slot: place k of row i is start[i] + k stride. On a CPU row stands behind row, in
-/// few cache lines each; on a GPU the rows of 32 slots lie side by side, so that a warp reads its k-th places at once.
+/// Layout of rows, one per grain slot: place k of row i is start[i] + k stride. On a CPU rows are contiguous; on a GPU
+/// the rows of 32 slots are interleaved, so that a warp reads its k-th places at once.
 struct NeighbourRows {
   const std::uint32_t* start;
   std::int64_t stride;
   GROUSER_HD std::int64_t at(int i, std::uint32_t k) const { return start[i] + k * stride; }
 };
 
-/// What a kernel sees of the list: for grain slot i the slots of its neighbours, in ascending order of their global
-/// ids, each with the history of that contact: `width` numbers. Bit k of the mask at touching[i * maskWords] says that
-/// slot k touched in the last step. A CPU may read slots by eights: what lies behind a row's last is some grain's slot.
+/// Kernel view of the list: for grain slot i the slots of its neighbours, in ascending order of their global ids, each
+/// with `width` history values. Bit k of the mask at touching[i * maskWords] says that slot k touched in the last step.
+/// A CPU may read slots in groups of eight: entries behind a row's last are valid slots.
 struct NeighbourView : NeighbourRows {
   const std::uint32_t *count, *slot;
   const std::uint32_t* reach; ///< by place: sum of both radii [units]; null among equal spheres
@@ -28,8 +28,8 @@ struct NeighbourView : NeighbourRows {
   std::int64_t maskWords; ///< 1 among equal spheres
 };
 
-/// Rows that came from other ranks with grains that migrated: for each row `words(capacity)` words, namely the
-/// number of neighbours in touch, `capacity` ids of those (ascending), and `capacity` histories of `width` numbers.
+/// Rows received with migrated grains: `words(capacity)` words per row, namely the number of contacts, `capacity`
+/// neighbour ids (ascending), and `capacity` histories of `width` numbers.
 struct TravellingRows {
   std::uint32_t* data;
   std::uint32_t capacity;
@@ -37,19 +37,19 @@ struct TravellingRows {
   GROUSER_HD std::uint32_t words() const { return 1 + capacity * (1 + width); }
 };
 
-/// Radii of spheres that are not all alike: by slot, in the `w` of their velocities [m], each a whole number of units
-/// of length; of spheres that never move the opposite.
+/// Radii of spheres of several sizes: by slot, in the `w` of their velocities [m], each a whole number of length units;
+/// negative for fixed spheres.
 struct RadiiInW {
   const Motion* sphere = nullptr; ///< null: all have the list's diameter
   float unitsPerLength = 0;       ///< a power of two
-  const Motion* fixed = nullptr;  ///< by slot, w < 0: never moves and needs no row; null where all may move
+  const Motion* fixed = nullptr;  ///< by slot, w < 0: fixed, needs no row; null if all may move
   GROUSER_HD std::int64_t units(int i) const {
     return static_cast<std::int64_t>(fabsf(sphere[i].velocity.w) * unitsPerLength);
   }
   GROUSER_HD bool isFixed(int i) const { return fixed && fixed[i].velocity.w < 0; }
 };
 
-/// Where the rows of a list on one of several ranks come from.
+/// Origin of the rows of a list, with several ranks.
 struct RowOrigins {
   static constexpr std::uint32_t kNone = ~0u;
   const std::uint32_t* origin; ///< by new slot: row of the former list, or rows() + place in `arrived`, or kNone

@@ -7,8 +7,8 @@
 
 namespace grouser::contact {
 
-/// Where a rigid part is and how it moves, in world components. `origin` and `rotation` place the frame of its sphere
-/// set; loads are taken about its body's centre of mass `centre`.
+/// Pose and motion of a rigid part, in world components. `origin` and `rotation` define the frame of its sphere set;
+/// loads act about its body's centre of mass `centre`.
 struct PartMotion {
   base::Vec3d origin;   ///< [m]
   base::Mat3d rotation; ///< part frame to world
@@ -21,7 +21,8 @@ struct PartMotion {
   GROUSER_HD base::Vec3d velocityAt(const base::Vec3d& p_W) const { return velocity + cross(spin, p_W - centre); }
 };
 
-/// Sum of contact loads on one part about its centre of mass, in quanta of force and torque: exact, free of order.
+/// Sum of contact loads on one part about its centre of mass, in quanta of force and torque: exact, independent of
+/// order.
 struct PartLoad {
   base::Vec3l force, torque;
 };

@@ -23,7 +23,8 @@ struct Candidate {
   double clear; ///< distance of the surface from the cell's centre [m]
 };
 
-/// Of the candidates of one cell those that no disc of the same plane beats everywhere within `reach` of its centre.
+/// Selects the candidates of one cell that are not farther than another disc of the same plane everywhere within
+/// `reach` of its centre.
 ///
 /// Over the cell the difference of two distances changes by at most reach * |difference of their gradients|; the
 /// gradients are the unit directions, which turn by at most reach / distance each.
@@ -61,7 +62,7 @@ private:
       const double room = std::min(b.at.at.distance, c.at.distance) - reach_;
       if (room <= 0) return false;
       const double approach = 2 * reach_ / room;
-      if (behind <= reach_ * approach) return false; // however the directions lie
+      if (behind <= reach_ * approach) return false; // whatever the directions
       return behind > reach_ * (norm((c.at.normal - b.at.at.normal).as<double>()) + approach);
     });
   }
@@ -71,7 +72,7 @@ private:
   std::vector<Best> best_; ///< nearest of each plane
 };
 
-/// Which discs may touch a ball centred in which cell of a table: the cells of one x at a time.
+/// Finds the discs that may touch a ball centred in each cell of a table, one x layer at a time.
 class GridSlab {
 public:
   GridSlab(const std::vector<Disc>& discs, const Vec3d& low, double edge, double ballRadius, const base::Vec3i& cells)
@@ -120,7 +121,7 @@ private:
     for (auto& candidates : near_) candidates.clear();
     for (const Reaching& r : row_[static_cast<std::size_t>(y)]) {
       const Disc& d = discs_[r.disc];
-      // Most cells of the box about a disc are out of reach: told without a square root, at the cost of a margin.
+      // Most cells of the box about a disc are out of reach: rejected without a square root, with a margin.
       const double most = ballRadius_ + d.radius + d.flat + reach_ + 1e-6, most2 = most * most;
       for (int z = r.from; z <= r.to; ++z) {
         const Vec3d centre = low_ + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge_;

@@ -8,9 +8,9 @@
 
 namespace grouser::contact {
 
-/// A surface sphere as contact sees it: a disc of radius `flat` through `centre` and across `normal`, swept by a ball
-/// of `radius`. On a face its top is the mesh's own plane, without the bumps between spheres; next to an edge `flat` is
-/// 0 and the sphere rounds the edge.
+/// Contact shape of a surface sphere: a disc of radius `flat` about `centre`, normal to `normal`, swept by a ball of
+/// `radius`. On a face its top is the mesh's own plane, without the bumps between spheres; next to an edge `flat` is 0
+/// and the sphere rounds the edge.
 struct Disc {
   base::Vec3f centre;
   float radius;
@@ -36,7 +36,7 @@ GROUSER_HD DiscDistance distanceTo(const Disc& disc, const base::Vec3d& point) {
   return {distance > 0 ? core * (1.0f / distance) : disc.normal, distance};
 }
 
-/// True when a ball surely does not touch a disc: without a square root.
+/// Conservative test without a square root; true if a ball does not touch a disc.
 GROUSER_HD bool outOfReach(const Disc& disc, const base::Vec3d& point, double ballRadius) {
   const double reach = ballRadius + static_cast<double>(disc.radius) + static_cast<double>(disc.flat) + 1e-7;
   return norm2(point - disc.centre.as<double>()) > reach * reach;
@@ -87,7 +87,7 @@ private:
   base::Vec3i cells_;
 };
 
-/// Surface spheres of a part as samples that are tested against other surfaces: each stands for a share of its area.
+/// Surface samples of a part, tested against other surfaces: each represents a share of the area.
 struct SurfaceSample {
   base::Vec3f centre;
   float radius;          ///< [m]

@@ -41,8 +41,7 @@ Partition::Partition(const std::array<int, 3>& shape, const base::Vec3l& low, co
     : shape_(shape) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (shape[a] < 1 || shape[a] > kMostSubdomainsAnAxis)
-      throw base::InputError(fmt::format("{} subdomains along {}: 1 to {} are possible; choose another "
-                                         "parallel.subdomains",
+      throw base::InputError(fmt::format("{} subdomains along {} are outside [1, {}]; change parallel.subdomains",
                                          shape[a], "xyz"[a], kMostSubdomainsAnAxis));
     cuts_[a] = migrate(shape[a], low[static_cast<int>(a)], high[static_cast<int>(a)], weights[a]);
   }
@@ -77,9 +76,10 @@ std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size, co
       if (best[0] == 0 || area < least) best = shape, least = area;
     }
   if (best[0] == 0)
-    throw base::InputError(fmt::format("{} ranks make no lattice of [{}, {}, {}] subdomains (0: any number up to {}), "
-                                       "one each; change them, or start another number of ranks with mpirun -np",
-                                       ranks, wanted[0], wanted[1], wanted[2], kMostSubdomainsAnAxis));
+    throw base::InputError(
+        fmt::format("{} ranks cannot form a lattice of [{}, {}, {}] subdomains (0: any number up to {}), "
+                    "one per rank; change parallel.subdomains, or mpirun -np",
+                    ranks, wanted[0], wanted[1], wanted[2], kMostSubdomainsAnAxis));
   return best;
 }
 

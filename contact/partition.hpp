@@ -13,12 +13,12 @@ namespace grouser::contact {
 
 inline constexpr int kMostSubdomainsAnAxis = 64;
 
-/// What a kernel sees of a partition: the planes between the subdomains, ascending on each axis.
+/// Kernel view of a partition: the planes between subdomains, ascending on each axis.
 struct PartitionView {
   int shape[3];
   std::int64_t cut[3][kMostSubdomainsAnAxis - 1]; ///< [units]
 
-  /// Place along one axis of the subdomain that holds coordinate `u`.
+  /// Index along one axis of the subdomain that contains coordinate `u`.
   GROUSER_HD int along(int axis, std::int64_t u) const {
     int k = 0;
     while (k < shape[axis] - 1 && u >= cut[axis][k]) ++k;
@@ -28,18 +28,18 @@ struct PartitionView {
   GROUSER_HD int ownerOf(const base::Vec3l& u) const { return rankAt(along(0, u.x), along(1, u.y), along(2, u.z)); }
 };
 
-/// Cuts space into a cubic lattice of subdomains, one a rank. The outer ones reach to infinity, so that every
-/// element has exactly one owner: the subdomain in which its centre lies.
+/// Cuts space into a cubic lattice of subdomains, one per rank. The outer ones reach to infinity, so that every element
+/// has exactly one owner: the subdomain in which its centre lies.
 class Partition {
 public:
   /// All of space is one subdomain.
   Partition() = default;
-  /// `weights` [axis][bin] say how much work lies where, in equal bins from `low` to `high` on each axis; the cuts
-  /// divide it evenly among the slabs of each axis.
+  /// `weights` [axis][bin]: work in equal bins from `low` to `high` on each axis; the cuts divide it evenly among the
+  /// slabs of each axis.
   Partition(const std::array<int, 3>& shape, const base::Vec3l& low, const base::Vec3l& high,
             const std::array<std::vector<std::int64_t>, 3>& weights);
 
-  /// With planes at these places [units], ascending on each axis.
+  /// Partition with planes at these coordinates [units], ascending on each axis.
   explicit Partition(const std::array<std::vector<std::int64_t>, 3>& cuts);
 
   int count() const { return shape_[0] * shape_[1] * shape_[2]; }
@@ -59,10 +59,10 @@ private:
 std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size,
                                 const std::array<int, 3>& wanted = {0, 0, 0});
 
-/// Bins of the histograms that cuts are made from.
+/// Number of histogram bins for the cuts.
 inline constexpr int kPartitionBins = 4096;
 
-/// Width of so many equal bins that hold all from `low` to `high` [units].
+/// Width of `bins` equal bins that cover `low` to `high` [units].
 inline std::int64_t binWidth(std::int64_t low, std::int64_t high, std::int64_t bins = kPartitionBins) {
   return std::max<std::int64_t>(1, (high - low) / bins + 1);
 }

@@ -16,7 +16,7 @@ struct SampleChunk {
   std::uint32_t pair, first, last; ///< samples [first, last)
 };
 
-/// The lists and sums that contacts of extended surfaces share, whatever the other side is.
+/// Lists and sums of contacts of extended surfaces, for any counterpart.
 struct PatchBuffers {
   /// `sampledParts`: for each pair the part whose samples are tested against the other side.
   PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
@@ -34,7 +34,7 @@ struct PatchBuffers {
   base::Array<PatchSums> sums;
   base::Array<PatchState> states;
 
-  /// Energies [J] over all patches, and touching patches, from the last step.
+  /// Energies [J] of all patches, and number of touching patches, in the last step.
   struct Ledger {
     double elastic{}, dissipated{};
     std::int64_t patches{};
@@ -43,7 +43,8 @@ struct PatchBuffers {
     }
   };
   Ledger ledger(const PatchQuanta& quanta) const;
-  /// For hashes and checkpoints. Throws InputError when what was saved is of other pairs; list the samples afterwards.
+  /// State for hashes and checkpoints. restore() throws InputError if the state is of other pairs; list the samples
+  /// afterwards.
   SavedPatches save() const;
   void restore(const SavedPatches& saved);
 };

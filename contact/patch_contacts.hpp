@@ -16,8 +16,8 @@ struct PartPair {
   int a{}, b{}; ///< parts
 };
 
-/// The deepest contact of a ball at world point `x` with a part, whose discs stand in `grid`: outward normal and
-/// overlap [m]. False where they do not touch. The threads of `group` share the search.
+/// The deepest contact of a ball at world point `x` with a part, whose discs are in `grid`: outward normal and overlap
+/// [m]. False where they do not touch. The threads of `group` share the search.
 template <class Group> GROUSER_HD bool deepestDisc(const SurfaceGridView& grid, const PartMotion& part,
                                                    const base::Vec3d& x, double radius, const Group& group,
                                                    base::Vec3d& normal, double& overlap) {
@@ -48,21 +48,21 @@ public:
     PatchLaw law;
     PatchQuanta quanta;
     double timeStep{};
-    double margin{}; ///< samples are listed this far before they touch [m]
+    double margin{}; ///< largest gap of listed samples [m]
   };
-  /// `sets`: unique sphere sets; `setOfPart`: which one each part has.
+  /// `sets`: unique sphere sets; `setOfPart`: index of each part's set.
   PartPartContacts(const base::Exec& exec, const Model& model, const std::vector<const base::SphereSet*>& sets,
                    const std::vector<int>& setOfPart, const std::vector<PartPair>& pairs);
 
-  /// Lists the samples within the margin, at the parts' present places.
+  /// Lists the samples within the margin, at the parts' present poses.
   void refresh(const base::Array<PartMotion>& motion);
   /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this
   /// relative to each other since the refresh [m]; at most the margin.
   void compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads);
-  /// The same in work that is launched ahead, where clearedSums() have been cleared. `off`: as base::Gate has it.
+  /// The same for work launched ahead, after clearing clearedSums(). `off`: see base::Gate.
   void computeOnCleared(const base::Exec& exec, const base::Array<PartMotion>& motion, const double* travelled,
                         PartLoad* loads, const std::uint32_t* off);
-  /// On the device, of the last compute: to be cleared before the next one.
+  /// Device sums of the last compute: clear before the next one.
   base::Parcel clearedSums() { return {buffers_.sums.data(), nullptr, buffers_.sums.size() * sizeof(PatchSums)}; }
 
   std::size_t samplesListed() const { return buffers_.entries; }
@@ -70,7 +70,7 @@ public:
   SavedPatches save() const { return buffers_.save(); }
   void restore(const SavedPatches& saved) { buffers_.restore(saved); }
 
-  /// How pairs find their surfaces; plain data for kernels.
+  /// Surfaces of the pairs; plain data for kernels.
   struct Target {
     const PartPair* pair;
     const SurfaceGridView* grids; ///< by set

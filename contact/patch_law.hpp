@@ -7,7 +7,7 @@
 namespace grouser::contact {
 
 /// Contact of extended surfaces: an elastic foundation (Winkler) with relaxation, so that the force does not depend on
-/// how finely a part was cut into spheres.
+/// the number of spheres of a part.
 ///
 ///   pressure = modulus (overlap + relaxation * closing speed), never pulling
 ///   friction = -k_t shear - relaxation k_t slip on each patch, k_t = ratio * modulus * area, within Coulomb's cone
@@ -23,18 +23,18 @@ struct PatchQuanta {
   base::FixedPoint force, torque, energy, area, moment; ///< [N], [N m], [J], [m2], [N m] of weighted places
 };
 
-/// Sums over the samples of one patch in one step, in quanta; free of order.
+/// Sums over the samples of one patch in one step, in quanta; independent of order.
 struct PatchSums {
-  std::int64_t area, weight; ///< touching area; sum of the normal forces' sizes
-  base::Vec3l place;         ///< sum of size * (place - centre of part A)
+  std::int64_t area, weight; ///< contact area; sum of normal force magnitudes
+  base::Vec3l place;         ///< sum of magnitude * (position - centre of part A)
   base::Vec3l normalForce;   ///< on A
   std::int64_t elastic, dissipated;
 };
 
-/// What a patch remembers: the tangential spring in world axes.
+/// History of a patch: the tangential spring in world axes.
 struct PatchState {
   base::Vec3d shear; ///< [m]
-  double stiffness;  ///< k_t that goes with it [N/m]: it follows the touching area
+  double stiffness;  ///< its stiffness k_t [N/m], proportional to the contact area
   double dissipated; ///< [J] since the start
 };
 
@@ -61,14 +61,15 @@ struct PatchSlide {
 };
 
 /// Advances the tangential spring of a touching patch. `normal`: outward unit normal of B; `relative`: velocity of A
-/// relative to B at the centre of pressure [m/s]; `weight`: sum of the normal forces' sizes [N]; `area`: in touch [m2].
+/// relative to B at the centre of pressure [m/s]; `weight`: sum of normal force magnitudes [N]; `area`: contact area
+/// [m2].
 GROUSER_HD PatchSlide slide(const PatchLaw& law, PatchState& state, const base::Vec3d& normal,
                             const base::Vec3d& relative, double weight, double area, double timeStep) {
   const base::Vec3d slip = relative - normal * dot(relative, normal);
   base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
   const double stiffness = law.tangentialRatio * law.modulus * area;
-  // The area has changed: where it grew, fresh material touches without strain and the force stays; where it shrank,
-  // the strain stays and the energy of the area that has lost contact is dissipated. Neither gives energy.
+  // The contact area has changed: new area is unstrained, so the force stays; lost area keeps the strain and dissipates
+  // its energy. Neither adds energy.
   const double storedBefore = state.stiffness * dot(state.shear, state.shear);
   if (stiffness > state.stiffness) shear *= state.stiffness / stiffness;
   shear += slip * timeStep;
@@ -77,12 +78,12 @@ GROUSER_HD PatchSlide slide(const PatchLaw& law, PatchState& state, const base::
   const double limit = law.friction * weight, size = norm(force), spring = stiffness * norm(shear);
   if (size > limit) {
     force *= limit / size;
-    // A spring that took over the dashpot's force would be stretched without work.
+    // Taking over the dashpot's force would stretch the spring without work.
     if (spring > limit) shear *= limit / spring;
   }
   state.shear = shear, state.stiffness = stiffness;
   const double stored = stiffness * dot(shear, shear);
-  // Work put in, less what the spring has gained.
+  // Work input minus the spring's energy gain.
   return {force, 0.5 * stored, -(dot(force, slip) * timeStep + 0.5 * (stored - storedBefore))};
 }
 

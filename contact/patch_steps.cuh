@@ -25,9 +25,9 @@ void listSamples(PatchBuffers& buffers, const Target& target, const base::Array<
   if (buffers.entries) base::forEach(buffers.exec, "list samples", chunks, list);
 }
 
-/// Pressure on every listed sample, then friction on every patch, whose sums are zero before. `travelled`: bound of the
-/// relative motion of any pair since the samples were listed [m], on the device. `off`: not 0 on the device where
-/// nothing is to be done after all; may be null.
+/// Pressure on every listed sample, then friction on every patch; sums must be zero before. `travelled`: bound of the
+/// relative motion of any pair since the samples were listed [m], on the device. `off`: nonzero on the device cancels;
+/// may be null.
 template <class Target> void computePatches(const base::Exec& exec, PatchBuffers& buffers, const Target& target,
                                             const PatchQuanta& quanta, double timeStep, const double* travelled,
                                             const base::Array<PartMotion>& motion, PartLoad* loads,

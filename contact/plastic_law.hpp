@@ -8,17 +8,17 @@
 
 namespace grouser::contact {
 
-/// What makes the normal spring of a contact elastic-plastic. Loaded for the first time it follows the elastic law,
+/// Elastic-plastic normal spring of a contact. First loading follows the elastic law,
 ///
 ///   F = k1 x^m      (m = 1: linear;  m = 3/2: Hertz)
 ///
-/// and it is unloaded and loaded again along a steeper line from a plastic overlap x_p, at which its force is zero:
+/// unloading and reloading follow a steeper line from a plastic overlap x_p, at which the force is zero:
 ///
 ///   F = k2 (x^m - x_p^m),  at the turning point x_m equal to the elastic force: x_p^m = (1 - k1/k2) x_m^m
 ///
-/// Pulled beyond the pull-off force P it follows an adhesive branch -a(x), and x_p goes back with it, so that it is
-/// loaded again along that steeper line from wherever it was; a(x) is P where that is reached and falls to zero at
-/// x = 0, where the contact ends. Two laws:
+/// Beyond the pull-off force P it follows an adhesive branch -a(x), and x_p decreases with it, so that reloading
+/// follows a steep line from the present point; a(x) starts at P and falls to zero at x = 0, where the contact ends.
+/// Two laws:
 ///
 /// - EEPA, the Edinburgh elasto-plastic adhesion model (Morrissey 2013; Thakur et al. 2014, Granular Matter 16:383):
 ///   k2 is constant, k1/k2 = 1 - share; P = 1.5 pi gamma sqrt(2 x_p R_eff), at most half of what the steep line would
@@ -27,13 +27,13 @@ namespace grouser::contact {
 ///   x* and beyond, x* in proportion to R_eff; a(x) = k_c x. On the adhesive branch the greatest overlap goes back to
 ///   that from which the contact would have come there, and k2 with it.
 ///
-/// Share and the other numbers are of the law; a contact has the state below.
+/// These constants belong to the law; the state of a contact is below.
 template <class T> struct BasicPlasticity {
   T share{};       ///< lambda = 1 - k1/k2 [-], in [0, 1); Luding: the greatest; 0: the contact is elastic
   T depthShare{};  ///< x_p / x_m on the first loading: lambda^(1/m) [-] (EEPA)
-  T lossShare{};   ///< of F x on the first loading that is dissipated since x = 0 [-] (EEPA)
+  T lossShare{};   ///< share of F x dissipated on the first loading since x = 0 [-] (EEPA)
   T pull{};        ///< EEPA: P over sqrt(x_m R_eff) [N/m], >= 0
-  T pullGrowth{};  ///< EEPA: of one that grows with the radius: P over sqrt(x_m R_eff) R_eff [Pa], >= 0
+  T pullGrowth{};  ///< EEPA, adhesion that grows with the radius: P over sqrt(x_m R_eff) R_eff [Pa], >= 0
   T fullDepth{};   ///< Luding: x* / R_eff [-], > 0; 0: EEPA
   T adhesion{};    ///< Luding: k_c / k1 [-], >= 0
   int exponent{2}; ///< EEPA: 2 chi
@@ -44,13 +44,13 @@ template <class T> struct BasicPlasticity {
   }
 };
 
-/// What an elastic-plastic contact keeps from step to step; zeros for a new one.
+/// History of an elastic-plastic contact; zeros for a new one.
 template <class T> struct BasicPlasticState {
   T deepest{}; ///< overlap at which it last left the first loading, x_m [m]
-  T origin{};  ///< force that the elastic law has at the plastic overlap, k1 x_p^m [N]
+  T origin{};  ///< elastic force at the plastic overlap, k1 x_p^m [N]
 };
 
-/// Numbers that a contact keeps for it.
+/// Size of that history.
 inline constexpr int kPlasticNumbers = 2;
 
 /// The normal spring of an elastic contact: F = k1 x^m, [N] at an overlap [m]. With SIMD numbers, of as many contacts.
@@ -70,16 +70,16 @@ template <class T> struct BasicElasticSpring {
   }
 };
 
-/// What the normal spring of an elastic-plastic contact does at one overlap.
+/// Normal force of an elastic-plastic contact at one overlap.
 template <class T> struct BasicPlasticForce {
   T force;    ///< [N], negative where it pulls
-  T adhesion; ///< what the contact could be pulled with here [N], >= 0; friction is limited by the force and this
-  T yielded;  ///< plastic work of this step [J], >= 0 but for rounding
+  T adhesion; ///< largest pull here [N], >= 0; friction is limited by the force plus this
+  T yielded;  ///< plastic work of this step [J], >= 0 except for rounding
 };
 
 namespace detail {
 
-/// k2 / k1 after a greatest overlap. With SIMD numbers, of as many contacts, as all below that say so.
+/// k2 / k1 after a greatest overlap. SIMD types are allowed here and where stated below.
 template <class T> GROUSER_HD T steepness(const BasicPlasticity<base::ScalarOf<T>>& p, T deepest, T radius) {
   using Scalar = base::ScalarOf<T>;
   const Scalar most = Scalar(1) / (Scalar(1) - p.share);
@@ -89,7 +89,7 @@ template <class T> GROUSER_HD T steepness(const BasicPlasticity<base::ScalarOf<T
   return Scalar(1) + (most - Scalar(1)) * (part < one ? part : one);
 }
 
-/// EEPA: what yields on the first loading to this overlap [J], from where the steep line of `origin` meets the elastic
+/// EEPA: plastic work of the first loading to this overlap [J], from where the steep line of `origin` meets the elastic
 /// law. With SIMD numbers, of as many contacts.
 template <class T> GROUSER_HD T yieldedSince(const BasicPlasticity<base::ScalarOf<T>>& p,
                                              const BasicElasticSpring<T>& spring, T overlap, T elastic, T origin) {
@@ -146,7 +146,7 @@ template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasti
   return {most * share, T(p.exponent) / T(spring.hertz ? 3 : 2)};
 }
 
-/// State after the first loading to this overlap, and what yields since the steep line of `before` met the elastic law
+/// State after the first loading to this overlap, and plastic work since the steep line of `before` met the elastic law
 /// [J]. `steepBefore`, `steepNow`: steepness() before and after. With SIMD numbers too.
 template <class T> struct Loading {
   BasicPlasticState<T> state;
@@ -172,8 +172,8 @@ template <class T> GROUSER_HD T deepestBehind(const BasicPlasticity<T>& p, T ove
   return half + base::squareRoot(half * half + (T(1) + p.adhesion) * overlap * full / (most - T(1)));
 }
 
-/// Luding: energy that goes while the greatest overlap comes back along the adhesive branch. `former`, `present`:
-/// k2 / k1 before and after.
+/// Luding: energy dissipated while the greatest overlap decreases along the adhesive branch. `former`, `present`: k2 /
+/// k1 before and after.
 template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T stiffness, T overlap,
                                                  const BasicPlasticState<T>& before, T former, T present) {
   const T start = former * before.origin / (stiffness * (former + p.adhesion));
@@ -183,9 +183,9 @@ template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T 
 
 } // namespace detail
 
-/// Force at `overlap` > 0 of a contact with p.share > 0, and its state taken there. What yields, by -dU/dx_p^m of the
-/// elastic energy U: on the first loading and of Luding's branch in closed form, along EEPA's adhesive branch by the
-/// trapezoid over the step.
+/// Force at `overlap` > 0 of a contact with p.share > 0; updates its state. Plastic work from -dU/dx_p^m of the elastic
+/// energy U: in closed form on the first loading and Luding's branch, by the trapezoidal rule over the step on EEPA's
+/// adhesive branch.
 template <class T> GROUSER_HD BasicPlasticForce<T>
 plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T overlap, BasicPlasticState<T>& state) {
   const T radius = spring.effectiveRadius, elastic = spring.force(overlap);
@@ -206,7 +206,7 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
     return {-branch.pull, branch.pull, detail::yieldedByPulling(p, spring.stiffness, overlap, before, steep, steepNow)};
   }
   state.origin = elastic + branch.pull / steep;
-  // Where it left the steep line or was at the last step: one step of Newton's method from here.
+  // Point where it left the steep line, or of the last step: one Newton step from here.
   T start = elastic - (line + branch.pull) / (steep + branch.slope * branch.pull / elastic);
   start = start < before.origin ? start : before.origin;
   const auto place = [&](T force) { return overlap * spring.overlapRatio(force / elastic); };
@@ -214,13 +214,12 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
   return {-branch.pull, branch.pull, T(0.5) * steep * stretched * (before.origin - state.origin)};
 }
 
-/// The same of one contact among several that are computed side by side: not inlined, and so not compiled for
-/// processors that may not be there.
+/// The same for one contact of a SIMD batch: not inlined, and so not compiled for processors that may not be present.
 BasicPlasticForce<float> plasticForceAlone(const BasicPlasticity<float>& p, const BasicElasticSpring<float>& spring,
                                            float overlap, BasicPlasticState<float>& state);
 
-/// Elastic energy of such a contact [J], and what would yield if it were taken to this overlap now: so the energy that
-/// it still has to give, whether or not a step has seen it here.
+/// Elastic energy of such a contact [J] plus its plastic work if it moved to this overlap now: the energy that it can
+/// still release.
 template <class T> GROUSER_HD T plasticEnergy(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring,
                                               T overlap, BasicPlasticState<T> state) {
   const T yielded = plasticForce(p, spring, overlap, state).yielded;

@@ -8,9 +8,9 @@
 
 namespace grouser::contact {
 
-/// plasticForce() of many contacts side by side: the same operations in the same order, so the same bits. First loading
-/// and the steep line are computed for all, and one is taken; the few contacts that are pulled towards their end, on
-/// the adhesive branch or where EEPA's force falls, are taken one by one.
+/// SIMD version of plasticForce(): the same operations in the same order, so bitwise identical. First loading and the
+/// steep line are computed for all lanes, then selected; the few contacts on the adhesive branch, or where EEPA's force
+/// falls, are computed one by one.
 template <base::SimdVector T>
 GROUSER_SIMD BasicPlasticForce<T> plasticForce(const BasicPlasticity<base::ScalarOf<T>>& p,
                                                const BasicElasticSpring<T>& spring, const T& overlap,

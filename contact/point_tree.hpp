@@ -13,7 +13,7 @@ namespace grouser::contact {
 /// Up to eight neighbouring surface points of a part, in the part frame. Idle lanes have zero area.
 struct alignas(64) PointBlock {
   Vec3P place;       ///< [m]
-  PointLanes radius; ///< [m] of the ball that a point stands for; 0: the surface itself
+  PointLanes radius; ///< radius of the ball of a point [m]; 0: the surface itself
   PointLanes area;   ///< [m2]
   int count;         ///< lanes that are not idle
 };

@@ -40,7 +40,7 @@ struct UnitImpact {
   double restitution, deepest;
 };
 
-/// One clamped Hertz impact at unit speed, in units where x'' = -x^(3/2) - c x^(1/4) x'; or only its way in.
+/// One clamped Hertz impact at unit speed, in units where x'' = -x^(3/2) - c x^(1/4) x'; or only its loading phase.
 UnitImpact clampedHertzImpact(double beta, bool wayInOnly) {
   const double c = 2 * beta * std::sqrt(1.5);
   const auto acceleration = [c](double x, double v) {

@@ -25,8 +25,8 @@ double contactDuration(double omega0, double zeta, bool attraction);
 /// outside the unit circle while stiffness dt^2 + 2 damping dt < 4 (conditions of Jury 1962).
 double stableStepOfMode(double stiffness, double damping);
 
-/// The same of one linear contact: omega_0 dt < 2 (sqrt(1 + zeta^2) - zeta). A mode that many contacts make has a zeta
-/// of its own.
+/// The same for one linear contact: omega_0 dt < 2 (sqrt(1 + zeta^2) - zeta). A mode of many contacts has a different
+/// zeta.
 double stableStep(double omega0, double zeta);
 
 /// Coefficient of restitution [-] of the Hertz law with the dashpot c_n = 2 beta sqrt(k_n m_eff), k_n = 2 E_eff a; at
@@ -44,7 +44,7 @@ struct HertzImpact {
 };
 HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double effectiveMass, double speed);
 
-/// How deep an impact with the Hertz dashpot `beta` gets, over an elastic one of the same speed [-]; at any speed.
+/// Maximum overlap of an impact with the Hertz dashpot `beta` over that of an elastic one [-]; independent of speed.
 /// Integrated to 1e-6.
 double hertzDepthShare(double beta);
 

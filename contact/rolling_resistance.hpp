@@ -5,7 +5,7 @@
 
 namespace grouser::contact {
 
-/// How two surfaces in touch roll on each other, seen from side i.
+/// Rolling motion of two surfaces in contact, seen from side i.
 template <class T> struct RollingMotion {
   base::Vec3<T> normal; ///< unit, from i to j
   base::Vec3<T> spin;   ///< of i relative to j [rad/s]
@@ -13,7 +13,7 @@ template <class T> struct RollingMotion {
   T inertia;            ///< I_r: of both about the contact point, in series [kg m2]
 };
 
-/// Of a sphere on what never moves.
+/// Rolling inertia of a sphere on a fixed surface.
 template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return ScalarOf<T>(1.4) * mass * radius * radius; }
 /// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2). The product of both inertias can overflow
 /// or underflow a float; this form does neither. Swapping i and j changes no bit.
@@ -37,10 +37,10 @@ template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<ScalarOf<T>>& la
 /// shortened to fit and the dashpot is off. Below, the dashpot may at most fill the torque up to the limit: in the
 /// paper it may exceed it many times, so that a fast ball loses percents of its energy in the moment of touch. Spin
 /// about the normal is not resisted. `pressing`, `normalStiffness` and `change` are the reaction's; `change`: null
-/// where k_n is constant. With Hertz' law k_r follows k_n, and the spring yields to it as the tangential one does: it
-/// gives no energy. Returns the torque on i [N m]; on j it is the exact opposite. Adds what it dissipates: by the
-/// dashpot, with the spin in the middle of the step as this torque alone would make it, at the limit all work but what
-/// the spring gains, and what the change of stiffness takes. T as in contactForce(): one source for the kernels of both
+/// where k_n is constant. With Hertz' law k_r is proportional to k_n, and the spring adapts as the tangential one does:
+/// it adds no energy. Returns the torque on i [N m]; on j it is the exact opposite. Adds the dissipation: of the
+/// dashpot, with the spin in the middle of the step as if this torque acted alone; at the limit all work except the
+/// spring's gain; and the loss by the change of stiffness. T as in contactForce(): one source for the kernels of both
 /// devices and for many contacts at a time.
 template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarOf<T>>& law, const RollingMotion<T>& m,
                                                           T pressing, T normalStiffness, ScalarOf<T> dt,

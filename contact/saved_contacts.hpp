@@ -6,29 +6,29 @@
 #include <cstdint>
 #include <vector>
 
-/// History of contacts, as a checkpoint holds it. Lists are left out: they can be built anew.
+/// Contact history in checkpoints. Neighbour lists are not stored; they are rebuilt.
 namespace grouser::contact {
 
 /// Contacts of extended surfaces, by pair and cluster.
 struct SavedPatches {
   std::vector<PatchState> states;
-  std::vector<PatchSums> sums; ///< of the last step: only the ledger reads them again
+  std::vector<PatchSums> sums; ///< of the last step, for the ledger only
 
-  /// For the hash: the springs.
+  /// Words of the state hash: the springs.
   std::vector<std::uint32_t> words() const;
 };
 
 /// Contacts of grains with parts.
 struct SavedGrainPatches {
-  /// Eight words a patch in touch: key (grain id << 16 | part), low word first; PatchMemory. By ascending key, patches
-  /// of one key in their order. The hash takes these, the angles and the dents.
+  /// Eight words per touching patch: key (grain id << 16 | part), low word first; PatchMemory. By ascending key,
+  /// patches of one key in their order. The hash takes these, the angles and the dents.
   std::vector<std::uint32_t> memories;
   std::vector<float> angles;          ///< [patches][3] rolling angle of each [rad]; empty without rolling friction
   std::vector<float> dents;           ///< [patches] of each [m]; empty where no grain crushes
   std::vector<std::int64_t> sums;     ///< of the last step and since the start (PartSum)
-  std::vector<std::uint64_t> deepest; ///< [parts] of each the grain that it has pressed most since the last row
+  std::vector<std::uint64_t> deepest; ///< [parts] grain with the largest overlap since the last row
 
-  /// For the hash: memories, angles, dents.
+  /// Words of the state hash: memories, angles, dents.
   std::vector<std::uint32_t> words() const;
 };
 

@@ -11,9 +11,9 @@ template <class T> struct SpherePair {
   T distance, overlap;  ///< of the centres, and of the surfaces [m]
 };
 
-/// From exact squares of integers: the overlap is (D^2 - d^2) / (D + d), without cancellation.
-/// `apart`: from i to j; `distance2` = d^2; `missing2` = D^2 - d^2; `reach` = D, the sum of the radii, of all pairs or
-/// of each: all in units of `unit` [m].
+/// Computes the overlap (D^2 - d^2) / (D + d) from exact integer squares, without cancellation. `apart`: from i to j;
+/// `distance2` = d^2; `missing2` = D^2 - d^2; `reach` = D, the sum of the radii, common or per pair: all in units of
+/// `unit` [m].
 template <class T, class Reach> GROUSER_HD SpherePair<T> spherePair(const base::Vec3<T>& apart, const T& distance2,
                                                                     const T& missing2, const Reach& reach,
                                                                     base::ScalarOf<T> unit) {

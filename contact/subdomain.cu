@@ -176,10 +176,9 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
     const int given = static_cast<int>(options.cuts[a].size()) + 1;
     if (given == 1) continue;
     if (wanted[a] != 0 && wanted[a] != given)
-      throw base::InputError(std::string("parallel.cuts_") + "xyz"[a] + " gives " + std::to_string(given - 1) +
-                             " planes, which make " + std::to_string(given) +
-                             " subdomains, but parallel.subdomains says " + std::to_string(wanted[a]) +
-                             " along that axis; make them agree");
+      throw base::InputError(std::string("parallel.cuts_") + "xyz"[a] + " has " + std::to_string(given - 1) +
+                             " planes, hence " + std::to_string(given) + " subdomains, but parallel.subdomains is " +
+                             std::to_string(wanted[a]) + " along that axis; make them agree");
     wanted[a] = given;
   }
   base::Vec3l low{}, high{};
@@ -307,9 +306,9 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
 
 const char* Subdomain::way() const {
   if (exec_.onCpu()) return haloExchange_.peersOnly() ? "shared memory" : "messages";
-  if (stepsTogether()) return "GPU to GPU, steps agreed upon by the GPUs";
+  if (stepsTogether()) return "GPU to GPU, steps synchronised by the GPUs";
   if (haloExchange_.peersOnly()) return "GPU to GPU";
-  return haloExchange_.sharesMemory() ? "GPU to GPU where they see each other, messages" : "messages";
+  return haloExchange_.sharesMemory() ? "GPU to GPU where possible, else messages" : "messages";
 }
 
 std::size_t Subdomain::bytes() const {

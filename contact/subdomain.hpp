@@ -15,14 +15,14 @@ namespace grouser::contact {
 
 /// Role of an element in the subdomain that holds a copy of it.
 enum class Role : std::uint32_t {
-  unique, ///< no other subdomain needs it; integrated here. Kernels take it for 0
+  unique, ///< no other subdomain needs it; integrated here. Must be 0 for kernels
   master, ///< its centre lies here, within range of a border; integrated here, and known to others as slaves
   slave,  ///< copy of a master of another subdomain (ghost): it exerts forces and is not integrated
 };
 
-/// How space is divided among the ranks.
+/// Options of the domain decomposition.
 struct PartitionOptions {
-  base::Comm comm;                         ///< alone: one subdomain, and none of what follows
+  base::Comm comm;                         ///< single rank: one subdomain, other options ignored
   std::array<int, 3> subdomains{0, 0, 0};  ///< wanted along x, y, z; 0: automatic
   std::array<std::vector<double>, 3> cuts; ///< [m] planes across x, y, z at the start; empty: chosen
   bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than another
@@ -34,9 +34,8 @@ struct PartitionOptions {
 Partition startingPartition(const std::vector<base::Position>& position, const PartitionOptions& options,
                             const base::PositionScale& scale);
 
-/// One rank's subdomain of elements (grains, particles of a fluid) on several ranks: which are its own, which of them
-/// others need, and the ghosts it needs itself. It sees slots and positions only; other fields of an element are named
-/// by the caller of an exchange.
+/// Subdomain of one rank: its own elements (grains, fluid particles), those that other ranks need, and its ghosts. It
+/// uses slots and positions only; the caller of an exchange names other fields.
 class Subdomain {
 public:
   /// `range` [units]: two elements farther apart than this never touch before the next rebuild.
@@ -50,11 +49,11 @@ public:
   /// Finds the elements that now lie in another subdomain: sets destination(), staying() and the plan of
   /// migration().
   void findLeaving(const base::Position* position, std::size_t slots);
-  /// By slot, until the next migration: the rank that the element of this slot now belongs to, or kNobody for a slave.
+  /// By slot, until the next migration: new rank of the element, or kNobody for a slave.
   static constexpr std::uint32_t kNobody = ~0u;
   const std::uint32_t* destination() const { return destination_.data(); }
-  /// The elements that stay fill the first `kept` slots when those of them that are farther back have moved to where
-  /// leaving elements and ghosts were: from slot from[k] to slot to[k] (device arrays), for k < moves.
+  /// Compaction: staying elements beyond the first `kept` slots move from slot from[k] to slot to[k] (device arrays), k
+  /// < moves, in place of leaving elements and ghosts.
   struct Staying {
     std::size_t kept, moves;
     const std::uint32_t *from, *to;
@@ -68,10 +67,10 @@ public:
   std::size_t ghosts() const { return haloExchange_.importCount(); }
   Exchange& haloExchange() { return haloExchange_; }
   base::PeerReduction& agreement() { return reduction_; }
-  /// Whether the GPUs of all ranks can take steps without their hosts: halo and flags go through each other's memory.
+  /// True if the GPUs of all ranks can step without their hosts: halo and flags go through peer memory.
   bool stepsTogether() const { return reduction_.possible() && haloExchange_.peersOnly(); }
 
-  /// The elements were sorted: slot i now holds what was in slot order[i].
+  /// Reports a sort: slot i now holds the element of slot order[i].
   void sorted(const std::uint32_t* order, std::size_t slots);
   /// Elements were appended that belong here until the next migration.
   void appended(std::size_t count);
@@ -87,7 +86,7 @@ public:
   std::size_t bytes() const;
   /// Time that this rank or its GPU has spent waiting for others since the start [s]. Waits for the GPU's work.
   double waited() const { return comm_.waited() + reduction_.waited(); }
-  /// How elements are moved between ranks, in words for the user.
+  /// Communication method between ranks, as text for the user.
   const char* way() const;
   std::int64_t bytesSent() const { return migration_.bytesSent() + haloExchange_.bytesSent(); }
 

@@ -10,7 +10,7 @@ namespace grouser::contact {
 
 /// Shapes of rigid surfaces whose nearest point has a closed form. Each lies about the origin of its own frame S.
 enum class SurfaceShape : std::int32_t {
-  plane,    ///< solid below z = 0, without end
+  plane,    ///< half-space z < 0
   box,      ///< solid, |x|, |y|, |z| <= half
   cylinder, ///< solid about the z axis, with flat ends
   tube,    ///< a wall without thickness, rho = radius and |z| <= half: in contact from inside and outside, open at both
@@ -20,7 +20,7 @@ enum class SurfaceShape : std::int32_t {
            ///< z = half, with flat ends
 };
 
-/// Shape and size, the same for ever.
+/// Shape and size; constant.
 struct SurfaceGeometry {
   SurfaceShape shape{};
   base::Vec3d half; ///< box: half of its edges; cylinder, tube: x the radius, z half of the length; capsule: x the
@@ -111,7 +111,7 @@ GROUSER_HD SurfaceGap gapToCone(const base::Vec3d& half, const base::Vec3d& p) {
 
 } // namespace detail
 
-/// Exact; both in the surface's frame.
+/// Exact gap; both in the surface's frame.
 GROUSER_HD SurfaceGap gapTo(const SurfaceGeometry& g, const base::Vec3d& p_S) {
   if (g.shape == SurfaceShape::plane) return {{0, 0, 1}, p_S.z};
   if (g.shape == SurfaceShape::box) return detail::gapToBox(g.half, p_S);

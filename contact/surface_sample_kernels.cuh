@@ -21,7 +21,7 @@ namespace grouser::contact {
 /// Covers the rounding of distances in single precision [m].
 inline constexpr double kGapSlack = 1e-6;
 
-/// Which pairs may have anything to list.
+/// Marks pairs that may be near each other.
 template <class Target> struct MarkNearPairs {
   static constexpr double kNanoseconds = 20;
   Target target;
@@ -32,7 +32,7 @@ template <class Target> struct MarkNearPairs {
 };
 
 /// Counts (where `entry` is null) or lists the samples of one chunk that are within `margin` of touching, each with its
-/// gap: until the two surfaces have moved that far relative to each other it cannot touch and need not be looked at.
+/// gap: until the two surfaces have moved that far relative to each other it cannot touch and is skipped.
 template <class Target> struct ListSamples {
   static constexpr double kNanoseconds = 60; ///< most chunks belong to pairs that are not near
   Target target;
@@ -77,7 +77,7 @@ GROUSER_HD void addTo(base::Vec3l& target, const base::Vec3l& value) {
   base::atomicAdd64(&target.z, value.z);
 }
 
-/// Gives `force` (quanta) at world point x to A and its exact opposite to B, each about its own centre of mass.
+/// Applies `force` (quanta) at world point x to A and its exact opposite to B, each about its own centre of mass.
 GROUSER_HD void applyToBoth(const PatchQuanta& quanta, const PartMotion* motion, int a, int b, const base::Vec3d& x,
                             const base::Vec3l& force, PartLoad* loads) {
   const base::Vec3d f = quanta.force.value(force);
@@ -101,7 +101,7 @@ template <class Target> struct SamplePressure {
   PatchSums* patches;      ///< [pair * kClusters + cluster]
   PartLoad* loads;
   double timeStep;
-  const std::uint32_t* off; ///< not 0: called off, see base::Gate; null: never
+  const std::uint32_t* off; ///< nonzero: cancelled, see base::Gate; null: never
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
     if (off && *off) return;
@@ -113,7 +113,7 @@ template <class Target> struct SamplePressure {
     base::Vec3d normal;
     double overlap;
     if (!target.findContact(pair, motion, centre, static_cast<double>(sample.radius), group, normal, overlap)) return;
-    if (group.rank != 0) return; // the rest is for one thread
+    if (group.rank != 0) return; // one thread does the rest
     const base::Vec3d x = centre - normal * (static_cast<double>(sample.radius) - 0.5 * overlap);
     base::Vec3d relative = motion[a].velocityAt(x);
     if (b >= 0) relative -= motion[b].velocityAt(x);

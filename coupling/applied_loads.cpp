@@ -21,7 +21,7 @@ void AppliedLoads::add(const multibody::State& state, multibody::Loads& loads) {
   }
 }
 
-void AppliedLoads::book(const multibody::State& state, double dt) {
+void AppliedLoads::accountWork(const multibody::State& state, double dt) {
   for (const Load& l : loads_) {
     const multibody::Twist& now = state.twist[l.body];
     work_ += (dot(l.wrench.force, l.before.v + now.v) + dot(l.wrench.torque, l.before.w + now.w)) * (0.5 * dt);
@@ -29,9 +29,10 @@ void AppliedLoads::book(const multibody::State& state, double dt) {
 }
 
 void AppliedLoads::restore(const std::vector<double>& saved) {
-  if (saved.empty()) return; // of a program that knew of none
+  if (saved.empty()) return; // from a version without applied loads
   if (saved.size() != save().size())
-    throw base::InputError("the checkpoint keeps other works of applied loads; resume with the program that was run");
+    throw base::InputError(
+        "the checkpoint has another number of applied-load works; resume with the program version that wrote it");
   work_.sum = saved[0], work_.lost = saved[1];
 }
 

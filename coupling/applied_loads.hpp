@@ -10,16 +10,16 @@
 
 namespace grouser::coupling {
 
-/// Forces and torques that are set from outside on bodies, and their work: in each step with the means of the
-/// velocities before and behind it, as the bodies' books have it.
+/// External forces and torques on bodies, and their work: in each step with the mean of the velocities before and after
+/// it, as in the bodies' energy accounting.
 class AppliedLoads {
 public:
-  /// The loads among `inputs` from now on; targets are bodies of the model.
+  /// Sets the loads among `inputs`; targets are bodies of the model.
   void set(const Inputs& inputs);
   /// Adds them to `loads`, for a step that begins at `state`.
   void add(const multibody::State& state, multibody::Loads& loads);
-  /// Books the work of the step of `dt` [s] that has brought the bodies to `state`.
-  void book(const multibody::State& state, double dt);
+  /// Adds the work of the step of `dt` [s] that ended at `state`.
+  void accountWork(const multibody::State& state, double dt);
   double work() const { return work_; } ///< since the start [J]
 
   std::vector<double> save() const { return {work_.sum, work_.lost}; }

@@ -83,8 +83,8 @@ protected:
   virtual std::array<ForceMeans*, 3> means() = 0;
   /// [body] mean force on its parts [N].
   std::vector<base::Vec3d> meanForces(const ForceMeans& means, std::size_t bodies) const;
-  /// Adds the bodies' energies and momenta and those of their contacts. `bodies`: with the work of all else that acts
-  /// on them as drive work; `potential`, `elastic`: their energies as the ledger counts them [J].
+  /// Adds the bodies' energies and momenta and those of their contacts. `bodies`: with the work of all other loads as
+  /// drive work; `potential`, `elastic`: energies for the ledger [J].
   void enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const;
 
   virtual double timeStep() const = 0; ///< [s]

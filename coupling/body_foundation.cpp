@@ -30,8 +30,8 @@ double restingStiffness(const SurfaceGeometry& g, double modulus, double load) {
   return isBall(g) ? 2 * base::kPi * modulus * r * x : 2 * modulus * length * std::sqrt(2 * r * x);
 }
 
-/// Geometric mean of the stiffness at rest on the least patch and on the largest one, so that neither is far from the
-/// damping that is meant [N/m].
+/// Geometric mean of the stiffness at rest on the least patch and on the largest one, so that both are close to the
+/// intended damping [N/m].
 double meanStiffness(const SurfaceGeometry& g, double modulus, double load) {
   const double least = restingStiffness(g, modulus, load);
   if (isBall(g)) return least;

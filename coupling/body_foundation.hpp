@@ -10,7 +10,7 @@
 
 namespace grouser::coupling {
 
-/// Foundations between the materials of bodies and of everything rigid that they may touch.
+/// Foundations between the materials of bodies and of all rigid surfaces that they may touch.
 struct FoundationTable {
   std::vector<std::string> materials;    ///< those of the bodies first, in the order of BodyShape::material
   std::vector<contact::Foundation> laws; ///< [material of a body * materials.size() + any material]

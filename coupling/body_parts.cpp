@@ -41,8 +41,8 @@ public:
     for (const multibody::Joint& joint : model.joints()) tied_.insert(std::minmax(joint.bodyA, joint.bodyB));
   }
 
-  /// The points of the smaller shape touch the larger one. The law is that of a body which moves; where both do, the
-  /// one that relaxes sooner.
+  /// The points of the smaller shape touch the larger one. The law is that of the moving body; if both move, the one
+  /// with the shorter relaxation time.
   void addAmongShapes(ContactParts& all, std::size_t first) const {
     for (std::size_t i = 0; i < shapes_.size(); ++i)
       for (std::size_t j = i + 1; j < shapes_.size(); ++j) {
@@ -57,7 +57,7 @@ public:
       }
   }
 
-  /// The points of the vehicle's parts touch the shapes: of its shoes, and of all parts that are cut into spheres.
+  /// The points of the vehicle's shoes, and of all parts cut into spheres, touch the shapes.
   void addOnVehicle(ContactParts& all, std::size_t first) const {
     for (std::size_t part = 0; part < first; ++part) {
       const ContactPart& p = all.parts[part];

@@ -14,14 +14,14 @@ using base::Vec3d;
 
 namespace {
 
-/// A shape in the world as the mechanism starts.
+/// A shape in the world at the start of the mechanism.
 struct PlacedShape {
   const BodyShape& shape;
   base::Pose pose;
   std::vector<contact::SurfaceSample> points;
 };
 
-/// Throws where points of `a` lie too deep in what `overlap` [m] measures. `other`: its name.
+/// Throws if points of `a` lie too deep in the surface measured by `overlap` [m]. `other`: its name.
 void checkDepth(const PlacedShape& a, const std::string& body, const std::string& other, double thickness,
                 const std::function<double(const Vec3d&)>& overlap) {
   constexpr double kMost = 0.02; // [-] of half the thickness

@@ -9,7 +9,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// The ledger counts on from a start that lacks the work of a hitch whose books are closed.
+/// Keeps the work of the former hitch in the ledger.
 void keepWork(SimulationState& state, double work) {
   Ledger start;
   start.setCounted(state.ledgerAtStart);
@@ -53,7 +53,7 @@ void branch(SimulationState& state, const VehicleSetup& setup, bool otherDriver,
   vehicle::Hitch hitch(*setup.hitch);
   if (asked.driven) hitch.holdFrom(time - *driver.driveStart());
   vehicle.hitch = hitch.save();
-  vehicle.hitchBooks = Towing(*setup.hitch).books();
+  vehicle.hitchBooks = Towing(*setup.hitch).saveSums();
 }
 
 } // namespace grouser::coupling

@@ -6,10 +6,10 @@
 
 namespace grouser::coupling {
 
-/// Makes the state of one run the begin of another, with another driver, hitch or both: `setup` is of the vehicle as it
-/// goes on, `time` [s] that of the state. The new driver takes over (Driver::takeOver()); the former hitch lets go, its
-/// work stays in the ledger; the new one takes hold here at the earliest, with books that begin at 0. Bodies, grains
-/// and contacts stay as they are.
+/// Makes the state of one run the start of another with another driver, hitch or both: `setup` is the vehicle of the
+/// new run, `time` [s] that of the state. The new driver takes over (Driver::takeOver()); the former hitch releases,
+/// its work stays in the ledger; the new one attaches here at the earliest, with work 0. Bodies, grains and contacts
+/// are unchanged.
 void branch(SimulationState& state, const VehicleSetup& setup, bool otherDriver, bool otherHitch, double time);
 
 } // namespace grouser::coupling

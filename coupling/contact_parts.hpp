@@ -21,7 +21,7 @@ class MeshQuery;
 
 namespace grouser::coupling {
 
-/// A rigid surface fixed to a body, as contacts see it: a part of a vehicle, or a shape of a [[body]].
+/// A rigid contact surface fixed to a body: a part of a vehicle, or a shape of a [[body]].
 struct ContactPart {
   std::string name;                 ///< in messages: "left shoe 12"
   std::size_t body{};               ///< index of its body in the multibody model
@@ -29,13 +29,13 @@ struct ContactPart {
   int surface{};                    ///< index into ContactParts::surfaces; -1: the closed-form `shape`
   contact::SurfaceGeometry shape{}; ///< geometry of a [[body.shape]]; its bounding box if `surface` >= 0
   std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< of a [[body.shape]]; null for closed-form shapes
-  int points{-1};                 ///< index of its surface points, by which it touches what is rigid; -1: none
+  int points{-1};                 ///< index of its surface points for contact with rigid surfaces; -1: none
   contact::PatchLaw foundation{}; ///< on rigid ground
   int material{};                 ///< index of its material among those of all parts
   double reach{};                 ///< farthest point of the surface from its body's centre of mass [m]
   bool meetsGrains = true;        ///< whether it touches grains
-  bool meetsGround{};             ///< whether it touches rigid ground as a foot; a hull does so among the obstacles
-  bool fixed{};                   ///< its body never moves, so it touches nothing that rests
+  bool meetsGround{};             ///< whether it touches rigid ground as a foot; a hull touches it with the obstacles
+  bool fixed{};                   ///< its body never moves, so it touches no resting surface
   bool ofBody{};                  ///< belongs to a [[body]], not to the vehicle
   bool isHull{};                  ///< whether it touches rigid ground with the obstacles
   std::size_t shown{};            ///< its place among the parts of the results' frames
@@ -46,7 +46,7 @@ inline constexpr double kLoadScale = 9.81;
 
 struct Obstacle;
 
-/// All parts that touch something, with their surfaces. Outlives the contacts that are made of it.
+/// All parts with contacts, and their surfaces. Must outlive the contacts made from it.
 struct ContactParts {
   /// A part whose points touch the closed-form shape or the spheres of another.
   struct Pair {

@@ -23,7 +23,7 @@ struct ContactsState {
   std::vector<std::uint32_t> words() const;
 };
 
-/// Appends doubles to the words that a state hash takes.
+/// Appends doubles to the words of a state hash.
 void addWords(std::vector<std::uint32_t>& words, const double* numbers, std::size_t count);
 
 } // namespace grouser::coupling

@@ -11,7 +11,8 @@ namespace grouser::coupling {
 
 namespace {
 
-/// What is no alarm whatever was exchanged [J]: rounding, what is small beside the whole run, and what springs hide.
+/// Energy error below which there is no alarm [J]: rounding, a small share of the whole run, and errors hidden by
+/// springs.
 double neverAlarms(const Ledger& now, double held, double hidden) {
   return EnergyGuard::kRounding * held + EnergyGuard::kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
          hidden;
@@ -34,33 +35,34 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
 
 std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) const {
   const Exchange x = since(now, held);
-  if (!std::isfinite(x.lost) || !std::isfinite(x.moved)) return "the energies are no numbers any more";
+  if (!std::isfinite(x.lost) || !std::isfinite(x.moved)) return "the energies are not finite";
   const auto found = [&](const char* what, double energy) {
-    return fmt::format("{} {:.3g} J since the last look {} steps ago at most, in which {:.3g} J were exchanged", what,
-                       energy, kInterval, x.moved);
+    return fmt::format("{} {:.3g} J since the last check (at most {} steps ago), of {:.3g} J exchanged", what, energy,
+                       kInterval, x.moved);
   };
-  if (!implicit && x.lost > kMostLost * x.moved + x.neverAlarms) return found("the steps have lost", x.lost);
-  if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMostChurned * x.moved + x.neverAlarms)
-    return found("the steps have made", -x.lost);
+  if (!implicit && x.lost > kMostLost * x.moved + x.neverAlarms) return found("time integration lost", x.lost);
+  if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMaxSpuriousDissipation * x.moved + x.neverAlarms)
+    return found("time integration created", -x.lost);
   if (x.given > kMostGiven * x.moved + x.neverAlarms)
-    return found("steps too long for dampers have let these make", x.given);
+    return found("the time step is too long: dampers created", x.given);
   return judgeHeat(now, held);
 }
 
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
-  if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding grains book what their steps make
+  if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding grains dissipate what steps create
   const Exchange x = since(now, held);
-  // A large bed breathes before a vehicle has dissipated much, and its dashpots then seem to give what parts take.
+  // The elastic energy of a large bed varies before a vehicle has dissipated much; its dashpots then seem to create
+  // what parts dissipate.
   if (-x.lost > kMostMade * (x.heat + x.lost) + x.neverAlarms)
-    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the last look {} steps ago at "
-                       "most",
+    return fmt::format("time integration created {:.3g} J of the {:.3g} J dissipated since the last check (at most {} "
+                       "steps ago)",
                        -x.lost, x.heat, kInterval);
   const double all = now.dissipated.total() - std::min(0.0, now.dissipated.ofGrains()), made = -now.integrationError;
   const double bed = std::max(mostInGrains_, std::fabs(now.grainElastic));
-  const double hidden = std::clamp(kMostHidden * now.dissipated.ofParts(), kBreath * bed, kSpringShare * bed);
+  const double hidden = std::clamp(kMostHidden * now.dissipated.ofParts(), kElasticTolerance * bed, kSpringShare * bed);
   if (std::max(all, made) <= kAtTheStart * held) return {};
   if (made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
-    return fmt::format("the steps have made {:.3g} J of the {:.3g} J dissipated since the start", made, all);
+    return fmt::format("time integration created {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }
 
@@ -72,7 +74,8 @@ void EnergyGuard::look(const Ledger& now) {
 
 void EnergyGuard::restore(const std::vector<double>& saved) {
   if (saved.size() != 7)
-    throw base::InputError("the checkpoint keeps another energy guard; resume with the program that was run");
+    throw base::InputError(
+        "the checkpoint has another form of energy guard; resume with the program version that wrote it");
   last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5]};
   mostInGrains_ = saved[6];
 }

@@ -15,25 +15,25 @@ namespace grouser::coupling {
 
 /// The fluid of a simulation and its coupling with rigid bodies.
 ///
-/// A step of the fluid is one or several of the bodies' (FluidDomainSetup::stepsPerStep): contacts of a vehicle bear
-/// shorter steps than a fluid. Loads on bodies are those at the beginning of a step of the fluid, as of all contacts;
-/// the fluid receives the opposite integers in two half kicks, at the beginning and at the end of its step.
+/// A step of the fluid is one or several of the bodies' (FluidDomainSetup::stepsPerStep): contacts of a vehicle need
+/// shorter steps than a fluid. Loads on bodies are those at the start of a fluid step, as for all contacts; the fluid
+/// receives the opposite integers in two half kicks, at the start and end of its step.
 ///
-/// Pressures of markers hold the acceleration of their body, which follows from these pressures: with that of the last
-/// step the loop has the gain M_g / m of ghost inertia and mass, and diverges where it is above 1. It is therefore
-/// relaxed by 1 / (1 + gain): no gain makes it diverge, and a constant acceleration is reached exactly.
+/// Pressures of markers depend on the acceleration of their body, which depends on these pressures: with the
+/// acceleration of the last step the loop has the gain M_g / m of ghost inertia and mass, and diverges above 1. So it
+/// is relaxed by 1 / (1 + gain): it converges for any gain, and a constant acceleration is reached exactly.
 class FluidDomain {
 public:
-  /// `model`, `bodies`: null without bodies; `former`: a saved state to go on from, or null. Throws base::InputError
-  /// where that is of another scene. `setup` outlives it.
+  /// `model`, `bodies`: null without bodies; `former`: a saved state to continue from, or null. Throws base::InputError
+  /// if that belongs to another scene. `setup` must outlive this object.
   FluidDomain(const FluidDomainSetup& setup, const multibody::Model* model, const multibody::State* bodies,
               const base::Exec& exec, const base::Comm& comm = {}, const FluidDomainState* former = nullptr);
   FluidDomainState save() const;
 
   /// Adds the loads of the fluid on the bodies at their present poses. Returns the sum of their forces [N].
   base::Vec3d addLoads(multibody::Loads& loads) const;
-  /// One step of the simulation, in which the bodies have come to `bodies`; null without bodies. The last of
-  /// stepsPerStep is one of the fluid.
+  /// One step of the simulation, with the bodies now at `bodies`; null without bodies. The last of stepsPerStep steps
+  /// advances the fluid.
   void advance(const multibody::State* bodies);
 
   const fluid::Fluid& fluid() const { return fluid_; }
@@ -42,7 +42,7 @@ public:
   const std::vector<std::string>& columns() const { return columns_; }
   /// Sum of the loads of each column, torques about the present centres of mass of BodyInFluid::about.
   std::vector<fluid::BodyLoad> columnLoads(const multibody::State* bodies) const;
-  /// Totals after the last step, which are summed once however often they are read.
+  /// Totals after the last step, computed at the first call.
   const fluid::FluidTotals& totals();
 
   /// Values of the probes, in the order of the setup [Pa], [m].

@@ -16,7 +16,7 @@ namespace grouser::coupling {
 /// A body of the model in the fluid.
 struct BodyInFluid {
   std::size_t body{};               ///< index into the model's bodies
-  std::size_t about{};              ///< body about whose centre of mass its torque is recorded
+  std::size_t about{};              ///< body whose centre of mass is the reference point of its torque
   std::string column;               ///< column of the output, which sums the loads of its bodies
   std::vector<base::Vec3d> markers; ///< in the body's frame [m]
   bool touches{};                   ///< see FluidBody

@@ -8,7 +8,7 @@
 
 namespace grouser::coupling {
 
-/// What the grains touch of a vehicle, at one time: pairs of grain and part by the part's kind, and single grains.
+/// Contacts of grains with a vehicle at one time: pairs of grain and part by the part's kind, and single grains.
 struct GearContacts {
   std::int64_t shoes{}, sprockets{}, roadWheels{}, rollers{}, idlers{}, hull{};
   std::int64_t stones{};  ///< grains that touch a sprocket, road wheel, roller or idler

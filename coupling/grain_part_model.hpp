@@ -7,8 +7,8 @@
 
 namespace grouser::coupling {
 
-/// Constants of the contacts between grains and rigid parts made of spheres. `margin`: parts may move so far before
-/// pairs are looked for anew [m].
+/// Constants of the contacts between grains and rigid parts made of spheres. `margin`: largest travel of parts before
+/// pairs are searched again [m].
 contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::Grains& grains, double margin);
 
 } // namespace grouser::coupling

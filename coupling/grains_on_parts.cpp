@@ -53,9 +53,10 @@ GearContacts GrainsOnParts::gearContacts() const {
   return countGear(touches);
 }
 
-PressedMost GrainsOnParts::pressedMost() const {
+DeepestPartOverlap GrainsOnParts::deepestPartOverlap() const {
   const auto most = contacts_.mostPressed();
-  return most ? PressedMost{static_cast<int>(part(most->part).shown), most->grain, most->share} : PressedMost{};
+  return most ? DeepestPartOverlap{static_cast<int>(part(most->part).shown), most->grain, most->share}
+              : DeepestPartOverlap{};
 }
 
 void GrainsOnParts::addTo(ContactLedger& ledger) const { ledger.bed = contacts_.ledger(); }

@@ -15,11 +15,10 @@
 
 namespace grouser::coupling {
 
-/// Contacts of grains with the parts of a vehicle and of bodies. On several ranks each computes those of its own
-/// grains.
+/// Contacts of grains with the parts of a vehicle and of bodies. Each rank computes those of its own grains.
 class GrainsOnParts {
 public:
-  /// `grains` outlive it, and it outlives their steps: on several ranks it registers with their migration, as
+  /// `grains` must outlive it, and it must outlive their steps: on several ranks it registers with their migration, as
   /// MeshContacts does.
   GrainsOnParts(const PartsOnGround& parts, const GrainsSetup& setup, terrain::Grains& grains, const base::Exec& exec);
   GrainsOnParts(const GrainsOnParts&) = delete;
@@ -28,20 +27,20 @@ public:
   contact::GrainPartContacts& contacts() { return contacts_; }
   const LoadQuanta& quanta() const { return quanta_; }
   void refresh(const base::Array<contact::PartMotion>& motion);
-  /// For the grains' step, until the next refresh().
+  /// Loads for the grains' step; valid until the next refresh().
   const contact::GrainLoadsView& loads() const { return loads_; }
 
-  /// Names of the parts that press a grain, and by how much [m]; all ranks call it.
+  /// Names of the parts that overlap a grain, with the overlap [m]; all ranks call it.
   std::vector<std::pair<std::string, double>> pressing(std::uint32_t grain) const;
-  /// How many pairs of grain and part have ended in this step, of all ranks.
+  /// Sets the number of pairs of grain and part that ended in this step, of all ranks.
   void countEnded(std::int64_t pairs) { ended_ = pairs; }
-  /// Grains that were crushed to their middle in this step, by id; of all ranks, which all call it.
+  /// Ids of the grains crushed to their centre in this step, of all ranks, which all call it.
   std::vector<std::uint32_t> endedGrains() const;
   void takeOut(const std::vector<std::uint32_t>& grains) { contacts_.takeOut(grains); }
-  GearContacts gearContacts() const; ///< of the last step; of all ranks, which all call it. For rows, not for steps.
-  /// Since forgetPressed(); of all ranks, which all call it.
-  PressedMost pressedMost() const;
-  void forgetPressed() { contacts_.forgetPressed(); }
+  GearContacts gearContacts() const; ///< of the last step and all ranks, which all call it; for rows, not for steps
+  /// Since resetDeepestOverlap(); of all ranks, which all call it.
+  DeepestPartOverlap deepestPartOverlap() const;
+  void resetDeepestOverlap() { contacts_.resetDeepestOverlap(); }
 
   void addTo(ContactLedger& ledger) const;
   void save(ContactsState& state) const;

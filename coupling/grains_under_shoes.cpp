@@ -13,14 +13,14 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kNodes = 6;       // a grain's radius: how close the heights of stones are looked up
-constexpr double kReach = 0.75;    // of their distance: each stone is seen from a node at least
+constexpr double kNodes = 6;       // nodes per grain radius, for the heights of stones
+constexpr double kReach = 0.75;    // [node distance]: each stone is within reach of at least one node
 constexpr double kClear = 1e-3;    // extra lift [radius]: accuracy of heights below tilted pads
-constexpr double kLooksDown = 0.5; // cosine between the vertical and what a shoe treads with, at least [-]
+constexpr double kLooksDown = 0.5; // least cosine between the vertical and the tread of a shoe [-]
 
 struct Shoe {
   base::Pose pose; ///< X_WP
-  Vec3d down;      ///< what it treads with, outwards
+  Vec3d down;      ///< outward normal of its tread
 };
 
 std::vector<Shoe> shoesThatLookDown(const vehicle::Assembly& assembly) {

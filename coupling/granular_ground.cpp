@@ -26,7 +26,7 @@ LoadQuanta GranularGround::meet(const PartsOnGround& parts) {
   return onParts_->quanta();
 }
 
-/// Walls and floor; without a vehicle there is nothing that they could run beside.
+/// Computes walls and floor concurrently; without a vehicle there is no other work.
 void GranularGround::beginUncoupled() {
   if (onParts_) grains().beginBoundaries();
 }
@@ -64,7 +64,7 @@ std::vector<double> GranularGround::surfaceNow() const {
 }
 
 void GranularGround::restartMeans() {
-  if (onParts_) onParts_->forgetPressed();
+  if (onParts_) onParts_->resetDeepestOverlap();
 }
 
 void GranularGround::save(SimulationState& state) const {

@@ -7,11 +7,10 @@
 
 namespace grouser::coupling {
 
-/// Grains: a bed under a vehicle, or grains in a container, in a mixer, or alone. On several ranks each has those of
-/// its subdomain.
+/// Grains: a bed under a vehicle, or grains in a container, in a mixer, or alone. Each rank has those of its subdomain.
 class GranularGround : public Ground {
 public:
-  /// `laid`, which has grains, and `setup` outlive it.
+  /// `laid`, which must have grains, and `setup` must outlive it.
   GranularGround(LaidGround& laid, const GroundSetup& setup, const base::Exec& exec)
       : laid_(laid), setup_(setup), exec_(exec) {}
 
@@ -40,7 +39,7 @@ public:
   void save(SimulationState& state) const override;
   void saveContacts(ContactsState& state) const override { onParts_->save(state); }
 
-  // What other kinds of ground do not have.
+  // Functions that other kinds of ground lack.
   terrain::Grains& grains() const { return *laid_.grains; }
   GrainsOnParts* onParts() const { return onParts_.get(); } ///< null until meet() is called
   /// Loads of the meshes among the scene's surfaces, which outlive it; null without meshes.

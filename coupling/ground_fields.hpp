@@ -18,7 +18,7 @@ struct SoilNode {
   base::Vec3d shear;    ///< stress on the soil [Pa] now
 };
 
-/// Deformable soil as it lies now, for output. All other nodes are undisturbed and carry nothing.
+/// Present deformable soil, for output. All other nodes are undisturbed and unloaded.
 struct GroundFields {
   scm::SoilConstants constants;
   double spacing{};            ///< node (i, j) lies at x = i spacing, y = j spacing [m]

@@ -9,7 +9,8 @@ namespace grouser::coupling {
 
 std::unique_ptr<Ground> makeGround(LaidGround& laid, const GroundSetup& setup, const base::Exec& exec) {
   if (setup.otherKind && laid.grains)
-    throw base::InputError("the scene has grains and a ground of another kind, which do not meet; remove one of them");
+    throw base::InputError(
+        "the scene has grains and another kind of ground, which do not interact; remove one of them");
   if (setup.otherKind) return setup.otherKind(setup, exec);
   if (laid.grains) return std::make_unique<GranularGround>(laid, setup, exec);
   if (laid.rigid) return std::make_unique<RigidGround>(laid);

@@ -19,8 +19,7 @@ std::array<double, Input::kNumbers> Input::numbers() const {
 Input Input::of(const double* n) {
   constexpr auto kKinds = static_cast<double>(std::size(base::EnumWords<InputKind>::list));
   if (!(n[0] >= 0) || !(n[1] >= 0) || !(n[1] < kKinds))
-    throw base::InputError(
-        "an input is of no kind that this program knows; resume or replay with the one that wrote it");
+    throw base::InputError("unknown kind of input; resume or replay with the program version that wrote it");
   Input input{static_cast<std::int64_t>(n[0]),
               static_cast<InputKind>(static_cast<int>(n[1])),
               static_cast<std::int32_t>(n[2]),
@@ -86,7 +85,8 @@ std::vector<double> Inputs::save() const {
 
 void Inputs::restore(const std::vector<double>& saved) {
   if (saved.size() % Input::kNumbers != 0)
-    throw base::InputError("the inputs of the checkpoint are cut short; resume with the program that was run");
+    throw base::InputError(
+        "the inputs in the checkpoint are incomplete; resume with the program version that wrote it");
   series_.clear(), acting_.clear();
   for (std::size_t k = 0; k < saved.size(); k += Input::kNumbers) set(Input::of(saved.data() + k));
 }

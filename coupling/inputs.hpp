@@ -11,7 +11,7 @@
 
 namespace grouser::coupling {
 
-/// What can be set from outside while a simulation runs.
+/// Inputs that can be set while a simulation runs.
 enum class InputKind : std::int32_t {
   sprocketSpeed,  ///< of one track [rad/s], forward positive; with drive = "engine" the governor's set point
   sprocketTorque, ///< of one track [N m], forward positive
@@ -22,13 +22,13 @@ enum class InputKind : std::int32_t {
   bodyLoad        ///< force on a body [N] and torque about its centre of mass [N m], in world axes
 };
 
-/// One setting. It acts from the step at whose beginning it is made until the next of its kind and target.
+/// One setting. It acts from the start of its step until the next of its kind and target.
 struct Input {
-  std::int64_t step{}; ///< before which it is made
+  std::int64_t step{}; ///< first step in which it acts
   InputKind kind{};
   std::int32_t target{};              ///< track (0 left, 1 right) or body; 0 of the others
-  bool released{};                    ///< back to what the scene says
-  std::array<double, 6> value{};      ///< as many as the kind has, 0 behind them
+  bool released{};                    ///< returns to the scene's value
+  std::array<double, 6> value{};      ///< as many as the kind has, then 0
   static constexpr int kNumbers = 10; ///< in a row of a file
 
   std::array<double, kNumbers> numbers() const;
@@ -39,22 +39,22 @@ struct Input {
 /// Numbers of a kind's value [-].
 int width(InputKind kind);
 
-/// All settings of a simulation so far, in their order: the part of the answer that no scene knows. Kept in checkpoints
-/// and results; what acts now is in the state hash.
+/// All settings of a simulation so far, in their order, which are not part of the scene. Stored in checkpoints and
+/// results; acting ones are in the state hash.
 class Inputs {
 public:
-  /// Two settings of one kind and target before one step: the last counts. `input.step` does not fall.
+  /// The last of several settings of one kind and target in a step counts. `input.step` must not decrease.
   void set(const Input& input);
   const std::vector<Input>& series() const { return series_; }
-  /// What acts now; empty where the scene does.
+  /// The acting value; empty if the scene's value acts.
   std::optional<std::array<double, 6>> now(InputKind kind, std::int32_t target = 0) const;
-  /// All that act now, by kind and target.
+  /// All acting settings, by kind and target.
   const std::vector<Input>& acting() const { return acting_; }
 
-  /// For the state hash; empty where nothing acts.
+  /// For the state hash; empty if nothing acts.
   std::vector<std::uint64_t> words() const;
   std::vector<double> save() const; ///< Input::kNumbers a setting
-  /// Throws base::InputError where it is not what save() returned.
+  /// Throws base::InputError if `saved` is not from save().
   void restore(const std::vector<double>& saved);
 
 private:

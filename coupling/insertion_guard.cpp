@@ -25,10 +25,9 @@ void guardInsertion(terrain::Grains& grains, const Sources& sources, const std::
       before += batch.grains.size();
     }
     const std::string message =
-        fmt::format("{} would set a grain {} at step {}, time {:.6g} s, {:.3g} m deep in {}, more than {:g} of the "
-                    "radius (run.max_overlap); let it enter elsewhere (low, high), later (start), or leave those "
-                    "before it more time to get away "
-                    "(every, number, velocity)",
+        fmt::format("{} would insert a grain {} at step {}, time {:.6g} s, {:.3g} m deep in {}, more than {:g} of the "
+                    "radius (run.max_overlap); insert it elsewhere (low, high) or later (start), or insert fewer, "
+                    "less often or faster (number, every, velocity)",
                     sources.source(source).place, at(grain.position), all->steps(),
                     static_cast<double>(all->steps()) * all->model().timeStep, c.overlap,
                     c.grain ? fmt::format("grain {} {}", *c.grain, at(c.position)) : surfaces[c.surface],

@@ -9,9 +9,8 @@
 
 namespace grouser::coupling {
 
-/// Makes `grains` refuse entering grains that would overlap others, which is known only when they enter: InputError
-/// before the first step, SimulationError later, both naming the source. `surfaces`: names of those that the grains
-/// know.
+/// Makes `grains` refuse entering grains that would overlap others: InputError before the first step, SimulationError
+/// later, both with the name of the source. `surfaces`: names of the grains' surfaces.
 void guardInsertion(terrain::Grains& grains, const Sources& sources, const std::vector<std::string>& surfaces);
 
 } // namespace grouser::coupling

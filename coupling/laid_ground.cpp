@@ -23,7 +23,7 @@ bool isTaken(const GroundSetup& setup, const base::Vec3d& centre, double radius)
 
 namespace {
 
-/// The bed is laid around what stands in it.
+/// Lays the bed around surfaces that stand in it.
 std::vector<terrain::GrainSpec> laidGrains(const GroundSetup& setup, const BedSetup& bed) {
   std::vector<terrain::GrainSpec> start;
   for (const terrain::Seed& seed : terrain::layBed(*setup.surface, bed.options))
@@ -78,12 +78,12 @@ terrain::BedStructure structureOf(const LaidGround& ground) {
 }
 
 void checkStructure(const BedSetup& bed, const terrain::BedStructure& structure) {
-  constexpr std::int64_t kEnough = 200; // grains; of fewer the porosity says little
+  constexpr std::int64_t kEnough = 200; // grains; with fewer the porosity is too uncertain
   if (!bed.densest || structure.grains < kEnough || 1 - structure.porosity <= *bed.densest) return;
   throw base::SimulationError(
-      fmt::format("the settled bed has a solid fraction of {:.4f}, and disordered grains of these radii reach at most "
-                  "{:.4f}: it has crystallised ({:.0f} % of its grains lie in crystals); give it a wider "
-                  "radius_distribution or a larger porosity, or stiffer contacts if they overlap much",
+      fmt::format("the settled bed has a solid fraction of {:.4f}, but disordered grains of these radii reach at most "
+                  "{:.4f}: it has crystallised ({:.0f} % of its grains lie in crystals); use a wider "
+                  "radius_distribution or a larger porosity, or stiffer contacts if overlaps are large",
                   1 - structure.porosity, *bed.densest, 100 * structure.order),
       base::Cause::unsettledBed);
 }

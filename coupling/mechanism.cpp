@@ -16,15 +16,15 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// The longest stable step goes as the inverse root of the tension. It is computed again when the largest force reaches
-/// kTensionShare of what the present step bears, but not before it has grown kLeastGrowth times (an unstable
-/// oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
+/// The longest stable step is proportional to the inverse root of the tension. It is computed again when the largest
+/// force reaches kTensionShare of the limit of the present step, but not before it has grown kLeastGrowth times (an
+/// unstable oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
 constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 
-/// Steps that a bounce off an end stop wants, as "auto" gives them [-].
+/// Steps per bounce off an end stop, as chosen by "auto" [-].
 constexpr double kBounceSteps = 20;
 
-/// Turns of a step are typed with some digits [-].
+/// Tolerance for rounded input of the rotation per step [-].
 constexpr double kTurnDigits = 1e-6;
 
 } // namespace
@@ -51,10 +51,10 @@ void Mechanism::require(const Input& input) const {
   if (input.kind == InputKind::gravity) return;
   if (input.kind != InputKind::bodyLoad)
     throw base::InputError(
-        fmt::format("a mechanism has no {}; it takes gravity and body_load", base::wordOf(input.kind)));
+        fmt::format("a mechanism has no input {}; it accepts gravity and body_load", base::wordOf(input.kind)));
   if (input.target < 0 || at(input.target) >= model_.bodies().size())
     throw base::InputError(
-        fmt::format("the mechanism has no body {}; it has {}", input.target, model_.bodies().size()));
+        fmt::format("the mechanism has no body {}; it has {} bodies", input.target, model_.bodies().size()));
 }
 
 void Mechanism::command(const Inputs& inputs, const base::Vec3d& gravity) {
@@ -83,11 +83,11 @@ void Mechanism::advance() {
     throw base::SimulationError(tensionStepWarning_.empty() ? error.what()
                                                             : fmt::format("{}; {}", error.what(), tensionStepWarning_),
                                 error.cause());
-  } catch (const base::InputError& error) { // what the step bore at the start it no longer bears
+  } catch (const base::InputError& error) { // the step was stable at the start and no longer is
     fail(base::Cause::growingSwings, error.what());
   }
   ++steps_;
-  if (contacts_) applied_.book(state_, timeStep_), contacts_->trackTravel(state_), checkTravel();
+  if (contacts_) applied_.accountWork(state_, timeStep_), contacts_->trackTravel(state_), checkTravel();
   watchDrift();
   if (!overTension_) watchTension();
   if (steps_ % kJudgeInterval == 0) judge();
@@ -107,7 +107,7 @@ void Mechanism::checkTravel() const {
   fail(base::Cause::thrownPart,
        fmt::format("body \"{}\" moves at up to {:.4g} m/s, {:.4g} m a step, more than {:.4g} m, half the radius of the "
                    "smallest grain or a quarter of the thinnest shape: it could pass through without contact; set "
-                   "run.time_step to {} s or less, or limit what drives it",
+                   "run.time_step to {} s or less, or limit its drive",
                    model_.bodies()[fastest].name, speed, way, mostTravel_, base::roundedDown(mostTravel_ / speed, 4)));
 }
 
@@ -123,8 +123,8 @@ void Mechanism::judge() {
   judgeTurns();
 }
 
-/// A body that turns far in a step precesses too slowly: one of moments 1, 1, 2 with spin (0.5, 0, 1) by 0.07 % at 0.1
-/// rad a step, 0.65 % at a turn in 20 steps, 3.4 % at 0.75 rad (measured).
+/// A large rotation per step makes a body precess too slowly: one of moments 1, 1, 2 with spin (0.5, 0, 1) by 0.07 % at
+/// 0.1 rad a step, 0.65 % at a turn in 20 steps, 3.4 % at 0.75 rad (measured).
 void Mechanism::judgeTurns() const {
   for (std::size_t b = 0; b < state_.twist.size(); ++b) {
     const double rate = norm(state_.twist[b].w), turn = timeStep_ * rate;
@@ -132,9 +132,9 @@ void Mechanism::judgeTurns() const {
     const std::string spunUp =
         turn > 2 * startTurn_[b] ? fmt::format(" (spun up from {:.4g} rad a step at the start)", startTurn_[b]) : "";
     fail(base::Cause::fastTurn,
-         fmt::format("body \"{}\" turns by {:.4g} rad a step{}, above the {:.4g} rad of run.steps_per_period = {:g} "
-                     "steps a turn, beyond which its motion is no longer resolved; set run.time_step to {} s or less, "
-                     "limit what drives it, or lower run.steps_per_period if you mean it{}",
+         fmt::format("body \"{}\" rotates by {:.4g} rad a step{}, more than {:.4g} rad (run.steps_per_period = {:g} "
+                     "steps a turn), so its motion is not resolved; set run.time_step to {} s or less, limit its "
+                     "drive, or lower run.steps_per_period if this is intended{}",
                      model_.bodies()[b].name, turn, spunUp, largestTurn_, 2 * base::kPi / largestTurn_,
                      base::roundedDown(largestTurn_ / rate, 4),
                      tensionStepWarning_.empty() ? "" : "; " + tensionStepWarning_));
@@ -148,14 +148,14 @@ void Mechanism::judgeTension() {
   if (swings_.bears(r, kJudgeInterval)) return;
   fail(base::Cause::growingSwings,
        fmt::format(
-           "swings across the pull in joints may have grown {:g} times, for it stays above what the step bears, now "
-           "{:.3g} times that ({}): {}; set run.time_step to {} s or less",
+           "transverse oscillations of tensioned joints may have grown {:g} times: the time step stays above the "
+           "stability limit, now {:.3g} times ({}): {}; set run.time_step to {} s or less",
            SwingGrowth::kMost, r, part, tensionStepWarning_, base::roundedDown(0.5 * timeStep_ / r, 4)));
 }
 
-/// Growing forces in joints and springs lower the longest stable step. That is noted, and judged from the next
-/// judgement on: a peak may pass before any oscillation has grown. The first tension that the step does not bear is
-/// kept, not the largest: later ones contain the forces of the oscillation itself.
+/// Growing forces in joints and springs lower the longest stable step. That is noted, and checked from the next check
+/// on: a peak may pass before any oscillation has grown. The first tension above the limit is kept, not the largest:
+/// later ones contain the forces of the oscillation itself.
 void Mechanism::watchTension() {
   double force = 0;
   for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));
@@ -173,7 +173,7 @@ double Mechanism::checkTension() {
   const double most = stableStepUnderTension(&part);
   if (timeStep_ >= most && tensionStepWarning_.empty())
     tensionStepWarning_ =
-        fmt::format("at {:.4g} s {} bore so much that only steps below {:.2g} s are stable", state_.time, part, most);
+        fmt::format("at {:.4g} s the load on {} limits stable steps to {:.2g} s", state_.time, part, most);
   return most;
 }
 
@@ -187,8 +187,8 @@ std::string Mechanism::bounceNote() {
   const double rate = controller_ ? 0 : solver_.stopRate(state_, loads_, &stop);
   const double steps = rate > 0 ? base::kPi / (rate * timeStep_) : kBounceSteps;
   if (steps >= kBounceSteps) return {};
-  return fmt::format("a bounce off {} lasts {:.2g} s, {:.2g} steps of it where {:g} are wanted", stop, base::kPi / rate,
-                     steps, kBounceSteps);
+  return fmt::format("a bounce off {} lasts {:.2g} s, {:.2g} steps; it needs {:g} steps", stop, base::kPi / rate, steps,
+                     kBounceSteps);
 }
 
 void Mechanism::addTo(Ledger& l) const {
@@ -237,7 +237,7 @@ void Mechanism::restore(const MechanismState& saved) {
   if (saved.worst.size() != 3 || saved.judged.size() != 5 || saved.control.size() != 5 ||
       saved.touching.has_value() != touches() ||
       (touches() && saved.touching->forces.size() > contactParts_.count() + contacts_->surfaces()))
-    throw base::InputError("the checkpoint is of another mechanism; resume with the scene that was run");
+    throw base::InputError("the checkpoint belongs to another mechanism; resume with the scene that was run");
   worst_ = {saved.worst[0], 0, static_cast<int>(saved.worst[1]), static_cast<int>(saved.worst[2])};
   steps_ = static_cast<std::int64_t>(saved.judged[0]);
   boundedTension_ = saved.judged[1];

@@ -20,24 +20,24 @@
 
 namespace grouser::coupling {
 
-/// A mechanism of a scene that moves: model, state and solver, with drives that follow their laws over time.
+/// A moving mechanism of a scene: model, state and solver, with drives that follow their laws over time.
 class Mechanism : public BodiesInContact {
 public:
-  /// `ground`: touches the bodies' shapes, and outlives it; null without. `obstacles`: surfaces at rest that the shapes
-  /// touch. `kept` as in VehicleParts.
+  /// `ground`: touches the bodies' shapes and must outlive it; null without. `obstacles`: surfaces at rest that the
+  /// shapes touch. `kept` as in VehicleParts.
   Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec = base::cpuExec(1),
             Ground* ground = nullptr, const std::vector<Obstacle>& obstacles = {}, SphereSets* kept = nullptr);
 
   bool touches() const { return contacts_ != nullptr; }
 
-  /// Throws base::InputError where the mechanism has nothing that the input could set.
+  /// Throws base::InputError if the mechanism does not have this input.
   void require(const Input& input) const;
-  /// From the next step on what acts among these; all have passed require().
+  /// Sets the acting inputs for the following steps; all have passed require().
   void command(const Inputs& inputs, const base::Vec3d& gravity);
 
   void actuate() override;
-  /// One step, after actuate(). Throws base::SimulationError, also where the motion has become too quick for the step:
-  /// at every kJudgeInterval-th step the turn of each body and the pull in joints and springs are judged.
+  /// One step, after actuate(). Throws base::SimulationError, also if the motion is too fast for the step: every
+  /// kJudgeInterval steps the rotation of each body and the tension of joints and springs are checked.
   void advance() override;
   static constexpr std::int64_t kJudgeInterval = 50;
 
@@ -47,21 +47,21 @@ public:
 
   void addTo(Ledger& ledger) const;
 
-  /// Kinetic energy that the drives gave in an impact, since the velocities of the scene did not fit theirs [J].
+  /// Kinetic energy added by the drives at the start, if the velocities of the scene do not match theirs [J].
   double startBlow() const { return startBlow_; }
 
-  /// Up to which step a swing across the tension of joints and springs does not grow [s]; infinite without. `part`, if
-  /// given, receives the name of what has the greatest part in it.
+  /// Longest step for which transverse oscillations under the tension of joints and springs do not grow [s]; infinite
+  /// without. `part`, if given, receives the name of the joint or spring with the largest contribution.
   double stableStepUnderTension(std::string* part = nullptr) {
     return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
-  /// What the last judgement of a pull above what the step bears says: when and where the tension of joints and springs
-  /// first needed a shorter step, and which; empty: never, nor now.
+  /// Text of the time and place at which the tension of joints and springs first needed a shorter step, and its length;
+  /// empty: never, nor now.
   const std::string& tensionStepWarning();
-  /// End stops off which a bounce has too few steps, in words; empty: none, or steps follow an error.
+  /// Text on an end stop with too few steps per bounce; empty: none, or error-controlled steps.
   std::string bounceNote();
 
-  /// How well the joints are closed.
+  /// Constraint errors of the joints.
   struct Drift {
     double position = 0;   ///< largest since the last call of restartMeans() [m, rad]
     double velocity = 0;   ///< now [m/s, rad/s]
@@ -71,11 +71,11 @@ public:
   Drift drift() const;
   void restartMeans() { worst_ = {}, rowMeans_.restart(); }
 
-  /// What its steps were; null where they are fixed.
+  /// The step controller; null for fixed steps.
   const StepController* controller() const { return controller_.get(); }
 
   MechanismState save() const;
-  /// Throws base::InputError where the state is of another mechanism.
+  /// Throws base::InputError if the state belongs to another mechanism.
   void restore(const MechanismState& saved);
 
 private:
@@ -96,13 +96,13 @@ private:
   double startBlow_;
   Drift worst_;
   std::int64_t steps_ = 0;
-  double boundedTension_ = 0; ///< up to this force in joints and springs the step is short enough [N]
+  double boundedTension_ = 0; ///< largest force in joints and springs for which the step is short enough [N]
   std::string tensionStepWarning_;
-  bool overTension_ = false; ///< the pull was above what the step bears when last looked at
+  bool overTension_ = false; ///< the tension exceeded the limit of the step at the last check
   SwingGrowth swings_;
   std::unique_ptr<StepController> controller_; ///< null: fixed steps
   std::vector<double> startTurn_;              ///< of each body in the first step [rad]
-  AppliedLoads applied_;                       ///< from outside, where bodies touch something
+  AppliedLoads applied_;                       ///< external loads, if bodies have contacts
   double mostTravel_ = 0;                      ///< largest travel of a surface point in a step [m]
 };
 

@@ -7,7 +7,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Velocities that open joints faster than this at the start were typed with a few digits, and are made to fit [m/s].
+/// Velocities that open joints faster than this at the start are rounded input, and are corrected [m/s].
 constexpr double kRoundedRate = 1e-12;
 
 } // namespace

@@ -9,7 +9,7 @@
 
 namespace grouser::coupling {
 
-/// Contacts of bodies with shapes, and what output needs of them.
+/// Contacts of bodies with shapes, and sums for output.
 struct TouchingState {
   ContactsState contacts;
   std::vector<base::Vec3l> forces; ///< sum of forces on each shape and surface since the last row, in quanta
@@ -17,17 +17,17 @@ struct TouchingState {
   std::vector<double> appliedWork; ///< AppliedLoads::save()
 };
 
-/// All of a mechanism on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
+/// State of a mechanism that later steps or later output depend on, for checkpoint and hash.
 struct MechanismState {
   std::vector<double> bodies; ///< multibody::State::save()
-  std::vector<double> worst;  ///< what the next row says of the steps since the last one
-  std::vector<double> judged; ///< what the next judgement of the pull in joints goes on from
+  std::vector<double> worst;  ///< constraint errors since the last row
+  std::vector<double> judged; ///< state of the tension check
 
   std::vector<double> control; ///< error-controlled steps: the next [s], how many, rejected, smallest, largest [s]
 
   std::optional<TouchingState> touching; ///< empty where bodies touch nothing
 
-  /// For the hash: what the next step depends on.
+  /// For the hash: the data that the next step depends on.
   std::vector<std::uint32_t> words() const;
 };
 

@@ -12,20 +12,20 @@
 
 namespace grouser::coupling {
 
-/// How a mesh is cut for contact with bodies of `contactSize` [m] and larger.
+/// Options of the cut of a mesh for contact with bodies of `contactSize` [m] and larger.
 PartCut meshCut(const SurfaceSetup& surface, double contactSize);
 
-/// Grains against the [[mesh]]es of a scene, each cut into spheres as the parts of a vehicle are. All have one
-/// material.
+/// Contacts of grains with the [[mesh]]es of a scene, which are cut into spheres like the parts of a vehicle. All have
+/// one material.
 class MeshContacts {
 public:
   /// Registers with the grains' migration, so that history follows them to other ranks; must outlive their steps.
-  /// `kept`: where sphere sets come from; null: all are cut.
+  /// `kept`: source of sphere sets; null: all are cut.
   MeshContacts(const GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;
 
-  /// One step: contacts with the meshes where they are, one motion a mesh.
+  /// One step: contacts with the meshes; one motion per mesh.
   void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                        bool slotsChanged);
   /// Returns the meshes for the complementarity solver. Call collect() after the grains' step.
@@ -36,7 +36,7 @@ public:
   /// Contact moments of the grains in the coming step; see GrainPartContacts::measure().
   contact::PartMomentsView measure(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                                    bool slotsChanged);
-  /// For the grains' step, after computeContacts().
+  /// Loads for the grains' step, after computeContacts().
   const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
   /// Loads on each mesh about its centre, summed over the ranks; valid after computeContacts() or collect().
   const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
@@ -44,13 +44,13 @@ public:
   contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }
   std::size_t spheres() const;
   const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; }
-  /// The meshes that press a grain; all ranks call it.
+  /// The meshes that overlap a grain; all ranks call it.
   std::vector<contact::GrainPartContacts::Press> pressing(std::uint32_t grain) const {
     return contacts_->pressing(grain);
   }
   std::optional<contact::GrainPartContacts::MostPressed> mostPressed() const { return contacts_->mostPressed(); }
-  void forgetPressed() { contacts_->forgetPressed(); }
-  /// Grains that were crushed to their middle in this step, by id; of all ranks, which all call it.
+  void resetDeepestOverlap() { contacts_->resetDeepestOverlap(); }
+  /// Ids of the grains crushed to their centre in this step, of all ranks, which all call it.
   std::vector<std::uint32_t> endedGrains() const {
     return (sums_.host() + sets_.size())->force.x == 0 ? std::vector<std::uint32_t>{} : contacts_->ended();
   }
@@ -73,8 +73,8 @@ private:
   base::FixedPoint force_, torque_;
   contact::GrainLoadsView grainLoads_;
   std::vector<terrain::SurfaceLoad> loads_;
-  std::vector<contact::PartMotion> listedAt_; ///< empty: the lists are to be made
-  double room_;                               ///< that a mesh may move between two lists [m]
+  std::vector<contact::PartMotion> listedAt_; ///< empty: the lists must be built
+  double room_;                               ///< travel of a mesh between two lists [m]
 };
 
 } // namespace grouser::coupling

@@ -73,10 +73,10 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
 namespace {
 
 constexpr double kMostLift = 0.1; // [m]
-constexpr double kClear = 1e-4;   // [m] that is left between the two
-constexpr int kMostTries = 1000;  // what is set down higher again and again stands beside a wall
+constexpr double kClear = 1e-4;   // [m] gap between the two
+constexpr int kMostTries = 1000;  // more lifts mean that the vehicle stands beside a wall
 
-/// A part in the world as it is assembled.
+/// An assembled part in the world.
 struct Placed {
   base::Pose pose; ///< X_WP
   const base::SphereSet* set;
@@ -96,7 +96,7 @@ std::vector<Placed> placedParts(const multibody::Model& model, const ContactPart
   return placed;
 }
 
-/// Deepest overlap of a part's surface with an obstacle [m], the part lifted by `lift`; 0 where they are apart.
+/// Deepest overlap of a part's surface with an obstacle [m], the part lifted by `lift`; 0 if they do not touch.
 double depthIn(const Placed& part, const SurfaceSetup& surface, double lift) {
   const Vec3d up{0, 0, lift};
   const base::Pose& at = surface.start;
@@ -127,8 +127,8 @@ double liftOffObstacles(const multibody::Model& model, const ContactParts& parts
     lift += most + kClear;
     if (lift > kMostLift || tries + 1 == kMostTries)
       throw base::InputError(fmt::format(
-          "{}: stands in the {} where the vehicle is set down, {} mm above the ground to clear it would not "
-          "be enough; move it or vehicle.position",
+          "{}: overlaps the {} at the vehicle's start; raising the vehicle by {} mm does not clear it; move it or "
+          "vehicle.position",
           obstacle->surface.place, part->name, 1e3 * kMostLift));
   }
   return lift;

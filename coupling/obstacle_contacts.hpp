@@ -14,22 +14,22 @@
 
 namespace grouser::coupling {
 
-/// Parts on what is rigid beside their feet's ground: the surfaces at rest, which all parts touch, rigid ground for the
-/// hull, and the shapes of other parts (ContactParts::pairs).
+/// Contacts of parts with rigid surfaces besides the ground of their feet: surfaces at rest, which all parts touch,
+/// rigid ground for the hull, and the shapes of other parts (ContactParts::pairs).
 class ObstacleContacts {
 public:
   struct Model {
     contact::PatchQuanta quanta;
     double timeStep{};
   };
-  /// `kept`: where sphere sets of meshes come from; null: they are cut. `hullOn`: rigid ground for the hull; may be
-  /// null. Null where there is nothing to meet.
+  /// `kept`: source of sphere sets of meshes; null: they are cut. `hullOn`: rigid ground for the hull; may be null.
+  /// Returns null if there are no contacts.
   static std::unique_ptr<ObstacleContacts> make(const ContactParts& parts, const std::vector<Obstacle>& obstacles,
                                                 const terrain::HeightField* hullOn, const Model& model,
                                                 const base::Comm& comm, SphereSets* kept);
 
-  /// Those of the scene, in its order, and behind them the ground that the hull meets. Their motions stand behind those
-  /// of the contact parts.
+  /// Number of surfaces: those of the scene, in its order, then the ground of the hull. Their motions follow those of
+  /// the contact parts.
   std::size_t surfaces() const { return motions_.size(); }
   const std::vector<contact::PartMotion>& motions() const { return motions_; }
 
@@ -50,8 +50,8 @@ private:
   std::unique_ptr<terrain::RigidContacts> contacts_;
 };
 
-/// How much higher a vehicle has to be set down so that no part stands in an obstacle [m]: 0 where none does. Throws
-/// InputError, at the obstacle's place in the scene, where that would be more than 10 cm.
+/// Extra lift of a vehicle so that no part overlaps an obstacle [m]; 0 if none does. Throws InputError with the
+/// obstacle's place in the scene if it exceeds 10 cm.
 double liftOffObstacles(const multibody::Model& model, const ContactParts& parts,
                         const std::vector<Obstacle>& obstacles);
 

@@ -47,7 +47,7 @@ double topOfMesh(const SurfaceSetup& surface, double x, double y) {
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
     Vec3d v[3];
     for (std::size_t k = 0; k < 3; ++k) v[k] = surface.start.toWorld(mesh.vertices[mesh.indices[t + k]]);
-    // Barycentric coordinates of (x, y) in the triangle as it is seen from above.
+    // Barycentric coordinates of (x, y) in the triangle seen from above.
     const double area = (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (v[1].y - v[0].y);
     if (!(area > 0)) continue; // looks down, or stands upright
     const double s = ((x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (y - v[0].y)) / area;
@@ -76,7 +76,7 @@ double topOf(const SurfaceSetup& surface, double x, double y) {
     cutSlab(p.z, d.z, half.z, low, high), cutRound(p, d, half.x, low, high);
     break;
   case terrain::SurfaceShape::tube:
-  case terrain::SurfaceShape::capsule: // bodies alone have that and the next
+  case terrain::SurfaceShape::capsule: // this and the next: bodies only
   case terrain::SurfaceShape::cone:
     return kNoTop;
   }

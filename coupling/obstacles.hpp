@@ -10,19 +10,19 @@
 
 namespace grouser::coupling {
 
-/// A surface at rest as the parts of a vehicle and bodies meet it.
+/// A surface at rest for contact with the parts of a vehicle and bodies.
 struct Obstacle {
   SurfaceSetup surface;
   double friction{};                        ///< [-] of shoes, wheels and hull on it; bodies have a FoundationTable
-  std::optional<std::size_t> amongSurfaces; ///< its place among surfacesOf(); empty: a plane that is a wall to grains
+  std::optional<std::size_t> amongSurfaces; ///< its place among surfacesOf(); empty: a plane that is a wall for grains
 };
 
-/// Height of the upper side of a plane, box, solid cylinder or mesh over (x, y) [m]; -infinity beside it, and of hollow
-/// cylinders and planes that look down or aside.
+/// Height of the upper side of a plane, box, solid cylinder or mesh over (x, y) [m]; -infinity beside it, and for
+/// hollow cylinders and planes that do not face up.
 double topOf(const SurfaceSetup& surface, double x, double y);
 
-/// Heights of a ground with the tops of those obstacles that stand on it or in it: their lowest point lies no more than
-/// 5 cm above the ground at their middle. What hangs or spans higher is no ground.
+/// Heights of a ground including the tops of obstacles that stand on it or in it: with their lowest point at most 5 cm
+/// above the ground at their middle. Higher ones are not ground.
 std::function<double(double, double)> withObstacles(const std::function<double(double, double)>& ground,
                                                     const std::vector<Obstacle>& obstacles);
 

@@ -16,9 +16,9 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kTrackMargin = 0.004;  // [m] how far before touching a sample is listed
+constexpr double kTrackMargin = 0.004;  // [m] gap at which a sample is listed
 constexpr double kGroundMargin = 0.008; // [m] the same for ground and obstacles
-constexpr double kAhead = 0.0005;       // [m] that parts may move in a step launched ahead, however slow they were
+constexpr double kAhead = 0.0005;       // [m] least travel allowed in a step launched ahead
 
 } // namespace
 
@@ -29,7 +29,7 @@ PartContacts::PartContacts(const ContactParts& parts, const RunningGear* gear, c
   if (ground_) traits_ = ground_->traits();
   const std::size_t n = parts.count();
   travelled_ = base::Mirrored<double>(exec_, 2);
-  // Ten thousand times the weight of all on one part is beyond anything that could still be driven.
+  // Loads beyond ten thousand times the total weight on one part do not occur in a valid run.
   const double largest = 1e4 * parts.weight;
   quanta_.force = base::fixedPointFor(largest, 46);
   quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
@@ -102,7 +102,7 @@ void PartContacts::compute(StepObserver* observer) {
   if (usesDevice())
     graph_.from(ground_ ? ground_->buffer() : nullptr).run([this] {
       uploadPoses();
-      // Side by side: both write different parts of loadSums_, and read the same poses.
+      // Concurrently: both write different parts of loadSums_, and read the same poses.
       side_.fork();
       computeGround(side_.exec());
       computeTrack();
@@ -112,7 +112,7 @@ void PartContacts::compute(StepObserver* observer) {
   computeOnHost();
 }
 
-/// The same one after another, without graph and side stream, so that an observer can time each.
+/// The same sequentially, without graph and side stream, so that an observer can time each.
 void PartContacts::computeInParts(StepObserver& observer) {
   if (usesDevice()) uploadPoses();
   observer.after(Stage::posesUploaded);
@@ -144,7 +144,7 @@ void PartContacts::downloadLoads() {
   base::carry(exec_, std::array{base::Parcel{loadSums_.host(), loadSums_.device().data(), loadSums_.bytes()}});
 }
 
-/// Shoes against sprocket, wheels, rollers, idler: samples on the device.
+/// Computes contacts of shoes with sprocket, wheels, rollers and idler: samples on the device.
 void PartContacts::computeTrack() {
   if (!track_) return;
   traits_.replicated.run(
@@ -202,7 +202,7 @@ void PartContacts::solve(contact::BodyResponse& bodies, multibody::Loads& loads)
   for (std::size_t c = 0; c < parts_.count(); ++c) addGroundLoad(c, loads.external[parts_.parts[c].body]);
 }
 
-/// Integer sums are the same on all ranks, in any order: every rank moves the vehicle alike.
+/// Integer sums are the same on all ranks, in any order: every rank moves the vehicle identically.
 void PartContacts::sumGroundLoads() {
   const std::size_t n = parts_.count();
   contact::PartLoad* const ground = groundLoads();
@@ -258,7 +258,7 @@ void PartContacts::trackTravel(const multibody::State& state) {
   absoluteTravel_ += lastAbsolute_;
 }
 
-/// Ahead a part may go four times as far as in the step before.
+/// In a step launched ahead a part may move four times as far as in the step before.
 bool PartContacts::listsHold(bool ahead) const {
   if (!ahead) return !trackHasLeft() && !groundHasLeft();
   const bool track = !track_ || 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin;

@@ -32,13 +32,13 @@ class GrainsOnParts;
 /// ground that is divided among MPI ranks is computed in parts; every rank repeats all other contacts.
 class PartContacts {
 public:
-  /// A vehicle whose first contact parts are these.
+  /// A vehicle; its parts are the first contact parts.
   struct RunningGear {
     const vehicle::Assembly& assembly;
     const VehicleParts& parts;
   };
-  /// `parts`, `gear` and `ground` outlive it. `gear`: the running gear whose parts touch each other; null without.
-  /// `ground`: meets the parts; null without. `kept` as in VehicleParts.
+  /// `parts`, `gear` and `ground` must outlive it. `gear`: the running gear whose parts touch each other; null without.
+  /// `ground`: touches the parts; null without. `kept` as in VehicleParts.
   PartContacts(const ContactParts& parts, const RunningGear* gear, const std::vector<Obstacle>& obstacles,
                const base::Exec& exec, double timeStep, Ground* ground, SphereSets* kept);
   PartContacts(const PartContacts&) = delete;
@@ -51,7 +51,7 @@ public:
   /// Queues the contacts on the device, without waiting, and computes those of the host. `observer`: called after each
   /// kind of contacts.
   void compute(StepObserver* observer);
-  /// Puts the loads, summed over all ranks, on the bodies: once the device is done with them. solve() adds those of
+  /// Applies the loads, summed over all ranks, to the bodies, after the device has finished. solve() adds those of
   /// complementarity contacts.
   void collect(multibody::Loads& loads);
   /// Solves complementarity contacts with the ground and adds their loads to `loads`, which contains all other loads.
@@ -59,35 +59,36 @@ public:
   bool solves() const { return traits_.solves; }
   /// Contact moments of the grains at the poses last set, for which the lists hold, without change of state.
   contact::PartMomentsView measure(GrainsOnParts& onGrains, const contact::GrainsView& grains);
-  /// How far the parts may have moved in the step that has brought them to `state`.
+  /// Updates the bound on the travel of the parts after the step to `state`.
   void trackTravel(const multibody::State& state);
 
   // A step on grains that is launched ahead of its poses; see StepsAhead.
   /// Queues walls, floor and the grains without a listed part; behind the gate the part contacts, then the other
-  /// grains; tells the loads, then the flags of the grains.
+  /// grains; sends the loads, then the flags of the grains to the host.
   void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnParts& onGrains);
-  /// Before the gate opens: what the device reads beside the poses.
+  /// Before the gate opens: sets the data that the device reads besides the poses.
   void noteTravel();
   /// After the gate opens: computes the host contacts.
   void computeOnHost();
-  /// For the poses last set; `ahead`: for those of the next step too, unless a part is thrown.
+  /// Whether the lists are valid for the current poses; `ahead`: for those of the next step too, unless a part is
+  /// thrown.
   bool listsHold(bool ahead = false) const;
-  double lastTravel() const { return lastAbsolute_; } ///< bound on the way of any surface point in the last step [m]
+  double lastTravel() const { return lastAbsolute_; } ///< bound on the travel of any surface point in the last step [m]
   std::int64_t listings() const { return listings_; }
 
   bool onGround() const { return ground_ != nullptr; }
-  /// Surfaces at rest that are to be met, and rigid ground for the hull; see ObstacleContacts.
+  /// Number of surfaces at rest, and rigid ground for the hull; see ObstacleContacts.
   std::size_t surfaces() const { return obstacles_ ? obstacles_->surfaces() : 0; }
-  /// Force of ground and surfaces on a contact part in the last step, in quanta of groundForceQuantum(). From the
-  /// number of contact parts on: of these on the surfaces.
+  /// Force of ground and surfaces on a contact part in the last step, in quanta of groundForceQuantum(). Indices beyond
+  /// the contact parts: force of the parts on the surfaces.
   base::Vec3l groundForce(std::size_t index) const;
   const base::FixedPoint& groundForceQuantum() const { return groundQuanta_.force; }
 
   ContactLedger ledger() const;
-  ListedContacts listed() const; ///< as near now
+  ListedContacts listed() const; ///< now
 
   void save(ContactsState& state) const;
-  /// Marks the lists as outdated: the next step makes them anew.
+  /// Marks the lists as outdated: the next step rebuilds them.
   void restore(const ContactsState& state);
 
 private:
@@ -98,10 +99,10 @@ private:
   void addGroundLoad(std::size_t part, multibody::Wrench& wrench);
   void makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept);
 
-  // Whether parts have moved beyond what the lists hold.
+  // Whether parts have moved beyond the margin of the lists.
   bool trackHasLeft() const;
   bool groundHasLeft() const;
-  // What compute() is made of.
+  // Stages of compute().
   void computeInParts(StepObserver& observer);
   void uploadPoses();
   void computeTrack();
@@ -143,7 +144,7 @@ private:
   base::Vec3d angularOnParts_; ///< from the ground [N m s]
 };
 
-/// How meshes that the vehicle meets as obstacles were cut.
+/// Cuts of the meshes among the vehicle's obstacles.
 std::vector<spheredecomp::CutReport> obstacleReports(const PartContacts& contacts);
 
 } // namespace grouser::coupling

@@ -18,7 +18,7 @@ using terrain::GrainState;
 
 namespace {
 
-/// A surface that is put on a bed may press a grain by this share of its radius: what rounded digits leave.
+/// Allowed overlap of a surface on a bed with a grain as a share of its radius, from rounded input.
 constexpr double kPressed = 0.01;
 
 constexpr double kNoGrain = -1e300;
@@ -49,7 +49,7 @@ bool isOver(int axis, double place, double radius, const SurfaceBounds& b, const
   return reaches(place) || reaches(place + period) || reaches(place - period);
 }
 
-/// Highest point of the grains under these bounds, on any rank [m]; kNoGrain where there is none.
+/// Highest point of the grains under these bounds, on any rank [m]; kNoGrain if there is none.
 double topUnder(const std::vector<Row>& rows, const SurfaceBounds& bounds, const terrain::PeriodicBoundaries& sides,
                 const base::Comm& comm) {
   double top = kNoGrain;
@@ -60,13 +60,13 @@ double topUnder(const std::vector<Row>& rows, const SurfaceBounds& bounds, const
   return top;
 }
 
-/// How far to lift what these bounds hold, so that its lowest point stands `above` over the highest grain under it.
+/// Lift of an object with these bounds so that its lowest point is `above` the highest grain under it [m].
 double liftOf(const std::vector<Row>& rows, const SurfaceBounds& bounds, double above,
               const terrain::PeriodicBoundaries& sides, const std::string& place, const base::Comm& comm) {
   const double top = topUnder(rows, bounds, sides, comm);
   if (top == kNoGrain)
     throw base::InputError(fmt::format("{}.above_bed [m]: no grain of the bed lies under it, between x = {:.6g} and "
-                                       "{:.6g} m, y = {:.6g} and {:.6g} m; move it over the bed, or give its height "
+                                       "{:.6g} m, y = {:.6g} and {:.6g} m; move it over the bed, or set its height "
                                        "instead",
                                        place, bounds.low.x, bounds.high.x, bounds.low.y, bounds.high.y));
   return top + above - bounds.low.z;
@@ -100,7 +100,7 @@ SurfaceBounds boundsOf(const std::vector<terrain::GrainSpec>& grains) {
   return b;
 }
 
-/// The grain that something stands in deepest.
+/// The grain with the deepest overlap.
 struct Deepest {
   double share = kNoGrain, depth = 0; ///< of the radius [-], [m]
   Row grain{};
@@ -133,18 +133,18 @@ void requireRoomInBed(const SurfaceSetup& surface, const std::vector<Row>& rows,
   const Deepest d = deepestIn(surface, rows, comm);
   if (!(d.share > kPressed)) return;
   throw base::InputError(fmt::format(
-      "{}: {} would stand {:.3g} m deep in grain {} of the settled bed, of radius {:g} m at {}, more than "
-      "{:g} of that; give above_bed [m], which puts it on the settled bed, move it, or set placed = "
-      "\"before\", with which the bed is laid around it",
+      "{}: {} would lie {:.3g} m deep in grain {} of the settled bed, radius {:g} m at {}, more than {:g} of the "
+      "radius; set above_bed [m] to place it on the settled bed, move it, or set placed = \"before\" to lay the bed "
+      "around it",
       surface.place, surface.name, d.depth, d.grain.id, d.grain.radius, pointOf(d.grain.position), kPressed));
 }
 
-/// What Grains::add() does not see: meshes, and walls where the height was not known before.
+/// Checks overlaps that Grains::add() cannot: with meshes, and with walls if the height was not known before.
 void requireRoomFor(const PlacedGrains& section, const GroundSetup& scene) {
   const GrainsSetup& all = *scene.grains;
   const auto refuse = [&](const terrain::GrainSpec& g, double depth, const std::string& what) {
     if (depth > all.model.maxEntryOverlap * g.radius)
-      throw base::InputError(fmt::format("{}: a grain of radius {:g} m {} would stand {:.3g} m deep in {}, more than "
+      throw base::InputError(fmt::format("{}: a grain of radius {:g} m at {} would lie {:.3g} m deep in {}, more than "
                                          "{:g} of its radius (run.max_overlap); move it",
                                          section.place, g.radius, pointOf(g.position), depth, what,
                                          all.model.maxEntryOverlap));
@@ -158,7 +158,7 @@ void requireRoomFor(const PlacedGrains& section, const GroundSetup& scene) {
   }
 }
 
-/// Where the grains of a state lie, all of them on every rank.
+/// The grains of a state, all of them on every rank.
 std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const terrain::GrainModel& model,
                                         const base::PositionScale& scale, const std::vector<int>& materials,
                                         const base::Comm& comm) {
@@ -187,7 +187,7 @@ void makeGrains(LaidGround& ground, const GroundSetup& scene, const std::vector<
 }
 
 /// The place of each of the bed's boundaries among those of the scene: walls, places of the floor, then surfaces.
-/// Beside larger grains a floor may have more places than alone.
+/// With larger grains a floor may have more places than before.
 std::vector<std::size_t> boundariesInScene(const GroundSetup& scene, const terrain::GrainLayout& alone,
                                            const terrain::GrainLayout& layout) {
   std::size_t surfaces = 0, later = 0;
@@ -205,11 +205,11 @@ std::vector<std::size_t> boundariesInScene(const GroundSetup& scene, const terra
   return places;
 }
 
-/// Velocities and springs of the bed's grains, in rows that lie as `bed` does.
+/// Copies velocities and springs of the bed's grains to rows in the order of `bed`.
 void takeMotion(const GrainState& bed, bool sameUnits, GrainState& scene) {
   scene.velocity = bed.velocity, scene.spin = bed.spin, scene.remainders = bed.remainders;
   if (!sameUnits)
-    for (terrain::Remainders& r : scene.remainders) r.position = 0; // its place has been rounded
+    for (terrain::Remainders& r : scene.remainders) r.position = 0; // its position has been rounded
   if (scene.layout.periodic) scene.crossings = bed.crossings;
   scene.contacts = bed.contacts, scene.neighbour = bed.neighbour;
   const auto orNone = [&]<class T>(const std::vector<T>& springs) {
@@ -221,7 +221,7 @@ void takeMotion(const GrainState& bed, bool sameUnits, GrainState& scene) {
     scene.contactDeepest = orNone(bed.contactDeepest), scene.contactOrigin = orNone(bed.contactOrigin);
 }
 
-/// What holds them on walls, floor and surfaces.
+/// Copies the springs on walls, floor and surfaces.
 void takeBoundaries(const GrainState& bed, const std::vector<std::size_t>& places, GrainState& scene) {
   const auto from = static_cast<std::size_t>(bed.layout.boundaries),
              to = static_cast<std::size_t>(scene.layout.boundaries);
@@ -239,7 +239,7 @@ void takeBoundaries(const GrainState& bed, const std::vector<std::size_t>& place
     }
 }
 
-/// The normals by which a floor of several places knows its contacts again.
+/// Copies the normals that identify contacts with a floor of several places.
 void takeFloorNormals(const GrainState& bed, const terrain::Boundaries& boundaries, const base::PositionScale& scale,
                       GrainState& scene) {
   const auto places = static_cast<std::size_t>(scene.layout.places);
@@ -266,8 +266,8 @@ std::vector<double> liftsOnto(const terrain::Grains& bed, const GroundSetup& sce
 
 void lift(GroundSetup& scene, const std::vector<double>& lifts) {
   GrainsSetup& grains = *scene.grains;
-  if (lifts.size() < scene.surfaces.size() + grains.onBed.size()) // behind them may stand that of a mechanism
-    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+  if (lifts.size() < scene.surfaces.size() + grains.onBed.size()) // that of a mechanism may follow
+    throw base::InputError("the checkpoint belongs to another scene; resume with the scene that was run");
   for (Obstacle& o : scene.obstacles)
     if (o.amongSurfaces) o.surface.lift(lifts[*o.amongSurfaces]);
   auto way = lifts.begin();
@@ -326,7 +326,7 @@ void requireRoom(const terrain::Grains& grains, const MechanismSetup& mechanism,
   }
 }
 
-void takeIntoScene(LaidGround& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm) {
+void extendBedToScene(LaidGround& ground, const GroundSetup& scene, const base::Exec& exec, const base::Comm& comm) {
   const GrainsSetup &alone = *scene.grains->bed->alone->grains, &all = *scene.grains;
   const GrainState bed = ground.grains->state();
   const base::PositionScale scale = ground.grains->scale();
@@ -335,7 +335,7 @@ void takeIntoScene(LaidGround& ground, const GroundSetup& scene, const base::Exe
     materials[k] = static_cast<int>(std::find(all.materials.begin(), all.materials.end(), alone.materials[k]) -
                                     all.materials.begin());
   const std::vector<terrain::GrainSpec> start = specsOf(bed, alone.model, scale, materials, comm);
-  ground.grains.reset(); // memory for one of them
+  ground.grains.reset(); // memory may not hold both
   makeGrains(ground, scene, start, exec, comm);
   GrainState rows = ground.grains->state();
   takeMotion(bed, scale.unit == ground.grains->scale().unit, rows);
@@ -360,10 +360,10 @@ void putGrains(LaidGround& ground, const GroundSetup& scene) {
   for (const PlacedGrains& p : scene.grains->onBed) {
     grains.onInsertionOverlap([&](const terrain::InsertionOverlap& o) {
       throw base::InputError(fmt::format(
-          "{}: its grain {} would stand {:.3g} m deep in {}, more than {:g} of the radius (run.max_overlap); give "
-          "above_bed [m], which puts it on the settled bed, or move it",
+          "{}: its grain at {} would lie {:.3g} m deep in {}, more than {:g} of the radius (run.max_overlap); set "
+          "above_bed [m] to place it on the settled bed, or move it",
           p.place, pointOf(p.grains[o.entering].position), o.overlap,
-          o.grain ? fmt::format("grain {} {}", *o.grain, pointOf(o.position)) : namesOfShapes(scene)[o.surface],
+          o.grain ? fmt::format("grain {} at {}", *o.grain, pointOf(o.position)) : namesOfShapes(scene)[o.surface],
           grains.model().maxEntryOverlap));
     });
     grains.add(p.grains);

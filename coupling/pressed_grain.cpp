@@ -16,8 +16,8 @@ using base::Vec3d;
 
 namespace {
 
-/// Two that push against each other by more than this (cosine of the angle between their normals) pinch what lies
-/// between them; sines of a fall that goes beside gravity.
+/// Contacts with normals at a cosine below kAgainst pinch the grain; a velocity at a cosine above kDownwards to gravity
+/// is a fall.
 constexpr double kAgainst = -0.3, kDownwards = 0.8;
 
 /// A sphere on some rank.
@@ -40,7 +40,7 @@ std::optional<Found> findGrain(const terrain::Grains& grains, const terrain::Gra
   return std::nullopt;
 }
 
-/// The nearest image of what lies `apart` [m].
+/// The nearest image of the offset `apart` [m].
 Vec3d nearestImage(Vec3d apart, const terrain::PeriodicBoundaries& sides) {
   for (int a = 0; a < 2; ++a)
     if (sides[static_cast<std::size_t>(a)]) {
@@ -50,7 +50,7 @@ Vec3d nearestImage(Vec3d apart, const terrain::PeriodicBoundaries& sides) {
   return apart;
 }
 
-/// What a grain of this rank's block does to the one that was found.
+/// Contact of a grain of this rank's block with the grain found.
 struct Neighbour {
   std::uint64_t id;
   double overlap;

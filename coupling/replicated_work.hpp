@@ -8,11 +8,11 @@
 namespace grouser::coupling {
 
 /// Runs work that every rank repeats (bodies and track of the vehicle) and reports its duration, which the load balance
-/// subtracts from the rank's busy time: no cut between subdomains could move such work. On one rank it just runs it.
+/// subtracts from the rank's busy time: no cut between subdomains could move such work. On one rank it only runs it.
 class ReplicatedWork {
 public:
   ReplicatedWork() = default;
-  /// `ranks`: of the grains, which outlive it; null on one rank.
+  /// `ranks`: of the grains, must outlive it; null on one rank.
   explicit ReplicatedWork(terrain::GrainDistribution* ranks) : ranks_(ranks) {}
 
   template <class Work> void run(const Work& work) const {

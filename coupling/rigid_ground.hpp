@@ -7,10 +7,10 @@
 
 namespace grouser::coupling {
 
-/// Rigid ground that follows a height-map: an elastic foundation under each shoe. The hull meets it with the obstacles.
+/// Rigid ground that follows a height-map: an elastic foundation under each shoe. The hull touches it as an obstacle.
 class RigidGround : public Ground {
 public:
-  /// `laid`, which has a rigid height-field, outlives it.
+  /// `laid` must have a rigid height-field and outlive it.
   explicit RigidGround(const LaidGround& laid) : laid_(laid) {}
 
   std::function<double(double, double)> surface() const override { return surfaceHeight(laid_); }

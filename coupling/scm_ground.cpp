@@ -92,7 +92,8 @@ LoadQuanta ScmGround::meet(const PartsOnGround& on) {
   contacts_ = std::make_unique<scm::SoilContacts>(setup_.soil, setup_.deepest, setup_.displacement, map_, padsOf(on),
                                                   solidsOf(on), on.timeStep);
   if (!saved_.empty() && !contacts_->restore(saved_))
-    throw base::InputError("the saved state belongs to another vehicle or other bodies; resume it with its own scene");
+    throw base::InputError(
+        "the saved state belongs to another vehicle or other bodies; resume with the scene that was run");
   saved_.clear();
   return quanta_ = {on.quanta.force, on.quanta.torque};
 }
@@ -144,7 +145,7 @@ std::optional<GroundFields> ScmGround::fieldsNow() const {
 
 void ScmGround::restore(const SimulationState& state) {
   if (!state.ground)
-    throw base::InputError("the saved state contains no deformable soil; resume it with its own scene");
+    throw base::InputError("the saved state contains no deformable soil; resume with the scene that was run");
   saved_ = *state.ground;
 }
 

@@ -24,7 +24,7 @@ struct ScmSetup {
 /// for the hull.
 class ScmGround : public Ground {
 public:
-  /// `surface`, as laid, outlives it.
+  /// `surface`: initial surface, must outlive it.
   ScmGround(const ScmSetup& setup, const terrain::HeightField& surface);
 
   std::function<double(double, double)> surface() const override;

@@ -6,7 +6,7 @@
 
 namespace grouser::coupling {
 
-/// Where settled beds come from that need not settle again.
+/// Source of stored settled beds.
 class SettledBeds {
 public:
   SettledBeds() = default;

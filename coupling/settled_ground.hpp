@@ -5,20 +5,19 @@
 
 namespace grouser::coupling {
 
-/// Lays the grains and places the walls. Nothing moves yet, but a tile that is to be copied
-/// settles, which `progress` watches. Where more is put
-/// on a bed once it has settled (placed_on_bed.hpp), the ground is the bed alone.
-/// On several ranks each takes the grains of its subdomain. `found`: as frictionFor() has it.
+/// Lays the grains and places the walls. Only a tile to be copied settles here, observed by `progress`. If things are
+/// placed on the settled bed (placed_on_bed.hpp), the ground is the bed alone. Each rank takes the grains of its
+/// subdomain. `found`: as in frictionFor().
 LaidGround buildGround(
     const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {},
     const SettleProgress& progress = [](double, double) {}, const FoundFrictions* found = nullptr);
 
-/// A ground whose bed has come to rest.
+/// A ground with a settled bed.
 struct SettledGround {
   LaidGround ground;
   SettleReport report;
 };
-/// Builds it, and lets its bed settle where the scene gives that time.
+/// Builds the ground, and settles its bed if the scene has a time limit for it.
 SettledGround settledGround(const GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
                             const base::Comm& comm = {});
 

@@ -18,13 +18,13 @@ namespace {
 constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another law
 constexpr double kPreparedPull = 1e-4;                     // of cohesion and adhesion [-]; 0 would be another law
 constexpr double kClose = 0.002;                           // of porosities [-]
-constexpr double kOff = 0.01;                              // of the ends, that are as far as bisection goes [-]
+constexpr double kOff = 0.01; // tolerance of porosities beyond the ends of the bisection [-]
 constexpr int kTrials = 10;
-constexpr double kSteep = 1;          // floor's slope [-] above which every bed slides, whatever its friction
-constexpr double kStep = 4;           // radii: a lower one is none to a bed
-constexpr double kLookEvery = 0.02;   // [s] from one look whether a bed rests to the next
-constexpr std::size_t kCalmLooks = 5; // one after the other, at which it does
-constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains rock for long
+constexpr double kSteep = 1;          // slope of the floor [-] above which every bed slides, whatever its friction
+constexpr double kStep = 4;           // [radii] lower height differences do not matter
+constexpr double kLookEvery = 0.02;   // [s] interval of the checks for rest
+constexpr std::size_t kCalmLooks = 5; // successive checks at rest
+constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains keep rocking
 
 /// Porosity of the small bed settled with this friction.
 double porosityAt(const PreparationSetup& preparation, double friction, const base::Exec& exec,
@@ -36,18 +36,17 @@ double porosityAt(const PreparationSetup& preparation, double friction, const ba
   return structureOf(ground).porosity;
 }
 
-/// What helps a bed on a floor too steep to lie on; empty where it is not.
+/// Remedy for a bed on a too steep floor; empty if it is not.
 std::string steepnessText(const LaidGround& ground) {
   const terrain::HeightFieldBounds& floor = ground.rigid->bounds();
   if (!(floor.slope > kSteep) || floor.highest - floor.lowest < kStep * ground.grains->model().radius) return "";
   return fmt::format(
-      "; but first of all: the floor follows terrain.heightmap, which rises by up to {:.3g} m a metre, and "
-      "grains slide off it: set terrain.floor = \"flat\", lower terrain.height_range or enlarge "
-      "terrain.size",
+      "; first check the floor: it follows terrain.heightmap with slopes up to {:.3g} m/m, and grains slide off "
+      "it: set terrain.floor = \"flat\", lower terrain.height_range or enlarge terrain.size",
       floor.slope);
 }
 
-/// Fills in how high the bed stands.
+/// Fills in the height of the bed.
 void measureHeight(const LaidGround& ground, SettleReport& report) {
   const base::Exec& exec = ground.grains->system().exec;
   const terrain::Rectangle& w = *ground.walls;
@@ -66,17 +65,17 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
   const terrain::GrainModel& model = grains.model();
   const double g = norm(model.gravity), dt = model.timeStep;
   const double unit = bed.restEnergy * static_cast<double>(grains.count() - grains.system().fixedCount);
-  // Loose grains fall first; nothing is judged before they have landed.
+  // Loose grains fall first; rest is checked after they have landed.
   const double landed = report.time + std::sqrt(2 * fall / g), limit = report.time + wanted.timeLimit;
   const auto checkEvery = std::max<std::int64_t>(1, static_cast<std::int64_t>(kLookEvery / dt));
   double forceRatio = 0;
   std::size_t looks = 0, calm = 0;
-  std::array<double, kCalmLooks> energies{}, ratios{}; // of the last looks: a deep bed breathes between them
+  std::array<double, kCalmLooks> energies{}, ratios{}; // at the last checks, since the energy of a deep bed oscillates
   while (report.time < limit) {
     try {
       for (std::int64_t i = 0; i < checkEvery;) i += grains.advance(checkEvery - i);
     } catch (const base::SimulationError& error) {
-      throw base::SimulationError(fmt::format("while the {} settled, before the run begins: {}",
+      throw base::SimulationError(fmt::format("while the {} settled, before the start of the run: {}",
                                               bed.tile ? "bed of copied tiles" : "bed", error.what()),
                                   base::Cause::unsettledBed);
     }
@@ -97,13 +96,13 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
   const auto most = [](const auto& values) { return *std::max_element(values.begin(), values.end()); };
   throw base::SimulationError(
       fmt::format(
-          "the bed has not settled within {:g} s: in the last {} looks, {:.2g} s apart, the kinetic energy a grain "
-          "is up to {:.3g} of m g radius, wanted is less than {:.3g}{}; raise terrain.settle_time_limit, lower "
+          "the bed did not settle within {:g} s: in the last {} checks, {:.2g} s apart, the kinetic energy per grain "
+          "was up to {:.3g} of m g radius, required: less than {:.3g}{}; raise terrain.settle_time_limit, lower "
           "the material's restitution or raise terrain.settle_kinetic_energy{}",
           wanted.timeLimit, std::min(looks, kCalmLooks), static_cast<double>(checkEvery) * dt, most(energies),
           wanted.kineticEnergy,
           wanted.forceRatio ? fmt::format(", and the mean resultant force on a grain up to {:.3g} of its weight, "
-                                          "wanted is {:.3g}",
+                                          "required: less than {:.3g}",
                                           most(ratios), *wanted.forceRatio)
                             : "",
           wanted.forceRatio ? " and settle_force_ratio" : ""),
@@ -114,14 +113,15 @@ void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double fri
                         SettleReport& report) {
   const terrain::GrainModel own = grains.model();
   terrain::GrainModel prepared = own;
-  // What sticks while it falls lies as loosely as no soil that machines have passed over.
+  // Cohesive grains settle more loosely than any soil that machines have passed over.
   const auto prepare = [friction](contact::ContactLaw& law) {
     law = law.pulling(kPreparedPull);
     if (law.friction > 0) law.friction = friction;
   };
   prepare(prepared.law);
   for (contact::ContactLaw& law : prepared.materials.grains) prepare(law);
-  // Where gravity leans, a bed of so little friction would flow: it leans when the grains have their own again.
+  // A bed with so little friction would flow under inclined gravity: it is vertical until the grains have their own
+  // friction again.
   prepared.gravity = {0, 0, -norm(own.gravity)};
   grains.replaceLaws(prepared);
   SettleSetup nearly = bed.settle;
@@ -142,14 +142,14 @@ double frictionByTrials(const PreparationSetup& preparation, const base::Exec& e
   const double densest = at(low), loosest = at(high);
   if (wanted < densest - kOff || wanted > loosest + kOff)
     throw base::InputError(fmt::format(
-        "{} cannot be reached: settled with friction {:g} these grains come to {:.3f}, with {:g} to {:.3f}; "
-        "choose a porosity between these, or give the grains rolling_friction for looser beds and a wider "
-        "radius_distribution for denser ones",
+        "{} cannot be reached: with friction {:g} these grains settle to {:.3f}, with {:g} to {:.3f}; choose a "
+        "porosity between these, or use rolling_friction for looser beds and a wider radius_distribution for "
+        "denser ones",
         preparation.place, low, densest, high, loosest));
   if (wanted <= densest + kClose) return low;
   if (wanted >= loosest - kClose) return high;
-  // Between 0.01 and 1 the porosity rises about evenly with the logarithm of the friction: there each trial is where a
-  // line through the ends of the interval has the porosity wanted, but within its middle three fifths.
+  // Between 0.01 and 1 the porosity is about linear in the logarithm of the friction: each trial interpolates linearly
+  // between the ends of the interval, limited to its middle three fifths.
   low = 0.01;
   double below = densest - wanted, above = loosest - wanted, friction = high;
   for (int trial = 0; trial < kTrials; ++trial) {

@@ -21,7 +21,7 @@ public:
     contact::PatchQuanta quanta;
     double timeStep{};
   };
-  /// `assembly`, whose spec has shapes, outlives it.
+  /// `assembly`: its spec must have shapes; must outlive it.
   ShapedGear(const vehicle::Assembly& assembly, const VehicleParts& parts, const Model& model);
 
   /// Adds this step's loads, opposite ones to shoe and wheel.

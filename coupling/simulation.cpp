@@ -34,7 +34,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
       lifts_ = liftsOnto(*laid_.grains, setup_.ground, comm);
       lift(setup_.ground, lifts_);
       requireRoom(*laid_.grains, setup_.ground, comm);
-      takeIntoScene(laid_, setup_.ground, exec, comm);
+      extendBedToScene(laid_, setup_.ground, exec, comm);
     }
     if (setup_.mechanism && setup_.mechanism->aboveBed) {
       lifts_.push_back(liftOnto(*laid_.grains, setup_.ground, *setup_.mechanism, comm));
@@ -58,7 +58,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
 
 Simulation::~Simulation() = default;
 
-/// What stops a grain in `advance`, with the cause that energies and parts show.
+/// Calls `advance`; extends the message of a grain fault by the cause found from energies and parts.
 template <class Advance> void Simulation::namingCause(const Advance& advance) {
   try {
     advance();
@@ -113,21 +113,22 @@ BodiesInContact* Simulation::movingBodies() {
   return mechanism_.get();
 }
 
-/// `last`: the next step is not to be launched ahead of this one's end.
+/// `last`: the next step must not be launched ahead.
 void Simulation::stepAhead(bool last) {
   vehicle_->setSurfacePoses();
   if (!ahead_->nextIsLaunched()) {
     const bool listsEnded = ground_->refreshLists();
     vehicle_->refreshLists(listsEnded);
   } else if (!vehicle_->contacts().listsHold()) {
-    throw base::SimulationError(fmt::format("step {}, time {:.4g} s: a part of the vehicle was thrown: within one step "
-                                            "it has moved more than four times as "
-                                            "far as in the step before; use a smaller time_step or gentler driving",
-                                            steps_, time()),
-                                base::Cause::thrownPart);
+    throw base::SimulationError(
+        fmt::format("step {}, time {:.4g} s: a part of the vehicle was thrown: in one step it moved "
+                    "more than four times as far as in the step before; use a smaller "
+                    "time_step or gentler driving",
+                    steps_, time()),
+        base::Cause::thrownPart);
   }
   ahead_->begin();
-  // An alarm leaves the state as this step has made it, to be looked at.
+  // After an alarm the state of this step must remain available.
   const bool mayAlarm = (steps_ + 1) % VehicleRig::kAlarmInterval == 0;
   if (!last && !mayAlarm) ahead_->launchNext();
   ahead_->computeOnHost();
@@ -141,7 +142,7 @@ void Simulation::stepAhead(bool last) {
   afterStep();
 }
 
-/// Whether nothing but grains and vehicle takes part in a step, so that the device can be given work ahead.
+/// Whether a step involves only grains and vehicle, so that work can be launched ahead.
 bool Simulation::canStepAhead() const {
   return vehicle_ && granular_ && !fluid_ && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
          setup_.ground.grains->sources.empty() && !setup_.crushes() && terrain::GrainsAhead::canLaunch(*laid_.grains);
@@ -157,7 +158,7 @@ std::int64_t Simulation::advance(std::int64_t most) {
     try {
       for (std::int64_t k = 1; k <= count; ++k) {
         stepAhead(k == count);
-        if (!vehicle_->ended().empty()) return k; // at a look at the alarm, before which no step is launched
+        if (!vehicle_->ended().empty()) return k; // at an alarm check, before which no step is launched
       }
     } catch (...) {
       ahead_->callOff();
@@ -176,7 +177,7 @@ std::int64_t Simulation::advance(std::int64_t most) {
   return taken;
 }
 
-/// As laid_ and the setup are now; without it the vehicle hangs.
+/// Creates the ground from laid_ and the setup; without ground the vehicle hangs.
 void Simulation::makeActingGround() {
   ground_ = makeGround(laid_, setup_.ground, exec_);
   granular_ = dynamic_cast<GranularGround*>(ground_.get());
@@ -201,8 +202,8 @@ void Simulation::makeFluid(const FluidDomainState* former) {
   const multibody::Model* model = touching_ ? &touching_->model() : nullptr;
   const multibody::State* bodies = touching_ ? &touching_->state() : nullptr;
   if (vehicle_ && norm(model->bodies()[0].pose.position - setup_.fluid->chassis->position) > 1e-6)
-    throw base::InputError("the vehicle starts on an obstacle of the scene, and the fluid was made for one on the "
-                           "ground; move vehicle.position");
+    throw base::InputError("the vehicle starts on an obstacle, but the fluid requires a start on the ground; move "
+                           "vehicle.position");
   fluid_ = std::make_unique<FluidDomain>(*setup_.fluid, model, bodies, exec_, comm_, former);
 }
 
@@ -234,8 +235,8 @@ void Simulation::makeMeshContacts(SphereSets* spheres) {
   granular_->meetMeshes(surfaces_->grainLoads());
 }
 
-/// Adds the grains of the sources that enter before the next step. What they bring with them belongs to the ledger's
-/// start, so that it does not count as a change.
+/// Adds the grains of the sources that enter before the next step. Their energies are added to the ledger's start, so
+/// that they do not count as a change.
 void Simulation::addGrains() {
   if (!laid_.grains || setup_.ground.grains->sources.empty()) return;
   const std::vector<terrain::GrainSpec> entering = setup_.ground.grains->sources.enteringAt(steps_);
@@ -245,8 +246,8 @@ void Simulation::addGrains() {
   start_.move(before, wholeLedger());
 }
 
-/// Takes out the grains that were crushed to their middle in this step, so that none passes through a part. What their
-/// contacts with parts held is dissipated; all else that they had the ledger goes on counting as it was.
+/// Removes the grains crushed to their centre in this step, so that none passes through a part. The elastic energy of
+/// their contacts with parts is dissipated; the ledger keeps their other energies.
 void Simulation::takeOutCrushed() {
   if (!setup_.crushes()) return;
   GrainsOnParts* onParts = granular_->onParts();
@@ -287,9 +288,9 @@ Ledger Simulation::ledger() {
   return l;
 }
 
-/// Poses and lists are made as step() begins with them; the step finds them so.
+/// Sets poses and lists as at the start of step().
 terrain::SoilFields fieldsOf(Simulation& s, const terrain::FieldGrid& grid) {
-  if (!s.granular_) throw std::logic_error("fields of the soil in a scene without grains");
+  if (!s.granular_) throw std::logic_error("soil fields require grains");
   terrain::Grains& grains = *s.laid_.grains;
   contact::PartMomentsView onParts;
   if (s.touching_) s.touching_->setSurfacePoses();
@@ -300,7 +301,7 @@ terrain::SoilFields fieldsOf(Simulation& s, const terrain::FieldGrid& grid) {
   return terrain::fieldsOf(grains, grid, onParts);
 }
 
-/// The grain that has stopped the run, and what it touches: vehicle and meshes too.
+/// The grain that has stopped the run, and its contacts, including vehicle and meshes.
 PressedGrain Simulation::pressed(std::uint32_t grain) {
   PressedGrain pressed = pressedGrain(
       *laid_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
@@ -311,19 +312,19 @@ PressedGrain Simulation::pressed(std::uint32_t grain) {
   return pressed;
 }
 
-std::optional<PressedMost> Simulation::pressedMost() const {
-  if (granular_ && touching_) return granular_->onParts()->pressedMost();
-  return surfaces_ ? surfaces_->pressedMost() : std::nullopt;
+std::optional<DeepestPartOverlap> Simulation::deepestPartOverlap() const {
+  if (granular_ && touching_) return granular_->onParts()->deepestPartOverlap();
+  return surfaces_ ? surfaces_->deepestPartOverlap() : std::nullopt;
 }
 
-/// Hertz contacts of faster impacts are stiffer than the step was chosen for.
+/// Hertz contacts at faster impacts are stiffer than assumed for the time step.
 std::string Simulation::impactNote(const Ledger& now) const {
   if (!laid_.grains || !setup_.ground.grains->impactSpeed) return {};
   const double chosen = *setup_.ground.grains->impactSpeed;
   if (now.fastestGrain <= chosen) return {};
   return fmt::format(
-      " (grains move at up to {:.3g} m/s, hertz contacts were taken at run.impact_speed = {:g} m/s: raise it "
-      "to what they meet at)",
+      " (grains move at up to {:.3g} m/s, hertz contacts assume run.impact_speed = {:g} m/s: raise it to the impact "
+      "speed)",
       now.fastestGrain, chosen);
 }
 
@@ -338,27 +339,27 @@ base::Alarm Simulation::alarmOf(const terrain::GrainFault& fault) {
   const PressedGrain grain = pressed(fault.id);
   if (fault.fault == Fault::speed) {
     if (!grain.fallsFreely(gravity_)) return {};
-    return {"it touches nothing and falls: give the scene a floor or walls that hold it, or end the run before",
+    return {"it falls without contact: add a floor or walls that hold it, or end the run earlier",
             base::Cause::lostGrain};
   }
   std::string by = grain.sentence();
   if (const PressedGrain::Presser* through = fault.fault == Fault::through ? grain.rigidPresser() : nullptr)
-    by = fmt::format("{} has taken {:.3g} mm of its radius of {:.3g} mm{}", through->name, 1e3 * through->overlap,
+    by = fmt::format("{} overlaps it by {:.3g} mm of its radius of {:.3g} mm{}", through->name, 1e3 * through->overlap,
                      1e3 * grain.radius, by.empty() ? by : "; " + by);
-  return {
-      fmt::format("{}the energies balance, so the step is not to blame: use stiffer contacts (material stiffness or "
-                  "young), larger grains, less load or speed on it (it moves at {:.3g} m/s), or {}",
-                  by.empty() ? by : by + "; ", norm(grain.velocity),
-                  vehicle_ && fault.fault == Fault::through ? "keep soil out of the running gear (vehicle.soil_contact)"
-                                                            : "raise run.max_overlap"),
-      base::Cause::pressedGrain};
+  return {fmt::format("{}the energies balance, so the time step is not the cause: use stiffer contacts (material "
+                      "stiffness or young), larger grains, less load or lower speed (it moves at {:.3g} m/s), or {}",
+                      by.empty() ? by : by + "; ", norm(grain.velocity),
+                      vehicle_ && fault.fault == Fault::through
+                          ? "keep soil out of the running gear (vehicle.soil_contact)"
+                          : "raise run.max_overlap"),
+          base::Cause::pressedGrain};
 }
 
 /// Ledger and guard, after each step.
 void Simulation::afterStep() {
-  // What contacts of parts hold is known of the beginning of the last step: after the first one, of the start.
+  // Elastic energy of part contacts is known for the start of the last step: after the first one, for the start.
   if (steps_ == 1) start_.elastic += partsElastic();
-  // A fluid has faults of its own, and its walls may give energy as well as take it.
+  // A fluid has its own fault checks, and its walls may add or remove energy.
   if (fluid_ || steps_ % EnergyGuard::kInterval != 0) return;
   const Ledger now = ledger();
   checkEnergy(now);
@@ -372,7 +373,7 @@ double Simulation::partsElastic() const {
 void Simulation::checkEnergy() {
   if (fluid_) return;
   const Ledger now = ledger();
-  // Within a contact of grains energies swing: what a few steps make, the next ones take back.
+  // Within a grain contact the energy error oscillates: the gain of a few steps is lost in the next ones.
   const bool early =
       (!mechanism_ || mechanism_->touches()) && steps_ % EnergyGuard::kInterval < EnergyGuard::kOneContact;
   if (early && std::isfinite(now.integrationError) && std::isfinite(now.turnover)) return;
@@ -383,7 +384,7 @@ double Simulation::energyHeld(const Ledger& now) const {
   return std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic) + weightHeld();
 }
 
-/// What rests on stiff contacts holds next to no energy, yet its weight works on the resolution of its place.
+/// Grains at rest on stiff contacts have almost no energy, but their weight does work on the resolution of positions.
 double Simulation::weightHeld() const {
   if (!laid_.grains) return 0;
   const terrain::GrainModel& model = laid_.grains->model();
@@ -400,12 +401,12 @@ void Simulation::checkEnergy(const Ledger& now) {
   if (verdict.empty()) return;
   std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
   const bool alone = mechanism_ && !mechanism_->touches();
-  if (alone) remedy = "the steps are too long for this motion: use a smaller time_step";
+  if (alone) remedy = "the time step is too long for this motion: use a smaller time_step";
   if (alone)
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   if (vehicle_ && now.dissipated.ofParts() > now.dissipated.ofGrains())
-    remedy += "; most has been dissipated where shoes touch " + mostDissipating(vehicle_->assembly(), vehicle_->save());
+    remedy += "; shoe contacts dissipated most on " + mostDissipating(vehicle_->assembly(), vehicle_->save());
   throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
 

@@ -30,15 +30,15 @@ namespace grouser::coupling {
 
 class FluidDomain;
 
-/// A scene that runs: grains, vehicle, or both, or a mechanism. Built settled; `step()` is the whole of the physics.
-/// On several ranks all of them have one and call the same; each has its share of the grains, and all of the vehicle.
+/// A running scene: grains, vehicle, or both, or a mechanism. The constructor settles the bed; `step()` contains all
+/// physics. All ranks have one and make the same calls; each has its share of the grains, and the whole vehicle.
 class Simulation {
 public:
-  /// `beds`, `spheres`: where settled beds and sphere sets come from; null: settles, or cuts, by itself.
+  /// `beds`, `spheres`: sources of settled beds and sphere sets; null: settles, or cuts, itself.
   Simulation(SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {},
              SettledBeds* beds = nullptr, SphereSets* spheres = nullptr);
-  /// Goes on from a saved state of the same scene: the bits that follow are those of a run straight through. Throws
-  /// InputError when the state is of another scene.
+  /// Continues from a saved state of the same scene, with the same bits as an uninterrupted run. Throws InputError if
+  /// the state belongs to another scene.
   Simulation(SimulationSetup setup, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {},
              SphereSets* spheres = nullptr);
   ~Simulation();
@@ -48,13 +48,13 @@ public:
 
   /// One step of length timeStep(). Throws SimulationError at a fault.
   void step(StepObserver* observer = nullptr);
-  /// At least one step, at most `most`: as many as can be launched as one graph, or ahead of each other. Returns how
-  /// many were taken. Where it throws some may have been.
+  /// At least one step, at most `most`: as many as can be launched as one graph, or ahead of each other. Returns the
+  /// number of steps. If it throws, some may have been taken.
   std::int64_t advance(std::int64_t most);
 
-  /// Sets these from outside, from the next step on, whatever step they name: all or, where it throws, none. They are
-  /// kept in checkpoints, and in the state hash as long as they act. All ranks call it alike. Throws base::InputError
-  /// where the scene has nothing of the kind, or a value is no number or out of range.
+  /// Sets inputs for the following steps, whatever their `step`: all or, if it throws, none. They are stored in
+  /// checkpoints, and in the state hash as long as they act. All ranks call it with the same inputs. Throws
+  /// base::InputError if the scene lacks the input, or a value is not finite or out of range.
   void set(std::vector<Input> inputs);
   const Inputs& inputs() const { return inputs_; }
 
@@ -64,14 +64,14 @@ public:
   double time() const { return static_cast<double>(steps_) * setup_.timeStep; } ///< since the bed has settled [s]
 
   const base::Comm& comm() const { return comm_; }
-  const LaidGround& ground() const { return laid_; } ///< height-map, floor and grains as they lie
-  /// What acts on the vehicle, or moves by itself; null where the vehicle hangs, and of a mechanism.
+  const LaidGround& ground() const { return laid_; } ///< height-map, floor and present grains
+  /// The ground under the vehicle, or grains alone; null if the vehicle hangs, and for a mechanism.
   const Ground* actingGround() const { return ground_.get(); }
-  const GranularGround* granularGround() const { return granular_; } ///< the same where it is grains; else null
+  const GranularGround* granularGround() const { return granular_; } ///< the same if it is granular; else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
-  /// Restarts the means of the observers: those of the rows after every row. Only a vehicle has those of a watch.
+  /// Restarts the means of the observers: Means::rows after every row. Only a vehicle has Means::watch.
   void restartMeans(Means of = Means::rows) {
     if (vehicle_) vehicle_->restartMeans(of);
     if (of == Means::watch) return;
@@ -80,15 +80,15 @@ public:
     if (mechanism_) mechanism_->restartMeans();
   }
   const TakenOut& takenOut() const { return taken_; } ///< since the start
-  /// By a part or mesh since restartMeans(); empty where grains meet none. All ranks call it.
-  std::optional<PressedMost> pressedMost() const;
+  /// By a part or mesh since restartMeans(); empty if grains touch none. All ranks call it.
+  std::optional<DeepestPartOverlap> deepestPartOverlap() const;
   const SettleReport& settled() const { return settled_; }
 
   /// Counted from the first step. All ranks call it.
   Ledger ledger();
 
-  /// Throws SimulationError where the steps make or lose far more energy than is credible, with the likely cause. Done
-  /// within the steps every EnergyGuard::kInterval; for the end of a run, which may fall in between.
+  /// Throws SimulationError if time integration creates or loses too much energy, with the likely cause. Steps call it
+  /// every EnergyGuard::kInterval; call it at the end of a run, which may fall in between.
   void checkEnergy();
 
   /// Hash over the state sorted by id, as 16 hexadecimal digits: equal bits, equal hash.
@@ -105,7 +105,7 @@ private:
   void addGrains();
   void takeOutCrushed();
   void afterStep();
-  /// Since the grains, bodies and surfaces were made.
+  /// Since the grains, bodies and surfaces were created.
   Ledger wholeLedger();
   double partsElastic() const;
   std::string energyVerdict(const Ledger& now) const;
@@ -125,19 +125,19 @@ private:
   void makeSurfaces(const SurfaceStates* former);
   void makeMeshContacts(SphereSets* spheres);
   bool hasBed() const { return setup_.ground.grains && setup_.ground.grains->bed; }
-  /// Whether the bed settles alone, and what the scene has beyond it comes afterwards.
+  /// Whether the bed settles alone, and the rest of the scene is added afterwards.
   bool isPutOnBed() const { return hasBed() && setup_.ground.grains->bed->alone; }
-  /// In which the bed settles.
+  /// The ground in which the bed settles.
   const GroundSetup& bedGround() const { return isPutOnBed() ? *setup_.ground.grains->bed->alone : setup_.ground; }
 
-  SimulationSetup setup_; ///< changes no more once things stand on the settled bed
+  SimulationSetup setup_; ///< constant once things are placed on the settled bed
   base::Exec exec_;
   base::Comm comm_;
   LaidGround laid_;
   std::unique_ptr<Ground> ground_;    ///< null without; refers to laid_
-  GranularGround* granular_{nullptr}; ///< ground_ where it is grains
+  GranularGround* granular_{nullptr}; ///< ground_ if it is granular
   SettleReport settled_;
-  std::vector<double> lifts_;          ///< of what is put on a settled bed; see liftsOnto()
+  std::vector<double> lifts_;          ///< of objects placed on a settled bed; see liftsOnto()
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
@@ -159,13 +159,13 @@ void require(const Simulation& simulation, const Input& input);
 /// nearest name.
 std::int32_t bodyIndex(const Simulation& simulation, const std::string& name);
 
-/// Its fluid, which probing does not change; null without.
+/// The fluid of a simulation; null without.
 FluidDomain* fluidOf(const Simulation& simulation);
 
-/// How the meshes of vehicle and scene were cut; those of parts that touch nothing have no entry.
+/// Cuts of the meshes of vehicle and scene; parts without contacts have no entry.
 std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation);
 
-/// Fields of the soil now, of a scene with grains; see terrain::measureFields(). All ranks call it.
+/// Present soil fields of a scene with grains; see terrain::measureFields(). All ranks call it.
 terrain::SoilFields fieldsOf(Simulation& simulation, const terrain::FieldGrid& grid);
 
 } // namespace grouser::coupling

@@ -69,19 +69,19 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
       state.mechanism.has_value() != (setup_.mechanism && !setup_.vehicle) ||
       state.fluid.has_value() != setup_.fluid.has_value() ||
       state.surfaces.has_value() != (laid_.grains && !setup_.ground.surfaces.empty()))
-    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+    throw base::InputError("the checkpoint belongs to another scene; resume with the scene that was run");
   makeActingGround();
   makeSurfaces(state.surfaces ? &*state.surfaces : nullptr);
   if (ground_) ground_->restore(state);
   makeMeshContacts(spheres);
   if (setup_.vehicle) {
-    // The vehicle is assembled where it stood at the start, as in a run straight through; then it is moved.
+    // The vehicle is assembled at its start, as in an uninterrupted run; then it is moved.
     makeVehicle(spheres, state.vehicle->lift);
     vehicle_->restore(*state.vehicle);
   }
   if (setup_.mechanism && !setup_.vehicle) {
     if (setup_.mechanism->aboveBed && lifts_.empty())
-      throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+      throw base::InputError("the checkpoint belongs to another scene; resume with the scene that was run");
     if (setup_.mechanism->aboveBed) setup_.mechanism->model.translate({0, 0, lifts_.back()});
     makeMechanism(spheres);
     mechanism_->restore(*state.mechanism);

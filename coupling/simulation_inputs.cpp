@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is set from outside on a simulation.
+// Inputs of a running simulation.
 #include "base/error.hpp"
 #include "base/table.hpp"
 #include "coupling/simulation.hpp"
@@ -47,11 +47,11 @@ void require(const Simulation& simulation, const Input& input) {
                        input.kind == InputKind::throttle;
   for (const double v : input.value)
     if (!(std::fabs(v) <= range.most))
-      throw base::InputError(fmt::format("{}{} = {:g} {}, allowed is [{:g}, {:g}] [{}]; nothing was set",
+      throw base::InputError(fmt::format("{}{} = {:g} {}, allowed range [{:g}, {:g}] [{}]; nothing was set",
                                          !ofTrack            ? ""
                                          : input.target == 0 ? "left "
                                                              : "right ",
-                                         range.name, v, std::isfinite(v) ? "is out of range" : "is no finite number",
+                                         range.name, v, std::isfinite(v) ? "is out of range" : "is not finite",
                                          -range.most, range.most, range.unit));
   if (fluidOf(simulation) && input.kind == InputKind::gravity)
     throw base::InputError("gravity cannot be set in a scene with [fluid]; set run.gravity");
@@ -70,13 +70,13 @@ void Simulation::set(std::vector<Input> inputs) {
   for (const Input& input : inputs) inputs_.set(input);
   const auto isGravity = [](const Input& i) { return i.kind == InputKind::gravity; };
   if (std::none_of(inputs.begin(), inputs.end(), isGravity)) return command();
-  // Potential energies are those of the gravity that acts: what this changes is no work of the simulation's.
+  // Potential energies use the acting gravity: their change here is not work of the simulation.
   const Ledger before = wholeLedger();
   command();
   start_.move(before, wholeLedger());
 }
 
-/// Gives what acts now to those that it acts on.
+/// Passes the acting inputs to vehicle, mechanism, surfaces and ground.
 void Simulation::command() {
   const auto g = inputs_.now(InputKind::gravity);
   const base::Vec3d gravity = g ? base::Vec3d{(*g)[0], (*g)[1], (*g)[2]} : setup_.gravity;

@@ -10,7 +10,7 @@
 
 namespace grouser::coupling {
 
-/// Everything that a simulation is made of, checked, with every law that follows from it, as plain typed values.
+/// Validated setup of a simulation with all derived laws, as plain typed values.
 struct SimulationSetup {
   double timeStep{};   ///< [s]
   base::Vec3d gravity; ///< [m/s2]
@@ -21,7 +21,7 @@ struct SimulationSetup {
 
   bool crushes() const {
     return ground.grains && ground.grains->partLaws.crush();
-  } ///< whether grains do, against parts
+  } ///< whether grains crush against parts
 };
 
 } // namespace grouser::coupling

@@ -14,14 +14,14 @@
 
 namespace grouser::coupling {
 
-/// Grains that were crushed to their middle and taken out.
+/// Grains that were crushed to their centre and removed.
 struct TakenOut {
   double grains{}, mass{}; ///< [-], [kg]
-  double energy{};         ///< kinetic, potential and elastic that they had [J]
+  double energy{};         ///< their kinetic, potential and elastic energy [J]
   base::Vec3d momentum;    ///< [N s]
 };
 
-/// All of a simulation on which later bits or later output depend. Free of device, threads and lists.
+/// State of a simulation that later steps or later output depend on. Independent of device, threads and lists.
 struct SimulationState {
   std::int64_t steps{};
   std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
@@ -30,17 +30,17 @@ struct SimulationState {
   std::vector<double> ledgerAtStart;        ///< Ledger::counted(): the ledger counts from here
   std::vector<double> guard;                ///< EnergyGuard::save()
   std::optional<terrain::GrainState> grains;
-  std::optional<std::vector<double>> ground; ///< of a ground that is neither of grains nor rigid, as it keeps itself
+  std::optional<std::vector<double>> ground; ///< of a ground that is neither granular nor rigid, in its own form
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
   std::optional<FluidDomainState> fluid;
-  std::vector<double> lifts;  ///< of what was put on a settled bed [m]; empty without
+  std::vector<double> lifts;  ///< of objects placed on a settled bed [m]; empty without
   TakenOut taken;             ///< since the start
-  std::vector<double> inputs; ///< Inputs::save(); empty where nothing has been set from outside
+  std::vector<double> inputs; ///< Inputs::save(); empty without inputs
 
-  /// 16 hexadecimal digits over what the next step depends on: equal bits, equal hash, on any number of ranks, all of
-  /// which call it.
+  /// 16 hexadecimal digits over the data that the next step depends on: equal bits, equal hash, on any number of ranks,
+  /// all of which call it.
   std::string hash(const base::Comm& comm = {}) const;
 };
 

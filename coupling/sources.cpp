@@ -13,7 +13,7 @@ namespace grouser::coupling {
 namespace {
 
 constexpr std::uint64_t kSourcePurpose = base::purpose("source.place");
-constexpr int kSourceTries = 2000; // of finding a free place for one grain
+constexpr int kSourceTries = 2000; // attempts to find a free place for one grain
 constexpr double kRoom = 2.002;    // [radii] between centres that enter together
 
 } // namespace
@@ -52,7 +52,7 @@ std::optional<std::int64_t> Sources::nextEntry(std::int64_t step) const {
   return next;
 }
 
-/// Places of batch `number`: random in the box, not nearer to each other than the grains are thick.
+/// Grains of batch `number`: random in the box, without overlap.
 std::vector<terrain::GrainSpec> Sources::batch(const SourceSetup& s, std::int64_t number) const {
   const std::int64_t count = std::min(s.number, s.total - number * s.number);
   std::vector<terrain::GrainSpec> grains;
@@ -61,8 +61,8 @@ std::vector<terrain::GrainSpec> Sources::batch(const SourceSetup& s, std::int64_
     for (int attempt = 0;; ++attempt) {
       if (attempt == kSourceTries)
         throw base::InputError(
-            fmt::format("{}: {} grains of radius {:g} m do not find room beside each other in its box; enlarge it "
-                        "(low, high) or lower number",
+            fmt::format("{}: {} grains of radius {:g} m do not fit in its box without overlap; enlarge it (low, high) "
+                        "or lower number",
                         s.place, s.number, s.radius));
       base::Vec3d place;
       for (int a = 0; a < 3; ++a) {

@@ -11,20 +11,20 @@
 
 namespace grouser::coupling {
 
-/// One [[source]]: boxes of grains that enter while the run goes.
+/// One [[source]]: grains that enter a box during the run.
 struct SourceSetup {
   std::string place;                     ///< in messages: "scene.toml:14: source.0"
-  base::Vec3d low, high;                 ///< corners of the box that their centres start in [m]
+  base::Vec3d low, high;                 ///< corners of the box of their centres [m]
   base::Vec3d velocity, spin;            ///< [m/s], [rad/s]
   double radius{};                       ///< [m]
   int material{};                        ///< among those of the scene's grains
-  std::int64_t number{}, total{};        ///< that enter together; in all
+  std::int64_t number{}, total{};        ///< per batch; in total
   std::int64_t every{}, first{}, last{}; ///< [steps]
   std::uint64_t seed{};
 };
 
-/// The [[source]]s of a scene: which grains enter at which step. A pure function of the scene and the step's number, so
-/// that there is nothing to save in a checkpoint.
+/// The [[source]]s of a scene: the grains that enter at each step. A pure function of the scene and the step number, so
+/// that checkpoints need not save it.
 class Sources {
 public:
   Sources() = default;
@@ -34,10 +34,10 @@ public:
   /// Grains that enter at the beginning of this step (the first is step 0).
   std::vector<terrain::GrainSpec> enteringAt(std::int64_t step) const;
   bool empty() const { return sources_.empty(); }
-  std::int64_t total() const; ///< grains that enter in all
+  std::int64_t total() const; ///< number of grains that enter
   const SourceSetup& source(std::size_t i) const { return sources_[i]; }
 
-  /// What one source sets at a step.
+  /// Grains of one source at a step.
   struct Batch {
     std::size_t source{}; ///< among the scene's
     std::vector<terrain::GrainSpec> grains;
@@ -53,7 +53,7 @@ private:
   terrain::PeriodicBoundaries sides_;
 };
 
-/// Of the places of a source's grains, from the seed of the run and the source's number in the scene.
+/// Seed for the positions of a source's grains, from the seed of the run and the source's number in the scene.
 std::uint64_t sourceSeed(std::uint64_t seed, std::uint64_t source);
 
 } // namespace grouser::coupling

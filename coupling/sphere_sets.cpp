@@ -5,7 +5,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// The set that rank `root` has, on all ranks.
+/// Broadcasts the set of rank `root` to all ranks.
 base::SphereSet shared(const base::Comm& comm, base::SphereSet set, int root) {
   if (comm.alone()) return set;
   const base::Bytes mine = base::Comm::bytesOf(std::vector{base::figuresOf(set)});

@@ -11,7 +11,7 @@
 
 namespace grouser::coupling {
 
-/// A part that is to be cut; `mesh` must outlive the cutting.
+/// A part to be cut; `mesh` must outlive the cut.
 struct PartCut {
   const base::TriangleMesh* mesh;
   std::string name; ///< of the set, and in errors
@@ -21,7 +21,7 @@ struct PartCut {
   std::string place{};                                  ///< file and line of that key, for errors; empty: the name
 };
 
-/// Where sphere sets come from that need not be cut again.
+/// Source of stored sphere sets.
 class SphereSets {
 public:
   SphereSets() = default;
@@ -34,11 +34,11 @@ public:
   virtual base::SphereSet cut(const PartCut& part, spheredecomp::Protrusion* protrusion) = 0;
 };
 
-/// Cuts a part; with a limit the cut that keeps it, and `protrusion` receives what that measures. Throws as
+/// Cuts a part; with a limit so that it is kept, and `protrusion` receives the measured values. Throws as
 /// spheredecomp::decompose() or decomposeWithin() do.
 base::SphereSet cutPart(const PartCut& part, spheredecomp::Protrusion& protrusion);
 
-/// The sets of all parts, on all ranks, which share the work. `kept` may be null: then all are cut. Throws as
+/// Sphere sets of all parts, on all ranks, which share the work. `kept` may be null: then all are cut. Throws as
 /// decompose() does, or with a limit decomposeWithin(); `reports` receives an entry for each part.
 std::vector<base::SphereSet> cutParts(const std::vector<PartCut>& parts, SphereSets* kept, const base::Comm& comm,
                                       std::vector<spheredecomp::CutReport>* reports = nullptr);

@@ -9,7 +9,7 @@
 
 namespace grouser::coupling {
 
-/// Steps a simulation and measures each stage, waiting for the device after it: the same bits, slower.
+/// Steps a simulation and times each stage, waiting for the device after it: the same bits, slower.
 class StageTimer : private StepObserver {
 public:
   StageTimer(Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}

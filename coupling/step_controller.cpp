@@ -13,16 +13,16 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Of the next stretch over the last [-]: what is aimed at, and how far one may be from the other.
+/// Ratio of the next stretch to the last [-]: safety factor, least and largest ratio.
 constexpr double kAim = 0.9, kLeast = 0.2, kMost = 2;
-/// Rest of a time that is none, and the shortest stretch, as shares of the time [-].
+/// Negligible remaining time, and the shortest stretch, as shares of the time [-].
 constexpr double kNoTime = 1e-12, kShortest = 1e-13;
-/// Of a stretch, per metre of coordinates and per radian: less than this tells nothing of its length [-].
+/// Round-off error of a stretch per metre of coordinates and per radian [-].
 constexpr double kRoundOff = 1e-14;
 
 } // namespace
 
-/// What drives and turns of bodies allow [s].
+/// Longest stretch allowed by drives and rotations of bodies [s].
 double StepController::longest(const multibody::State& state) const {
   double rate = 0;
   for (const multibody::Twist& V : state.twist) rate = std::max(rate, norm(V.w));
@@ -41,21 +41,22 @@ double StepController::error(double h) const {
   return most / 3;
 }
 
-/// What round-off makes of a stretch [m, rad].
+/// Round-off error of a stretch [m, rad].
 double StepController::roundOff() const {
   double scale = 1;
   for (const base::Pose& X : once_.pose) scale = std::max(scale, norm(X.position));
   return kRoundOff * scale;
 }
 
-/// Does a stretch from twice_ (a copy of the state) both ways; returns whether the solver could.
+/// Integrates a stretch from twice_ (a copy of the state) in one and in two steps; returns whether the solver
+/// succeeded.
 bool StepController::tryStretch(multibody::Solver& solver, const multibody::Loads& loads, double h) {
   once_ = twice_;
   try {
     solver.step(once_, loads, h);
     solver.step(twice_, loads, 0.5 * h);
     solver.step(twice_, loads, 0.5 * h);
-  } catch (const base::SimulationError&) { // too far for a step: a shorter one may do
+  } catch (const base::SimulationError&) { // too long a step: a shorter one may succeed
     return false;
   }
   return true;
@@ -65,7 +66,7 @@ void StepController::advance(multibody::Solver& solver, multibody::State& state,
                              double until, const std::function<void()>& each) {
   while (until - state.time > kNoTime * until) {
     const double left = until - state.time, wanted = std::min(record_.next, longest(state));
-    // The rest in equal stretches, so that the last is no scrap.
+    // The rest in equal stretches, so that the last is not much shorter.
     const double pieces = std::max(1.0, std::ceil(left / wanted - 1e-9)), h = left / pieces;
     twice_ = state;
     const bool solved = tryStretch(solver, loads, h);
@@ -79,10 +80,10 @@ void StepController::advance(multibody::Solver& solver, multibody::State& state,
       if (record_.next > kShortest * std::max(until, 1e-3)) continue;
       throw base::SimulationError(
           fmt::format("time {:.6g} s: no step of {:.3g} s or more keeps the error below run.tolerance = {:g} a second; "
-                      "raise it, or look for a blow at this time",
+                      "raise it, or check for an impact at this time",
                       state.time, record_.next, control_.tolerance));
     }
-    // A stretch that the end cut short says nothing against longer ones.
+    // A stretch shortened by the end does not limit the next ones.
     record_.next = factor >= 1 && pieces == 1 ? std::max(h * factor, record_.next) : h * factor;
     record_.smallest = record_.taken == 0 ? 0.5 * h : std::min(record_.smallest, 0.5 * h);
     record_.largest = std::max(record_.largest, 0.5 * h);

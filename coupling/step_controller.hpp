@@ -10,27 +10,27 @@
 
 namespace grouser::coupling {
 
-/// Steps of a mechanism that are as long as an error allows. Each stretch h is done in one step and in two of h / 2; a
-/// third of their difference is the error of the two (RATTLE is of order 2), and they are kept where for every body
+/// Error-controlled steps of a mechanism. Each stretch h is done in one step and in two of h / 2; a third of their
+/// difference is the error of the two (RATTLE is of order 2), and they are kept if for every body
 ///   |dp| + h |dv|  and  |dphi| + h |dw|   are at most   tolerance h + round-off      [m], [rad]:
-/// what steps add to places and turns in a second. The next h is 0.9 sqrt(tolerance h / error) of the last, within
-/// [0.2, 2]. No step is longer than drives and turns allow (time_scales.hpp). Decisions depend on the state alone: the
-/// same bits resumed.
+/// the error of positions and rotations per second. The next h is 0.9 sqrt(tolerance h / error) of the last, within
+/// [0.2, 2]. No step is longer than drives and rotations allow (time_scales.hpp). Decisions depend on the state alone,
+/// so resumed runs have the same bits.
 class StepController {
 public:
   StepController(const StepControl& control, double largestTurn)
       : control_(control), largestTurn_(largestTurn), record_{control.first, 0, 0, 0, 0} {}
 
-  /// Brings `state` to the time `until` [s]; tells `each` of every stretch that is kept. Throws base::SimulationError
-  /// where no step meets the tolerance.
+  /// Advances `state` to the time `until` [s]; calls `each` after every accepted stretch. Throws base::SimulationError
+  /// if no step meets the tolerance.
   void advance(multibody::Solver& solver, multibody::State& state, const multibody::Loads& loads, double until,
                const std::function<void()>& each);
 
-  /// Of the whole run. A stretch counts as two steps, a rejected one as three.
+  /// Statistics of the whole run. A stretch counts as two steps, a rejected one as three.
   struct Record {
     double next = 0; ///< stretch [s]
     std::int64_t taken = 0, rejected = 0;
-    double smallest = 0, largest = 0; ///< step that was kept [s]
+    double smallest = 0, largest = 0; ///< accepted step [s]
   };
   const Record& record() const { return record_; }
   void restore(const Record& record) { record_ = record; }

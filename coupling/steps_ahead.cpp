@@ -11,7 +11,7 @@ StepsAhead::StepsAhead(const base::Exec& exec, GranularGround& ground, VehicleRi
 StepsAhead::~StepsAhead() {
   try {
     callOff();
-  } catch (const base::DeviceError&) { // it has failed, which has been or will be reported
+  } catch (const base::DeviceError&) { // the device failure has been or will be reported
   }
 }
 
@@ -42,7 +42,7 @@ void StepsAhead::end() {
   gate_.await(base::Gate::kSecond);
   begun_ = false;
   const int further = launched_;
-  launched_ = 0; // called off, where it throws
+  launched_ = 0; // cancelled if it throws
   if (grains_.end(further)) launched_ = further;
 }
 
@@ -50,7 +50,7 @@ void StepsAhead::callOff() {
   if (launched_ == 0 && !begun_) return;
   gate_.callOff();
   begun_ = false;
-  if (launched_ % 2 != 0) grains_.exchangeBuffers(); // their exchange of buffers is taken back
+  if (launched_ % 2 != 0) grains_.exchangeBuffers(); // reverts the swap of buffers
   launched_ = 0;
 }
 

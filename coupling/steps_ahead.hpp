@@ -9,25 +9,25 @@
 
 namespace grouser::coupling {
 
-/// Steps of a vehicle on grains whose work is launched before it is known where the vehicle will be. Walls, floor and
-/// the grains without a listed part advance at once; part contacts and all other grains wait at a gate for the poses
-/// that the host solves. So neither waits for a launch, and the same is computed as by Simulation::step().
+/// Steps of a vehicle on grains whose work is launched before the poses of the vehicle are known. Walls, floor and the
+/// grains without a listed part advance at once; part contacts and all other grains wait at a gate for the poses
+/// computed by the host. So neither waits for a launch, and the results are those of Simulation::step().
 ///
-/// On one GPU. Where a list of grains ends, or a grain is at fault, the device calls the next step off by itself; where
-/// a list of parts is about to end, the next step is not launched ahead. A part that is thrown out of its list within
-/// one such step ends the run with an error, where Simulation::step() would go on.
+/// On one GPU. If a list of grains expires, or at a grain fault, the device cancels the next step; if a list of parts
+/// is about to expire, the next step is not launched ahead. A part that leaves its list within one such step ends the
+/// run with an error, where Simulation::step() would continue.
 class StepsAhead {
 public:
-  /// Both outlive it.
+  /// Both must outlive it.
   StepsAhead(const base::Exec& exec, GranularGround& ground, VehicleRig& vehicle);
   StepsAhead(const StepsAhead&) = delete;
   StepsAhead& operator=(const StepsAhead&) = delete;
   ~StepsAhead();
 
   // One step, in this order, with the poses set and the lists valid.
-  /// Launches it where that has not been done ahead, and lets it pass.
+  /// Launches the step unless launched ahead, and opens its gate.
   void begin();
-  /// Launches the next one, unless lists end before.
+  /// Launches the next step, unless lists expire before.
   void launchNext();
   /// Computes the host contacts of this step while the device works.
   void computeOnHost();
@@ -35,11 +35,11 @@ public:
   /// Waits for the grains. Throws as terrain::Grains::endStep().
   void end();
 
-  /// Whether the next step is under way: until it is over no list may be made, and nobody may wait for the device.
+  /// Whether the next step is launched: until it ends no list may be built, and no one may wait for the device.
   bool nextIsLaunched() const { return launched_ > 0; }
-  /// After an exception: waits for what is under way, and calls off what is not. Then the positions and velocities are
-  /// those of the step that has begun last, but contact springs, remainders and energy sums may be those of the next
-  /// one: inspect this state, but do not step it further.
+  /// After an exception: waits for running work, and cancels the rest. Positions and velocities are then those of the
+  /// last step that has begun, but contact springs, remainders and energy sums may be those of the next one: this state
+  /// may be inspected, but not stepped further.
   void callOff();
 
 private:
@@ -52,7 +52,7 @@ private:
   base::DoubleBufferedGraph graph_;
   std::int64_t listings_{-1}; ///< of the lists that the graph holds
   int launched_{0};           ///< steps that have not begun
-  bool begun_{false};         ///< one that has not ended
+  bool begun_{false};         ///< a step has begun and not ended
 };
 
 } // namespace grouser::coupling

@@ -9,14 +9,15 @@ namespace grouser::coupling {
 
 /// The constants of a prescribed motion; see SurfaceMotion.
 struct SurfaceMotionLaw {
-  base::Vec3d pivot;                                     ///< [m] that it turns about
+  base::Vec3d pivot;                                     ///< [m] centre of rotation
   base::Vec3d velocity, spin, amplitude;                 ///< [m/s], [rad/s], [m]
   double frequency{}, phase{};                           ///< [Hz], [turns]
   double start{};                                        ///< [s]
   double until{std::numeric_limits<double>::infinity()}; ///< [s]
 };
 
-/// How a rigid surface is moved: closed functions of time, so that nothing adds up and a resumed run has the same bits.
+/// Prescribed motion of a rigid surface: closed functions of time, so that no error accumulates and a resumed run has
+/// the same bits.
 ///
 /// With s the time since `start`, held at `until`:
 ///   pivot(s) = pivot + velocity s + amplitude (sin(2 pi frequency s + phase) - sin(phase))
@@ -33,7 +34,7 @@ public:
     base::Vec3d pivot;          ///< [m]
   };
   State at(double time) const;
-  void lift(double way) { law_.pivot.z += way; } ///< all of it, upwards [m]
+  void lift(double way) { law_.pivot.z += way; } ///< the whole motion, upwards [m]
 
 private:
   SurfaceMotionLaw law_;

@@ -29,7 +29,7 @@ double overlapAt(const SurfaceSetup& surface, const base::Pose& pose, const Vec3
 
 namespace {
 
-/// From where to where it reaches along an axis of the world [m].
+/// Extent of a surface along an axis of the world [m].
 std::array<double, 2> extentAlong(int axis, const SurfaceSetup& surface, const base::Pose& pose) {
   const double middle = pose.position[axis];
   const Vec3d& half = surface.geometry.half;
@@ -80,9 +80,9 @@ std::string faultAtBoundaries(const SurfaceSetup& surface, const base::Pose& pos
     const bool across = low <= from + rounding && high >= to - rounding;
     if (inside || across) continue;
     return fmt::format(
-        "reaches from {0} = {1:.6g} to {2:.6g} m, where grains beyond the periodic boundary would feel an "
-        "image of it, which it has not: keep it between {0} = {3} and {4} m, a radius of the largest "
-        "grain from the boundaries, or let it reach across both, from {5:g} to {6:g} m",
+        "reaches from {0} = {1:.6g} to {2:.6g} m, into a periodic boundary, across which surfaces have no image: "
+        "keep it between {0} = {3} and {4} m, a radius of the largest grain from the boundaries, or extend it "
+        "across both, from {5:g} to {6:g} m",
         "xy"[a], low, high, base::roundedUp(from + radius, 6), base::roundedDown(to - radius, 6), from, to);
   }
   return "";

@@ -13,59 +13,59 @@
 
 namespace grouser::coupling {
 
-/// The lists of sections that surfaces stand in.
+/// Kinds of sections of surfaces.
 enum class SurfaceKind { plane, box, cylinder, mesh };
 
-/// A surface that forces move along one axis, beside what its law of motion says: that carries a frame which is free
-/// along the axis. The mass is at the pivot: what turns is balanced about it.
+/// A surface moved by forces along one axis, relative to its prescribed motion. The mass is at the pivot: rotating
+/// surfaces are balanced about it.
 struct FreeSurface {
   base::Vec3d axis;  ///< unit vector
   double mass{};     ///< [kg]
-  double load{};     ///< beside gravity, along the axis [N]
-  double loadRamp{}; ///< over which the load comes on [s]
+  double load{};     ///< besides gravity, along the axis [N]
+  double loadRamp{}; ///< duration of the load ramp [s]
 
   double loadAt(double time) const { return load * (time < loadRamp ? time / loadRamp : 1); } ///< [N]
 };
 
-/// One rigid surface of a scene as grains meet it, whatever section it stands in.
+/// One rigid surface of a scene for contact with grains, from any kind of section.
 struct SurfaceSetup {
   std::string name; ///< "lid"
   SurfaceKind kind{};
   std::size_t number{}; ///< among those of its kind
   std::string place;    ///< of its section, in messages: "scene.toml:14: box.0"
   std::string material;
-  terrain::SurfaceGeometry geometry; ///< of a mesh the box that holds it
+  terrain::SurfaceGeometry geometry; ///< of a mesh its bounding box
   base::Pose start;
   SurfaceMotion motion;
   std::optional<FreeSurface> free;
   bool moves{};                                          ///< by its motion or by forces
-  bool hasPivot{};                                       ///< about which its torque is told too
-  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null but for meshes
-  double sphereRadius{};                                 ///< of the spheres that a mesh is cut into [m]
-  bool sphereRadiusGiven{};                              ///< by the scene; else it may become finer
-  double sphereRefinement{1};                            ///< [-] divides it and what an automatic one permits
-  bool placedLater{};               ///< put on a bed that has settled without it; else the bed is laid around it
+  bool hasPivot{};                                       ///< as a reference point of its torque
+  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null except for meshes
+  double sphereRadius{};                                 ///< of the spheres of a mesh [m]
+  bool sphereRadiusGiven{};                              ///< set in the scene; else it may become finer
+  double sphereRefinement{1};                            ///< [-] divides it and the limits of an automatic one
+  bool placedLater{};               ///< placed on a bed settled without it; else the bed is laid around it
   std::optional<double> aboveBed{}; ///< then: height of its lowest point over the highest grain under it [m]
 
-  void lift(double way); ///< the start, and all of its motion [m]
+  void lift(double way); ///< lifts the start and the whole motion [m]
 };
 
-/// At rest where it stands at the start.
+/// Pose at the start, at rest.
 terrain::SurfacePose startingPose(const SurfaceSetup& surface);
-/// Overlap of a sphere with it at the start [m]; negative where they do not touch.
+/// Overlap of a sphere with it at the start [m]; negative if they do not touch.
 double startingOverlap(const SurfaceSetup& surface, const base::Vec3d& position, double radius);
-/// The same where the surface's own frame has come to `pose`.
+/// The same with the surface's frame at `pose`.
 double overlapAt(const SurfaceSetup& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
 
-/// The box along the world's axes that holds a box, cylinder, tube or mesh [m]; a plane has none.
+/// Bounding box along the world's axes of a box, cylinder, tube or mesh [m]; a plane has none.
 struct SurfaceBounds {
   base::Vec3d low, high;
 };
 SurfaceBounds boundsOf(const SurfaceSetup& surface, const base::Pose& pose);
 
-/// Grains feel a box, cylinder or mesh where it is, and no images of it beyond periodic boundaries. So it has to keep
-/// `radius` away from both boundaries, or to reach across both: says how it does not, or nothing. `radius`: of the
-/// largest grain [m].
+/// A box, cylinder or mesh has no images beyond periodic boundaries. So it must keep `radius` away from both
+/// boundaries, or extend across both: returns a message if it does not, else an empty string. `radius`: of the largest
+/// grain [m].
 std::string faultAtBoundaries(const SurfaceSetup& surface, const base::Pose& pose,
                               const terrain::PeriodicBoundaries& sides, double radius);
 

@@ -10,11 +10,11 @@
 
 namespace grouser::coupling {
 
-/// What a rigid surface must remember beyond its law of motion.
+/// State of a rigid surface besides its prescribed motion.
 struct SurfaceState {
-  double offset{}, speed{};            ///< of one that forces move, along its axis [m], [m/s]
-  double work{};                       ///< since the start, by what moves it [J]
-  double turnover{};                   ///< of one that forces move: its absolute work in each step, since the start [J]
+  double offset{}, speed{}; ///< of a force-driven surface, along its axis [m], [m/s]
+  double work{};            ///< of its drive, since the start [J]
+  double turnover{};        ///< of a force-driven surface: sum of its absolute work per step, since the start [J]
   base::Vec3d impulse, angularImpulse; ///< on the grains since the start [N s], [N m s about the origin of the world]
   base::Vec3d force, torque;           ///< sums over the steps since the last row [N], [N m]
   base::Vec3d pivotTorque;             ///< the same of the torque about the pivot [N m]
@@ -24,10 +24,10 @@ struct SurfaceState {
 /// All surfaces of a scene.
 struct SurfaceStates {
   std::vector<SurfaceState> surfaces;
-  std::int64_t meanSteps{};           ///< that those sums are over
+  std::int64_t meanSteps{};           ///< number of steps in those sums
   contact::SavedGrainPatches patches; ///< of grains on meshes
 
-  /// For the hash: what the next step depends on.
+  /// For the hash: the data that the next step depends on.
   std::vector<std::uint32_t> words() const {
     std::vector<std::uint32_t> words;
     for (const SurfaceState& s : surfaces)

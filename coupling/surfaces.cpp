@@ -104,21 +104,21 @@ void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadiu
   const double across = plane ? std::fabs(dot(freeAxis(i), placement(i, step).normal())) : 1;
   const double speed = std::fabs(states_.surfaces[i].speed), most = 0.5 * smallestRadius / timeStep_;
   if (speed * across <= most) return;
-  throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {}, which forces move, goes at {:.4g} m/s, more "
-                                          "than half the smallest grain's radius in a "
-                                          "step ({:.4g} m/s): it could pass through a grain unfelt; lower its load, "
-                                          "raise its mass, or use a smaller time_step",
+  throw base::SimulationError(fmt::format("step {}, time {:.6g} s: the loaded surface {} moves at {:.4g} m/s, more "
+                                          "than half the smallest grain's radius in a step ({:.4g} m/s): it could "
+                                          "pass through a grain without contact; lower its load, raise its mass, "
+                                          "or use a smaller time_step",
                                           step, static_cast<double>(step) * timeStep_, surfaces_[i].name, speed, most));
 }
 
-/// Meshes have many corners: these are looked at now and then.
+/// Meshes have many corners: these are checked only at intervals.
 void Surfaces::checkPlace(std::size_t i, std::int64_t step) const {
   constexpr std::int64_t kInterval = 50;
   const terrain::PeriodicBoundaries& sides = setup_.grains->boundaries.periodic;
   if ((!sides[0] && !sides[1]) || !surfaces_[i].moves || (surfaces_[i].mesh && step % kInterval != 0)) return;
   const std::string fault = faultAtBoundaries(surfaces_[i], pose(i, step), sides, setup_.grains->model.radius);
   if (!fault.empty())
-    throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {} {}; change what moves it", step,
+    throw base::SimulationError(fmt::format("step {}, time {:.6g} s: {} {}; change its motion", step,
                                             static_cast<double>(step) * timeStep_, surfaces_[i].name, fault));
 }
 
@@ -167,15 +167,15 @@ std::vector<std::pair<std::string, double>> Surfaces::meshesPressing(std::uint32
   return named;
 }
 
-std::optional<PressedMost> Surfaces::pressedMost() const {
+std::optional<DeepestPartOverlap> Surfaces::deepestPartOverlap() const {
   if (!meshes_) return {};
   const auto most = meshes_->mostPressed();
-  if (!most) return PressedMost{};
-  return PressedMost{static_cast<int>(shapes_) + most->part, most->grain, most->share};
+  if (!most) return DeepestPartOverlap{};
+  return DeepestPartOverlap{static_cast<int>(shapes_) + most->part, most->grain, most->share};
 }
 
 void Surfaces::restartMeans() {
-  if (meshes_) meshes_->forgetPressed();
+  if (meshes_) meshes_->resetDeepestOverlap();
   for (SurfaceState& s : states_.surfaces) s.force = s.torque = s.pivotTorque = {}, s.power = 0;
   states_.meanSteps = 0;
 }
@@ -199,7 +199,7 @@ void Surfaces::addTo(Ledger& ledger) const {
 
 void Surfaces::restore(const SurfaceStates& states) {
   if (states.surfaces.size() != surfaces_.size())
-    throw base::InputError("the checkpoint is of another scene; resume with the scene that was run");
+    throw base::InputError("the checkpoint belongs to another scene; resume with the scene that was run");
   states_ = states;
 }
 

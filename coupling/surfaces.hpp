@@ -29,29 +29,29 @@ private:
   std::vector<Inverse> inverses_;
 };
 
-/// The moving surfaces of a scene: where they are at each step, what they take to be moved, and how those that forces
-/// move give way. The same on all ranks.
+/// The moving surfaces of a scene: their poses at each step, their drive loads, and the motion of force-driven ones.
+/// The same on all ranks.
 class Surfaces {
 public:
-  /// `setup` outlives it.
+  /// `setup` must outlive it.
   Surfaces(const GroundSetup& setup, const base::Vec3d& gravity, double timeStep);
   Surfaces(const Surfaces&) = delete;
   Surfaces& operator=(const Surfaces&) = delete;
 
-  /// The meshes' contacts; after grains have been restored, before the first computeContacts().
+  /// Creates the contacts of meshes; after grains have been restored, before the first computeContacts().
   void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
 
-  /// Contacts of grains with meshes in step `step`; complementarity contacts are computed in the grains' step.
+  /// Computes contacts of grains with meshes in step `step`; complementarity contacts are computed in the grains' step.
   void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
   /// Contact moments of grains with meshes in step `step`, without change of state; nothing without meshes.
   contact::PartMomentsView measure(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
-  /// For the grains' step; null without meshes.
+  /// Loads for the grains' step; null without meshes.
   const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
-  /// Where they are at step `step`, to the grains.
+  /// Passes the poses at step `step` to the grains.
   void place(terrain::Grains& grains, std::int64_t step) const;
-  /// Counts what the grains did in step `step`, moves what forces move, and places all for the next step. Throws
-  /// SimulationError where a surface moves so fast that it could pass through a grain in one step, or has come to a
-  /// periodic boundary, beyond which grains do not feel it.
+  /// Adds the loads of the grains in step `step`, moves force-driven surfaces, and sets all poses for the next step.
+  /// Throws SimulationError if a surface moves so fast that it could pass through a grain in one step, or reaches a
+  /// periodic boundary, beyond which it has no contacts.
   void advance(terrain::Grains& grains, std::int64_t step);
 
   void setGravity(const base::Vec3d& gravity) { gravity_ = gravity; } ///< [m/s2]
@@ -59,7 +59,7 @@ public:
   const SurfaceSetup& surface(std::size_t i) const { return surfaces_[i]; }
   base::Pose pose(std::size_t i, std::int64_t step) const;
 
-  /// Loads by the grains, about the centre, and the power of what moves the surface: means since restartMeans().
+  /// Loads of the grains about the centre, and the power of the surface's drive: means since restartMeans().
   struct Observation {
     base::Vec3d force, torque; ///< [N], [N m]
     base::Vec3d pivotTorque;   ///< about the pivot [N m]
@@ -68,10 +68,10 @@ public:
   };
   Observation observe(std::size_t i, std::int64_t step) const;
   void restartMeans();
-  /// Names of the meshes that press a grain, and by how much [m]; all ranks call it.
+  /// Names of the meshes that overlap a grain, with the overlap [m]; all ranks call it.
   std::vector<std::pair<std::string, double>> meshesPressing(std::uint32_t grain) const;
 
-  /// Grains that a mesh has crushed to their middle in this step, by id; all ranks call it.
+  /// Ids of the grains crushed to their centre by a mesh in this step; all ranks call it.
   std::vector<std::uint32_t> endedGrains() const {
     return meshes_ ? meshes_->endedGrains() : std::vector<std::uint32_t>{};
   }
@@ -79,14 +79,15 @@ public:
     return meshes_ ? meshes_->cutReports() : std::vector<spheredecomp::CutReport>{};
   }
   void takeOut(const std::vector<std::uint32_t>& grains) { meshes_->takeOut(grains); }
-  std::optional<PressedMost> pressedMost() const; ///< by a mesh since restartMeans(); empty without meshes
+  std::optional<DeepestPartOverlap>
+  deepestPartOverlap() const; ///< by a mesh since restartMeans(); empty without meshes
 
-  /// Adds the work of what moves them, energies of surfaces that forces move, and contacts with meshes.
+  /// Adds the work of drives, energies of force-driven surfaces, and contacts with meshes.
   void addTo(Ledger& ledger) const;
   double meshElastic() const { return meshes_ ? meshes_->ledger().elastic : 0.0; } ///< in contacts with meshes [J]
 
   SurfaceStates save() const;
-  /// Throws InputError when they are of other surfaces.
+  /// Throws InputError if they belong to other surfaces.
   void restore(const SurfaceStates& states);
 
 private:
@@ -95,14 +96,14 @@ private:
   void checkSpeed(std::size_t i, std::int64_t step, double smallestRadius) const;
 
   std::vector<contact::PartMotion> meshMotions(std::int64_t step) const;
-  base::Vec3d freeAxis(std::size_t i) const; ///< zero where it is not free
+  base::Vec3d freeAxis(std::size_t i) const; ///< zero if the motion is prescribed
 
   const GroundSetup& setup_;
   const std::vector<SurfaceSetup>& surfaces_;
   base::Vec3d gravity_;
   double timeStep_;
   SurfaceStates states_;
-  std::size_t shapes_{0}; ///< surfaces that are no meshes
+  std::size_t shapes_{0}; ///< surfaces other than meshes
   std::unique_ptr<MeshContacts> meshes_;
   MovedMeshes movedMeshes_;
 };

@@ -8,15 +8,15 @@
 
 namespace grouser::coupling {
 
-/// By how much swings across a pull in joints may have grown while it was above what the step bears. At r times the
-/// longest stable step a swing grows (r + sqrt(r^2 - 1))^2 times a step. What counts is the lesser growth of this look
-/// and the last, so that a peak between them, or at one of them, counts nothing.
+/// Bound on the growth of transverse oscillations of tensioned joints while the tension exceeds the limit of the step.
+/// At r times the longest stable step an oscillation grows (r + sqrt(r^2 - 1))^2 times a step. The smaller growth of
+/// this check and the last counts, so that a peak between them, or at one of them, does not.
 class SwingGrowth {
 public:
-  /// What joints' closure leaves open, 1e-10 m at most, is 0.1 mm when it has grown so much [-].
+  /// Constraint errors of joints, 1e-10 m at most, grow to 0.1 mm by this factor [-].
   static constexpr double kMost = 1e6;
 
-  /// A look, `steps` after the last one; r: the step over the longest stable one. False where it has grown too much.
+  /// A check, `steps` after the last one; r: the step over the longest stable one. False if the growth is too large.
   bool bears(double r, std::int64_t steps) {
     if (!(r > 1)) {
       rate_ = grown_ = 1;
@@ -32,7 +32,7 @@ public:
   void restore(double rate, double grown) { rate_ = rate, grown_ = grown; }
 
 private:
-  double rate_ = 1, grown_ = 1; ///< a step at the last look, and since it first was above
+  double rate_ = 1, grown_ = 1; ///< per step at the last check, and since it first exceeded 1
 };
 
 } // namespace grouser::coupling

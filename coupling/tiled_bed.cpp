@@ -23,7 +23,7 @@ TiledBed::TiledBed(const TileSetup& tile, const terrain::Grains& settled, const 
       for (std::size_t g = 0; g < tile_.rows(); ++g) {
         const Copy copy{{i, j}, g};
         const base::Vec3d x = scale_.toMetres(base::fromUnits(place(copy)));
-        const double radius = isFixed(g) ? 0 : radiusOf(g); // those may stand in a wall
+        const double radius = isFixed(g) ? 0 : radiusOf(g); // fixed grains may overlap a wall
         const bool stays = clear(0, x.x, tile.walls.xMin, tile.walls.xMax, radius) &&
                            clear(1, x.y, tile.walls.yMin, tile.walls.yMax, radius) &&
                            (level || x.z <= surface.height(x.x, x.y));

@@ -14,20 +14,20 @@ namespace grouser::coupling {
 ///
 /// A piece of the bed of about terrain.tile, with periodic boundaries on level ground, is laid and settled alone, then
 /// copied over the terrain with the springs of its contacts, so that the copies are in balance across their seams.
-/// Grains that would stand in a wall are left out, and, where the ground is not level, those with their centre above
-/// the height-map; what lay against them has to come to rest again. Every rank makes the same tile.
+/// Grains that would overlap a wall are left out, and, on uneven ground, those with their centre above the height-map;
+/// their neighbours must settle again. Every rank makes the same tile.
 class TiledBed {
 public:
   /// `settled`: the grains of tile.ground, at rest; `surface`: of the whole terrain.
   TiledBed(const TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface);
 
-  /// Where the grains are, by id.
+  /// Initial grains, by id.
   std::vector<terrain::GrainSpec> start(int material) const;
-  /// Gives grains that began there their velocities and springs; `floor` is its place among their boundaries.
+  /// Sets velocities and springs of these grains; `floor`: index of the floor among their boundaries.
   void bringToRest(terrain::Grains& grains, std::size_t floor) const;
 
 private:
-  /// Where a grain of the tile stands in one of the copies.
+  /// A grain of the tile in one of the copies.
   struct Copy {
     std::array<std::int64_t, 2> tile;
     std::size_t grain; ///< row of the tile's state

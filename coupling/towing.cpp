@@ -21,7 +21,7 @@ void Towing::pull(const vehicle::Assembly& vehicle, const multibody::State& stat
   loads.external[hull].force += wrench_.force, loads.external[hull].torque += wrench_.torque;
 }
 
-void Towing::book(const vehicle::Assembly& vehicle, const multibody::State& state, double dt) {
+void Towing::accountWork(const vehicle::Assembly& vehicle, const multibody::State& state, double dt) {
   const multibody::Twist& now = state.twist[static_cast<std::size_t>(vehicle.chassis)];
   const Vec3d v = 0.5 * (before_.v + now.v), w = 0.5 * (before_.w + now.w);
   const double power = dot(wrench_.force, v) + dot(wrench_.torque, w);
@@ -43,19 +43,19 @@ HitchObservation Towing::observe(Means of) const {
   return o;
 }
 
-std::vector<double> Towing::books() const {
+std::vector<double> Towing::saveSums() const {
   return {work_.sum,      work_.lost,   rows_.forces.x, rows_.forces.y,
           rows_.forces.z, rows_.speeds, rows_.taken,    static_cast<double>(rows_.steps)};
 }
 
-double Towing::workOf(const std::vector<double>& books) { return multibody::CompensatedSum{books[0], books[1]}; }
+double Towing::workOf(const std::vector<double>& sums) { return multibody::CompensatedSum{sums[0], sums[1]}; }
 
-void Towing::restore(const std::vector<double>& state, const std::vector<double>& books) {
+void Towing::restore(const std::vector<double>& state, const std::vector<double>& sums) {
   hitch_.restore(state);
-  if (books.size() != this->books().size())
-    throw base::InputError("hitch: the checkpoint is of another hitch; resume with the scene that was run");
-  work_.sum = books[0], work_.lost = books[1];
-  rows_ = {{books[2], books[3], books[4]}, books[5], books[6], static_cast<std::int64_t>(books[7])};
+  if (sums.size() != saveSums().size())
+    throw base::InputError("hitch: the checkpoint belongs to another hitch; resume with the scene that was run");
+  work_.sum = sums[0], work_.lost = sums[1];
+  rows_ = {{sums[2], sums[3], sums[4]}, sums[5], sums[6], static_cast<std::int64_t>(sums[7])};
 }
 
 } // namespace grouser::coupling

@@ -13,49 +13,48 @@
 
 namespace grouser::coupling {
 
-/// What a row says of a hitch. Means are since restartMeans(), and 0 before the first step behind it.
+/// Values of a hitch in a row. Means are since restartMeans(), and 0 before the first step after it.
 struct HitchObservation {
   base::Vec3d force;   ///< on the vehicle, mean [N]: forward along the heading, left, up
   double pull{};       ///< of the vehicle on it, mean, forward along the heading [N]; Observation::drawbarPull is along
                        ///< the direction of motion
   double speed{};      ///< of the hitch point along the heading, mean [m/s]
-  double power{};      ///< that it takes from the vehicle, mean [W]
-  double work{};       ///< done on the vehicle since the start [J]; negative where it holds it back
+  double power{};      ///< absorbed from the vehicle, mean [W]
+  double work{};       ///< done on the vehicle since the start [J]; negative if the hitch resists it
   double towedWay{};   ///< of sled or carriage [m]
   double towedSpeed{}; ///< [m/s]
 };
 
-/// Two sets of means: those of the rows of results, and those of who steps the simulation from outside.
+/// Two sets of means: for the rows of results, and for callers that step the simulation.
 enum class Means { rows, watch };
 
-/// The hitch of a vehicle in its step: what it pulls with, and what that is worth. All on the host, from the bodies'
-/// state alone.
+/// Force and work of a vehicle's hitch. Computed on the host from the bodies' state alone.
 class Towing {
 public:
   explicit Towing(const vehicle::HitchOptions& options) : hitch_(options) {}
 
-  /// Force [N] or speed [m/s] from outside; see vehicle::Hitch::command().
+  /// Sets the force [N] or speed [m/s]; see vehicle::Hitch::command().
   void command(std::optional<double> value) { hitch_.command(value); }
   vehicle::HitchKind kind() const { return hitch_.options().kind; }
   /// Adds the hitch's force to the hull's loads, for a step of `dt` [s] that begins at `state`.
   void pull(const vehicle::Assembly& vehicle, const multibody::State& state, const vehicle::Driver& driver, double dt,
             const base::Vec3d& gravity, multibody::Loads& loads);
-  /// Books that step's work, with the means of the velocities before and behind it as the bodies' books do.
-  void book(const vehicle::Assembly& vehicle, const multibody::State& state, double dt);
+  /// Adds the work of that step, with the mean of the velocities before and after it, as in the bodies' ledger.
+  void accountWork(const vehicle::Assembly& vehicle, const multibody::State& state, double dt);
 
   HitchObservation observe(Means of = Means::rows) const;
   void restartMeans(Means of = Means::rows) { sumsOf(of) = {}; }
   double work() const { return work_; } ///< on the vehicle since the start [J]
 
   std::vector<double> save() const { return hitch_.save(); } ///< what later steps depend on
-  std::vector<double> books() const;                         ///< what later rows depend on
-  static double workOf(const std::vector<double>& books);    ///< work() that books() has [J]
-  void restore(const std::vector<double>& state, const std::vector<double>& books);
+  std::vector<double> saveSums() const;                      ///< what later rows depend on
+  static double workOf(const std::vector<double>& sums);     ///< work() of saveSums() [J]
+  void restore(const std::vector<double>& state, const std::vector<double>& sums);
 
 private:
   vehicle::Hitch hitch_;
-  multibody::Wrench wrench_; ///< of the step that is being taken, on the hull's centre of mass
-  multibody::Twist before_;  ///< of the hull, as it began
+  multibody::Wrench wrench_; ///< of the present step, on the hull's centre of mass
+  multibody::Twist before_;  ///< of the hull, at its start
   base::Vec3d ahead_;        ///< its heading then, level
   base::Vec3d lever_;        ///< of the hitch point
   /// Summed over steps.

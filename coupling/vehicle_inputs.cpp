@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is set from outside on a vehicle: which inputs it takes, and where they go.
+// Inputs of a vehicle: checks and routing.
 #include "base/error.hpp"
 #include "coupling/vehicle_rig.hpp"
 
@@ -11,11 +11,10 @@ namespace {
 
 using vehicle::SprocketDrive;
 
-/// Throws where sprockets are driven in another way than `right`, which the message names.
+/// Throws unless `right`; `drive` names the required kind of drive.
 void requireDrive(bool right, const char* what, const char* drive) {
   if (!right)
-    throw base::InputError(
-        fmt::format("{} cannot be set with this driver; give the scene driver.drive = {}", what, drive));
+    throw base::InputError(fmt::format("{} cannot be set with this driver; set driver.drive = {}", what, drive));
 }
 
 } // namespace
@@ -39,14 +38,14 @@ void VehicleRig::require(const Input& input) const {
     const bool force = input.kind == InputKind::hitchForce;
     const vehicle::HitchKind wanted = force ? vehicle::HitchKind::force : vehicle::HitchKind::speed;
     if (!towing_ || towing_->kind() != wanted)
-      throw base::InputError(fmt::format(
-          "the scene has no hitch whose {0} could be set; give it [hitch] kind = \"{0}\"", force ? "force" : "speed"));
+      throw base::InputError(fmt::format("the scene has no hitch with an input {0}; add [hitch] kind = \"{0}\"",
+                                         force ? "force" : "speed"));
     return;
   }
   case InputKind::bodyLoad:
     if (input.target < 0 || input.target >= static_cast<std::int32_t>(assembly_.model.bodies().size()))
       throw base::InputError(
-          fmt::format("the vehicle has no body {}; it has {}", input.target, assembly_.model.bodies().size()));
+          fmt::format("the vehicle has no body {}; it has {} bodies", input.target, assembly_.model.bodies().size()));
     return;
   case InputKind::gravity:
     return;

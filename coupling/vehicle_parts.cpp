@@ -21,7 +21,7 @@ VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup
     : contactIndex_(assembly.parts.size(), -1), spec_(assembly.spec), shapes_(setup.shapes),
       pointSpacing_(std::min(setup.sphereRadius, 0.05 * spec_.shoe.pitch) / setup.sphereRefinement) {
   std::map<std::string, std::size_t> indexOf;
-  std::vector<std::size_t> touching; // meshes that are to be cut
+  std::vector<std::size_t> touching; // meshes to be cut
   std::vector<std::size_t> hulls;    // parts
   for (std::size_t p = 0; p < assembly.parts.size(); ++p) {
     const vehicle::Part& part = assembly.parts[p];
@@ -40,7 +40,7 @@ VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup
     else
       addContactPart(p);
   }
-  // Behind the others, so that these have the same places with and without it.
+  // After the others, so that these have the same indices with and without it.
   if (setup.hullTouches)
     for (const std::size_t hull : hulls) addContactPart(hull);
   cut(touching, hulls.empty() ? meshes_.size() : meshOfPart_[hulls.front()], setup,
@@ -62,9 +62,9 @@ void VehicleParts::addContactPart(std::size_t part) {
 void VehicleParts::cut(const std::vector<std::size_t>& meshes, std::size_t hull, const VehicleSetup& setup,
                        double contactSize, SphereSets* kept, const base::Comm& comm) {
   constexpr double kPermitted = 0.05; // protrusion [contact size]
-  // Of the hull, which seldom touches [its sphere radius, and its diagonal where it is small]. What other parts keep,
-  // 1.9 mm for shoes of 154 mm, takes a hull of 40 m2 more spheres than there may be; by default the ready vehicles'
-  // hulls stand out by 6.0, 6.0 and 0.7 mm of 20 mm, and keep their cut.
+  // For the hull, which rarely touches [its sphere radius, and its diagonal if it is small]. The limit of other parts,
+  // 1.9 mm for shoes of 154 mm, would need too many spheres for a hull of 40 m2; by default the hulls of the supplied
+  // vehicles protrude by 6.0, 6.0 and 0.7 mm of 20 mm, and keep their cut.
   constexpr double kHullPermitted = 0.35, kSmallHullPermitted = 0.005;
   std::vector<PartCut> parts;
   for (const std::size_t m : meshes) {

@@ -14,17 +14,17 @@
 
 namespace grouser::coupling {
 
-/// Surfaces of a vehicle's parts: meshes, and the spheres that these are cut into, once for each kind of part. Those
-/// that touch something are the contact parts: all but the hull, and that behind them where it is asked for.
+/// Surfaces of a vehicle's parts: meshes and their sphere sets, one for each kind of part. Contact parts are all parts
+/// except the hull, which is last if requested.
 class VehicleParts {
 public:
-  /// Reads the meshes and cuts them; the ranks share the cutting. `kept`: where sets come from; null: all are cut.
-  /// `smallestGrain`: radius of the smallest grain that touches them [m]; infinity without. `shapesAlone`: nothing
-  /// touches the parts by spheres but the hull, so that no other is cut. Throws InputError where a mesh is of no use.
+  /// Reads and cuts the meshes; the ranks share the work. `kept`: source of sphere sets; null: all are cut.
+  /// `smallestGrain`: radius of the smallest grain that touches them [m]; infinity without. `shapesAlone`: contacts use
+  /// spheres of the hull only, so that no other part is cut. Throws InputError for unusable meshes.
   VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup& setup, const base::Comm& comm, SphereSets* kept,
                double smallestGrain, bool shapesAlone);
 
-  /// Smallest feature at which a vehicle's parts, ground and obstacles meet each other [m]: a quarter of a pitch.
+  /// Smallest contact feature of a vehicle's parts, ground and obstacles [m]: a quarter of a pitch.
   static double contactSize(const vehicle::VehicleSpec& spec) { return 0.25 * spec.shoe.pitch; }
 
   const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a kind of part
@@ -42,11 +42,11 @@ public:
   } ///< cuts of the meshes that touch
 
   std::size_t contactParts() const { return contactParts_.size(); }
-  /// Its place among the assembly's parts.
+  /// Index of a contact part among the assembly's parts.
   std::size_t partOf(std::size_t contactPart) const { return static_cast<std::size_t>(contactParts_[contactPart]); }
-  /// Of a part of the assembly among the contact parts; -1 for a hull that touches nothing.
+  /// Index of an assembly part among the contact parts; -1 for a hull without contacts.
   int contactIndex(int part) const { return contactIndex_[static_cast<std::size_t>(part)]; }
-  /// The contact parts of `assembly`, which refer to this object. `shoesAlone`: grains meet no other part.
+  /// The contact parts of `assembly`, which refer to this object. `shoesAlone`: grains touch no other part.
   ContactParts touching(const vehicle::Assembly& assembly, bool shoesAlone) const;
   /// Returns true if gear contacts use part shapes instead of mesh samples.
   bool shapes() const { return shapes_; }
@@ -55,13 +55,13 @@ private:
   /// Surface points of a set for contact with rigid surfaces.
   contact::PointTree points(std::size_t set) const;
   void addContactPart(std::size_t part);
-  /// `hull`: its mesh, of which contacts need the surface only.
+  /// `hull`: its mesh; contacts need only its surface.
   void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const VehicleSetup& setup, double contactSize,
            SphereSets* kept, const base::Comm& comm);
 
   std::vector<base::TriangleMesh> meshes_;
   std::vector<std::size_t> meshOfPart_;
-  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for what touches nothing by them
+  std::vector<base::SphereSet> sets_; ///< parallel to meshes_; empty for meshes without contacts
   std::vector<SetFigures> setFigures_;
   std::vector<spheredecomp::CutReport> cutReports_;
   std::vector<int> contactParts_, contactIndex_;

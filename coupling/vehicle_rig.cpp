@@ -16,7 +16,7 @@ using base::Vec3d;
 
 namespace {
 
-/// Set down along the ground, `lift` [m] higher than its surface asks for.
+/// Places the vehicle on the ground, raised by `lift` [m].
 vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<double(double, double)>& surfaceHeight,
                             double lift) {
   const Placement& place = setup.place;
@@ -26,7 +26,7 @@ vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<doubl
   return assembleAt(setup, pose_W);
 }
 
-/// Adds the bodies of the scene; hitched bodies move to where the vehicle stands.
+/// Adds the bodies of the scene; hitched bodies move with the vehicle to its place.
 vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<MechanismSetup>& bodies) {
   if (!bodies) return assembly;
   const base::Pose chassis = assembly.model.bodies()[static_cast<std::size_t>(assembly.chassis)].pose;
@@ -51,7 +51,7 @@ bool shapesAlone(const SimulationSetup& setup) {
   return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty();
 }
 
-/// So much that no shoe stands in the ground, and no part in an obstacle.
+/// Lift [m] at which no shoe overlaps the ground, and no part an obstacle.
 double liftFor(const SimulationSetup& setup, const Ground* ground, const VehicleParts& parts,
                const std::function<double(double, double)>& surfaceHeight) {
   const VehicleSetup& vehicle = *setup.vehicle;
@@ -62,17 +62,17 @@ double liftFor(const SimulationSetup& setup, const Ground* ground, const Vehicle
   return lift + liftOffObstacles(assembly.model, parts.touching(assembly, false), setup.ground.obstacles);
 }
 
-/// The first shoe that is not `within` [m] inside the terrain, and where; null while all are.
+/// A shoe at the edge of the terrain, and its position.
 struct ShoeAtEdge {
   const vehicle::Part* shoe;
   Vec3d place;
 };
-/// From each end of the terrain to a place [m]; negative beyond it.
+/// Distances of a place from the four edges of the terrain [m]; negative beyond them.
 std::array<double, 4> marginsOf(const terrain::Rectangle& area, const Vec3d& p) {
   return {p.x - area.xMin, area.xMax - p.x, p.y - area.yMin, area.yMax - p.y};
 }
 
-/// A shoe nearer to an end of the terrain than `within`, which is given for each end.
+/// The first shoe closer to an edge of the terrain than `within`, given for each edge.
 std::optional<ShoeAtEdge> shoeAtEdge(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                                      const multibody::State& state, const std::array<double, 4>& within) {
   if (!area) return {};
@@ -86,11 +86,11 @@ std::optional<ShoeAtEdge> shoeAtEdge(const std::optional<terrain::Rectangle>& ar
   return {};
 }
 
-/// How near a shoe must come to each end for `edge` to end the run: a vehicle that was set down nearer than that has to
-/// come nearer still.
+/// Distance of a shoe from each edge at which `edge` ends the run: a vehicle placed closer than `edge` must come closer
+/// still.
 std::array<double, 4> edgesToMeet(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                                   double edge) {
-  constexpr double kNearer = 0.05; // [m] more than shoes come and go where a loop turns round
+  constexpr double kNearer = 0.05; // [m] more than the position of shoes varies at the ends of a loop
   std::array<double, 4> edges{edge, edge, edge, edge};
   for (const int index : assembly.groundParts) {
     const auto body = static_cast<std::size_t>(assembly.parts[static_cast<std::size_t>(index)].body);
@@ -100,13 +100,13 @@ std::array<double, 4> edgesToMeet(const std::optional<terrain::Rectangle>& area,
   return edges;
 }
 
-/// Which shoe has left the terrain, in words; empty while none has.
+/// Message on a shoe that has left the terrain; empty if none has.
 std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                        const multibody::State& state) {
   const std::optional<ShoeAtEdge> at = shoeAtEdge(area, assembly, state, {});
   if (!at) return {};
-  return fmt::format("the {} has left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position, "
-                     "shorten run.duration, or let stop.edge end the run before",
+  return fmt::format("the {} left the terrain at ({:.2f}, {:.2f}) m; enlarge terrain.size, move vehicle.position, "
+                     "shorten run.duration, or set stop.edge to end the run earlier",
                      at->shoe->name, at->place.x, at->place.y);
 }
 
@@ -135,7 +135,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
 
-/// What the driver asks for in this step; without a course and without engines a function of time alone.
+/// The driver's commands in this step; without a course and without engines a function of time alone.
 vehicle::Controls VehicleRig::controls() {
   vehicle::Controls controls = driver_.course()
                                    ? driver_.step(state_.time, timeStep_, vehicle::hullMotion(assembly_, state_))
@@ -157,8 +157,8 @@ void VehicleRig::actuate() {
 void VehicleRig::advance() {
   replicated_.run([this] {
     solver_->step(state_, loads_, timeStep_);
-    applied_.book(state_, timeStep_);
-    if (towing_) towing_->book(assembly_, state_, timeStep_);
+    applied_.accountWork(state_, timeStep_);
+    if (towing_) towing_->accountWork(assembly_, state_, timeStep_);
     observer_->update(state_, timeStep_);
     if (watch_) watch_->observer.update(state_, timeStep_);
     contacts_->trackTravel(state_);
@@ -210,7 +210,7 @@ Vec3d VehicleRig::groundForce(const ForceMeans& means) const {
   return sum;
 }
 
-/// Lets a driver that waits know whether the vehicle rests.
+/// Informs a waiting driver whether the vehicle is at rest.
 std::string VehicleRig::judgeRest() {
   if (!driver_.waits() || !contacts_->onGround()) return {};
   const double g = norm(gravity_);
@@ -219,28 +219,28 @@ std::string VehicleRig::judgeRest() {
                        g > 0 ? -dot(groundForce(alarmMeans_) + fluidForce_, down) / (carried_ * g) : 0.0);
 }
 
-/// As of mechanisms: what turns far in a step rolls over teeth and plates unfelt.
+/// As for mechanisms: parts with a large rotation per step pass teeth and plates without contact.
 std::string VehicleRig::judgeTurns() const {
   std::size_t quickest = 0;
   double rate = 0;
   for (std::size_t b = 0; b < state_.twist.size(); ++b)
     if (const double w = norm(state_.twist[b].w); !(w <= rate)) rate = w, quickest = b;
   if (rate * timeStep_ <= largestTurn_) return {};
-  return fmt::format("{} turns by {:.4g} rad a step, above the {:.4g} rad of run.steps_per_period = {:g} steps a turn, "
-                     "beyond which its contacts are no longer resolved; drive more gently (driver), or set "
-                     "run.time_step to {} s or less",
+  return fmt::format("{} rotates by {:.4g} rad a step, more than {:.4g} rad (run.steps_per_period = {:g} steps a "
+                     "turn), so its contacts are not resolved; drive more gently (driver), or set run.time_step to "
+                     "{} s or less",
                      assembly_.model.bodies()[quickest].name, rate * timeStep_, largestTurn_,
                      2 * base::kPi / largestTurn_, base::roundedDown(largestTurn_ / rate, 4));
 }
 
-/// As of mechanisms: swings across the pull of the track, and of whatever else bears forces.
+/// As for mechanisms: transverse oscillations of the tensioned track and other loaded joints.
 std::string VehicleRig::judgeTension() {
   std::string part;
   const double r = timeStep_ * solver_->geometricStiffnessRate(state_, loads_, &part) / solver_->stabilityLimit();
   if (swings_.bears(r, kTensionInterval)) return {};
-  return fmt::format("swings across the pull in joints may have grown {:g} times, for it stays above what the step "
-                     "bears, now {:.3g} times that ({}); set run.time_step to {} s or less, or lower what pulls "
-                     "(idler.preload of the vehicle file, driver)",
+  return fmt::format("transverse oscillations of tensioned joints may have grown {:g} times: the time step stays above "
+                     "the stability limit, now {:.3g} times ({}); set run.time_step to {} s or less, or lower the "
+                     "tension (idler.preload of the vehicle file, driver)",
                      SwingGrowth::kMost, r, part, base::roundedDown(0.5 * timeStep_ / r, 4));
 }
 
@@ -260,7 +260,7 @@ bool VehicleRig::stalls() const {
   return driven;
 }
 
-/// By the state alone, so that a resumed run ends where it ended.
+/// Depends on the state alone, so that a resumed run ends at the same step.
 std::string VehicleRig::judgeEnd() const {
   const auto origin = [](const base::Pose& hull, const Vec3d& centre) { return hull.toWorld(-centre); };
   const auto hull = static_cast<std::size_t>(assembly_.chassis);
@@ -268,23 +268,23 @@ std::string VehicleRig::judgeEnd() const {
   const Vec3d way = origin(state_.pose[hull], centre) - origin(assembly_.model.bodies()[hull].pose, centre);
   const double distance = std::sqrt(way.x * way.x + way.y * way.y);
   if (stop_.distance && distance >= *stop_.distance)
-    return fmt::format("stop.distance: the vehicle is {:.3f} m from where it was set down", distance);
+    return fmt::format("stop.distance: the vehicle is {:.3f} m from its start", distance);
   if (const auto at = stop_.edge && area_
                           ? shoeAtEdge(area_, assembly_, state_, edgesToMeet(area_, assembly_, *stop_.edge))
                           : std::nullopt)
-    return fmt::format("stop.edge: the {} is at ({:.2f}, {:.2f}) m, within {:g} m of the end of the terrain",
+    return fmt::format("stop.edge: the {} is at ({:.2f}, {:.2f}) m, within {:g} m of the terrain's edge",
                        at->shoe->name, at->place.x, at->place.y, *stop_.edge);
   const double stalled = static_cast<double>(stalledSteps_) * timeStep_;
   if (stop_.immobile && stalled >= *stop_.immobile)
-    return fmt::format("stop.immobile: for {:.3g} s the tracks have been driven and the hull has moved at less than a "
-                       "twentieth of their speed",
+    return fmt::format("stop.immobile: for {:.3g} s the hull has moved at less than a twentieth of the speed of the "
+                       "driven tracks",
                        stalled);
   return {};
 }
 
 base::Alarm VehicleRig::alarm(std::int64_t step) {
   using base::Cause;
-  // Both before the track: what they see throws it.
+  // Both before the track check: their faults can throw the track.
   base::Alarm alarm{step % kTensionInterval == 0 ? judgeTension() : "", Cause::growingSwings};
   if (alarm.empty()) alarm = {judgeTurns(), Cause::fastTurn};
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));
@@ -312,7 +312,7 @@ VehicleState VehicleRig::save() const {
   s.asked = vehicle::Handover{!asked_.held, state_.time, asked_.sprocketSpeed, asked_.torque,
                               vehicle::hullMotion(assembly_, state_).speed}
                 .save();
-  if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->books();
+  if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->saveSums();
   s.appliedWork = applied_.save();
   contacts_->save(s.contacts);
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
@@ -328,7 +328,7 @@ void VehicleRig::restore(const VehicleState& s) {
   const std::size_t most = contactParts_.count() + contacts_->surfaces(), swings = swings_.save().size();
   if (s.groundForces.size() > most || s.alarmForces.size() > most ||
       (s.judged.size() != swings && s.judged.size() != swings + vehicle::BlowMeter::kNumbers))
-    throw base::InputError("the checkpoint is of another vehicle; resume with the scene that was run");
+    throw base::InputError("the checkpoint belongs to another vehicle; resume with the scene that was run");
   state_.restore(s.bodies);
   observer_->restore(s.observers);
   driver_.restore(s.driver);
@@ -341,7 +341,7 @@ void VehicleRig::restore(const VehicleState& s) {
   alarmMeans_ = {s.alarmForces, s.alarmSteps};
   swings_.restore(s.judged[0], s.judged[1]);
   stalledSteps_ = s.stalledSteps;
-  if (s.judged.size() > swings) // older ones do not know of blows
+  if (s.judged.size() > swings) // older files have no impact data
     blows_.restore({s.judged.begin() + static_cast<std::ptrdiff_t>(swings), s.judged.end()});
   if (std::llround(state_.time / timeStep_) % kAlarmInterval == 0) ended_ = judgeEnd();
 }

@@ -25,16 +25,15 @@
 
 namespace grouser::coupling {
 
-/// The vehicle of a scene: its bodies and joints, its driver, what its parts touch, and what is observed of it.
+/// The vehicle of a scene: bodies and joints, driver, contacts of its parts, and observers.
 class VehicleRig : public BodiesInContact {
 public:
-  /// Reads the meshes, cuts them into spheres, places the vehicle above the ground: `lift` [m] higher than its surface
-  /// asks for; where not given, so high that it touches nothing. `ground` outlives it; null where the vehicle hangs.
-  /// `kept` as in VehicleParts.
+  /// Reads the meshes, cuts them into spheres, and places the vehicle on the ground, raised by `lift` [m]; if not
+  /// given, so that it touches nothing. `ground` must outlive it; null if the vehicle hangs. `kept` as in VehicleParts.
   VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Ground* ground,
              const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
              std::optional<double> lift = {});
-  ~VehicleRig() override { contacts_.reset(); } // before the parts that it refers to
+  ~VehicleRig() override { contacts_.reset(); } // before the parts that they refer to
 
   void actuate() override;
   void advance() override;
@@ -48,30 +47,28 @@ public:
   const vehicle::Assembly& assembly() const { return assembly_; }
   const VehicleParts& parts() const { return *parts_; }
 
-  /// Throws base::InputError where this vehicle has nothing that the input could set.
+  /// Throws base::InputError if this vehicle does not have this input.
   void require(const Input& input) const;
-  /// From the next step on what acts among these; all have passed require().
+  /// Sets the acting inputs for the following steps; all have passed require().
   void command(const Inputs& inputs, const base::Vec3d& gravity);
 
-  /// Ground loads are means since the last restartMeans() of these: on grains a single step says little. Those of a
-  /// watch begin with its first restart.
+  /// Ground loads are means since the last restartMeans() of the same kind: on grains single steps scatter. Those of
+  /// Means::watch start with its first restart.
   vehicle::Observation observe(Means of = Means::rows) const;
   void restartMeans(Means of = Means::rows);
   const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
   /// Sum over all parts, mean since restartMeans() [N].
   base::Vec3d meanGroundForce() const { return groundForce(rowMeans_); }
-  /// When the drive began [s]; empty while it waits for the vehicle to rest.
+  /// Start time of the drive [s]; empty while it waits for the vehicle to rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }
-  /// Steps between two calls of alarm(), and of those that look at the pull of the tracks, which takes a millisecond.
+  /// Steps between two calls of alarm(), and between two checks of the track tension, which take a millisecond.
   static constexpr std::int64_t kAlarmInterval = 50, kTensionInterval = 2000;
-  /// A thrown or skipped track, a part that turns too far a step, a pull in the track that the step does not bear, a
-  /// shoe that has left the terrain, a vehicle that does not come to rest, in words; empty while all is well. Judges by
-  /// the loads since it was last asked, and so whether a vehicle that was set down rests and drives off: to be called
-  /// at fixed steps.
+  /// Message on a thrown or skipped track, a part with too large a rotation per step, a track tension too high for the
+  /// step, a shoe that has left the terrain, or a vehicle that does not come to rest; else empty. Uses the loads since
+  /// the last call, also to decide when a vehicle at rest starts to drive: must be called at fixed steps.
   base::Alarm alarm(std::int64_t step);
 
-  /// What of the scene's [stop] has come to pass, in words, as alarm() has found it: the run is over. Empty: it goes
-  /// on.
+  /// Message on the condition of the scene's [stop] that ended the run, found by alarm(). Empty: the run continues.
   const std::string& ended() const { return ended_; }
 
   /// Adds the bodies' energies and momenta, and those of contacts of parts with parts and ground.
@@ -79,11 +76,11 @@ public:
 
   /// Bodies, contact history and sums, for hash and checkpoint.
   VehicleState save() const;
-  /// Throws InputError when the state is of another vehicle.
+  /// Throws InputError if the state belongs to another vehicle.
   void restore(const VehicleState& state);
 
 private:
-  /// For who steps from outside.
+  /// Observer for callers that step the simulation.
   struct Watch {
     vehicle::Observer observer;
     ForceMeans forces{};
@@ -110,7 +107,7 @@ private:
   vehicle::Assembly assembly_;
   std::unique_ptr<multibody::Solver> solver_;
   vehicle::Driver driver_;
-  vehicle::Commands commands_; ///< from outside
+  vehicle::Commands commands_; ///< external
   AppliedLoads applied_;       ///< the same
   vehicle::Controls asked_;    ///< of the last step
   std::optional<Towing> towing_;
@@ -123,7 +120,7 @@ private:
   PartContacts::RunningGear gear_;
   ForceMeans alarmMeans_;
   SwingGrowth swings_;          ///< of track and arms
-  std::int64_t stalledSteps_{}; ///< for which driven tracks have not moved the hull
+  std::int64_t stalledSteps_{}; ///< steps in which driven tracks have not moved the hull
   std::string ended_;
 };
 

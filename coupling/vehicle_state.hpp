@@ -13,13 +13,13 @@ struct Assembly;
 
 namespace grouser::coupling {
 
-/// All of a vehicle on which later bits or later output depend: what a checkpoint holds and a hash is taken of.
+/// State of a vehicle that later steps or later output depend on, for checkpoint and hash.
 struct VehicleState {
-  double lift{};                 ///< with which it was set down; see VehicleRig
+  double lift{};                 ///< at its placement; see VehicleRig
   std::vector<double> bodies;    ///< multibody::State::save()
   std::vector<double> observers; ///< vehicle::Observer::save()
   std::vector<double> driver;    ///< vehicle::Driver::save()
-  std::vector<double> asked;     ///< vehicle::Handover::save() of the last step: from which a branch goes on
+  std::vector<double> asked;     ///< vehicle::Handover::save() of the last step, the start of a branch
   std::vector<double> hitch;     ///< vehicle::Hitch::save(); empty without one
   ContactsState contacts;
 
@@ -29,16 +29,16 @@ struct VehicleState {
   std::vector<base::Vec3l> alarmForces;  ///< by part and surface, since the last check of the track
   std::int64_t alarmSteps{};             ///< of that sum
   std::vector<double> judged;            ///< SwingGrowth::save(), vehicle::BlowMeter::save()
-  std::vector<double> hitchBooks;        ///< Towing::books()
+  std::vector<double> hitchBooks;        ///< Towing::saveSums()
   std::vector<double> appliedWork;       ///< AppliedLoads::save()
-  std::int64_t stalledSteps{};           ///< for which driven tracks have not moved the hull
+  std::int64_t stalledSteps{};           ///< steps in which driven tracks have not moved the hull
 
-  /// For the hash: what the next step depends on.
+  /// For the hash: the data that the next step depends on.
   std::vector<std::uint32_t> words() const;
 };
 
-/// The three that have dissipated most with the shoes that touch them since the start, in words with joules: sprocket,
-/// idler, wheels and rollers of each side, rigid ground.
+/// Text of the three largest dissipations in shoe contacts since the start, with joules: sprocket, idler, wheels and
+/// rollers of each side, rigid ground.
 std::string mostDissipating(const vehicle::Assembly& assembly, const VehicleState& state);
 
 } // namespace grouser::coupling

@@ -90,7 +90,7 @@ Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec, const contact::Par
 namespace {
 FluidSetup withParticles(FluidSetup setup, const FluidState& state) {
   if (state.particles.size() != setup.particles.size())
-    throw base::InputError("the state is of another fluid; resume with the scene that was run");
+    throw base::InputError("the state belongs to another fluid; resume with the scene that was run");
   for (std::size_t i = 0; i < setup.particles.size(); ++i) {
     const SavedParticle& p = state.particles[i];
     setup.particles[i] = {p.position, p.velocity, p.compression};
@@ -104,7 +104,7 @@ Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec&
     : Fluid(withParticles(setup, state), exec, ranks) {
   steps_ = state.steps;
   if (state.bodyLoads.size() != 2 * bodyLoad_.size())
-    throw base::InputError("the state is of a fluid with other bodies; resume with the scene that was run");
+    throw base::InputError("the state belongs to a fluid with other bodies; resume with the scene that was run");
   // Forces are those at the velocities of the middle of the last step.
   std::vector<Losses> losses(slots_);
   std::vector<base::Vec3l> force(slots_);
@@ -189,9 +189,9 @@ void Fluid::placeBodies(double before) {
   base::forEach(exec_, "place markers", static_cast<std::int64_t>(bodyOf_.size()), PlaceMarkers{view(), before});
 }
 
-/// Takes the motion of a step, and makes lists where the present ones do not reach to its end.
+/// Applies the motion of a step, and rebuilds the lists if they would expire before its end.
 void Fluid::advanceBodies(const std::vector<BodyMotion>& bodies) {
-  if (bodies.size() != bodyName_.size()) throw std::logic_error("a motion for each body of the fluid");
+  if (bodies.size() != bodyName_.size()) throw std::logic_error("one motion per body of the fluid is required");
   const double most = 0.5 * model_.skin();
   double moves = 0;
   for (std::size_t b = 0; b < bodies.size(); ++b) {

@@ -40,19 +40,19 @@ struct FluidSnapshot {
 /// state is the same on any device and number of threads and ranks.
 ///
 /// On several ranks each integrates the particles of its subdomain, and sends those near a border to others twice a
-/// step. All ranks have all markers and bodies, and call everything here alike.
+/// step. All ranks have all markers and bodies, and make the same calls.
 class Fluid {
 public:
   /// Throws InputError for values out of range.
   Fluid(const FluidSetup& setup, const base::Exec& exec, const contact::PartitionOptions& ranks = {});
-  /// Goes on from save(), with the bodies as `setup` has them now. Throws InputError where the state is of another
+  /// Continues from the state of save(), with the bodies of `setup`. Throws InputError if the state belongs to another
   /// fluid.
   Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec,
         const contact::PartitionOptions& ranks = {});
   FluidState save() const;
 
-  /// `bodies`: motion of each over this step. Throws SimulationError where a particle is faster, more compressed or
-  /// farther away than the numbers allow, or a body moves too far in a step.
+  /// `bodies`: motion of each over this step. Throws SimulationError if the speed, compression or distance of a
+  /// particle exceeds its range, or a body moves too far in a step.
   void step(const std::vector<BodyMotion>& bodies = {});
   std::int64_t steps() const { return steps_; }
   double time() const { return static_cast<double>(steps_) * model_.timeStep; } ///< [s]
@@ -70,8 +70,8 @@ public:
   std::vector<BodyLoad> bodyLoads() const;
   /// Pressure of the fluid at these points [Pa], extrapolated as to a marker at rest; 0 where no particle is near.
   std::vector<double> pressuresAt(const std::vector<base::Vec3d>& points);
-  /// Levels that wires read which stand upright on `feet` [m]: the foot's z plus the length below `top` along which
-  /// particles fill half of the kernel, without gaps of air.
+  /// Levels at vertical wires that stand on `feet` [m]: the foot's z plus the length below `top` along which particles
+  /// fill half of the kernel, without air gaps.
   std::vector<double> levelsAt(const std::vector<base::Vec3d>& feet, double top);
   /// Exact sum of the forces between particles and from walls, in quanta: zero.
   base::Vec3l forceBalance() const;

@@ -11,10 +11,11 @@ namespace grouser::fluid {
 /// The model of a setup. Throws InputError for values out of range.
 const FluidModel& checkedModel(const FluidSetup& setup);
 
-/// A fault of FluidFlags in words, with step, time, particle and remedy. `particle`: its present state.
+/// Message on a fault of FluidFlags, with step, time, particle and remedy. `particle`: its present state.
 std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step, const FluidParticle& particle);
 
-/// A body that would move by `way` [m] in the step behind step number `step`, too far for the neighbour lists.
+/// Message on a body that would move by `way` [m] in the step after step number `step`, too far for the neighbour
+/// lists.
 std::string bodyFaultText(const std::string& name, double way, const FluidModel& model, std::int64_t step);
 
 } // namespace grouser::fluid

@@ -147,7 +147,7 @@ GROUSER_HD base::Vec3d armOf(const FluidView& f, std::uint32_t n) {
   return rotate(f.body[f.bodyOf[n]].pose.orientation, f.bodyPoint[n]);
 }
 
-/// Puts slot i at a place [m] within the range of positions.
+/// Moves slot i to a place [m] within the range of positions.
 GROUSER_HD void setPosition(const FluidView& f, std::uint32_t i, const base::Vec3d& place) {
   f.position[i] = base::fromUnits(f.constants.period.wrapped(base::toUnits(f.constants.scale.fromMetres(place))));
 }
@@ -348,8 +348,9 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
 /// r/range)^2: walls let nothing pass where the fluid's own pressure is small, as in thin jets. The barrier between
 /// markers is 0.34 c^2 in three dimensions, 0.49 c^2 in two, above the 0.3 c^2 of fluid at the greatest compression.
 ///
-/// `apart`: relative velocity times pair.d, above 0 where they part [m2/s]. Steps do not resolve the contact of a jet
-/// that hits markers at an edge: what parts faster than 0.15 c is pushed less, down to a tenth from 0.25 c on.
+/// `apart`: relative velocity times pair.d, above 0 if they separate [m2/s]. Steps do not resolve the contact of a jet
+/// that hits markers at an edge: the force on particles that separate faster than 0.15 c is reduced, to a tenth above
+/// 0.25 c.
 GROUSER_HD base::Vec3f contactForce(const FluidView& f, const Pair& pair, std::uint32_t marker, float apart) {
   const FluidConstants& k = f.constants;
   const float r = pair.q / k.perLength;

@@ -11,13 +11,13 @@
 namespace grouser::fluid {
 
 /// Neighbours of particles and markers within the kernel's support and a skin. Sums do not depend on their order, nor
-/// on when the lists are made.
+/// on when the lists are rebuilt.
 class FluidLists {
 public:
   /// `reach`: support and skin [units].
   FluidLists(const base::Exec& exec, std::int64_t reach, const base::Period& period);
 
-  /// Sorts the particles in space, which stand before the markers in `position`: slot i takes what order()[i] held.
+  /// Sorts the particles in space, which precede the markers in `position`: slot i receives slot order()[i].
   void sort(const base::Position* position, std::size_t particles, std::size_t markers);
   const std::uint32_t* order() const { return order_.data(); }
   /// Lists the neighbours of particles that were permuted by order(), but those of ghosts (marks; null without).

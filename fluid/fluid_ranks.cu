@@ -53,8 +53,8 @@ std::vector<std::uint32_t> Fluid::divide(const std::vector<base::Position>& posi
   return mine;
 }
 
-/// Sends the particles that have left the subdomain, takes in others, and makes the ghosts. Markers, which stand behind
-/// the particles, are put aside meanwhile.
+/// Sends the particles that have left the subdomain, receives others, and makes the ghosts. Markers, which follow the
+/// particles, are stored elsewhere meanwhile.
 void Fluid::migrate() {
   if (rebalances_ && rebuilds_ > 0 && rebuilds_ % kBalanceEvery == 0)
     subdomain_->setPartition(subdomain_->balanced(position_.data(), slots_, 1));

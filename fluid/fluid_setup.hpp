@@ -8,7 +8,7 @@
 
 namespace grouser::fluid {
 
-/// A particle as it starts.
+/// Initial state of a particle.
 struct FluidParticle {
   base::Vec3d position;  ///< [m]
   base::Vec3d velocity;  ///< [m/s]
@@ -26,7 +26,7 @@ struct WallMarker {
 struct BodyMotion {
   base::Pose pose;                               ///< of the body's frame at the end of the step
   base::Vec3d velocity, spin;                    ///< over the step, of the frame's origin [m/s], [rad/s]
-  base::Vec3d acceleration, angularAcceleration; ///< that wall pressures are extrapolated with [m/s2], [rad/s2]
+  base::Vec3d acceleration, angularAcceleration; ///< for the extrapolation of wall pressures [m/s2], [rad/s2]
 };
 
 /// A rigid body in the fluid: its markers move with it.
@@ -34,10 +34,10 @@ struct FluidBody {
   std::string name;                 ///< in messages
   std::vector<base::Vec3d> markers; ///< in the body's frame [m]
   BodyMotion start;
-  /// Its surface comes into touch with others, as those of wheels and shoes do. A particle between two surfaces that
-  /// touch is half a spacing from the markers of both, and would be squeezed out at the speed of sound: markers do not
-  /// repel it, their pressure leaves out the body's acceleration, which impacts make noisy, and the compression of
-  /// particles beside them is limited to kPinchedCompression.
+  /// Its surface touches others, like those of wheels and shoes. A particle between two surfaces in contact is half a
+  /// spacing from the markers of both, and would be squeezed out at the speed of sound: markers do not repel it, their
+  /// pressure ignores the body's acceleration, which impacts make noisy, and the compression of particles beside them
+  /// is limited to kPinchedCompression.
   bool touches = false;
 };
 

@@ -8,8 +8,8 @@
 
 namespace grouser::fluid {
 
-/// Work per mass that a particle has lost since the start [J/kg]. Markers store no energy: what their pressure does to
-/// the fluid beyond its compression is the loss to walls.
+/// Work per mass that a particle has lost since the start [J/kg]. Markers store no energy: the work of their pressure
+/// beyond the compression of the fluid is the loss to walls.
 struct Losses {
   double viscous, diffusion, wall;
 };
@@ -27,7 +27,7 @@ struct SavedParticle {
   Losses losses;                  ///< since the start [J/kg]
 };
 
-/// All that later steps of a fluid depend on, and its losses.
+/// State that later steps of a fluid depend on, and its losses.
 struct FluidState {
   std::int64_t steps{};
   std::vector<SavedParticle> particles; ///< in the order of FluidSetup

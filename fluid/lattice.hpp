@@ -33,7 +33,7 @@ std::vector<WallMarker> wallMarkers(const FluidModel& model, const Distance& dis
 std::vector<FluidParticle> stillFluid(const FluidModel& model, const Distance& distance, const base::Vec3d& low,
                                       const base::Vec3d& high, double level, const base::Vec3d& origin = {});
 
-/// The particles that are no nearer than `distance` [m] to any of the points.
+/// The particles at least `distance` [m] away from all points.
 std::vector<FluidParticle> awayFrom(std::vector<FluidParticle> particles, const std::vector<base::Vec3d>& points,
                                     double distance);
 

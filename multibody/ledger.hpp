@@ -5,9 +5,9 @@
 
 namespace grouser::multibody {
 
-/// A sum that keeps what rounding cuts off: the error of a million small works is that of one. Each addition's own
-/// error is exact (Knuth 1997, The Art of Computer Programming 2, 4.2.2, theorem B) and is summed beside it (Neumaier
-/// 1974, ZAMM 54:39). `sum` alone has the bits of the plain sum.
+/// Compensated sum: the error of a million small terms is that of one. The rounding error of each addition is computed
+/// exactly (Knuth 1997, The Art of Computer Programming 2, 4.2.2, theorem B) and summed separately (Neumaier 1974, ZAMM
+/// 54:39). `sum` alone is the plain sum.
 struct CompensatedSum {
   double sum = 0, lost = 0;
 
@@ -31,34 +31,33 @@ struct CompensatedVector {
   base::Vec3d value() const { return {x, y, z}; }
 };
 
-/// The books of a mechanism since its first step [J, N s, N m s].
+/// Energy and momentum ledger of a mechanism since its first step [J, N s, N m s].
 ///
 /// An impulse p changes the kinetic energy of a body by exactly p . (v_before + v_after) / 2, and so does one of
 /// torque with the angular velocities: kineticWork is the sum of that over all impulses of all steps, those of
-/// constraints and the gyroscopic ones among them. It must be what the bodies have gained; what differs is rounding, or
-/// a change of the state that nobody booked. Potential and elastic energy are functions of positions. So
+/// constraints and the gyroscopic ones among them. It must equal the kinetic energy gain of the bodies; a difference is
+/// rounding, or an unrecorded change of the state. Potential and elastic energy are functions of positions. So
 ///   integration error = drives + external loads - dissipated - potential - elastic - kineticWork
-/// is what forces that should conserve energy, constraints that should not work and the gyroscopic terms leave.
-/// balance() in readings.hpp puts it together.
-/// Who adds a way to push a body books it in detail/euler_ledger.cpp and detail/rattle_ledger.cpp.
+/// is the error of conservative forces, workless constraints and gyroscopic terms. See balance() in readings.hpp. New
+/// kinds of forces must be recorded in detail/euler_ledger.cpp and detail/rattle_ledger.cpp.
 struct Ledger {
   /// kSymplecticEuler: impulse times the mean of the rates before and after the step. kRattle: gravity and springs the
   /// loss of their energies, drives and dampers force times path over each stage, external loads as kSymplecticEuler.
   CompensatedSum gravityWork, externalWork, driveWork;
   CompensatedSum springWork; ///< of elastic forces and preloads
-  CompensatedSum dissipated; ///< the sum of the three below, each rounded otherwise
+  CompensatedSum dissipated; ///< the sum of the three below, rounded differently
 
   CompensatedSum kineticWork;
   CompensatedSum potentialGain, elasticGain; ///< between the ends of each step, at the loads of that step
   CompensatedSum jointDamping, springDamping, stopDamping;
-  /// Sum of the absolute values of all works, the kinetic energy of the start among them: what errors are a part of. Of
-  /// a constraint counts what it gives to its two bodies together (kSymplecticEuler), or what all of them give to a
+  /// Reference for relative errors: sum of the absolute values of all works, and the kinetic energy at the start.
+  /// Constraints count by their total work on both bodies (kSymplecticEuler), or by the total of all constraints on a
   /// body (kRattle).
   CompensatedSum turnover;
-  /// Impulses of gravity, external loads and whatever cannot move, and their moments about the world's origin.
+  /// Impulses of gravity, external loads and immovable bodies, and their moments about the world's origin.
   CompensatedVector linearImpulse, angularImpulse;
 
-  /// Before the first step.
+  /// Set before the first step.
   double begun = 0; ///< 1 from then on
   double startKinetic = 0;
   base::Vec3d startLinear, startAngular;
@@ -66,8 +65,8 @@ struct Ledger {
   double integrationError() const;
 };
 
-/// What one step, or one stage of it, adds to the books.
-struct StepBooks {
+/// Contribution of one step, or one stage, to the ledger.
+struct StepLedger {
   double kinetic = 0, turnover = 0;
   base::Vec3d linear, angular; ///< impulses from outside
   double jointDamping = 0, springDamping = 0, stopDamping = 0;

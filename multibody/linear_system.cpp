@@ -15,9 +15,9 @@ struct LinearSystem::Impl {
     frames = system.framesOfModel();
   }
   ConstraintSystem system;
-  std::vector<AxisLaw> laws; ///< one an axis: free
-  std::vector<Vector6> x;    ///< one a node
-  std::vector<Frame> frames; ///< one a body, the world last
+  std::vector<AxisLaw> laws; ///< one per axis: free
+  std::vector<Vector6> x;    ///< one per node
+  std::vector<Frame> frames; ///< one per body, the world last
 };
 
 LinearSystem::LinearSystem(const Model& model) : impl_(std::make_unique<Impl>(model)) {}

@@ -8,8 +8,8 @@
 
 namespace grouser::multibody {
 
-/// The linear system of a step by itself (detail/elimination.hpp), all axes free: for those who want its size or the
-/// time that it takes. A Solver has one of its own.
+/// The linear system of a step (detail/elimination.hpp) with all axes free, for measurements of its size and cost. A
+/// Solver has its own.
 class LinearSystem {
 public:
   /// Orders the elimination. The model must outlive the system and not change.
@@ -18,17 +18,17 @@ public:
   LinearSystem(LinearSystem&&) noexcept;
   LinearSystem& operator=(LinearSystem&&) noexcept;
 
-  int hardRows() const; ///< of all joints, redundant ones included
+  int hardRows() const; ///< of all joints, including redundant ones
   int loops() const;    ///< joints that the spanning tree leaves out
   int batches() const;  ///< groups of up to four bodies that fill the lanes of a vector register
-  /// Of one factorisation and one solution, idle lanes not counted.
+  /// Multiplications of one factorisation and one solution, idle lanes not counted.
   long multiplications() const;
 
-  /// Puts the bodies where they are in a state.
+  /// Sets the poses of a state.
   void place(const State& state);
   /// Rows and inertias at these poses, and their factorisation.
   void factor();
-  /// One solution with the last factor; its right-hand side is what the last one left.
+  /// One solution with the last factor; the right-hand side is the previous result.
   void solve();
 
 private:

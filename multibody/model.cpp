@@ -31,7 +31,7 @@ std::string text(double x) {
 
 bool finite(const Vec3d& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// A finite number >= 0, or refused by name.
+/// Throws unless x is finite and >= 0.
 void checkNotNegative(const PartName& what, const char* key, double x, const char* unit) {
   if (!(std::isfinite(x) && x >= 0)) refuse(what, key, "= " + text(x) + " [" + unit + "] must be finite and >= 0");
 }
@@ -104,14 +104,14 @@ template <class Named>
 int indexByName(const std::vector<Named>& parts, const std::string& kind, const std::string& name) {
   for (std::size_t i = 0; i < parts.size(); ++i)
     if (parts[i].name == name) return static_cast<int>(i);
-  refuse({kind, name}, "there is none of this name");
+  refuse({kind, name}, "does not exist");
 }
 
 template <class Named>
 void checkName(const std::vector<Named>& parts, const std::string& kind, const std::string& name) {
   if (name.empty()) refuse({kind + " " + std::to_string(parts.size()), ""}, "has no name; every part needs one");
   for (const auto& part : parts)
-    if (part.name == name) refuse({kind, name}, "the name is taken; names must differ");
+    if (part.name == name) refuse({kind, name}, "duplicate name; choose another");
 }
 
 } // namespace
@@ -122,17 +122,17 @@ int Model::addBody(const Body& body) {
   checkPose(what, "pose", body.pose);
   if (!finite(body.v_WB) || !finite(body.w_WB)) refuse(what, "velocity", "is not finite");
   if (body.point && (body.fixed || !(body.w_WB == Vec3d{})))
-    refuse(what, "is a point: it can be neither fixed nor turn; leave that out, or give it an inertia");
+    refuse(what, "is a point body, which cannot be fixed or rotate; remove that, or give it an inertia");
   if (!body.fixed) {
     if (!(std::isfinite(body.mass) && body.mass > 0))
       refuse(what, "mass", "= " + text(body.mass) + " [kg] must be > 0");
     if (!body.point) checkInertia(what, body.inertia_B);
   } else if (!(body.v_WB == Vec3d{}) || !(body.w_WB == Vec3d{})) {
-    refuse(what, "is fixed, but has a velocity; leave one of the two out");
+    refuse(what, "is fixed, but has a velocity; remove one of the two");
   }
   bodies_.push_back(body);
   bodies_.back().pose.orientation = body.pose.orientation.normalized();
-  // Nothing turns a point; a radius of gyration of 1 m keeps its rows of the equations well scaled.
+  // A point body never rotates; a radius of gyration of 1 m keeps its equations well scaled.
   if (body.point) bodies_.back().inertia_B = Mat3d::diagonal({body.mass, body.mass, body.mass});
   return static_cast<int>(bodies_.size()) - 1;
 }
@@ -146,10 +146,10 @@ void Model::checkBodies(const PartName& what, int bodyA, int bodyB) const {
   if (bodyA == bodyB) refuse(what, "joins '" + bodyName(bodyA) + "' to itself; name two bodies");
   const auto immovable = [&](int b) { return b == kWorld || bodies_[static_cast<std::size_t>(b)].fixed; };
   if (immovable(bodyA) && immovable(bodyB))
-    refuse(what, "both '" + bodyName(bodyA) + "' and '" + bodyName(bodyB) + "' are fixed; leave it out");
+    refuse(what, "both '" + bodyName(bodyA) + "' and '" + bodyName(bodyB) + "' are fixed; remove it");
 }
 
-/// Resolves kOnly to the axis there is.
+/// Resolves kOnly to the only axis.
 void Model::checkAxis(const PartName& what, int joint, JointAxis& axis) const {
   if (joint < 0 || joint >= static_cast<int>(joints_.size()))
     refuse(what, "joint index " + std::to_string(joint) + " is outside [0, " + std::to_string(joints_.size()) + ")");
@@ -159,7 +159,7 @@ void Model::checkAxis(const PartName& what, int joint, JointAxis& axis) const {
   if (!turns && !slides)
     refuse(what, "joint '" + j.name + "' has no single free axis; use a revolute, prismatic or cylindrical joint");
   if (turns && slides && axis == JointAxis::kOnly)
-    refuse(what, "joint '" + j.name + "' is cylindrical and has two free axes; say whether angle or slide is meant");
+    refuse(what, "joint '" + j.name + "' is cylindrical and has two free axes; specify angle or slide");
   if ((axis == JointAxis::kAngle && !turns) || (axis == JointAxis::kSlide && !slides))
     refuse(what, "joint '" + j.name + "' has no free " +
                      (turns ? "slide; its axis is an angle" : "angle; its axis is a slide"));
@@ -228,7 +228,7 @@ int Model::addAxisSpring(const AxisSpring& s) {
   if (!(s.lowerLimit < s.upperLimit))
     refuse(what, "lowerLimit = " + text(s.lowerLimit) + " must be below upperLimit = " + text(s.upperLimit));
   if ((std::isfinite(s.lowerLimit) || std::isfinite(s.upperLimit)) && !(s.stopStiffness > 0))
-    refuse(what, "has end stops, but stopStiffness = 0; give one > 0");
+    refuse(what, "has end stops, but stopStiffness = 0; set it > 0");
   axisSprings_.push_back(spring);
   return static_cast<int>(axisSprings_.size()) - 1;
 }
@@ -274,13 +274,13 @@ int Model::addDrive(const Drive& given) {
   checkFinite(what, "speed", drive.speed);
   if (const std::string fault = timeLawFault(drive.law); !fault.empty()) refuse(what, fault);
   if (drive.kind == DriveKind::kPosition && drive.law.empty())
-    refuse(what, "imposes a position, but has no law; give the position over time");
+    refuse(what, "imposes a position, but has no law; specify the position over time");
   if (drive.kind == DriveKind::kPosition && !drive.law.ramps.times.empty())
-    refuse(what, "a position of straight ramps has jumps in its speed; give a table, polynomial or harmonics");
+    refuse(what, "position ramps have jumps in speed; use a table, polynomial or harmonics");
   if (drive.kind != DriveKind::kForce)
     for (const Drive& other : drives_)
       if (other.joint == drive.joint && other.axis == drive.axis && other.kind != DriveKind::kForce)
-        refuse(what, "its axis is already driven by '" + other.name + "'; leave one of the two out");
+        refuse(what, "its axis is already driven by '" + other.name + "'; remove one of the two");
   drives_.push_back(drive);
   return static_cast<int>(drives_.size()) - 1;
 }

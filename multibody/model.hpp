@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-/// Rigid bodies in maximal coordinates, joined by constraints with Lagrange multipliers. The Model is constant while a
-/// simulation runs; what changes is in State, what is imposed from outside in Loads (state.hpp), who advances is
-/// Solver.
+/// Rigid bodies in maximal coordinates, joined by constraints with Lagrange multipliers. The Model is constant during a
+/// simulation; State holds the variables, Loads the external inputs (state.hpp), and Solver advances it.
 namespace grouser::multibody {
 
 using base::Mat3d;
@@ -38,7 +37,7 @@ struct Body {
   bool point = false;
 };
 
-/// What a joint lets free. x, y, z are the axes of the joint frame; A carries one copy, B the other.
+/// Free motions of a joint. x, y, z are the axes of the joint frame; A carries one copy, B the other.
 enum class JointType {
   kRevolute,    ///< turns about z
   kSpherical,   ///< turns about the common origin
@@ -49,7 +48,7 @@ enum class JointType {
   kDistance,    ///< all but the distance between the two origins: a massless rigid rod with a ball at either end
 };
 
-/// Which free axis of a joint is meant.
+/// Free axis of a joint.
 enum class JointAxis {
   kOnly,  ///< the angle of a revolute or the slide of a prismatic; a cylindrical must name one of the two below
   kAngle, ///< of a revolute or cylindrical [rad]
@@ -57,7 +56,7 @@ enum class JointAxis {
 };
 
 /// The degrees of freedom of B relative to A that the type leaves are measured from A to B: angle and slide grow when B
-/// turns or moves in the positive sense of z while A stands still. An angle is carried on over full turns.
+/// turns or moves in the positive sense of z while A stands still. Angles are continuous over full turns.
 struct Joint {
   std::string name;
   JointType type = JointType::kRevolute;
@@ -68,7 +67,7 @@ struct Joint {
   double damping =
       0; ///< on the free axis, on the angle of a cylindrical [N m s/rad] or [N s/m], >= 0. Implicit: any size.
   double slideDamping = 0; ///< on the slide of a cylindrical [N s/m], >= 0
-  double length = 0;       ///< of a distance joint [m], > 0; 0: as the bodies are placed
+  double length = 0;       ///< of a distance joint [m], > 0; 0: from the body poses
 };
 
 /// Spring, damper, preload and end stops on a free axis of a revolute, prismatic or cylindrical joint (N m and rad on
@@ -132,8 +131,8 @@ enum class DriveKind {
   kForce,    ///< applies a torque [N m] or force [N] to B along +axis, the opposite to A
 };
 
-/// Drives a free axis of a revolute, prismatic or cylindrical. What a constraint takes is its multiplier: JointReading
-/// holds it, driveForce() and drivePower() in state.hpp find it.
+/// Drives a free axis of a revolute, prismatic or cylindrical. The force of a constraint is its multiplier: see
+/// JointReading, driveForce() and drivePower() in state.hpp.
 struct Drive {
   std::string name;
   int joint = 0;
@@ -142,13 +141,13 @@ struct Drive {
   JointAxis axis = JointAxis::kOnly;
   DriveKind kind = DriveKind::kSpeed;
   /// Speed, position or force over time. Empty: Loads gives speed or force in each step (a position needs a law). A
-  /// speed law is held to its integral, position = start + integral of the law, so that no drift adds up.
+  /// speed law imposes its integral, position = start + integral of the law, so that no drift accumulates.
   TimeLaw law{};
 };
 
-/// Ties two axes to one another (gears, belts, rack and pinion, screw) on the level of positions:
+/// Couples the positions of two axes (gears, belts, rack and pinion, screw):
 ///   position of axis 2 = ratio * position of axis 1 + offset.
-/// The two joints may have up to four bodies; each reacts on its own two (a gear's housing takes the difference).
+/// The two joints may have up to four bodies; each reacts on its own two (a gear housing carries the difference).
 struct Coupling {
   std::string name;
   int joint1 = 0;
@@ -156,28 +155,28 @@ struct Coupling {
   double ratio = 1; ///< [-], [m/rad] (rack: radius; screw: lead / 2 pi) or [rad/m]; not 0
   JointAxis axis1 = JointAxis::kOnly;
   JointAxis axis2 = JointAxis::kOnly;
-  double offset = std::numeric_limits<double>::quiet_NaN(); ///< [rad] or [m]; not a number: as the bodies are placed
+  double offset = std::numeric_limits<double>::quiet_NaN(); ///< [rad] or [m]; NaN: from the body poses
 };
 
-/// How many parts of each kind a mechanism has.
+/// Number of parts of each kind.
 struct PartCounts {
   std::size_t bodies{}, joints{}, axisSprings{}, pointSprings{}, bushings{}, drives{}, couplings{};
 };
 
-/// The mechanism. Every add... checks what it is given, throws PartError, and returns an index.
+/// The mechanism. Every add... checks its arguments, throws PartError, and returns an index.
 class Model {
 public:
   int addBody(const Body& body);
   int addJoint(const Joint& joint);
-  /// A joint whose two frames coincide at the start: `X_WJ` is the joint frame in the world, the bodies are where they
-  /// were added.
+  /// A joint whose two frames coincide at the start: `X_WJ` is the joint frame in the world, at the poses of the added
+  /// bodies.
   int addJointAt(const std::string& name, JointType type, int bodyA, int bodyB, const Pose& X_WJ, double damping = 0);
   int addAxisSpring(const AxisSpring& spring);
   int addPointSpring(const PointSpring& spring);
   int addBushing(const Bushing& bushing);
   int addDrive(const Drive& drive);
   int addCoupling(const Coupling& coupling);
-  /// Moves all bodies by `way` [m], with what joints, springs and bushings hold in the world.
+  /// Translates all bodies by `way` [m], and the world frames of joints, springs and bushings.
   void translate(const Vec3d& way);
 
   const std::vector<Body>& bodies() const { return bodies_; }
@@ -189,7 +188,7 @@ public:
   const std::vector<Coupling>& couplings() const { return couplings_; }
 
   PartCounts counts() const;
-  /// Adds the parts of `all` beyond `from`; up to there `all` has the parts of this model, in another place. Bodies of
+  /// Adds the parts of `all` beyond `from`; before that `all` has the parts of this model, at other poses. Bodies of
   /// `moved` ([body of all]) move from the frame `X_from` to `X_to` with them.
   void append(const Model& all, const PartCounts& from, const std::vector<bool>& moved, const Pose& X_from,
               const Pose& X_to);

@@ -8,19 +8,18 @@
 
 namespace grouser::multibody {
 
-/// A part of a mechanism as messages name it: joint 'hip'.
+/// Name of a part in messages: joint 'hip'.
 struct PartName {
   std::string kind; ///< body, joint, spring, bushing, drive, coupling
   std::string name;
   std::string text() const { return name.empty() ? kind : kind + " '" + name + "'"; }
 };
 
-/// One part of a mechanism is wrong. The message reads `joint 'hip': damping = -1 [N s/m] must be ...`; who reads a
-/// file puts the part's place there before it.
+/// Error in one part of a mechanism. The message reads `joint 'hip': damping = -1 [N s/m] must be ...`; file readers
+/// prepend the place of the part.
 class PartError : public base::InputError {
 public:
-  /// `key`: the member of the part's struct that is wrong; empty where no single one is. `fault`: what is wrong with
-  /// it.
+  /// `key`: the wrong member of the part's struct; empty if there is no single one. `fault`: description.
   PartError(PartName part, std::string key, std::string fault)
       : InputError(part.text() + ": " + withKey(key, fault)), part_(std::move(part)), key_(std::move(key)),
         fault_(std::move(fault)) {}

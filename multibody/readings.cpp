@@ -71,7 +71,7 @@ double elasticEnergy(const Model& model, const State& state, const Loads& loads)
 }
 
 double Ledger::integrationError() const {
-  // Large numbers whose difference is small: the lost parts apart.
+  // Large numbers with a small difference: add the rounding errors separately.
   const double burnt = (jointDamping.sum + springDamping.sum) + stopDamping.sum;
   const double lost = driveWork.lost + externalWork.lost - jointDamping.lost - springDamping.lost - stopDamping.lost -
                       potentialGain.lost - elasticGain.lost - kineticWork.lost;
@@ -103,7 +103,7 @@ Balance balance(const Model& model, const State& state, const Loads& loads) {
   return b;
 }
 
-void StepBooks::addTo(Ledger& ledger) const {
+void StepLedger::addTo(Ledger& ledger) const {
   ledger.kineticWork += kinetic;
   ledger.externalWork += external;
   ledger.potentialGain += potential;

@@ -6,7 +6,7 @@
 
 namespace grouser::multibody {
 
-/// Position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint's axis; kOnly where there is one axis.
+/// Position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint's axis; kOnly if there is one axis.
 AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis = JointAxis::kOnly);
 /// Force a drive exerted on B along its axis in the last step [N m] or [N], and its power [W], positive when it puts
 /// energy into the mechanism.
@@ -17,18 +17,18 @@ double drivePower(const Model& model, const State& state, int drive);
 struct Totals {
   double kinetic = 0;
   double gravity = 0; ///< -sum m g.p
-  double elastic = 0; ///< springs, preloads (as constant forces from freePosition or restLength on) and stops
+  double elastic = 0; ///< springs, preloads (as constant forces relative to freePosition or restLength) and stops
   Vec3d linearMomentum;
   Vec3d angularMomentum; ///< about the world's origin
 };
 Totals totals(const Model& model, const State& state, const Loads& loads);
-/// The elastic one alone [J].
+/// Elastic energy only [J].
 double elasticEnergy(const Model& model, const State& state, const Loads& loads);
 
-/// What the books of a state (ledger.hpp) say since its first step [J, N s, N m s]:
+/// Balance of the ledger of a state (ledger.hpp) since its first step [J, N s, N m s]:
 ///   kineticGain + potentialGain + elasticGain + dissipated() + integrationError = driveWork + externalWork + leftOver
-/// What loads that are scaled or turned put in (ramps of springs and of gravity) counts neither as stored nor as work:
-/// gains are summed at the loads of each step.
+/// Energy input by changing loads (ramps of springs and of gravity) counts neither as stored nor as work: gains are
+/// summed at the loads of each step.
 struct Balance {
   Totals now; ///< of the state itself
   double driveWork = 0, externalWork = 0;
@@ -38,13 +38,13 @@ struct Balance {
   double stopDamping = 0;   ///< of end stops
   double dissipated() const { return jointDamping + springDamping + stopDamping; }
   double integrationError = 0; ///< falls with the step
-  double leftOver = 0;         ///< kinetic energy that no impulse explains: rounding
+  double leftOver = 0;         ///< kinetic energy residual: rounding
   double turnover = 0;         ///< sum of absolute works and the kinetic energy of the start
-  Vec3d linearLeftOver;        ///< momentum that no impulse from outside explains: rounding
-  Vec3d angularLeftOver;       ///< of moments about the world's origin
+  Vec3d linearLeftOver;        ///< momentum residual: rounding
+  Vec3d angularLeftOver;       ///< angular momentum residual about the world's origin
 };
 Balance balance(const Model& model, const State& state, const Loads& loads);
-/// Begins the books of a state: what the solver does before its first step.
+/// Initialises the ledger of a state; the solver calls it before its first step.
 void beginLedger(const Model& model, State& state, const Loads& loads);
 
 } // namespace grouser::multibody

@@ -93,10 +93,10 @@ struct Solver::Impl {
   std::vector<double> stiffness;            ///< or damping, one an axis
   std::vector<Vector6> x;                   ///< one a node
   std::vector<Frame> frames;                ///< one a body, the world last
-  std::unique_ptr<ReactionSharing> sharing; ///< made when reactions of redundant joints are first asked for
+  std::unique_ptr<ReactionSharing> sharing; ///< created on the first request for reactions of redundant joints
 };
 
-/// Freedom at a generic position: the redundant rows are known; couplings that others imply are those without a pivot.
+/// Degrees of freedom at a generic position: redundant rows are known; couplings without a pivot are implied by others.
 void Solver::Impl::countFreedom() {
   std::vector<Pose> poses;
   for (const Body& body : model.bodies()) {
@@ -130,15 +130,13 @@ void Solver::Impl::describe() {
   out << "degrees of freedom: " << freedom << '\n';
   out << "redundant rows: " << redundancy.rows.size() + redundancy.couplings.size();
   if (!redundancy.rows.empty() || !redundancy.couplings.empty())
-    out << ", left out of the solution (other joints imply them; at each position the rows that follow best); "
-           "reactions are "
-           "those of least norm";
+    out << ", dropped (implied by other joints); reactions have least norm";
   out << '\n';
   for (const auto& [k, row] : redundancy.rows) out << "  " << system.describe(k, row) << '\n';
   for (const int c : redundancy.couplings) out << "  coupling '" << model.couplings()[at(c)].name << "'\n";
   if (redundancy.singularAtStart > 0)
     out << "the mechanism starts in a singular position: " << redundancy.singularAtStart
-        << " rows depend on others there and only there; they are kept\n";
+        << " rows are dependent only there; they are kept\n";
   text = out.str();
 }
 
@@ -148,7 +146,7 @@ void Solver::Impl::checkFits(const State& state, const Loads& loads) const {
       loads.pointSprings.size() != model.pointSprings().size() || loads.drives.size() != model.drives().size() ||
       loads.bushings.size() != model.bushings().size() || state.joint.size() != model.joints().size() ||
       state.bushing.size() != model.bushings().size() || state.coupling.size() != model.couplings().size())
-    throw base::InputError("multibody step: state or loads belong to another model; make them by makeState, makeLoads");
+    throw base::InputError("multibody step: state or loads belong to another model; use makeState and makeLoads");
 }
 
 /// Highest frequency [rad/s] of `stiffness` (one an axis) against the constrained masses.
@@ -201,7 +199,7 @@ double Solver::Impl::geometricStiffnessRate(const State& state, const Loads& loa
   return std::sqrt(highest);
 }
 
-/// Orders above 2 go backwards in some stages, where a damper feeds what it took: tolerable while it takes little.
+/// Orders above 2 have backward stages, in which a damper adds energy: tolerable while damping is weak.
 void Solver::Impl::checkDampers(double dt) {
   if (options.integrator != Integrator::kRattle || options.order == 2 || dt <= checkedDampers) return;
   axisDamping(system, model, stiffness);
@@ -213,18 +211,19 @@ void Solver::Impl::checkDampers(double dt) {
     std::ostringstream message;
     message << "multibody step: the damper of " << system.describe(axis.constraint, axis.row) << " (" << stiffness[a]
             << " [N s/m or N m s/rad]) is too strong for order " << options.order << " at dt = " << dt
-            << " s, whose stages go back in time; take order 2, or dt <= " << 0.1 / part * dt << " s";
+            << " s, which has backward stages; use order 2, or dt <= " << 0.1 / part * dt << " s";
     throw base::InputError(message.str());
   }
   checkedDampers = dt;
 }
 
-/// Explicit springs: before the first step, a longer step, and now and then since positions change the frequencies.
+/// Explicit springs: checked before the first step, for longer steps, and periodically, since frequencies depend on
+/// positions.
 void Solver::Impl::checkStable(const State& state, const Loads& loads, double dt) {
   constexpr long long kInterval = 512;
   if (options.integrator != Integrator::kRattle || options.springs != Springs::kExplicit) return;
   if (model.axisSprings().empty() && model.pointSprings().empty() && model.bushings().empty()) return;
-  // By the clock and not by a count of this solver's own, so that a resumed run looks at the same steps.
+  // By time, not by a step counter, so that a resumed run checks the same steps.
   if (dt <= checkedStep && std::llround(state.time / dt) % kInterval != 0) return;
   std::string spring;
   const double limit = stableStep(state, loads, &spring);
@@ -274,7 +273,7 @@ double Solver::projectVelocities(State& state, const Loads& loads) {
   for (const ConstraintSystem::Part& part : s.system.parts()) {
     s.system.linearise(part, frames, s.laws);
     std::vector<Twist> twist = state.twist;
-    // The second pass takes out what round-off has left.
+    // The second pass removes round-off.
     for (int pass = 0; pass < 2; ++pass) projectTwists(s.system, part, s.laws, s.x, twist);
     for (const int node : part.bodies)
       setTwist(s.model, state, s.system.bodyOf(node), twist[at(s.system.bodyOf(node))]);

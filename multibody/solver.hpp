@@ -11,11 +11,11 @@
 
 namespace grouser::multibody {
 
-/// Advances a mechanism; the integrators' schemes are stated above their code. Deterministic, one thread, no allocation
-/// in step().
+/// Advances a mechanism; the schemes are described in the integrators' sources. Deterministic, one thread, no
+/// allocation in step().
 ///
 /// With kSymplecticEuler a start velocity belongs to the start pose, half a step before the first mean velocity: the
-/// first step gets a whole step of load where half would do (a shift in time of dt / 2, the scheme's only first-order
+/// first step applies a full step of load instead of half (a shift in time of dt / 2, the scheme's only first-order
 /// error for smooth motions), and needs half the centripetal constraint force.
 class Solver {
 public:
@@ -70,11 +70,11 @@ public:
   /// Largest omega dt [rad] of a swing that the scheme takes explicitly: 2 (2.72, 2.53, 3.10 with order 4, 6, 8).
   double stabilityLimit() const;
 
-  /// Force and torque in every joint in the last step, as JointReading has them, but where joints hold more than is
-  /// needed. There the equations of motion leave the reactions open, and the readings of a State are one solution, with
-  /// zeros for the rows left out; these here are the one of least norm, sum of |force|^2 + |moment / L|^2 with L of
-  /// SolverOptions::momentLength, so that equal joints share alike. For outputs: costs about as much as some steps
-  /// where rows are redundant, nothing elsewhere, and has no effect on the motion.
+  /// Force and torque in every joint in the last step, as in JointReading, except for redundantly constrained joints.
+  /// Their reactions are not determined by the equations of motion; the readings of a State are one solution, with
+  /// zeros for dropped rows; this function returns the solution of least norm, sum of |force|^2 + |moment / L|^2 with L
+  /// of SolverOptions::momentLength, so that equal joints share loads equally. For outputs: costs about as much as a
+  /// few steps if rows are redundant, else nothing, and has no effect on the motion.
   std::vector<JointReaction> reactions(const State& state) const;
 
   const StepReport& lastStep() const;
@@ -82,11 +82,11 @@ public:
   /// kSymplecticEuler the twist is the mean over the step that led there and meets the constraints over that step to
   /// positionTolerance / dt; at its end it leaves them by O(dt |w|^2 size).
   double velocityError(const State& state) const;
-  /// Size of the problem, independent parts, fill of the factor, and what was done about redundant rows.
+  /// Size of the problem, independent parts, and redundant rows.
   const std::string& report() const;
-  /// Rows dropped because others imply them: "joint 'pin 7': rotation about x".
+  /// Rows dropped as redundant: "joint 'pin 7': rotation about x".
   std::vector<std::string> redundantRowNames() const;
-  /// Degrees of freedom that joints and couplings leave (drives not counted), redundancy taken into account.
+  /// Degrees of freedom left by joints and couplings (drives not counted), accounting for redundancy.
   int degreesOfFreedom() const;
 
 private:

@@ -14,9 +14,9 @@ enum class Integrator {
   kRattle,
 };
 
-/// How kRattle takes axis springs, point springs and bushings. Dampers and end stops are implicit in both.
+/// Treatment of axis springs, point springs and bushings by kRattle. Dampers and end stops are implicit in both.
 enum class Springs {
-  /// At the nodes: cheapest; needs omega dt < 2 (2.72, 2.53, 3.10 with order 4, 6, 8) and refuses a longer step, naming
+  /// At the nodes: cheapest; needs omega dt < 2 (2.72, 2.53, 3.10 with order 4, 6, 8) and rejects longer steps, naming
   /// the spring.
   kExplicit,
   /// Midpoint along the spring's direction: order 2, stable at any step in the linear case. Across it a point spring
@@ -24,43 +24,42 @@ enum class Springs {
   kImplicit,
 };
 
-/// What the solver does about start velocities that break the constraints.
+/// Treatment of start velocities that violate the constraints.
 enum class StartVelocities {
   kRefuse, ///< InputError naming the joint and the rate at which it would open
   kAccept, ///< leaves them: the first step, or Solver::projectVelocities(), makes them fit
 };
 
-/// What SolverOptions::positionTolerance is where it is not given [m, rad]. RATTLE closes to round-off: the order of
-/// its energy error counts on it.
+/// Defaults of SolverOptions::positionTolerance [m, rad]. RATTLE solves to round-off, as the order of its energy error
+/// requires.
 inline constexpr double kEulerTolerance = 1e-10, kRattleTolerance = 1e-15;
 
 struct SolverOptions {
-  /// On every hard constraint after a step [m, rad]; 0: kEulerTolerance or kRattleTolerance. kRattle goes no further
-  /// than round-off, 5e-16 of the coordinates. What is left of
-  /// a gap comes back in the next step's constraint force as up to mass x gap / dt^2: 0.3 N for a shoe of 8.5 kg at 50
-  /// us and 1e-10 m.
+  /// Tolerance of every hard constraint after a step [m, rad]; 0: kEulerTolerance or kRattleTolerance. kRattle is
+  /// limited to round-off, 5e-16 of the coordinates. A remaining gap changes the next step's constraint force by up to
+  /// mass x gap / dt^2: 0.3 N for a shoe of 8.5 kg at 50 us and 1e-10 m.
   double positionTolerance = 0;
   int maxIterations =
       0; ///< of the position solve; 0: 12 for kSymplecticEuler, 40 for kRattle. Typically 1 to 5 are used
   Integrator integrator = Integrator::kSymplecticEuler;
-  /// Of kRattle: 2, or 4, 6, 8 as symmetric compositions of 5, 9, 17 stages of order 2, some of them backwards in time:
-  /// for smooth motions to high accuracy over long times. A damper with c dt / m > 0.3 or so is refused by name, since
-  /// going back feeds it.
+  /// Order of kRattle: 2, or 4, 6, 8 as symmetric compositions of 5, 9, 17 stages of order 2, some of them backwards in
+  /// time: for smooth motions to high accuracy over long times. Dampers with c dt / m above about 0.3 are rejected by
+  /// name, since backward stages add their energy.
   int order = 2;
   Springs springs = Springs::kExplicit;
   StartVelocities startVelocities = StartVelocities::kRefuse;
-  /// L of Solver::reactions() [m], >= 0: how far a moment that a joint takes is from a couple of forces. 0: the spacing
-  /// of the joints that share, the root mean square of the distances between any two of them as the model places them.
-  /// Well below it joints take moments only where forces alone cannot hold, as hinges whose own length is short.
+  /// L of Solver::reactions() [m], >= 0: lever arm that relates moments to forces. 0: the spacing of the joints that
+  /// share, the root mean square of the distances between any two of them as the model places them. Well below it
+  /// joints carry moments only if forces alone cannot, like short hinges.
   double momentLength = 0;
-  /// Of kSymplecticEuler: solve each body's gyroscopic equation to round-off, as kRattle does. Without, as a cheap step
-  /// for bodies that turn slowly wants it, it is met to the position tolerance: where smaller steps then do with an
-  /// iteration less, the error of a spinning body becomes ten times as large.
+  /// kSymplecticEuler: solve each body's gyroscopic equation to round-off, as kRattle does. If false, which is cheaper
+  /// for slow rotation, it is solved to the position tolerance: if smaller steps then need one iteration less, the
+  /// error of a spinning body becomes ten times as large.
   bool exactGyroscopics = false;
   double velocityTolerance = 1e-6; ///< of the check of start velocities [m/s, rad/s]
 };
 
-/// How well the last step was solved.
+/// Accuracy of the last step.
 struct StepReport {
   int iterations = 0;
   double maxPositionError = 0; ///< max |C| over the hard rows at the new poses [m, rad]

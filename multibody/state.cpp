@@ -15,7 +15,7 @@ using namespace detail;
 
 namespace {
 
-/// What State::kBooks counts.
+/// Ledger numbers counted by State::kBooks.
 template <class Ledger_, class F> void forEachBook(Ledger_& l, F f) {
   f(l.gravityWork.lost), f(l.externalWork.lost), f(l.driveWork.lost), f(l.springWork.lost), f(l.dissipated.lost);
   const auto sum = [&](auto& s) { f(s.sum), f(s.lost); };
@@ -26,7 +26,7 @@ template <class Ledger_, class F> void forEachBook(Ledger_& l, F f) {
   for (auto* v : {&l.startLinear, &l.startAngular}) f(v->x), f(v->y), f(v->z);
 }
 
-/// Hands every number of a state, in a fixed order, to `f`.
+/// Calls `f` for every number of a state, in a fixed order.
 template <class State_, class F> void forEachNumber(State_& s, F f) {
   const auto vec = [&](auto& v) { f(v.x), f(v.y), f(v.z); };
   f(s.time);

@@ -10,8 +10,8 @@
 
 namespace grouser::multibody {
 
-/// What a joint did in the last step. Forces: kSymplecticEuler gives the mean over the step, kRattle the values at its
-/// end.
+/// Readings of a joint in the last step. Forces: mean over the step with kSymplecticEuler, values at its end with
+/// kRattle.
 struct JointReading {
   Vec3d force; ///< on B from A, hard rows and axis force together, world components [N]; for a shoe joint the track
                ///< tension
@@ -25,13 +25,13 @@ struct JointReading {
   double springForce = 0; ///< the springs' part of it, with their dampers and stops [N] or [N m]
 };
 
-/// Force and torque of a joint, as JointReading has them.
+/// Force and torque of a joint, as in JointReading.
 struct JointReaction {
   Vec3d force;  ///< [N]
   Vec3d torque; ///< about the joint point [N m]
 };
 
-/// What the second axis of a joint, the slide of a cylindrical, did in the last step. As in JointReading.
+/// Readings of the second axis of a joint, the slide of a cylindrical one, in the last step. As in JointReading.
 struct AxisReading {
   double position = 0;    ///< [m]
   double rate = 0;        ///< [m/s]
@@ -40,7 +40,7 @@ struct AxisReading {
   double springForce = 0; ///< [N]
 };
 
-/// What a bushing did in the last step.
+/// Readings of a bushing in the last step.
 struct BushingReading {
   Vec3d force;       ///< on B at the origin of its frame, world components [N]
   Vec3d torque;      ///< on B, world components [N m]
@@ -48,18 +48,18 @@ struct BushingReading {
   Vec3d rotation;    ///< phi, in the axes of A's frame [rad]
 };
 
-/// What a coupling did in the last step.
+/// Readings of a coupling in the last step.
 struct CouplingReading {
   double force = 0; ///< generalised force on axis 2 along +axis; axis 1 feels -ratio times it [N m] or [N]
 };
 
-/// What a point spring did in the last step.
+/// Readings of a point spring in the last step.
 struct SpringReading {
   double force = 0;  ///< positive pushes apart [N]
   double length = 0; ///< [m]
 };
 
-/// Everything that changes. After a step of Integrator::kRattle `pose` and `twist` are both at `time`. After one of
+/// All state variables. After a step of Integrator::kRattle `pose` and `twist` are both at `time`. After one of
 /// Integrator::kSymplecticEuler they are staggered, as in any kick-drift scheme: `pose` is at `time`, `twist` is the
 /// mean twist over the step that led there.
 struct State {
@@ -76,7 +76,7 @@ struct State {
 
   /// The complete dynamic state as a flat array: a run resumed from it gives the same bits as one straight through.
   std::vector<double> save() const;
-  /// So many of its last numbers are books that no step depends on: a hash of the state leaves them out.
+  /// Number of trailing ledger values, on which no step depends: a hash of the state excludes them.
   static constexpr std::size_t kBooks = 39;
   /// Inverse of save(); throws base::InputError if the length does not fit this state's model.
   void restore(const std::vector<double>& flat);
@@ -94,7 +94,7 @@ struct DriveControl {
   double force = 0; ///< of a force drive without a law [N m] or [N]
 };
 
-/// What is imposed from outside during one step.
+/// External inputs of one step.
 struct Loads {
   Vec3d gravity{0, 0, -9.81};             ///< [m/s2]
   std::vector<Wrench> external;           ///< one a body
@@ -106,7 +106,7 @@ struct Loads {
 
 /// The model's state at the start; joint readings hold positions and rates, no forces yet.
 State makeState(const Model& model);
-/// No wrenches, all factors 1, drives as the model says.
+/// No wrenches, all factors 1, drives as in the model.
 Loads makeLoads(const Model& model);
 /// Sets a body's velocity (its angular momentum follows).
 void setTwist(const Model& model, State& state, int body, const Twist& twist);

@@ -38,7 +38,8 @@ std::vector<double> secondDerivatives(const TimeLaw::Table& t) {
   return M;
 }
 
-/// Hands the pieces of a table, its constant ends included, to `f` in order, from the first that ends after `from`.
+/// Calls `f` for the pieces of a table, including its constant ends, in order, starting at the first that ends after
+/// `from`.
 template <class F> void forEachPiece(const TimeLaw::Table& t, bool smooth, F f) {
   const std::size_t n = t.times.size();
   if (n == 0) return;
@@ -54,7 +55,7 @@ template <class F> void forEachPiece(const TimeLaw::Table& t, bool smooth, F f) 
   f(Piece{t.times[n - 1], far, t.values[n - 1], 0, 0, 0});
 }
 
-/// Piece that holds at t, from the left piece's point of view at the joints.
+/// Piece at time t; at a joint the left one.
 Piece pieceAt(const TimeLaw::Table& table, bool smooth, double t) {
   Piece found{0, 0, 0, 0, 0, 0};
   bool done = false;
@@ -83,7 +84,7 @@ std::string tableFault(const char* key, const TimeLaw::Table& t, bool jumps) {
   if (t.times.empty() && t.values.empty()) return "";
   if (t.times.size() != t.values.size() || t.times.size() < 2)
     return name + " has " + std::to_string(t.times.size()) + " times and " + std::to_string(t.values.size()) +
-           " values; give as many of both, at least 2";
+           " values; give equal numbers, at least 2";
   for (std::size_t i = 0; i < t.times.size(); ++i) {
     if (!std::isfinite(t.times[i]) || !std::isfinite(t.values[i]))
       return name + " has an entry that is not a finite number";

@@ -14,7 +14,7 @@ namespace grouser::multibody {
 ///                 last time the value stays: the rate never jumps. It may overshoot between unequal steps.
 ///   ramps         straight lines through (times, values), constant outside: for speeds and forces. A time given twice
 ///                 is a jump, at which the first of its two values holds.
-/// What is left empty counts 0. Evaluated by base/math.hpp: the same bits on any machine.
+/// Empty terms are 0. Evaluated by base/math.hpp: bitwise identical on all machines.
 struct TimeLaw {
   struct Harmonic {
     double amplitude = 0; ///< unit of the value
@@ -40,8 +40,8 @@ struct TimeLaw {
   static TimeLaw constant(double value) { return {{value}, {}, {}, {}}; }
 };
 
-/// The first entry of a table's times that is not above the one before, 0 if there is none. With `jumps` a time may
-/// stand twice: the value jumps there, from the first of the two to the second.
+/// Index of the first time of a table that does not increase, 0 if there is none. With `jumps` a time may occur twice:
+/// the value jumps there.
 inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     const bool jump = jumps && times[i] == times[i - 1] && !(i > 1 && times[i - 1] == times[i - 2]);
@@ -50,8 +50,8 @@ inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps)
   return 0;
 }
 
-/// What is wrong with a law, empty where nothing is: a number is not finite, a table's times do not increase, or a
-/// table has fewer than two points or not as many values as times.
+/// Error in a law, or empty: a number is not finite, a table's times do not increase, or a table has fewer than two
+/// points or unequal numbers of times and values.
 std::string timeLawFault(const TimeLaw& law);
 
 } // namespace grouser::multibody

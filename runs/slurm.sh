@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A SLURM job of one rank a GPU on two nodes of four: sbatch runs/slurm.sh SCENE [WORDS OF grouser run...]
+# SLURM job, one rank per GPU, two nodes with four GPUs each: sbatch runs/slurm.sh SCENE [OPTIONS OF grouser run...]
 #SBATCH --job-name=grouser
 #SBATCH --nodes=2
 #SBATCH --ntasks-per-node=4
@@ -8,10 +8,10 @@
 #SBATCH --cpus-per-task=8
 #SBATCH --time=04:00:00
 #SBATCH --signal=B:TERM@120
-# Two minutes before the end the job gets SIGTERM, hands it on, and every rank stops behind a checkpoint: go on with
+# Two minutes before the time limit the job receives SIGTERM and all ranks stop after writing a checkpoint. To continue:
 #   sbatch runs/slurm.sh SCENE --resume
 set -euo pipefail
-scene=${1:?usage: sbatch runs/slurm.sh SCENE [WORDS...]}
+scene=${1:?usage: sbatch runs/slurm.sh SCENE [OPTIONS...]}
 shift
 export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1}
 trap 'kill -TERM "$launcher"; wait "$launcher"' TERM

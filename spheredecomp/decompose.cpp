@@ -26,19 +26,19 @@ using detail::SurfaceSample;
 
 /// A disc reaches a little over half the diagonal of a lattice square [spacing].
 constexpr double kFlatReach = 0.74;
-/// Spheres from the lattice whose centres come nearer than this after the move are one [spacing].
+/// Lattice spheres whose centres are nearer than this after the move are merged [spacing].
 constexpr double kMerge = 0.5;
 /// Surface samples lie about this far apart [spacing].
 constexpr double kSampleStep = 0.33;
-/// The same for a thin part, in which a gap between discs is a hole.
+/// Sample distance for thin parts, in which a gap between discs is a hole [spacing].
 constexpr double kThinSampleStep = 0.2;
 
-/// Samples whose spheres are fitted side by side.
+/// Samples whose spheres are fitted in parallel.
 constexpr std::size_t kBlock = 2048;
-/// The same of a thin part, whose fits cost more than what is covered meanwhile.
+/// Block size for thin parts, whose fits are expensive.
 constexpr std::size_t kThinBlock = 128;
 
-/// Runs body(i) for i in [0, count) on all threads; each i writes its own place, so the order does not matter.
+/// Runs body(i) for i in [0, count) on all threads; each i writes its own entry, so the order does not matter.
 template <class Body> void parallel(std::size_t count, Body&& body) {
 #pragma omp parallel for schedule(dynamic, 32)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) body(static_cast<std::size_t>(i));
@@ -66,7 +66,7 @@ struct Lattice {
   }
 };
 
-/// A lattice point inside, with the nearest surface point where that is near.
+/// A lattice point inside, with the nearest surface point if near.
 struct LatticePoint {
   Vec3d point;
   ClosestPoint near;
@@ -93,13 +93,13 @@ std::vector<LatticePoint> pointsInside(const OuterSurface& outer, const Lattice&
   return points;
 }
 
-/// Grows the surface spheres of a set, and knows where the surface is not yet covered.
+/// Builds the surface spheres of a set, and tests whether the surface is covered.
 class SurfaceBuilder {
 public:
   SurfaceBuilder(const OuterSurface& outer, double radius, double spacing, const DecompositionOptions& options)
       : outer_(outer), radius_(radius), spacing_(spacing), options_(options), centres_(spacing) {}
 
-  /// One sphere for each lattice point of the shell, unless it falls onto one that is there.
+  /// One sphere per lattice point of the shell, unless it coincides with an existing one.
   void addLattice(const std::vector<LatticePoint>& points) {
     std::vector<SetSphere> fitted(points.size());
     parallel(points.size(), [&](std::size_t i) {
@@ -112,8 +112,8 @@ public:
     parallel(spheres_.size(), [&](std::size_t i) { setFlat(spheres_[i]); });
   }
 
-  /// Spheres under those samples where the surface still dips too far. Works in blocks of fixed size: the fits of a
-  /// block run side by side, then its spheres are added in order and spare the next block's fits.
+  /// Adds spheres under samples where the surface still dips too far. Works in blocks of fixed size: the fits of a
+  /// block run in parallel, then its spheres are added in order and reduce the next block's fits.
   void closeHoles(const std::vector<SurfaceSample>& samples) {
     std::vector<SetSphere> fitted;
     const std::size_t block = options_.thin ? kThinBlock : kBlock;
@@ -127,7 +127,7 @@ public:
       });
       if (beyondLimit()) return;
       for (SetSphere& s : fitted) {
-        // Near an edge the sphere cannot reach the sample: what counts is its own highest point.
+        // Near an edge the sphere cannot reach the sample: test its own highest point.
         if (s.radius == 0 || covered(s.centre + s.normal * s.radius)) continue;
         setFlat(s);
         add(s);
@@ -135,7 +135,7 @@ public:
     }
   }
 
-  /// Gives each sample's area to the sphere that touches the surface nearest to it, of like normal where there is one.
+  /// Assigns each sample's area to the sphere that touches the surface nearest to it, preferably of similar normal.
   void shareArea(const std::vector<SurfaceSample>& samples) {
     std::vector<std::uint32_t> owner(samples.size());
     parallel(samples.size(), [&](std::size_t i) { owner[i] = ownerOf(samples[i]); });
@@ -158,7 +158,7 @@ private:
     return centres_.any(p, distance,
                         [&](std::uint32_t i) { return norm2(spheres_[i].centre - p) < distance * distance; });
   }
-  /// Asks only the spheres about the place where one would be: the common case, at a fraction of the cost.
+  /// Tests only the spheres near the place of the sample's own sphere: the common case, at a fraction of the cost.
   bool coveredBeneath(const SurfaceSample& sample) const {
     return centres_.any(sample.point - sample.normal * radius_, 0.5 * spacing_, [&](std::uint32_t i) {
       return detail::discDistance(spheres_[i], sample.point) <= options_.maxDip * radius_;
@@ -174,12 +174,12 @@ private:
     double bestScore = 1e300;
     auto consider = [&](std::uint32_t i) {
       const SetSphere& s = spheres_[i];
-      // Unlike normals come last: beyond any distance in the part.
+      // Penalty for different normals, larger than any distance in the part.
       const double unlike = dot(s.normal, sample.normal) < 0.5 ? 1e6 : 0;
       const double score = norm2(s.centre + s.normal * s.radius - sample.point) + unlike;
       if (score < bestScore || (score == bestScore && i < best)) bestScore = score, best = i;
     };
-    // The search widens until a sphere of like normal is found.
+    // The search widens until a sphere of similar normal is found.
     const Vec3d beneath = sample.point - sample.normal * radius_;
     for (const double reach : {0.75 * spacing_, 2 * spacing_, 2 * (radius_ + spacing_)}) {
       centres_.each(beneath, reach, consider);
@@ -203,7 +203,7 @@ SphereSet decomposeAt(const TriangleMesh& mesh, const std::string& name, const D
   const Lattice lattice(mesh, radius, spacing);
   if (!(lattice.points() <= kMostLatticePoints))
     throw base::InputError(
-        fmt::format("{}: radius = {:.3g} m needs {:.3g} lattice points, more than {:.0e}; take a larger radius", name,
+        fmt::format("{}: radius = {:.3g} m needs {:.3g} lattice points, more than {:.0e}; use a larger radius", name,
                     radius, lattice.points(), kMostLatticePoints));
   const OuterSurface outer(mesh, spacing / 6);
   const double shell = radius + 0.5 * spacing;
@@ -234,14 +234,14 @@ SphereSet decomposeAt(const TriangleMesh& mesh, const std::string& name, const D
   return set;
 }
 
-/// Looks for the largest radius that gives at least the wanted count: count grows about as radius^-2.5, then halving of
-/// the bracket in the logarithm. The count is not monotonic in the radius, so the result is within a few per cent.
+/// Finds the largest radius with at least the target count: first from count ~ radius^-2.5, then by bisection of
+/// log(radius). The count is not monotonic in the radius, so the result is within a few per cent.
 SphereSet decomposeToCount(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options) {
   constexpr int kTrials = 12;
   constexpr double kEnough = 1.02;
   const auto wanted = static_cast<double>(options.targetCount);
   double radius = base::pow(signedVolume(mesh) / wanted, 1.0 / 3) / options.spacingRatio;
-  double fine = 0, coarse = 0; // radii known to give enough, too few
+  double fine = 0, coarse = 0; // radii with enough spheres, and with too few
   SphereSet best;
   for (int trial = 0; trial < kTrials; ++trial) {
     SphereSet set = decomposeAt(mesh, name, options, radius);
@@ -257,7 +257,7 @@ SphereSet decomposeToCount(const TriangleMesh& mesh, const std::string& name, co
   }
   if (best.spheres.empty())
     throw base::InputError(
-        fmt::format("{}: targetCount = {} cannot be reached; give a radius instead", name, options.targetCount));
+        fmt::format("{}: targetCount = {} cannot be reached; set a radius instead", name, options.targetCount));
   return best;
 }
 
@@ -274,21 +274,21 @@ void check(const std::string& name, const DecompositionOptions& o) {
   if (o.radius != 0) range("radius", o.radius, kSmallestRadius, kLargestRadius, "m");
 }
 
-/// A sphere as wide as the part is long stands for nothing of it.
+/// Rejects spheres as wide as the part is long.
 void checkFits(const TriangleMesh& mesh, const std::string& name, double radius) {
   const auto [low, high] = bounds(mesh);
   const double half = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   // A millionth absorbs the rounding of coordinates read as floats.
   if (radius > half * (1 + 1e-6))
-    throw base::InputError(fmt::format("{}: radius = {:.6g} m is above {:.6g} m, half the part's longest side; take a "
-                                       "smaller radius (and see that the mesh is in metres)",
+    throw base::InputError(fmt::format("{}: radius = {:.6g} m is above {:.6g} m, half the part's longest side; use a "
+                                       "smaller radius (and check that the mesh is in metres)",
                                        name, radius, half));
 }
 
 } // namespace
 
 std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options) {
-  // All; but a set within the limit of spheres does not depend on it, and others are not kept.
+  // All options, except the sphere limit: sets within the limit do not depend on it, and others are not kept.
   [[maybe_unused]] const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, smallest, thin, most,
                                 interior] = options;
   base::StateHash hash;
@@ -303,7 +303,7 @@ std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& opti
 
 double latticePoints(const TriangleMesh& mesh, double radius) {
   const auto [low, high] = bounds(mesh);
-  double points = 1; // as Lattice has them, but that they need not fit into whole numbers
+  double points = 1; // as in Lattice, but not limited to integers
   for (int k = 0; k < 3; ++k)
     points *= 1 + std::max(0.0, high[k] - low[k] - 2 * radius) / (radius * DecompositionOptions{}.spacingRatio);
   return points;

@@ -12,11 +12,11 @@ using base::SphereSet;
 using base::TriangleMesh;
 
 inline constexpr double kSmallestRadius = 1e-6, kLargestRadius = 1e3; ///< of spheres [m]
-inline constexpr double kMostLatticePoints = 5e7;                     ///< that a mesh is cut by
+inline constexpr double kMostLatticePoints = 5e7;                     ///< maximum number of lattice points
 
-/// How fine a part is cut. Give a radius, or a count and the radius is found.
+/// Resolution of a decomposition: a radius, or a count from which the radius follows.
 struct DecompositionOptions {
-  double radius{};           ///< sphere radius [m]; 0: take it from targetCount
+  double radius{};           ///< sphere radius [m]; 0: from targetCount
   std::size_t targetCount{}; ///< wanted number of spheres; used when radius is 0
   double spacingRatio{1.0};  ///< lattice spacing / radius [-], in [0.2, 1.5]
   /// Surface spheres are added until the surface dips no more than this between them [radius]. Tested at points 0.33
@@ -24,7 +24,7 @@ struct DecompositionOptions {
   double maxDip{0.05};
   double flatTolerance{0.01}; ///< a flat disc may stand this much out of the mesh [radius]
   double smallest{0.2};       ///< spheres shrink to this share of the radius where the part is thin [-]
-  bool thin{false};           ///< the part is thin somewhere: fits, discs and samples are finer there
+  bool thin{false};           ///< the part is thin in places: finer fits, discs and samples there
   std::size_t most{};         ///< surface spheres beyond which the cut stops, unfinished; 0: no limit
   bool interior{true};        ///< also fill the inside with lattice spheres (contacts need the surface only)
 };
@@ -40,12 +40,12 @@ struct DecompositionOptions {
 /// (above half the longest side of the bounding box) or too fine for the part (more than 50 million lattice points).
 SphereSet decompose(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options);
 
-/// Counts the changes of what decompose() gives. Sets are kept from run to run under cutOrigin(), so whoever changes a
-/// single bit of any set raises it in the same commit: CutVersion in tests/spheredecomp/cut_version_test.cpp says when.
+/// Version of the results of decompose(). Sets are cached between runs under cutOrigin(): increase it in every commit
+/// that changes any bit of a set. CutVersion in tests/spheredecomp/cut_version_test.cpp detects such changes.
 inline constexpr int kCutVersion = 1;
 
-/// All that the spheres of decompose() depend on, as text: this version, every option, and a hash of the mesh. Equal
-/// text, equal bits; the set's name has no part in it.
+/// All inputs of the spheres of decompose(), as text: version, every option, and a hash of the mesh. Equal texts mean
+/// bitwise equal spheres; the set's name is not included.
 std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options);
 
 /// Lattice points about spheres of `radius` at the default spacing, at most kMostLatticePoints of which are possible.

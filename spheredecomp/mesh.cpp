@@ -44,7 +44,7 @@ namespace {
 
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-/// Directed edges that are not met as often in the other direction.
+/// Directed edges without a matching opposite edge.
 std::vector<Edge> openEdges(const TriangleMesh& mesh) {
   std::vector<Edge> edges, opposite, open;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
@@ -73,12 +73,12 @@ std::vector<std::uint32_t> openVertices(const TriangleMesh& mesh) {
 void checkFinite(const TriangleMesh& mesh, const std::string& name) {
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
     if (const Vec3d& v = mesh.vertices[i]; !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
-      throw base::InputError(fmt::format("{}: the mesh has a vertex that is not finite, number {}: ({}, {}, {}) m; "
+      throw base::InputError(fmt::format("{}: vertex {} of the mesh is not finite: ({}, {}, {}) m; "
                                          "repair it in a mesh editor",
                                          name, i + 1, v.x, v.y, v.z));
 }
 
-/// Whether all of it lies in one plane: that of its largest triangle.
+/// True if the mesh lies in the plane of its largest triangle.
 bool isFlat(const TriangleMesh& mesh) {
   Vec3d normal, point;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -92,14 +92,14 @@ bool isFlat(const TriangleMesh& mesh) {
                      [&](const Vec3d& v) { return std::fabs(dot(v - point, normal)) <= thickness; });
 }
 
-/// Vertices of open edges that lie next to one another, which hints at gaps of rounding; empty: none.
+/// Hint on vertices of open edges that lie close together, which indicates rounding gaps; empty: none.
 std::string nearOpenVertices(const TriangleMesh& mesh) {
   TriangleMesh welded = mesh;
   const auto [low, high] = bounds(mesh);
   const double tolerance = 1e-3 * norm(high - low);
   const std::size_t near = weldOpenEdges(welded, tolerance);
   return near == 0 ? ""
-                   : fmt::format("{} vertices at them lie within {:.2g} m of another: merge these by distance in a "
+                   : fmt::format("{} of their vertices lie within {:.2g} m of another: merge these by distance in a "
                                  "mesh editor, ",
                                  near, tolerance);
 }
@@ -111,8 +111,8 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
     throw base::InputError(name + ": the mesh has no triangles; export it as a triangulated surface");
   checkFinite(mesh, name);
   if (isFlat(mesh))
-    throw base::InputError(name + ": the mesh is flat and encloses nothing, but only closed bodies can be cut into "
-                                  "spheres; give it a thickness (extrude it), or use a thin box or a plane instead");
+    throw base::InputError(name +
+                           ": the mesh is flat and encloses no volume; extrude it, or use a thin box or a plane");
 
   if (const std::vector<Edge> open = openEdges(mesh); !open.empty()) {
     const Vec3d a = mesh.vertices[open.front().first], b = mesh.vertices[open.front().second];
@@ -153,8 +153,8 @@ std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance) {
 
 namespace {
 
-/// What writers round vertices by that should be equal [largest coordinate]: floats keep about seven digits, texts of
-/// "%.6f" often five.
+/// Rounding differences between equal vertices [largest coordinate]: floats keep about seven digits, texts of "%.6f"
+/// often five.
 constexpr double kWeldTolerances[] = {4e-6, 2e-5};
 
 double largestCoordinate(const TriangleMesh& mesh) {
@@ -163,7 +163,7 @@ double largestCoordinate(const TriangleMesh& mesh) {
   return largest;
 }
 
-/// Welds what rounding left apart, where that closes the mesh; otherwise it stays as it is.
+/// Welds vertices separated by rounding if that closes the mesh; otherwise the mesh is unchanged.
 void closeByWelding(TriangleMesh& mesh, const std::string& path, std::string* note) {
   if (openEdges(mesh).empty()) return;
   for (const double share : kWeldTolerances) {
@@ -173,8 +173,8 @@ void closeByWelding(TriangleMesh& mesh, const std::string& path, std::string* no
     if (merged == 0 || !openEdges(welded).empty()) continue;
     mesh = std::move(welded);
     if (note)
-      *note = fmt::format("{}: {} vertices at open edges were merged with others that lie within {:.2g} units of the "
-                          "file, as rounding leaves them apart",
+      *note = fmt::format("{}: {} vertices at open edges were merged with neighbours within {:.2g} file units "
+                          "(rounding)",
                           path, merged, tolerance);
     return;
   }
@@ -187,9 +187,10 @@ void checkIndices(const aiScene& scene, const std::string& path) {
     for (unsigned f = 0; f < part.mNumFaces; ++f)
       for (unsigned k = 0; k < part.mFaces[f].mNumIndices; ++k)
         if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
-          throw base::InputError(fmt::format("{}: corner {} of face {} refers to a vertex that is not among the {} of "
-                                             "the mesh; the file is damaged or cut short, export it again",
-                                             path, k + 1, f + 1, part.mNumVertices));
+          throw base::InputError(
+              fmt::format("{}: corner {} of face {} refers to a vertex beyond the {} of the mesh; the "
+                          "file is damaged or cut short, export it again",
+                          path, k + 1, f + 1, part.mNumVertices));
   }
 }
 
@@ -202,8 +203,8 @@ std::vector<Vec3d> cornersOf(const aiMesh& part, const aiFace& face) {
   return corners;
 }
 
-/// Whether assimp triangulates all faces rightly: it may fail on outlines of five or more corners that are not convex,
-/// and does not see that a quad crosses itself.
+/// True if assimp triangulates all faces correctly: it may fail on non-convex outlines of five or more corners, and
+/// does not detect self-crossing quads.
 bool assimpTriangulates(const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
@@ -218,7 +219,7 @@ bool assimpTriangulates(const aiScene& scene) {
   return true;
 }
 
-/// A message of assimp, which may quote the file to its end: of each quotation, the beginning.
+/// Shortens a message of assimp, which may quote the rest of the file.
 std::string shortened(const std::string& message) {
   constexpr std::size_t kMost = 40;
   const std::size_t from = message.find('"'), to = message.rfind('"');
@@ -226,8 +227,8 @@ std::string shortened(const std::string& message) {
   return message.substr(0, from + 1 + kMost) + "..." + message.substr(to);
 }
 
-/// Reads all meshes of a file into one frame, with triangles where assimp cuts them rightly: of convex faces its
-/// triangles stay, since the bits of the cut follow from them.
+/// Reads all meshes of a file into one frame, triangulated if assimp does so correctly: its triangles of convex faces
+/// are kept, since decompositions depend on them bitwise.
 const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene) {
@@ -262,7 +263,7 @@ void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
   }
 }
 
-/// What assimp misreads in silence in files of text, by the name's ending as assimp takes it: in any case.
+/// Checks text files for content that assimp silently misreads, by file extension in any case, like assimp.
 void checkText(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

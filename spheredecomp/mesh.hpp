@@ -16,9 +16,8 @@ using base::Vec3d;
 /// rounding, see weldOpenEdges. Several closed shells may overlap or touch: inside is where the winding number is not
 /// zero.
 /// @param path  file; coordinates in metres
-/// @param note  receives a sentence on vertices that were welded though they differ; may be null
-/// Throws base::InputError: no such file, unknown format, no triangles, a face that crosses itself, not watertight,
-/// inside out.
+/// @param note receives a note on welded vertices that differ; may be null Throws base::InputError: no such file,
+/// unknown format, no triangles, a face that crosses itself, not watertight, inside out.
 TriangleMesh importMesh(const std::string& path, std::string* note = nullptr);
 
 /// Throws base::InputError, naming `name` and an open edge, unless every directed edge has its opposite, all
@@ -28,9 +27,9 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name);
 /// Merges vertices of exactly equal position and drops triangles that this makes degenerate.
 TriangleMesh weld(const TriangleMesh& mesh);
 
-/// Merges vertices of open edges that lie within `tolerance` [m] of each other: files that several programs have
-/// written have them apart by rounding. Never two that an edge joins, which would collapse a thin part: then nothing is
-/// merged. Returns how many vertices are gone.
+/// Merges vertices of open edges within `tolerance` [m] of each other, which differ by rounding in files written by
+/// several programs. Merges nothing if two of them share an edge, since a thin part would collapse. Returns the number
+/// of removed vertices.
 std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance);
 
 /// Enclosed volume by the divergence theorem [m3]; where shells overlap, the common part counts as often as it is

@@ -115,7 +115,7 @@ ClosestPoint MeshQuery::closest(const Vec3d& p, double limit) const {
     if (distance2 > best2) continue;
     const Node& node = nodes_[index];
     if (node.count == 0) {
-      // Nearer child last, so that it is taken first.
+      // Push the nearer child last, so that it is visited first.
       const double l = boxDistance2(nodes_[node.first].low, nodes_[node.first].high, p);
       const double r = boxDistance2(nodes_[node.first + 1].low, nodes_[node.first + 1].high, p);
       const std::uint32_t near = l <= r ? 0 : 1;
@@ -156,7 +156,7 @@ bool MeshQuery::within(const Vec3d& p, double distance) const {
 }
 
 namespace {
-/// Where the vertical line through (x, y) meets a triangle; false where it does not.
+/// Intersection of the vertical line through (x, y) with a triangle; false if there is none.
 bool crossTriangle(const MeshQuery& query, std::uint32_t t, double x, double y, Crossing& crossing) {
   const auto* index = &query.mesh().indices[3 * t];
   const Vec3d &a = query.vertex(t, 0), &b = query.vertex(t, 1), &c = query.vertex(t, 2);

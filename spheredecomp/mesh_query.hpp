@@ -23,24 +23,23 @@ struct Crossing {
   int step{}; ///< change of the winding number when the crossing is passed downwards: +1 enters through an upper face
 };
 
-/// Distance and inside/outside queries on a triangle mesh, by a tree of boxes. Constant after construction: any number
-/// of threads may ask.
+/// Distance and inside/outside queries on a triangle mesh, by a tree of boxes. Constant after construction:
+/// thread-safe.
 class MeshQuery {
 public:
   /// The mesh is copied. It needs to be closed for the winding number, not for distances.
   explicit MeshQuery(TriangleMesh mesh);
 
-  /// Nearest point of the surface within `limit` [m]; `triangle` is kNone and `distance` is `limit` where there is
-  /// none.
+  /// Nearest point of the surface within `limit` [m]; `triangle` is kNone and `distance` is `limit` if there is none.
   ClosestPoint closest(const Vec3d& p, double limit = 1e300) const;
 
-  /// Whether any point of the surface is nearer than `distance` [m]; stops at the first found.
+  /// True if any point of the surface is nearer than `distance` [m]; stops at the first found.
   bool within(const Vec3d& p, double distance) const;
 
   /// All crossings of the vertical line through (x, y), from above downwards, appended to `crossings` (cleared first).
   void column(double x, double y, std::vector<Crossing>& crossings) const;
 
-  /// Winding number of the mesh about `p`: how many shells enclose it. Counted by signed crossings of a vertical ray,
+  /// Winding number of the mesh about `p`: number of enclosing shells. Counted by signed crossings of a vertical ray,
   /// which for a closed mesh equals the solid angle divided by 4 pi. A point on the surface may count either way.
   int winding(const Vec3d& p) const;
   bool inside(const Vec3d& p) const { return winding(p) != 0; }

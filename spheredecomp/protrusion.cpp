@@ -21,7 +21,7 @@ constexpr int kAround = 24;      // points of a ring about a disc's centre
 constexpr int kMostTries = 4;    // finer cuts, each of half the radius
 constexpr double kForced = 0.25; // radius of a sphere that fits nowhere [permitted]
 
-/// How far the balls of a rounded disc stand out of the mesh, 0 or less where they do not [m].
+/// Protrusion of the balls of a rounded disc, <= 0 if inside the mesh [m].
 double standsOut(const detail::OuterSurface& outer, const SetSphere& s) {
   const auto out = [&](const Vec3d& p) {
     const double depth = outer.surface().closest(p).distance;
@@ -41,17 +41,17 @@ double standsOut(const detail::OuterSurface& outer, const SetSphere& s) {
 
 bool isShrunk(const SetSphere& s, const SphereSet& set) { return s.radius < 0.999 * set.radius; }
 
-/// How deep spheres that shrink may leave the surface above them [m]: one may serve both sides.
+/// Depth of the surface above shrunken spheres [m]: one sphere may serve both sides.
 double dipWhereThin(const SphereSet& set, const DecompositionOptions& options) {
   const bool shrunk =
       std::any_of(set.spheres.begin(), set.spheres.end(), [&](const SetSphere& s) { return isShrunk(s, set); });
   return shrunk ? options.maxDip * set.radius : 0;
 }
 
-/// Spheres of radius r that cover a mesh are about this many, up to a quarter more in thin sheets.
+/// Approximate number of spheres that cover a mesh, up to a quarter more in thin sheets.
 double countOf(double area, double radius) { return 1.25 * area / (radius * radius); }
 
-/// Why the default cut is not good enough, and where.
+/// Why and where the default decomposition is insufficient.
 struct Cause {
   Vec3d place;
   std::string fault;
@@ -60,7 +60,7 @@ struct Cause {
 Cause causeOf(const SphereSet& set, const Protrusion& worst, const DecompositionOptions& options,
               const ProtrusionLimit& limit) {
   if (worst.distance > limit.permitted)
-    return {worst.place, fmt::format("its spheres of {:.3g} m stand out by {:.3g} m, more than the permitted {:.3g} m",
+    return {worst.place, fmt::format("its spheres of {:.3g} m protrude by {:.3g} m, more than the permitted {:.3g} m",
                                      set.radius, worst.distance, limit.permitted)};
   const auto smallest = std::min_element(set.spheres.begin(), set.spheres.end(),
                                          [](const SetSphere& a, const SetSphere& b) { return a.radius < b.radius; });
@@ -70,12 +70,12 @@ Cause causeOf(const SphereSet& set, const Protrusion& worst, const Decomposition
                       set.radius, dipWhereThin(set, options), limit.permittedDip)};
 }
 
-/// The default radius is offered, since what it costs is known.
+/// Offers the default radius, whose error is known.
 [[noreturn]] void refuse(const std::string& name, const Cause& cause, const ProtrusionLimit& limit, double radius,
                          const std::string& finer) {
   throw base::InputError(fmt::format(
-      "{}: the mesh is thin or pointed at ({:.4g}, {:.4g}, {:.4g}), in metres: {} for contact with sizes of {:.3g} m, "
-      "and {}; thicken the part, split it, use a box instead, or set the sphere radius to {:.6g} m and accept this",
+      "{}: the mesh is thin or pointed at ({:.4g}, {:.4g}, {:.4g}), in metres: {} for a contact size of {:.3g} m, "
+      "and {}; thicken the part, split it, use a box instead, or set the sphere radius to {:.6g} m to accept this",
       name, cause.place.x, cause.place.y, cause.place.z, cause.fault, limit.contactSize, finer, radius));
 }
 
@@ -112,19 +112,19 @@ SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, con
   fine.maxDip = 0.02;
   fine.flatTolerance = 0.005;
   fine.most = static_cast<std::size_t>(kSphereBudget);
-  // Fewer, larger spheres where those of the contact's size would be too many: up to twice as large.
+  // If spheres of the contact size would be too many, use fewer, up to twice as large.
   const double cheapest = std::sqrt(countOf(meshArea, 1) / kSphereBudget);
   fine.radius = std::min(options.radius, std::clamp(cheapest, limit.contactSize, 2 * limit.contactSize));
   for (int tries = 0; tries < kMostTries; ++tries) {
     if (countOf(meshArea, fine.radius) > 1.0001 * kSphereBudget) refuseWith(tooMany);
     fine.smallest = std::min(0.2, kForced * limit.permitted / fine.radius);
     set = decompose(mesh, name, fine);
-    if (set.surfaceCount > fine.most) refuseWith(tooMany); // those that shrink at edges are many more
+    if (set.surfaceCount > fine.most) refuseWith(tooMany); // shrunken spheres at edges exceed the estimate
     protrusion = largestProtrusion(mesh, set);
     if (protrusion.distance <= limit.permitted) return set;
     fine.radius *= 0.5;
   }
-  refuseWith(fmt::format("spheres of {:.3g} m still stand out by {:.3g} m", set.radius, protrusion.distance));
+  refuseWith(fmt::format("spheres of {:.3g} m still protrude by {:.3g} m", set.radius, protrusion.distance));
   return set; // not reached
 }
 
@@ -140,8 +140,8 @@ std::string protrusionWarning(const CutReport& r) {
   if (r.limit.automatic || r.protrusion.distance <= r.limit.permitted) return "";
   const Vec3d& p = r.protrusion.place;
   return fmt::format(
-      "the spheres of {} stand out of its mesh by up to {:.2g} mm, at ({:.3g}, {:.3g}, {:.3g}) m, more "
-      "than the permitted {:.2g} mm: it acts that much thicker there; remove {}, which then is chosen to keep it",
+      "the spheres of {} protrude from its mesh by up to {:.2g} mm, at ({:.3g}, {:.3g}, {:.3g}) m, more "
+      "than the permitted {:.2g} mm, so contacts act on a thicker part; remove {} to choose the radius automatically",
       r.name, 1e3 * r.protrusion.distance, p.x, p.y, p.z, 1e3 * r.limit.permitted, r.key);
 }
 

@@ -24,10 +24,10 @@ using detail::SurfaceSample;
 
 /// Points of the set's surface deeper than this belong to the inner side of a hollow shell [radius].
 constexpr double kInnerSide = 0.75;
-/// Directions in which each sphere is felt.
+/// Sampled directions per sphere.
 constexpr int kDirections = 96;
 
-/// The surface spheres of a set, found by place.
+/// Surface spheres of a set with spatial search.
 struct Shape {
   const SphereSet& set;
   bool discs; ///< rounded discs, or plain spheres
@@ -44,7 +44,7 @@ struct Shape {
   double distance(std::uint32_t i, const Vec3d& p) const {
     return discs ? detail::discDistance(set.spheres[i], p) : detail::ballDistance(set.spheres[i], p);
   }
-  /// Distance from p to the union [m], negative inside. The search widens until the nearest is sure.
+  /// Distance from p to the union [m], negative inside. The search widens until the nearest is certain.
   double distance(const Vec3d& p) const {
     for (double range = 0.125 * set.radius;; range *= 4) {
       double best = 1e300;
@@ -178,14 +178,14 @@ Quality measure(const TriangleMesh& mesh, const SphereSet& set) {
 std::string report(const SphereSet& set, const Quality& q) {
   auto line = [](const char* name, const SurfaceDistance& d) {
     return fmt::format(
-        "  {:<14} {:.3f} mm ({:.3f} mesh to set, {:.3f} set to mesh); rms {:.3f} mm, out of the mesh {:.3f} mm\n", name,
+        "  {:<14} {:.3f} mm ({:.3f} mesh to set, {:.3f} set to mesh); rms {:.3f} mm, protrusion {:.3f} mm\n", name,
         1e3 * d.hausdorff(), 1e3 * d.meshToSet, 1e3 * d.setToMesh, 1e3 * d.rms, 1e3 * d.protrusion);
   };
   double smallest = set.radius;
   for (const SetSphere& s : set.spheres) smallest = std::min(smallest, s.radius);
   const std::string shrunk =
       smallest < 0.999 * set.radius
-          ? fmt::format("  smallest       radius {:.4g} mm: spheres shrink where the part is thin\n", 1e3 * smallest)
+          ? fmt::format("  smallest       radius {:.4g} mm (spheres shrink where the part is thin)\n", 1e3 * smallest)
           : "";
   return fmt::format("{}: {} spheres ({} surface, {} interior), radius {:.4g} mm, spacing {:.4g} mm\n"
                      "{}"

@@ -20,11 +20,11 @@ struct SurfaceDistance {
   double hausdorff() const { return meshToSet > setToMesh ? meshToSet : setToMesh; }
 };
 
-/// How well a sphere set stands for its mesh.
+/// Accuracy of a sphere set for its mesh.
 struct Quality {
   std::size_t surfaceCount{};
   std::size_t interiorCount{};
-  SurfaceDistance discs;   ///< set = rounded discs (SetSphere::flat), what contacts see
+  SurfaceDistance discs;   ///< set = rounded discs (SetSphere::flat), as used by contacts
   SurfaceDistance spheres; ///< set = plain spheres
   double volumeRatio{};    ///< volume of the union of all spheres / volume of the mesh [-]
   double areaRatio{};      ///< sum of SetSphere::area / outer area of the mesh [-]

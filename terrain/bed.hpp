@@ -10,7 +10,7 @@
 
 namespace grouser::terrain {
 
-/// How a bed is laid: in layers or at random, on a floor that is smooth or rough.
+/// Arrangement of a bed: in layers or at random, on a floor that is smooth or rough.
 struct BedOptions {
   std::variant<LayerOptions, RandomBedOptions> grains;
   std::optional<FloorGrainOptions> floorGrains;
@@ -22,9 +22,9 @@ struct BedOptions {
 
 /// As the overloads of LayerOptions and RandomBedOptions; `grains` counts those that move.
 BedPlan planBed(const HeightField& surface, const BedOptions& options);
-/// How many grains of the floor there are besides.
+/// Number of fixed grains on the floor.
 std::int64_t fixedGrains(const BedPlan& plan, const BedOptions& options);
-/// All grains of the bed; those of the floor first.
+/// All grains of the bed; fixed grains of the floor first.
 std::vector<Seed> layBed(const HeightField& surface, const BedOptions& options);
 
 } // namespace grouser::terrain

@@ -16,20 +16,20 @@ struct Seed {
   bool fixed{};    ///< whether it never moves
 };
 
-/// What lies under the grains.
+/// Shape of the floor under the grains.
 enum class FloorShape {
   follow, ///< the height-map's surface, lowered by the thickness of the settled bed: a bed of even thickness
   flat    ///< level, one bed thickness below the height-map's lowest point; hills are filled with more layers
 };
 
-/// What a bed will be, known before a single grain is laid.
+/// Dimensions and size of a bed before its grains are laid.
 struct BedPlan {
   Rectangle walls;       ///< inner faces [m]
   HeightField floor;     ///< the rigid surface the grains are laid on
   int layers{};          ///< full layers (with a flat floor: the most anywhere); 0 of a bed without
-  double thickness{};    ///< expected of the settled bed [m] (with a flat floor: at the lowest point)
-  double fall{};         ///< [m] by which the loose bed is higher than the settled one
-  std::int64_t grains{}; ///< exactly in layers; at random within some per mille
+  double thickness{};    ///< expected thickness of the settled bed [m] (with a flat floor: at the lowest point)
+  double fall{};         ///< height of the loose bed above the settled one [m]
+  std::int64_t grains{}; ///< exact in layers; in random beds to some per mille
 };
 
 /// Height [m], at least `z`, at which a sphere of `radius` above (x, y) keeps clear of the floor.

@@ -102,7 +102,7 @@ Rectangle inset(const BedExtent& e, double off) {
   return {r.xMin + x, r.xMax - x, r.yMin + y, r.yMax - y};
 }
 
-/// What is in the middle of the bed.
+/// The middle of the bed.
 struct Core {
   const BedExtent& extent;
   double off; ///< [m] from floor and surface
@@ -113,7 +113,7 @@ struct Core {
   }
 };
 
-/// Behind the grains, those beyond periodic boundaries that are no farther than `reach` from them.
+/// Appends the images of grains within `reach` of periodic boundaries.
 std::vector<LyingGrain> withImages(std::vector<LyingGrain> grains, const BedExtent& e, double reach) {
   for (const int a : {0, 1}) {
     if (!e.periodic[static_cast<std::size_t>(a)]) continue;

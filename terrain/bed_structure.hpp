@@ -13,12 +13,11 @@ namespace grouser::terrain {
 
 class Grains;
 
-/// What a bed is made of, measured on grains as they lie. All of it within a column through the middle of the bed, two
-/// mean diameters away from floor, surface and walls, but not from periodic boundaries: what is next to the former is
-/// ordered or loose.
+/// Structure of a bed, measured within a column through its middle, two mean diameters away from floor, surface and
+/// walls, where grains are ordered or loose, but not from periodic boundaries.
 struct BedStructure {
   double porosity{};                                ///< [-] share of points that lie in no grain
-  double porosityError{};                           ///< [-] standard error of that: points are drawn at random
+  double porosityError{};                           ///< [-] standard error: points are drawn at random
   double coordination{};                            ///< [-] contacts a grain, fixed grains among the partners
   double rattlers{};                                ///< [-] share of the grains with fewer than two contacts
   double order{};                                   ///< [-] share of the grains in crystalline surroundings: see below
@@ -26,12 +25,12 @@ struct BedStructure {
   double settledHeight{};                           ///< [m] mean of the undisturbed surface
   double highest{}, lowest{};                       ///< [m] of that surface
   double thickness{};                               ///< [m] mean of the surface above the floor
-  std::int64_t grains{};                            ///< that were looked at
+  std::int64_t grains{};                            ///< number of grains measured
   std::vector<double> distance, radialDistribution; ///< [mean diameters], [-]
   std::vector<double> depth, porosityAtDepth;       ///< [m] below the surface, [-]; of the whole depth
 };
 
-/// A grain as it lies.
+/// A grain at rest.
 struct LyingGrain {
   base::Vec3d centre; ///< [m]
   double radius;      ///< [m]
@@ -46,7 +45,7 @@ struct BedExtent {
   std::function<double(double x, double y)> surface; ///< [m]
 };
 
-/// How high a bed stands, of 64 x 64 places.
+/// Heights of a bed at 64 x 64 places.
 struct BedHeights {
   double mean{}, highest{}, lowest{}; ///< of the surface [m]
   double thickness{};                 ///< mean of the surface above the floor [m]
@@ -60,7 +59,7 @@ BedHeights heightsOf(const BedExtent& extent);
 /// The same on every rank, device and number of threads: `grains` are sorted by id.
 BedStructure measureBed(const std::vector<LyingGrain>& grains, const BedExtent& extent);
 
-/// Of a running bed on all ranks, each of which gets the answer: at most about 60,000 grains of it.
+/// Measures a running bed with the same result on all ranks: at most about 60,000 of its grains.
 BedStructure measureBed(const Grains& grains, const BedExtent& extent);
 
 } // namespace grouser::terrain

@@ -14,23 +14,21 @@ namespace grouser::terrain {
 /// On a grid of about one grain radius:
 ///  1. highest: the highest top (centre + radius) among grains whose centre lies within one diameter d in the plane;
 ///     the floor where there is none;
-///  2. the lowest value of step 1 within one radius. Step 1 raises a slope, by nearly a radius times its tangent
-///  (grains
-///     lie a diameter apart, so the highest is rarely at the rim), and makes a lone stone as wide as two diameters;
-///     step 2 takes both back to what they are;
+///  2. the lowest value of step 1 within one radius. Step 1 raises a slope by nearly a radius times its tangent
+///     (grains lie a diameter apart, so the highest is rarely at the rim), and widens a lone stone to two diameters;
+///     step 2 reverses both;
 ///  3. one pass of the binomial kernel (1 2 1)/4 in x and y, linear at the border.
 /// Queries are bilinear between nodes and take the nearest border point outside.
 ///
 /// Exact on a lattice of equal tops, level or inclined up to the unevenness of the lattice. On a bed whose tops scatter
-/// it lies above the mean of the tops (tests/terrain/bed_surface_test.cpp measures by how much): as a straight-edge
-/// would. Grains in flight count as bed: ask for the surface of a settled bed. O(N), and independent of the grains'
-/// order.
+/// it lies above the mean of the tops (tests/terrain/bed_surface_test.cpp measures by how much), like a straight-edge.
+/// Grains in flight count as bed, so the bed must have settled. O(N), and independent of the order of grains.
 class BedSurface {
 public:
   /// `diameter` [m]: of the largest grain. The grid spans `area`. Grains outside it by more than a diameter do not
   /// count. InputError: `diameter` not positive, or a grain that is no finite number.
   BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area, double diameter);
-  /// Of a running bed, from the device that it is on; on several ranks of all of it, and equal on all of them.
+  /// Surface of a running bed, from its device; on several ranks of the whole bed, the same on all ranks.
   BedSurface(const base::Exec& exec, const Grains& grains, const HeightFieldView& floor, const Rectangle& area);
   /// From the nodes of an earlier surface of the same area and diameter. InputError: their number does not fit.
   BedSurface(const Rectangle& area, double diameter, std::vector<double> heights);

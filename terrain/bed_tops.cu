@@ -92,7 +92,7 @@ std::vector<double> highestTops(std::span<const Seed> grains, const NodeGrid& gr
   for (std::size_t g = 0; g < grains.size(); ++g) {
     const Vec3d& c = grains[g].centre;
     if (!(std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z) && std::isfinite(grains[g].radius)))
-      throw base::InputError("surface of the bed: grain " + std::to_string(g) + " is not at a finite place");
+      throw base::InputError("surface of the bed: grain " + std::to_string(g) + " has no finite position");
   }
   return heights(raise(base::cpuExec(1), OfSeeds{grains.data()}, grains.size(), grid, reach));
 }

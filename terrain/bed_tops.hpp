@@ -47,7 +47,7 @@ private:
 /// Highest grain top (centre + radius) [m] within `reach` of each node; minus infinity where there is none. Computed
 /// on the grains' device; a maximum does not depend on the order. On several ranks, over the grains of all.
 std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach);
-/// The same of grains on the host. InputError: one that is no finite number.
+/// The same for grains on the host. InputError: a position that is not finite.
 std::vector<double> highestTops(std::span<const Seed> grains, const NodeGrid& grid, double reach);
 
 } // namespace grouser::terrain

@@ -9,14 +9,14 @@
 
 namespace grouser::terrain {
 
-/// Walls, floor and surfaces on the grains near them. A kernel of its own: the search on the floor needs many
-/// registers, and only one layer of grains needs the search.
+/// Forces of walls, floor and surfaces on the grains near them. A separate kernel: the search on the floor needs many
+/// registers, and only one layer of grains needs it.
 template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<kFeatures, Real> {
   static constexpr double kNanoseconds = 100;
   using Kernel = GrainKernel<kFeatures, Real>;
   using Kernel::d, Kernel::f, Kernel::has;
   using Vec = base::Vec3<Real>;
-  using Books = WallBooks;
+  using Accumulator = WallAccumulator;
   using Load =
       std::conditional_t<(kFeatures & contact::kMeasured) != 0, MeasuredBoundaryLoad<Real>, BoundaryLoad<Real>>;
 
@@ -28,7 +28,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     GrainSize<Real> size;
     std::uint32_t before; ///< boundaries that it touched in the last step
   };
-  /// By dashpots, sliding, rolling resistance, change of stiffness and yielding [J].
+  /// Dissipation by dashpots, sliding, rolling resistance, change of stiffness and yielding [J].
   struct Losses {
     Real damped = 0, rubbed = 0, rolled = 0, slipped = 0, yielded = 0;
   };
@@ -37,19 +37,19 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   };
 
   GROUSER_HD void operator()(int k) const {
-    WallBooks books;
-    run(k, books);
+    WallAccumulator accumulator;
+    run(k, accumulator);
   }
 
-  /// Adds what walls and floor do to `books`.
-  GROUSER_HD Load run(int k, WallBooks& books) const {
+  /// Adds work and impulses of walls and floor to `accumulator`.
+  GROUSER_HD Load run(int k, WallAccumulator& accumulator) const {
     if (Kernel::ended()) return {};
     const int i = static_cast<int>(d.nearBoundary[k]);
     const Vec4f velocity = d.motion[i].velocity;
     const Vec v = velocity.xyz().template as<Real>(), w = d.motion[i].spin.xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
     const Grain grain{k, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
-    // Only surfaces feel a grain that never moves: the ground holds it.
+    // A fixed grain acts on surfaces only: the ground holds it.
     const bool held = has(kSurfaces) && isFixed(velocity);
     const double radius = static_cast<double>(grain.size.radius);
     Load sum{};
@@ -72,40 +72,42 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
         touchFixed(grain, d.wallCount, foot.normal.template as<Real>(), overlap, sum, lost);
       }
     }
-    if (now != 0) bookWalls(grain, sum, books);
+    if (now != 0) accountWalls(grain, sum, accumulator);
     if (has(kSurfaces)) now |= touchSurfaces(k, grain, sum, lost);
-    if (held && now != 0) bookHeld(grain, d.fromSurfaces[k], sum, books);
-    if (now != 0) bookLosses(lost, books);
-    if (has(contact::kPlastic) && d.books) addRare(d, i, kYielded, static_cast<double>(lost.yielded));
+    if (held && now != 0) accountFixedGrain(grain, d.fromSurfaces[k], sum, accumulator);
+    if (now != 0) accountDissipation(lost, accumulator);
+    if (has(contact::kPlastic) && d.ledgerSums) addRare(d, i, kPlasticDissipation, static_cast<double>(lost.yielded));
     if (now != grain.before) d.boundaryContactMask[i] = now;
     f.boundaryLoads[k] = sum;
     return sum;
   }
 
 private:
-  /// Force and, about the origin of the world, torque of walls and floor.
-  GROUSER_HD void bookWalls(const Grain& grain, const BoundaryLoad<Real>& sum, WallBooks& books) const {
+  /// Accounts for force of walls and floor and its torque about the origin of the world.
+  GROUSER_HD void accountWalls(const Grain& grain, const BoundaryLoad<Real>& sum, WallAccumulator& accumulator) const {
     const base::Vec3d force = sum.force.template as<double>();
     const base::Vec3d torque = cross(grain.x, force) + sum.torque.template as<double>();
-    books.addForce(force, torque, d.bookScale);
+    accumulator.addForce(force, torque, d.ledgerScale);
   }
 
-  /// The ground gives a grain that never moves the opposite of what surfaces do to it.
-  GROUSER_HD void bookHeld(const Grain& grain, const base::Vec3d& pressed, const BoundaryLoad<Real>& sum,
-                           WallBooks& books) const {
-    books.addForce(-pressed, -(cross(grain.x, pressed) + sum.torque.template as<double>()), d.bookScale);
+  /// The ground balances the load of surfaces on a fixed grain.
+  GROUSER_HD void accountFixedGrain(const Grain& grain, const base::Vec3d& pressed, const BoundaryLoad<Real>& sum,
+                                    WallAccumulator& accumulator) const {
+    accumulator.addForce(-pressed, -(cross(grain.x, pressed) + sum.torque.template as<double>()), d.ledgerScale);
   }
 
-  GROUSER_HD void bookLosses(const Losses& lost, WallBooks& books) const {
-    const double q = d.bookScale.perEnergy;
-    books.add(kDamped, wholeQuanta(q * static_cast<double>(lost.damped)));
-    if (has(contact::kFriction)) books.add(kRubbed, wholeQuanta(q * static_cast<double>(lost.rubbed)));
-    if (has(contact::kRollingFriction)) books.add(kRolled, wholeQuanta(q * static_cast<double>(lost.rolled)));
+  GROUSER_HD void accountDissipation(const Losses& lost, WallAccumulator& accumulator) const {
+    const double q = d.ledgerScale.perEnergy;
+    accumulator.add(kDashpotDissipation, wholeQuanta(q * static_cast<double>(lost.damped)));
+    if (has(contact::kFriction))
+      accumulator.add(kSlidingDissipation, wholeQuanta(q * static_cast<double>(lost.rubbed)));
+    if (has(contact::kRollingFriction))
+      accumulator.add(kRollingDissipation, wholeQuanta(q * static_cast<double>(lost.rolled)));
     if (has(contact::kFriction) && has(contact::kHertz))
-      books.add(kSlipped, wholeQuanta(q * static_cast<double>(lost.slipped)));
+      accumulator.add(kMicroSlipDissipation, wholeQuanta(q * static_cast<double>(lost.slipped)));
   }
 
-  /// `share`: of dashpots and of cohesion, where this contact bears a part of one [-].
+  /// `share`: of dashpots and cohesion, if this contact is part of one [-].
   GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap, Load& sum,
                              Losses& lost, Real share = 1) const {
     const Vec normal = -outward; // from the grain to the wall
@@ -119,7 +121,7 @@ private:
     if (has(contact::kRollingFriction)) sum.torque += reaction.rolling;
   }
 
-  /// A floor with hollows tighter than the grain: all places of contact, each with springs of its own.
+  /// Contacts with a floor with hollows tighter than the grain: each has its own springs.
   GROUSER_HD std::uint32_t touchHollows(const Grain& grain, double radius, Load& sum, Losses& lost) const {
     if (d.floor.clearOf(grain.x, radius)) return 0;
     float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
@@ -142,7 +144,7 @@ private:
     return now;
   }
 
-  /// Surfaces that may move. The grain gets the force in whole quanta, the surface exactly the opposite.
+  /// Contacts with moving surfaces. The force on the grain is whole quanta, that on the surface exactly the opposite.
   GROUSER_HD std::uint32_t touchSurfaces(int k, const Grain& grain, Load& sum, Losses& lost) const {
     std::uint32_t now = 0;
     base::Vec3d force;
@@ -177,7 +179,7 @@ private:
     return now;
   }
 
-  /// One contact; its springs lie in world axes, or in axes that have `turned` since the start.
+  /// One contact; its springs are in world axes, or in axes rotated by `turned` since the start.
   GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
                             const Vec& spin, const base::Mat3d* turned, Load& sum, Losses& lost) const {
     const contact::BasicLaw<Real>& law = Kernel::boundaryLaw(boundary, grain.size.material);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-/// Sums over many steps that do not lose what rounding cuts off: `v += g dt` in plain float is wrong by 2 % of g at a
-/// step of 1e-6 s, because every step rounds the same way.
+/// Sums over many steps without accumulated rounding: `v += g dt` in plain float is wrong by 2 % of g at a step of
+/// 1e-6 s, because every step rounds the same way.
 namespace grouser::terrain {
 
 /// Remainders of one grain: for each axis 16 bits of the velocity's, 16 of the spin's; then 3 x 10 of the position's.
@@ -42,12 +42,12 @@ GROUSER_HD double perRemainderQuantum(float v) {
   return static_cast<double>(base::bitsAs<float>((254 << 23) - binadeOf(v))) * (1 / kRemainderOfBinade);
 }
 
-/// The number and what rounding has cut off.
+/// The number plus its remainder.
 GROUSER_HD double withRemainder(float value, std::int16_t remainder) {
   return static_cast<double>(value) + remainder * remainderQuantum(value);
 }
 
-/// A new sum in double, and what the number that is kept, with its remainder, is above it: both exact.
+/// A new sum in double, and how much the stored number with its remainder exceeds it: both exact.
 struct CompensatedStep {
   double sum, rounding;
 };
@@ -71,7 +71,7 @@ GROUSER_HD std::uint32_t packRemainders(std::int16_t low, std::int16_t high) {
          static_cast<std::uint32_t>(static_cast<std::uint16_t>(high)) << 16;
 }
 
-/// What advanceKeeping() has kept along an axis, in units.
+/// Remainder that advanceKeeping() has kept along an axis [units].
 GROUSER_HD double placesKept(std::uint32_t word, int axis) {
   return (static_cast<std::int32_t>(word << (22 - 10 * axis)) >> 22) * (1.0 / kPlacesPerUnit);
 }

@@ -71,8 +71,8 @@ public:
 private:
   GROUSER_HD double force(double overlap) const { return hertz_ && overlap > 0 ? overlap * sqrt(overlap) : overlap; }
 
-  /// Takes the force at `overlap`, where contacts `a` and `b` become one, off both: by the roots of what each bears
-  /// beyond it, so that in a crease it points from the bottom of the crease, and one that vanishes bears nothing.
+  /// Subtracts the force at `overlap`, where contacts `a` and `b` become one, from both, in proportion to the roots of
+  /// their forces beyond it: in a crease the sum points from its bottom, and a vanishing contact bears nothing.
   GROUSER_HD void merge(int (&contact)[Feet::kMost], int a, int b, int count, double overlap) {
     const double common = force(overlap);
     double of[2] = {};
@@ -103,7 +103,7 @@ public:
   GROUSER_HD FeetSearch(const HeightFieldView& surface, const Vec3d& centre, double radius)
       : v_(surface), p_(centre), radius_(radius), same_(0.01 * smaller(surface.dx, surface.dy)) {}
 
-  /// A call of its own on a GPU: kernels for ground without such hollows keep their registers.
+  /// Not inlined on a GPU: kernels for ground without such hollows keep their registers.
   GROUSER_HD_CALL void run(Feet& feet) {
     const bool near = v_.marks && v_.marks[cell(v_.cellX(p_.x), v_.cellY(p_.y))] & kNearHollow;
     const FootPoint first = v_.closestPoint(p_);
@@ -111,7 +111,7 @@ public:
       if (first.distance < radius_) feet.foot[feet.count++] = first;
       return;
     }
-    // Where other feet are possible only a true minimum is one.
+    // Where other feet are possible, only a true minimum counts.
     const Vec3d aside = p_ - first.point - first.normal * first.distance;
     if (v_.interpolation != Interpolation::bilinear && first.distance < radius_ && base::norm(aside) < same_)
       put(first, feet.count++, feet);
@@ -170,8 +170,8 @@ private:
       }
   }
 
-  /// Where a descent from `x` may go along one axis: on bilinear ground the cell; on smooth ground twice the width that
-  /// is searched from there, `share` of the cell. Beyond the border as far as it likes.
+  /// Range of a descent from `x` along one axis: on bilinear ground the cell; on smooth ground twice the width that is
+  /// searched from there, `share` of the cell. Unlimited beyond the border.
   GROUSER_HD Range rangeAbout(double x, int i, int cells, double from, double d, double share) const {
     const Range cell = rangeOf(i, cells, from, d);
     if (v_.interpolation == Interpolation::bilinear) return cell;
@@ -185,7 +185,7 @@ private:
   GROUSER_HD double squaredDistance(double x, double y, double z) const {
     return (x - p_.x) * (x - p_.x) + (y - p_.y) * (y - p_.y) + (z - p_.z) * (z - p_.z);
   }
-  /// Whether a coordinate at the end of its range would go on beyond it, downhill.
+  /// Whether a coordinate at the end of its range would descend beyond it.
   GROUSER_HD static bool held(double x, double slope, const Range& r) {
     return (x <= r.low && slope > 0) || (x >= r.high && slope < 0);
   }
@@ -202,7 +202,7 @@ private:
     stepX = heldX ? 0 : (b * gy - c * gx) / det, stepY = heldY ? 0 : (b * gx - a * gy) / det;
   }
 
-  /// The minimum that is reached downhill from a place in cell (i, j). False: there is none in it, or it is too far.
+  /// Descends from a place in cell (i, j) to a minimum. False: there is none in the cell, or it is too far.
   GROUSER_HD bool descend(int i, int j, double x, double y, double share, FootPoint& foot) const {
     constexpr int kIterations = 40;
     const bool bilinear = v_.interpolation == Interpolation::bilinear;
@@ -216,7 +216,7 @@ private:
       if (fresh) {
         const double gx = x - p_.x + (s.h - p_.z) * s.hx, gy = y - p_.y + (s.h - p_.z) * s.hy;
         heldX = held(x, gx, rangeX), heldY = held(y, gy, rangeY);
-        if ((heldX || heldY) && !bilinear) return false; // what lies beyond is found from there
+        if ((heldX || heldY) && !bilinear) return false; // minima beyond are found from there
         newtonStep(s, gx, gy, heldX, heldY, stepX, stepY);
       }
       done = stepX * stepX + stepY * stepY <= converged * converged;
@@ -266,13 +266,13 @@ private:
     return side_ * foot.distance < radius_;
   }
 
-  /// At `share` of the straight way from one point to another, above or below it [m2].
+  /// Squared distance at `share` of the straight line from one point to another [m2].
   GROUSER_HD double squaredDistanceAt(const Vec3d& from, const Vec3d& way, double share) const {
     const Vec3d at = from + way * share;
     return squaredDistance(at.x, at.y, v_.height(at.x, at.y));
   }
 
-  /// Looks at places along the way, then narrows the largest down by thirds.
+  /// Samples places along the line, then narrows the largest down by thirds.
   GROUSER_HD double largestBetween(const FootPoint& a, const FootPoint& b) const {
     constexpr int kPlaces = 16, kThirds = 12;
     const Vec3d way = b.point - a.point;
@@ -354,10 +354,9 @@ GROUSER_HD bool deepestFoot(const HeightFieldView& surface, const Vec3d& centre,
 /// A bit for each place of a floor.
 inline constexpr std::uint32_t kFloorBits = (1u << Feet::kMost) - 1;
 
-/// Which of the places of the floor each foot takes, so that a contact keeps its springs from step to step: the pairs
-/// whose normals differ least come first, and none by more than 60 degrees. `held`: a bit for each place that had a
-/// foot in the last step, whose normals are `normals` [3 * place]; null where contacts have no springs. Returns the
-/// bits of places whose contact goes on.
+/// Assigns feet to places of the floor, so that a contact keeps its springs from step to step: pairs with the least
+/// difference of normals first, at most 60 degrees. `held`: a bit for each place that had a foot in the last step, with
+/// normals `normals` [3 * place]; null without springs. Returns the bits of places whose contact continues.
 GROUSER_HD std::uint32_t takePlaces(const Feet& feet, std::uint32_t held, const float* normals,
                                     int (&place)[Feet::kMost]) {
   std::uint32_t taken = 0;

@@ -6,10 +6,10 @@
 
 namespace grouser::terrain {
 
-/// Where grains that never move make a floor rough: a bed on a smooth one rolls on it as on the balls of a bearing.
+/// Fixed grains that make a floor rough: a bed on a smooth floor rolls on it as on a ball bearing.
 struct FloorGrainOptions {
-  RadiusDistribution radii;       ///< as those of the grains that will lie on them
-  double scale{1};                ///< by which they are larger (DepthGrading)
+  RadiusDistribution radii;       ///< as of the grains of the bed
+  double scale{1};                ///< factor on the radii (DepthGrading)
   std::array<bool, 2> periodic{}; ///< along x, y
   std::uint64_t seed{1};
 };
@@ -19,7 +19,7 @@ struct FloorGrainOptions {
 /// floor between them too. Within `walls`.
 std::vector<Seed> layFloorGrains(const HeightField& floor, const Rectangle& walls, const FloorGrainOptions& options);
 
-/// How many those are.
+/// Number of these grains.
 std::int64_t floorGrainCount(const Rectangle& walls, const FloorGrainOptions& options);
 
 } // namespace grouser::terrain

@@ -29,17 +29,15 @@ template <class T> struct Move {
   }
 };
 
-/// A field that is missing in all() would be left out of growth, sorting and migration. That none is there twice, in
-/// the place of another, is for a test to see.
+/// A field missing in all() would be left out of growth, sorting and migration. A test checks that none is there twice.
 template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&...>*) {
   return (sizeof(Fields) + ...);
 }
 using AllFields = decltype(GrainFields::all(std::declval<GrainFields&>()));
 static_assert(sizeof(GrainFields) == sizeOf(static_cast<AllFields*>(nullptr)),
-              "every field of the grains stands in GrainFields::all()");
-static_assert(
-    std::tuple_size_v<AllFields> + 2 <= contact::Exchange::kMaxFields,
-    "all fields of the grains may migrate, and with them the rows of neighbours and the springs of boundaries");
+              "GrainFields::all() must name every grain field");
+static_assert(std::tuple_size_v<AllFields> + 2 <= contact::Exchange::kMaxFields,
+              "all grain fields, neighbour rows and boundary springs must fit into a migration");
 
 } // namespace
 

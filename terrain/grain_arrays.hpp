@@ -10,8 +10,8 @@ namespace grouser::terrain {
 
 struct GrainKernelData;
 
-/// The fields of the grains. Each is declared here, with what happens to it; growth, sorting, migration, ghosts and
-/// counts of memory loop over all of them, and checkpoints over those that are saved as they are.
+/// The fields of the grains. Each is declared here with its uses; growth, sorting, migration, ghosts and memory counts
+/// loop over all of them, and checkpoints over those that are saved unchanged.
 struct GrainFields {
   /// With the widths that scenes of this layout need; nothing is allocated.
   explicit GrainFields(const GrainLayout& scene);
@@ -23,13 +23,13 @@ struct GrainFields {
   /// A bit for each wall, floor or surface in touch.
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
-  /// How they moved before the last step while the grains are sorted between steps; else that is motion.next, and the
+  /// Motion before the last step while the grains are sorted between steps; otherwise that is motion.next, and the
   /// width is 0.
   GrainField<Motion> formerMotion{kSorted | kMigrates};
   /// Low words of the positions when the neighbours were listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
   /// 1 + place in the list of grains near boundaries, and so of their springs there, until the next such list; 0 for
-  /// all others. Of ghosts it says nothing until then.
+  /// all others. Undefined for ghosts until then.
   GrainField<std::uint32_t> boundaryOf{kSorted | kMigrates};
   /// On several ranks, from migration to list: see contact::RowOrigins. Of width 0 before the first migration.
   GrainField<std::uint32_t> rowOrigin{kSorted};
@@ -39,9 +39,9 @@ struct GrainFields {
                     f.reference, f.boundaryOf, f.rowOrigin);
   }
 
-  /// On the device, of one grain.
+  /// Device memory of one grain.
   std::size_t bytesPerGrain() const;
-  /// Those of them that are given back while grains are sorted and lists made anew.
+  /// Part of it that is released while grains are sorted and lists rebuilt.
   std::size_t bytesMadeAnew() const;
 };
 
@@ -69,36 +69,35 @@ public:
   }
 
   void setGravityStep(const base::Vec3d& step) { gravityStep_ = step; } ///< g dt [m/s], for grains that enter
-  /// Fills slots behind the others; what is not given is zero. Grains that enter count as having fallen freely until
-  /// now.
+  /// Fills slots behind the others; missing values are zero. Entering grains count as having fallen freely until now.
   void append(const EnteringGrains& grains);
-  /// For a state that is loaded: its fields are the caller's to set.
+  /// For a loaded state: the caller sets its fields.
   void setSlots(std::size_t slots);
-  /// Before grains migrate and are sorted: gives back the memory of what is made anew behind that (the `next` of
-  /// fields, references), so that lists may have it meanwhile. Between the two calls no step may be taken.
+  /// Before grains migrate and are sorted: releases memory that is rebuilt afterwards (the `next` of fields,
+  /// references), so that lists may use it meanwhile. No step may be taken between the two calls.
   void beginRebuild();
-  /// The neighbours are listed where the grains are now; all has its memory again.
+  /// The neighbours are listed at the present positions; allocates the memory again.
   void endRebuild();
-  /// Slot i takes what slot order[i] (device array) held. Within a rebuild.
+  /// Moves slot order[i] (device array) to slot i. Within a rebuild.
   void permute(const std::uint32_t* order);
-  /// After a step: what it wrote to `next` becomes `now`; the state before it stays in `next`.
+  /// After a step: swaps `next` and `now`; the state before it stays in `next`.
   void swapBuffers();
 
   /// The fields of one use (kMigrates, kGhosted, kUpdated), for an exchange between ranks. `written`: the `next` of
   /// each, which the step just launched writes, since the buffers are not swapped yet.
   std::vector<contact::ExchangeField> exchanged(FieldUse use, bool written = false);
-  /// Slot to[k] takes what slot from[k] held, for k < count (device arrays); nothing moves from any of `to`.
+  /// Moves slot from[k] to slot to[k], for k < count (device arrays); nothing moves from any of `to`.
   void move(const std::uint32_t* from, const std::uint32_t* to, std::size_t count);
-  /// Keeps what fits; further slots are undefined. Within a rebuild.
+  /// Keeps the slots that fit; further slots are undefined. Within a rebuild.
   void resizeKeeping(std::size_t slots);
 
-  /// Before the last step, on the device, by slot; null where something else than a step came last.
+  /// Motion before the last step, on the device, by slot; null unless a step came last.
   const Motion* formerMotion() const { return hasFormer_ ? fields_.motion.next.data() : nullptr; }
   bool knowsFormerMotion() const { return hasFormer_; } ///< a rank without grains too, whose array has no address
   /// Between these two calls the grains may be sorted and migrate without the loss of formerMotion().
   void holdFormer();
   void releaseFormer();
-  /// Forgets velocities and spins.
+  /// Sets velocities and spins to zero.
   void stop();
 
   void describe(GrainKernelData& d);

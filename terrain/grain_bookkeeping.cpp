@@ -13,12 +13,12 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Quanta a unit: `most` takes 2^50 of them.
+/// Quanta per unit: `most` is 2^50 of them.
 double quantaPer(double most) { return base::fixedPointFor(most, 50).perUnit; }
 
 /// A step's work on one grain lies far below that of the strongest force along a radius, a force of walls below eight
 /// of the strongest, its torque about the origin below that at the ends of the scene's range.
-BookScale scaleOf(const GrainConstants& c) {
+LedgerScale scaleOf(const GrainConstants& c) {
   double force = 0;
   const auto consider = [&](const contact::ContactLaw& law) {
     force = std::max(force, contact::strongestForce(law, c.model.radius, contact::kForcePress));
@@ -33,43 +33,43 @@ BookScale scaleOf(const GrainConstants& c) {
 
 } // namespace
 
-GrainBookkeeping::GrainBookkeeping(const base::Exec& exec, const GrainConstants& c)
-    : massQuantum_(c.model.mass / kMassQuanta), books_(exec) {
+GrainEnergyAccounting::GrainEnergyAccounting(const base::Exec& exec, const GrainConstants& c)
+    : massQuantum_(c.model.mass / kMassQuanta), sums_(exec) {
   if (!c.model.ledger) return;
   scale_ = scaleOf(c);
-  books_ = base::Array<base::WideSum>(exec, std::size_t{kBookBanks} * kBooks);
+  sums_ = base::Array<base::WideSum>(exec, std::size_t{kLedgerBanks} * kLedgerSums);
 }
 
-void GrainBookkeeping::describe(GrainKernelData& d) {
-  d.books = kept() ? books_.data() : nullptr, d.bookScale = scale_;
+void GrainEnergyAccounting::describe(GrainKernelData& d) {
+  d.ledgerSums = kept() ? sums_.data() : nullptr, d.ledgerScale = scale_;
 }
 
-GrainBookkeeping::Sums GrainBookkeeping::sums(const base::Comm& comm) const {
-  return kept() ? base::summedBanks(books_.toHost(), kBooks, comm) : Sums(kBooks);
+GrainEnergyAccounting::Sums GrainEnergyAccounting::sums(const base::Comm& comm) const {
+  return kept() ? base::summedBanks(sums_.toHost(), kLedgerSums, comm) : Sums(kLedgerSums);
 }
 
-GrainBookkeeping::Totals GrainBookkeeping::totals(const base::Comm& comm) const {
+GrainEnergyAccounting::Totals GrainEnergyAccounting::totals(const base::Comm& comm) const {
   const Sums s = sums(comm);
-  const auto energy = [&](int book) { return s[static_cast<std::size_t>(book)].value() / scale_.perEnergy; };
-  const auto vector = [&](int book, double perUnit) {
-    const auto b = static_cast<std::size_t>(book);
+  const auto energy = [&](int sum) { return s[static_cast<std::size_t>(sum)].value() / scale_.perEnergy; };
+  const auto vector = [&](int sum, double perUnit) {
+    const auto b = static_cast<std::size_t>(sum);
     return base::Vec3d{s[b].value(), s[b + 1].value(), s[b + 2].value()} * (1 / perUnit);
   };
   return {energy(kWork),
           energy(kTurnover),
-          energy(kDamped),
-          energy(kRubbed),
-          energy(kRolled),
-          energy(kSlipped),
-          energy(kYielded),
-          energy(kStabilised),
+          energy(kDashpotDissipation),
+          energy(kSlidingDissipation),
+          energy(kRollingDissipation),
+          energy(kMicroSlipDissipation),
+          energy(kPlasticDissipation),
+          energy(kStabilisation),
           s[kMass].value() * massQuantum_,
           vector(kMoment, scale_.perMoment),
           vector(kWallForce, scale_.perForce),
           vector(kWallTorque, scale_.perTorque)};
 }
 
-std::vector<std::int64_t> GrainBookkeeping::save(const base::Comm& comm) const {
+std::vector<std::int64_t> GrainEnergyAccounting::save(const base::Comm& comm) const {
   std::vector<std::int64_t> words;
   if (!kept()) return words;
   for (const base::WideSum& sum : sums(comm)) {
@@ -79,16 +79,17 @@ std::vector<std::int64_t> GrainBookkeeping::save(const base::Comm& comm) const {
   return words;
 }
 
-void GrainBookkeeping::restore(const std::vector<std::int64_t>& saved, const base::Comm& comm) {
-  // Files of programs without complementarity contacts end before their book.
-  if (saved.size() != words() && !(kept() && saved.size() == 2 * std::size_t{kStabilised}))
-    throw base::InputError("the checkpoint keeps other books of the grains; resume with the scene that was run");
+void GrainEnergyAccounting::restore(const std::vector<std::int64_t>& saved, const base::Comm& comm) {
+  // Files from versions without complementarity contacts lack the last sum.
+  if (saved.size() != words() && !(kept() && saved.size() == 2 * std::size_t{kStabilisation}))
+    throw base::InputError(
+        "the checkpoint has another energy accounting of the grains; resume with the scene that was run");
   if (!kept()) return;
-  std::vector<base::WideSum> banks(books_.size());
+  std::vector<base::WideSum> banks(sums_.size());
   if (comm.first())
     for (std::size_t b = 0; b < saved.size() / 2; ++b)
       banks[b] = {static_cast<std::uint64_t>(saved[2 * b]), saved[2 * b + 1]};
-  books_.assign(banks);
+  sums_.assign(banks);
 }
 
 } // namespace grouser::terrain

@@ -14,15 +14,15 @@ namespace grouser::terrain {
 struct GrainConstants;
 struct GrainKernelData;
 
-/// The books of a scene's grains since the start, or none where the model asks for none. Each rank has a share.
-class GrainBookkeeping {
+/// Energy accounting of a scene's grains since the start; empty if the model has no ledger. Each rank has a share.
+class GrainEnergyAccounting {
 public:
-  GrainBookkeeping(const base::Exec& exec, const GrainConstants& constants);
+  GrainEnergyAccounting(const base::Exec& exec, const GrainConstants& constants);
 
   void describe(GrainKernelData& d);
-  bool kept() const { return !books_.empty(); }
+  bool kept() const { return !sums_.empty(); }
 
-  /// What the books say, of all ranks, which all call it.
+  /// Sums of all ranks, which all call totals().
   struct Totals {
     double work{}, turnover{}, damped{}, rubbed{}, rolled{}, slipped{}, yielded{}, stabilised{}; ///< [J]
     double mass{};                     ///< sum over steps and grains [kg]
@@ -31,20 +31,20 @@ public:
   };
   Totals totals(const base::Comm& comm) const;
 
-  /// Number of words that a checkpoint has of them: two a sum.
-  std::size_t words() const { return kept() ? 2 * std::size_t{kBooks} : 0; }
-  /// The sums as two words each, low and high, of all ranks; for checkpoints. Empty where no books are kept.
+  /// Number of words in a checkpoint: two per sum.
+  std::size_t words() const { return kept() ? 2 * std::size_t{kLedgerSums} : 0; }
+  /// The sums as two words each, low and high, of all ranks; for checkpoints. Empty without a ledger.
   std::vector<std::int64_t> save(const base::Comm& comm) const;
-  /// Throws InputError where there are books in one and none in the other.
+  /// Throws InputError if only one of the two has a ledger.
   void restore(const std::vector<std::int64_t>& saved, const base::Comm& comm);
 
 private:
   using Sums = std::vector<base::WideSum>;
   Sums sums(const base::Comm& comm) const;
 
-  BookScale scale_;
-  double massQuantum_;               ///< [kg]
-  base::Array<base::WideSum> books_; ///< [kBookBanks][kBooks]
+  LedgerScale scale_;
+  double massQuantum_;              ///< [kg]
+  base::Array<base::WideSum> sums_; ///< [kLedgerBanks][kLedgerSums]
 };
 
 } // namespace grouser::terrain

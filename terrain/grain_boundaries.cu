@@ -14,8 +14,8 @@ using base::Vec3d;
 
 namespace {
 
-/// Marks the grains that may touch a wall, the floor or a surface before any grain has moved half the skin and any
-/// surface has left its room.
+/// Marks the grains that may touch a wall, the floor or a surface before a grain moves half the skin or a surface
+/// leaves its room.
 struct MarkNearBoundary {
   static constexpr double kNanoseconds = 20;
   GrainKernelData d;
@@ -31,7 +31,7 @@ struct MarkNearBoundary {
     }
     const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
     const double within = reach + (manyRadii ? fabs(static_cast<double>(d.motion[i].velocity.w)) : 0.0);
-    // Walls and floor do nothing to a grain that never moves; surfaces feel it.
+    // Walls and floor do not act on a fixed grain; it acts on surfaces.
     const bool moves = !(d.features & kFixed) || !isFixed(d.motion[i].velocity);
     // A grain in touch is listed wherever it is now: the next step takes the bits of contacts that have ended from it,
     // and until then its springs have a place.
@@ -50,7 +50,7 @@ private:
   }
 };
 
-/// Row `to` of springs takes row `from` of others, counted from 1; 0: there was none.
+/// Copies row `from` of the source, counted from 1, to row `to` of the target; 0: no row.
 GROUSER_HD void copySprings(const float* source, std::uint32_t from, float* target, std::uint32_t to, int width) {
   for (int w = 0; w < width; ++w)
     target[std::int64_t{to} * width + w] = from > 0 ? source[(std::int64_t{from} - 1) * width + w] : 0.0f;
@@ -105,7 +105,7 @@ GrainBoundaries::GrainBoundaries(const base::Exec& exec, const GrainConstants& c
 
 void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<RigidSurface>& surfaces) {
   std::vector<SurfacePose> start;
-  // A contact as stiff as it gets takes 2^40 quanta: room for eight million of them on one surface.
+  // The strongest contact is 2^40 quanta: a surface may have eight million of them.
   double pressed = 0;
   const auto consider = [&](const contact::ContactLaw& law) {
     pressed = std::max(pressed, contact::strongestForce(law, model.radius, contact::kForcePress));
@@ -127,7 +127,7 @@ void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<Ri
 }
 
 void GrainBoundaries::setSurfacePoses(const std::vector<SurfacePose>& poses) {
-  if (poses.size() != geometries_.size()) throw std::logic_error("as many poses as surfaces");
+  if (poses.size() != geometries_.size()) throw std::logic_error("one pose per surface is required");
   std::copy(poses.begin(), poses.end(), poses_.host());
   poses_.upload();
 }

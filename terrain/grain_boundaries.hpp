@@ -14,7 +14,7 @@
 
 namespace grouser::terrain {
 
-/// Walls, floor and surfaces on the device, the list of the grains near them, and the loads between both in a step.
+/// Walls, floor and surfaces on the device, the list of grains near them, and the loads between them in a step.
 class GrainBoundaries {
 public:
   GrainBoundaries(const base::Exec& exec, const GrainConstants& constants, const Boundaries& boundaries);
@@ -22,16 +22,15 @@ public:
   bool any() const { return count_ > 0; }
   bool hasSurfaces() const { return !geometries_.empty(); }
 
-  /// Where the surfaces are in the next step, one a surface; on all ranks the same.
+  /// Sets the poses of the surfaces for the next step, one per surface; the same on all ranks.
   void setSurfacePoses(const std::vector<SurfacePose>& poses);
-  /// What all grains put on the surfaces in the last step: order-free sums, the opposite of what the grains received.
+  /// Loads of all grains on the surfaces in the last step: order-free sums, opposite to the loads on the grains.
   const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
 
   std::span<const SurfacePose> surfacePoses() const { return {poses_.host(), geometries_.size()}; }
   double strongest() const { return strongest_; } ///< upper bound of the force of a contact with a surface [N]
 
-  /// Whether the list of grains near surfaces has to be made anew. Decided from the poses alone, so the same on all
-  /// ranks.
+  /// Whether the list of grains near surfaces must be rebuilt. Depends on the poses alone, so the same on all ranks.
   bool surfacesHaveLeft() const;
   /// Lists the grains that may touch a boundary before the next list, and those in touch with one; springs go along.
   /// `d`: of the grains in their present slots; `ghosts`: not 0 for those that need no list, null where there are none.
@@ -43,13 +42,13 @@ public:
 
   std::size_t springsWidth() const { return springsWidth_; } ///< numbers a grain; 0 without friction
   const base::Array<float>& springs() const { return springs_; }
-  /// Of a state that is loaded: rows that the field boundaryOf counts from 1, until the next list.
+  /// Sets the springs of a loaded state: rows that the field boundaryOf counts from 1, until the next list.
   void setSprings(const std::vector<float>& springs) { springs_.assign(springs); }
   /// Copies the springs of the grains in `slots` (device array) for other ranks, one after the other.
   base::Array<float> exportSprings(const GrainFields& fields, const std::uint32_t* slots, std::size_t count) const;
   /// Room behind all springs for those of `count` grains that come from other ranks; null without friction.
   float* makeRoomForSprings(std::size_t count);
-  /// They are there: those of the grains in `count` slots from `first` on.
+  /// Numbers the springs of the `count` slots starting at `first` after their arrival.
   void numberArrived(GrainFields& fields, std::size_t first, std::size_t count) const;
 
   std::int64_t listings() const { return listings_; } ///< made so far in scenes with surfaces
@@ -58,7 +57,7 @@ public:
   void clearSurfaceLoads();                         ///< before the step, on the device
   void downloadSurfaceLoads();                      ///< after it, without waiting
   void collectSurfaceLoads(const base::Comm& comm); ///< sums over the ranks, after synchronize(); all ranks call it
-  /// By place in the list: what walls, floor and surfaces do to a grain.
+  /// Loads of walls, floor and surfaces on a grain, by place in the list.
   template <class Real> BoundaryLoad<Real>* loads() {
     if constexpr (std::is_same_v<Real, float>)
       return singleLoads_.data();
@@ -66,7 +65,7 @@ public:
       return doubleLoads_.data();
   }
 
-  /// The surface that a sphere [m] lies in deeper than `allowed` [m], and how deep; none where there is no such.
+  /// The surface that a sphere [m] overlaps by more than `allowed` [m], and the overlap; empty if there is none.
   struct Overlap {
     std::size_t surface;
     double depth; ///< [m]

@@ -68,7 +68,7 @@ void forSlots(const GrainField<T>& field, const std::vector<std::uint32_t>& slot
   for (const std::uint32_t i : slots) visit(values[i]);
 }
 
-/// The fields that are saved as they are.
+/// Saves the fields that are saved unchanged.
 void saveFields(const GrainArrays& arrays, const std::vector<std::uint32_t>& slots, GrainState& s) {
   arrays.forEach([&]<class T>(const GrainField<T>& field) {
     if (!field.savedAs || field.width == 0) return;
@@ -85,7 +85,7 @@ void saveMotion(const GrainFields& f, const std::vector<std::uint32_t>& slots, G
   });
 }
 
-/// How far the grains are from where they were listed; `s` has their positions.
+/// Saves the displacements since the neighbours were listed; `s` has the positions.
 void saveTravelled(const GrainSystem& system, const std::vector<std::uint32_t>& slots, GrainState& s) {
   s.travelled.resize(s.rows());
   if (system.rebuilds == 0) return;
@@ -147,7 +147,7 @@ void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& s
   }
 }
 
-/// What a snapshot shows of each grain, as rows that are sent to the rank whose block of ids they are in.
+/// Snapshot values of each grain, as rows that are sent to the rank with their block of ids.
 struct SnapshotRows {
   bool manyRadii{}, someFixed{}, contactForces{};
   std::vector<std::uint32_t> id;
@@ -178,7 +178,7 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   s.layout = system.constants.layout();
   s.total = static_cast<std::int64_t>(system.present()), s.gone = system.gone;
   s.skin = system.constants.model.skin, s.rebuilds = system.rebuilds;
-  s.books = system.books.save(system.comm);
+  s.books = system.accounting.save(system.comm);
   if (system.impulses) {
     const std::vector<std::int64_t> words = system.impulses->totals().words();
     s.books.insert(s.books.end(), words.begin(), words.end());
@@ -231,7 +231,7 @@ GrainCheckpoint::GrainCheckpoint(const GrainState& saved, const GrainSystem& sys
   const auto count = static_cast<std::int64_t>(system.count);
   const std::int64_t given = saved.total + static_cast<std::int64_t>(saved.gone.size());
   if (given < count || (given > count && !grows) || saved.layout != system.constants.layout())
-    throw base::InputError(fmt::format("the checkpoint holds {} grains of another kind of scene, this scene has {}; "
+    throw base::InputError(fmt::format("the checkpoint contains {} grains of another scene, this scene has {}; "
                                        "resume with the scene that was run",
                                        given, count));
   std::vector<int> owner;
@@ -268,16 +268,16 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   loadBoundarySprings(system);
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
-  std::vector<std::int64_t> books = own_.books;
+  std::vector<std::int64_t> sums = own_.books;
   // A state of penalty contacts has no totals of the solver.
-  if (system.impulses && books.size() == system.books.words() + ImpulseTotals::kWords) {
-    system.impulses->setTotals(books.data() + books.size() - ImpulseTotals::kWords);
-    books.resize(books.size() - ImpulseTotals::kWords);
+  if (system.impulses && sums.size() == system.accounting.words() + ImpulseTotals::kWords) {
+    system.impulses->setTotals(sums.data() + sums.size() - ImpulseTotals::kWords);
+    sums.resize(sums.size() - ImpulseTotals::kWords);
   }
-  system.books.restore(books, system.comm);
+  system.accounting.restore(sums, system.comm);
 }
 
-/// Grains in touch get a place for their springs, which the next list of grains near boundaries begins with.
+/// Assigns places for the springs of grains in contact, for the next list of grains near boundaries.
 void GrainCheckpoint::loadBoundarySprings(GrainSystem& system) const {
   if (!system.boundaries.any()) return;
   const std::vector<float> all = historyOf(own_.wallShear, own_.wallRolling, own_.wallDeepest, own_.wallOrigin);
@@ -355,8 +355,8 @@ void GrainCheckpoint::loadContacts(GrainSystem& system, const std::vector<std::u
       ++c;
     }
     if (c < end)
-      throw base::InputError(fmt::format("run.skin = {:g} is too small to take over the contacts of the checkpoint, "
-                                         "made with {:g}; raise it",
+      throw base::InputError(fmt::format("run.skin = {:g} is too small for the contacts in the checkpoint, written "
+                                         "with {:g}; raise it",
                                          system.constants.model.skin, own_.skin));
   }
   system.neighbours.setHistory(lists);

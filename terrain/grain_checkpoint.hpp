@@ -5,24 +5,24 @@
 
 namespace grouser::terrain {
 
-/// Saves and restores the state of the grains on the host, free of slots, devices and lists. On several ranks all of
-/// them call everything here.
+/// Saves and restores the state of the grains on the host, independent of slots, devices and lists. All ranks call
+/// every function here.
 class GrainCheckpoint {
 public:
-  /// On several ranks this rank's block of ids.
+  /// State of all grains; on several ranks of this rank's block of ids.
   static GrainState state(const GrainSystem& system);
   /// x, y, z [m] of this rank's grains in the order of their ids, to memory for three numbers each.
   static void readPositions(const GrainSystem& system, double* xyz);
   static GrainSnapshot snapshot(const GrainSystem& system, const SnapshotOptions& options);
 
-  /// Sends each row to the rank that owns its grain. Throws InputError when they are of other grains.
-  /// `grows`: there may be more than the scene has.
+  /// Sends each row to the rank that owns its grain. Throws InputError if the rows belong to other grains.
+  /// `grows`: the state may have more grains than the scene.
   GrainCheckpoint(const GrainState& saved, const GrainSystem& system, bool grows);
 
-  // The neighbour list is built at the places where the saved run built its last one, so that it ends at the same step.
-  // So the state is loaded in two parts, and the neighbours are listed in between.
+  // The neighbour list is built at the positions of the saved run's last list, so that it expires at the same step. So
+  // the state is loaded in two parts, and the neighbours are listed in between.
   void loadAsListed(GrainSystem& system) const;
-  /// Returns whether the list is valid for the next step. Throws InputError where it lacks contacts that were saved.
+  /// Returns whether the list is valid for the next step. Throws InputError if it lacks saved contacts.
   bool loadAsSaved(GrainSystem& system) const;
 
 private:

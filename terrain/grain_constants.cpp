@@ -91,14 +91,13 @@ base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& s
     const auto [from, to] = *sides;
     if (!(std::fabs(from) < scale.limit() && std::fabs(to) < scale.limit()))
       throw base::InputError(
-          fmt::format("periodic boundaries {} = {:g} m and {:g} m are farther than {:.6g} m from the origin", "xy"[a],
+          fmt::format("periodic boundaries {} = {:g} m and {:g} m are more than {:.6g} m from the origin", "xy"[a],
                       from, to, scale.limit()));
     period.low[a] = scale.inUnits(from), period.length[a] = scale.inUnits(to) - period.low[a];
     if (period.length[a] < 3 * reach)
       throw base::InputError(
-          fmt::format("periodic boundaries {} = {:g} m and {:g} m are too near: a grain could touch another "
-                      "from both sides; they must be at least {} m apart, three diameters and "
-                      "skins",
+          fmt::format("periodic boundaries {} = {:g} m and {:g} m are too close: a grain could touch another from "
+                      "both sides; set them at least {} m apart (three diameters plus skins)",
                       "xy"[a], from, to, base::roundedUp(static_cast<double>(3 * reach) * scale.unit, 6)));
   }
   return period;
@@ -118,12 +117,13 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
       period(periodOf(boundaries, scale, listRange())) {
   // Overlaps are whole units: those of a grain a thousand times smaller would be resolved to 1e-5 of its size only.
   if (smallestRadius < 1e-3 * model.radius)
-    throw base::InputError(fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be 1000 times the "
-                                       "smallest",
-                                       smallestRadius, model.radius));
+    throw base::InputError(
+        fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be at most 1000 times "
+                    "the smallest",
+                    smallestRadius, model.radius));
   if (boundaryCount > 32)
     throw base::InputError(fmt::format(
-        "{} planes and other surfaces, the floor among them{}; at most 32 are possible", boundaryCount,
+        "{} planes and other surfaces, including the floor{}; at most 32 are supported", boundaryCount,
         floorPlaces > 1 ? fmt::format(" as {}, since its hollows are tighter than the grains", floorPlaces) : ""));
 }
 

@@ -9,16 +9,16 @@
 
 namespace grouser::terrain {
 
-/// Features of the grains' step: of the laws, of `boundaries` and, as `manyRadii` says, of grains that are not all
-/// alike; without loads of rigid parts. Where the boundaries are does not matter.
+/// Features of the grains' step: of the laws, of `boundaries` and, with `manyRadii`, of different grains; without loads
+/// of rigid parts. The positions of the boundaries do not matter.
 unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool manyRadii);
 /// The fields that grains of these features have. `materials`: GrainMaterials::count().
 GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials, int floorPlaces = 1);
 
-/// What of the grains of a scene never changes once they are made; alike on all ranks.
+/// Constants of a scene's grains; the same on all ranks.
 struct GrainConstants {
-  /// Throws InputError where radii are too unlike for their positions' scale, there are more than 32 boundaries, or
-  /// periodic boundaries are too near each other or too far away.
+  /// Throws InputError if radii differ by more than a factor of 1000, there are more than 32 boundaries, or periodic
+  /// boundaries are too close to each other or too far away.
   GrainConstants(const GrainModel& model, const Boundaries& boundaries, const std::vector<GrainSpec>& start);
 
   GrainModel model;
@@ -59,8 +59,8 @@ struct GrainConstants {
   }
   static constexpr double kLeastMargin = 0.2; ///< [smallest radius]
   static constexpr double kFastImpacts = 4;
-  /// What the state holds in velocity.w: the grain's radius [m], 0 where all grains are of one; of a fixed grain the
-  /// opposite of its radius, or -1.
+  /// Value of velocity.w in the state: the grain's radius [m], or 0 if all radii are equal; for a fixed grain minus its
+  /// radius, or -1.
   float storedRadius(const GrainSpec& grain) const;
   float storedRadius(float radius, bool fixed) const;
 };

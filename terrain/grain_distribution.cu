@@ -15,8 +15,8 @@ using contact::TravellingRows;
 
 namespace {
 
-/// For each slot after the migration, before sorting: the row of the former neighbour list (or of those that arrived)
-/// that belongs to its grain, as if all that stay had kept their slots.
+/// For each slot after the migration, before sorting: the row of its grain in the former neighbour list (or among those
+/// that arrived), as if all remaining grains had kept their slots.
 struct NoteOrigins {
   std::uint32_t kept, owned, former;
   std::uint32_t* origin;
@@ -50,7 +50,7 @@ GrainDistribution::GrainDistribution(const base::Exec& exec, const PartitionOpti
 }
 
 void GrainDistribution::onMigrate(OnMigrate onMigrate) {
-  if (onMigrate_) throw std::logic_error("the migration of grains has a listener already");
+  if (onMigrate_) throw std::logic_error("grain migration already has a listener");
   onMigrate_ = std::move(onMigrate);
 }
 
@@ -88,8 +88,8 @@ TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neigh
   return rows;
 }
 
-/// Sends the grains that leave, closes the gaps, and puts those that come behind the rest. The gaps may be filled while
-/// the messages travel: start() returns when all that leaves has been packed into buffers of its own.
+/// Sends leaving grains, closes the gaps, and appends arriving grains. The gaps may be filled while the messages
+/// travel: start() returns when all leaving grains are packed into separate buffers.
 void GrainDistribution::moveFields(GrainArrays& arrays, GrainBoundaries& boundaries, const TravellingRows& leaving) {
   Exchange& exchange = subdomain_.migration();
   const auto springs = static_cast<std::uint32_t>(boundaries.springsWidth());

@@ -14,12 +14,12 @@ using contact::Partition;
 using contact::PartitionOptions;
 using contact::Subdomain;
 
-/// The grains on several ranks: migration of those that have crossed a border, ghosts of those near one, and cuts that
-/// follow the work. One rank has none of it. All ranks call everything here that is not marked `local`, in one order.
+/// The grains on several ranks: migration across borders, ghosts near borders, and load balancing. Absent on one rank.
+/// All ranks call every function that is not marked `local`, in the same order.
 class GrainDistribution {
 public:
-  /// `start`: where the grains of the scene are; the first cuts divide them evenly. Throws InputError where cuts and
-  /// subdomains that are wanted disagree.
+  /// `start`: positions of the scene's grains; the first cuts divide them evenly. Throws InputError if the requested
+  /// cuts and subdomains disagree.
   GrainDistribution(const base::Exec& exec, const PartitionOptions& options, const GrainConstants& constants,
                     const std::vector<base::Position>& start);
 
@@ -27,11 +27,11 @@ public:
   Subdomain& subdomain() { return subdomain_; }
   /// Cuts for the next migration; local, but the same on all ranks.
   void setPartition(const Partition& partition) { subdomain_.setPartition(partition); }
-  /// Leaves the cuts where they are for a while: grains that are loaded must stay with the rank that loads them.
+  /// Keeps the cuts for a while: loaded grains must stay with the rank that loads them.
   void keepCuts(std::int64_t step) { balancedAt_ = step; }
-  /// Called before grains migrate, in their old slots: with the rank that the grain of each slot now belongs to
-  /// (device array; Subdomain::kNobody for slaves), so that those who keep history of grains can send theirs after. One
-  /// listener: throws std::logic_error where there is one already.
+  /// Called before grains migrate, in their old slots, with the new rank of the grain in each slot (device array;
+  /// Subdomain::kNobody for slaves), so that owners of grain history can send it too. One listener: throws
+  /// std::logic_error if there already is one.
   using OnMigrate = std::function<void(const std::uint32_t* destination)>;
   void onMigrate(OnMigrate onMigrate);
   /// Adds time [s] that this rank spent on work that every rank repeats (the vehicle): the load balance leaves it out,
@@ -52,7 +52,7 @@ public:
   void sendGhosts();                    ///< after the device has packed: call synchronize() first
   /// If an exchange is under way: waits for its messages and queues its unpacking into the ghosts on `exec`.
   void finishGhostUpdate(const base::Exec& exec, GrainArrays& arrays);
-  /// A whole halo exchange of the masters' present states.
+  /// Complete halo exchange of the masters' present states.
   void updateGhosts(GrainArrays& arrays);
 
   std::size_t bytes() const { return subdomain_.bytes() + arrivedRows_.bytes(); }

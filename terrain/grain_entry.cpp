@@ -31,16 +31,15 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
     const Vec3d& x = start[i].position;
     if (!(std::fabs(x.x) < limit && std::fabs(x.y) < limit && std::fabs(x.z) < limit))
       throw base::InputError(
-          fmt::format("grain {} at ({}, {}, {}) m is farther than {:.6g} m from the origin, the range of "
-                      "positions for grains of radius {} m; move the scene nearer to the origin",
+          fmt::format("grain {} at ({}, {}, {}) m is more than {:.6g} m from the origin, the range of positions for "
+                      "grains of radius {} m; move the scene closer to the origin",
                       first + i, x.x, x.y, x.z, limit, c.model.radius));
     places[i] = scale.fromMetres(x);
     if (start[i].fixed && (norm2(start[i].velocity) > 0 || norm2(start[i].spin) > 0))
       throw base::InputError(fmt::format("grain {} at ({}, {}, {}) m is fixed and has a velocity or a spin; a fixed "
                                          "grain never moves: remove one of the two",
                                          first + i, x.x, x.y, x.z));
-    if (start[i].fixed && !c.has(kFixed))
-      throw std::logic_error("a fixed grain enters a scene that was made without any");
+    if (start[i].fixed && !c.has(kFixed)) throw std::logic_error("a fixed grain enters a scene without fixed grains");
     for (int a = 0; a < 2; ++a)
       if (period.periodsBack(a, base::toUnits(places[i])[a]) != 0)
         throw base::InputError(fmt::format("grain {} at ({}, {}, {}) m lies outside the periodic boundaries {} = "
@@ -54,7 +53,7 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
 
 namespace {
 
-/// Whether hashes of the places tell all of them apart. Equal ones are seldom, and then judged by the places.
+/// Whether all positions have different hashes. If not, which is rare, the positions are compared.
 bool hashesDiffer(const base::Exec& exec, const std::vector<Position>& position) {
   constexpr std::uint64_t kPurpose = base::purpose("terrain.places");
   std::vector<std::uint64_t> hash(position.size());

@@ -6,24 +6,24 @@
 #include <optional>
 #include <vector>
 
-/// Grains that are about to enter: whether they may, and how the state holds them.
+/// Checks and conversion of entering grains.
 namespace grouser::terrain {
 
 struct GrainSystem;
 
-/// How many of these never move.
+/// Number of fixed grains.
 std::size_t fixedAmong(const std::vector<GrainSpec>& grains);
 
-/// Where the grains lie; the first of them has the id `first`. Throws InputError where one lies outside the range of
-/// the integer positions or beyond periodic boundaries, or where a fixed one has a velocity.
+/// Integer positions of grains; the first has the id `first`. Throws InputError if a grain lies outside the range of
+/// positions or the periodic boundaries, or if a fixed one has a velocity.
 std::vector<base::Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c);
 
-/// Throws InputError when two grains have the same place: no direction would push them apart. Takes the threads of
-/// `exec`, of a GPU those of its host.
+/// Throws InputError if two grains have the same position: no direction would push them apart. Uses the threads of
+/// `exec`, for a GPU those of its host.
 void checkDistinct(const base::Exec& exec, const std::vector<base::Position>& position,
                    const std::vector<std::uint32_t>& id);
 
-/// What keeps a grain from entering: it would lie in another grain or in a surface, deeper than the model allows.
+/// Overlap of an entering grain with another grain or a surface that exceeds the model's limit.
 struct InsertionOverlap {
   std::size_t entering{};             ///< its place in the list of those that enter
   double overlap{};                   ///< [m]

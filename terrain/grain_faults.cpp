@@ -30,12 +30,12 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
                      fmt::format("{} overlaps another by more than {:.3g} of its radius", where, c.model.maxOverlap),
                      "use stiffer contacts (material stiffness) or a smaller time_step");
   case Fault::through:
-    throw GrainFault(fault, id, where + " is about to pass through what is rigid",
+    throw GrainFault(fault, id, where + " is about to pass through a rigid surface",
                      "use stiffer contacts (material stiffness) or a smaller time_step");
   case Fault::range:
     throw GrainFault(fault, id,
                      fmt::format("{} leaves the range of positions, {:.6g} m from the origin", where, c.scale.limit()),
-                     "give the scene a floor or walls that hold it");
+                     "add a floor or walls that hold it");
   case Fault::speed:
     throw GrainFault(
         fault, id,
@@ -43,7 +43,7 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
                     c.model.complementarity ? "0.4 of the smallest radius" : "half the neighbour list's skin"),
         c.model.complementarity ? "use a smaller time_step" : "use a smaller time_step or a larger skin");
   default:
-    throw GrainFault(fault, id, where + " has a velocity that is no number", "use a smaller time_step");
+    throw GrainFault(fault, id, where + " has a velocity that is not a number", "use a smaller time_step");
   }
 }
 

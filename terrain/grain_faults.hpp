@@ -12,7 +12,7 @@ namespace grouser::terrain {
 
 struct GrainSystem;
 
-/// A grain that stops the run. Who knows more than the grains do may name the cause.
+/// A grain that stops the run. Callers with more information may name the cause.
 class GrainFault : public base::SimulationError {
 public:
   GrainFault(Fault which, std::uint32_t grain, const std::string& what, const std::string& remedy)
@@ -20,7 +20,7 @@ public:
   static base::Cause causeOf(Fault fault);
   Fault fault;
   std::uint32_t id;
-  std::string fact; ///< step, time, grain, place and what is wrong there, without a remedy
+  std::string fact; ///< step, time, grain, position and fault, without a remedy
 };
 
 /// Throws GrainFault with step, time, grain, place and remedy. `fault`: as StepFlags has it. All ranks call it.

@@ -10,12 +10,11 @@
 
 namespace grouser::terrain {
 
-/// What happens to a field of the grains, beyond growing with them. A field without any is made anew with each list of
-/// neighbours or boundaries.
+/// Uses of a field of the grains. A field without any is rebuilt with each list of neighbours or boundaries.
 enum FieldUse : unsigned {
-  kSorted = 1u << 0,   ///< goes along when the grains are sorted in space
-  kMigrates = 1u << 1, ///< goes along when a grain goes to another rank
-  kGhosted = 1u << 2,  ///< a ghost gets it from its master when it is made
+  kSorted = 1u << 0,   ///< moves when the grains are sorted in space
+  kMigrates = 1u << 1, ///< moves with the grain to another rank
+  kGhosted = 1u << 2,  ///< copied from the master to a new ghost
   kUpdated = 1u << 3,  ///< ... and again after every step
   kBuffered = 1u << 4, ///< a step reads `now` and writes `next`, for neighbours still read `now`
 };
@@ -23,8 +22,8 @@ enum FieldUse : unsigned {
 /// One field of the grains: `width` values of T by slot, on the device.
 template <class T> struct GrainField {
   using StateMember = std::vector<T> GrainState::*;
-  /// `as`: checkpoints and the state hash take the values as they are, into this member; null where GrainCheckpoint
-  /// gives them another form, or where they can be made anew.
+  /// `as`: member of GrainState for checkpoints and the state hash; null if GrainCheckpoint converts the values, or if
+  /// they can be recomputed.
   explicit GrainField(unsigned uses, StateMember as = nullptr) : use(uses), savedAs(as) {}
 
   unsigned use; ///< sum of FieldUse
@@ -34,7 +33,7 @@ template <class T> struct GrainField {
   base::Array<T> next; ///< of kBuffered: what the step writes; between steps, the state before the last step
 
   bool has(FieldUse which) const { return width > 0 && (use & which) != 0; }
-  /// For an exchange between ranks, of `now`, or of `next` where `written`. The step that writes `next` may still be
+  /// For an exchange between ranks of `now`, or of `next` if `written`. The step that writes `next` may still be
   /// running: the exchange packs behind it in stream order.
   contact::ExchangeField exchanged(bool written = false) {
     contact::ExchangeField field = contact::fieldOf(written ? next : now);

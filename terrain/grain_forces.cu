@@ -33,7 +33,7 @@ struct MeasureContactForce {
   const double* massPerCube; ///< else [materials] mass over radius^3
   base::Vec3f* force;
   GROUSER_HD void operator()(int i) const {
-    if (isFixed(now[i].velocity)) { // what it takes is not summed
+    if (isFixed(now[i].velocity)) { // its load is not summed
       force[i] = {};
       return;
     }
@@ -55,7 +55,7 @@ double forceRatio(const GrainSystem& system) {
   const GrainModel& model = system.constants.model;
   const double weightChange = norm(model.gravity) * model.timeStep;
   if (!(weightChange > 0)) return 0;
-  // A grain that hits at many thousand g still fits, and a million million of them.
+  // Range: impacts of many thousand g, and 1e12 grains.
   const base::FixedPoint scale = base::fixedPointFor(weightChange, 24);
   base::Array<std::int64_t> sum(system.exec, std::vector<std::int64_t>{0});
   const GrainField<Motion>& motion = system.arrays.fields().motion;
@@ -69,7 +69,7 @@ double forceRatio(const GrainSystem& system) {
 
 std::vector<base::Vec3f> contactForces(const GrainSystem& system) {
   if (!system.arrays.knowsFormerMotion())
-    throw std::logic_error("contact forces are asked for when something else than a step came last");
+    throw std::logic_error("contact forces are available only directly after a step");
   const GrainConstants& c = system.constants;
   const GrainFields& f = system.arrays.fields();
   base::Array<base::Vec3f> force(system.exec, system.arrays.slots());

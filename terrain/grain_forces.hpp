@@ -3,11 +3,11 @@
 
 #include "terrain/grain_system.hpp"
 
-/// Forces on grains, from the change of their velocities in the last step: only right after a step.
+/// Forces on grains, from the change of their velocities in the last step: valid only directly after a step.
 namespace grouser::terrain {
 
-/// Mean over the grains that move of the resultant of all forces on a grain over its weight [-], in the step that was
-/// taken last: 1 in free fall, 0 in balance; 0 without gravity. All ranks call it.
+/// Mean over the moving grains of the resultant force on a grain over its weight [-], in the last step: 1 in free fall,
+/// 0 in balance; 0 without gravity. All ranks call it.
 double forceRatio(const GrainSystem& system);
 
 /// Resultant of all contact forces on each grain in the last step, by slot [N]: m (v after - v before) / dt - m g. Of

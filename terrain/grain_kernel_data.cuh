@@ -59,11 +59,11 @@ struct GrainKernelData {
   std::uint32_t* boundaryContactMask; ///< a bit for each boundary
   base::Vec3d* fromSurfaces;          ///< [N] forces of the surfaces, by place in the list of grains near boundaries
   contact::PartLoad* surfaceLoads;    ///< sums of this step
-  base::WideSum* books;               ///< [kBookBanks][kBooks]; null where none are kept
-  BookScale bookScale;
+  base::WideSum* ledgerSums;          ///< [kLedgerBanks][kLedgerSums]; null without a ledger
+  LedgerScale ledgerScale;
   contact::GrainLoadsView loads;
   StepFlags* flags;        ///< of this step
-  const StepFlags* former; ///< of the step before in a batch: has it raised one, this step does nothing; else null
+  const StepFlags* former; ///< of the previous step in a batch: if it raised one, this step does nothing; else null
 
   /// Springs of a grain against one of its boundaries; `place` in the list of grains near them.
   GROUSER_HD float* historyOf(std::int64_t place, int boundary, int width) const {
@@ -77,12 +77,12 @@ struct GrainKernelData {
   }
 };
 
-/// Books an energy of slot i in this step [J] that few scenes have: from kYielded on.
-GROUSER_HD void addRare(const GrainKernelData& d, int i, Book book, double energy) {
+/// Accounts for an energy of slot i in this step [J] that few scenes have: kPlasticDissipation and later sums.
+GROUSER_HD void addRare(const GrainKernelData& d, int i, LedgerSum sum, double energy) {
   if (energy == 0) return;
-  RareBooks books;
-  books.add(book, wholeQuanta(d.bookScale.perEnergy * energy));
-  addToBank(d.books, i / 32, books);
+  RareAccumulator accumulator;
+  accumulator.add(sum, wholeQuanta(d.ledgerScale.perEnergy * energy));
+  addToBank(d.ledgerSums, i / 32, accumulator);
 }
 
 /// Constants in the precision of the forces, by value.
@@ -104,7 +104,7 @@ template <class Real> struct GrainSize {
 
 GROUSER_HD base::Vec3f loadVector(const float* at) { return {at[0], at[1], at[2]}; }
 GROUSER_HD void storeVector(float* at, const base::Vec3f& v) { at[0] = v.x, at[1] = v.y, at[2] = v.z; }
-/// A spring that is kept in axes which have `turned` since the start; null: in those of the world.
+/// A spring stored in axes that have `turned` since the start; null: in world axes.
 template <class Real> GROUSER_HD base::Vec3<Real> turnedSpring(const float* history, const base::Mat3d* turned) {
   const base::Vec3f kept = loadVector(history);
   return turned ? (*turned * kept.as<double>()).template as<Real>() : kept.template as<Real>();
@@ -121,7 +121,7 @@ template <class Real> GROUSER_HD void storePlastic(float* at, const contact::Bas
   at[0] = static_cast<float>(state.deepest), at[1] = static_cast<float>(state.origin);
 }
 
-/// What all kernels of grains share: which features they have, and how big a grain is.
+/// Common base of all grain kernels: features and grain size.
 template <unsigned kFeatures, class Real> struct GrainKernel {
   GrainKernelData d;
   ForceData<Real> f;
@@ -134,7 +134,7 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
   GROUSER_HD bool has(unsigned feature) const {
     return kFeatures & contact::kGeneral ? (d.features & feature) != 0 : (kFeatures & feature) != 0;
   }
-  /// From grain i to the nearest image of grain j, exactly.
+  /// Exact vector from grain i to the nearest image of grain j.
   GROUSER_HD base::Vec3i apart(const base::Position& i, const base::Position& j) const {
     return has(kPeriodic) ? d.period.apart(i, j).template as<std::int32_t>() : base::difference(i, j);
   }
@@ -150,7 +150,7 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
     return history + contact::plasticPlace(kFeatures & contact::kGeneral ? d.features : kFeatures);
   }
 
-  /// Of all faults of a step the smallest key is kept.
+  /// Raises a fault; the smallest key of a step is kept.
   GROUSER_HD void raise(Fault fault, int i) const {
     base::atomicMin64(&d.flags->fault, static_cast<std::uint64_t>(fault) << 56 | d.id[i]);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The kernels of grains: compiled for the lists of detail/kernel_lists.hpp, launched as kernel_choice.hpp says.
+// The grain kernels: compiled for the lists of detail/kernel_lists.hpp, chosen by kernel_choice.hpp.
 #include "terrain/grain_kernels.cuh"
 
 #include "terrain/boundary_contacts.cuh"
@@ -28,22 +28,24 @@ template <const auto& kList> using KernelsOf = decltype(kernelsIn<kList>(std::ma
 /// Calls run<kSet>() for the set of features that is `wanted`.
 template <unsigned... kSets, class Run> void runChosen(KernelList<kSets...>, unsigned wanted, const Run& run) {
   const bool found = ((kSets == wanted && (run.template operator()<kSets>(), true)) || ...);
-  if (!found) throw std::logic_error("no kernel of grains is compiled for the features that were chosen");
+  if (!found) throw std::logic_error("no grain kernel is compiled for the chosen features");
 }
 
-/// A kernel that keeps books where there are some. On a CPU a thread takes several grains before it adds to the books
-/// that all share.
+/// Runs a kernel with energy accounting if there is a ledger. On a CPU a thread accumulates several grains before it
+/// adds to the shared sums.
 template <template <unsigned, class> class Kernel, unsigned kSet, class Real>
 void runBody(const base::Exec& exec, const char* name, const GrainKernelData& d, const ForceData<Real>& f,
              std::int64_t count) {
   using Body = Kernel<kSet, Real>;
   constexpr bool kOfStep = std::is_same_v<Body, GrainStep<kSet, Real>>;
   const Body body{{d, f}};
-  if constexpr (detail::withoutBooks(kSet, kOfStep))
-    if (!d.books) return base::forEach(exec, name, count, body);
-  if constexpr (detail::withBooks(kSet, kOfStep))
-    if (d.books) return base::forEach(exec, name, Booked<Body>::items(exec, count), Booked<Body>{body, count});
-  throw std::logic_error("a kernel of grains was chosen that is not compiled for scenes with, or without, books");
+  if constexpr (detail::withoutLedger(kSet, kOfStep))
+    if (!d.ledgerSums) return base::forEach(exec, name, count, body);
+  if constexpr (detail::withLedger(kSet, kOfStep))
+    if (d.ledgerSums)
+      return base::forEach(exec, name, WithEnergyAccounting<Body>::items(exec, count),
+                           WithEnergyAccounting<Body>{body, count});
+  throw std::logic_error("the chosen grain kernel is not compiled with, or without, energy accounting");
 }
 
 } // namespace
@@ -63,7 +65,7 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,
                                      std::int64_t near, const GrainModel& model) {
   const KernelChoice choice = boundaryKernel(d.features, model);
-  // The lanes do not look at the flags of the step before.
+  // The SIMD kernel does not check the flags of the previous step.
   if (exec.onCpu() && choice.lanes > 1 && !d.former) return runWallSimd(exec, d, f, near, choice.lanes);
   runChosen(KernelsOf<detail::kBoundaryKernels>{}, choice.compiledFor,
             [&]<unsigned kSet>() { runBody<BoundaryContacts, kSet>(exec, "boundary contacts", d, f, near); });

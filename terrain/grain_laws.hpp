@@ -15,14 +15,14 @@ template <class Real> struct BoundaryLoad;
 /// The laws of grains and their boundaries on the device, in the precision of the forces.
 class GrainLaws {
 public:
-  /// `boundaries`: as boundaryLaws() gives them.
+  /// `boundaries`: as returned by boundaryLaws().
   GrainLaws(const base::Exec& exec, const GrainConstants& constants,
             const std::vector<contact::ContactLaw>& boundaries);
 
-  /// Takes the laws between materials from the model once more.
+  /// Updates the laws between materials from the model.
   void replacePairs(const base::Exec& exec, const GrainConstants& constants);
 
-  /// What kernels take, but for the loads of boundaries. `Real` is that of the precision.
+  /// Kernel arguments without the loads of boundaries. `Real` must match the precision.
   template <class Real> ForceData<Real> forceData(const GrainConstants& constants) const;
   void describe(GrainKernelData& d) const;
   /// [materials] mass over radius^3 [kg/m3], on the device.

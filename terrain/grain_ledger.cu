@@ -19,7 +19,7 @@ using base::Vec3f;
 
 namespace {
 
-/// One grain's share of the ledger, in quanta.
+/// Contribution of one grain to the ledger, in quanta.
 template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real> {
   static constexpr double kNanoseconds = 300;
   using Kernel = GrainKernel<contact::kGeneral, Real>;
@@ -43,8 +43,8 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
 
   base::FixedPoint energy, momentum, angular;
   base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching and squeezed pairs twice
-  /// Complements of the deepest overlap [units] and the largest speed [nm/s]; the first sum that a grain's share is too
-  /// large for.
+  /// Complements of the deepest overlap [units] and the largest speed [nm/s]; the first sum whose range a grain
+  /// exceeds.
   std::uint64_t* extremes;
   const std::uint32_t* ghost; ///< null where there are none
 
@@ -55,7 +55,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
 
   GROUSER_HD void operator()(int i) const {
     if (ghost && ghost[i]) return;
-    // With remainders, which the books have too.
+    // With remainders, as in the energy accounting.
     Vec3d v, w;
     const Remainders kept = d.remainders[i];
     const auto [speed, spin] = d.motion[i];
@@ -67,7 +67,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
       x[a] = (x[a] + placesKept(kept.position, a)) * d.unitLength;
     }
     const GrainSize<Real> size = Kernel::sizeOf(i);
-    // A grain that never moves has no part in these sums but for what surfaces press into it.
+    // A fixed grain contributes only the energy of contacts with surfaces.
     const bool fixed = has(kFixed) && isFixed(speed);
     const double m = fixed ? 0 : static_cast<double>(size.mass), radius = static_cast<double>(size.radius);
     Held held;
@@ -118,7 +118,7 @@ private:
       const float* history =
           touched && Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
       const double mi = static_cast<double>(own.mass), mj = static_cast<double>(other.mass);
-      // Half of it is the neighbour's, but for one that never moves.
+      // Half of it belongs to the neighbour, unless that is fixed.
       const bool alone = has(kFixed) && isFixed(d.motion[j].velocity);
       held.elastic +=
           (alone ? 1 : 0.5) * stored(law, overlap, ri * rj / (ri + rj), alone ? mi : mi * mj / (mi + mj), history);
@@ -182,7 +182,7 @@ private:
     if (overlap > contact::kSqueezed * radius) ++held.squeezedAtBoundary;
   }
 
-  /// To a plane or a surface.
+  /// Distance to a plane or a surface.
   GROUSER_HD double distanceTo(int boundary, const Vec3d& x) const {
     if (boundary < d.wallCount) return dot(d.walls[boundary].normal, x) - d.walls[boundary].offset;
     const int surface = boundary - (d.boundaryCount - d.surfaceCount);
@@ -234,24 +234,24 @@ std::array<double, Sums::kSums> summed(const base::Array<base::WideSum>& banks, 
   return values;
 }
 
-/// Throws SimulationError where a grain's share of a sum has been too large for it.
+/// Throws SimulationError if a grain's contribution exceeds the range of a sum.
 void checkRange(std::uint64_t sum) {
   static constexpr const char* kNames[] = {"kinetic energy", "energy of rotation", "potential energy",
                                            "elastic energy of the contacts"};
   if (sum == ~std::uint64_t{0}) return;
   throw base::SimulationError(std::string("the ") + (sum < std::size(kNames) ? kNames[sum] : "momentum") +
-                              " of a grain has left the range of its 64-bit integer: the scene has become unsound, or "
-                              "its numbers are too unlike for one run");
+                              " of a grain exceeds its 64-bit range: the simulation is unstable, or the scene's values "
+                              "differ too much in size; use a smaller time_step");
 }
 
-void addBooks(GrainLedger& ledger, const GrainSystem& system) {
+void addAccounting(GrainLedger& ledger, const GrainSystem& system) {
   const GrainModel& model = system.constants.model;
-  const GrainBookkeeping::Totals books = system.books.totals(system.comm);
-  ledger.damped = books.damped, ledger.rubbed = books.rubbed, ledger.rolled = books.rolled;
-  ledger.slipped = books.slipped, ledger.yielded = books.yielded, ledger.stabilised = books.stabilised;
-  ledger.work = books.work, ledger.turnover = books.turnover;
-  ledger.impulse = (model.gravity * books.mass + books.wallForce) * model.timeStep;
-  ledger.angularImpulse = (cross(books.moment, model.gravity) + books.wallTorque) * model.timeStep;
+  const GrainEnergyAccounting::Totals totals = system.accounting.totals(system.comm);
+  ledger.damped = totals.damped, ledger.rubbed = totals.rubbed, ledger.rolled = totals.rolled;
+  ledger.slipped = totals.slipped, ledger.yielded = totals.yielded, ledger.stabilised = totals.stabilised;
+  ledger.work = totals.work, ledger.turnover = totals.turnover;
+  ledger.impulse = (model.gravity * totals.mass + totals.wallForce) * model.timeStep;
+  ledger.angularImpulse = (cross(totals.moment, model.gravity) + totals.wallTorque) * model.timeStep;
 }
 
 } // namespace
@@ -297,7 +297,7 @@ GrainLedger measureLedger(GrainSystem& system) {
   ledger.deepestOverlap = static_cast<double>(~most[0]) * system.constants.scale.unit;
   ledger.fastest = static_cast<double>(~most[1]) * 1e-9;
   if (model.complementarity && model.complementarity->compliance == contact::Compliance::rigid) ledger.elastic = 0;
-  addBooks(ledger, system);
+  addAccounting(ledger, system);
   return ledger;
 }
 

@@ -8,8 +8,8 @@
 
 namespace grouser::terrain {
 
-/// Takes grains out, between steps; `ids` ascend. What stays keeps its history and its ids. By way of the host, so
-/// dear. Returns the mass of those that are gone [kg]. All ranks call it.
+/// Removes grains between steps; `ids` ascend. The others keep their history and ids. Slow, since it goes through the
+/// host. Returns the mass of the removed grains [kg]. All ranks call it.
 double removeGrains(Grains& grains, const std::vector<std::uint32_t>& ids);
 
 } // namespace grouser::terrain

@@ -11,7 +11,7 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Visitor that appends what the next step depends on: of boundaries only the springs of those in contact.
+/// Visitor that appends the data that the next step depends on: of boundaries only the springs in contact.
 class HashedWords {
 public:
   explicit HashedWords(std::vector<std::uint32_t>& words) : words_(words) {}
@@ -68,7 +68,7 @@ void GrainState::remove(const std::vector<std::uint32_t>& ids) {
     RowReader reader(words.data());
     visitRow(kept, reader);
   }
-  // Of the contacts those that are left.
+  // Remaining contacts.
   std::size_t from = 0, to = 0;
   for (std::uint32_t& count : kept.contacts) {
     std::uint32_t left = 0;
@@ -101,7 +101,7 @@ std::uint32_t placeAmong(const std::vector<std::uint32_t>& gone, std::uint32_t i
 
 std::vector<std::uint32_t> idsFrom(const std::vector<std::uint32_t>& gone, std::uint64_t first, std::size_t count) {
   std::vector<std::uint32_t> ids;
-  // The id at a place is the place and as many more as are gone before that id.
+  // The id at a place is the place plus the number of removed grains before that id.
   std::uint64_t before = 0;
   for (std::uint64_t place = first; ids.size() < count; ++place) {
     while (before < gone.size() && gone[before] <= place + before) ++before;

@@ -9,25 +9,25 @@
 #include <optional>
 #include <vector>
 
-/// What the grains of a scene are made from, beside their GrainModel.
+/// Initial grains and surroundings of a scene, besides the GrainModel.
 namespace grouser::terrain {
 
-/// One grain as the user sets it; its id is its place in the list.
+/// Initial state of one grain; its id is its place in the list.
 struct GrainSpec {
   base::Vec3d position; ///< [m]
   base::Vec3d velocity; ///< [m/s]
   base::Vec3d spin;     ///< [rad/s]
   double radius{0};     ///< [m], at most the model's; 0: the model's
   int material{0};      ///< among the model's
-  /// Never moves, whatever acts on it, and has neither mass nor weight of its own: a piece of rough ground, from which
-  /// others bounce. Its velocity and spin must be zero. Two of them may overlap each other.
+  /// Never moves, whatever acts on it, and has neither mass nor weight: rough ground from which others bounce. Its
+  /// velocity and spin must be zero. Fixed grains may overlap each other.
   bool fixed{false};
 };
 
-/// Along x and y: the places [m] of the lower and the upper boundary where they are periodic. What leaves through one
-/// enters through the other, and grains touch across them.
+/// Positions [m] of the lower and upper periodic boundary along x and y. Grains that leave through one enter through
+/// the other, and touch across them.
 using PeriodicBoundaries = std::array<std::optional<std::array<double, 2>>, 2>;
-/// The way between two places, or between one and the nearest image of the other.
+/// Vector between two positions, or between one and the nearest image of the other.
 inline base::Vec3d toNearestImage(const PeriodicBoundaries& sides, base::Vec3d way) {
   for (std::size_t a = 0; a < 2; ++a) {
     if (!sides[a]) continue;

@@ -9,17 +9,16 @@ namespace grouser::terrain {
 
 namespace {
 
-// Grains that one thread takes at once: so many that what they begin and end with is little, and so few that all
-// threads have some.
+// Grains per task: enough to amortise its start and end, and few enough that all threads have some.
 constexpr int kMostAtATime = 256, kLeastAtATime = 64;
-constexpr int kTurnsEach = 4; // of a thread in a step
+constexpr int kBlocksPerThread = 4; // in a step
 constexpr double kNanosecondsOfGrain = 50, kNanosecondsAtWall = 20;
 
 int grainsAtATime(std::int64_t count, int threads) {
-  return static_cast<int>(std::clamp<std::int64_t>(count / (kTurnsEach * threads), kLeastAtATime, kMostAtATime));
+  return static_cast<int>(std::clamp<std::int64_t>(count / (kBlocksPerThread * threads), kLeastAtATime, kMostAtATime));
 }
 
-struct StepSome {
+struct GrainBlockTask {
   detail::LaneStep* step;
   const GrainKernelData& d;
   const ForceData<float>& f;
@@ -33,11 +32,11 @@ struct StepSome {
   }
 };
 
-/// Works on `count` items, some at a time, that take about so long each.
+/// Processes `count` items in blocks; `nanoseconds`: estimated time of an item.
 void runLanes(const base::Exec& exec, const char* name, detail::LaneStep* lanes, const GrainKernelData& d,
               const ForceData<float>& f, std::int64_t count, double nanoseconds) {
   const int some = grainsAtATime(count, exec.threads);
-  base::forEach(exec, name, (count + some - 1) / some, StepSome{lanes, d, f, count, some, nanoseconds});
+  base::forEach(exec, name, (count + some - 1) / some, GrainBlockTask{lanes, d, f, count, some, nanoseconds});
 }
 
 } // namespace
@@ -57,16 +56,16 @@ void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceDa
 namespace detail {
 
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
-                  const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books) {
+                  const base::Vec3d& torque, float deepest, const Lost& lost, GrainAccumulator& accumulator) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
   const Motion m = d.motion[i];
   step.advance(i, {d.position[i], m, d.remainders[i], d.reference[i]}, step.sizeOf(m.velocity.w, m.spin.w), force,
-               torque, deepest, lost, books);
+               torque, deepest, lost, accumulator);
 }
 
-void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books) {
+void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainAccumulator& accumulator) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  step.run(k, books);
+  step.run(k, accumulator);
 }
 
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque) {
@@ -79,27 +78,27 @@ void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i) {
   step.raise(Fault::through, i);
 }
 
-void letStay(const GrainKernelData& d, const ForceData<float>& f, int i, GrainBooks& books) {
+void copyFixedGrain(const GrainKernelData& d, const ForceData<float>& f, int i, GrainAccumulator& accumulator) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  step.stay(i, d.position[i], d.motion[i], books);
+  step.stay(i, d.position[i], d.motion[i], accumulator);
 }
 
-void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
-              const base::Vec3f& torque, GrainBooks& books) {
+void accountFixedGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
+                       const base::Vec3f& torque, GrainAccumulator& accumulator) {
   const GrainStep<contact::kGeneral, float> step{{d, f}};
-  step.bookHeld(d.position[i], {force, torque, true}, books);
+  step.accountFixedGrain(d.position[i], {force, torque, true}, accumulator);
 }
 
-void bookYielded(const GrainKernelData& d, int i, float yielded) {
-  addRare(d, i, kYielded, static_cast<double>(yielded));
+void accountPlasticWork(const GrainKernelData& d, int i, float yielded) {
+  addRare(d, i, kPlasticDissipation, static_cast<double>(yielded));
 }
 
-void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books) {
-  addToBank(d.books, first / kLeastAtATime, books);
+void addToLedger(const GrainKernelData& d, int first, const GrainAccumulator& accumulator) {
+  addToBank(d.ledgerSums, first / kLeastAtATime, accumulator);
 }
 
-void addToBooks(const GrainKernelData& d, int first, const WallBooks& books) {
-  addToBank(d.books, first / kLeastAtATime, books);
+void addToLedger(const GrainKernelData& d, int first, const WallAccumulator& accumulator) {
+  addToBank(d.ledgerSums, first / kLeastAtATime, accumulator);
 }
 
 } // namespace detail

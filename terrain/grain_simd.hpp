@@ -17,26 +17,26 @@ void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceDa
 namespace detail {
 
 using LaneStep = void(const GrainKernelData& d, const ForceData<float>& f, int first, int last);
-/// Grains [first, last) of a launch. One file each, compiled for what its name says.
+/// Grains [first, last) of a launch. One file per instruction set, named after it.
 LaneStep stepSse, stepAvx2, stepAvx512;
 /// Places [first, last) of the list of grains near boundaries.
 LaneStep wallsSse, wallsAvx2, wallsAvx512;
 
-/// GrainStep's own, of one grain, for what is rare.
+/// GrainStep's functions for one grain, for rare cases.
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
-                  const base::Vec3d& torque, float deepest, const Lost& lost, GrainBooks& books);
+                  const base::Vec3d& torque, float deepest, const Lost& lost, GrainAccumulator& accumulator);
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque);
 void raiseThrough(const GrainKernelData& d, const ForceData<float>& f, int i);
-void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainBooks& books);
-/// Plastic work of the contacts of grain i [J].
-void bookYielded(const GrainKernelData& d, int i, float yielded);
-/// Adds what some grains of a launch, from `first` on, have done.
-void addToBooks(const GrainKernelData& d, int first, const GrainBooks& books);
-void addToBooks(const GrainKernelData& d, int first, const WallBooks& books);
-/// GrainStep's own, of a grain that never moves and of forces by such grains.
-void letStay(const GrainKernelData& d, const ForceData<float>& f, int i, GrainBooks& books);
-void bookHeld(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
-              const base::Vec3f& torque, GrainBooks& books);
+void stepAlone(const GrainKernelData& d, const ForceData<float>& f, int k, GrainAccumulator& accumulator);
+/// Accounts for the plastic work of the contacts of grain i [J].
+void accountPlasticWork(const GrainKernelData& d, int i, float yielded);
+/// Adds the accumulated sums of a block of grains that starts at `first`.
+void addToLedger(const GrainKernelData& d, int first, const GrainAccumulator& accumulator);
+void addToLedger(const GrainKernelData& d, int first, const WallAccumulator& accumulator);
+/// GrainStep's functions for fixed grains and their forces.
+void copyFixedGrain(const GrainKernelData& d, const ForceData<float>& f, int i, GrainAccumulator& accumulator);
+void accountFixedGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3f& force,
+                       const base::Vec3f& torque, GrainAccumulator& accumulator);
 
 } // namespace detail
 } // namespace grouser::terrain

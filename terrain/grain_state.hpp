@@ -11,9 +11,9 @@
 
 namespace grouser::terrain {
 
-/// Which fields the grains of a scene have.
+/// Fields of a scene's grains.
 struct GrainLayout {
-  std::int64_t ledger{};     ///< 1: books are kept
+  std::int64_t ledger{};     ///< 1: energy accounting
   std::int64_t boundaries{}; ///< planes and floor together
   std::int64_t friction{};   ///< 1: contacts have springs
   std::int64_t rolling{};    ///< 1: contacts have rolling angles too
@@ -28,13 +28,13 @@ struct GrainLayout {
   std::int64_t historyWidth() const { return 3 * (friction + rolling) + 2 * plastic; }
 };
 
-/// All of the grains on which later bits or later output depend, by id: what a checkpoint holds and a hash is taken of.
-/// Free of slots, devices and list layouts. Lists themselves are left out; they can be built anew. On several ranks
-/// each has some of the rows; on one, all.
+/// State of the grains that later steps or later output depend on, by id, for checkpoints and the hash. Independent of
+/// slots, devices and list layouts. Lists are left out; they can be rebuilt. On several ranks each has some of the
+/// rows.
 struct GrainState {
   GrainLayout layout;
-  std::int64_t total{};                    ///< grains of the scene that are there
-  std::vector<std::uint32_t> gone;         ///< ids of those that were taken out, ascending; on all ranks the same
+  std::int64_t total{};                    ///< grains present in the scene
+  std::vector<std::uint32_t> gone;         ///< ids of removed grains, ascending; the same on all ranks
   std::vector<std::uint32_t> id;           ///< [rows], ascending
   std::vector<base::Position> position;    ///< [rows]
   std::vector<base::Vec3f> velocity;       ///< [rows] [m/s]
@@ -55,8 +55,8 @@ struct GrainState {
   std::vector<float> contactDeepest, contactOrigin; ///< as contactShear
   std::vector<base::Vec3f> floorNormal;             ///< [rows][places] of the last step, zero out of touch; else empty
 
-  /// Energy accounts since the start (GrainBookkeeping), if a ledger is kept; then, with complementarity contacts, the
-  /// totals of their solver (ImpulseTotals).
+  /// Energy accounting since the start (GrainEnergyAccounting), if there is a ledger; then, with complementarity
+  /// contacts, the totals of their solver (ImpulseTotals).
   std::vector<std::int64_t> books;
 
   // When the neighbour list was built, so that a resumed run builds the next one at the same step.
@@ -65,15 +65,16 @@ struct GrainState {
   std::int64_t rebuilds{};
 
   std::size_t rows() const { return position.size(); }
-  /// For the hash: what the next step depends on, grain by grain.
+  /// For the hash: the data that the next step depends on, grain by grain.
   std::vector<std::uint32_t> words() const;
   GrainState withoutRows() const;
-  /// Takes grains out, and the contacts of others with them; `ids` ascend, and are of all ranks.
+  /// Removes grains and the contacts of others with them; `ids` ascend, and are of all ranks.
   void remove(const std::vector<std::uint32_t>& ids);
 
   // All columns but `id`, twice: in the order of the state hash and in that of files, neither of which may change.
 
-  /// Those that the layout has, in the order of a row's words in the state hash; see row_exchange.hpp for the visitor.
+  /// Visits the columns of the layout in the order of a row's words in the state hash; see row_exchange.hpp for the
+  /// visitor.
   template <class Self, class Visitor> static void visitRow(Self& s, Visitor& visitor) {
     const GrainLayout& l = s.layout;
     visitor.column(s.position), visitor.column(s.velocity), visitor.column(s.spin), visitor.column(s.remainders);
@@ -111,7 +112,7 @@ struct GrainState {
 
 /// The grains of a scene on the host, by id, for output: all of them, or on several ranks this rank's block of ids.
 struct GrainSnapshot {
-  std::uint64_t first{}, total{};    ///< place of the first among them; grains of the scene that are there
+  std::uint64_t first{}, total{};    ///< place of the first among them; grains present in the scene
   std::vector<std::uint32_t> id;     ///< ascending
   std::vector<base::Vec3d> position; ///< [m]
   std::vector<base::Vec3f> velocity; ///< [m/s]
@@ -123,20 +124,20 @@ struct GrainSnapshot {
   std::vector<base::Vec3f> contactForce;
 };
 
-/// What a snapshot may have beyond what costs nothing.
+/// Optional data of a snapshot.
 struct SnapshotOptions {
   bool contactForces = false; ///< only after a step, and before restore() or stop()
 };
 
-/// Moves row k to rank `destination[k]`; what comes is in the order of ids. All ranks call it.
+/// Moves row k to rank `destination[k]`; the result is in the order of ids. All ranks call it.
 GrainState redistribute(const base::Comm& comm, const GrainState& rows, const std::vector<int>& destination);
 /// Hash over the words of all rows, as if one rank had them; rows lie in blocks of ids. All ranks call it.
 base::StateHash hashOf(const GrainState& rows, const base::Comm& comm);
-/// The rank that holds grain `id` of `total` where rows are distributed by id, in blocks: for files.
+/// The rank of grain `id` of `total` if rows are distributed by id, in blocks: for files.
 int blockOf(const base::Comm& comm, std::int64_t total, std::uint32_t id);
-/// Place of a grain among those that are there, by id.
+/// Place of a grain among those present, by id.
 std::uint32_t placeAmong(const std::vector<std::uint32_t>& gone, std::uint32_t id);
-/// Ids of `count` grains that are there, from the place `first` among them on.
+/// Ids of `count` present grains, starting at place `first` among them.
 std::vector<std::uint32_t> idsFrom(const std::vector<std::uint32_t>& gone, std::uint64_t first, std::size_t count);
 /// First id of a rank's block; that of rank `size` is `total`.
 std::uint64_t blockStart(const base::Comm& comm, std::int64_t total, int rank);

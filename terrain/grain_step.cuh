@@ -10,7 +10,7 @@
 namespace grouser::terrain {
 
 /// One grain, one step: gather its contacts in the order of the neighbours' ids, then advance it by symplectic Euler.
-/// The scene's features are template parameters, so that what is absent costs nothing.
+/// The scene's features are template parameters, so that absent features cost nothing.
 template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatures, Real> {
   static constexpr double kNanoseconds = 200;
   /// Limits a thread to 96 registers where Hertz' law would take up to 114: a few are spilled, but one more block fits
@@ -22,9 +22,9 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   using Vec = base::Vec3<Real>;
   static constexpr bool kMaySlip = kFeatures & (contact::kHertz | contact::kGeneral),
                         kMayHold = kFeatures & (kFixed | contact::kGeneral);
-  using Books = GrainBooksOf<kMaySlip, kMayHold>;
+  using Accumulator = GrainAccumulatorFor<kMaySlip, kMayHold>;
 
-  /// By grains that never move: part of the sum.
+  /// Load of fixed grains: part of the sum.
   struct Held {
     Vec force, torque;
     bool any = false;
@@ -41,14 +41,14 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   };
   using Sum = std::conditional_t<(kFeatures & contact::kMeasured) != 0, MeasuredSum, StepSum>;
 
-  /// Of one of two grains in touch.
+  /// One of two grains in contact.
   struct Side {
     GrainSize<Real> size;
     Vec velocity, spin;
     bool fixed = false; ///< never moves
   };
 
-  /// What a contact keeps from step to step.
+  /// History of a contact.
   struct History {
     float* at;          ///< null where the laws need none
     bool held;          ///< whether it is that of this contact, and not of an earlier one
@@ -57,16 +57,16 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   };
 
   GROUSER_HD void operator()(int k) const {
-    Books books;
-    run(k, books);
+    Accumulator accumulator;
+    run(k, accumulator);
   }
 
-  /// Adds what the step does to the energies to `books`, where they are kept.
-  GROUSER_HD void run(int k, Books& books) const {
+  /// Adds the energy changes of the step to `accumulator`, if there is a ledger.
+  GROUSER_HD void run(int k, Accumulator& accumulator) const {
     if (Kernel::ended()) {
       if (k == 0)
-        // Each step of a batch reads only the flags of the step before it: one that is skipped raises its own, so that
-        // all behind it are skipped too.
+        // Each step of a batch reads only the flags of the previous step: a skipped step raises its own, so that all
+        // later ones are skipped too.
         base::raise(&d.flags->stale);
       return;
     }
@@ -77,21 +77,21 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const Motion m = d.motion[i];
     const Vec4f v = m.velocity, w = m.spin;
     if (d.excluded && d.excluded[i] != 0) return;
-    if (has(kFixed) && isFixed(v)) return stay(i, p, m, books);
+    if (has(kFixed) && isFixed(v)) return stay(i, p, m, accumulator);
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
     // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
-    if (has(kFixed) && sum.held.any) bookHeld(p, sum.held, books);
-    if (has(contact::kPlastic) && has(kLedger)) addRare(d, i, kYielded, static_cast<double>(sum.yielded));
+    if (has(kFixed) && sum.held.any) accountFixedGrain(p, sum.held, accumulator);
+    if (has(contact::kPlastic) && has(kLedger)) addRare(d, i, kPlasticDissipation, static_cast<double>(sum.yielded));
     if (has(kBoundaries)) addBoundaries(i, size, sum);
     base::Vec3d force = sum.force.template as<double>(), torque = sum.torque.template as<double>();
     if (has(kSurfaces)) addSurfaces(i, force);
     if (has(kLoads)) addLoads(i, size, force, torque);
     const Lost lost{static_cast<double>(sum.damped), static_cast<double>(sum.rubbed), static_cast<double>(sum.rolled),
                     static_cast<double>(sum.slipped)};
-    advance(i, {p, m, kept, reference}, size, force, torque, sum.deepest, lost, books);
+    advance(i, {p, m, kept, reference}, size, force, torque, sum.deepest, lost, accumulator);
   }
 
   /// The state that a step replaces.
@@ -102,8 +102,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3<std::uint32_t> reference;
   };
 
-  /// First which of the listed neighbours touch, then the contacts: the threads of a warp rarely touch at the same
-  /// places of their lists, and would each wait for the contacts of all others.
+  /// Finds the listed neighbours that touch, then computes the contacts: the threads of a warp rarely have contacts at
+  /// the same places of their lists, and would each wait for those of all others.
   GROUSER_HD void gatherGrains(int i, const base::Position& p, const Side& own, Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];
     // 64 neighbours a word; of equal spheres no more can be near.
@@ -130,7 +130,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     }
   }
 
-  /// Which of `count` listed neighbours touch, a bit each.
+  /// Returns which of `count` listed neighbours touch, a bit each.
   GROUSER_HD std::uint64_t findTouching(const base::Position& p, std::int64_t row, std::uint32_t count,
                                         Sum& sum) const {
     constexpr std::uint32_t kTogether = 4; // loads issued before the first result is used
@@ -222,7 +222,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
         contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear, has(contact::kPlastic) ? &plastic : nullptr);
     if (Kernel::hasHistory()) storeVector(history.at, shear.template as<float>());
     if (has(contact::kPlastic)) storePlastic(Kernel::plasticIn(history.at), plastic);
-    // The other half is the neighbour's, but for one that never moves.
+    // The other half belongs to the neighbour, unless that is fixed.
     const Real share = onGround ? Real(1) : Real(0.5);
     Vec torque{};
     if (has(contact::kFriction)) torque = cross(normal * arm, reaction.force);
@@ -252,21 +252,22 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (onGround) sum.held.any = true, sum.held.force += reaction.force, sum.held.torque += torque;
   }
 
-  /// One that never moves: its state is handed on. The ground gives it the opposite of what parts do to it.
-  GROUSER_HD void stay(int i, const base::Position& p, const Motion& m, Books& books) const {
+  /// Copies the state of a fixed grain. The ground balances the loads of parts on it.
+  GROUSER_HD void stay(int i, const base::Position& p, const Motion& m, Accumulator& accumulator) const {
     d.nextPosition[i] = p, d.nextMotion[i] = m;
     if (!has(kLoads) || d.loads.range[i] == 0) return;
     base::Vec3d force, torque;
     addLoads(i, Kernel::sizeOf(m.velocity.w, m.spin.w), force, torque);
-    bookHeld(p, {(-force).template as<Real>(), (-torque).template as<Real>()}, books);
+    accountFixedGrain(p, {(-force).template as<Real>(), (-torque).template as<Real>()}, accumulator);
   }
 
-  /// Impulses of what never moves are booked as those of walls. Few grains have any.
-  GROUSER_HD void bookHeld(const base::Position& p, const Held& held, Books& books) const {
+  /// Impulses of fixed grains count as those of walls. Few grains have any.
+  GROUSER_HD void accountFixedGrain(const base::Position& p, const Held& held, Accumulator& accumulator) const {
     if (!has(kLedger)) return;
     const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
     const base::Vec3d force = held.force.template as<double>();
-    if constexpr (kMayHold) books.addForce(force, cross(x, force) + held.torque.template as<double>(), d.bookScale);
+    if constexpr (kMayHold)
+      accumulator.addForce(force, cross(x, force) + held.torque.template as<double>(), d.ledgerScale);
   }
 
   GROUSER_HD void addBoundaries(int i, const GrainSize<Real>& size, Sum& sum) const {
@@ -279,7 +280,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       raise(Fault::through, i);
   }
 
-  /// Moving surfaces receive exactly the opposite.
+  /// Adds the forces of moving surfaces, which receive exactly the opposite.
   GROUSER_HD void addSurfaces(int i, base::Vec3d& force) const {
     if (const std::uint32_t place = d.boundaryOf[i]) force += d.fromSurfaces[place - 1];
   }
@@ -294,29 +295,30 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       const contact::GrainLoad& load = d.loads.load[first + k];
       quanta += load.force;
       torque += load.torque.template as<double>();
-      // Stones do get caught between tooth and track: a part may press a grain deeper than grains may press each other,
-      // but not to its middle.
+      // Stones can be caught between tooth and track: a part may overlap a grain more than another grain may, but not
+      // beyond its centre.
       if (load.deepest > static_cast<float>(size.radius)) raise(Fault::through, i);
     }
     force += d.loads.force.value(quanta);
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
-  /// `work` on a grain in this step. `massShare`: of the mass of the model.
-  GROUSER_HD void book(const base::Position& place, double work, double massShare, const Lost& lost,
-                       Books& books) const {
-    const double q = d.bookScale.perEnergy;
-    books.of[kWork] += wholeQuanta(q * work);
-    books.of[kTurnover] += wholeQuanta(q * fabs(work));
-    books.of[kDamped] += wholeQuanta(q * lost.damped);
-    if (Kernel::hasHistory()) books.of[kRubbed] += wholeQuanta(q * lost.rubbed);
+  /// Accounts for a grain's step. `work`: on the grain; `massShare`: of the mass of the model.
+  GROUSER_HD void account(const base::Position& place, double work, double massShare, const Lost& lost,
+                          Accumulator& accumulator) const {
+    const double q = d.ledgerScale.perEnergy;
+    accumulator.of[kWork] += wholeQuanta(q * work);
+    accumulator.of[kTurnover] += wholeQuanta(q * fabs(work));
+    accumulator.of[kDashpotDissipation] += wholeQuanta(q * lost.damped);
+    if (Kernel::hasHistory()) accumulator.of[kSlidingDissipation] += wholeQuanta(q * lost.rubbed);
     if constexpr (kMaySlip)
-      if (has(contact::kHertz) && has(contact::kFriction)) books.of[kSlipped] += wholeQuanta(q * lost.slipped);
-    if (has(contact::kRollingFriction)) books.of[kRolled] += wholeQuanta(q * lost.rolled);
-    books.of[kMass] += has(kManyRadii) ? wholeQuanta(massShare * kMassQuanta) : kMassQuanta;
+      if (has(contact::kHertz) && has(contact::kFriction))
+        accumulator.of[kMicroSlipDissipation] += wholeQuanta(q * lost.slipped);
+    if (has(contact::kRollingFriction)) accumulator.of[kRollingDissipation] += wholeQuanta(q * lost.rolled);
+    accumulator.of[kMass] += has(kManyRadii) ? wholeQuanta(massShare * kMassQuanta) : kMassQuanta;
     const base::Vec3l u = base::toUnits(place);
     for (int a = 0; a < 3; ++a)
-      books.of[kMoment + a] += has(kManyRadii) ? wholeQuanta(massShare * static_cast<double>(u[a])) : u[a];
+      accumulator.of[kMoment + a] += has(kManyRadii) ? wholeQuanta(massShare * static_cast<double>(u[a])) : u[a];
   }
 
   /// Wraps a grain that has left through a periodic boundary to the opposite one. Its reference place (where it was
@@ -335,10 +337,10 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
   GROUSER_HD void advance(int i, const State& now, const GrainSize<Real>& size, const base::Vec3d& force,
-                          const base::Vec3d& torque, float deepest, const Lost& lost, Books& books) const {
+                          const base::Vec3d& torque, float deepest, const Lost& lost, Accumulator& accumulator) const {
     base::Vec3f v = now.motion.velocity.xyz(), w = now.motion.spin.xyz();
     double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
-    base::Vec3d gained, turned; // half squares
+    base::Vec3d gained, turned; // changes of half squares
     double massShare = 1, inertia = d.inertia;
     float maxOverlap = d.maxOverlap;
     if (has(kManyRadii)) {
@@ -368,7 +370,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     }
     if (has(kLedger)) {
       const base::Vec3d work = gained * (d.mass * massShare) + turned * inertia;
-      book(now.position, (work.x + work.z) + work.y, massShare, lost, books); // as lanes are added
+      account(now.position, (work.x + work.z) + work.y, massShare, lost, accumulator); // sum order as in SIMD
     }
     if (has(kPeriodic)) crossSides(i, moved, r);
     const base::Position q = base::fromUnits(moved);

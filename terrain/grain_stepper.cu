@@ -68,7 +68,7 @@ bool GrainStepper::canLaunchAhead(const GrainSystem& system) const {
   return base::Gate::canWait(exec_) && !system.distribution && !system.boundaries.hasSurfaces() && !system.impulses;
 }
 
-/// Of the flags of a step that is launched ahead: by the buffer that holds the state.
+/// Place of the flags of a step that is launched ahead: by the buffer that holds the state.
 int GrainStepper::placeAhead(const GrainSystem& system) {
   const auto& position = system.arrays.fields().position;
   return std::less<>()(position.next.data(), position.now.data()) ? 1 : 0;
@@ -128,7 +128,7 @@ void GrainStepper::launch(const Launch& step) {
   s.arrays.swapBuffers();
 }
 
-/// All contacts of the step are solved for together, with the host in between.
+/// Solves all contacts of the step together, with the host in between.
 void GrainStepper::launchImpulses(const Launch& step) {
   GrainSystem& s = step.system;
   s.boundaries.clearSurfaceLoads();
@@ -172,9 +172,9 @@ StepOutcome GrainStepper::end(GrainSystem& system) {
   return outcome;
 }
 
-/// Not with SIMD on a CPU, whose kernel does not look at the flags of the step before (the scalar one does, for tests).
+/// Not with SIMD on a CPU, whose kernel does not check the flags of the previous step (the scalar one does, for tests).
 /// Not with surfaces, whose poses the host uploads for every step. On several ranks not in the first step after a
-/// rebuild: a recorded batch begins by unpacking a halo exchange, and none is under way then.
+/// rebuild: a recorded batch begins by unpacking a halo exchange, and none is pending then.
 bool GrainStepper::canBatchSteps(const GrainSystem& s) const {
   const bool lanes = exec_.onCpu() && s.constants.model.mostSimdLanes > 1;
   if (lanes || s.boundaries.hasSurfaces() || s.impulses) return false;

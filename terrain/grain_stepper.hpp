@@ -13,7 +13,7 @@ namespace grouser::terrain {
 /// Outcome of the steps launched, the same on all ranks.
 struct StepOutcome {
   int taken{};           ///< steps, at least one
-  bool listEnded{};      ///< a grain has used up its half of the skin: the next step needs a new list
+  bool listEnded{};      ///< a grain has moved half the skin: the next step needs a new list
   std::uint64_t fault{}; ///< as StepFlags has it; kNoFault where there is none
 };
 
@@ -45,19 +45,19 @@ public:
   void launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads);
   void joinGrains() { aside_.join(); }
   base::Parcel flagsAfter(const GrainSystem& system);
-  /// What has been carried there. `further`: steps launched since. Where a flag is raised it waits for the device,
-  /// which has called them off, and their exchange of buffers is taken back.
+  /// Outcome of the copied flags. `further`: steps launched since. If a flag is raised, waits for the device, which has
+  /// cancelled them, and swaps their buffers back.
   StepOutcome endAhead(GrainSystem& system, int further);
 
   /// Whether kStepsPerGraph steps can be launched as one graph, without the host in between.
   bool canBatchSteps(const GrainSystem& system) const;
-  /// Launches so many steps as one graph; fewer are taken where a list ends or a fault is raised.
+  /// Launches kStepsPerGraph steps as one graph; fewer are taken if a list expires or a fault is raised.
   StepOutcome runBatch(GrainSystem& system);
-  /// To be called when slots or lists change: the graph holds their pointers and counts, so it is recorded anew.
+  /// Must be called when slots or lists change: the graph holds their pointers and counts, so it is recorded again.
   void forgetGraph() { stepGraph_.forget(); }
 
 private:
-  /// One step of several that are launched together: kernels do nothing where the step before it has raised a flag.
+  /// One of several steps launched together: kernels do nothing if the previous step has raised a flag.
   struct Launch {
     GrainSystem& system;
     const contact::GrainLoadsView* loads;
@@ -86,7 +86,7 @@ private:
   base::Exec exec_;
   base::Mirrored<StepFlags> flags_; ///< of each step of a batch
   base::DoubleBufferedGraph stepGraph_;
-  base::SideStream side_;  ///< before all else: ghosts, and who reads them
+  base::SideStream side_;  ///< highest priority: ghosts, and masters, which read them
   base::SideStream aside_; ///< lowest priority: walls and floor, and grains without a listed part
   bool boundariesBegun_{false};
 };

@@ -9,7 +9,7 @@ namespace grouser::terrain {
 GrainSystem::GrainSystem(const base::Exec& device, const GrainModel& model, const Boundaries& around,
                          const std::vector<GrainSpec>& start, const PartitionOptions& partition)
     : exec(device), comm(partition.comm), constants(model, around, start),
-      laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), books(exec, constants),
+      laws(exec, constants, boundaryLaws(model, around)), arrays(exec, constants), accounting(exec, constants),
       boundaries(exec, constants, around),
       neighbours(exec, constants.diameterUnits, constants.skinUnits, constants.historyWidth, constants.period,
                  static_cast<std::int64_t>(2 * constants.smallestRadius / constants.scale.unit)),
@@ -71,7 +71,7 @@ GrainKernelData GrainSystem::kernelData() {
   d.period = constants.period;
   laws.describe(d);
   arrays.describe(d);
-  books.describe(d);
+  accounting.describe(d);
   boundaries.describe(d);
   d.neighbours = neighbours.view();
   return d;

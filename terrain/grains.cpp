@@ -42,8 +42,7 @@ bool Grains::refreshNeighbours() {
 }
 
 void Grains::rebuild() {
-  if (stepper_.boundariesBegun())
-    throw std::logic_error("slots change while contacts with walls and floor are being computed for them");
+  if (stepper_.boundariesBegun()) throw std::logic_error("slots change while boundary contacts are being computed");
   GrainSystem& s = system_;
   s.arrays.beginRebuild();
   if (s.distribution) s.distribution->migrate(s.arrays, s.neighbours, s.boundaries, s.steps);
@@ -96,7 +95,7 @@ void Grains::replaceLaws(const GrainModel& other) {
   bool alike = other.law.features() == model.law.features() && other.materials.count() == model.materials.count();
   for (std::size_t k = 0; alike && k < model.materials.grains.size(); ++k)
     alike = other.materials.grains[k].features() == model.materials.grains[k].features();
-  if (!alike) throw std::logic_error("other laws of grains with other features than those that they began with");
+  if (!alike) throw std::logic_error("new contact laws must have the features of the first ones");
   model.law = other.law, model.materials.grains = other.materials.grains, model.gravity = other.gravity;
   system_.laws.replacePairs(system_.exec, system_.constants);
   system_.arrays.setGravityStep(model.gravity * model.timeStep);
@@ -115,12 +114,12 @@ void Grains::restore(const GrainState& saved, bool grows) {
   if (system_.distribution) system_.distribution->keepCuts(system_.steps);
   invalidateNeighbours();
   refreshNeighbours();
-  slotsChanged_ = true; // for whoever relies on slots, too
+  slotsChanged_ = true; // callers may depend on slots
   if (!checkpoint.loadAsSaved(system_)) invalidateNeighbours();
 }
 
 SoilFields fieldsOf(Grains& grains, const FieldGrid& grid, const contact::PartMomentsView& onParts) {
-  if (grains.listEnded_) throw std::logic_error("fields are measured with a list of neighbours that has ended");
+  if (grains.listEnded_) throw std::logic_error("soil fields require a valid neighbour list");
   grains.system_.finishGhostUpdate();
   return measureFields(grains.system_, grid, onParts);
 }

@@ -104,7 +104,7 @@ HeightField::HeightField(const Rectangle& area, int columns, int rows, std::vect
     : area_(area), columns_(columns), rows_(rows), heights_(std::move(heights)), interpolation_(interpolation) {
   if (columns < 2 || rows < 2 || heights_.size() != static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows))
     throw InputError(
-        fmt::format("height field: {} x {} nodes with {} heights; at least 2 x 2 nodes and one height each are needed",
+        fmt::format("height field: {} x {} nodes with {} heights; at least 2 x 2 nodes, each with a height, are needed",
                     columns, rows, heights_.size()));
   if (!(area.width() > 0 && area.length() > 0 && std::isfinite(area.width()) && std::isfinite(area.length())))
     throw InputError(fmt::format("height field: size {} x {} m; both sides must be positive and finite", area.width(),

@@ -34,8 +34,8 @@ struct FootPoint {
 };
 
 /// A rigid surface z = h(x, y) through heights on a grid: tensor product of Catmull-Rom cubics (Catmull, Rom 1974), of
-/// cubics with limited slopes, or bilinear. Plain pointers and scalars, to be passed to kernels by value; what they
-/// point to must outlive it. Beyond the border the surface goes on along its tangent.
+/// cubics with limited slopes, or bilinear. Plain pointers and scalars, passed to kernels by value; their targets must
+/// outlive it. Beyond the border the surface continues along its tangent.
 struct HeightFieldView {
   const double* heights{};    ///< [columns * rows] [m], row by row, row 0 at the smallest y
   const NodeSlopes* slopes{}; ///< [columns * rows] of monotone interpolation; null otherwise
@@ -88,7 +88,7 @@ struct HeightFieldView {
   GROUSER_HD int cellX(double x) const { return cellAt((x - xMin) / dx, columns - 1); }
   GROUSER_HD int cellY(double y) const { return cellAt((y - yMin) / dy, rows - 1); }
 
-  /// As the patch of cell (i, j) says, which goes on beyond it; not of smooth interpolation.
+  /// Jet of the patch of cell (i, j), also beyond the cell; not for smooth interpolation.
   GROUSER_HD SurfaceJet jetInCell(int i, int j, double x, double y) const {
     const double u = (x - xMin) / dx, v = (y - yMin) / dy;
     const CellWeights cx = slopes ? hermiteWeights(u, i, columns - 1) : lineWeights(u, i);
@@ -176,7 +176,7 @@ struct HeightFieldView {
 
 private:
   GROUSER_HD static int clamp(int i, int n) { return i < 0 ? 0 : i < n ? i : n - 1; }
-  /// A number beyond the range of integers, or none, must not reach the conversion.
+  /// A value beyond the range of integers, or NaN, must not reach the conversion.
   GROUSER_HD static int cellAt(double u, int cells) {
     return !(u > 0) ? 0 : u < cells ? static_cast<int>(u) : cells - 1;
   }
@@ -202,7 +202,7 @@ struct HeightFieldBounds {
   double valleyCurvature{};
 };
 
-/// Owner of the heights of a surface over a rectangle. Immutable.
+/// Heights of a surface over a rectangle. Immutable.
 class HeightField {
 public:
   /// `heights`: columns x rows, row by row, row 0 at `area.yMin` [m]; the nodes of the border lie on the rectangle's

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-// The decoder is built into this file alone. No vector code: its JPEG transform would round differently. Of its formats
-// only those whose truncation can be told.
+// The decoder is compiled in this file only. No vector code: its JPEG transform would round differently. Only formats
+// whose truncation can be detected.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -81,8 +81,7 @@ bool isPngWithoutHeader(const std::vector<stbi_uc>& bytes) {
   return isPng(bytes) && (bytes.size() < kWidthAt || chunkType(bytes, kHeaderTypeAt) != "IHDR");
 }
 
-/// Columns and rows as the head of a PNG says (the decoder does not tell why it takes no large ones); 0 of another
-/// file.
+/// Columns and rows in the header of a PNG (the decoder gives no reason for rejecting large ones); 0 for other files.
 std::pair<std::int64_t, std::int64_t> sizeOfPng(const std::vector<stbi_uc>& bytes) {
   if (bytes.size() < kDepthAt || !isPng(bytes)) return {0, 0};
   constexpr std::uint32_t kMost = 0x7FFFFFFF; // the format's limit
@@ -101,13 +100,13 @@ std::uint32_t crcOf(const stbi_uc* bytes, std::size_t count) {
   return ~crc;
 }
 
-/// " (bad file)": what the decoder says to its last failure; empty where it says nothing.
+/// " (bad file)": the decoder's reason for its last failure; empty if it gives none.
 std::string decodersReason() {
   const char* reason = stbi_failure_reason();
   return reason && *reason ? fmt::format(" ({})", reason) : "";
 }
 
-/// Chunks of a PNG that its pixels follow from, besides its header.
+/// Chunks of a PNG that determine its pixels, besides its header.
 struct PngPixels {
   std::vector<char> stream;      ///< data of all IDAT chunks, in zlib's format
   std::size_t colours{0};        ///< entries of the palette
@@ -133,8 +132,8 @@ std::int64_t unpackedBytes(const std::vector<stbi_uc>& bytes) {
   return total;
 }
 
-/// The decoder copies colours beyond the palette from memory that was never set. It decodes the numbers of the colours
-/// as levels of grey where the header names that colour type.
+/// The decoder copies colours beyond the palette from uninitialised memory. With the colour type changed to grey it
+/// decodes the indices of the colours instead.
 std::string paletteFault(std::vector<stbi_uc> bytes, const PngPixels& pixels) {
   constexpr int kGrey = 0, kPalette = 3;
   const int most = (1 << bytes[kDepthAt]) - 1;
@@ -197,7 +196,7 @@ std::string pngFault(const std::vector<stbi_uc>& bytes) {
   return " (no end mark)";
 }
 
-/// The decoder fills what is missing of a JPEG with grey: its end mark must be there.
+/// The decoder fills missing parts of a JPEG with grey: its end mark must be present.
 bool isCutShort(const std::vector<stbi_uc>& bytes) {
   const std::size_t n = bytes.size();
   const bool jpeg = n >= 2 && bytes[0] == 0xFF && bytes[1] == 0xD8;
@@ -244,18 +243,18 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
   if (isPngWithoutHeader(bytes))
     fail("the picture is damaged or cut short (its first chunk is not IHDR); save or copy it again");
   if (const auto [columns, rows] = sizeOfPng(bytes); columns * rows > kMaxPixels)
-    fail(fmt::format("{} x {} pixels; at most 2^28 can be taken, give a smaller picture", columns, rows));
+    fail(fmt::format("{} x {} pixels; at most 2^28 are supported, give a smaller picture", columns, rows));
 
   Heightmap map;
   map.file = file;
   int channels = 0;
   if (!stbi_info_from_memory(bytes.data(), size, &map.columns, &map.rows, &channels))
-    fail("not a picture that can be read; give a PNG (8 or 16 bit) or a JPEG");
+    fail("not a picture of a known format; give a PNG (8 or 16 bit) or a JPEG");
   const std::string dimensions = fmt::format("{} x {} pixels", map.columns, map.rows);
   if (map.columns < 2 || map.rows < 2)
     fail(dimensions + "; a height-map needs at least 2 x 2, since pixels are points at the corners");
   if (static_cast<std::int64_t>(map.columns) * map.rows > kMaxPixels)
-    fail(dimensions + "; at most 2^28 can be taken, give a smaller picture");
+    fail(dimensions + "; at most 2^28 are supported, give a smaller picture");
 
   const std::size_t count = static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows);
   const bool deep = stbi_is_16_bit_from_memory(bytes.data(), size);
@@ -282,9 +281,8 @@ HeightField heightFieldOf(const Heightmap& map, const HeightmapPlacement& placem
   const auto fail = [&](const std::string& cause) -> void { throw InputError(map.file.string() + ": " + cause); };
   const auto& p = placement;
   if (!(p.sizeX > 0 && p.sizeY > 0 && std::isfinite(p.sizeX) && std::isfinite(p.sizeY)))
-    fail(fmt::format(
-        "size = [{}, {}] m; both must be positive and finite: the lengths that the picture covers in x and y", p.sizeX,
-        p.sizeY));
+    fail(fmt::format("size = [{}, {}] m; both must be positive and finite: the lengths of the picture in x and y",
+                     p.sizeX, p.sizeY));
   if (!(std::isfinite(p.black) && std::isfinite(p.white)))
     fail(fmt::format("height_range = [{}, {}] m; both must be finite: the heights of black and of white", p.black,
                      p.white));

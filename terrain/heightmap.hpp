@@ -29,7 +29,7 @@ struct Heightmap {
 /// palette), cut short, fewer than 2 pixels a side, or more than 2^28 pixels.
 Heightmap loadHeightmap(const std::filesystem::path& file);
 
-/// Where a height-map lies in the world.
+/// Position of a height-map in the world.
 struct HeightmapPlacement {
   double sizeX{}, sizeY{}; ///< [m] > 0; the outermost pixels lie on the border, so columns pixels span sizeX exactly
   double black{}, white{}; ///< heights [m] of the format's darkest and brightest value, not of this picture's

@@ -12,7 +12,7 @@ template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Re
   using Step = GrainStep<contact::kGeneral, Real>;
   using Kernel = typename Step::Kernel;
   using Vec = typename Step::Vec;
-  using Books = typename Step::Books;
+  using Accumulator = typename Step::Accumulator;
   using Step::d, Step::f, Step::has;
   ImpulseData<Real> s;
 
@@ -27,11 +27,11 @@ template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Re
   };
 
   GROUSER_HD void operator()(int i) const {
-    Books books;
-    run(i, books);
+    Accumulator accumulator;
+    run(i, accumulator);
   }
 
-  GROUSER_HD void run(int i, Books& books) const {
+  GROUSER_HD void run(int i, Accumulator& accumulator) const {
     if (s.ghost && s.ghost[i] != 0) return;
     const base::Position p = d.position[i];
     const Motion m = d.motion[i];
@@ -46,11 +46,11 @@ template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Re
     endPartRows(i, p, size, total);
     if (has(kLedger) && (total.heldForce.x != 0 || total.heldForce.y != 0 || total.heldForce.z != 0)) {
       const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
-      books.addForce(total.heldForce, cross(x, total.heldForce) + total.heldTorque, d.bookScale);
+      accumulator.addForce(total.heldForce, cross(x, total.heldForce) + total.heldTorque, d.ledgerScale);
     }
-    if (has(kLedger) && total.stabilised != 0) addRare(d, i, kStabilised, total.stabilised);
+    if (has(kLedger) && total.stabilised != 0) addRare(d, i, kStabilisation, total.stabilised);
     Step::advance(i, {p, m, d.remainders[i], d.reference[i]}, size, total.force, total.torque, total.deepest,
-                  total.lost, books);
+                  total.lost, accumulator);
   }
 
 private:

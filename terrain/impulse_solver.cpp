@@ -13,7 +13,7 @@ void checkReport(const ImpulseReport& report, const contact::ComplementarityOpti
   constexpr double kMost = 1e30; // m/s
   if (report.residual > kMost)
     throw base::SimulationError(
-        fmt::format("step {}: the contacts of grains have no finite velocities; use a smaller time_step", step),
+        fmt::format("step {}: contact velocities of grains are not finite; use a smaller time_step", step),
         base::Cause::noNumber);
   if (!options.strict || (report.met && !report.relaxed)) return;
   if (report.met)

@@ -72,7 +72,8 @@ public:
 
   /// Sets the bodies of all following steps.
   void setParts(const ImpulseParts& parts) { parts_ = parts; }
-  /// One step: writes the grains' next state, springs, books and flags. All ranks call it; ghosts must be up to date.
+  /// One step: writes the grains' next state, springs, ledger sums and flags. All ranks call it; ghosts must be up to
+  /// date.
   virtual void step(GrainSystem& system, const GrainKernelData& d) = 0;
   const ImpulseReport& report() const { return report_; }
   const ImpulseTotals& totals() const { return totals_; }

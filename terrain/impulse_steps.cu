@@ -271,8 +271,9 @@ private:
   void advance(const GrainKernelData& d) {
     using Body = AdvanceByImpulses<Real>;
     const Body body = kernel<Body>(d);
-    if (d.books)
-      base::forEach(exec_, "advance by impulses", Booked<Body>::items(exec_, d.count), Booked<Body>{body, d.count});
+    if (d.ledgerSums)
+      base::forEach(exec_, "advance by impulses", WithEnergyAccounting<Body>::items(exec_, d.count),
+                    WithEnergyAccounting<Body>{body, d.count});
     else
       forSlots("advance by impulses", d, body);
   }

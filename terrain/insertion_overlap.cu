@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether entering grains would overlap those that are there.
+// Overlaps of entering grains with existing ones.
 #include "base/for_each.cuh"
 #include "terrain/grain_entry.hpp"
 #include "terrain/grain_system.hpp"
@@ -22,7 +22,7 @@ struct Entering {
   double radius; ///< [units]
 };
 
-/// Looks for the grain that the entering ones would overlap most.
+/// Finds the grain with the deepest overlap by entering ones.
 struct FindInsertionOverlap {
   static constexpr double kNanoseconds = 50;
   const base::Position* position;
@@ -31,7 +31,7 @@ struct FindInsertionOverlap {
   base::Period period;
   const Entering* entering;
   std::int64_t count;
-  base::Position centre;         ///< of the box about all that enter
+  base::Position centre;         ///< of the box around all entering grains
   Vec3d reach;                   ///< from there to where a grain may touch one of them [units]
   double radius;                 ///< of all [units]; 0: each has its own
   double unitsPerMetre, allowed; ///< [-] of the smaller radius
@@ -71,8 +71,7 @@ std::optional<InsertionOverlap> overlapWithSurface(const std::vector<GrainSpec>&
 
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
 
-/// The key of the deepest overlap, as FindInsertionOverlap has it; kNobody where none is too deep. On all ranks the
-/// same.
+/// The key of the deepest overlap of FindInsertionOverlap; kNobody if none is too deep. The same on all ranks.
 std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::vector<Entering>& all,
                              const GrainSystem& system) {
   const GrainConstants& c = system.constants;
@@ -99,7 +98,7 @@ std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::
   return key;
 }
 
-/// Fills in where the other grain is, and which of those that enter overlaps it as deeply as was found.
+/// Fills in the position of the other grain, and the entering grain with that overlap.
 void describeOverlap(const std::vector<GrainSpec>& entering, const std::vector<Entering>& all,
                      const GrainSystem& system, InsertionOverlap& overlap) {
   const GrainConstants& c = system.constants;

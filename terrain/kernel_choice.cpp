@@ -18,10 +18,10 @@ using detail::kHertz;
 using detail::kPlastic;
 using detail::kRollingFriction;
 
-/// Lanes that the processor has, at most `most`.
+/// SIMD lanes of the processor, at most `most`.
 int processorLanes([[maybe_unused]] int most) {
 #if defined(__x86_64__)
-  // All that the files are compiled for (CMakeLists.txt), not the wide registers alone.
+  // All instruction sets that the files are compiled for (CMakeLists.txt), not only the wide registers.
   const bool avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
   const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                       __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
@@ -32,10 +32,10 @@ int processorLanes([[maybe_unused]] int most) {
   return 1;
 }
 
-/// The choice, for a list of kernels; `simd` and `noSimd` of their features.
+/// The choice from a list of kernels, with the kernel for SIMD and, if there is none, the reason.
 template <class List>
 KernelChoice chosen(const List& list, unsigned features, const GrainModel& model, unsigned simd, const char* noSimd) {
-  if (!model.specialised) return {kGeneral, 1, "the general kernel is asked for"};
+  if (!model.specialised) return {kGeneral, 1, "the general kernel is requested"};
   if (model.precision != Precision::single) return {kGeneral, 1, "double precision"};
   return {detail::isListed(list, features) ? features : kGeneral, noSimd ? 1 : processorLanes(model.mostSimdLanes),
           noSimd, simd};
@@ -64,20 +64,20 @@ const char* nameOf(unsigned feature) {
       ->name;
 }
 
-/// Features that a scene may do without, the likeliest first.
+/// Features that a scene may drop, the likeliest first.
 constexpr unsigned kDispensable[] = {kManyMaterials, kManyRadii,       kFixed,    kSurfaces,
                                      kPeriodic,      kRollingFriction, kCohesion, kPlastic};
 
-/// What there is instead of the general kernel; empty where no single change leads to one.
+/// The single change of features that leads to a specialised kernel; empty if there is none.
 template <class List> std::string remedy(const List& list, unsigned features, const GrainModel& model) {
   if (model.precision != Precision::single)
-    return detail::isListed(list, features) ? "; single precision has a kernel of its own" : "";
+    return detail::isListed(list, features) ? "; single precision has a specialised kernel" : "";
   for (const unsigned law : {features & ~kGeneral, features & ~(kGeneral | kHertz)})
     if (features & kGeneral && detail::isListed(list, law))
-      return fmt::format("; there is one where all contacts are {}", law & kHertz ? "hertz" : "linear");
+      return fmt::format("; a specialised kernel exists if all contacts are {}", law & kHertz ? "hertz" : "linear");
   for (const unsigned feature : kDispensable)
     if (features & feature && detail::isListed(list, features & ~feature))
-      return fmt::format("; there is one without {}", nameOf(feature));
+      return fmt::format("; a specialised kernel exists without {}", nameOf(feature));
   return "";
 }
 
@@ -92,7 +92,7 @@ std::string simdText(const KernelChoice& choice) {
 template <class List>
 std::string kernelText(const List& list, unsigned features, const GrainModel& model, const KernelChoice& choice) {
   const bool single = model.precision == Precision::single;
-  std::string kernel = "its own kernel";
+  std::string kernel = "specialised kernel";
   if (choice.general())
     kernel =
         std::string("general kernel") + (single ? ", same results but slower" : "") + remedy(list, features, model);
@@ -114,8 +114,8 @@ KernelChoice stepKernel(unsigned features, const GrainModel& model) {
 KernelChoice boundaryKernel(unsigned features, const GrainModel& model) {
   const unsigned own = atBoundaries(features);
   KernelChoice choice = chosen(detail::kBoundaryKernels, own, model, own,
-                               own & ~kFriction ? "only planes with linear contacts of equal grains have it" : nullptr);
-  if (!(features & kLedger) && !detail::withoutBooks(choice.compiledFor, false)) choice.compiledFor = kGeneral;
+                               own & ~kFriction ? "only for planes with linear contacts of equal grains" : nullptr);
+  if (!(features & kLedger) && !detail::withoutLedger(choice.compiledFor, false)) choice.compiledFor = kGeneral;
   return choice;
 }
 

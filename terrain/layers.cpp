@@ -37,7 +37,7 @@ struct Axis {
   double period{0}; ///< of periodic boundaries; 0: walls
 
   double at(int i, int layer) const { return start + (layer & 1) * offset + i * spacing; }
-  /// From `a` to `b`, or to the nearest image of it.
+  /// Distance from `a` to `b`, or to its nearest image.
   double apart(double a, double b) const {
     return period > 0 ? b - a - period * std::floor((b - a) / period + 0.5) : b - a;
   }
@@ -59,7 +59,7 @@ Axis ring(double from, double length, double spacing) {
   return {from + pitch / 4, pitch, pitch / 2, {n, n}, length};
 }
 
-/// The sites of a bed: which lattice points bear a grain.
+/// The sites of a bed: the lattice points with a grain.
 class Lattice {
 public:
   Lattice(const HeightField& surface, const LayerOptions& o)
@@ -76,7 +76,7 @@ public:
     x_ = axis(0, walls_.xMin, walls_.xMax), y_ = axis(1, walls_.yMin, walls_.yMax);
     if (x_.count[0] < 1 || y_.count[0] < 1)
       throw InputError(
-          fmt::format("bed of grains: no grain of radius {} m fits between walls {} x {} m apart; take smaller "
+          fmt::format("bed of grains: no grain of radius {} m fits between walls {} x {} m apart; use smaller "
                       "grains, a larger terrain or a smaller wall margin",
                       o.radius, walls_.width(), walls_.length()));
 
@@ -101,7 +101,7 @@ public:
   std::size_t layerSize(int layer) const {
     return static_cast<std::size_t>(x_.count[layer & 1]) * static_cast<std::size_t>(y_.count[layer & 1]);
   }
-  /// A site bears a grain if its column is high enough and everything it would rest on is there.
+  /// A site has a grain if its column is high enough and all its supports exist.
   bool occupied(int i, int j, int layer) const {
     return height_[layer & 1].empty() || layer < height_[layer & 1][index(i, j, layer)];
   }
@@ -144,14 +144,14 @@ private:
         for (int i = 0; i < x_.count[parity]; ++i) {
           const double depth = view.height(x_.at(i, parity), y_.at(j, parity)) - floorZ;
           const double fits = std::floor(depth / layerThickness_ + 0.5);
-          requireOfBed(fits < 1e6, "layers on the flat floor", fits, "[1, 1e6); take larger grains");
+          requireOfBed(fits < 1e6, "layers on the flat floor", fits, "[1, 1e6); use larger grains");
           height_[parity].push_back(std::max(fullLayers_, static_cast<int>(fits)));
           most = std::max(most, height_[parity].back());
         }
     for (layers_ = fullLayers_; layers_ < most && supportLayer(layers_);) ++layers_;
   }
 
-  /// Takes away the sites of `layer` that lack a support; false when none is left.
+  /// Removes the sites of `layer` that lack a support; false if none is left.
   bool supportLayer(int layer) {
     bool any = false;
     for (int j = 0; j < y_.count[layer & 1]; ++j)

@@ -9,7 +9,7 @@
 
 namespace grouser::terrain {
 
-/// How a bed is laid in layers.
+/// Options of a bed in layers.
 struct LayerOptions {
   double radius{}; ///< of every grain [m], > 0
   int layers{0};   ///< >= 1, or 0: as many as `depth` needs. With a flat floor: at the lowest point

@@ -22,7 +22,7 @@ double limited(double before, double behind) {
   return before * behind > 0 ? 2 * before * behind / (before + behind) : 0;
 }
 
-/// At a border node the surface goes on along its last difference.
+/// At a border node the surface continues along its last difference.
 double slopeAt(double before, double here, double behind, int k, int n) {
   if (k == 0) return behind - here;
   if (k == n - 1) return here - before;

@@ -44,7 +44,7 @@ GROUSER_HD CubicWeights cubicWeights(double u, int n) {
   return c;
 }
 
-/// How the surface runs between the nodes of a height-map.
+/// Interpolation between the nodes of a height-map.
 enum class Interpolation {
   monotone, ///< cubic, slopes limited: between the four nodes of a cell never above the highest nor below the lowest
   smooth,   ///< Catmull-Rom: swings beyond its nodes by up to 7 per cent of a step between them
@@ -57,7 +57,7 @@ struct NodeSlopes {
 };
 
 /// Weights of the two nodes of cell `first` at `t` cells from its lower one: of values, of slopes, and derivatives of
-/// both. Hermite's cubic, or a line; before 0 in the first cell and beyond 1 in the last one the tangent goes on.
+/// both. Hermite's cubic, or a line; before 0 in the first cell and beyond 1 in the last one the tangent continues.
 struct CellWeights {
   int first{};
   double v[2]{}, s[2]{}, dv[2]{}, ds[2]{}, ddv[2]{}, dds[2]{};

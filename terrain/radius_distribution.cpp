@@ -21,7 +21,7 @@ template <class F> double integral(double a, double b, const F& f) {
   return sum * h / 3;
 }
 
-/// Of the grains between two sieves, whose mass is even over the logarithm of the size.
+/// Grains between two sieves, with mass uniform over the logarithm of the size.
 struct SieveFraction {
   double fine, coarse; ///< [m]
   double mass;         ///< share [-]
@@ -36,7 +36,7 @@ struct SieveFraction {
   double number() const { return mass * massMean(-3); } ///< in units of all mass over that of a sphere of 1 m
 };
 
-/// Those that hold any.
+/// The fractions with mass.
 std::vector<SieveFraction> fractionsOf(const RadiusDistribution& r) {
   std::vector<SieveFraction> all;
   for (std::size_t k = 1; k < r.sieveDiameter.size(); ++k)

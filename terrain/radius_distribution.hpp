@@ -6,7 +6,7 @@
 
 namespace grouser::terrain {
 
-/// How the radii of a bed's grains are distributed.
+/// Distribution of the radii of a bed's grains.
 enum class RadiusLaw {
   single,    ///< all alike
   uniform,   ///< by number, between 1 - spread and 1 + spread of the radius
@@ -49,17 +49,17 @@ private:
 /// deviation^2 (Desmond and Weeks 2014, Phys. Rev. E 90, 022204). What is denser has crystallised.
 double randomClosePacking(const RadiusDistribution& radii);
 
-/// How the radii grow with depth: coarse grains below, fine ones where something works on the bed.
+/// Growth of the radii with depth: fine grains near the surface, coarse ones below.
 struct DepthGrading {
   double fineDepth{};      ///< [m] down to which the radii are as distributed
-  double coarsening{};     ///< [-] by how much the radius in the middle grows with each metre below that; 0: not at all
-  double coarsestRadius{}; ///< [m] at which it stops to grow
+  double coarsening{};     ///< [-] growth of the median radius per metre below that; 0: none
+  double coarsestRadius{}; ///< [m] upper limit
   bool any() const { return coarsening > 0; }
-  /// By how much the radii at `depth` [m] below the surface are larger than at the surface [-], where the middle of the
-  /// distribution is `radius` [m].
+  /// Factor of the radii at `depth` [m] below the surface over those at the surface [-], with the middle of the
+  /// distribution at `radius` [m].
   double scaleAt(double depth, double radius) const;
-  /// Mean over the grains of a bed of this depth [m], by number, of the fourth power of their scale [-]: by how much m
-  /// g radius of a mean grain is more than that of one at the surface.
+  /// Mean over the grains of a bed of this depth [m], by number, of the fourth power of their scale [-]: factor of m g
+  /// radius of a mean grain over that of one at the surface.
   double meanFourthPower(double depth, double radius) const;
 };
 

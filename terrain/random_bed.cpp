@@ -29,13 +29,13 @@ void check(const RandomBedOptions& o) {
   requireOfBed(o.porosity >= 0.2 && o.porosity <= 0.7, "porosity [-]", o.porosity, "[0.2, 0.7]");
 }
 
-/// Volume of all grains of a bed that is so deep in the mean [m3].
+/// Volume of all grains of a bed of this mean depth [m3].
 double solidVolume(const RandomBedOptions& o, double depth, const Rectangle& area) {
   const double ends = (kEnds + (o.roughFloor ? kRoughFloor : 0.0)) * o.radii.meanPower(1);
   return (1 - o.porosity) * std::max(depth - ends, 0.2 * depth) * area.width() * area.length();
 }
 
-/// How deep the settled bed is, here and in the mean.
+/// Local and mean depth of the settled bed.
 class Depths {
 public:
   Depths(const HeightField& surface, const RandomBedOptions& o) : surface_(surface), options_(o) {
@@ -116,7 +116,7 @@ public:
 
 private:
   static int inRow(int i, int n, bool ring) { return ring ? (i + n) % n : i < 0 || i >= n ? -1 : i; }
-  /// What lies beyond an end counts to the last cell.
+  /// Places beyond an end belong to the last cell.
   base::Vec3<int> cellOf(const Vec3d& p) const {
     const auto at = [](double x, double from, double edge, int n) {
       return static_cast<int>(std::clamp(std::floor((x - from) / edge), 0.0, n - 1.0));
@@ -193,7 +193,7 @@ private:
       const double column = depth * stretch_, ground = view_.height(p.x, p.y) + lift_;
       // Below its share the column is full already: most places are found above it.
       const double above = share * column + (2 * dice(4 * attempt + 3) - 1.7) * window;
-      p.z = ground + radius + std::fabs(above); // what would lie below the floor is as far above it
+      p.z = ground + radius + std::fabs(above); // reflected at the floor
       if (!view_.clearOf(p, radius * (1 + kGap))) p.z = clearHeight(floor_, p.x, p.y, p.z, radius * (1 + kGap));
       if (cells_.isFree(p, radius)) return {p, radius, false};
     }
@@ -242,10 +242,9 @@ std::vector<Seed> layGrains(const HeightField& surface, const RandomBedOptions& 
   const Rectangle& a = surface.area();
   const double least = 2 * largestRadius(options) * (1 + kGap);
   if (!(a.width() > least && a.length() > least))
-    throw base::InputError(
-        fmt::format("bed of grains: no grain of radius {} m fits between walls {} x {} m apart; take "
-                    "smaller grains or a larger terrain",
-                    largestRadius(options), a.width(), a.length()));
+    throw base::InputError(fmt::format("bed of grains: no grain of radius {} m fits between walls {} x {} m apart; use "
+                                       "smaller grains or a larger terrain",
+                                       largestRadius(options), a.width(), a.length()));
   return Insertion(surface, options, there).lay();
 }
 

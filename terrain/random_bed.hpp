@@ -6,7 +6,7 @@
 
 namespace grouser::terrain {
 
-/// How a bed is laid at random.
+/// Options of a random bed.
 struct RandomBedOptions {
   RadiusDistribution radii;
   DepthGrading grading;
@@ -19,9 +19,9 @@ struct RandomBedOptions {
 };
 
 /// Plans a bed whose settled surface (terrain::BedSurface) comes close to `surface`, if it settles to the porosity that
-/// is expected: within half a mean radius in trial beds of 8 and 14 diameters. What a bed is higher than its grains
-/// would fill, since its surface is uneven and its floor a wall, is 1.15 mean radii, on a rough floor 1.5.
-/// InputError: an option out of its range.
+/// is expected: within half a mean radius in trial beds of 8 and 14 diameters. Since its surface is uneven and its
+/// floor a wall, a bed is 1.15 mean radii higher than its grains would fill, on a rough floor 1.5. InputError: an
+/// option out of its range.
 BedPlan planBed(const HeightField& surface, const RandomBedOptions& options);
 
 /// The largest radius that a bed may have [m]: of the coarsest grains at the greatest depth.

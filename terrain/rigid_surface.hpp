@@ -15,8 +15,8 @@ using contact::SurfaceGap;
 using contact::SurfaceGeometry;
 using contact::SurfaceShape;
 
-/// Where a surface is and how it moves in one step. `motion.origin` and `motion.centre` are one point, about which
-/// loads are taken.
+/// Pose and motion of a surface in one step. `motion.origin` and `motion.centre` are the same point, the reference
+/// point of loads.
 struct SurfacePose {
   contact::PartMotion motion;                   ///< frame S in the world, velocity and spin
   base::Mat3d turned = base::Mat3d::identity(); ///< since the start, in world components: springs turn with the surface
@@ -43,9 +43,8 @@ struct SurfaceLoad {
   base::Vec3d force, torque; ///< [N], [N m]
 };
 
-/// How far a surface has come between two placements, without what leaves it where it was: a plane that slides along
-/// itself, a cylinder that turns about its axis. The distance of a point p from the surface has changed by no more than
-/// way + turn |p - centre before|.
+/// Travel of a surface between two poses, without motions along itself: a sliding plane, a cylinder rotating about its
+/// axis. The distance of a point p from the surface changes by at most way + turn |p - centre before|.
 struct SurfaceTravel {
   double way{}, turn{}; ///< [m], [-]
 };
@@ -70,7 +69,7 @@ inline SurfaceTravel travelBetween(const SurfaceGeometry& g, const SurfacePose& 
   }
 }
 
-/// What a surface may travel before grains near it are listed anew, where `way` [m] is allowed.
+/// Travel of a surface before grains near it are listed again, for an allowed `way` [m].
 GROUSER_HD SurfaceTravel roomOf(const SurfaceGeometry& g, double way) {
   const double extent = norm(g.half);
   return {way, extent > 0 ? way / extent : 0.01};

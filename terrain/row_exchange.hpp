@@ -85,7 +85,7 @@ private:
   const std::uint32_t* at_;
 };
 
-/// Moves row k to rank `destination[k]`; what comes is in the order of ids. All ranks call it.
+/// Moves row k to rank `destination[k]`; the result is in the order of ids. All ranks call it.
 template <class Rows>
 Rows redistributeRows(const base::Comm& comm, const Rows& rows, const std::vector<int>& destination) {
   // A row is its number of words, its id, and the words.

@@ -9,7 +9,7 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Marks all within `reach` of those that are marked in a row of `n`, `stride` apart.
+/// Marks all entries within `reach` of a marked one in a row of `n`, `stride` apart.
 void widen(const std::vector<bool>& from, std::vector<bool>& to, std::size_t first, int n, std::size_t stride,
            int reach) {
   int covered = 0; // up to here

@@ -6,7 +6,7 @@
 
 namespace grouser::terrain {
 
-/// A height field where kernels run, with marks for FeetSearch where it has hollows tighter than the spheres that come.
+/// A height field on the device, with marks for FeetSearch where it has hollows tighter than the spheres.
 class SearchedHeightField {
 public:
   SearchedHeightField() = default;

@@ -53,8 +53,8 @@ struct CellLattice {
 template <class Real> struct MeasureBoundaries : BoundaryContacts<kMeasuring, Real> {
   ContactMoment* moments;
   GROUSER_HD void operator()(int k) const {
-    WallBooks books;
-    moments[k] = this->run(k, books).moment;
+    WallAccumulator accumulator;
+    moments[k] = this->run(k, accumulator).moment;
   }
 };
 
@@ -166,7 +166,7 @@ private:
   }
 };
 
-/// What a step of the boundaries writes, apart from the state: springs, touching bits and loads.
+/// Buffers for the output of a boundary step: springs, touching bits and loads.
 template <class Real> struct BoundaryCopies {
   base::Array<float> springs;
   base::Array<std::uint32_t> mask;
@@ -195,7 +195,7 @@ template <class Real> void addGrains(GrainSystem& system, const FieldGrid& grid,
                     listed = system.boundaries.any() ? system.boundaries.grainsListed() : 0;
   GrainKernelData d = system.kernelData();
   ForceData<Real> f = system.forceData<Real>();
-  d.books = nullptr;
+  d.ledgerSums = nullptr;
   base::Array<ContactMoment> atBoundaries(exec, listed);
   {
     GrainKernelData copied = d;
@@ -203,7 +203,7 @@ template <class Real> void addGrains(GrainSystem& system, const FieldGrid& grid,
     const BoundaryCopies<Real> copies(exec, listed > 0 ? slots : 0, listed, copied, copiedForces);
     MeasureBoundaries<Real> measure{{{copied, copiedForces}}, atBoundaries.data()};
     base::forEach(exec, "measure contacts of boundaries", static_cast<std::int64_t>(listed), measure);
-    base::synchronize(exec); // before the copies go
+    base::synchronize(exec); // before the copies are destroyed
   }
   AddToCells<Real> add{{{d, f}}, CellLattice(grid), scales, system.ghosts(), atBoundaries.data(), onParts, sums};
   base::forEach(exec, "measure fields", static_cast<std::int64_t>(slots), add);

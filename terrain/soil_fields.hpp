@@ -29,7 +29,7 @@ FieldGrid fieldGrid(const base::Vec3d& low, const base::Vec3d& high, double edge
 /// Symmetric: xx, xy, xz, yy, yz, zz.
 using Tensor6 = std::array<double, 6>;
 
-/// One number, vector or tensor a cell: place x + nx (y + ny z).
+/// One number, vector or tensor per cell: index x + nx (y + ny z).
 ///
 /// A grain counts in each cell with the share of its volume that lies there. Planes between cells cut it one axis at a
 /// time, so that the shares sum to 1; they are exact where one plane cuts the grain, and close where several do. So
@@ -42,8 +42,8 @@ struct SoilFields {
   /// Geotechnique 50:43) [-]. NaN where there is no such grain.
   std::vector<double> coordination, mechanicalCoordination;
   std::vector<base::Vec3d> velocity; ///< mean, weighted with mass [m/s]; NaN where no grain moves freely
-  /// Symmetric gradient of the velocity [1/s]: of the linear field that fits the grains of the cell best, in least
-  /// squares weighted with mass. NaN where they are too few, or lie in one plane.
+  /// Symmetric gradient of the velocity [1/s]: of the linear least-squares fit to the grains of the cell, weighted with
+  /// mass. NaN if they are too few, or lie in one plane.
   std::vector<Tensor6> strainRate;
   /// Love-Weber: forces times lever arms of all contacts of the grains, over the volume of the cell [Pa]. Positive in
   /// tension. Forces are those of the coming step, by its laws and in its precision.

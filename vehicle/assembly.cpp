@@ -66,7 +66,7 @@ private:
 
   int trackIndex() const { return static_cast<int>(assembly_.tracks.size()); }
 
-  /// Hinge about y; its angle grows with a turn about +y. Or what holds both bodies to each other there.
+  /// Joint at an axle: a hinge about y, positive about +y, or another `type`.
   int addAxle(const std::string& name, int bodyA, int bodyB, const Vec3d& p_V, JointType type = JointType::kRevolute) {
     const Pose frame_W = multibody::compose(options_.pose_W, multibody::frameWithZX(p_V, kLeft, kForward));
     return assembly_.model.addJointAt(name, type, bodyA, bodyB, frame_W);
@@ -76,14 +76,14 @@ private:
     const ChassisSpec& c = spec().chassis;
     MassSpec mass{c.mass, c.inertia};
     const bool guided = options_.guide != HullGuide::none && !options_.fixChassis;
-    if (options_.guide == HullGuide::pitching && guided) mass.mass -= kGuideShare * c.mass; // what rises with it
+    if (options_.guide == HullGuide::pitching && guided) mass.mass -= kGuideShare * c.mass; // slider mass
     assembly_.chassis = addBody("chassis", mass, {c.centre, {}}, options_.fixChassis);
     addPart(PartKind::kChassis, assembly_.chassis, c.mesh, -1, {-c.centre, {}});
     if (guided) addGuide();
   }
 
-  /// A carriage on rails along x; the hull, or what it pitches on, slides up and down on that. Both weigh next to
-  /// nothing: the carriage hangs on the rails, and what rises with the hull is taken from its mass.
+  /// A carriage on rails along x; on it the hull, or its pitch bearing, slides vertically. Both are nearly massless:
+  /// the rails carry the carriage, and the slider's mass is subtracted from the hull.
   void addGuide() {
     const ChassisSpec& c = spec().chassis;
     const MassSpec light{kGuideShare * c.mass, c.inertia * kGuideShare};
@@ -156,10 +156,10 @@ private:
   void addSprocket() {
     const Vec3d axle{0, track_.y, 0};
     MassSpec mass{spec().sprocket.mass, spec().sprocket.inertia};
-    // What turns with it, as a disc: half as much about the other axes.
+    // Rotating inertia of the engine, as a disc: half of it about the other axes.
     if (options_.drive == SprocketDrive::engine) {
       if (!spec().engine)
-        throw base::InputError("vehicle: the driver wants engines, and the vehicle file has no [engine]");
+        throw base::InputError("vehicle: driver.drive = \"engine\" requires a section [engine] in the vehicle file");
       const double j = spec().engine->inertia;
       mass.inertia = mass.inertia + Vec3d{0.5 * j, j, 0.5 * j};
     }
@@ -247,8 +247,7 @@ private:
 const char* sideName(Side side) { return side == Side::kLeft ? "left" : "right"; }
 
 Assembly assemble(const VehicleSpec& spec, const AssemblyOptions& options) {
-  if (!options.left && !options.right)
-    throw base::InputError("vehicle: neither the left nor the right track is asked for");
+  if (!options.left && !options.right) throw base::InputError("vehicle: no track selected; select left, right or both");
   return Builder(spec, options).build();
 }
 
@@ -270,7 +269,7 @@ base::Pose placeOnSlope(const VehicleSpec& spec, double x, double y, double grou
   const auto [cosRoll, sinRoll] = halfTurn(left / std::sqrt(1 + ahead * ahead));
   base::Pose pose = placeOnGround(spec, x, y, groundHeight, 0, heading);
   pose.orientation = pose.orientation * base::Quat{cosPitch, 0, -sinPitch, 0} * base::Quat{cosRoll, sinRoll, 0, 0};
-  // The line from the origin square to the ground meets it under the vehicle, not at (x, y).
+  // The perpendicular from the origin meets the ground under the vehicle, not at (x, y).
   pose.position.z = groundHeight + (clearance - spec.groundHeight()) * slant;
   return pose;
 }

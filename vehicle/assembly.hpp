@@ -20,7 +20,7 @@ const char* sideName(Side side);
 
 enum class PartKind { kChassis, kShoe, kSprocket, kRoadWheel, kRoller, kIdler };
 
-/// A rigid part with a surface. Its mesh stands in the part frame P; the body frame B has its origin in the centre of
+/// A rigid part with a surface. Its mesh is given in the part frame P; the body frame B has its origin at the centre of
 /// mass.
 struct Part {
   std::string name; ///< "left shoe 12"
@@ -37,7 +37,7 @@ struct PartPair {
   int other{}; ///< sprocket, road wheel, roller or idler
 };
 
-/// Where one track's bodies, joints and springs are in the model.
+/// Indices of one track's bodies, joints and springs in the model.
 struct Track {
   Side side{};
   double y{};             ///< of its middle in the vehicle frame [m]
@@ -46,21 +46,21 @@ struct Track {
       shoeJoints;          ///< joint i holds shoe i (A) and shoe i+1 (B); its angle is the fold, positive about a wheel
   std::vector<int> wheels; ///< bodies, rearmost first
   std::vector<int> arms;   ///< bodies
-  std::vector<int> armJoints;  ///< chassis to arm, positive about +y: the wheel goes up; rigid arms do not turn
-  std::vector<int> armSprings; ///< axis springs; none of rigid arms
-  std::vector<int> rollers;    ///< bodies
+  std::vector<int> armJoints;               ///< chassis to arm, positive about +y (wheel up); rigid arms do not rotate
+  std::vector<int> armSprings;              ///< axis springs; none for rigid arms
+  std::vector<int> rollers;                 ///< bodies
   int sprocket{}, sprocketJoint{}, drive{}; ///< body, joint (positive is forward), drive by speed
-  int torque = -1;                          ///< drive by torque, where that is meant
+  int torque = -1;                          ///< drive by torque, if used
   int carrier{}, slideJoint{}, tensioner{}; ///< body, joint (positive is away from the sprocket), axis spring
   int idler{};                              ///< body
   std::vector<int> shoeParts;               ///< indices into Assembly::parts, in the order of `shoes`
 };
 
-/// Rails that a free hull may run on.
+/// Optional guides of a free hull.
 enum class HullGuide {
   none,
-  pitching, ///< it moves along, rises and pitches, and does not sway, yaw or roll
-  level     ///< nor pitch
+  pitching, ///< free in x, z and pitch; no sway, yaw or roll
+  level     ///< no pitch either
 };
 
 struct AssemblyOptions {
@@ -73,9 +73,9 @@ struct AssemblyOptions {
   SprocketDrive drive = SprocketDrive::speed;
 };
 
-/// A vehicle, exactly wrapped, ready to be stepped: every joint is closed at the start, every spring at its drawn
-/// place. Each ring of shoes has one spherical and one universal joint, half a loop apart; all others are revolutes. A
-/// plane ring of revolutes alone has three constraints too many, which is just what these two leave out.
+/// An assembled vehicle with exactly wrapped tracks: every joint is closed at the start, every spring at its drawn
+/// position. Each ring of shoes has one spherical and one universal joint, half a loop apart; all others are revolutes.
+/// A plane ring of revolutes has three redundant constraints, which these two joints remove.
 struct Assembly {
   VehicleSpec spec;
   Wrap wrap;
@@ -88,31 +88,31 @@ struct Assembly {
   double mass{};                ///< of all moving bodies [kg]
 };
 
-/// Build the vehicle. Throws base::InputError when the track does not close (wrap) or no track is asked for.
+/// Builds the vehicle. Throws base::InputError if the track does not close (wrap) or no track is selected.
 Assembly assemble(const VehicleSpec& spec, const AssemblyOptions& options = {});
 
-/// Place of the vehicle frame so that the lowest grousers stand `clearance` over a level ground of height
-/// `groundHeight`; (x, y) is the middle of the sprockets' axle line, `heading` turns from +x towards +y [rad].
+/// Pose of the vehicle frame with the lowest grousers `clearance` above level ground of height `groundHeight`; (x, y)
+/// is the middle of the sprockets' axle line, `heading` turns from +x towards +y [rad].
 base::Pose placeOnGround(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
                          double heading);
 
-/// The same on inclined ground of height `groundHeight` at (x, y), that rises by `ahead` along the heading and by
-/// `left` to its left [-]; `clearance` is square to it. The hull's x axis lies over the heading.
+/// The same on inclined ground of height `groundHeight` at (x, y) with slopes `ahead` along the heading and `left` to
+/// its left [-]; `clearance` is normal to it. The hull's x axis lies above the heading.
 base::Pose placeOnSlope(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
                         double heading, double ahead, double left);
 
-/// Turn the driver's wishes into loads: gravity, preload factors of tensioners and arms, drive speeds. `gravity` is the
-/// full gravity of the scene [m/s2]; wrenches in `loads` are left alone.
+/// Converts driver controls to loads: gravity, preload factors of tensioners and arms, drive speeds. `gravity` is the
+/// full gravity of the scene [m/s2]; wrenches in `loads` are unchanged.
 void applyControls(const Assembly& vehicle, const Controls& controls, const base::Vec3d& gravity,
                    multibody::Loads& loads);
 
-/// The hull as a driver sees it.
+/// Hull motion for the driver.
 HullMotion hullMotion(const Assembly& vehicle, const multibody::State& state);
 
-/// A point of the hull, given in the vehicle frame [m], as a hitch sees it.
+/// Motion of a hull point for the hitch; `point` in the vehicle frame [m].
 HitchMotion hitchMotion(const Assembly& vehicle, const multibody::State& state, const base::Vec3d& point);
 
-/// Has the engines give the torques that their governors find at the sprockets' speeds.
+/// Adds the engine torques from the governors at the present sprocket speeds.
 void addEngineTorques(const Assembly& vehicle, const multibody::State& state, Controls& controls);
 
 /// Pose of a part in the world.

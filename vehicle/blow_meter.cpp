@@ -7,8 +7,8 @@ namespace grouser::vehicle {
 
 std::string BlowMeter::text() const {
   return fmt::format(
-      "of up to {:.3g} times the weight (ground force, mean of {:g} ms up to {:.4g} s): what follows them "
-      "may depend on the step and on chance; grouser check tells by how much",
+      "ground force up to {:.3g} times the weight ({:g} ms mean ending at {:.4g} s): the motion afterwards "
+      "may depend on time step and seed; grouser check quantifies it",
       most, 1e3 * kSpan, at);
 }
 

@@ -8,16 +8,16 @@
 
 namespace grouser::vehicle {
 
-/// How hard the ground strikes a vehicle: its force upward over the weight, in means over at least kSpan. Where a
-/// vehicle comes down on stopped or rigid arms, it is struck with many times its weight, and which shoe meets the
-/// ground first then decides what follows: the step and chance have a say in it (docs/evidence/vehicle_stability.md).
+/// Detects ground impacts on a vehicle: upward ground force over weight, averaged over at least kSpan. A vehicle that
+/// lands on stopped or rigid arms receives many times its weight, and the first shoe in contact determines the motion
+/// afterwards, which then depends on time step and seed (docs/evidence/vehicle_stability.md).
 class BlowMeter {
 public:
   static constexpr double kSpan = 0.01; ///< [s]
-  static constexpr double kBlow = 4;    ///< weights, from which on a run says so [-]
+  static constexpr double kBlow = 4;    ///< force over weight above which a run reports an impact [-]
 
   BlowMeter() = default;
-  explicit BlowMeter(double weight) : weight_(weight) {} ///< [N]; 0: nothing is a blow
+  explicit BlowMeter(double weight) : weight_(weight) {} ///< [N]; 0: no impacts are reported
 
   void setWeight(double weight) { weight_ = weight; } ///< [N]
   /// `up`: mean force of the ground since the last call [N]; NaN where it is not known.
@@ -31,7 +31,7 @@ public:
     impulse_ = span_ = 0;
   }
   bool isBlow() const { return most > kBlow; }
-  std::string text() const; ///< what a run says of a blow
+  std::string text() const; ///< report of the largest impact
 
   static constexpr std::size_t kNumbers = 5;
   std::vector<double> save() const { return {most, at, last_, impulse_, span_}; }

@@ -14,8 +14,8 @@ namespace grouser::vehicle {
 namespace {
 
 constexpr double kGap = 0.005;  // [m] least between wheels
-constexpr int kMoreShoes = 60;  // than asked for, or fewer, at most
-constexpr int kSteps = 8;       // tried of each length
+constexpr int kMoreShoes = 60;  // largest change of the number of shoes
+constexpr int kSteps = 8;       // tried steps of each length
 constexpr double kStep = 0.004; // [m]
 
 double rounded(double x) { return std::floor(1e4 * x + 0.5) / 1e4; }
@@ -36,12 +36,12 @@ VehicleSpec stretched(const VehicleSpec& given, double away, double end) {
   s.idler.x = rounded(side * away);
   if (s.roadWheel.count > 1) s.roadWheel.spacing = rounded((last - first) / (s.roadWheel.count - 1));
   s.roadWheel.firstX = side > 0 ? rounded(first) : rounded(-first - s.roadWheel.spacing * (s.roadWheel.count - 1));
-  // At the same share of the way the upper strand is as high.
+  // At the same relative position the upper strand has the same height.
   for (double& x : s.roller.x) x = rounded(ratio * x);
   return s;
 }
 
-/// Distance of the idler at which the loop is as long as its shoes [m].
+/// Idler distance at which the loop length equals the length of the shoes [m].
 std::optional<double> closingDistance(const VehicleSpec& s, double end) {
   const double loop = s.shoe.count * s.shoe.pitch;
   double low = nearestWheel(s) + end, high = std::max(2 * low, loop);

@@ -12,18 +12,18 @@ namespace grouser::vehicle {
 Course::Course(CourseOptions options) : options_(std::move(options)) {
   const std::vector<double>&x = options_.x, &y = options_.y;
   if (x.size() != y.size() || x.size() == 1)
-    throw base::InputError("driver.course: a path has as many y as x, and two at least");
+    throw base::InputError("driver.course: x and y of a path must have equal lengths, at least 2");
   if (!(options_.acceleration > 0) || !(options_.tread > 0) || !(options_.pitchRadius > 0) ||
       !(options_.maxSprocketSpeed > 0))
-    throw base::InputError("driver.course: acceleration, tread, pitch radius and most speed must be above 0");
+    throw base::InputError("driver.course: acceleration, tread, pitch radius and maximum sprocket speed must be > 0");
   if (onPath() && (!(options_.lookAhead > 0) || options_.speed < 0))
-    throw base::InputError("driver.course: on a path look_ahead must be above 0, and speed not below");
+    throw base::InputError("driver.course: a path requires look_ahead > 0 and speed >= 0");
   double way = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (i > 0) {
       const double dx = x[i] - x[i - 1], dy = y[i] - y[i - 1], stretch = std::sqrt(dx * dx + dy * dy);
       if (!(stretch > 0))
-        throw base::InputError("driver.course: two points of the path that follow each other are one");
+        throw base::InputError("driver.course: two consecutive points of the path coincide; remove one");
       way += stretch;
     }
     ways_.push_back(way);
@@ -41,7 +41,7 @@ Course::Place Course::placeAt(double way) const {
   return {options_.x[i - 1] + s * dx, options_.y[i - 1] + s * dy, dx, dy};
 }
 
-/// The nearest place, of those not farther ahead than lookAhead: a path may cross itself.
+/// The nearest point of the path within lookAhead: a path may cross itself.
 void Course::follow(const HullMotion& m) {
   double nearest = 1e300, found = travelled_;
   for (std::size_t i = 1; i < ways_.size(); ++i) {
@@ -61,14 +61,14 @@ std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, d
   const CourseOptions& o = options_;
   double speed = std::min(std::fabs(o.speed - from), o.acceleration * std::max(0.0, time)), curvature = o.curvature;
   if (o.speed < from) speed = -speed;
-  if (from != 0) speed += from; // else not even the sign of a 0 changes
+  if (from != 0) speed += from; // keeps the sign of a zero
   if (onPath()) {
     follow(m);
     speed = std::min(speed, std::sqrt(2 * o.acceleration * std::max(0.0, length() - travelled_)));
     const Place ahead = placeAt(travelled_ + o.lookAhead);
     const double dx = ahead.x - m.x, dy = ahead.y - m.y;
     curvature = 2 * (m.forwardX * dy - m.forwardY * dx) /
-                std::max(dx * dx + dy * dy, 0.01 * o.lookAhead * o.lookAhead); // of a hull that has come off far
+                std::max(dx * dx + dy * dy, 0.01 * o.lookAhead * o.lookAhead); // for a hull far off the path
   }
   const double turn = speed * curvature, missing = speed - m.speed, missingTurn = turn - m.turnRate;
   const double speedSum = speedSum_ + o.speedIntegral * missing * dt;

@@ -31,20 +31,20 @@ Driver::Driver(DriverOptions options) : options_(std::move(options)) {
   const SpeedTable& table = options_.speeds;
   const TorqueTable& torques = options_.torques;
   if (options_.tensionRamp < 0 || options_.weightRamp < 0 || options_.driveRamp < 0)
-    throw base::InputError("driver: a ramp lasts less than 0 s");
+    throw base::InputError("driver: ramps must last >= 0 s");
   if (options_.driveStart < options_.tensionRamp + options_.weightRamp)
-    throw base::InputError("driver: the drive starts before tension and weight are up; set it to at least their sum");
-  if (table.time.empty() || table.left.size() != table.time.size() || table.right.size() != table.time.size())
     throw base::InputError(
-        "driver: the speed table needs at least one row, and as many speeds left and right as times");
+        "driver: the drive starts before the tension and weight ramps end; start it after their sum");
+  if (table.time.empty() || table.left.size() != table.time.size() || table.right.size() != table.time.size())
+    throw base::InputError("driver: the speed table needs at least one time, and a left and a right speed for each");
   if (multibody::firstOutOfOrder(table.time, true) > 0)
-    throw base::InputError("driver: the times of the speed table must rise; a time may stand twice, for a jump");
+    throw base::InputError("driver: the times of the speed table must increase; repeat a time for a jump");
   if (torques.time.empty() || torques.left.size() != torques.time.size() ||
       torques.right.size() != torques.time.size() || multibody::firstOutOfOrder(torques.time, true) > 0)
-    throw base::InputError("driver: the torque table needs as many torques left and right as times, which rise");
+    throw base::InputError("driver: the torque table needs increasing times, and a left and a right torque for each");
   if (options_.course) {
     if (options_.drive == SprocketDrive::torque)
-      throw base::InputError("driver: a course is driven by speeds or engines, not by torques that are given");
+      throw base::InputError("driver: a course requires drive by speed or engine, not by torque");
     course_.emplace(*options_.course);
   }
 }
@@ -56,10 +56,9 @@ std::string Driver::judge(double time, double speed, double load) {
     restsSince_.reset();
     if (time <= options_.driveStart + rest.timeLimit) return "";
     return fmt::format(
-        "the vehicle has not come to rest within driver.rest_time_limit = {:g} s: its hull moves at {:.3g} "
-        "m/s along gravity (driver.rest_speed = {:g}), the ground carries {:.3g} of its weight "
-        "(driver.rest_load = {:g} from 1); raise what is too narrow or the limit, or give "
-        "driver.drive_start",
+        "the vehicle has not come to rest within driver.rest_time_limit = {:g} s: hull speed along gravity {:.3g} "
+        "m/s (driver.rest_speed = {:g}), ground force {:.3g} times the weight (1 +- driver.rest_load = {:g}); "
+        "raise these limits, or set driver.drive_start",
         rest.timeLimit, speed, rest.speed, load, rest.load);
   }
   if (!restsSince_) restsSince_ = time;
@@ -73,8 +72,7 @@ std::vector<double> Handover::save() const {
 
 Handover Handover::of(const std::vector<double>& s) {
   if (s.size() != kSaved)
-    throw base::InputError("driver: the checkpoint does not say what the sprockets were given; resume with the program "
-                           "that wrote it");
+    throw base::InputError("driver: the checkpoint lacks the sprocket commands; resume with the program that wrote it");
   return {s[0] != 0, s[1], {s[2], s[3]}, {s[4], s[5]}, s[6]};
 }
 
@@ -92,7 +90,7 @@ void Driver::restore(const std::vector<double>& saved) {
   const std::size_t start = options_.rest ? 2 : 0, own = start + (course_ ? Course::kSaved : 0);
   if (saved.size() != own && saved.size() != own + Handover::kSaved)
     throw base::InputError(
-        "driver: the checkpoint is of another start of the drive; resume with the scene that was run");
+        "driver: the checkpoint has another kind of drive start; resume with the scene that was run");
   from_.reset();
   if (saved.size() > own) from_ = Handover::of({saved.begin() + static_cast<std::ptrdiff_t>(own), saved.end()});
   if (course_) course_->restore(saved.data() + start);
@@ -107,8 +105,7 @@ void Driver::takeOver(const std::vector<double>& former, const Handover& from) {
 void Driver::restoreStart(const std::vector<double>& saved) {
   if (!options_.rest) return;
   if (saved.size() < 2)
-    throw base::InputError("driver: the checkpoint is of a fixed start of the drive; resume with the scene that was "
-                           "run");
+    throw base::InputError("driver: the checkpoint has a fixed drive start; resume with the scene that was run");
   begun_ = saved[0] < 0 ? std::nullopt : std::optional(saved[0]);
   restsSince_ = saved[1] < 0 ? std::nullopt : std::optional(saved[1]);
 }
@@ -146,7 +143,7 @@ void Commands::layOver(Controls& controls) const {
   }
 }
 
-/// From what a former driver asked for to what this one does.
+/// Blends commands of a former driver into those of this one.
 void Driver::passInto(std::array<double, 2>& asked, const std::array<double, 2>& former, double time) const {
   const double share = smoothRamp(time, from_->time, options_.changeRamp);
   for (std::size_t side = 0; side < 2; ++side) asked[side] = former[side] + share * (asked[side] - former[side]);

@@ -9,21 +9,20 @@ namespace grouser::vehicle {
 /// constant outside them.
 double fullLoadTorque(const EngineSpec& engine, double speed);
 
-/// Torque on a sprocket [N m], forward positive, that turns at `speed` while the governor is to hold `wanted`
-/// [rad/s]. With the droop d and both speeds taken at the engine's shaft, w for the smaller of wanted and governed
-/// speed,
+/// Torque on a sprocket [N m], forward positive, at `speed` with the governor set to `wanted` [rad/s]. With the droop
+/// d, both speeds at the engine shaft, and w the smaller of wanted and governed speed,
 ///   throttle = (w - speed) / d, held to [-1, 1];
 /// a throttle towards w drives with its share of the full load, times ratio and efficiency; one against it, and any at
-/// w = 0, brakes with its share of the brake's torque. Under a load L that the engine bears it therefore turns slower
-/// than asked by d L / (full load at the sprocket).
+/// w = 0, brakes with its share of the brake's torque. Under a load L within its capacity it is slower than commanded
+/// by d L / (full load at the sprocket).
 double engineTorque(const EngineSpec& engine, double wanted, double speed);
 
-/// The same without a governor, at a throttle that is given, -1 to 1: it drives with its share of the full load,
-/// forward where positive; against the way the sprocket turns it brakes with its share of the brake's torque.
+/// The same without a governor, at a given throttle from -1 to 1: it drives with its share of the full load, forward if
+/// positive; against the sprocket's rotation it brakes with its share of the brake torque.
 double throttleTorque(const EngineSpec& engine, double throttle, double speed);
 
-/// The steepest slope of that torque over the sprocket's speed [N m s/rad]: together with the inertia that it turns it
-/// makes the time that a step must resolve.
+/// Steepest slope of that torque over sprocket speed [N m s/rad]: with the driven inertia it defines a time constant
+/// that the step must resolve.
 double governorSlope(const EngineSpec& engine);
 
 } // namespace grouser::vehicle

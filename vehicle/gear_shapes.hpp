@@ -7,8 +7,8 @@ namespace grouser::vehicle {
 
 /// Contact geometry within the running gear and between shoes and rigid surfaces.
 enum class GearContactModel {
-  shapes, ///< by the lengths of VehicleSpec::shapes
-  samples ///< by points of their meshes' surfaces
+  shapes, ///< by the dimensions of VehicleSpec::shapes
+  samples ///< by sample points of the meshes
 };
 
 /// Dimensions of the contact surfaces of the running gear: plates, horns, bosses, discs and arcs [m]. Without them the
@@ -17,7 +17,7 @@ enum class GearContactModel {
 struct GearShapes {
   // Shoe.
   double plateInner{}, plateOuter{};      ///< wheel plates, from this |y| to that one
-  double hornLength{}, hornWidth{};       ///< guide horn in x and y, where it stands on the plates' level
+  double hornLength{}, hornWidth{};       ///< guide horn in x and y, at the level of the plates
   double hornTipLength{}, hornTipWidth{}; ///< ... and at its tip
   double bossRadius{};                    ///< of the bosses about the pins at x = +pitch/2
   double bossInner{}, bossOuter{};        ///< bosses, from this |y| to that one

@@ -17,12 +17,12 @@ Vec3d levelled(const Vec3d& v) { return {v.x, v.y, 0}; }
 
 Hitch::Hitch(const HitchOptions& options) : options_(options) {
   const HitchOptions& o = options_;
-  if (!(o.start >= 0) || !(o.ramp >= 0)) throw base::InputError("hitch: start and ramp must not be below 0");
+  if (!(o.start >= 0) || !(o.ramp >= 0)) throw base::InputError("hitch: start and ramp must be >= 0");
   const bool sled = o.kind == HitchKind::sled;
   if (sled && (!(o.mass > 0) || !(o.friction >= 0) || !(o.length > 0)))
-    throw base::InputError("hitch: mass and length of a sled must be above 0, and its friction not below");
+    throw base::InputError("hitch: a sled requires mass > 0, length > 0 and friction >= 0");
   if ((sled || o.kind == HitchKind::speed) && (!(o.stiffness > 0) || !(o.damping >= 0)))
-    throw base::InputError("hitch: stiffness must be above 0, and damping not below");
+    throw base::InputError("hitch: stiffness must be > 0 and damping >= 0");
 }
 
 double Hitch::towedSpeed() const {
@@ -45,8 +45,7 @@ void Hitch::takeHold(const HitchMotion& m) {
 
 void Hitch::command(std::optional<double> value) {
   if (value && options_.kind != HitchKind::force && options_.kind != HitchKind::speed)
-    throw base::InputError(
-        "hitch: a ramp or a sled has neither force nor speed that can be set; use kind force or speed");
+    throw base::InputError("hitch: force and speed of a ramp or sled cannot be set; use kind force or speed");
   command_ = value;
 }
 
@@ -78,7 +77,7 @@ Vec3d Hitch::pullSled(const HitchMotion& m, double dt, const Vec3d& gravity) {
   const double rate = dot(levelled(m.velocity) - motion_, along);
   const double tension = stretch > 0 ? std::max(0.0, o.stiffness * stretch + o.damping * rate) : 0.0;
 
-  // What moves it first, then friction against where it would go.
+  // Forces first, then friction against the resulting velocity.
   Vec3d velocity = motion_ + (along * (tension / o.mass) + levelled(gravity)) * dt;
   const double speed = norm(velocity), braked = o.friction * std::fabs(gravity.z) * dt;
   velocity = speed > braked ? velocity * (1 - braked / speed) : Vec3d{};

@@ -19,9 +19,9 @@ namespace {
 using base::TriangleMesh;
 using Polygon = std::vector<PlanePoint>; ///< convex
 
-constexpr double kTouching = 1e-3; ///< overlap that is none [m]
+constexpr double kTouching = 1e-3; ///< tolerated overlap [m]
 
-/// Something of a track, as it stands in the track's plane, and how far it goes to both sides of it.
+/// Part of a track: outline in the track's plane and extent across it.
 struct TrackPart {
   std::string name;
   Polygon corners; ///< of a shoe
@@ -63,7 +63,7 @@ std::vector<TrackPart> trackParts(const VehicleSpec& s, const PartMeshes& meshes
   return parts;
 }
 
-/// What lies of a triangle at y in [from, to], seen along y.
+/// Section of a triangle with y in [from, to], seen along y.
 Polygon slice(const std::array<Vec3d, 3>& triangle, double from, double to) {
   std::vector<Vec3d> points(triangle.begin(), triangle.end());
   for (const double sign : {1.0, -1.0}) {
@@ -82,7 +82,7 @@ Polygon slice(const std::array<Vec3d, 3>& triangle, double from, double to) {
   return flat;
 }
 
-/// Least of both shapes' shifts along their edges' normals that parts them [m]; negative where they are apart.
+/// Smallest shift along an edge normal that separates two shapes [m]; negative if they are apart.
 double overlapOf(const Polygon& a, const Polygon& b) {
   double least = base::kInfinity;
   for (const Polygon* shape : {&a, &b})
@@ -104,7 +104,7 @@ double overlapOf(const Polygon& a, const Polygon& b) {
   return least;
 }
 
-/// How deep a polygon reaches into a disc [m]; negative where it does not.
+/// Penetration of a polygon into a disc [m]; negative if apart.
 double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
   double nearest = base::kInfinity;
   bool inside = polygon.size() > 2;
@@ -121,8 +121,8 @@ double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
   return radius - (inside && turn != 0 ? 0.0 : nearest);
 }
 
-/// How deep a part of the track at `offset` stands in the hull [m], by the shorter way out, in the track's plane or
-/// across; infinite where it is inside, negative where clear.
+/// Penetration of a track part at `offset` into the hull [m], by the shorter way out, in the track's plane or across;
+/// infinite if inside, negative if clear.
 double depthOf(const spheredecomp::MeshQuery& query, const TrackPart& part, double offset) {
   if (query.inside({part.centre.x, offset, part.centre.z})) return base::kInfinity;
   const TriangleMesh& hull = query.mesh();
@@ -171,7 +171,7 @@ std::optional<SpecFault> hullFault(const VehicleSpec& s, const PartMeshes& meshe
   for (double offset = std::floor(s.trackOffset / kStep + 1) * kStep; offset <= kMost; offset += kStep)
     if (!clashAt(hull, parts, offset))
       return SpecFault{"vehicle", "track_offset", fmt::format("{}; set vehicle.track_offset = {:.2f}", what, offset)};
-  return SpecFault{"vehicle", "track_offset", what + "; no wider track mends it: give another hull"};
+  return SpecFault{"vehicle", "track_offset", what + "; no wider track resolves it: use another hull mesh"};
 }
 
 } // namespace grouser::vehicle

@@ -5,8 +5,8 @@
 
 namespace grouser::vehicle {
 
-/// A hull that stands in its tracks, as both are drawn: shoes or wheels that its mesh overlaps by more than a
-/// millimetre. Nothing would push them apart, since a run has no contacts between the two. Empty where they are clear.
+/// Overlap of the hull mesh with shoes or wheels by more than a millimetre, in the drawn position. A run has no
+/// contacts between hull and tracks, so it would persist. Empty if there is none.
 std::optional<SpecFault> hullFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -26,42 +26,42 @@ struct VectorField {
 
 constexpr VectorField kVectorFields[] = {
     {"position", "m", "middle of the sprockets' axle line", {"x", "y", "z"}, &Observation::position},
-    {"velocity", "m/s", "of the chassis' centre of mass", {"x", "y", "z"}, &Observation::velocity},
-    {"ground_force", "N", "of the ground on all bodies", {"forward", "left", "up"}, &Observation::groundForce},
+    {"velocity", "m/s", "velocity of the chassis' centre of mass", {"x", "y", "z"}, &Observation::velocity},
+    {"ground_force", "N", "ground force on all bodies", {"forward", "left", "up"}, &Observation::groundForce},
 };
 
 constexpr VehicleField kVehicleFields[] = {
-    {"heading", "rad", "of the hull, from world x towards y, counted on beyond whole turns", &Observation::heading},
-    {"pitch_angle", "rad", "of the hull, nose up positive, within +-pi/2", &Observation::pitchAngle},
-    {"roll_angle", "rad", "of the hull, right side down positive, counted on beyond whole turns",
-     &Observation::rollAngle},
+    {"heading", "rad", "heading of the hull, from world x towards y, continuous over turns", &Observation::heading},
+    {"pitch_angle", "rad", "pitch of the hull, nose up positive, within +-pi/2", &Observation::pitchAngle},
+    {"roll_angle", "rad", "roll of the hull, right side down positive, continuous over turns", &Observation::rollAngle},
     {"gross_traction", "N", "mean drive torques over the pitch radius, in the direction of motion",
      &Observation::grossTraction},
     {"net_thrust", "N",
-     "of the ground on the vehicle in the direction of motion, along the ground, mean since the last row",
+     "ground force on the vehicle in the direction of motion, along the ground, mean since the last row",
      &Observation::netThrust},
     {"drawbar_pull", "N",
-     "of the vehicle on its hitch in the direction of motion, mean since the last row; without a hitch net thrust less "
-     "the weight's share along the ground",
+     "force of the vehicle on its hitch in the direction of motion, mean since the last row; without a hitch net "
+     "thrust "
+     "minus the weight component along the ground",
      &Observation::drawbarPull},
-    {"motion_resistance", "N", "gross traction minus net thrust; NaN where the tracks run against each other",
+    {"motion_resistance", "N", "gross traction minus net thrust; NaN while the tracks run in opposite directions",
      &Observation::motionResistance},
 };
 
 constexpr ScalarField kTrackFields[] = {
-    {"sprocket_speed", "rad/s", "forward positive", &TrackObservation::sprocketSpeed},
-    {"drive_torque", "N m", "of the hull on the sprocket by its drive, forward positive",
+    {"sprocket_speed", "rad/s", "sprocket speed, forward positive", &TrackObservation::sprocketSpeed},
+    {"drive_torque", "N m", "drive torque of the hull on the sprocket, forward positive",
      &TrackObservation::driveTorque},
-    {"mean_torque", "N m", "the same, mean since the last row", &TrackObservation::meanTorque},
-    {"drive_power", "W", "of the hull on the sprocket by its drive, mean since the last row",
-     &TrackObservation::drivePower},
-    {"idler_force", "N", "of the tensioner on the idler, positive away from the sprocket",
+    {"mean_torque", "N m", "drive torque, mean since the last row", &TrackObservation::meanTorque},
+    {"drive_power", "W", "drive power on the sprocket, mean since the last row", &TrackObservation::drivePower},
+    {"idler_force", "N", "tensioner force on the idler, positive away from the sprocket",
      &TrackObservation::idlerForce},
-    {"idler_slide", "m", "from the drawn place, positive away from the sprocket", &TrackObservation::idlerSlide},
-    {"speed", "m/s", "of the hull at this track", &TrackObservation::speed},
+    {"idler_slide", "m", "idler displacement from the drawn position, positive away from the sprocket",
+     &TrackObservation::idlerSlide},
+    {"speed", "m/s", "speed of the hull at this track", &TrackObservation::speed},
     {"slip", "-", "1 - speed / (sprocket speed x pitch radius)", &TrackObservation::slip},
-    {"tooth_speed", "m/s", "mean over whole tooth passages", &TrackObservation::toothSpeed},
-    {"tooth_slip", "-", "mean over whole tooth passages", &TrackObservation::toothSlip},
+    {"tooth_speed", "m/s", "speed, mean over whole tooth passages", &TrackObservation::toothSpeed},
+    {"tooth_slip", "-", "slip, mean over whole tooth passages", &TrackObservation::toothSlip},
     {"teeth_passed", "-", "sprocket speed x teeth / (2 pi), integrated", &TrackObservation::teethPassed},
     {"pitches_passed", "-", "pitches of track past the sprocket", &TrackObservation::pitchesPassed},
     {"skipped", "-", "teeth passed minus pitches passed", &TrackObservation::skipped},
@@ -71,21 +71,22 @@ constexpr ScalarField kTrackFields[] = {
 
 constexpr ShoeField kShoeFields[] = {
     {"pad_height", "m", "lowest point of each shoe's pad plate", &TrackObservation::padHeight},
-    {"sinkage", "m", "undisturbed surface over the middle of the pad, along its normal, on the ground run",
+    {"sinkage", "m", "depth of the pad centre below the undisturbed surface, along its normal, in ground contact",
      &TrackObservation::sinkage},
     {"tension", "N", "force in the pin joint ahead of each shoe", &TrackObservation::tension},
     {"ground_pressure", "Pa", "ground force normal to the pad over its area", &TrackObservation::groundPressure},
-    {"on_ground", "-", "1 on the ground run and carrying load", &TrackObservation::onGround},
+    {"on_ground", "-", "1 if the shoe is in ground contact and carries load", &TrackObservation::onGround},
 };
 
-/// Where they are asked for.
+/// Optional fields.
 constexpr ShoeField kForceFields[] = {
-    {"normal_force", "N", "of the ground on each shoe, square to its pad, mean since the last row",
+    {"normal_force", "N", "ground force on each shoe normal to its pad, mean since the last row",
      &TrackObservation::normalForce},
-    {"forward_force", "N", "the same along the shoe, which is forward on the ground run",
+    {"forward_force", "N", "ground force along the shoe (forward in ground contact), mean since the last row",
      &TrackObservation::forwardForce},
-    {"left_force", "N", "the same across the shoe, to the left positive", &TrackObservation::leftForce},
-    {"shear", "Pa", "shear force on each pad, of both directions together, over its area", &TrackObservation::shear},
+    {"left_force", "N", "ground force across the shoe, left positive, mean since the last row",
+     &TrackObservation::leftForce},
+    {"shear", "Pa", "resultant shear force on each pad over its area", &TrackObservation::shear},
 };
 
 } // namespace
@@ -103,8 +104,11 @@ std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes, int 
   std::vector<Quantity> list;
   const std::string folder = "vehicle/" + side + "/";
   for (const ScalarField& f : kTrackFields) list.push_back({folder + f.name, f.unit, f.help, 1, {}});
-  Quantity arms{
-      folder + "arm_angle", "rad", "of each road wheel's arm from the drawn place, wheel up positive", wheels, {}};
+  Quantity arms{folder + "arm_angle",
+                "rad",
+                "angle of each road wheel's arm from the drawn position, wheel up positive",
+                wheels,
+                {}};
   for (int i = 0; i < wheels; ++i) arms.columns.push_back(std::to_string(i));
   list.push_back(arms);
   for (const ShoeField& f : kShoeFields) list.push_back({folder + f.name, f.unit, f.help, shoes, {}});

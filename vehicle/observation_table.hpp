@@ -8,19 +8,19 @@
 
 namespace grouser::vehicle {
 
-/// One observed quantity as an output file wants it.
+/// One observed quantity of the output files.
 struct Quantity {
   std::string path; ///< "vehicle/left/tension"
   std::string unit; ///< "N"; "-" where dimensionless
   std::string help;
-  int width = 1;                    ///< numbers a row: 3 of a vector, one a shoe
-  std::vector<std::string> columns; ///< names of a vector's components, or of wheels by their numbers; empty for
-                                    ///< scalars and for one a shoe
+  int width = 1; ///< numbers per row: 3 for a vector, one per shoe
+  std::vector<std::string>
+      columns; ///< names of vector components, or wheel numbers; empty for scalars and values per shoe
 };
 
-/// What an observation of this vehicle holds, in the order of flatten(). `shoeForces`: with the force on each shoe.
+/// Quantities of an observation of this vehicle, in the order of flatten(). `shoeForces`: include forces on each shoe.
 std::vector<Quantity> quantities(const Assembly& vehicle, bool shoeForces = false);
-/// The same in parts: of the whole vehicle, and of each track; `side` is "left" or "right".
+/// Quantities of the whole vehicle, and of one track; `side` is "left" or "right".
 std::vector<Quantity> quantitiesOfHull();
 std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes, int wheels, bool shoeForces = false);
 

@@ -17,32 +17,31 @@ namespace {
 using base::Vec3d;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Tracks run above, and a hull on standing tracks slides above [m/s]; a hull that was set down swings by less.
+/// Speeds above which tracks run, and a hull on stopped tracks slides [m/s]; oscillations after settling are smaller.
 constexpr double kRuns = 1e-4, kSlides = 0.01;
-/// Above this the tracks of a vehicle that went the other way have turned round [m/s]; one that stalls rocks by less.
+/// Speed above which the tracks have reversed [m/s]; a stalled vehicle rocks with less.
 constexpr double kTurnedRound = 0.01;
-/// Slack and stretch move the track against the sprocket by less than half a pitch; three quarters is on the way to a
-/// skip.
+/// Slack and stretch move the track against the sprocket by less than half a pitch; three quarters indicate a skip.
 constexpr double kSkip = 0.75;
 
-/// The angle of those that differ from `angle` by whole turns which lies nearest to `last` [rad].
+/// Unwraps `angle`: adds whole turns to be nearest to `last` [rad].
 double continued(double angle, double last) {
   return angle + 2 * base::kPi * std::floor((last - angle) / (2 * base::kPi) + 0.5);
 }
 
-/// Against gravity; world z where there is none.
+/// Direction against gravity; world z without gravity.
 Vec3d upOf(const Vec3d& gravity) {
   const double g = base::norm(gravity);
   return g > 0 ? gravity * (-1 / g) : Vec3d{0, 0, 1};
 }
 
-/// Does the ground carry more than half of the weight?
+/// True if the ground carries more than half of the weight.
 bool stands(const Assembly& vehicle, const GroundLoads& ground, const Vec3d& gravity) {
   const Vec3d up = upOf(gravity);
   double carried = 0;
   for (std::size_t body = 0; body < ground.force.size(); ++body)
     if (static_cast<int>(body) != vehicle.chassis)
-      carried += base::dot(ground.force[body], up); // on it the tracks hang
+      carried += base::dot(ground.force[body], up); // the hull carries the tracks
   return carried > 0.5 * vehicle.mass * base::norm(gravity);
 }
 
@@ -150,8 +149,8 @@ std::vector<Observer::DriveSums> Observer::means(const multibody::State& state) 
   return means;
 }
 
-/// 1 forward, -1 backward; 0 where the tracks run against each other; none where too little moves to tell. `sums` of
-/// the tracks over some `updates`.
+/// 1 forward, -1 backward; 0 if the tracks run in opposite directions; none if too slow. `sums` of the tracks over some
+/// `updates`.
 std::optional<int> Observer::motion(const std::vector<DriveSums>& sums, double updates) const {
   double most = 0, least = 0, hull = 0; // [m/s]
   for (const DriveSums& track : sums) {
@@ -174,7 +173,7 @@ void Observer::restartMeans() {
 }
 
 base::Alarm Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
-  // A track that hangs free, or whose load is not known, may sag off its wheels; and wheels roll over stones.
+  // A freely hanging track, or one with unknown load, may sag off its wheels; and wheels roll over stones.
   const double allowed =
       vehicle_->spec.shoe.hornHeight + stone_ +
       (stands(*vehicle_, ground, gravity_) ? 0.0 : suspendedSag(vehicle_->spec, base::norm(gravity_)));
@@ -298,7 +297,7 @@ void Observer::restore(const std::vector<double>& flat) {
   const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
   if (flat.size() != save().size())
     throw base::InputError("observers: the checkpoint is of another vehicle, or of an earlier version of the program; "
-                           "begin the run anew with --force");
+                           "restart the run with --force");
   const auto place = [&](std::size_t i) { return flat.begin() + static_cast<std::ptrdiff_t>(i * each); };
   for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i].restore({place(i), place(i + 1)});
   const double* sums = flat.data() + each * travel_.size();

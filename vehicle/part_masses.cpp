@@ -15,10 +15,9 @@ namespace {
 using base::roundedDown;
 using base::roundedUp;
 
-/// A hull is mostly air, a shoe may be of steel: what lies between air and the heaviest of metals [kg/m3].
+/// Plausible densities: from air (a hull is mostly empty) to the heaviest metals [kg/m3].
 constexpr double kLeastDensity = 1, kMostDensity = 25e3;
-/// Radius of gyration over how far a part reaches from its centre of mass [-]. A solid has less than 1; what is drawn
-/// simpler than it is may have more.
+/// Radius of gyration over extent from the centre of mass [-]. Below 1 for a solid; simplified meshes may have more.
 constexpr double kLeastGyration = 0.01, kMostGyration = 2;
 
 std::optional<SpecFault> densityFault(const char* section, double mass, const std::string& mesh, double volume) {
@@ -26,21 +25,21 @@ std::optional<SpecFault> densityFault(const char* section, double mass, const st
   if (density >= kLeastDensity && density <= kMostDensity) return {};
   return SpecFault{section, "mass",
                    fmt::format("[kg] in the {:.3g} m3 of {} is a density of {:.3g} kg/m3, {}; choose a mass in "
-                               "[{}, {}] kg, or give a mesh of the right size (it is read in metres)",
+                               "[{}, {}] kg, or use a mesh of the right size (in metres)",
                                volume, mesh, density,
                                density < kLeastDensity ? "lighter than air" : "heavier than any metal",
                                roundedUp(kLeastDensity * volume, 3), roundedDown(kMostDensity * volume, 3))};
 }
 
-/// `reach`: how far the part goes from its centre of mass [m].
+/// `reach`: extent of the part from its centre of mass [m].
 std::optional<SpecFault> inertiaFault(const char* section, const char* key, double mass, const Vec3d& inertia,
                                       double reach, const char* what) {
   const double largest = std::max({inertia.x, inertia.y, inertia.z}), gyration = std::sqrt(largest / mass);
   if (gyration >= kLeastGyration * reach && gyration <= kMostGyration * reach) return {};
   return SpecFault{
       section, key,
-      fmt::format("[kg m2] is that of {:g} kg at {:.3g} m from the centre of mass, but {} reaches to {:.3g} "
-                  "m from it; choose moments of which the largest is in [{}, {}]",
+      fmt::format("[kg m2] means {:g} kg at a radius of gyration of {:.3g} m, but {} extends {:.3g} m from its "
+                  "centre of mass; choose a largest moment in [{}, {}]",
                   mass, gyration, what, reach, roundedUp(kLeastGyration * kLeastGyration * reach * reach * mass, 3),
                   roundedDown(kMostGyration * kMostGyration * reach * reach * mass, 3))};
 }
@@ -53,7 +52,7 @@ std::optional<SpecFault> surfaceFault(const char* section, const SurfaceSpec& pa
   return inertiaFault(section, "inertia", part.mass, part.inertia, reach, part.mesh.c_str());
 }
 
-/// The hull's weight may ride beside and above what is drawn of it, but not far.
+/// The hull's centre of mass may lie outside its mesh, but not far.
 std::optional<SpecFault> centreFault(const VehicleSpec& s, const base::TriangleMesh& mesh) {
   const auto [low, high] = spheredecomp::bounds(mesh);
   const Vec3d& centre = s.chassis.centre;

@@ -5,8 +5,8 @@
 
 namespace grouser::vehicle {
 
-/// Masses and moments of inertia that no body of the meshes' size has: lighter than air or heavier than any metal, or
-/// turning as if much larger or much smaller than it is. Empty for those that may be.
+/// Implausible masses and moments of inertia for the mesh sizes: lighter than air or heavier than any metal, or a
+/// radius of gyration far beyond or below the extent. Empty if plausible.
 std::optional<SpecFault> massFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -13,7 +13,7 @@ namespace {
 
 using base::TriangleMesh;
 
-constexpr double kFits = 1e-3; // [m] difference of mesh and spec that is no fault
+constexpr double kFits = 1e-3; // [m] tolerated difference of mesh and spec
 
 double radiusAt(const Vec3d& p) { return std::sqrt(p.x * p.x + p.z * p.z); }
 
@@ -30,7 +30,7 @@ bool all(const Vec3d&) { return true; }
 SpecFault differs(const char* section, const char* key, const std::string& mesh, const char* what, double inMesh,
                   double value) {
   return {section, key,
-          fmt::format("[m] does not fit the mesh {}, in which {} {:.1f} mm; set {}.{} = {:.6g}, or give a mesh of this "
+          fmt::format("[m] does not fit the mesh {}, in which {} {:.1f} mm; set {}.{} = {:.6g}, or use a mesh of this "
                       "size",
                       mesh, what, 1e3 * inMesh, section, key, value)};
 }
@@ -42,7 +42,7 @@ std::optional<SpecFault> rimFault(const char* section, double radius, const std:
   return differs(section, "radius", name, "the rim has a radius of", rim, std::floor(1e3 * rim + 0.5) / 1e3);
 }
 
-/// What a shoe's mesh says of its pins: bosses stand beside the pads. NaN where nothing stands there.
+/// Pin bosses of a shoe's mesh, beside the pads. NaN if there are none.
 struct Bosses {
   double x, radius; ///< of the joint ahead [m]
 };
@@ -58,7 +58,7 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
   const auto down = [](const Vec3d& v) { return -v.z; };
   const auto middle = [&](const Vec3d& v) { return std::fabs(v.y) <= 0.5 * s.shoe.padHalfWidth; };
   const std::string& name = s.shoe.mesh;
-  // First: other lengths are looked for beside the pads, and between them.
+  // Checked first: other lengths are measured beside the pads and between them.
   const double pads = most(
       mesh, [&](const Vec3d& v) { return std::fabs(v.z - s.shoe.padBottom) <= kFits; },
       [](const Vec3d& v) { return std::fabs(v.y); });
@@ -66,9 +66,10 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
     return differs("shoe", "pad_half_width", name, "the pads reach to |y| =", pads, std::floor(1e3 * pads + 0.5) / 1e3);
   const double wide = most(mesh, all, [](const Vec3d& v) { return std::fabs(v.y); });
   if (wide < s.shoe.padHalfWidth - kFits)
-    return differs("shoe", "pad_half_width", name, "all lies within |y| =", wide, std::floor(1e3 * wide + 0.5) / 1e3);
+    return differs("shoe", "pad_half_width", name, "all vertices lie within |y| =", wide,
+                   std::floor(1e3 * wide + 0.5) / 1e3);
   if (const Bosses b = bossesOf(s, mesh); std::isfinite(b.x) && std::fabs(b.x - 0.5 * s.shoe.pitch) > kFits)
-    return differs("shoe", "pitch", name, "the pins ahead lie at x =", b.x, std::floor(2e3 * b.x + 0.5) / 1e3);
+    return differs("shoe", "pitch", name, "the front pins lie at x =", b.x, std::floor(2e3 * b.x + 0.5) / 1e3);
   const double half = most(mesh, middle, [](const Vec3d& v) { return std::fabs(v.x); });
   if (std::fabs(half - s.shoe.halfLength) > kFits)
     return differs("shoe", "half_length", name, "plate and pad reach to x =", half, std::floor(1e3 * half + 0.5) / 1e3);
@@ -94,7 +95,7 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
   return {};
 }
 
-/// Teeth stand between the pins, and pins lie in the gaps.
+/// Checks that the teeth lie between the pins, and the pins in the gaps.
 std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& meshes) {
   const double pins = s.sprocketPinRadius(), tip = most(meshes.sprocket, all, radiusAt);
   const auto tooth = [&](const Vec3d& v) { return base::cos(s.sprocket.teeth * base::atan2(v.z, v.x)); };
@@ -106,13 +107,14 @@ std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& mesh
     return SpecFault{
         "sprocket", "teeth",
         fmt::format("[-] and shoe.pitch = {:g} m put the pins {:.1f} mm from the axle, but the teeth of {} "
-                    "end at {:.1f} mm; choose teeth and pitch that fit the mesh, or give a mesh with these",
+                    "end at {:.1f} mm; choose teeth and pitch that fit the mesh, or use a matching mesh",
                     s.shoe.pitch, 1e3 * pins, s.sprocket.mesh, 1e3 * tip)};
-  if (phase > -0.25 * beyond) // the lands lie about the middle between two gaps
-    return SpecFault{"sprocket", "teeth",
-                     fmt::format("[-]: the teeth of {} do not lie between so many pins; give the number that the mesh "
-                                 "has, with a gap on its x axis",
-                                 s.sprocket.mesh)};
+  if (phase > -0.25 * beyond) // the tips lie midway between two gaps
+    return SpecFault{
+        "sprocket", "teeth",
+        fmt::format("[-]: the teeth of {} do not lie between so many pins; set the number of the mesh, which "
+                    "must have a gap on its x axis",
+                    s.sprocket.mesh)};
   const Bosses boss = bossesOf(s, meshes.shoe);
   const double seat = most(
       meshes.sprocket, [&](const Vec3d& v) { return radiusAt(v) > 0.8 * pins && tooth(v) > 0.9999; }, radiusAt);
@@ -127,7 +129,7 @@ std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& mesh
                   2 * (seat + boss.radius) * base::sin(base::kPi / s.sprocket.teeth))};
 }
 
-/// Radius of a wheel's surface within |y| <= half: of its hub between the discs [m].
+/// Radius of a wheel's surface within |y| <= half, i.e. of the hub between the discs [m].
 double hubRadius(const TriangleMesh& mesh, double half) {
   double largest = 0;
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
@@ -183,7 +185,7 @@ std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& me
     return SpecFault{
         "road_wheel", "z",
         fmt::format("[m] leaves the hull's mesh {} {:.1f} mm below the lowest shoes; lower the road wheels, "
-                    "or give another hull",
+                    "or use another hull mesh",
                     spec.chassis.mesh, 1e3 * below)};
   return {};
 }

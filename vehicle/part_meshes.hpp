@@ -9,14 +9,14 @@
 
 namespace grouser::vehicle {
 
-/// Meshes of a vehicle, one a kind of part; that of the rollers is empty where there are none.
+/// Meshes of a vehicle, one per kind of part; the roller mesh is empty without rollers.
 struct PartMeshes {
   base::TriangleMesh chassis{}, shoe{}, sprocket{}, roadWheel{}, roller{}, idler{};
 };
 
-/// Where a mesh has other lengths than the spec says: what is placed by one and touches by the other overlaps or hangs
-/// free at the start. Also teeth that do not take the pins, horns that reach into a wheel's hub and a hull that reaches
-/// below the tracks. Empty for meshes that fit, to a millimetre.
+/// Difference between mesh and spec dimensions: parts placed by one and in contact by the other would overlap or have
+/// gaps at the start. Also teeth that do not fit the pins, horns that reach into a wheel's hub, and a hull that reaches
+/// below the tracks. Empty if the meshes fit to a millimetre.
 std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

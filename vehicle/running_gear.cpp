@@ -18,8 +18,8 @@ namespace {
 
 using base::kPi;
 
-/// Overlap of a wheel and a plate at the start that their foundation takes without a blow [m]: of the default vehicle's
-/// widest roller 1e10 N/m3 make about 1 kN of it.
+/// Tolerated initial overlap of a wheel and a plate [m]: about 1 kN for the default vehicle's widest roller at 1e10
+/// N/m3.
 constexpr double kTouch = 1e-4;
 constexpr double kGravity = 9.80665; // [m/s2]
 
@@ -27,7 +27,7 @@ double distance(double x0, double z0, double x1, double z1) {
   return std::sqrt((x1 - x0) * (x1 - x0) + (z1 - z0) * (z1 - z0));
 }
 
-/// A key whose value may be changed to mend a fault.
+/// A key whose value may be changed to fix a fault.
 struct Knob {
   std::string section, key, unit;
   std::string name; ///< in advice: "roller.z[1]"
@@ -38,16 +38,16 @@ struct Knob {
 struct Fault {
   std::vector<Knob> knobs; ///< the first names the key
   std::string what;
-  std::string advice; ///< where no knob can be turned
+  std::string advice; ///< if no key value fixes it
   bool closure = false;
 };
 
-/// A length, unless `unit` says otherwise.
+/// A key with a length, unless `unit` differs.
 Knob knob(const std::string& section, const std::string& key, double value, double step,
           std::function<void(VehicleSpec&, double)> set, const std::string& unit = "m") {
   return {section, key, unit, section + "." + key, value, step, std::move(set)};
 }
-/// A key that only advice in words can mend.
+/// A key with textual advice only.
 Knob named(const std::string& section, const std::string& key, const std::string& unit) {
   return knob(section, key, 0, 0, {}, unit);
 }
@@ -106,7 +106,7 @@ Knob ofRoller(const VehicleSpec& s, const char* key, std::size_t i) {
   return k;
 }
 
-/// All rollers as high.
+/// Common height of all rollers.
 Knob rollersZ(const VehicleSpec& s) {
   Knob k = knob("roller", "z", s.roller.z.empty() ? 0 : s.roller.z.front(), 0.001,
                 [](VehicleSpec& v, double z) { std::fill(v.roller.z.begin(), v.roller.z.end(), z); });
@@ -119,7 +119,7 @@ Knob maximumFold(const VehicleSpec& s) {
       "rad");
 }
 
-/// What stands in a track's plane and turns.
+/// Wheel in a track's plane.
 struct Wheel {
   enum class Kind { sprocket, idler, road, roller } kind;
   std::size_t number;
@@ -140,7 +140,7 @@ struct Wheel {
   }
 };
 
-/// `idler`: where its axle stands [m]. The sprocket reaches to the pins that it carries; its teeth a little farther.
+/// `idler`: x of its axle [m]. The sprocket radius is that of its pins; the teeth are slightly larger.
 std::vector<Wheel> wheelsOf(const VehicleSpec& s, double idler) {
   using Kind = Wheel::Kind;
   std::vector<Wheel> all{{Kind::sprocket, 0, 0, 0, s.sprocketPinRadius()},
@@ -153,7 +153,7 @@ std::vector<Wheel> wheelsOf(const VehicleSpec& s, double idler) {
   return all;
 }
 
-/// What may be changed where two wheels overlap; `a` stands before `b` in wheelsOf().
+/// Keys that may be changed if two wheels overlap; `a` comes before `b` in wheelsOf().
 std::vector<Knob> knobsOf(const VehicleSpec& s, const Wheel& a, const Wheel& b) {
   using Kind = Wheel::Kind;
   if (b.kind == Kind::roller && a.kind == Kind::road)
@@ -183,12 +183,12 @@ std::optional<Fault> overlapOfWheels(const VehicleSpec& s, double idler, const c
   return {};
 }
 
-/// How far a shoe's plates let its neighbour fold inwards until they touch [rad].
+/// Inward fold angle at which the plates of neighbouring shoes touch [rad].
 double plateFold(const ShoeSpec& shoe) {
   return shoe.plateTop > 0 ? 2 * base::atan2(0.5 * shoe.pitch - shoe.halfLength, shoe.plateTop) : kPi;
 }
 
-/// Shoes against each other, side by side and folded about a wheel; the tracks against each other.
+/// Checks shoes against each other, in line and folded about a wheel, and the tracks against each other.
 std::optional<Fault> shoeFault(const VehicleSpec& s) {
   if (const double overlap = s.shoe.padHalfWidth - s.trackOffset; overlap >= 0)
     return Fault{
@@ -205,18 +205,19 @@ std::optional<Fault> shoeFault(const VehicleSpec& s) {
                  ""};
   const double fold = plateFold(s.shoe);
   if (s.shoe.maximumFold > fold)
-    return Fault{{maximumFold(s), half, plateTop(s), pitch(s)},
-                 fmt::format("lets neighbouring shoes fold on where their plates touch, at {:.4f} rad", fold),
-                 ""};
+    return Fault{
+        {maximumFold(s), half, plateTop(s), pitch(s)},
+        fmt::format("lets the plates of neighbouring shoes touch at {:.4f} rad, below shoe.maximum_fold", fold),
+        ""};
   if (const double step = 2 * kPi / s.sprocket.teeth; step > s.shoe.maximumFold)
     return Fault{{teeth(s), maximumFold(s)},
-                 fmt::format("folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less; at least "
-                             "{:.0f} teeth are needed",
+                 fmt::format("folds neighbouring shoes by {:.4f} rad, more than shoe.maximum_fold = {:g}; at least "
+                             "{:.0f} teeth are required",
                              step, s.shoe.maximumFold, std::ceil(2 * kPi / s.shoe.maximumFold)),
                  ""};
   if (const double step = 2 * base::asin(0.5 * s.shoe.pitch / s.idlerPinRadius()); step > s.shoe.maximumFold)
     return Fault{{idlerRadius(s), pitch(s), maximumFold(s)},
-                 fmt::format("folds neighbouring shoes by {:.4f} rad, shoe.maximum_fold = {:g} clears less", step,
+                 fmt::format("folds neighbouring shoes by {:.4f} rad, more than shoe.maximum_fold = {:g}", step,
                              s.shoe.maximumFold),
                  ""};
   const double least = s.smallestWheel();
@@ -230,14 +231,15 @@ std::optional<Fault> shoeFault(const VehicleSpec& s) {
   return {};
 }
 
-/// The ground run must be the lowest of the track.
+/// The shoes under the road wheels must be the lowest of the track.
 std::optional<Fault> groundLineFault(const VehicleSpec& s) {
   const double ground = s.groundPinHeight();
   const auto above = [&](const char* name, double pins, const Knob& other, const Knob& another) {
-    return Fault{{wheelZ(s), other, another, wheelRadius(s)},
-                 fmt::format("puts the ground run's pins at z = {:.4f} m, {:.1f} mm above the lowest pins on the {}",
-                             ground, 1e3 * (ground - pins), name),
-                 ""};
+    return Fault{
+        {wheelZ(s), other, another, wheelRadius(s)},
+        fmt::format("puts the pins in ground contact at z = {:.4f} m, {:.1f} mm above the lowest pins on the {}",
+                    ground, 1e3 * (ground - pins), name),
+        ""};
   };
   if (ground >= -s.sprocketPinRadius()) return above("sprocket", -s.sprocketPinRadius(), teeth(s), pitch(s));
   if (ground >= s.idler.z - s.idlerPinRadius())
@@ -247,7 +249,7 @@ std::optional<Fault> groundLineFault(const VehicleSpec& s) {
     return Fault{{knob(
                      "arm", "pivot_angle", s.arm.pivotAngle, 0.05,
                      [](VehicleSpec& v, double a) { v.arm.pivotAngle = a; }, "rad")},
-                 fmt::format("puts the arms' pivots {:.1f} mm below the plates of the ground run", 1e3 * under),
+                 fmt::format("puts the arm pivots {:.1f} mm below the plates in ground contact", 1e3 * under),
                  ""};
   return {};
 }
@@ -272,21 +274,21 @@ bool insideLoop(const Wrap& wrap, double x, double z) {
   return inside;
 }
 
-/// Wheels against the shoes of the closed loop.
+/// Checks wheels against the shoes of the closed loop.
 std::optional<Fault> loopFault(const VehicleSpec& s, const Wrap& wrap) {
   using Kind = Wheel::Kind;
   if (auto fault = overlapOfWheels(s, wrap.idlerX + s.outward() * s.idler.slideMin,
                                    s.sprocketInFront() ? " at the idler's front stop" : " at the idler's rear stop"))
     return fault;
   for (const Wheel& wheel : wheelsOf(s, wrap.idlerX)) {
-    if (wheel.kind == Kind::sprocket) continue; // it meets the pins' bosses alone
+    if (wheel.kind == Kind::sprocket) continue; // it touches only the pin bosses
     const std::vector<Knob> knobs =
         wheel.kind == Kind::roller
             ? std::vector{ofRoller(s, "z", wheel.number), rollerRadius(s), ofRoller(s, "x", wheel.number)}
         : wheel.kind == Kind::road ? std::vector{firstX(s), spacing(s), wheelRadius(s), wheelZ(s)}
                                    : std::vector{idlerX(s), idlerRadius(s)};
     if (!insideLoop(wrap, wheel.x, wheel.z))
-      return Fault{knobs, fmt::format("puts the axle of {} outside the loop of the shoes", wheel.name()), ""};
+      return Fault{knobs, fmt::format("puts the axle of {} outside the track loop", wheel.name()), ""};
     for (int i = 0; i < s.shoe.count; ++i)
       if (const double overlap = -gapToShoe(s, wrap, i, wheel); overlap > kTouch)
         return Fault{knobs, fmt::format("makes {} and shoe {} overlap by {:.1f} mm", wheel.name(), i, 1e3 * overlap),
@@ -295,7 +297,7 @@ std::optional<Fault> loopFault(const VehicleSpec& s, const Wrap& wrap) {
   return {};
 }
 
-/// Hull on its springs, and where its weight lies.
+/// Checks the suspension and the centre of mass.
 std::optional<Fault> suspensionFault(const VehicleSpec& s) {
   const double last = s.lastWheelX();
   const Vec3d c = s.chassis.centre;
@@ -317,63 +319,62 @@ std::optional<Fault> suspensionFault(const VehicleSpec& s) {
   if (s.arm.suspension == Suspension::rigid) return {};
   const double load = s.totalMass() * kGravity / (2 * s.roadWheel.count); // on a wheel [N]
   const double lever = s.arm.length * base::cos(s.arm.pivotAngle);
-  const double turn = (load - s.arm.preload) * lever; // [N m] that the bar must take beyond its preload
-  constexpr double kMostTurn = 0.5;                   // [rad] until the arm hangs or stands steep
+  const double turn = (load - s.arm.preload) * lever; // [N m] torque of the bar beyond its preload
+  constexpr double kMostTurn = 0.5;                   // [rad] largest arm rotation
   if (std::fabs(turn) <= kMostTurn * s.arm.stiffness && s.arm.stiffness > 0) return {};
   const bool soft = load * lever > kMostTurn * s.arm.stiffness;
   Fault f;
   if (soft) {
     f.knobs = {named("arm", "stiffness", "N m/rad")};
     f.what = fmt::format(
-        "lets the hull sink by {:.0f} mm on its arms under {:.0f} N a wheel",
+        "lets the hull sink by {:.0f} mm on its arms under {:.0f} N per wheel",
         s.arm.stiffness > 0 ? 1e3 * lever * std::min(1.0, std::fabs(turn) / s.arm.stiffness) : 1e3 * lever, load);
     f.advice = fmt::format("set arm.stiffness = {:.0f}", std::ceil(std::max(load, s.arm.preload) * lever / 0.15));
   } else {
     f.knobs = {named("arm", "preload", "N")};
-    f.what = fmt::format("lifts the hull by {:.0f} mm on its arms, for {:.0f} N weigh on a wheel",
+    f.what = fmt::format("lifts the hull by {:.0f} mm on its arms at a wheel load of {:.0f} N",
                          1e3 * lever * std::min(1.0, std::fabs(turn) / s.arm.stiffness), load);
     f.advice = fmt::format("set arm.preload = {:.0f}", load);
   }
   return f;
 }
 
-/// The tensioner's spring pushes the idler forward, between its stops.
+/// Checks the tensioner: its spring pushes the idler forward, between its stops.
 std::optional<Fault> tensionFault(const VehicleSpec& s) {
   const double weight = s.totalMass() * kGravity, tenth = std::floor(0.2 * weight);
   const Fault preload{{named("idler", "preload", "N")}, "", fmt::format("set idler.preload = {:.0f}", tenth)};
   if (s.idler.preload <= 0) {
     Fault f = preload;
-    f.what = "leaves the track slack, and teeth jump; a tenth of the weight in each strand is usual";
+    f.what = "leaves the track slack, and the sprocket skips teeth; a tenth of the weight in each strand is usual";
     return f;
   }
   if (s.idler.preload > 2 * weight) {
     Fault f = preload;
-    f.what = fmt::format("stretches each strand by more than the vehicle's weight of {:.0f} N; it must be in (0, "
+    f.what = fmt::format("tensions each strand by more than the vehicle's weight of {:.0f} N; it must be in (0, "
                          "{:.0f}], a tenth of the weight in each strand is usual",
                          weight, 2 * weight);
     return f;
   }
   if (const double travel = s.idler.preload / s.idler.stiffness; travel > 0.5 * std::fabs(s.idler.x))
     return Fault{{named("idler", "stiffness", "N/m")},
-                 fmt::format("must be pressed by {:.0f} mm to give idler.preload = {:g} N, and the track is "
+                 fmt::format("needs a compression of {:.0f} mm for idler.preload = {:g} N, and the track is "
                              "{:.0f} mm long",
                              1e3 * travel, s.idler.preload, 1e3 * std::fabs(s.idler.x)),
                  fmt::format("set idler.stiffness = {:.0f}", std::ceil(s.idler.preload / 0.03))};
   if (s.idler.stopStiffness < s.idler.stiffness)
     return Fault{{named("idler", "stop_stiffness", "N/m")},
-                 fmt::format("is softer than the tensioner's spring, idler.stiffness = {:g} N/m, and stops nothing",
-                             s.idler.stiffness),
+                 fmt::format("is softer than the tensioner spring, idler.stiffness = {:g} N/m", s.idler.stiffness),
                  fmt::format("set idler.stop_stiffness = {:.3g}", 10 * s.idler.stiffness)};
   if (s.idler.slideMax <= 0)
     return Fault{{named("idler", "slide_max", "m")},
-                 fmt::format("holds the idler at its {} stop, where no spring can tighten the track",
+                 fmt::format("holds the idler at its {} stop, where the spring cannot tighten the track",
                              s.sprocketInFront() ? "rear" : "front"),
                  "set idler.slide_max = 0.025"};
   return {};
 }
 
-/// Plates that the wheels roll on, under their share of the weight: a strip of width w under a wheel of radius R
-/// carries 4/3 w sqrt(2 R) d^1.5 times the modulus at an overlap of d.
+/// Checks the foundation modulus under the wheel loads: a strip of width w under a wheel of radius R carries 4/3 w
+/// sqrt(2 R) d^1.5 times the modulus at an overlap of d.
 std::optional<Fault> foundationFault(const VehicleSpec& s) {
   const double load = s.totalMass() * kGravity / (2 * s.roadWheel.count); // on a wheel [N]
   const double strip = 8.0 / 3 * s.shoe.padHalfWidth * std::sqrt(2 * s.roadWheel.radius);
@@ -381,8 +382,8 @@ std::optional<Fault> foundationFault(const VehicleSpec& s) {
   const double least = load / (strip * most * std::sqrt(most));
   if (s.contact.foundationModulus >= least) return {};
   return Fault{{named("contact", "foundation_modulus", "N/m3")},
-               fmt::format("is so soft that road wheels sink into the shoes by more than a tenth of their {:.0f} mm "
-                           "under {:.0f} N each; at least {:.2e} is needed",
+               fmt::format("is too soft: road wheels sink into the shoes by more than a tenth of their {:.0f} mm "
+                           "under {:.0f} N each; at least {:.2e} is required",
                            10e3 * most, load, least),
                fmt::format("set contact.foundation_modulus = {:.1e}", 10 * least)};
 }
@@ -399,11 +400,10 @@ std::optional<Fault> firstFault(const VehicleSpec& s) {
   return foundationFault(s);
 }
 
-/// "0.385": the value of a key nearest to its own, in fine steps and then in coarse ones, with which the vehicle has no
-/// fault at all; empty: none.
+/// Nearest value of a key without any fault, searched in fine and then coarse steps, as text ("0.385"); empty: none.
 std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
   constexpr int kCoarse = 80, kRatio = 10;
-  const int fine = k.name == "idler.radius" ? 400 : 80; // only a narrow range of radii closes a loop
+  const int fine = k.name == "idler.radius" ? 400 : 80; // loops close only in a narrow range of radii
   const double from = std::floor(k.value / k.step + 0.5) * k.step;
   for (int i = 0; i <= 2 * (fine + kCoarse); ++i) {
     const int n = (i + 1) / 2;
@@ -411,7 +411,7 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
     const double value = from + (i % 2 == 1 ? -away : away);
     const bool place = k.key == "x" || k.key == "z" || k.key == "slide_min" || k.key == "pivot_angle";
     if (!place && value < 0.5 * k.step) continue; // a length stays positive
-    // As it will be read from the file.
+    // As read from the file.
     std::string text = fmt::format("{:.6g}", std::floor(1e9 * value + 0.5) / 1e9);
     VehicleSpec other = spec;
     k.set(other, std::strtod(text.c_str(), nullptr));
@@ -420,34 +420,35 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
   return "";
 }
 
-/// Keys that mend it together, to be added to advice; empty where none were found.
-std::string together(const VehicleSpec& spec) {
+/// Advice with a set of keys that fixes the fault together; empty if none was found.
+std::string combinedAdvice(const VehicleSpec& spec) {
   const std::string keys = consistentKeys(spec, [](const VehicleSpec& other) { return !firstFault(other); });
   return keys.empty() ? "" : "set together " + keys;
 }
 
-/// Advice to take back a number of wheels that was asked for helps nobody: the keys that keep it, to be added.
-std::string toKeep(const VehicleSpec& spec, const Knob& k) {
-  const std::string keys = k.key == "count" ? together(spec) : "";
+/// Alternative advice that keeps a requested number of wheels.
+std::string adviceToKeep(const VehicleSpec& spec, const Knob& k) {
+  const std::string keys = k.key == "count" ? combinedAdvice(spec) : "";
   return keys.empty() ? "" : fmt::format("; or, to keep {} = {:g}, {}", k.name, k.value, keys);
 }
 
-/// Says what mends a fault, at the key that does.
+/// Adds the remedy to a fault, at the key to change.
 SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
-  const auto said = [&fault](const Knob& k, const std::string& advice) {
+  const auto faultAt = [&fault](const Knob& k, const std::string& advice) {
     return SpecFault{k.section, k.key,
                      fmt::format("[{}]{} {}; {}", k.unit, fault.closure ? ":" : "", fault.what, advice)};
   };
   const Knob& first = fault.knobs.front();
-  if (!fault.advice.empty()) return said(first, fault.advice);
+  if (!fault.advice.empty()) return faultAt(first, fault.advice);
   std::string names;
   for (const Knob& k : fault.knobs) {
     if (const std::string value = mendingValue(spec, k); !value.empty())
-      return said(k, fmt::format("set {} = {}{}", k.name, value, toKeep(spec, k)));
+      return faultAt(k, fmt::format("set {} = {}{}", k.name, value, adviceToKeep(spec, k)));
     names += (names.empty() ? "" : ", ") + k.name;
   }
-  const std::string keys = together(spec);
-  return said(first, fmt::format("no other value of {} alone mends it{}{}", names, keys.empty() ? "" : "; ", keys));
+  const std::string keys = combinedAdvice(spec);
+  return faultAt(first,
+                 fmt::format("no other value of {} alone resolves it{}{}", names, keys.empty() ? "" : "; ", keys));
 }
 
 } // namespace
@@ -462,9 +463,9 @@ std::optional<SpecFault> runningGearFault(const VehicleSpec& spec) {
       if (fault->advice.empty())
         if (const std::string value = mendingValue(spec, k); !value.empty())
           fault->advice = fmt::format("set {} = {}", k.name, value);
-    if (const std::string keys = fault->advice.empty() ? together(spec) : ""; fault->advice.empty())
+    if (const std::string keys = fault->advice.empty() ? combinedAdvice(spec) : ""; fault->advice.empty())
       fault->advice = "no other value of idler.x, shoe.count, idler.z, road_wheel.z, shoe.pitch, sprocket.teeth alone "
-                      "mends it" +
+                      "resolves it" +
                       (keys.empty() ? "" : "; " + keys);
   }
   return withAdvice(spec, *fault);

@@ -8,15 +8,15 @@
 
 namespace grouser::vehicle {
 
-/// What is wrong with a vehicle file, and at which of its keys.
+/// Fault of a vehicle file at one of its keys.
 struct SpecFault {
   std::string section, key;
-  std::string message; ///< what overlaps, by how many millimetres, and a value that was tried and mends it
+  std::string message; ///< overlapping parts, overlap in millimetres, and a tested remedy
 };
 
-/// The first thing that makes a running gear impossible: parts that overlap, shoes that cannot fold about a wheel, a
-/// loop that does not close, wheels outside it, a suspension or tensioner without equilibrium. Judged by the spec's
-/// numbers alone, in the plane of a track; empty for a sound vehicle.
+/// First fault of an impossible running gear: parts that overlap, shoes that cannot fold about a wheel, a loop that
+/// does not close, wheels outside it, a suspension or tensioner without equilibrium. Uses only the spec's numbers, in
+/// the plane of a track; empty for a valid vehicle.
 std::optional<SpecFault> runningGearFault(const VehicleSpec& spec);
 
 } // namespace grouser::vehicle

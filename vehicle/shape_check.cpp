@@ -12,13 +12,13 @@
 namespace grouser::vehicle {
 namespace {
 
-/// Surface points of a part that follow from one key.
+/// Surface points of a part implied by one key.
 struct Claim {
   const char* key;
   std::vector<Vec3d> points;
 };
 
-/// Checks pairs of lengths of which the first must be smaller.
+/// Checks pairs of lengths: the first must be smaller.
 std::optional<SpecFault> orderFault(const VehicleSpec& spec) {
   const GearShapes& g = *spec.shapes;
   struct Order {
@@ -28,41 +28,40 @@ std::optional<SpecFault> orderFault(const VehicleSpec& spec) {
   const double half = spec.shoe.halfLength, pins = spec.sprocketPinRadius();
   double grouser = base::kInfinity;
   if (spec.shoe.grouserHeight > 0) grouser = spec.shoe.grouserHeight;
-  for (const Order& o : {Order{"plate_inner", "plate_outer", g.plateInner, g.plateOuter},
-                         Order{"boss_inner", "boss_outer", g.bossInner, g.bossOuter},
-                         Order{"disc_inner", "disc_outer", g.discInner + 2 * g.discChamfer, g.discOuter},
-                         Order{"ring_inner", "ring_outer", g.ringInner, g.ringOuter},
-                         Order{"boss_radius", "seat_radius", g.bossRadius, g.seatRadius},
-                         Order{"horn_tip_length", "horn_length", g.hornTipLength, g.hornLength * (1 + 1e-12)},
-                         Order{"horn_tip_width", "horn_width", g.hornTipWidth, g.hornWidth * (1 + 1e-12)},
-                         Order{"chamfer", "half of grouser_width", g.chamfer, 0.5 * g.grouserWidth},
-                         Order{"grouser_x", "shoe.half_length less half a grouser and a chamfer", g.grouserX,
-                               half - 0.5 * g.grouserWidth - g.chamfer + 1e-12},
-                         Order{"horn_width", "twice disc_inner", g.hornWidth, 2 * g.discInner},
-                         Order{"boss_inner", "ring_outer", g.bossInner, g.ringOuter},
-                         Order{"ring_inner", "boss_outer", g.ringInner, g.bossOuter},
-                         Order{"pad_top", "shoe.plate_top", g.padTop, spec.shoe.plateTop + 1e-12},
-                         Order{"chamfer", "pad_top less shoe.pad_bottom", g.chamfer, g.padTop - spec.shoe.padBottom},
-                         Order{"chamfer", "shoe.grouser_height", g.chamfer, grouser},
-                         Order{"tip_radius", "the radius of the seated pins and twice the seat's", g.tipRadius,
-                               pins + 2 * g.seatRadius}})
+  for (const Order& o :
+       {Order{"plate_inner", "plate_outer", g.plateInner, g.plateOuter},
+        Order{"boss_inner", "boss_outer", g.bossInner, g.bossOuter},
+        Order{"disc_inner", "disc_outer", g.discInner + 2 * g.discChamfer, g.discOuter},
+        Order{"ring_inner", "ring_outer", g.ringInner, g.ringOuter},
+        Order{"boss_radius", "seat_radius", g.bossRadius, g.seatRadius},
+        Order{"horn_tip_length", "horn_length", g.hornTipLength, g.hornLength * (1 + 1e-12)},
+        Order{"horn_tip_width", "horn_width", g.hornTipWidth, g.hornWidth * (1 + 1e-12)},
+        Order{"chamfer", "half of grouser_width", g.chamfer, 0.5 * g.grouserWidth},
+        Order{"grouser_x", "shoe.half_length minus half a grouser and a chamfer", g.grouserX,
+              half - 0.5 * g.grouserWidth - g.chamfer + 1e-12},
+        Order{"horn_width", "twice disc_inner", g.hornWidth, 2 * g.discInner},
+        Order{"boss_inner", "ring_outer", g.bossInner, g.ringOuter},
+        Order{"ring_inner", "boss_outer", g.ringInner, g.bossOuter},
+        Order{"pad_top", "shoe.plate_top", g.padTop, spec.shoe.plateTop + 1e-12},
+        Order{"chamfer", "pad_top minus shoe.pad_bottom", g.chamfer, g.padTop - spec.shoe.padBottom},
+        Order{"chamfer", "shoe.grouser_height", g.chamfer, grouser},
+        Order{"tip_radius", "the pin circle radius plus twice seat_radius", g.tipRadius, pins + 2 * g.seatRadius}})
     if (!(o.value < o.most))
       return SpecFault{"shapes", o.key, fmt::format("[m] must be below {:.6g}, {}", o.most, o.limit)};
   if (!(g.tipRadius > pins))
-    return SpecFault{"shapes", "tip_radius",
-                     fmt::format("[m] must be above {:.6g}, the radius on which pins are seated", pins)};
+    return SpecFault{"shapes", "tip_radius", fmt::format("[m] must be above {:.6g}, the pin circle radius", pins)};
   if (spec.sprocket.teeth > contact::GapProfile::kMostTeeth)
-    return SpecFault{
-        "sprocket", "teeth",
-        fmt::format("[-] must be at most {} where the file has [shapes]", contact::GapProfile::kMostTeeth)};
+    return SpecFault{"sprocket", "teeth",
+                     fmt::format("[-] must be at most {} if the file has [shapes]", contact::GapProfile::kMostTeeth)};
   const contact::GapProfile gap = gapProfile(spec);
   const double middle = base::kPi / gap.teeth;
   const double x = g.tipRadius * base::sin(middle) - gap.flankX,
                y = g.tipRadius * base::cos(middle) - pins - gap.flankY;
   if (x * x + y * y > g.flankRadius * g.flankRadius)
-    return SpecFault{"shapes", "flank_radius",
-                     "[m] is so small that its circle does not reach the middle of a tooth's tip; no such tooth has a "
-                     "shape here: leave the section [shapes] out, or set vehicle.gear_contact_model = \"samples\""};
+    return SpecFault{
+        "shapes", "flank_radius",
+        "[m] is too small: the flank circle does not reach the middle of the tooth tip; remove the section "
+        "[shapes], or set vehicle.gear_contact_model = \"samples\""};
   return {};
 }
 
@@ -94,7 +93,7 @@ std::vector<Claim> toothClaims(const VehicleSpec& spec) {
       const double x = g.seatRadius * base::sin(a), y = -g.seatRadius * base::cos(a);
       for (const double ring : {-middle, middle}) claims[0].points.push_back(at(side * x, y, ring));
     }
-    // From the end of the seat a third of a radian up the flank, as far as the tip lets it.
+    // Points up to a third of a radian along the flank from the seat, below the tip circle.
     for (int k = 1; k <= 5; ++k) {
       const double a = base::kPi / 2 + g.seatHalfAngle - 0.1 * k;
       const double x = gap.flankX + g.flankRadius * base::cos(a), y = gap.flankY + g.flankRadius * base::sin(a);
@@ -117,13 +116,13 @@ std::vector<Claim> shoeClaims(const VehicleSpec& spec) {
   const double tip = s.padBottom - s.grouserHeight, foot = 0.5 * g.grouserWidth;
   for (const double side : {-1.0, 1.0}) {
     for (const double x : {-0.7, 0.0, 0.7}) {
-      // On the plates' sides, a little below their faces.
+      // Points on the sides of the plates, slightly below their faces.
       const double below = s.plateTop - 0.3 * (s.plateTop - g.padTop);
       claims[0].points.push_back({x * s.halfLength, side * g.plateInner, below});
       claims[1].points.push_back({x * s.halfLength, side * g.plateOuter, below});
       claims[10].points.push_back({x * s.halfLength, side * (s.padHalfWidth - g.chamfer), g.padTop});
     }
-    // On the horn's ends and sides, near its foot and near its tip.
+    // Points on the horn's ends and sides, near its foot and its tip.
     const auto between = [](double low, double high, double share) { return 0.5 * (low + share * (high - low)); };
     for (const std::size_t end : {std::size_t{0}, std::size_t{2}}) {
       const double share = end == 0 ? 0.1 : 0.9, z = s.plateTop + share * s.hornHeight;
@@ -134,7 +133,7 @@ std::vector<Claim> shoeClaims(const VehicleSpec& spec) {
     for (int k = 0; k < 8; ++k) {
       const double a = 0.8 * k, x = 0.5 * s.pitch + g.bossRadius * base::cos(a), z = g.bossRadius * base::sin(a);
       claims[6].points.push_back({x, side * 0.5 * (g.bossInner + g.bossOuter), z});
-      // On their ends, beside the pins.
+      // Points on their ends, beside the pins.
       const double inX = 0.5 * s.pitch + 0.8 * (x - 0.5 * s.pitch);
       claims[7].points.push_back({inX, side * g.bossInner, 0.8 * z});
       claims[8].points.push_back({inX, side * g.bossOuter, 0.8 * z});
@@ -157,7 +156,7 @@ std::optional<SpecFault> claimFault(const std::vector<Claim>& claims, const base
             "shapes", claim.key,
             fmt::format(
                 "[m] does not match {4}: the point ({0:.4f}, {1:.4f}, {2:.4f}) m lies {3:.1f} mm off its surface; "
-                "give the length that the mesh has, leave the section [shapes] out, or set "
+                "use the length of the mesh, remove the section [shapes], or set "
                 "vehicle.gear_contact_model = \"samples\"",
                 p.x, p.y, p.z, 1e3 * off, name)};
   return {};

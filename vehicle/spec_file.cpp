@@ -20,26 +20,26 @@ namespace {
 void checkEngine(const base::Section& section, const EngineSpec& engine) {
   if (engine.speed.empty()) section.fail("speed", "[rad/s] is empty; give at least one point of the torque curve");
   if (engine.torque.size() != engine.speed.size())
-    section.fail("torque", fmt::format("[N m] has another length than speed, which has {}; make both alike",
+    section.fail("torque", fmt::format("[N m] and speed differ in length; give one torque for each of the {} speeds",
                                        engine.speed.size()));
   for (std::size_t i = 1; i < engine.speed.size(); ++i)
     if (!(engine.speed[i] > engine.speed[i - 1]))
       section.fail("speed", fmt::format("[rad/s] does not increase at entry {}; sort it", i));
   if (*std::max_element(engine.torque.begin(), engine.torque.end()) <= 0)
-    section.fail("torque", "[N m] is 0 at all speeds; give the engine a torque");
+    section.fail("torque", "[N m] is 0 at all speeds; set a torque > 0");
 }
 
-/// Rules between keys, which no single range can state.
+/// Checks between several keys.
 void checkTogether(const base::Section& root, const VehicleSpec& spec) {
   if (spec.arm.suspension == Suspension::sprung)
     for (const char* key : {"stiffness", "damping", "preload"})
       if (!root.section("arm").has(key))
-        root.section("arm").fail(key, "is missing, and arms are sprung; give it, or set suspension = \"rigid\"");
+        root.section("arm").fail(key, "is required for sprung arms; set it, or set suspension = \"rigid\"");
   if (spec.roller.x.size() != spec.roller.z.size())
-    root.section("roller").fail("z", "must have as many values as roller.x, one a roller");
+    root.section("roller").fail("z", "must have as many values as roller.x, one per roller");
   const auto principal = [&root](const std::string& section, const std::string& key, const Vec3d& i) {
     if (i.x > i.y + i.z || i.y > i.z + i.x || i.z > i.x + i.y)
-      root.section(section).fail(key, "belongs to no solid body: no principal moment exceeds the sum of the other two");
+      root.section(section).fail(key, "is not physical: no principal moment may exceed the sum of the other two");
   };
   if (spec.engine) checkEngine(root.section("engine"), *spec.engine);
   principal("chassis", "inertia", spec.chassis.inertia);
@@ -52,12 +52,12 @@ void checkTogether(const base::Section& root, const VehicleSpec& spec) {
   principal("idler", "carrier_inertia", spec.idler.carrierInertia);
 }
 
-/// The file as it is read: with its changed keys. Messages name both places.
+/// The file with its changed keys. Messages name both places.
 base::Document documentOf(const SpecSource& source) {
   base::Document document = base::Document::load(source.file);
   for (const SpecKey& k : source.changed) {
     base::Node value = k.value;
-    value.origin = fmt::format("{}, in place of what {} says", k.value.origin, source.file);
+    value.origin = fmt::format("{}, overriding {}", k.value.origin, source.file);
     document.put(k.section, k.key, value);
   }
   return document;
@@ -98,7 +98,7 @@ VehicleSpec readVehicleSpec(const SpecSource& source) {
   checkTogether(root, spec);
   if (const std::optional<SpecFault> fault = runningGearFault(spec))
     root.section(fault->section).fail(fault->key, fault->message);
-  // The mesh folder is named from the spec file's own place.
+  // The mesh folder is relative to the spec file.
   spec.meshFolder = (std::filesystem::path(source.file).parent_path() / spec.meshFolder).lexically_normal().string();
   return spec;
 }
@@ -109,7 +109,7 @@ void refuse(const SpecSource& source, const SpecFault& fault) {
 }
 
 void refuseMesh(const SpecSource& source, const std::string& section, const std::string& why) {
-  refuse(source, {section, "mesh", "in vehicle.mesh_folder, named from this file's folder, is no mesh for it: " + why});
+  refuse(source, {section, "mesh", "in vehicle.mesh_folder (relative to this file) is not a usable mesh: " + why});
 }
 
 std::vector<SpecSection> specSections() {
@@ -129,16 +129,16 @@ std::vector<std::string> specKeys(const std::string& before) {
 std::string specFieldHelp() {
   std::string text = R"(## Keys of a vehicle file
 
-The file that `vehicle.spec` of a scene names. A scene, `--set` and sweeps can change each key for a run, with `spec.`
-before it: `[spec.shoe]` with `pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`. The file begins with
+The key `vehicle.spec` of a scene names this file. A scene, `--set` and sweeps can change each key for a run, with
+`spec.` before it: `[spec.shoe]` with `pin_damping = 10.0`, or `--set spec.shoe.pin_damping=10`. The file begins with
 `version = 1`; all sections but [roller], [engine] and [shapes] are required. SI units, angles in radians. Axes: x
-forward, y left, z up; origin: the middle of the sprockets' axle line. The two tracks are alike. Inertia is about a
+forward, y left, z up; origin: the middle of the sprockets' axle line. The two tracks are identical. Inertia is about a
 part's centre of mass, along the axes of its frame.
 
 A mesh is closed, its triangles face outward, its vertices are in metres in the frame of its part:
 
 - chassis: the vehicle's frame, origin in the middle of the sprockets' axle line;
-- shoe: origin in the middle between its two pin axes, x along the track, forward on the ground run, z towards the
+- shoe: origin in the middle between its two pin axes, x along the track, forward in ground contact, z towards the
   inside of the loop: its pins lie at x = +- pitch / 2, z = 0;
 - sprocket, road wheel, roller, idler: origin on the axle, y along it; gap k of the sprocket at the angle
   2 pi k / teeth from +x towards +z, so deep that pins seat at the radius pitch / (2 sin(pi / teeth)).

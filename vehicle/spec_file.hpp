@@ -10,13 +10,13 @@
 
 namespace grouser::vehicle {
 
-/// Read a vehicle spec file, with the keys that are changed in it. Throws base::InputError (file:line, key, value,
-/// range) on anything unknown, missing or out of range, and where the running gear is impossible (runningGearFault).
+/// Reads a vehicle spec file with its changed keys. Throws base::InputError (file:line, key, value, range) for unknown,
+/// missing or out-of-range keys, and for an impossible running gear (runningGearFault).
 VehicleSpec readVehicleSpec(const SpecSource& source);
 
-/// Throws a fault that was found in a spec file as base::InputError with its place there.
+/// Throws a fault of a spec file as base::InputError with its place.
 [[noreturn]] void refuse(const SpecSource& source, const SpecFault& fault);
-/// The same of the mesh that a section names and that cannot be had: `why`.
+/// The same for an unusable mesh of a section; `why`: reason.
 [[noreturn]] void refuseMesh(const SpecSource& source, const std::string& section, const std::string& why);
 
 /// A section of a vehicle spec file and its keys.
@@ -24,10 +24,10 @@ struct SpecSection {
   std::string name;
   std::vector<base::Field> fields;
 };
-/// All of them, in the order in which they are described.
+/// All sections, in the order of the documentation.
 std::vector<SpecSection> specSections();
 
-/// Their keys, as "shoe.count", with a text before each.
+/// All keys, as "shoe.count", with a prefix.
 std::vector<std::string> specKeys(const std::string& before = "");
 
 /// All keys of a vehicle spec file with unit, range and meaning, as Markdown.

@@ -9,19 +9,19 @@
 
 namespace grouser::vehicle {
 
-/// A key of a vehicle file with another value than it has there.
+/// A changed key of a vehicle file.
 struct SpecKey {
   std::string section, key; ///< "shoe", "count"
-  base::Node value;         ///< and where it stands: a line of a scene file, or "--set"
+  base::Node value;         ///< with its place: a line of a scene file, or "--set"
   std::string text;         ///< the value as TOML
 
-  /// Wherever they stand.
+  /// Ignores their places.
   bool operator==(const SpecKey& other) const {
     return section == other.section && key == other.key && text == other.text;
   }
 };
 
-/// What makes a vehicle: its file, and keys that are changed in it. A path alone is one.
+/// Source of a vehicle: its file and changed keys. A path converts to a source.
 struct SpecSource {
   std::string file;
   std::vector<SpecKey> changed{};

@@ -20,17 +20,18 @@ template <class S> void addSurface(Table<S>& table) {
   addMass(table);
   table
       .add("mesh", static_cast<std::string S::*>(&SurfaceSpec::mesh), "",
-           "mesh file in mesh_folder: closed, outward, in metres, in the part's frame")
+           "mesh file in mesh_folder: closed, faces outward, in metres, in the part's frame")
       .required();
 }
 
 } // namespace
 
 Table<VehicleSpec> vehicleTable() {
-  Table<VehicleSpec> t("vehicle", "The whole vehicle");
+  Table<VehicleSpec> t("vehicle", "Vehicle");
   t.add("name", &VehicleSpec::name, "", "name in outputs and messages").required();
-  t.add("mesh_folder", &VehicleSpec::meshFolder, "", "folder of the meshes, from this file's folder").required();
-  t.add("track_offset", &VehicleSpec::trackOffset, "m", "tracks lie at y = +-track_offset")
+  t.add("mesh_folder", &VehicleSpec::meshFolder, "", "mesh folder, relative to this file").required();
+  t.add("track_offset", &VehicleSpec::trackOffset, "m",
+        "distance of each track from the middle plane: tracks at y = +-track_offset")
       .above(0)
       .atMost(5)
       .required();
@@ -38,9 +39,9 @@ Table<VehicleSpec> vehicleTable() {
 }
 
 Table<ChassisSpec> chassisTable() {
-  Table<ChassisSpec> t("chassis", "Hull with everything that rides in it");
+  Table<ChassisSpec> t("chassis", "Hull with its payload");
   addSurface(t);
-  t.add("centre", &ChassisSpec::centre, "m", "centre of mass from the middle of the sprockets' axle line")
+  t.add("centre", &ChassisSpec::centre, "m", "centre of mass, relative to the middle of the sprockets' axle line")
       .atLeast(-20)
       .atMost(20)
       .required();
@@ -48,23 +49,23 @@ Table<ChassisSpec> chassisTable() {
 }
 
 Table<ShoeSpec> shoeTable() {
-  Table<ShoeSpec> t("shoe", "One track shoe; heights from the line of its pins");
-  t.add("count", &ShoeSpec::count, "-", "shoes a track").atLeast(12).atMost(400).required();
-  t.add("pitch", &ShoeSpec::pitch, "m", "distance of the two pin axes").above(0).atMost(1).required();
-  t.add("plate_top", &ShoeSpec::plateTop, "m", "face on which wheels roll").atLeast(0).atMost(0.2).required();
-  t.add("pad_bottom", &ShoeSpec::padBottom, "m", "lower face of the pad").below(0).atLeast(-0.5).required();
-  t.add("grouser_height", &ShoeSpec::grouserHeight, "m", "reach of the grousers below the pad")
+  Table<ShoeSpec> t("shoe", "Track shoe; heights are relative to the pin line");
+  t.add("count", &ShoeSpec::count, "-", "shoes per track").atLeast(12).atMost(400).required();
+  t.add("pitch", &ShoeSpec::pitch, "m", "distance between the two pin axes").above(0).atMost(1).required();
+  t.add("plate_top", &ShoeSpec::plateTop, "m", "height of the rolling face").atLeast(0).atMost(0.2).required();
+  t.add("pad_bottom", &ShoeSpec::padBottom, "m", "height of the pad bottom").below(0).atLeast(-0.5).required();
+  t.add("grouser_height", &ShoeSpec::grouserHeight, "m", "height of the grousers below the pad")
       .atLeast(0)
       .atMost(0.2)
       .required();
   t.add("half_length", &ShoeSpec::halfLength, "m", "half length of plate and pad").above(0).atMost(0.5).required();
-  t.add("pad_half_width", &ShoeSpec::padHalfWidth, "m", "pads reach to y = +- this").above(0).atMost(1).required();
-  t.add("horn_height", &ShoeSpec::hornHeight, "m", "guide horn above the plate").above(0).atMost(0.3).required();
-  t.add("maximum_fold", &ShoeSpec::maximumFold, "rad", "largest angle between neighbours that the plates clear")
+  t.add("pad_half_width", &ShoeSpec::padHalfWidth, "m", "half width of the pad").above(0).atMost(1).required();
+  t.add("horn_height", &ShoeSpec::hornHeight, "m", "height of the guide horn").above(0).atMost(0.3).required();
+  t.add("maximum_fold", &ShoeSpec::maximumFold, "rad", "largest fold angle between neighbouring shoes")
       .above(0)
       .below(base::kPi / 2)
       .required();
-  t.add("pin_damping", &ShoeSpec::pinDamping, "N m s/rad", "viscous moment in each pin joint")
+  t.add("pin_damping", &ShoeSpec::pinDamping, "N m s/rad", "viscous damping of each pin joint")
       .atLeast(0)
       .atMost(1e4)
       .required();
@@ -81,10 +82,10 @@ Table<SprocketSpec> sprocketTable() {
 
 Table<RoadWheelSpec> roadWheelTable() {
   Table<RoadWheelSpec> t("road_wheel", "Road wheels of one track");
-  t.add("count", &RoadWheelSpec::count, "-", "wheels a track").atLeast(2).atMost(12).required();
+  t.add("count", &RoadWheelSpec::count, "-", "road wheels per track").atLeast(2).atMost(12).required();
   t.add("radius", &RoadWheelSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
-  t.add("first_x", &RoadWheelSpec::firstX, "m", "axle of the rearmost wheel").atLeast(-20).atMost(20).required();
-  t.add("spacing", &RoadWheelSpec::spacing, "m", "from axle to axle").above(0).atMost(5).required();
+  t.add("first_x", &RoadWheelSpec::firstX, "m", "x of the rearmost axle").atLeast(-20).atMost(20).required();
+  t.add("spacing", &RoadWheelSpec::spacing, "m", "distance between axles").above(0).atMost(5).required();
   t.add("z", &RoadWheelSpec::z, "m", "axle height").atLeast(-20).atMost(20).required();
   addSurface(t);
   return t;
@@ -93,18 +94,19 @@ Table<RoadWheelSpec> roadWheelTable() {
 Table<ArmSpec> armTable() {
   Table<ArmSpec> t("arm", "Trailing arm of a road wheel with its torsion bar");
   t.add("suspension", &ArmSpec::suspension, "",
-        "arms that turn against torsion bars, or that are part of the hull: stiffness, damping and preload then have "
-        "no meaning");
-  t.add("length", &ArmSpec::length, "m", "pivot to axle").above(0).atMost(2).required();
-  t.add("pivot_angle", &ArmSpec::pivotAngle, "rad", "of the pivot over the horizontal through the axle")
+        "sprung: arms on torsion bars; rigid: arms fixed to the hull, stiffness, damping and preload ignored");
+  t.add("length", &ArmSpec::length, "m", "distance from pivot to axle").above(0).atMost(2).required();
+  t.add("pivot_angle", &ArmSpec::pivotAngle, "rad", "angle of the pivot above the horizontal through the axle")
       .atLeast(-1)
       .atMost(1)
       .required();
-  t.add("stiffness", &ArmSpec::stiffness, "N m/rad", "torsion bar; required of sprung arms").atLeast(0).atMost(1e9);
-  t.add("damping", &ArmSpec::damping, "N m s/rad", "damper about the pivot; required of sprung arms")
+  t.add("stiffness", &ArmSpec::stiffness, "N m/rad", "torsion bar stiffness; required for sprung arms")
       .atLeast(0)
       .atMost(1e9);
-  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position; required of sprung arms")
+  t.add("damping", &ArmSpec::damping, "N m s/rad", "damping about the pivot; required for sprung arms")
+      .atLeast(0)
+      .atMost(1e9);
+  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position; required for sprung arms")
       .atLeast(0)
       .atMost(1e7);
   addMass(t);
@@ -112,10 +114,10 @@ Table<ArmSpec> armTable() {
 }
 
 Table<RollerSpec> rollerTable() {
-  Table<RollerSpec> t("roller", "Support rollers of one track; without this section there are none");
+  Table<RollerSpec> t("roller", "Support rollers of one track (optional section)");
   t.add("radius", &RollerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
-  t.add("x", &RollerSpec::x, "m", "axles").atLeast(-20).atMost(20).required();
-  t.add("z", &RollerSpec::z, "m", "axles").atLeast(-20).atMost(20).required();
+  t.add("x", &RollerSpec::x, "m", "axle positions along x").atLeast(-20).atMost(20).required();
+  t.add("z", &RollerSpec::z, "m", "axle heights").atLeast(-20).atMost(20).required();
   addSurface(t);
   return t;
 }
@@ -124,57 +126,56 @@ Table<IdlerSpec> idlerTable() {
   Table<IdlerSpec> t("idler", "Idler, on a carrier that slides along x against the tensioner");
   t.add("radius", &IdlerSpec::radius, "m", "rolling radius").above(0).atMost(2).required();
   t.add("x", &IdlerSpec::x, "m",
-        "drawn place of the axle; the wrap finds the exact one. Below 0: the sprocket is in front")
+        "drawn axle position; adjusted so that the track closes. Below 0: the sprocket is in front")
       .atLeast(-20)
       .atMost(20)
       .required();
   t.add("z", &IdlerSpec::z, "m", "axle height").atLeast(-20).atMost(20).required();
   t.add("slide_min", &IdlerSpec::slideMin, "m", "stop towards the sprocket").atMost(0).atLeast(-0.5).required();
   t.add("slide_max", &IdlerSpec::slideMax, "m", "stop away from the sprocket").atLeast(0).atMost(0.5).required();
-  t.add("stiffness", &IdlerSpec::stiffness, "N/m", "tensioner spring").above(0).atMost(1e10).required();
-  t.add("damping", &IdlerSpec::damping, "N s/m", "tensioner damper").atLeast(0).atMost(1e9).required();
-  t.add("preload", &IdlerSpec::preload, "N", "spring force at the wrap's place").atLeast(0).atMost(1e7).required();
-  t.add("stop_stiffness", &IdlerSpec::stopStiffness, "N/m", "of both stops").above(0).atMost(1e12).required();
-  t.add("stop_damping", &IdlerSpec::stopDamping, "N s/m",
-        "of both stops, which never pull: on the way out it takes at most what their springs give")
+  t.add("stiffness", &IdlerSpec::stiffness, "N/m", "tensioner spring stiffness").above(0).atMost(1e10).required();
+  t.add("damping", &IdlerSpec::damping, "N s/m", "tensioner damping").atLeast(0).atMost(1e9).required();
+  t.add("preload", &IdlerSpec::preload, "N", "spring force at the initial position").atLeast(0).atMost(1e7).required();
+  t.add("stop_stiffness", &IdlerSpec::stopStiffness, "N/m", "stiffness of both stops").above(0).atMost(1e12).required();
+  t.add("stop_damping", &IdlerSpec::stopDamping, "N s/m", "damping of both stops, limited so that they never pull")
       .atLeast(0)
       .atMost(1e9)
       .required();
-  t.add("carrier_mass", &IdlerSpec::carrierMass, "kg", "sliding carrier").atLeast(1e-3).atMost(1e6).required();
-  t.add("carrier_inertia", &IdlerSpec::carrierInertia, "kg m2", "of the carrier").above(0).atMost(1e8).required();
+  t.add("carrier_mass", &IdlerSpec::carrierMass, "kg", "carrier mass").atLeast(1e-3).atMost(1e6).required();
+  t.add("carrier_inertia", &IdlerSpec::carrierInertia, "kg m2", "carrier inertia").above(0).atMost(1e8).required();
   addSurface(t);
   return t;
 }
 
 Table<EngineSpec> engineTable() {
-  Table<EngineSpec> t("engine", "An engine for each sprocket behind a gear, for driver.drive = \"engine\"; of one that "
-                                "drives both, half of its torque. Without this section there is none");
-  t.add("speed", &EngineSpec::speed, "rad/s", "of its shaft, the points of its torque curve, increasing")
+  Table<EngineSpec> t("engine", "Engine and gear of each sprocket, for driver.drive = \"engine\"; if one engine drives "
+                                "both, half of its torque (optional section)");
+  t.add("speed", &EngineSpec::speed, "rad/s", "shaft speeds of the torque curve, increasing")
       .atLeast(0)
       .atMost(1e5)
       .required();
-  t.add("torque", &EngineSpec::torque, "N m", "full load at these speeds; linear between them")
+  t.add("torque", &EngineSpec::torque, "N m", "full-load torque at these speeds; linear between them")
       .atLeast(0)
       .atMost(1e6)
       .required();
-  t.add("ratio", &EngineSpec::ratio, "-", "speed of the engine over that of the sprocket")
+  t.add("ratio", &EngineSpec::ratio, "-", "gear ratio: engine speed over sprocket speed")
       .above(0)
       .atMost(1e4)
       .required();
-  t.add("efficiency", &EngineSpec::efficiency, "-", "of the gear").above(0).atMost(1);
-  t.add("governed_speed", &EngineSpec::governedSpeed, "rad/s", "of its shaft, which the governor lets it reach")
+  t.add("efficiency", &EngineSpec::efficiency, "-", "gear efficiency").above(0).atMost(1);
+  t.add("governed_speed", &EngineSpec::governedSpeed, "rad/s", "maximum shaft speed under the governor")
       .above(0)
       .atMost(1e5)
       .required();
-  t.add("droop", &EngineSpec::droop, "rad/s", "of its shaft, over which the governor goes from no torque to all")
+  t.add("droop", &EngineSpec::droop, "rad/s", "shaft speed range over which the governor goes from zero to full torque")
       .above(0)
       .atMost(1e4)
       .required();
   t.add("brake_torque", &EngineSpec::brakeTorque, "N m",
-        "most that holds a sprocket back where it turns faster than asked")
+        "maximum braking torque on a sprocket that turns faster than commanded")
       .atLeast(0)
       .atMost(1e7);
-  t.add("inertia", &EngineSpec::inertia, "kg m2", "of engine and gear, reduced to the sprocket, with which it turns")
+  t.add("inertia", &EngineSpec::inertia, "kg m2", "inertia of engine and gear, reduced to the sprocket")
       .above(0)
       .atMost(1e6)
       .required();
@@ -231,24 +232,26 @@ Table<GearShapes> shapesTable() {
 }
 
 Table<ContactSpec> contactTable() {
-  Table<ContactSpec> t("contact", "Part against part, and part against rigid ground");
-  t.add("foundation_modulus", &ContactSpec::foundationModulus, "N/m3", "force = modulus x sum of area x overlap")
+  Table<ContactSpec> t("contact", "Contacts between parts, and of parts with rigid ground");
+  t.add("foundation_modulus", &ContactSpec::foundationModulus, "N/m3",
+        "elastic foundation modulus: force = modulus x sum of area x overlap")
       .above(0)
       .atMost(1e14)
       .required();
-  t.add("relaxation_time", &ContactSpec::relaxationTime, "s", "stress = modulus x (overlap + time x rate)")
+  t.add("relaxation_time", &ContactSpec::relaxationTime, "s",
+        "foundation damping: stress = modulus x (overlap + relaxation_time x rate)")
       .atLeast(0)
       .atMost(0.1)
       .required();
-  t.add("tangential_ratio", &ContactSpec::tangentialRatio, "-", "tangential over normal stiffness")
+  t.add("tangential_ratio", &ContactSpec::tangentialRatio, "-", "ratio of tangential to normal stiffness")
       .atLeast(0)
       .atMost(1)
       .required();
-  t.add("friction_inside", &ContactSpec::frictionInside, "-", "shoes against wheels, sprocket, idler")
+  t.add("friction_inside", &ContactSpec::frictionInside, "-", "friction of shoes on wheels, sprocket and idler")
       .atLeast(0)
       .atMost(2)
       .required();
-  t.add("friction_ground", &ContactSpec::frictionGround, "-", "shoes against ground").atLeast(0).atMost(5).required();
+  t.add("friction_ground", &ContactSpec::frictionGround, "-", "shoe-ground friction").atLeast(0).atMost(5).required();
   return t;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// "left shoe 12": of the part that a body carries.
+/// Name of a body's part: "left shoe 12".
 std::string nameOf(const Assembly& vehicle, int body) {
   for (const Part& part : vehicle.parts)
     if (part.body == body) return part.name;
@@ -30,7 +30,7 @@ std::string remedy(const Assembly& vehicle) {
                      vehicle.spec.idler.preload);
 }
 
-/// Whether a closed polygon runs around a point of the plane.
+/// True if a closed polygon encloses a point of the plane.
 bool runsAround(const std::vector<Vec3d>& corners, const Vec3d& point) {
   bool inside = false;
   for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
@@ -69,7 +69,7 @@ LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::Stat
     const Vec3d front = pose_W.toBody(pose.toWorld({halfPitch, 0, spec.shoe.plateTop}));
     for (std::size_t i = 0; i < t.wheels.size(); ++i) {
       const double s = (axle_V[i].x - rear.x) / (front.x - rear.x);
-      // Of the plate under the wheel; the plates of neighbours overlap or leave a gap where the track is folded.
+      // Plates under the wheel; neighbours overlap or have gaps where the track is folded.
       if (!(s >= -0.1 && s <= 1.1) || 0.5 * (rear.z + front.z) > axle_V[i].z) continue;
       gap[i] = std::min(gap[i], axle_V[i].z - spec.roadWheel.radius - (rear.z + s * (front.z - rear.z)));
     }
@@ -83,10 +83,10 @@ LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::Stat
 UnguidedWheel unguidedWheel(const Assembly& vehicle, int track, const multibody::State& state, double lift) {
   const Track& t = vehicle.tracks[at(track)];
   const VehicleSpec& spec = vehicle.spec;
-  // Of the shoe that faces a wheel; neighbours overlap or leave a gap where the track is folded.
+  // Shoes that face a wheel; neighbours overlap or have gaps where the track is folded.
   const double facing = 0.6 * spec.shoe.pitch;
   const Vec3d up = base::rotate(vehiclePose(vehicle, state).orientation, {0, 0, 1});
-  const auto seen = [&](int body, double radius, double side) { // by shoes that look up: 1, down: -1
+  const auto seen = [&](int body, double radius, double side) { // by shoes facing up: 1, down: -1
     UnguidedWheel nearest{-1, std::numeric_limits<double>::infinity(), 0};
     for (const int shoe : t.shoes) {
       const Vec3d axle_S = state.pose[at(shoe)].toBody(state.pose[at(body)].position);
@@ -130,7 +130,7 @@ std::string thrownTrack(const Assembly& vehicle, int track, const multibody::Sta
   if (!(s.shift <= horn))
     return fmt::format("{} track thrown: {} is {:.0f} mm beside its wheels, more than a horn's height of {:.0f} mm; {}",
                        side, nameOf(vehicle, t.shoes[at(s.shoe)]), 1e3 * s.shift, 1e3 * horn, remedy(vehicle));
-  // Wheels are looked at where a shoe is beside them at all, which is next to never.
+  // Wheels are checked only if a shoe is beside them, which is rare.
   const UnguidedWheel w = s.shift > 0.5 * horn ? unguidedWheel(vehicle, track, state, lift) : UnguidedWheel{};
   if (w.body >= 0)
     return fmt::format("{} track thrown: {} is {:.0f} mm off its plates, more than {:.0f} mm, and {:.0f} mm beside "

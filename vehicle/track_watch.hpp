@@ -11,36 +11,36 @@ namespace grouser::vehicle {
 /// The shoe that is farthest from its track's plane.
 struct SidewaysShoe {
   int shoe{};     ///< of the track, in the order of the wrap
-  double shift{}; ///< of its middle [m]; NaN where a pose is no number
+  double shift{}; ///< of its middle [m]; NaN if a pose is NaN
 };
 SidewaysShoe mostSideways(const Assembly& vehicle, int track, const multibody::State& state);
 
 /// The road wheel that is farthest off the plates under it.
 struct LiftedWheel {
   int wheel{};  ///< of the track, rearmost first
-  double gap{}; ///< square to the hull [m]
+  double gap{}; ///< normal to the hull [m]
 };
 LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::State& state);
 
-/// A wheel whose disc, not the gap between its two, the horns below it would come down on.
+/// A wheel with a disc, instead of the gap between its discs, above the horns.
 struct UnguidedWheel {
   int body{-1};    ///< of road wheels and rollers; -1 where all are guided
-  double gap{};    ///< between its rim and the plates, square to them [m]
-  double beside{}; ///< of its middle to that of the horns, along its axle [m]
+  double gap{};    ///< between its rim and the plates, normal to them [m]
+  double beside{}; ///< distance from its middle to that of the horns, along its axle [m]
 };
 
-/// The first wheel that stands off its plates by more than `lift` [m], so that no horn reaches between its discs, while
-/// these horns are beside it by more than half of their height: they cannot come back. A track that hangs off its
-/// wheels in its plane is guided, however far: it is slack, or lifted by an edge, and lies down again.
+/// The first wheel that is off its plates by more than `lift` [m], so that no horn reaches between its discs, with
+/// these horns beside it by more than half of their height: they cannot return. A track off its wheels within its plane
+/// remains guided at any distance: it is slack, or lifted by an edge, and comes down again.
 UnguidedWheel unguidedWheel(const Assembly& vehicle, int track, const multibody::State& state, double lift);
 
-/// The body, of sprocket, idler, road wheels and rollers, about which the loop of a track no longer runs: its axle is
-/// not within the polygon of the pins, seen along the axles. -1 while all are.
+/// Body of the sprocket, idler, road wheel or roller that is outside the track loop: its axle is not within the polygon
+/// of the pins, seen along the axles. -1 if none.
 int outsideLoop(const Assembly& vehicle, int track, const multibody::State& state);
 
-/// How a track has been thrown: which, which part, how far, and what to do; empty while it has not. A shoe may stand
-/// beside its wheels by a horn's height, by half of it where the plates are off a wheel by more than `lift` [m], and
-/// the loop runs around all that it was wrapped on. Lift alone is no cause.
+/// Message for a thrown track: side, part, distance and remedy; empty if not thrown. A track is thrown if a shoe is
+/// beside its wheels by more than a horn's height, or half of it where the plates are off a wheel by more than `lift`
+/// [m], or if the loop does not enclose all its wheels. Lift alone does not count.
 std::string thrownTrack(const Assembly& vehicle, int track, const multibody::State& state, double lift);
 
 } // namespace grouser::vehicle

@@ -16,7 +16,7 @@ double nearestTurn(double step, double n) { return step - n * std::floor(step / 
 } // namespace
 
 Travel::Travel(const Assembly& vehicle, int track, int teeth) : vehicle_(&vehicle), track_(track), teeth_(teeth) {
-  // Half way from the sprocket to what next carries the top run: close enough that slack behind the gate stays small.
+  // Half way from the sprocket to the next support of the top run: close enough to keep slack behind the gate small.
   const VehicleSpec& spec = vehicle.spec;
   double next = 0.5 * vehicle.wrap.idlerX;
   if (!spec.roller.x.empty()) next = spec.roller.x.front();
@@ -31,7 +31,7 @@ double Travel::loopCoordinate(const multibody::State& state) const {
   const double halfPitch = 0.5 * vehicle_->spec.shoe.pitch;
   const base::Mat3d R_WV = pose_W.orientation.matrix();
   const double n = static_cast<double>(track.shoes.size());
-  // The shoe of the top run that lies across the gate; of several, on a waving track, the one nearest to the last.
+  // The shoe of the top run at the gate; of several, on an oscillating track, the one nearest to the last.
   double best = std::numeric_limits<double>::quiet_NaN();
   double bestJump = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < track.shoes.size(); ++i) {
@@ -58,7 +58,7 @@ void Travel::update(const multibody::State& state, double dt) {
     time_ = state.time, firstTeeth_ = teeth, lastCoordinate_ = coordinate;
     return;
   }
-  // A gate without a shoe (a torn or thrown track) leaves the count where it is: the difference to the teeth shows it.
+  // Without a shoe at the gate (a torn or thrown track) the count stops: the difference to the teeth shows it.
   if (!std::isnan(coordinate)) {
     pitchesPassed_ += nearestTurn(coordinate - lastCoordinate_, static_cast<double>(track.shoes.size()));
     lastCoordinate_ = coordinate;
@@ -78,7 +78,7 @@ void Travel::recordPassage(double teethBefore, double teethNow, double timeBefor
   const double s = (boundary - teethBefore) / (teethNow - teethBefore);
   const Passage passage{boundary, timeBefore + s * (timeNow - timeBefore),
                         distanceBefore + s * (distance_ - distanceBefore)};
-  // A mean over whole teeth makes sense in one direction only: begin anew when the sprocket has turned back.
+  // A mean over whole teeth is defined in one direction only: restart when the sprocket has reversed.
   if (passages_.size() >= 2 &&
       (boundary - passages_.back().tooth) * (passages_.back().tooth - passages_.front().tooth) <= 0)
     passages_.erase(passages_.begin(), passages_.end() - 1);
@@ -110,7 +110,8 @@ std::vector<double> Travel::save() const {
 }
 
 void Travel::restore(const std::vector<double>& flat) {
-  if (flat.size() != save().size()) throw base::InputError("travel of a track: the checkpoint has another length");
+  if (flat.size() != save().size())
+    throw base::InputError("track travel: the checkpoint is of another vehicle; resume with the scene that was run");
   begun_ = flat[0] != 0;
   time_ = flat[1], firstTeeth_ = flat[2], lastCoordinate_ = flat[3];
   teethPassed_ = flat[4], pitchesPassed_ = flat[5], distance_ = flat[6];

@@ -8,36 +8,36 @@
 
 namespace grouser::vehicle {
 
-/// How far one track and its sprocket have come: pitches that passed the sprocket, and the ground covered at every
-/// tooth. A count of engaged pins would miss a skip; pitches passed against teeth passed does not.
+/// Travel of one track and its sprocket: pitches past the sprocket, and distance covered at every tooth. A count of
+/// engaged pins would miss a skip; pitches passed against teeth passed does not.
 class Travel {
 public:
   /// `teeth`: speed and slip are means over this many whole tooth passages.
   Travel(const Assembly& vehicle, int track, int teeth = 1);
 
-  /// Once after every step of length `dt` [s]; the first call fixes the start.
+  /// Call once after every step of length `dt` [s]; the first call sets the start.
   void update(const multibody::State& state, double dt);
 
   /// Teeth that have passed by the sprocket's angle, omega Z / (2 pi) integrated [-].
   double teethPassed() const { return teethPassed_; }
   /// Pitches of track that have passed a gate on the top run next to the sprocket, forward positive [-].
   double pitchesPassed() const { return pitchesPassed_; }
-  /// Teeth that passed without their pitch [-]: within +-1/2 is slack, near a whole number is a skip.
+  /// Teeth minus pitches passed [-]: within +-1/2 is slack, near a whole number a skip.
   double skipped() const { return teethPassed_ - pitchesPassed_; }
-  /// Ground covered by the track's place on the hull, along the hull's x axis [m].
+  /// Distance covered by the track's position on the hull, along the hull's x axis [m].
   double distance() const { return distance_; }
   /// Mean speed over the last whole tooth passages [m/s]; NaN before the sprocket has passed so many.
   double toothSpeed() const;
   /// Slip over the last whole tooth passages, 1 - distance / (teeth x pitch) [-]; NaN before.
   double toothSlip() const;
 
-  /// Everything that changes, for a checkpoint.
+  /// State variables, for a checkpoint.
   std::vector<double> save() const;
   /// Inverse of save(). Throws base::InputError if the length does not fit.
   void restore(const std::vector<double>& flat);
 
 private:
-  /// Where a tooth boundary was passed.
+  /// Passage of a tooth boundary.
   struct Passage {
     double tooth, time, distance;
   };

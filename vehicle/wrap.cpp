@@ -14,8 +14,8 @@ namespace {
 
 using base::kPi;
 
-/// A tangent that runs past a pin by less than this is still counted as convex: the top line meets the sprocket's first
-/// gap within a fraction of a degree of the tangent.
+/// A kink that is concave by less than this still counts as convex: the top line meets the sprocket's first gap within
+/// a fraction of a degree of the tangent.
 constexpr double kConcave = 1.0 * kPi / 180;
 /// The loop is closed when the free strands miss their whole pitches by less than this [m]: a few ulp of the loop's
 /// length.
@@ -28,7 +28,7 @@ double distance(PlanePoint a, PlanePoint b) { return std::sqrt((b.x - a.x) * (b.
 double direction(PlanePoint a, PlanePoint b) { return base::atan2(b.z - a.z, b.x - a.x); }
 double wrapToPi(double angle) { return angle - 2 * kPi * std::floor((angle + kPi) / (2 * kPi)); }
 
-/// What stays the same over all splits.
+/// Constants of all splits.
 struct Frame {
   int shoes, teeth;
   double pitch, sprocketRadius, idlerRadius, idlerStep, idlerX, idlerZ, groundZ, rearWheelX, frontWheelX, maximumFold;
@@ -40,7 +40,7 @@ struct Frame {
         idlerZ(spec.idler.z), groundZ(spec.groundPinHeight()), rearWheelX(spec.roadWheel.firstX),
         frontWheelX(spec.lastWheelX()), maximumFold(spec.shoe.maximumFold) {}
 
-  /// Angle of gap k; the gaps lie symmetric to the horizontal through the axle's rear: 180 + k degrees-a-tooth.
+  /// Angle of gap k; the gaps are symmetric to the horizontal through the axle: 180 degrees plus k teeth.
   double gapAngle(int k) const { return kPi + 2 * kPi * k / teeth; }
 };
 
@@ -79,7 +79,7 @@ std::optional<Ends> solveIdler(const Frame& f, PlanePoint groundEnd, PlanePoint 
   return std::nullopt;
 }
 
-/// Both ends of a ground run that all road wheels stand on.
+/// Both ends of the pins in ground contact under all road wheels.
 struct GroundRun {
   PlanePoint start, end;
 };
@@ -155,14 +155,14 @@ bool better(const Wrap& a, const Wrap& b, double idlerX) {
   return std::fabs(a.idlerX - idlerX) < std::fabs(b.idlerX - idlerX);
 }
 
-/// What a search over all splits has found.
+/// Result of a search over all splits.
 struct Found {
   std::optional<Wrap> best;    ///< with the idler in its slide
   std::optional<Wrap> nearest; ///< with the idler nearest to its drawn place
 };
 
-/// Whether a strand of so many pitches from `from` can meet an idler that stays in its slide: it is about as long as
-/// the tangent, for its kink at the idler is no larger than the shoes' fold.
+/// True if a strand of `pitches` from `from` can reach an idler within its slide: its length is about that of the
+/// tangent, since its kink at the idler is at most the shoes' fold.
 bool strandFits(const Frame& f, const VehicleSpec& spec, PlanePoint from, int pitches) {
   const double away = distance(from, {f.idlerX, f.idlerZ});
   const double tangent = std::sqrt(std::max(0.0, (away - f.idlerRadius) * (away + f.idlerRadius)));
@@ -171,7 +171,7 @@ bool strandFits(const Frame& f, const VehicleSpec& spec, PlanePoint from, int pi
   return std::fabs(pitches * f.pitch - tangent) <= slack;
 }
 
-/// `anyPlace`: of the idler; else only loops that can have it in its slide are looked at.
+/// `anyPlace`: any idler position; otherwise only loops with the idler in its slide.
 Found search(const VehicleSpec& spec, bool anyPlace) {
   const Frame f(spec);
   Found found;
@@ -182,7 +182,7 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
     if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) return;
     if (!found.best || better(*wrap, *found.best, f.idlerX)) found.best = wrap;
   };
-  // All ways to lead the track from the ground run by the idler back to the sprocket.
+  // All paths of the track from the ground contact over the idler back to the sprocket.
   const auto considerFront = [&](int topGap, int bottomGap, int rear, int ground, PlanePoint groundEnd) {
     const PlanePoint sprocketTop = onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap));
     for (int front = 1; front <= f.shoes / 4; ++front)
@@ -203,7 +203,7 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
   return found;
 }
 
-/// The vehicle with front and rear exchanged, as far as a loop knows of it.
+/// The vehicle with front and rear exchanged, as far as it affects the loop.
 VehicleSpec mirrored(VehicleSpec spec) {
   spec.idler.x = -spec.idler.x;
   spec.roadWheel.firstX = -spec.lastWheelX();
@@ -229,7 +229,7 @@ Wrap mirrored(const Wrap& image, const VehicleSpec& spec) {
   return wrap;
 }
 
-/// A number of shoes with which the vehicle is `sound`, nearest to what the way about the wheels asks for; 0: none.
+/// Number of shoes for a `sound` vehicle, nearest to the path length around the wheels; 0: none.
 int soundCount(VehicleSpec spec, const std::function<bool(const VehicleSpec&)>& sound) {
   const int wanted = static_cast<int>(std::floor(hullLength(spec) / spec.shoe.pitch + 0.5));
   for (const int off : {0, 1, -1, 2, -2, 3, -3}) {
@@ -239,7 +239,7 @@ int soundCount(VehicleSpec spec, const std::function<bool(const VehicleSpec&)>& 
   return 0;
 }
 
-/// Where the idler would have to stand for a way about the wheels as long as the loop of shoes [m].
+/// Idler x at which the path around the wheels is as long as the shoes [m].
 double idlerXOfLength(VehicleSpec spec) {
   const double loop = spec.shoe.count * spec.shoe.pitch;
   double low = spec.roadWheel.firstX, high = low + loop;
@@ -250,8 +250,8 @@ double idlerXOfLength(VehicleSpec spec) {
   return spec.idler.x;
 }
 
-/// A place of the idler with which it is, to 0.1 mm, the nearest that is found in steps of 5 mm; 0: none within 0.6 m,
-/// nor about where the loop asks for it.
+/// Idler x for a `sound` vehicle, to 0.1 mm, nearest in steps of 5 mm; 0: none within 0.6 m, nor near the position
+/// required by the loop.
 double soundIdlerX(VehicleSpec spec, const std::optional<Wrap>& nearest,
                    const std::function<bool(const VehicleSpec&)>& sound) {
   const double drawn = spec.idler.x, asked = idlerXOfLength(spec);
@@ -294,9 +294,9 @@ std::optional<Wrap> findWrap(const VehicleSpec& spec) {
 Wrap wrapTrack(const VehicleSpec& spec) {
   if (const std::optional<Wrap> wrap = findWrap(spec)) return *wrap;
   const ClosureFault fault = closureFault(spec, [](const VehicleSpec& other) { return findWrap(other).has_value(); });
-  throw base::InputError(fmt::format(
-      "vehicle {}: {}; {}", spec.name, fault.gap,
-      fault.advice.empty() ? "no number of shoes and no place of the idler alone closes it" : fault.advice));
+  throw base::InputError(
+      fmt::format("vehicle {}: {}; {}", spec.name, fault.gap,
+                  fault.advice.empty() ? "no shoe count or idler position alone closes the track" : fault.advice));
 }
 
 ClosureFault closureFault(const VehicleSpec& given, const std::function<bool(const VehicleSpec&)>& accepts) {
@@ -308,12 +308,12 @@ ClosureFault closureFault(const VehicleSpec& given, const std::function<bool(con
   ClosureFault fault;
   if (nearest)
     fault.gap = fmt::format("{} shoes of pitch {:g} m (loop {:.4f} m) close only with the idler at x = {:.4f} m, "
-                            "{:+.1f} mm from idler.x = {:.4f} m, outside its slide [{:g}, {:g}] mm",
+                            "{:+.1f} mm from idler.x = {:.4f} m, outside its slide range [{:g}, {:g}] mm",
                             spec.shoe.count, spec.shoe.pitch, loop, side * nearest->idlerX,
                             side * 1e3 * (nearest->idlerX - spec.idler.x), side * spec.idler.x,
                             1e3 * spec.idler.slideMin, 1e3 * spec.idler.slideMax);
   else
-    fault.gap = fmt::format("the track does not close: {} shoes of pitch {:g} m make {:.4f} m, the way about the "
+    fault.gap = fmt::format("the track does not close: {} shoes of pitch {:g} m are {:.4f} m long, the path around the "
                             "wheels is {:.4f} m ({:+.1f} mm)",
                             spec.shoe.count, spec.shoe.pitch, loop, way, 1e3 * (loop - way));
   if (const double x = soundIdlerX(spec, nearest, sound); x > 0)
@@ -324,8 +324,8 @@ ClosureFault closureFault(const VehicleSpec& given, const std::function<bool(con
 }
 
 double hullLength(const VehicleSpec& spec) {
-  // Perimeter of the convex hull of finely cut circles and of the ground run's ends (Andrew's monotone chain). A
-  // polygon of pins is shorter than its circle: the circles here have the polygon's length a radian.
+  // Perimeter of the convex hull of finely sampled circles and the ends of the ground contact (Andrew's monotone
+  // chain). A polygon of pins is shorter than its circle: the circles here have the polygon's length a radian.
   const Frame f(atRear(spec));
   const double sprocketRadius = spec.pitchRadius(), idlerRadius = f.pitch / f.idlerStep;
   std::vector<PlanePoint> points{{f.rearWheelX, f.groundZ}, {f.frontWheelX, f.groundZ}};

@@ -16,26 +16,26 @@ struct PlanePoint {
   double x{}, z{};
 };
 
-/// How many pitches lie on each stretch of the loop, in the order in which pins are numbered where the sprocket is at
-/// the rear. With one in front they follow each other the other way round, and the rear strand is the one in front.
+/// Number of pitches on each section of the loop, in the order of the pins for a rear sprocket. With a front sprocket
+/// the order is reversed, and the rear strand is in front.
 struct WrapCounts {
   int sprocket{};   ///< edges between engaged pins
-  int rearStrand{}; ///< from the sprocket down to the ground run
+  int rearStrand{}; ///< from the sprocket down to the ground contact
   int ground{};
-  int frontStrand{}; ///< from the ground run up to the idler
+  int frontStrand{}; ///< from the ground contact up to the idler
   int idler{};       ///< edges between pins on the idler
   int top{};         ///< from the idler back to the sprocket
 };
 
 /// Exact closed polygon of the shoes about the wheels: every edge one pitch long.
 /// Pins are numbered from the sprocket's top gap, rearwards and down, forward along the ground, up the idler and back
-/// along the top; shoe i reaches from pin i (its rear end, x = -pitch/2) to pin i+1 (x = +pitch/2). With the sprocket
-/// in front the loop is the mirror image, and its pins are numbered from the same gap the same way about: back along
-/// the top, down about the idler, forward along the ground, up to the sprocket.
+/// along the top; shoe i reaches from pin i (its rear end, x = -pitch/2) to pin i+1 (x = +pitch/2). With a front
+/// sprocket the loop is the mirror image, with pins numbered from the same gap in the same sense: back along the top,
+/// down around the idler, forward along the ground, up to the sprocket.
 struct Wrap {
   WrapCounts counts;
   double pitch{};         ///< [m]
-  double sprocketPhase{}; ///< angle of the sprocket about -y (from +x towards +z) at which its gaps take the pins [rad]
+  double sprocketPhase{}; ///< angle of the sprocket about -y (from +x towards +z) at which its gaps hold the pins [rad]
   double idlerX{};        ///< [m]
   double idlerFirstAngle{}; ///< angle of the first pin on the idler, from +x towards +z [rad]
   std::array<double, 6>
@@ -52,20 +52,20 @@ struct Wrap {
   double shoeAngle(int i) const;
 };
 
-/// Place the shoes exactly. Tries every split of the shoes over the stretches, solves idler x and first pin angle by
-/// Newton so that both free strands have whole pitches, and takes the convex loop with most pins in the sprocket whose
-/// idler lies nearest to its drawn place. Throws base::InputError when no loop closes with the idler inside its slide:
-/// it names the gap and what to change.
+/// Places the shoes exactly. Tries every split of the shoes over the sections, solves idler x and first pin angle by
+/// Newton so that both free strands have whole pitches, and selects the convex loop with most pins in the sprocket,
+/// then with the idler nearest to its drawn position. Throws base::InputError when no loop closes with the idler inside
+/// its slide: it names the gap and what to change.
 Wrap wrapTrack(const VehicleSpec& spec);
 /// The same; empty when no loop closes.
 std::optional<Wrap> findWrap(const VehicleSpec& spec);
 
-/// Why the loop of a vehicle that findWrap() refuses does not close, and what to change.
+/// Reason why the loop of a vehicle without a wrap does not close, and remedy.
 struct ClosureFault {
-  std::string gap;    ///< by how much, in words
+  std::string gap;    ///< closure error, as text
   std::string advice; ///< "set idler.x = 2.8813, or set shoe.count = 46"; empty where neither helps
 };
-/// What is advised was tried: it makes the vehicle `sound`.
+/// The advice is tested: it makes the vehicle `sound`.
 ClosureFault closureFault(const VehicleSpec& spec, const std::function<bool(const VehicleSpec&)>& sound);
 
 /// Length of the shortest loop of pins about sprocket, road wheels and idler in their drawn places [m].

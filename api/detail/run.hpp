@@ -35,7 +35,7 @@ struct RanksData {
   RanksData(int& argc, char**& argv) : ranks(argc, argv) {}
 };
 
-/// What errors inside become outside.
+/// Translates internal errors to the public exceptions.
 template <class Call> auto translated(const Call& call) -> decltype(call()) {
   try {
     return call();
@@ -61,9 +61,9 @@ struct Run {
   void requireOpen(const char* what) const;
   /// Validates inputs and queues them for act(): a setter is not collective, act() is.
   void set(const std::vector<coupling::Input>& inputs);
-  /// Left and right, where the scene has both.
+  /// Sets the inputs of the left track and, if there is one, the right track.
   void setTracks(coupling::InputKind kind, double left, double right);
-  /// Back to what the scene says; all targets where none is given.
+  /// Returns inputs to the scene's values; all targets if none is given.
   void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {});
   /// Applies the queued inputs. Collective; throws InputError with the rank whose inputs or number of steps differ from
   /// those of rank 0.
@@ -89,7 +89,7 @@ struct Run {
   base::Exec exec;
   session::Caches kept;
   std::unique_ptr<coupling::Simulation> simulation;
-  std::optional<session::RunSession> session; ///< empty without a folder, and behind finish()
+  std::optional<session::RunSession> session; ///< empty without a folder, and after finish()
   support::FileLock lock;                     ///< lock of the folder of a resumed run
   std::vector<coupling::Input> pending;       ///< inputs queued for act()
   bool finished = false;

@@ -19,7 +19,7 @@ constexpr const char* kUsage =
     "Writes the meshes of the vehicles and of rigs into FOLDER as OBJ [m], or into FILE a wheel with GROUSERS [-]\n"
     "straight blades of HEIGHT and THICKNESS on a drum of RADIUS and WIDTH, all [m].\n";
 
-/// Whether it could be written.
+/// Returns true if the file was written.
 bool write(const std::filesystem::path& path, const grouser::assets::NamedMesh& part) {
   std::ofstream file(path, std::ios::binary);
   const std::string text = grouser::assets::toObj(part);
@@ -40,7 +40,7 @@ int writeWheel(char** words) {
     const char *text = words[k + 1], *end = text + std::strlen(text);
     const auto [rest, error] = std::from_chars(text, end, value[k]);
     if (error != std::errc() || rest != end || !(value[k] > 0) || !(value[k] < 1000)) {
-      std::fprintf(stderr, "grouser_assets --wheel: %s is no number in (0, 1000)\n%s", text, kUsage);
+      std::fprintf(stderr, "grouser_assets --wheel: %s is not a number in (0, 1000)\n%s", text, kUsage);
       return 2;
     }
   }
@@ -56,7 +56,7 @@ int writeWheel(char** words) {
 
 } // namespace
 
-/// Exit code 2 for wrong words and when a file cannot be written.
+/// Exit code 2 for wrong arguments and when a file cannot be written.
 int main(int argc, char** argv) {
   if (argc == 8 && std::string_view(argv[1]) == "--wheel") return writeWheel(argv + 2);
   if (argc != 2 || argv[1][0] == '-') {

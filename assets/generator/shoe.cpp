@@ -5,7 +5,7 @@
 namespace grouser::assets {
 namespace {
 
-/// How far a shell reaches into the one it stands on: shells overlap rather than touch, so that no two faces coincide.
+/// Overlap of a shell with the one it stands on, so that no two faces coincide [m].
 constexpr double kSunk = 0.010;
 /// The pad ends this far below the line of pins, clear of the neighbour's pins (radius 0.010) at any fold.
 constexpr double kPadTop = -0.015;

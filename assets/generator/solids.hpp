@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-/// The few closed shells that all parts are put together from.
+/// Closed shells from which all parts are built.
 namespace grouser::assets {
 
 using base::TriangleMesh;

@@ -14,7 +14,7 @@ struct Polar {
   double angle, radius;
 };
 
-/// One period of the sprocket's outline: from the middle of a gap to the middle of the next.
+/// One period of the sprocket's outline, from the middle of a gap to the middle of the next.
 std::vector<Polar> toothPeriod(const SprocketDims& d) {
   auto polar = [&](double x, double y) {
     const double radial = d.pinRadius + y;
@@ -98,7 +98,7 @@ TriangleMesh grouserWheel(const GrouserWheelDims& dims) {
   const double tip = dims.radius + dims.grouserHeight;
   const double foot = base::atan2(half, dims.radius); // angle of a blade's half at its foot
   if (dims.grousers < 3 || dims.facets < 1 || !(2 * foot < pitch))
-    throw std::invalid_argument("grousers leave no drum between them; take fewer or thinner ones");
+    throw std::invalid_argument("grousers overlap at the drum; use fewer or thinner ones");
   std::vector<Polar> outline;
   for (int k = 0; k < dims.grousers; ++k) {
     const double middle = pitch * k, end = base::atan2(half, tip);

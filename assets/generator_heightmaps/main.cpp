@@ -44,15 +44,14 @@ namespace {
 using namespace grouser::heightmaps;
 
 std::string footer() {
-  std::string text = "Pictures, with figures for a terrain of 20 m x 8 m and heights from 0 to 0.4 m:\n";
+  std::string text = "Height-maps, with dimensions for a terrain of 20 m x 8 m and heights from 0 to 0.4 m:\n";
   for (const Picture& p : kPictures)
     text += fmt::format("  {:<11} {:>3} x {:>3}, {:>2} bit   {}\n", p.name, p.columns, p.rows, p.bits, p.help);
-  return text +
-         "Left is x = 0, the top row is the far edge (largest y), and pixels are points: the outermost lie on the "
-         "border of the terrain. Black and white are the ends of terrain.height_range in a scene.";
+  return text + "The left column is x = 0, the top row the far edge (largest y). Pixels are points; the outermost lie "
+                "on the border of the terrain. Black and white are the limits of terrain.height_range in a scene.";
 }
 
-/// The pictures that are asked for, in the size that is asked for.
+/// The selected height-maps in the selected size.
 std::vector<Picture> chosen(const std::vector<std::string>& names, int bits, int columns, int rows) {
   std::vector<Picture> pictures;
   for (Picture p : kPictures) {
@@ -74,9 +73,9 @@ int main(int argc, char** argv) {
   std::vector<std::string> names, known;
   int bits = 0, columns = 0, rows = 0;
   for (const Picture& p : kPictures) known.emplace_back(p.name);
-  app.add_option("folder", folder, "where they go; a picture that is there is written anew")->required();
-  app.add_option("names", names, "of the pictures; default: all")->check(CLI::IsMember(known));
-  app.add_option("--bits", bits, "of a pixel, 8 or 16; default: as listed below")->check(CLI::IsMember({8, 16}));
+  app.add_option("folder", folder, "output folder; existing files are overwritten")->required();
+  app.add_option("names", names, "names of the height-maps; default: all")->check(CLI::IsMember(known));
+  app.add_option("--bits", bits, "bits per pixel, 8 or 16; default: as listed below")->check(CLI::IsMember({8, 16}));
   app.add_option("--columns", columns, "pixels along x, 2 to 65536; default: as listed")->check(CLI::Range(2, 65536));
   app.add_option("--rows", rows, "pixels along y, 2 to 65536; default: as listed")->check(CLI::Range(2, 65536));
   try {

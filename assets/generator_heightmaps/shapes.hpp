@@ -9,8 +9,8 @@
 #include <string_view>
 
 /// The height-maps that come with the project, as functions: brightness in [0, 1] at (u, v), both in [0, 1]; u goes
-/// along x (the picture's left to right), v along y (the picture's bottom to top). What a brightness means in metres,
-/// and how large the picture is, the scene says. Figures in brackets hold for 20 m x 8 m and heights from 0 to 0.4 m.
+/// along x (the picture's left to right), v along y (the picture's bottom to top). The scene sets size and heights in
+/// metres. Dimensions in brackets hold for 20 m x 8 m and heights from 0 to 0.4 m.
 namespace grouser::heightmaps {
 
 /// Level ground at half height (in 8 bits the level above, 128).
@@ -48,7 +48,7 @@ inline double step(double u, double) {
   return 0.2 + 0.6 * (risen(0.45) - risen(0.7));
 }
 
-/// One picture: its name, its size in pixels, its depth in bits, its shape, and what is to be seen on it.
+/// One picture: name, size in pixels, depth in bits, shape, and description.
 struct Picture {
   std::string_view name;
   int columns, rows, bits;
@@ -67,8 +67,8 @@ inline constexpr std::array<Picture, 6> kPictures{
     {{"flat", 17, 9, 8, flat, "level, at half height"},
      {"hills", 257, 129, 16, hills, "gentle hills; slopes up to 14 %"},
      {"hills8", 257, 129, 8, hills, "the same hills in 8 bits, for comparison"},
-     {"ditch", 257, 9, 16, ditch, "level, with a ditch across the way, 3.2 m wide and 0.28 m deep"},
+     {"ditch", 257, 9, 16, ditch, "level, with a ditch across the path, 3.2 m wide and 0.28 m deep"},
      {"side_slope", 129, 65, 16, sideSlope, "level, then rising to the left by up to 5 %"},
-     {"step", 513, 9, 16, step, "level, with a platform across the way, 0.24 m high, that has to be climbed"}}};
+     {"step", 513, 9, 16, step, "level, with a platform across the path, 0.24 m high"}}};
 
 } // namespace grouser::heightmaps

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# What Debian's rules ask of the files of a package, and an installation by hand does not: called by CPack, once all is
-# in its place and before it is packed.
+# Changes to the staged files required by Debian policy; called by CPack before packing.
 set(stage ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
 
 function(grouser_call)
@@ -8,11 +7,11 @@ function(grouser_call)
   set(said "${said}" PARENT_SCOPE)
 endfunction()
 
-# Compressed without the time, so that the same sources make the same bytes.
+# Compressed without a time stamp, for reproducible packages.
 file(GLOB pages ${stage}/program/usr/share/man/man1/*.1)
 grouser_call(gzip -9nf ${pages})
 
-# Documents lie under the package's own name, with copyright and Debian's changelog.
+# Documents in a folder named after the package, with copyright and Debian changelog.
 if(CPACK_GROUSER_SUFFIX)
   file(RENAME ${stage}/program/usr/share/doc/grouser ${stage}/program/usr/share/doc/grouser${CPACK_GROUSER_SUFFIX})
 endif()
@@ -26,7 +25,7 @@ foreach(component program development)
   configure_file(${CPACK_GROUSER_LICENSE} ${folder}/copyright COPYONLY)
   file(WRITE ${folder}/changelog "grouser (${CPACK_PACKAGE_VERSION}) unstable; urgency=medium
 
-  * What has changed is told by CHANGELOG.md in the documents of grouser.
+  * See CHANGELOG.md in the documentation of grouser.
 
  -- ${CPACK_PACKAGE_CONTACT}  ${now}
 ")

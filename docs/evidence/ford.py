@@ -34,7 +34,7 @@ def force(part, axis, pieces=PARTS):
 def lift_at_rest(program, folder, level):
     words = [program, "plan", Path(folder) / "scene.toml", "--set", f"fluid.level={level}"]
     text = subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True).stdout
-    return float(re.search(r"lift at rest ([0-9.e+-]+) N", text).group(1))
+    return float(re.search(r"buoyancy at rest ([0-9.e+-]+) N", text).group(1))
 
 
 def main():

@@ -9,16 +9,16 @@
 
 namespace grouser::multibody::detail {
 
-/// Anderson's mixing (1965, J. ACM 12:547; as in Walker and Ni 2011, SIAM J. Numer. Anal. 49:1715): speeds up the
-/// iteration z <- z + f(z), and makes it converge where a few of its directions do not. From the last changes dZ of the
-/// iterate and dF of its correction it takes
+/// Anderson acceleration (1965, J. ACM 12:547; as in Walker and Ni 2011, SIAM J. Numer. Anal. 49:1715) of the iteration
+/// z <- z + f(z), which also converges if a few of its directions do not. From the last changes dZ of the iterate and
+/// dF of its correction it takes
 ///   gamma = argmin |f - dF gamma|,   z <- z + f - (dZ + dF) gamma.
 /// For a linear problem that is GMRES.
 class AndersonAcceleration {
 public:
   static constexpr std::size_t kMemory = 8;
 
-  /// Room for vectors of `size` numbers.
+  /// For vectors of `size` numbers.
   explicit AndersonAcceleration(std::size_t size) : lastZ_(size), lastF_(size) {
     for (std::size_t j = 0; j < kMemory; ++j) dZ_[j].resize(size), dF_[j].resize(size), q_[j].resize(size);
   }
@@ -28,7 +28,7 @@ public:
   /// `z`: iterate, `f`: its correction in, better one out; the first n numbers count. `weight` >= 0: of the norm.
   void improve(const std::vector<double>& z, std::vector<double>& f, const std::vector<double>& weight, std::size_t n) {
     if (started_) {
-      // The oldest pair makes room.
+      // Drop the oldest pair.
       if (count_ == kMemory) {
         std::rotate(dZ_.begin(), dZ_.begin() + 1, dZ_.end());
         std::rotate(dF_.begin(), dF_.begin() + 1, dF_.end());

@@ -28,7 +28,7 @@ void add(AxisLaw& law, const LinearSpring& spring, double x, double dt) {
 /// Damping of an end stop over a step [N s/m] or [N m s/rad]. A stop never pulls: on the way out its damper takes at
 /// most what the spring still gives at the end of the step,
 ///   k (over + dt rate) + c rate >= 0,
-/// which leaves no force at all as long as nothing else acts. Below 0: the step leads out of the stop, which is over.
+/// which leaves no force at all as long as nothing else acts. Below 0: contact with the stop ends within the step.
 double stopDamping(const AxisSpring& spring, double over, double rate, double dt) {
   if (rate * over >= 0) return spring.stopDamping;
   return std::min(spring.stopDamping, spring.stopStiffness * (over + dt * rate) / -rate);

@@ -11,18 +11,18 @@ namespace grouser::multibody::detail {
 /// Work done over one step through a soft or driven row [J].
 struct AxisWork {
   double drive = 0, spring = 0, dissipated = 0;
-  double joint = 0, springs = 0, stops = 0; ///< what of it dampers of joints, springs and stops dissipated
+  double joint = 0, springs = 0, stops = 0; ///< dissipated by dampers of joints, springs and stops
 };
 
-/// Puts together what acts along each axis row in one step of the symplectic Euler scheme: joint damping, springs, end
-/// stops, drives. A spring is taken implicitly,
+/// Assembles the forces along each axis row in one step of the symplectic Euler scheme: joint damping, springs, end
+/// stops, drives. Springs are implicit,
 ///   F = F_0 - k (x + dt x'_new - x_0) - c x'_new  =  [F_0 - k (x - x_0)]  -  (c + dt k) x'_new,
 /// the bracket being known at the start of the step, the rest a soft row with compliance 1 / (dt c + dt^2 k).
 class AxisLaws {
 public:
   AxisLaws(const Model& model, const ConstraintSystem& system);
 
-  /// `laws`: one an axis. `start`: positions of the driven axes when their laws began, one a drive.
+  /// `laws`: one per axis. `start`: positions of the driven axes when their laws began, one per drive.
   void evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,
                 const std::vector<Frame>& frames, const std::vector<double>& start, std::vector<AxisLaw>& laws) const;
 
@@ -31,13 +31,13 @@ public:
 
 private:
   const Model* model_;
-  std::vector<double> jointDamping_; ///< of the joints' axes, the first ones
+  std::vector<double> jointDamping_; ///< of the joint axes, which come first
 };
 
-/// How far a position is beyond the limits of a spring's end stops, with sign; 0 between them.
+/// Signed distance beyond the limits of a spring's end stops; 0 between them.
 double overLimit(const AxisSpring& spring, double position);
 
-/// Where an axis is, its rate, and where those are kept in a state.
+/// Position and rate of an axis in a state.
 double& axisPositionIn(State& state, const ConstraintSystem& system, int axis);
 double axisPositionIn(const State& state, const ConstraintSystem& system, int axis);
 double axisRateIn(const State& state, const ConstraintSystem& system, int axis);
@@ -45,12 +45,12 @@ double axisRateIn(const State& state, const ConstraintSystem& system, int axis);
 /// Position of each drive's axis at the model's poses.
 std::vector<double> driveStart(const ConstraintSystem& system, const Model& model);
 
-/// Whether the drive imposes the motion of its axis by a constraint.
+/// True if the drive imposes the motion of its axis by a constraint.
 inline bool imposesMotion(const Drive& drive) { return drive.kind != DriveKind::kForce; }
 
-/// Position that a drive's law wants at time t [rad, m]; `start`: where the axis was at t = 0.
+/// Position imposed by a drive's law at time t [rad, m]; `start`: axis position at t = 0.
 double drivenPosition(const Drive& drive, double start, double t);
-/// Rate that belongs to it.
+/// Rate of that law.
 double drivenRate(const Drive& drive, double t);
 
 } // namespace grouser::multibody::detail

@@ -49,14 +49,14 @@ RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
   return rows;
 }
 
-/// Writes the rows that the kind has; the others stay zero.
+/// Writes the rows of the kind; the others stay zero.
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows) {
   switch (c.kind) {
   case ConstraintKind::kDistance:
   case ConstraintKind::kPointSpring: {
     const Vec3d d = f.p_B - f.p_A;
     const double l = norm(d);
-    // Coinciding points: the spring has no direction, and acts nowhere.
+    // Coinciding points: the spring has no direction and no force.
     rows.force[0] = l > 1e-12 ? d * (1 / l) : Vec3d{};
     return;
   }

@@ -26,7 +26,7 @@ using Frame = FrameOf<double>;
 using JointFrames = JointFramesOf<double>;
 using RowDirections = RowDirectionsOf<double>;
 
-/// Bit mask of the hard rows of a kind (the axis row not among them).
+/// Bit mask of the hard rows of a kind, without the axis row.
 constexpr unsigned hardRows(ConstraintKind kind) {
   switch (kind) {
   case ConstraintKind::kRevolute:
@@ -49,7 +49,7 @@ constexpr unsigned hardRows(ConstraintKind kind) {
   return 0;
 }
 
-/// Of a joint: the three rows that are forces; the others are torques.
+/// Bit mask of a joint's three force rows; the others are torques.
 constexpr unsigned forceRows(ConstraintKind kind) {
   return kind == ConstraintKind::kPrismatic     ? 1u << kAxisRow | 0x03u
          : kind == ConstraintKind::kCylindrical ? 1u << kSlideRow | 0x03u
@@ -73,7 +73,7 @@ constexpr unsigned axisRows(ConstraintKind kind) {
   }
 }
 
-/// Whether the constraint comes from a joint of the model.
+/// True for constraints from joints of the model.
 constexpr bool isJoint(ConstraintKind kind) {
   return kind != ConstraintKind::kPointSpring && kind != ConstraintKind::kBushing;
 }
@@ -88,7 +88,7 @@ JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B);
 /// C of the hard rows [m, rad]; 0 in the others.
 void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]);
 
-/// Directions of all rows, axis row or spring direction included; rows the kind has not are left as they are (zero).
+/// Directions of all rows, including axis row or spring direction; rows that the kind lacks are unchanged (zero).
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows);
 RowDirections rowDirections(const Constraint& c, const JointFrames& f);
 
@@ -110,8 +110,8 @@ Vec3d relativeRotation(const JointFrames& f);
 double rowRate(const Constraint& c, const JointFrames& f, const RowDirections& rows, int row,
                const std::vector<Frame>& frames, const std::vector<Twist>& twist);
 
-/// J' (v, w) of all rows: what is left of C'' when nothing accelerates [m/s2, rad/s2]. `A`, `B`: the bodies' frames;
-/// twists of immovable bodies are zero.
+/// J' (v, w) of all rows: C'' at zero acceleration [m/s2, rad/s2]. `A`, `B`: the bodies' frames; twists of immovable
+/// bodies are zero.
 void rowBias(const Constraint& c, const JointFrames& f, const Frame& A, const Frame& B, const Twist& V_A,
              const Twist& V_B, double (&bias)[6]);
 

@@ -52,7 +52,7 @@ ConstraintGraph::ConstraintGraph(const Model& model) : model_(&model) {
   setOffsets();
 }
 
-/// Node of each body, -1 if it cannot move; the world's last.
+/// Node of each body, -1 if immovable; the world is last.
 std::vector<int> ConstraintGraph::nodesOfBodies() {
   std::vector<int> nodeOf;
   for (const Body& body : model_->bodies()) {
@@ -95,7 +95,7 @@ std::vector<ConstraintEdge> ConstraintGraph::edges() const {
   for (const Constraint& c : constraints_) {
     ConstraintEdge edge;
     edge.bodies = {c.nodeA, c.nodeB};
-    // A rod leaves five freedoms: cheaper as a row that closes a loop.
+    // A rod leaves five degrees of freedom: cheaper as a loop constraint.
     edge.joint = isJoint(c.kind) && c.kind != ConstraintKind::kDistance;
     edge.hard = hardRows(c.kind);
     edge.rows = edge.hard | axisRows(c.kind);
@@ -105,7 +105,7 @@ std::vector<ConstraintEdge> ConstraintGraph::edges() const {
   return edges;
 }
 
-/// Offsets that were not given: as the bodies are placed.
+/// Sets unspecified offsets from the body poses.
 void ConstraintGraph::setOffsets() {
   const std::vector<Frame> frames = framesOfModel();
   for (CouplingRow& c : couplings_)

@@ -10,7 +10,7 @@
 
 namespace grouser::multibody::detail {
 
-/// An axis row: a place where springs, dampers, drives and couplings act.
+/// An axis row, on which springs, dampers, drives and couplings act.
 struct Axis {
   int constraint;
   int row;
@@ -22,7 +22,7 @@ struct CouplingRow {
   double ratio, offset;
 };
 
-/// What of a mechanism never changes: its movable bodies, constraints, axes and couplings, and how they are numbered.
+/// Constant topology of a mechanism: movable bodies, constraints, axes, couplings, and their numbering.
 ///
 /// Nodes are the movable bodies, the constraints, the couplings, in this order.
 class ConstraintGraph {
@@ -34,7 +34,7 @@ public:
   int movableBodies() const { return static_cast<int>(movable_.size()); }
   int bodyOf(int node) const { return movable_[static_cast<std::size_t>(node)]; } ///< model's index of a movable body
 
-  /// What depends on one another through constraints, springs or couplings.
+  /// Independent part: bodies connected by constraints, springs or couplings.
   struct Part {
     int index = 0;
     std::vector<int> bodies; ///< movable bodies (nodes)
@@ -58,7 +58,7 @@ public:
   /// Frames of all bodies at `poses`, the world last.
   void place(const std::vector<Pose>& poses, std::vector<Frame>& frames) const;
   void placeBody(int body, const Pose& pose, std::vector<Frame>& frames) const;
-  /// The same as the model places the bodies.
+  /// Frames at the poses of the model.
   std::vector<Frame> framesOfModel() const;
   /// Position along an axis row [m, rad] of bodies at `frames`.
   double positionOfAxis(int axis, const std::vector<Frame>& frames) const;

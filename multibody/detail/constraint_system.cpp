@@ -31,7 +31,7 @@ ConstraintSystem::ConstraintSystem(const Model& model)
   makeLinks();
 }
 
-/// Size of J M^-1 J^T of each row alone, taken once; the mean moment of inertia stands for the tensor.
+/// J M^-1 J^T of each single row, computed once with the mean moment of inertia.
 void ConstraintSystem::setSizes() {
   for (int k = 0; k < static_cast<int>(constraints().size()); ++k) {
     Block jacobianA{}, jacobianB{};
@@ -52,8 +52,8 @@ void ConstraintSystem::setSizes() {
   for (int k = 0; k < static_cast<int>(constraints().size()); ++k) setPivotThreshold(k);
 }
 
-/// Where rows are known to be redundant, only those with a good pivot are kept: which row of a constraint follows from
-/// the others may change on the way, and dropping a wrong one leaves a small pivot behind.
+/// In constraints with redundant rows only rows with a good pivot are kept: which row is dependent may change during
+/// motion, and dropping a wrong one leaves a small pivot.
 void ConstraintSystem::setPivotThreshold(int k) {
   constexpr double kGoodPivot = 1e-3;
   double part = pivotScale_ * Elimination::kPivotTolerance;
@@ -76,7 +76,7 @@ void ConstraintSystem::scalePivotThreshold(double scale) {
   for (int k = 0; sized_ && k < static_cast<int>(constraints().size()); ++k) setPivotThreshold(k);
 }
 
-/// With redundant rows, first only good pivots are kept. If more rows are lost than the redundant ones a singular
+/// With redundant rows, first only good pivots are kept. If more rows than the redundant ones are lost, a singular
 /// position is near: then every row with a pivot is kept.
 int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
   ++linearisation_[at(part.index)];

@@ -12,10 +12,10 @@
 
 namespace grouser::multibody::detail {
 
-/// What acts along an axis row (of a joint, point spring or bushing) in one step (axis_laws.hpp).
+/// Forces along an axis row (of a joint, point spring or bushing) in one step (axis_laws.hpp).
 struct AxisLaw {
   double force = 0;             ///< applied along the row as a known force [N, N m]
-  double known = 0;             ///< springs' and stops' part of it that does not depend on the new rate
+  double known = 0;             ///< part of springs and stops that does not depend on the new rate
   double driveForce = 0;        ///< of force drives, included in `force`
   double inverseCompliance = 0; ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
   double dampingPart = 0;       ///< dt c of all dampers: of the joint, of springs, of end stops
@@ -26,8 +26,8 @@ struct AxisLaw {
   double speed = 0; ///< imposed rate
 };
 
-/// The mechanism linearised at given poses: rows, masses and their factorisation. Knows nothing of time integration:
-/// integrators ask it for position errors and for solutions of
+/// The mechanism linearised at given poses: rows, masses and their factorisation. Independent of time integration:
+/// integrators use its position errors and solutions of
 ///   M dv - J^T dLambda = bodyResidual,   J dv + G dLambda = rowResidual.
 ///
 /// A coupling's row b acts on up to four bodies and lies outside the blocks of the factor: with Y = K^-1 b^T and the
@@ -39,16 +39,16 @@ public:
 
   const Elimination& elimination() const { return *elimination_; }
 
-  /// Hard rows that hold in the last linearise() (before any: all of the kind). In a constraint with redundant rows
-  /// those that follow from others best are left out anew each time; and in singular positions rows without a pivot.
+  /// Hard rows kept by the last linearise() (before any: all of the kind). Each time drops the most dependent rows of
+  /// redundant constraints, and rows without a pivot in singular positions.
   unsigned hardRowsOf(int constraint) const { return hard_[static_cast<std::size_t>(constraint)]; }
-  /// States that `row` of a constraint, or another in its place, follows from others wherever the mechanism goes.
+  /// Marks `row` of a constraint, or another in its place, as redundant in all positions.
   void noteRedundant(int constraint, int row);
 
-  /// Sets up and factors one part at `frames`. `laws`: one an axis. Returns the rows left out as singular.
+  /// Sets up and factors one part at `frames`. `laws`: one per axis. Returns the number of rows dropped as singular.
   int linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
 
-  /// In: one vector a node (bodies: momentum residual; constraints: row residual). Out: dv and dLambda.
+  /// In: one vector per node (bodies: momentum residual; constraints: row residual). Out: dv and dLambda.
   void solve(const Part& part, std::vector<Vector6>& x) const;
 
   /// Quantities of the last linearise().
@@ -61,13 +61,13 @@ public:
   const Vec3d& com_A(int constraint) const { return unpacked(com_A_, constraint); }
   const Vec3d& com_B(int constraint) const { return unpacked(com_B_, constraint); }
   unsigned activeRows(int constraint) const { return active_[static_cast<std::size_t>(constraint)]; }
-  /// Which linearise() of a part the system holds: changes with each.
+  /// Identifier of a part's linearisation: changes with each linearise().
   long long linearisation(const Part& part) const { return linearisation_[static_cast<std::size_t>(part.index)]; }
   /// J M^-1 J^T of a row alone.
   double rowSize(int constraint, int row) const {
     return size_[static_cast<std::size_t>(constraint)][static_cast<std::size_t>(row)];
   }
-  /// All bodies with the joints of the spanning tree, and the constraints that are not in it.
+  /// Bodies with the joints of the spanning tree; constraints outside it.
   const std::vector<LinkLanes>& links() const { return links_; }
   const std::vector<int>& offTree() const { return offTree_; }
   /// Inertias of a batch of links in world axes, by columns of the lower triangle.
@@ -77,15 +77,15 @@ public:
   double rateOfAxis(int axis, const std::vector<Twist>& twist) const {
     return rate(axes()[static_cast<std::size_t>(axis)].constraint, axes()[static_cast<std::size_t>(axis)].row, twist);
   }
-  /// Adds the momentum that `impulse` along one row gives the bodies to their vectors in `x`.
+  /// Adds the momentum of `impulse` along one row to the vectors of its bodies in `x`.
   void addImpulse(int constraint, int row, double impulse, std::vector<Vector6>& x) const;
-  /// J x of one row, x one vector a node.
+  /// J x of one row; x: one vector per node.
   double rowTimes(int constraint, int row, const std::vector<Vector6>& x) const;
-  /// Couplings whose row the others imply, found by the last linearise().
+  /// False for couplings implied by others, as found by the last linearise().
   bool couplingKept(int coupling) const { return couplingKept_[static_cast<std::size_t>(coupling)] != 0; }
-  /// Leaves couplings out of linearise() and solve() (to explore the joints alone).
+  /// Excludes couplings from linearise() and solve() (to analyse the joints alone).
   void setCouplingsOn(bool on) { couplingsOn_ = on; }
-  /// Leaves out rows whose pivot is below `scale` times the usual threshold.
+  /// Drops rows whose pivot is below `scale` times the usual threshold.
   void scalePivotThreshold(double scale);
 
 private:
@@ -104,10 +104,10 @@ private:
 
   std::unique_ptr<Elimination> elimination_;
   std::vector<unsigned> hard_, active_;
-  std::vector<LinkLanes> links_; ///< one a batch of the elimination
+  std::vector<LinkLanes> links_; ///< one per batch of the elimination
   std::vector<char> inTree_;     ///< of each constraint
   std::vector<int> offTree_;
-  // One a constraint or body; of the tree taken out of the lanes when somebody asks.
+  // One per constraint or body; tree entries are unpacked from the lanes on demand.
   mutable bool packed_ = false;
   mutable std::vector<RowDirections> rows_;
   mutable std::vector<JointFrames> frames_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The part of ConstraintSystem that works on four bodies and their joints at a time.
+// SIMD part of ConstraintSystem: four bodies and their joints at a time.
 #include "multibody/detail/link_simd.hpp"
 
 #include "multibody/detail/constraint_system.hpp"
@@ -12,7 +12,7 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// One lane of a number, and of what is made of numbers.
+/// One lane of a number or of a compound type.
 double& lane(Lanes& x, std::size_t l) { return reinterpret_cast<double*>(&x)[l]; }
 void set(Vec3L& v, std::size_t l, const Vec3d& value) {
   lane(v.x, l) = value.x, lane(v.y, l) = value.y, lane(v.z, l) = value.z;
@@ -104,7 +104,7 @@ GROUSER_SIMD_CLONES void ConstraintSystem::lineariseLinks(const std::vector<Fram
   }
 }
 
-/// What a joint has in lanes, in its own place.
+/// Unpacks lane data into the arrays per constraint and body.
 void ConstraintSystem::unpack() const {
   packed_ = false;
   for (std::size_t index = 0; index < links_.size(); ++index) {

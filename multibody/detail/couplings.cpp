@@ -32,7 +32,7 @@ double ConstraintSystem::rowTimes(int k, int row, const std::vector<Vector6>& x)
   return share(c.nodeB, com_B(k)) - share(c.nodeA, com_A(k));
 }
 
-/// Y and the Cholesky factor of S = b Y. A coupling whose pivot vanishes follows from the others and is left out.
+/// Y and the Cholesky factor of S = b Y. A coupling without pivot is implied by the others and dropped.
 void ConstraintSystem::factorCouplings(const Part& part) {
   for (std::size_t i = 0; i < part.couplings.size(); ++i) {
     const int c = part.couplings[i];

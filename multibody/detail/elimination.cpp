@@ -12,9 +12,7 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// What the world contributes to a solution.
-
-/// One number of a lane.
+/// Number in one lane.
 double& in(Lanes& lanes, int lane) { return reinterpret_cast<double*>(&lanes)[lane]; }
 
 void set(Vec3L& v, int lane, const base::Vec3<double>& value) {
@@ -204,7 +202,7 @@ GROUSER_SIMD void shifted(const Elimination::Links& b, Lanes (&vw)[9], Lanes (&w
   ww[5] = b.ww[5] + (left(2, 2) - right(2, 2));
 }
 
-/// Adds what is left of inertia and columns to the parents'.
+/// Adds the remaining inertia and columns to the parents.
 GROUSER_SIMD void passOn(Elimination::Links& b, Elimination::Column* columns, std::vector<Elimination::Links>& all) {
   Lanes vw[9], ww[6];
   shifted(b, vw, ww);
@@ -314,7 +312,7 @@ GROUSER_SIMD void forwardBatch(const Elimination::Links& b, const Elimination::C
   if (b.joint[0] >= 0) {
     for (int l = 0; l < kLanes; ++l) row[l] = x[bodies + b.joint[at(l)]].data();
     gatherNodes(row, c);
-    // A free or soft row asks for no motion by itself.
+    // A free or soft row imposes no motion.
     Lanes asked[6];
     for (int r = 0; r < 6; ++r) asked[r] = c[r];
     for (int i = 0; i < b.freedoms; ++i) asked[b.freeRow[at(i)]] *= 1.0 - b.free[i];
@@ -457,7 +455,7 @@ void Elimination::backwardLoop(const Loop& z, Vector6* x) const {
 void Elimination::solve(Vector6* x) const {
   sweepForward(x);
   sweepBackward(x);
-  // The sweeps took the multipliers of the loops with the opposite sign.
+  // The sweeps use the opposite sign for the loop multipliers.
   for (const Loop& z : loops_)
     for (double& lambda : x[bodies_ + z.constraint]) lambda *= -1;
 }

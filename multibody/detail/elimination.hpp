@@ -23,24 +23,24 @@ namespace grouser::multibody::detail {
 ///   F = I dv_b + L mu - p                                wrench from the joint; L mu: from the loops' constraints
 ///   s_i . F = c_i / G_i - q_i / G_i                      soft row; 0 on a free axis
 ///
-/// delta = motion that the rows' right-hand sides ask for. Eliminating the q_i one by one takes rank-one terms from the
-/// articulated inertia I, from L and from p (Featherstone 1983; for constraints that close loops Brandl, Johanni and
-/// Otter 1986),
+/// delta = motion imposed by the right-hand sides of the rows. Eliminating the q_i one by one takes rank-one terms from
+/// the articulated inertia I, from L and from p (Featherstone 1983; for constraints that close loops Brandl, Johanni
+/// and Otter 1986),
 ///
 ///   U = I s,  D = s . U + 1/G,   I -= U U^T / D,   L -= U (s . L) / D,   p -= U (s . p + c/G) / D
 ///
-/// and what is left is passed on to the parent. The loop constraints gather -(G + sum (s.L)(s.L)^T / D); each is
+/// and the remainder is passed on to the parent. The loop constraints gather -(G + sum (s.L)(s.L)^T / D); each is
 /// eliminated, in blocks, just before its top. Cost: about 250 multiplications a body, and 25 more for each row of a
 /// loop that it is part of. A row of a loop constraint whose pivot is below kPivotTolerance of its own J M^-1 J^T
 /// depends on others; it is left out (its multiplier is 0). A tree joint always has its pivots.
 ///
-/// Bodies at the same distance from the root are treated four at a time, one a lane. (The two branches of either of a
-/// vehicle's two rings fill four lanes.)
+/// Bodies at the same depth are processed four at a time, one per lane. (The two branches of either of a vehicle's two
+/// rings fill four lanes.)
 class Elimination {
 public:
   static constexpr double kPivotTolerance = 1e-11;
 
-  /// Where a column of L goes on: to the parent's, or to the loop constraint's own block at its top.
+  /// Target of a column of L: the parent's column, or the loop constraint's own block at its top.
   struct Onward {
     double* entry = nullptr; ///< null: the world
     int stride = 0;
@@ -57,7 +57,7 @@ public:
     std::array<int, 6> freeRow{};
     std::size_t firstColumn = 0, firstPair = 0;
 
-    // Set for each factorisation; rows, arms and distances taken from the parent to the child.
+    // Set for each factorisation; rows, arms and distances point from parent to child.
     Lanes mass, inertia[6];
     Vec3L force[3], torque[3];
     Vec3L arm;  ///< p_B - com
@@ -67,12 +67,12 @@ public:
     Lanes vv[6], vw[9], ww[6];
     Vec3L dual[3]; ///< of the torque rows
     Lanes s[6][6], u[6][6], inverseD[6];
-    // Of one solution.
+    // Data of one solution.
     mutable Lanes delta[6], p[6], right[6], residual[6];
   };
   struct alignas(64) Column {
     Lanes l[6]; ///< of L
-    Lanes w[6]; ///< s . L, one a freedom
+    Lanes w[6]; ///< s . L, one per degree of freedom
     std::array<Onward, kLanes> onward;
     std::array<int, kLanes> node; ///< of its multiplier
     std::array<int, kLanes> rowOf{};
@@ -84,10 +84,10 @@ public:
 
   const SpanningTree& tree() const { return tree_; }
   int batches() const { return static_cast<int>(links_.size()); }
-  /// Multiplications of one factorisation and one solution, lanes that stand idle not counted.
+  /// Multiplications of one factorisation and one solution, idle lanes not counted.
   long multiplications() const;
 
-  /// To fill in what setBody() and setJoint() set, four at a time.
+  /// Direct access to the data of setBody() and setJoint(), four at a time.
   Links& links(int batch) { return links_[static_cast<std::size_t>(batch)]; }
   const Links& links(int batch) const { return links_[static_cast<std::size_t>(batch)]; }
   void setBody(int body, double mass, const double (&inertia)[3][3]);
@@ -96,25 +96,25 @@ public:
   void setJoint(int constraint, const RowDirectionsOf<double>& rows, const base::Vec3<double>& p_B,
                 const base::Vec3<double>& com_A, const base::Vec3<double>& com_B, const double* compliance,
                 unsigned active);
-  /// Any other constraint: one block a body of its edge (row = constraint row, column = v, w of the body).
+  /// Any other constraint: one block per body of its edge (row = constraint row, column = v, w of the body).
   void setConstraint(int constraint, const Block* jacobians, const double* compliance, unsigned active);
 
-  /// Sizes of pivots below which rows of a loop constraint are left out; a joint of the tree needs none.
+  /// Pivot sizes below which rows of a loop constraint are dropped; tree joints need none.
   void setSmallestPivots(int constraint, const double (&smallest)[6]);
-  /// Returns the number of active rows left out for want of a pivot.
+  /// Returns the number of active rows dropped for lack of a pivot.
   int factor();
-  /// In: for each body its r, then for each constraint its c. Out: dv, and dLambda.
+  /// In: r of each body, then c of each constraint. Out: dv and dLambda.
   void solve(Vector6* x) const;
-  /// Active rows that the last factorisation kept (bit mask).
+  /// Active rows kept by the last factorisation (bit mask).
   unsigned keptRows(int constraint) const { return kept_[static_cast<std::size_t>(constraint)]; }
 
 private:
   struct Loop {
     int constraint = 0, top = -1;
     std::vector<int> bodies;
-    std::vector<int> neighbours; ///< loops of a later place that it is coupled with,
-    std::vector<int> slots;      ///< by these blocks
-    /// Where L has its rows: at its own bodies, and those of its neighbours at its top.
+    std::vector<int> neighbours; ///< coupled loops that are eliminated later,
+    std::vector<int> slots;      ///< and the blocks of that coupling
+    /// Rows of L: at its own bodies, and those of its neighbours at its top.
     std::vector<std::array<Onward, 6>> entries, onto;
     std::vector<Block> jacobians;
     Block atTop{}, vTop{};

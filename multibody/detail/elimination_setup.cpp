@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is known of an elimination before any number is: batches, columns, and the order of operations.
+// Symbolic phase of the elimination: batches, columns, and the order of operations.
 #include "multibody/detail/elimination.hpp"
 
 #include "multibody/detail/index.hpp"
@@ -36,8 +36,8 @@ Elimination::Elimination(int bodies, const std::vector<ConstraintEdge>& edges)
   makeProgram();
 }
 
-/// Four of the same depth, kind of joint and number of columns each; in the order of their parents' places, so that
-/// equal branches run along the same lanes.
+/// Batches of up to four bodies with the same depth, joint kind and number of columns, sorted by parent, so that equal
+/// branches use the same lanes.
 void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
   int deepest = 0;
   for (const auto& link : tree_.links) deepest = std::max(deepest, link.depth);
@@ -74,7 +74,7 @@ void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
     }
 }
 
-/// Up to four bodies that are alike.
+/// Adds a batch of up to four similar bodies.
 void Elimination::addBatch(const std::vector<int>& bodies, const std::vector<ConstraintEdge>& edges) {
   Links links;
   const int batch = static_cast<int>(links_.size());
@@ -93,7 +93,7 @@ void Elimination::addBatch(const std::vector<int>& bodies, const std::vector<Con
     }
     ++links.count;
   }
-  // Idle lanes repeat the first; nothing is taken from them.
+  // Idle lanes repeat the first; their results are not used.
   for (int lane = links.count; lane < kLanes; ++lane) {
     links.body[at(lane)] = links.body[0], links.joint[at(lane)] = links.joint[0];
     links.parentNode[at(lane)] = links.parentNode[0];
@@ -161,7 +161,7 @@ void Elimination::makeLoops(const std::vector<ConstraintEdge>& edges) {
   w_.assign(at(slots), Block{});
   v_.assign(at(slots), Block{});
 
-  // Only now that nothing moves any more, the places of numbers.
+  // Addresses are set last, when the arrays no longer move.
   for (int index = 0; index < static_cast<int>(loops_.size()); ++index) {
     Loop& z = loops_[at(index)];
     for (const int b : z.bodies) {
@@ -180,7 +180,7 @@ void Elimination::makeLoops(const std::vector<ConstraintEdge>& edges) {
   }
 }
 
-/// Whether the parents of a batch are the lanes of one batch, in order.
+/// True if the parents of a batch are the lanes of one batch, in order.
 bool Elimination::parentsAligned(const Links& links) const {
   bool aligned = links.parentBatch[0] >= 0;
   for (int lane = 0; lane < links.count; ++lane)
@@ -188,7 +188,7 @@ bool Elimination::parentsAligned(const Links& links) const {
   return aligned && (links.count == kLanes || links.count == links_[at(links.parentBatch[0])].count);
 }
 
-/// Where the columns of a batch go on to, and the products of two of them.
+/// Sets the targets of a batch's columns and of their products.
 void Elimination::linkColumns(Links& links) {
   links.firstPair = pairs_.size();
   Column* const columns = columns_.data() + links.firstColumn;
@@ -218,7 +218,7 @@ double* Elimination::productOf(int body, int column, int other) {
                   : entry(w_[at(slotOf(z1, z2))], r1, r2);
 }
 
-/// From the leaves on; a loop constraint after all that lies below its top, and before it.
+/// Order of elimination: leaves first; a loop constraint after everything below its top, and before the top.
 void Elimination::makeProgram() {
   std::size_t next = 0;
   const auto depthOfTop = [&](const Loop& z) { return z.top < 0 ? -1 : tree_.links[at(z.top)].depth; };

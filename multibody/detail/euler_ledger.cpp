@@ -7,23 +7,23 @@
 
 #include <cmath>
 
-/// The books of a step of symplectic Euler (the scheme is in euler_step.cpp). Those of bodies and of the joints of the
-/// spanning tree are summed four at a time in euler_links.cpp, the rest here.
+/// Energy and momentum ledger of a step of symplectic Euler (scheme: euler_step.cpp). Bodies and joints of the spanning
+/// tree are summed four at a time in euler_links.cpp, the rest here.
 ///
 /// Energy. All impulses of a step act at q, on the twist (v_0, w_0), and leave (v, w). As in RATTLE (rattle_ledger.cpp)
 /// that changes the kinetic energy by p.(v_0 + v)/2 + T.(w_0 + w)/2 + G.(w_0 + w)/2 for each body, I that of q, which
 /// the motion with (v_0, w_0) has brought there without changing w_0.I w_0. With S_0 + T = I w + g, g the gyroscopic
 /// momentum that the solution was found with,
 ///   G = (S_0 - I w_0) - g.
-/// What the last iterate leaves of its equation, g - g(w), is kept in the spin and comes back in the next step's S_0.
-/// A constraint gives F and M at p_B to B and the opposite to A: its work is
+/// The residual of the last iterate, g - g(w), stays in the spin and enters the next step's S_0. A constraint exerts F
+/// and M at p_B on B and the opposite on A: its work is
 ///   F.(u_0 + u)/2 + M.(r_0 + r)/2,   u the velocity of the point p_B in B less that in A, r = w_B - w_A.
 ///
-/// Momentum: x x m v + S changes by x x p + T in the step and not while the bodies move, since x moves along v; between
-/// bodies that can move it cancels. Of an immovable body there stays (F, p_B x F + M).
+/// Momentum: x x m v + S changes by x x p + T in the step and not while the bodies move, since x moves along v; it
+/// cancels between movable bodies. An immovable body contributes (F, p_B x F + M).
 ///
-/// Steps that took rows at several places (relinearised): the change of momentum itself is booked, what is not gravity
-/// or load as the ground's.
+/// Steps with rows from several positions (relinearised) use the change of momentum itself; what is not gravity or load
+/// counts as ground reaction.
 namespace grouser::multibody::detail {
 
 namespace {
@@ -50,7 +50,7 @@ Twist EulerStep::relativeTwist(int k, const std::vector<Twist>& twist) const {
   return motion;
 }
 
-/// Before the step, of what is not in the spanning tree.
+/// Records the motion before the step of constraints outside the spanning tree.
 void EulerStep::noteOldMotion(const ConstraintSystem::Part& part, const State& state) {
   for (const int k : system_.offTree()) oldMotion_[at(k)] = relativeTwist(k, state.twist);
   for (const int c : part.couplings) {
@@ -69,7 +69,7 @@ void EulerStep::noteOldLengths(const State& state) {
       oldLength_.push_back(x);
 }
 
-void EulerStep::bookElasticGain(State& state, const Loads& loads) const {
+void EulerStep::recordElasticGain(State& state, const Loads& loads) const {
   double gain = 0;
   const double* x0 = oldLength_.data();
   for (std::size_t s = 0; s < springPlace_.size(); ++s, ++x0) {
@@ -97,41 +97,40 @@ void EulerStep::bookElasticGain(State& state, const Loads& loads) const {
   state.ledger.elasticGain += gain;
 }
 
-void EulerStep::bookWork(double work) {
-  books_.kinetic += work;
-  books_.turnover += std::fabs(work);
+void EulerStep::recordWork(double work) {
+  stepLedger_.kinetic += work;
+  stepLedger_.turnover += std::fabs(work);
 }
 
-void EulerStep::bookCoupling(int c, const State& state) {
+void EulerStep::recordCoupling(int c, const State& state) {
   const CouplingRow& row = system_.couplings()[at(c)];
   const double impulse2 = couplingImpulse_[at(c)], impulse1 = -row.ratio * impulse2;
-  bookWork(0.5 * impulse1 * (oldCouplingRate_[2 * at(c)] + system_.rateOfAxis(row.axis1, state.twist)) +
-           0.5 * impulse2 * (oldCouplingRate_[2 * at(c) + 1] + system_.rateOfAxis(row.axis2, state.twist)));
+  recordWork(0.5 * impulse1 * (oldCouplingRate_[2 * at(c)] + system_.rateOfAxis(row.axis1, state.twist)) +
+             0.5 * impulse2 * (oldCouplingRate_[2 * at(c) + 1] + system_.rateOfAxis(row.axis2, state.twist)));
   const Axis &one = system_.axes()[at(row.axis1)], &two = system_.axes()[at(row.axis2)];
   const RowDirections &rows1 = system_.rows(one.constraint), &rows2 = system_.rows(two.constraint);
-  bookGround(one.constraint, impulse1 * rows1.force[at(one.row)], impulse1 * rows1.torque[at(one.row)]);
-  bookGround(two.constraint, impulse2 * rows2.force[at(two.row)], impulse2 * rows2.torque[at(two.row)]);
+  recordGround(one.constraint, impulse1 * rows1.force[at(one.row)], impulse1 * rows1.torque[at(one.row)]);
+  recordGround(two.constraint, impulse2 * rows2.force[at(two.row)], impulse2 * rows2.torque[at(two.row)]);
 }
 
 /// `force`, `torque`: impulse on B at p_B [N s, N m s].
-void EulerStep::bookConstraint(int k, const Vec3d& force, const Vec3d& torque, const State& state) {
+void EulerStep::recordConstraint(int k, const Vec3d& force, const Vec3d& torque, const State& state) {
   const Twist motion = relativeTwist(k, state.twist);
-  bookWork(0.5 * dot(force, oldMotion_[at(k)].v + motion.v) + 0.5 * dot(torque, oldMotion_[at(k)].w + motion.w));
-  bookGround(k, force, torque);
+  recordWork(0.5 * dot(force, oldMotion_[at(k)].v + motion.v) + 0.5 * dot(torque, oldMotion_[at(k)].w + motion.w));
+  recordGround(k, force, torque);
 }
 
-/// What an immovable body gives to the others.
-void EulerStep::bookGround(int k, const Vec3d& force, const Vec3d& torque) {
+/// Adds the impulse of an immovable body.
+void EulerStep::recordGround(int k, const Vec3d& force, const Vec3d& torque) {
   const Constraint& c = system_.constraints()[at(k)];
   if (c.nodeA >= 0 && c.nodeB >= 0) return;
   const double side = c.nodeB >= 0 ? 1 : -1;
-  books_.linear += side * force;
-  books_.angular += side * (cross(system_.jointFrames(k).p_B, force) + torque);
+  stepLedger_.linear += side * force;
+  stepLedger_.angular += side * (cross(system_.jointFrames(k).p_B, force) + torque);
 }
 
-/// Corrections that were mixed leave another gyroscopic momentum in the equation than that of the last iterate: the
-/// spins tell which.
-void EulerStep::bookMixedSpins(const State& state) {
+/// Mixed corrections leave a gyroscopic momentum other than that of the last iterate; it follows from the spins.
+void EulerStep::recordMixedSpins(const State& state) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& links = system_.links()[i];
     const LinkStep& s = steps_[i];
@@ -140,13 +139,13 @@ void EulerStep::bookMixedSpins(const State& state) {
       const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
       const Vec3d w0 = laneOf(s.w0, l), w = state.twist[b].w;
       const Vec3d unlike = (oldSpin_[b] - state.angularMomentum[b]) - I * (w0 - w);
-      bookWork(0.5 * dot(unlike - laneOf(s.gyroLeft, l), w0 + w));
+      recordWork(0.5 * dot(unlike - laneOf(s.gyroLeft, l), w0 + w));
     }
   }
 }
 
 void EulerStep::bookSeveralPlaces(const State& state) {
-  books_.kinetic = books_.turnover = 0, books_.linear = books_.angular = {};
+  stepLedger_.kinetic = stepLedger_.turnover = 0, stepLedger_.linear = stepLedger_.angular = {};
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& links = system_.links()[i];
     const LinkStep& s = steps_[i];
@@ -156,9 +155,9 @@ void EulerStep::bookSeveralPlaces(const State& state) {
       const Mat3d I = rotatedInertia(frames_[b].R, body.inertia_B);
       const Vec3d v0 = laneOf(s.v0, l), w0 = laneOf(s.w0, l), v = state.twist[b].v, w = state.twist[b].w;
       const Vec3d impulse = body.mass * (v - v0);
-      bookWork(0.5 * dot(impulse, v0 + v) + 0.5 * dot(I * (w - w0), w0 + w));
-      books_.linear += impulse;
-      books_.angular += cross(laneOf(s.position, l), impulse) + (state.angularMomentum[b] - oldSpin_[b]);
+      recordWork(0.5 * dot(impulse, v0 + v) + 0.5 * dot(I * (w - w0), w0 + w));
+      stepLedger_.linear += impulse;
+      stepLedger_.angular += cross(laneOf(s.position, l), impulse) + (state.angularMomentum[b] - oldSpin_[b]);
     }
   }
 }

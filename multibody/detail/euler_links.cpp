@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The Euler step of the bodies and of the joints they hang by, four at a time (link_simd.hpp). euler_step.cpp states
-// the scheme and treats what is left: constraints that close loops, springs between points, bushings, couplings.
+// Euler step of the bodies and their tree joints, four at a time (link_simd.hpp). euler_step.cpp states the scheme and
+// handles the rest: loop constraints, point springs, bushings, couplings.
 #include "multibody/detail/euler_step.hpp"
 
 #include "multibody/detail/index.hpp"
@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kWidth = kLanes;
 
 /// Turn of a step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration; below, the iteration itself converges. The second where it shall be exact, as
+/// Newton's method within the iteration; below, the iteration itself converges. The second for the exact solution, as
 /// in RATTLE.
 constexpr double kFastSpin = 0.3, kAnySpin = 1e-7;
 
@@ -67,7 +67,7 @@ GROUSER_SIMD void gatherTwists(const State& state, const std::array<int, kLanes>
 }
 
 GROUSER_SIMD Lanes largestOf(const Lanes& largest, const Lanes& value) {
-  // Written so that what is not a number counts as the largest.
+  // Written so that NaN counts as the largest.
   return value <= largest ? largest : value;
 }
 
@@ -85,7 +85,7 @@ GROUSER_SIMD Lanes sumsOf(const Lanes& a, const Lanes& b, const Lanes& c, const 
   return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/// Rate of an axis of B relative to A: of the child relative to its parent, times the side.
+/// Rate of an axis of B relative to A: child relative to parent, times the side.
 GROUSER_SIMD Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec3L& w, const Vec3L& parentV,
                             const Vec3L& parentW) {
   const Vec3L& p = b.frames.p_B;
@@ -95,7 +95,7 @@ GROUSER_SIMD Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec
 
 } // namespace
 
-/// Momentum that is there and comes from outside.
+/// Initial and external momentum.
 GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& loads, double dt) {
   static_assert(sizeof(Wrench) == 6 * sizeof(double) && sizeof(Pose) == 7 * sizeof(double));
   const Vec3L gravity = all(loads.gravity);
@@ -161,20 +161,20 @@ GROUSER_SIMD_CLONES void EulerStep::startLinkAxes(const State& state, double dt)
   }
 }
 
-/// The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
+/// The momentum after the new impulses is I w + the gyroscopic part of the previous iterate.
 void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int l, double dt) {
   const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
   const auto put = [l](Vec3L& v, const Vec3d& value) { v.x[l] = value.x, v.y[l] = value.y, v.z[l] = value.z; };
   const double lower[6] = {inertia[0][l], inertia[1][l], inertia[2][l], inertia[3][l], inertia[4][l], inertia[5][l]};
   const Mat3d I{{{lower[0], lower[1], lower[2]}, {lower[1], lower[3], lower[4]}, {lower[2], lower[4], lower[5]}}};
   const Vec3d w = angularVelocityOf(I, I * get(s.w) + get(s.gyro), get(s.w), dt);
-  const Vec3d gyro = gyroscopicMomentum(I, w, dt); // solved: nothing is left for the next iterate
+  const Vec3d gyro = gyroscopicMomentum(I, w, dt); // solved: no residual for the next iterate
   put(s.w, w);
   put(s.gyroLeft, get(s.gyroLeft) + (get(s.gyro) - gyro));
   put(s.gyro, gyro);
 }
 
-/// Takes the corrections into twists and impulses.
+/// Adds the corrections to twists and impulses.
 GROUSER_SIMD_CLONES void EulerStep::correctLinks(double dt) {
   const double fastSpin = options_.exactGyroscopics ? kAnySpin : kFastSpin;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
@@ -194,7 +194,7 @@ GROUSER_SIMD_CLONES void EulerStep::correctLinks(double dt) {
   }
 }
 
-/// The iterate body by body and joint by joint, for who needs it so.
+/// Unpacks the iterate into arrays per body and joint.
 void EulerStep::unpackIterate() {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& b = system_.links()[i];
@@ -237,7 +237,7 @@ GROUSER_SIMD_CLONES void EulerStep::moveLinks(double dt) {
   }
 }
 
-/// Gaps of the joints as residuals; in the first iteration also what soft and driven axes ask for.
+/// Gaps of the joints as residuals; in the first iteration also the residuals of soft and driven axes.
 GROUSER_SIMD_CLONES double EulerStep::setLinkGaps(double dt, bool first) {
   Lanes largest = all(0);
   const Lanes scale = all(-1 / dt);
@@ -270,7 +270,7 @@ GROUSER_SIMD_CLONES double EulerStep::setLinkGaps(double dt, bool first) {
   return largestLane(largest);
 }
 
-/// What an iterate left of the gyroscopic equation is solved with the next one.
+/// Passes the gyroscopic residual of an iterate to the next one.
 void EulerStep::takeGyroResiduals() {
   for (std::size_t i = 0; i < steps_.size(); ++i)
     for (std::size_t l = 0; l < kWidth; ++l) {
@@ -310,11 +310,11 @@ GROUSER_SIMD_CLONES void EulerStep::finishLinks(State& state, const Loads& loads
   ledger.springWork += works[3];
   ledger.dissipated += losses[0];
   ledger.potentialGain += -dt * rest[2];
-  books_ = {rest[0],   rest[1],  fromOutside_.v + work.ground, fromOutside_.w + work.groundMoment, losses[1],
-            losses[2], losses[3]};
+  stepLedger_ = {rest[0],   rest[1],  fromOutside_.v + work.ground, fromOutside_.w + work.groundMoment, losses[1],
+                 losses[2], losses[3]};
 }
 
-/// What loads do on four bodies, and their new state.
+/// Work of loads on four bodies, and their new state.
 GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads,
                                           double dt, LinkWork& work) const {
   const Lanes half = all(0.5 * dt);
@@ -342,7 +342,7 @@ GROUSER_SIMD void EulerStep::finishBodies(const LinkLanes& b, const LinkStep& s,
   }
 }
 
-/// What four joints give to their bodies, their work and readings.
+/// Impulses of four joints, their work and readings.
 GROUSER_SIMD void EulerStep::finishJoints(const LinkLanes& b, const LinkStep& s, State& state, double dt,
                                           LinkWork& work) const {
   Lanes total[6], newRate[2];
@@ -438,7 +438,7 @@ GROUSER_SIMD void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int
       axis.rate = newRate[l];
       axis.axisForce = axisForce[l];
       axis.driveForce = (law.driven ? s.impulse[r][l] / dt : 0) + law.driveForce;
-      // Most axes have no spring: a division less.
+      // Most axes have no spring: saves a division.
       axis.springForce = law.springInverseCompliance == 0
                              ? law.springKnown
                              : law.springKnown - law.springInverseCompliance / dt * newRate[l];

@@ -19,7 +19,7 @@ void EulerStep::addSolution(const ConstraintSystem::Part& part, std::vector<Twis
 /// Does the first solve of a step, and omits the Newton corrections.
 void EulerStep::startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists) {
   system_.place(state.pose, frames_);
-  placed_.clear(); // so that step() places the bodies again
+  placed_.clear(); // makes step() place the bodies again
   axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
   twists = state.twist;
   for (const ConstraintSystem::Part& part : system_.parts()) {

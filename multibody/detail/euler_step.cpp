@@ -32,8 +32,8 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Iterations before a slow position solve is helped, and new gap over the one before above which it is slow: Newton's
-/// method with the matrix of the start takes a gap down by dt |w|, far below a fifth in a step that is worth taking.
+/// Iterations before a slow position solve changes phase, and gap ratio above which it is slow: with the matrix of the
+/// start Newton's method reduces a gap by dt |w|, far below a fifth in a reasonable step.
 constexpr int kPatience = 4;
 constexpr double kSlowConvergence = 0.2;
 
@@ -57,11 +57,11 @@ void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State
   noteOldMotion(part, state);
 }
 
-/// Gaps of all joints and couplings over -dt. `first`: also what soft and driven axes ask for.
+/// Gaps of all joints and couplings over -dt. `first`: also residuals of soft and driven axes.
 double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, bool first) {
   double largest = setLinkGaps(dt, first);
   const double scale = -1 / dt;
-  // Written so that a gap that is not a number counts as the largest.
+  // Written so that NaN counts as the largest gap.
   const auto meet = [&](double gap) {
     if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap);
   };
@@ -93,7 +93,7 @@ JointFrames EulerStep::trialFramesOf(int k) const {
   return framesOf(c, trial_[at(c.bodyA)], trial_[at(c.bodyB)]);
 }
 
-/// The row with the widest gap at the end of the step as the current iterate has it; no constraint if there are only
+/// The row with the widest gap at the end of the step for the current iterate; no constraint if there are only
 /// couplings.
 EulerStep::OpenRow EulerStep::widestGap() const {
   OpenRow widest;
@@ -107,7 +107,7 @@ EulerStep::OpenRow EulerStep::widestGap() const {
   return widest;
 }
 
-/// Position of an axis at the end of the step as the current iterate has it.
+/// Position of an axis at the end of the step for the current iterate.
 double EulerStep::trialPosition(const State& state, int axis) const {
   const Axis& a = system_.axes()[at(axis)];
   return axisPositionAfter(system_.constraints()[at(a.constraint)], system_.jointFrames(a.constraint),
@@ -128,8 +128,8 @@ void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
   for (const int c : part.couplings) couplingImpulse_[at(c)] += x_[at(system_.couplingNode(c))][0];
 }
 
-/// The solve anew from the old twist, without the rows whose pivot a turn of this size can take through zero. Returns
-/// whether there are any; if not, nothing has changed.
+/// Restarts the solve from the old twist, without rows whose pivot may pass through zero in a rotation of this size.
+/// Returns false, without changes, if there are none.
 bool EulerStep::startWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
                                      double dt) {
   double turn = 0;
@@ -153,7 +153,7 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
   solve.lost = system_.linearise(part, frames_, laws_);
   last_.singularRows += solve.lost;
 
-  // First solve from the old twist: the gap it would open already holds the curvature of the constraints.
+  // First solve from the old twist: its gap already contains the curvature of the constraints.
   setFirstResidual(part, state, loads, dt);
   moveLinks(dt);
   setGapResidual(part, state, dt, true);
@@ -170,7 +170,7 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
   finish(part, state, loads, dt);
 }
 
-/// One iteration of Newton's method, and how it went.
+/// One Newton iteration and its convergence.
 void EulerStep::iterate(const ConstraintSystem::Part& part, const State& state, double dt, PositionSolve& solve) {
   applyCorrection(part, dt);
   moveLinks(dt);
@@ -182,7 +182,7 @@ void EulerStep::iterate(const ConstraintSystem::Part& part, const State& state, 
   solve.before = solve.gap;
 }
 
-/// What to do after an iteration: returns whether the positions are found, or enters the next phase.
+/// Evaluates an iteration: returns true if converged, or enters the next phase.
 bool EulerStep::advance(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt,
                         PositionSolve& solve) {
   switch (solve.phase) {
@@ -204,7 +204,7 @@ bool EulerStep::advance(const ConstraintSystem::Part& part, const State& state, 
   return solve.done || exhausted;
 }
 
-/// All rows, with the matrix of the start of the step: all that nearly every step needs.
+/// All rows, with the matrix of the start of the step: sufficient for nearly every step.
 bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt,
                                PositionSolve& solve) {
   if (solve.done && (solve.lost == 0 || openGap() <= kGapFailure)) return true;
@@ -212,7 +212,7 @@ bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& 
     unpackIterate();
     mixing_.remember(part, solve.gap, newTwist_);
   }
-  // Slow: a singular position is near, or the bodies turn far in a step.
+  // Slow: a singular position is near, or the bodies rotate far in a step.
   if (solve.since == kPatience && solve.slow) {
     if (startWithoutWeakRows(part, state, loads, dt))
       solve.enter(Phase::kWithoutWeakRows);
@@ -224,8 +224,8 @@ bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& 
   return false;
 }
 
-/// Without the weak rows until that has led to where inertia takes the bodies; from there the others have a short way
-/// to go, and to the solution that inertia leads to.
+/// Iterates without the weak rows to the inertial motion; from there all rows converge quickly, to the solution
+/// consistent with inertia.
 void EulerStep::advanceWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, double dt,
                                        PositionSolve& solve) {
   if (!solve.done && solve.since < options_.maxIterations && !(solve.since > 2 && solve.slow)) return;
@@ -239,7 +239,7 @@ void EulerStep::advanceWithoutWeakRows(const ConstraintSystem::Part& part, const
   solve.enter(Phase::kMixed);
 }
 
-/// Takes the matrix of the iterate, first of the best one so far.
+/// Relinearises at the iterate, first at the best one so far.
 void EulerStep::relinearise(const ConstraintSystem::Part& part, const State& state, double dt,
                             const PositionSolve& solve) {
   if (solve.since == 0 && std::isfinite(mixing_.bestGap())) {
@@ -265,7 +265,7 @@ void EulerStep::fail(const State& state, double gap, int iterations, double dt) 
   throw base::SimulationError(message.str(), base::Cause::fastMotion);
 }
 
-/// Of all rows that should hold, those without a pivot too.
+/// Largest gap of all hard rows, including those without a pivot.
 double EulerStep::openGap() const {
   double largest = 0;
   for (std::size_t k = 0; k < system_.constraints().size(); ++k) {
@@ -289,21 +289,21 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
                          share * couplingImpulse_[at(c)] * system_.rows(a.constraint).torque[at(a.row)], state);
     }
     state.coupling[at(c)].force = couplingImpulse_[at(c)] / dt;
-    bookCoupling(c, state);
+    recordCoupling(c, state);
   }
   for (const int k : system_.offTree()) readConstraint(k, state, dt);
   if (relinearised_) {
     for (const int node : part.bodies) {
-      // The impulses belong to rows of several positions: the momentum is what the twist says.
+      // The impulses belong to rows of several positions: compute the momentum from the twist.
       const std::size_t b = at(system_.bodyOf(node));
       const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
       state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
     }
     bookSeveralPlaces(state);
   } else if (mixing_.on()) {
-    bookMixedSpins(state);
+    recordMixedSpins(state);
   }
-  books_.addTo(state.ledger);
+  stepLedger_.addTo(state.ledger);
 }
 
 void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torque, State& state) const {
@@ -313,7 +313,7 @@ void EulerStep::addAngularMomentum(int k, const Vec3d& force, const Vec3d& torqu
   if (c.nodeA >= 0) state.angularMomentum[at(c.bodyA)] -= cross(p - frames_[at(c.bodyA)].p, force) + torque;
 }
 
-/// Adds what is known along the axes of one constraint to the impulses of its rows, and their work.
+/// Adds the known axis forces of one constraint to the impulses of its rows, and their work.
 void EulerStep::addAxes(int k, std::array<double, 6>& total, State& state, double dt) {
   for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
     const std::size_t row = at(system_.axes()[at(a)].row);
@@ -325,7 +325,8 @@ void EulerStep::addAxes(int k, std::array<double, 6>& total, State& state, doubl
     state.ledger.driveWork += work.drive;
     state.ledger.springWork += work.spring;
     state.ledger.dissipated += work.dissipated;
-    books_.jointDamping += work.joint, books_.springDamping += work.springs, books_.stopDamping += work.stops;
+    stepLedger_.jointDamping += work.joint, stepLedger_.springDamping += work.springs,
+        stepLedger_.stopDamping += work.stops;
     newRates_[at(a)] = newRate;
   }
 }
@@ -343,7 +344,7 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
     torque += total[r] * rows.torque[r];
   }
   addAngularMomentum(k, force, torque, state);
-  bookConstraint(k, force, torque, state);
+  recordConstraint(k, force, torque, state);
 
   if (c.kind == ConstraintKind::kPointSpring) {
     state.spring[at(c.source)] = {total[0] / dt, axisPosition(c, after, 0)};
@@ -361,7 +362,7 @@ void EulerStep::readConstraint(int k, State& state, double dt) {
   readAxes(k, total, state, dt);
 }
 
-/// What the axes of a joint did, `total` being the impulses of its rows.
+/// Readings of the axes of a joint; `total`: impulses of its rows.
 void EulerStep::readAxes(int k, const std::array<double, 6>& total, State& state, double dt) const {
   const Constraint& c = system_.constraints()[at(k)];
   const auto read = [&](int a, auto& axis) {
@@ -405,7 +406,7 @@ EulerStep::EulerStep(const Problem& problem)
 }
 
 void EulerStep::step(State& state, const Loads& loads, double dt) {
-  // Where nobody has moved a body since the last step, its frames are those that the step ended with.
+  // If no body was moved since the last step, its final frames are still valid.
   if (placed_.size() == state.pose.size() &&
       std::memcmp(placed_.data(), state.pose.data(), placed_.size() * sizeof(Pose)) == 0)
     std::swap(frames_, trial_);
@@ -416,7 +417,7 @@ void EulerStep::step(State& state, const Loads& loads, double dt) {
   noteOldLengths(state);
   oldSpin_ = state.angularMomentum;
   for (const ConstraintSystem::Part& part : system_.parts()) solvePart(part, state, loads, dt);
-  bookElasticGain(state, loads);
+  recordElasticGain(state, loads);
   state.time += dt;
   placed_ = state.pose;
 }

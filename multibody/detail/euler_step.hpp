@@ -20,14 +20,14 @@ public:
   void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change) override;
 
 private:
-  /// What the position solve works with: see RATTLE's scheme (rattle_step.cpp).
+  /// Phases of the position solve: see RATTLE's scheme (rattle_step.cpp).
   enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
-  /// How far the position solve of a step has come.
+  /// Progress of the position solve of a step.
   struct PositionSolve {
     Phase phase = Phase::kAllRows;
     int lost = 0;                    ///< rows that have no pivot
-    int iterations = 0, since = 0;   ///< in all, and in the present phase
-    double gap = 0, before = 0;      ///< largest of the last iteration, and of the one before
+    int iterations = 0, since = 0;   ///< total, and in the present phase
+    double gap = 0, before = 0;      ///< largest gap of the last iteration, and of the previous one
     bool done = false, slow = false; ///< of the last iteration
 
     void enter(Phase next) { phase = next, since = 0; }
@@ -65,16 +65,16 @@ private:
     Vec3L v0, w0, force, torque; ///< before the step
     Vec3L position;
     QuatL orientation;
-    Vec3L v, w, gyro; ///< current iterate; gyroscopic momentum
-    FrameL trial;     ///< where it leads to
+    Vec3L v, w, gyro; ///< current iterate and its gyroscopic momentum
+    FrameL trial;     ///< frame at the end of the step
     QuatL newOrientation;
     JointFramesL joint;
     Lanes impulse[6];
     Lanes oldRate[2];         ///< of the axes, before the step
     Lanes startCos, startSin; ///< of a joint's angle
     Lanes spread;             ///< of the inertias (spreadOf())
-    // For the books.
-    Vec3L gyroLeft;           ///< gyroscopic momentum of the old twist less that with which the new one was found
+    // For the ledger.
+    Vec3L gyroLeft;           ///< gyroscopic momentum of the old twist minus that used for the new one
     Vec3L parentV0, parentW0; ///< twist of the parent before the step
   };
   void startLinks(const State& state, const Loads& loads, double dt);
@@ -87,24 +87,24 @@ private:
   double setLinkGaps(double dt, bool first);
   double setLinkGyro(double dt);
   void takeGyroResiduals();
-  /// Of four bodies and their joints in a step [J].
+  /// Work of four bodies and their joints in a step [J].
   struct LinkWork {
     Lanes gravity, external, drive, spring, dissipated;
-    // What ledger.hpp has. `fall`: sum of m g.v.
+    // See ledger.hpp. `fall`: sum of m g.v.
     Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
-    Vec3d ground, groundMoment; ///< impulse of what cannot move
+    Vec3d ground, groundMoment; ///< impulse of immovable bodies
   };
-  /// Motion of the point p_B in B relative to A, and of B relative to A.
+  /// Velocity of the point p_B in B relative to A, and angular velocity of B relative to A.
   Twist relativeTwist(int k, const std::vector<Twist>& twist) const;
   // euler_ledger.cpp
   void noteOldMotion(const ConstraintSystem::Part& part, const State& state);
   void noteOldLengths(const State& state);
-  void bookElasticGain(State& state, const Loads& loads) const;
-  void bookCoupling(int c, const State& state);
-  void bookConstraint(int k, const Vec3d& force, const Vec3d& torque, const State& state);
-  void bookGround(int k, const Vec3d& force, const Vec3d& torque);
-  void bookWork(double work);
-  void bookMixedSpins(const State& state);
+  void recordElasticGain(State& state, const Loads& loads) const;
+  void recordCoupling(int c, const State& state);
+  void recordConstraint(int k, const Vec3d& force, const Vec3d& torque, const State& state);
+  void recordGround(int k, const Vec3d& force, const Vec3d& torque);
+  void recordWork(double work);
+  void recordMixedSpins(const State& state);
   void bookSeveralPlaces(const State& state);
   void finishLinks(State& state, const Loads& loads, double dt);
   void finishBodies(const LinkLanes& b, const LinkStep& s, State& state, const Loads& loads, double dt,
@@ -124,17 +124,16 @@ private:
   StepReport& last_;
   AxisLaws axisLaws_;
 
-  std::vector<AxisLaw> laws_;   ///< one an axis
-  std::vector<Vector6> x_;      ///< residuals in, corrections out; one a node
-  std::vector<LinkStep> steps_; ///< one a batch of links
-  std::vector<std::array<double, 6>>
-      impulse_;                            ///< Lambda, one a constraint; of joints that bodies hang by where asked for
-  std::vector<double> couplingImpulse_;    ///< one a coupling
-  std::vector<double> oldRate_, newRates_; ///< before and after the step, one an axis
-  double mass_ = 0;                        ///< of all movable bodies
-  StepBooks books_;
+  std::vector<AxisLaw> laws_;                  ///< one an axis
+  std::vector<Vector6> x_;                     ///< residuals in, corrections out; one per node
+  std::vector<LinkStep> steps_;                ///< one per batch of links
+  std::vector<std::array<double, 6>> impulse_; ///< Lambda, one per constraint; for tree joints on demand
+  std::vector<double> couplingImpulse_;        ///< one per coupling
+  std::vector<double> oldRate_, newRates_;     ///< before and after the step, one per axis
+  double mass_ = 0;                            ///< of all movable bodies
+  StepLedger stepLedger_;
   std::vector<Vec3d> oldSpin_; ///< angular momenta before the step
-  bool firstSolve_ = true;     ///< since the residuals were set anew
+  bool firstSolve_ = true;     ///< true after the residuals are reset
   Twist fromOutside_;          ///< impulse of gravity and loads, and its moment about the origin
   struct SpringPlace {
     std::size_t joint;
@@ -143,14 +142,14 @@ private:
   static double positionIn(const State& state, const SpringPlace& p) {
     return p.slide ? state.slide[p.joint].position : state.joint[p.joint].position;
   }
-  std::vector<SpringPlace> springPlace_; ///< of each axis spring
-  std::vector<double> oldLength_;        ///< before the step: of axis springs, point springs, bushings' six each
-  std::vector<Twist> oldMotion_;         ///< before the step, one a constraint; of those off the tree
-  std::vector<double> oldCouplingRate_;  ///< before the step, two a coupling
+  std::vector<SpringPlace> springPlace_; ///< one per axis spring
+  std::vector<double> oldLength_;        ///< before the step: axis springs, point springs, six per bushing
+  std::vector<Twist> oldMotion_;         ///< before the step, one per constraint outside the tree
+  std::vector<double> oldCouplingRate_;  ///< before the step, two per coupling
   Mixing mixing_;
-  bool relinearised_ = false;         ///< the position solve had to leave J(q)
-  std::vector<Twist> newTwist_;       ///< current iterate, one a body, where mixing asks for it
-  std::vector<Pose> placed_;          ///< where the last step left the bodies: those of trial_
+  bool relinearised_ = false;         ///< the position solve has relinearised
+  std::vector<Twist> newTwist_;       ///< current iterate, one per body, if mixing needs it
+  std::vector<Pose> placed_;          ///< body poses after the last step: those of trial_
   std::vector<Frame> frames_, trial_; ///< bodies' frames at the start and at the end of the step
 };
 

@@ -13,8 +13,8 @@
 #include <cstddef>
 #include <limits>
 
-/// Rows of constraints and springs turn with the bodies, so that forces lambda along them change
-/// with the positions q even where they keep their size:
+/// Rows of constraints and springs rotate with the bodies, so that forces lambda along them change with the positions q
+/// even at constant magnitude:
 ///
 ///   f(q) = J(q)^T lambda,    K u = -d/ds f(q + s u),
 ///
@@ -26,10 +26,10 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// How far bodies turn, or move in terms of the shortest spring or distance, for the derivative [rad]: errors of its
-/// square, and of round-off over it, stay below 1e-7 of the forces.
+/// Rotation, or displacement over the shortest spring or distance, of the finite difference [rad]: truncation (its
+/// square) and round-off errors stay below 1e-7 of the forces.
 constexpr double kTurn = 1e-4;
-/// Of the power iteration. The estimate grows to the eigenvalue from below, and is wanted to a hundredth.
+/// Power iteration. The estimate increases to the eigenvalue; 1 % accuracy is sufficient.
 constexpr int kIterations = 200, kLeastIterations = 12;
 constexpr double kSettled = 1e-5;
 
@@ -53,12 +53,12 @@ public:
     });
   }
 
-  /// x <- -K u for the motion u = x of the part's bodies; what is in the rows becomes 0.
+  /// x <- -K u for the motion u = x of the part's bodies; row entries become 0.
   void apply(std::vector<Vector6>& x) {
     double fastest = 0;
     for (const int node : part_.bodies) {
       const double v = norm(linear(x[at(node)]));
-      // What only slides changes lever arms, in proportion: any way is short enough.
+      // Pure translation changes lever arms linearly: any displacement is small enough.
       fastest = std::max({fastest, v / shortest_, norm(angular(x[at(node)])), 1e-6 * v});
     }
     motion_ = x;
@@ -88,7 +88,7 @@ public:
     return sum;
   }
 
-  /// The constraint that did most work in the last apply().
+  /// The constraint with the most work in the last apply().
   int hardestWorking() const {
     int most = -1;
     for (const int k : part_.constraints)
@@ -130,7 +130,7 @@ private:
   const RowForces& forces_;
   std::vector<Frame> frames_;
   std::vector<Vector6> motion_;
-  std::vector<double> work_;                                  ///< one a constraint
+  std::vector<double> work_;                                  ///< one per constraint
   double shortest_ = std::numeric_limits<double>::infinity(); ///< spring or distance [m]
 };
 
@@ -175,7 +175,7 @@ double highestGeometricFrequency(const ConstraintSystem& system, const Model& mo
   GeometricStiffness stiffness(system, model, part, poses, forces);
   if (!stiffness.loaded()) return 0;
 
-  // What random impulses leave behind has a share of every mode. The name is part of the seed.
+  // The response to random impulses contains every mode. The name is part of the seed.
   stiffness.clear(x);
   for (const int node : part.bodies) {
     const Body& body = model.bodies()[at(system.bodyOf(node))];

@@ -12,14 +12,13 @@ namespace grouser::multibody::detail {
 /// A gap this wide after all iterations means that the step is too long for the motion [m, rad].
 inline constexpr double kGapFailure = 1e-6;
 
-/// A body may turn by this much in a step [rad]: beyond half a turn neither its path nor the angles of its joints could
-/// be told any more.
+/// Largest rotation of a body per step [rad]: beyond half a turn its path and joint angles are ambiguous.
 inline constexpr double kLargestTurn = 3;
 
 /// Throws base::SimulationError if a body's twist is not finite or turns it too far in a step that starts at `time`.
 void checkTwist(const Body& body, const Twist& twist, double time, double dt);
 
-/// What the integrators share: the model, its linearised system, and where drives began.
+/// Shared data of the integrators: the model, its linearised system, and the initial positions of drives.
 struct Problem {
   const Model& model;
   const SolverOptions& options; ///< defaults resolved

@@ -50,7 +50,7 @@ enum class ConstraintKind {
 inline constexpr int kAxisRow = 5;  ///< of a revolute, prismatic, and of the angle of a cylindrical
 inline constexpr int kSlideRow = 4; ///< of a cylindrical
 
-// The formulas of joints are templates: T is a double, or lanes.hpp's numbers of several joints of one kind.
+// Joint formulas are templates: T is double, or the SIMD type of lanes.hpp for several joints of one kind.
 
 /// Rotation matrix and origin of a body.
 template <class T> struct FrameOf {
@@ -85,7 +85,7 @@ inline void placeFrames(const JointPlacesOf<T>& places, const FrameOf<T>& A, con
   f.z_B = B.R * places.z_B;
 }
 
-/// C of the hard rows of a joint [m, rad], but of a distance joint; the others are left as they are.
+/// C of the hard rows of a joint other than a distance joint [m, rad]; other entries are unchanged.
 template <class T> inline void jointError(ConstraintKind kind, const JointFramesOf<T>& f, T (&error)[6]) {
   const Vec3<T> d = f.p_B - f.p_A;
   switch (kind) {
@@ -118,7 +118,7 @@ template <class T> inline void jointError(ConstraintKind kind, const JointFrames
   error[2] = dot(f.z_A, d);
 }
 
-/// Directions of all six rows of a joint, those of free axes included, but of a distance joint.
+/// Directions of all six rows of a joint other than a distance joint, including free axes.
 template <class T> inline void jointRows(ConstraintKind kind, const JointFramesOf<T>& f, RowDirectionsOf<T>& rows) {
   switch (kind) {
   case ConstraintKind::kPrismatic:

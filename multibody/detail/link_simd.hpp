@@ -13,8 +13,8 @@ using FrameL = FrameOf<Lanes>;
 using JointFramesL = JointFramesOf<Lanes>;
 using RowDirectionsL = RowDirectionsOf<Lanes>;
 
-/// Four bodies with the joints by which they hang on their parents (elimination.hpp), all of one kind: what is constant
-/// of them, and the joints as the last linearisation found them. Idle lanes repeat the first.
+/// Four bodies with the joints to their parents (elimination.hpp), all of one kind: constants, and the joints of the
+/// last linearisation. Idle lanes repeat the first.
 struct alignas(64) LinkLanes {
   int count = 0;
   bool joint = false; ///< free bodies have none
@@ -36,7 +36,7 @@ struct alignas(64) LinkLanes {
   RowDirectionsL rows;
   Vec3L com, parentCom;
 
-  /// Frames of A and B of those of child and parent.
+  /// Assigns the frames of child and parent to A and B.
   GROUSER_SIMD void sort(const FrameL& child, const FrameL& other, FrameL& A, FrameL& B) const {
     const auto isB = side > 0.0;
     const auto pick = [&](const Lanes& c, const Lanes& o, Lanes& a, Lanes& b) { a = isB ? o : c, b = isB ? c : o; };
@@ -50,7 +50,7 @@ struct alignas(64) LinkLanes {
   }
 };
 
-/// Frames of four bodies, side by side.
+/// Frames of four bodies, one per lane.
 GROUSER_SIMD void gatherFrames(const std::vector<Frame>& frames, const std::array<int, kLanes>& body, FrameL& out) {
   static_assert(sizeof(Frame) == 12 * sizeof(double));
   const double* row[kLanes];

@@ -11,8 +11,9 @@
 
 namespace grouser::multibody::detail {
 
-/// Near a singular position a row's pivot, as a part of its own J M^-1 J^T, goes with the square of the angle to it.
-/// Thresholds of pivots, times the usual one: for rows that a turn [rad] of a step can take through it,
+/// Near a singular position a row's pivot, relative to its own J M^-1 J^T, is proportional to the square of the angle
+/// to it. Pivot thresholds, in units of the usual one: for rows that a rotation [rad] within a step can take through
+/// it,
 inline double weakPivotScale(double turn) { return std::max(10 * turn * turn, 1e-6) / Elimination::kPivotTolerance; }
 /// and for rows firm enough to carry an impulse: a gap of the tolerance leaves a deviation of up to its root across the
 /// singular direction, which must be small beside the angle, or the row's impulse would act on the motion through it.
@@ -20,33 +21,33 @@ inline double firmPivotScale(double positionTolerance) {
   return std::max(1.0, 1e2 * positionTolerance / Elimination::kPivotTolerance);
 }
 
-/// The position solve's iterate: twists over the step and the impulses that make them.
+/// Iterate of the position solve: twists over the step and their impulses.
 struct Iterate {
   std::vector<Twist>& twist;                   ///< one a body
   std::vector<std::array<double, 6>>& impulse; ///< one a constraint
   std::vector<double>& couplingImpulse;        ///< one a coupling
 };
 
-/// Helps the position solve of one part where it converges slowly or not at all: near singular positions, where pivots
-/// change in size or sign within a step, and for turns of about a radian a step. Mixes corrections
-/// (anderson_acceleration.hpp), and remembers the best iterate.
+/// Accelerates the position solve of one part if it converges slowly or not at all: near singular positions, where
+/// pivots change in size or sign within a step, and for rotations of about a radian per step. Mixes corrections
+/// (anderson_acceleration.hpp), and keeps the best iterate.
 class Mixing {
 public:
   explicit Mixing(const ConstraintSystem& system, const Model& model)
       : system_(system), model_(model), acceleration_(6 * static_cast<std::size_t>(system.nodes())),
         z_(6 * static_cast<std::size_t>(system.nodes())), change_(z_), weight_(z_), best_(model.bodies().size()) {}
 
-  /// Before the first iteration of a solve.
+  /// Call before the first iteration of a solve.
   void reset() { on_ = false, bestGap_ = std::numeric_limits<double>::infinity(); }
   bool on() const { return on_; }
   void switchOn() { on_ = true, acceleration_.reset(); }
-  /// After the matrix has changed.
+  /// Call after the matrix has changed.
   void forget() { acceleration_.reset(); }
 
-  /// Mixes the corrections in `x` with those of the iterations before, in the norm of kinetic energy.
+  /// Mixes the corrections in `x` with those of previous iterations, in the norm of kinetic energy.
   void improve(const ConstraintSystem::Part& part, const Iterate& iterate, std::vector<Vector6>& x);
 
-  /// Remembers the iterate if its gap is the smallest so far.
+  /// Stores the iterate if its gap is the smallest so far.
   void remember(const ConstraintSystem::Part& part, double gap, const std::vector<Twist>& twist);
   double bestGap() const { return bestGap_; }
   void takeBest(const ConstraintSystem::Part& part, std::vector<Twist>& twist) const;

@@ -7,26 +7,26 @@
 
 #include <cmath>
 
-/// The books of a stage of RATTLE (the scheme is in rattle_step.cpp).
+/// Energy and momentum ledger of a stage of RATTLE (scheme: rattle_step.cpp).
 ///
 /// Energy. The first half kick takes the twist of a body from (v_0, w_0) to the mean twist (v, w) by the impulses p and
-/// T of all that acts on it at q_0, the second from there to (v_1, w_1) by those at q_1; between them the body moves
-/// with (v, w), which turns I along with w and changes neither |v| nor w.I w. With m (v - v_0) = p,
+/// T of all forces at q_0, the second from there to (v_1, w_1) by those at q_1; between them the body moves with (v,
+/// w), which turns I along with w and changes neither |v| nor w.I w. With m (v - v_0) = p,
 ///   m (v^2 - v_0^2) / 2 = p.(v_0 + v)/2,
 /// and with the symmetric I_0 of q_0, S_0 the spin of the node and S = S_0 + T the spin between the kicks,
 ///   (w.I_0 w - w_0.I_0 w_0) / 2 = I_0 (w - w_0).(w_0 + w)/2 = T.(w_0 + w)/2 + G.(w_0 + w)/2,
 ///   G = (S_0 - I_0 w_0) - (S - I_0 w):
 /// the work of the torques and that of the gyroscopic terms (S - I_0 w = g(w), rotation.hpp; S_0 = I_0 w_0). The second
-/// kick is the same with I_1, S and S_1. That holds for any h, backward stages too. p and T are what was booked, S what
-/// the state keeps: a change of the state that nobody booked stays as a difference of kinetic energy.
+/// kick is the same with I_1, S and S_1. That holds for any h, backward stages too. p and T are the recorded impulses,
+/// S is the state: unrecorded changes of the state appear as a difference of kinetic energy.
 ///
-/// Momentum. p changes x_0 x m v + S by x_0 x p + T, its moment about the origin; the drift adds h v x m v = 0 and
-/// leaves S as it is; so does the second kick at x_1. Row impulses are opposite forces at one point, with opposite
-/// torques: between bodies that can move they cancel, and what is left are gravity, loads, and rows to immovable
-/// bodies, with (F, p_B x F + M) for the force F at p_B and the torque M.
+/// Momentum. p changes x_0 x m v + S by x_0 x p + T, its moment about the origin; the drift adds h v x m v = 0 and does
+/// not change S; likewise the second kick at x_1. Row impulses are opposite forces at one point, with opposite torques:
+/// they cancel between movable bodies, leaving gravity, loads, and rows to immovable bodies, with (F, p_B x F + M) for
+/// the force F at p_B and the torque M.
 ///
-/// Where the position solve took rows at several places (relinearised), impulses have no one place: the change of
-/// momentum itself is booked then, what is not gravity or load as the ground's.
+/// If the position solve has relinearised, impulses have no single position: the change of momentum itself is recorded;
+/// what is not gravity or load counts as ground reaction.
 namespace grouser::multibody::detail {
 
 void RattleStep::give(int k, int row, double impulse) {
@@ -34,8 +34,8 @@ void RattleStep::give(int k, int row, double impulse) {
   if (!toGround_[at(k)]) return;
   const double onMovable = system_.constraints()[at(k)].nodeB >= 0 ? impulse : -impulse;
   const Vec3d force = onMovable * system_.rows(k).force[at(row)];
-  books_.linear += force;
-  books_.angular += cross(system_.jointFrames(k).p_B, force) + onMovable * system_.rows(k).torque[at(row)];
+  stepLedger_.linear += force;
+  stepLedger_.angular += cross(system_.jointFrames(k).p_B, force) + onMovable * system_.rows(k).torque[at(row)];
 }
 
 void RattleStep::bookFirstKick(const Part& part, const State& state, const Loads& loads, double h) {
@@ -49,13 +49,13 @@ void RattleStep::bookFirstKick(const Part& part, const State& state, const Loads
     const Vec3d known = 0.5 * h * (wrench.force + body.mass * loads.gravity), torque = 0.5 * h * wrench.torque;
     if (severalPlaces) {
       kick.impulse = body.mass * (kick.after.v - kick.before.v), kick.moment = kick.spinAfter - kick.spinBefore;
-      books_.linear += kick.impulse - known;
-      books_.angular += cross(kick.place, kick.impulse - known) + (kick.moment - torque);
-      book(b, rotatedInertia(frames_[at(b)].R, body.inertia_B), kick, loads, h);
+      stepLedger_.linear += kick.impulse - known;
+      stepLedger_.angular += cross(kick.place, kick.impulse - known) + (kick.moment - torque);
+      recordKick(b, rotatedInertia(frames_[at(b)].R, body.inertia_B), kick, loads, h);
       continue;
     }
     kick.impulse = known + linear(x_[at(node)]), kick.moment = torque + angular(x_[at(node)]);
-    book(b, system_.inertia(node), kick, loads, h);
+    recordKick(b, system_.inertia(node), kick, loads, h);
   }
 }
 
@@ -69,12 +69,12 @@ void RattleStep::bookSecondKick(const Part& part, const Loads& loads, double h) 
                     linear(kick_[at(node)]) + linear(x_[at(node)]),
                     angular(kick_[at(node)]) + angular(x_[at(node)]),
                     trialPose_[at(b)].position};
-    book(b, system_.inertia(node), kick, loads, h);
+    recordKick(b, system_.inertia(node), kick, loads, h);
   }
 }
 
-/// Half a kick of one body.
-void RattleStep::book(int b, const Mat3d& inertia, const Kick& kick, const Loads& loads, double h) {
+/// Ledger of a half kick of one body.
+void RattleStep::recordKick(int b, const Mat3d& inertia, const Kick& kick, const Loads& loads, double h) {
   const Wrench& wrench = loads.external[at(b)];
   const Vec3d v = 0.5 * (kick.before.v + kick.after.v), w = 0.5 * (kick.before.w + kick.after.w);
   const Vec3d weight = 0.5 * h * model_.bodies()[at(b)].mass * loads.gravity, load = 0.5 * h * wrench.force,
@@ -83,12 +83,12 @@ void RattleStep::book(int b, const Mat3d& inertia, const Kick& kick, const Loads
   const double all = dot(kick.impulse, v) + dot(kick.moment, w);
   const Vec3d unlike = (kick.spinBefore - kick.spinAfter) - inertia * (kick.before.w - kick.after.w);
   const double gyroscopic = dot(unlike, w);
-  books_.kinetic += all + gyroscopic;
-  books_.external += external;
-  books_.turnover +=
+  stepLedger_.kinetic += all + gyroscopic;
+  stepLedger_.external += external;
+  stepLedger_.turnover +=
       std::fabs(gravity) + std::fabs(external) + std::fabs(all - gravity - external) + std::fabs(gyroscopic);
-  books_.linear += weight + load;
-  books_.angular += cross(kick.place, weight + load) + torque;
+  stepLedger_.linear += weight + load;
+  stepLedger_.angular += cross(kick.place, weight + load) + torque;
 }
 
 } // namespace grouser::multibody::detail

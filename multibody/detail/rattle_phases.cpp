@@ -9,22 +9,22 @@
 #include <cstddef>
 #include <sstream>
 
-/// The position solve of a stage of RATTLE (the scheme is in rattle_step.cpp): Newton's method on the residuals of
-/// rattle_position.cpp, and the phases that it goes through where that is slow.
+/// Position solve of a stage of RATTLE (scheme: rattle_step.cpp): Newton's method on the residuals of
+/// rattle_position.cpp, with further phases if it converges slowly.
 namespace grouser::multibody::detail {
 
 namespace {
 
-/// Gaps are not closed further than this part of the coordinates.
+/// Smallest tolerance of gaps, relative to the coordinates.
 constexpr double kRoundOff = 5e-16;
 
-/// In units of the tolerance: up to where a gap that iterations no longer reduce is round-off, which a long loop sums
-/// up; and the gap that is accepted when no phase is left to try (1e-12 m or rad by default).
+/// In units of the tolerance: largest stalled gap that counts as round-off, which accumulates over a long loop; and the
+/// gap accepted when no phase is left (1e-12 m or rad by default).
 constexpr double kNearTolerance = 1e2, kAcceptable = 1e3;
 
-/// Of an iteration, new gap over the one before. Newton's method with the matrix of the start takes a gap down by
-/// h |w|, some 1e-2 in a step that is worth taking: above a fifth something else than curvature is at work, and help
-/// costs less than going on. Round-off does not even halve it.
+/// Gap ratios of successive iterations. With the matrix of the start Newton's method reduces a gap by h |w|, about 1e-2
+/// in a reasonable step: above a fifth the cause is not curvature, and changing phase costs less than continuing.
+/// Round-off does not even halve it.
 constexpr double kSlowIteration = 0.2, kStalled = 0.5;
 
 } // namespace
@@ -48,13 +48,13 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
     const int lostHere = solve.since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial_);
     solve.lost = std::max(solve.lost, lostHere);
   }
-  // Also of rows that had no pivot.
+  // Includes rows without a pivot.
   if (!(gapOf_[at(part.index)] <= kGapFailure)) fail(part, state, gapOf_[at(part.index)], h);
   last_.maxPositionError = std::max(last_.maxPositionError, gapOf_[at(part.index)]);
   collectMomentum(part, state, loads, h);
 }
 
-/// Below a few units in the last place of the coordinates there is nothing to gain.
+/// No smaller than a few units in the last place of the coordinates.
 double RattleStep::gapTolerance(const Part& part, const State& state) const {
   double scale = 0;
   for (const int node : part.bodies) {
@@ -64,7 +64,7 @@ double RattleStep::gapTolerance(const Part& part, const State& state) const {
   return std::max(options_.positionTolerance, kRoundOff * scale);
 }
 
-/// One iteration of Newton's method, and how it went.
+/// One Newton iteration and its convergence.
 void RattleStep::iterate(const Part& part, const State& state, double h, PositionSolve& solve) {
   system_.solve(part, x_);
   if (mixing_.on() && !relinearised_[at(part.index)]) mixing_.improve(part, {mean_, impulse_, couplingImpulse_}, x_);
@@ -76,7 +76,7 @@ void RattleStep::iterate(const Part& part, const State& state, double h, Positio
   ++solve.iterations, ++solve.since;
   last_.iterations = std::max(last_.iterations, solve.iterations);
 
-  // A little above the tolerance and not getting better is round-off.
+  // Slightly above the tolerance and stalled: round-off.
   const bool atRoundOff =
       std::min(solve.best, solve.gap) <= kNearTolerance * solve.tolerance && solve.gap > kStalled * solve.before;
   solve.done = !solve.follow && (solve.gap <= solve.tolerance || atRoundOff);
@@ -85,7 +85,7 @@ void RattleStep::iterate(const Part& part, const State& state, double h, Positio
   solve.before = solve.gap;
 }
 
-/// What to do after an iteration: returns whether the stage's positions are found, or enters the next phase.
+/// Evaluates an iteration: returns true if converged, or enters the next phase.
 bool RattleStep::advance(const Part& part, const State& state, const Loads& loads, double h, PositionSolve& solve) {
   switch (solve.phase) {
   case Phase::kAllRows:
@@ -103,12 +103,12 @@ bool RattleStep::advance(const Part& part, const State& state, const Loads& load
   }
   if (solve.done) return true;
   if (solve.since < 2 * options_.maxIterations) return false;
-  // Where rows have lost their pivot the rest may stay a little open; they close behind the singular position.
+  // If rows have lost their pivot, small gaps may remain; they close after the singular position.
   if (!(solve.gap <= (solve.lost > 0 ? kGapFailure : kAcceptable * solve.tolerance))) fail(part, state, solve.gap, h);
   return true;
 }
 
-/// All rows, with the matrix of the start of the stage: all that nearly every step needs.
+/// All rows, with the matrix of the start of the stage: sufficient for nearly every step.
 bool RattleStep::advanceAllRows(const Part& part, const State& state, const Loads& loads, double h,
                                 PositionSolve& solve) {
   const bool closed = solve.lost == 0 || solve.open <= kNearTolerance * solve.tolerance;
@@ -129,8 +129,8 @@ bool RattleStep::advanceAllRows(const Part& part, const State& state, const Load
   return false;
 }
 
-/// Without the weak rows until that has led to where inertia takes the bodies; from there the others have a short way
-/// to go, and to the solution that inertia leads to.
+/// Iterates without the weak rows to the inertial motion; from there all rows converge quickly, to the solution
+/// consistent with inertia.
 void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) {
   if (!solve.done && solve.since < options_.maxIterations && !(solve.since > 2 && solve.slow)) return;
   mixing_.reset();
@@ -142,10 +142,9 @@ void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) 
   solve.enter(Phase::kMixed);
 }
 
-/// The solve anew from the old twist, without the rows whose pivot a turn of this size can take through zero: near a
-/// singular position those would need huge impulses on the way, and spoil the rest. What they leave open is second
-/// order in a motion across the singular direction, hence small. Returns whether there are any; if not, nothing has
-/// changed.
+/// Restarts the solve from the old twist, without rows whose pivot may pass through zero in a rotation of this size:
+/// near a singular position their impulses would diverge. Their gaps are second order in a motion across the singular
+/// direction, hence small. Returns false, without changes, if there are none.
 bool RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
   double turn = 0;
   for (const int node : part.bodies)
@@ -166,7 +165,7 @@ bool RattleStep::startWithoutWeakRows(const Part& part, const State& state, cons
   return true;
 }
 
-/// Closes what is left with the matrix of each iterate. Returns the rows without a pivot in the first.
+/// Closes the remaining gaps with the matrix of each iterate. Returns the number of rows without a pivot in the first.
 int RattleStep::closeWeakRows(const Part& part, const State& state, double h) {
   relinearised_[at(part.index)] = 1;
   mixing_.takeBest(part, mean_);
@@ -194,7 +193,7 @@ void RattleStep::fail(const Part& part, const State& state, double gap, double h
   if (worst >= 0) message << ": " << system_.describe(worst, worstRow) << " stays open by " << most << " [m or rad]";
   message << " (largest residual " << gap << ") after " << options_.maxIterations
           << " iterations; the motion is too fast for a stage of " << h
-          << " s: reduce the step, or check loads, drives and whether the mechanism can reach where it is driven";
+          << " s: reduce the step, or check loads, drives and whether the mechanism can reach the driven position";
   throw base::SimulationError(message.str(), base::Cause::fastMotion);
 }
 

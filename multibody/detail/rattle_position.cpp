@@ -16,13 +16,13 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Of soft rows, in units of the row's own J M^-1 J^T: inverse compliance that a row which lets go keeps, so that its
-/// impulse can vanish; and change, as a part of both together, that Newton's method tolerates without a new matrix.
+/// Soft rows, in units of the row's own J M^-1 J^T: minimum inverse compliance of a releasing row, so that its impulse
+/// can vanish; and relative change that Newton's method tolerates without a new matrix.
 constexpr double kLeastInverseCompliance = 1e-3, kComplianceChange = 0.05;
 
 /// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration, to round-off: what a tolerance would leave has the same sign in each step, and
-/// would turn the body by its share of the tolerance over the step's square. Below, two iterations leave less.
+/// Newton's method within the iteration, to round-off: the error of a tolerance would have the same sign in each step
+/// and accumulate. Below, two iterations are more accurate.
 constexpr double kFreeSpin = 1e-7;
 
 } // namespace
@@ -48,9 +48,8 @@ ForceAndSlope RattleStep::meanForce(int axis, double h) const {
   return f;
 }
 
-/// Axis positions at the current iterate, and the inverse compliance 1/G of the soft rows there. Returns whether it has
-/// moved so far from what the matrix holds that the matrix must follow: Newton's method tolerates a small part of G + J
-/// M^-1 J^T.
+/// Axis positions at the current iterate, and the inverse compliance 1/G of the soft rows there. Returns true if G
+/// differs too much from the factored matrix: Newton's method tolerates a small part of G + J M^-1 J^T.
 bool RattleStep::updateAxes(const Part& part, double h) {
   bool follow = false;
   for (const int k : part.constraints) {
@@ -59,14 +58,14 @@ bool RattleStep::updateAxes(const Part& part, double h) {
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
       const int row = system_.axes()[at(a)].row;
       x1_[at(a)] = axisPositionAfter(c, startFrames_[at(k)], trialFrames_[at(k)], row, x0_[at(a)]);
-      if (soft_[at(a)].driven || !soft_[at(a)].stops) continue; // all else is linear
+      if (soft_[at(a)].driven || !soft_[at(a)].stops) continue; // everything else is linear
       AxisLaw& law = laws_[at(a)];
       const double size = system_.rowSize(k, row);
       double now = 0.5 * h * h * meanForce(a, h).slope;
       if ((law.inverseCompliance != 0 || now != 0) && std::fabs(now) * size < kLeastInverseCompliance)
         now = kLeastInverseCompliance / size;
-      // What begins to touch within the stage must get an unknown of its own however soft it is: else the stop would
-      // hold energy that no force has taken out.
+      // A stop first touched within the stage needs its own unknown however soft it is: else it would store energy
+      // without work.
       const bool begins = law.inverseCompliance == 0 && now != 0;
       if (!begins && std::fabs(now - law.inverseCompliance) * size <=
                          kComplianceChange * (1 + std::fabs(law.inverseCompliance) * size))
@@ -78,7 +77,7 @@ bool RattleStep::updateAxes(const Part& part, double h) {
   return follow;
 }
 
-/// First iterate: the twists of the node; where axes are then, and how soft.
+/// First iterate: the twists of the node, with axis positions and compliances.
 void RattleStep::startAxes(const Part& part, const State& state, double h) {
   for (const int node : part.bodies) mean_[at(system_.bodyOf(node))] = state.twist[at(system_.bodyOf(node))];
   moveTrial(part, state, h);
@@ -97,8 +96,8 @@ void RattleStep::startAxes(const Part& part, const State& state, double h) {
   }
 }
 
-/// Soft rows are predicted along their tangent: a stiff spring must not be asked what it does where the velocity of the
-/// node alone would take it.
+/// Soft rows are predicted along their tangent: a stiff spring must not be evaluated at the position that the node
+/// velocity alone would reach.
 void RattleStep::predictSoftRows(const Part& part, double h) {
   for (const int k : part.constraints)
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
@@ -186,7 +185,7 @@ void RattleStep::setResidual(int k, double h, Gaps& gaps) {
       gaps.take(gap, kept >> row & 1u);
     } else if (laws_[at(a)].inverseCompliance != 0) {
       residual[at(row)] = (0.5 * h * meanForce(a, h).force - impulse_[at(k)][at(row)]) / laws_[at(a)].inverseCompliance;
-      // In terms of position: what the soft row and the masses behind it would still move.
+      // As a position: remaining displacement of the soft row and its masses.
       const double inverseCompliance = std::fabs(laws_[at(a)].inverseCompliance) * system_.rowSize(k, row);
       Gaps::takeLarger(gaps.largest, residual[at(row)] * h * inverseCompliance / (1 + inverseCompliance));
     }
@@ -200,11 +199,11 @@ void RattleStep::applyCorrection(const Part& part, double h) {
     V.w += angular(x_[at(node)]);
     x_[at(node)] = {};
     if (relinearised_[at(part.index)]) continue;
-    // The momentum that the new impulses leave is I w + the gyroscopic part of the iterate before.
+    // The momentum after the new impulses is I w + the gyroscopic part of the previous iterate.
     const Mat3d& I = system_.inertia(node);
     if (std::fabs(h) * norm(V.w) * inertiaSpread_[at(node)] > kFreeSpin) {
       V.w = angularVelocityOf(I, I * V.w + gyro_[at(node)], V.w, h);
-      gyro_[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: nothing is left for the next iterate
+      gyro_[at(node)] = gyroscopicMomentum(I, V.w, h); // solved: no residual for the next iterate
     }
   }
   for (const int k : part.constraints)
@@ -212,10 +211,10 @@ void RattleStep::applyCorrection(const Part& part, double h) {
   for (const int c : part.couplings) couplingImpulse_[at(c)] += x_[at(system_.couplingNode(c))][0];
 }
 
-/// Spin after the first half kick: the sum of the impulses, so that it is conserved to the last digits; where the rows
-/// were taken anew, what the mean twist says.
+/// Spin after the first half kick: sum of the impulses, so that it is conserved to round-off; after relinearisation
+/// from the mean twist.
 void RattleStep::collectMomentum(const Part& part, const State& state, const Loads& loads, double h) {
-  books_ = {};
+  stepLedger_ = {};
   if (relinearised_[at(part.index)]) {
     for (const int node : part.bodies) {
       const int b = system_.bodyOf(node);

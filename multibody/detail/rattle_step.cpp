@@ -32,12 +32,11 @@
 ///
 /// Newton's method uses the matrix of q_0 on both sides, though Lambda acts along J(q_0) and gaps close along J(q_1): a
 /// correction is h |w| times the one before. Where a singular position is near or between q_0 and q_1 some pivots have
-/// another size or sign at q_1 and that is too slow or diverges. It is then done first without the rows of those
-/// pivots, which leads to where inertia takes the bodies, next to the solution (the equations have others, on the
-/// branches that meet in the singular position); from there with all rows, the corrections mixed (mixing.hpp), which
-/// solves the same equations. Should that fail - q_0 is all but singular - the weak rows are closed with the matrix of
-/// each iterate, by the smallest corrections in the norm of kinetic energy. Slow iterations without weak rows are mixed
-/// at once.
+/// another size or sign at q_1 and that is too slow or diverges. The solve then starts without those rows, which leads
+/// to the inertial motion, next to the solution (other solutions lie on the branches that meet in the singular
+/// position); then continues with all rows and mixed corrections (mixing.hpp), which solves the same equations. If that
+/// fails (q_0 is nearly singular), the weak rows are closed with the matrix of each iterate, by the smallest
+/// corrections in the norm of kinetic energy. Slow iterations without weak rows are mixed at once.
 ///
 /// The first three equations are set up in rattle_position.cpp and solved in rattle_phases.cpp, the last two are solved
 /// in rattle_velocity.cpp.
@@ -90,7 +89,7 @@ RattleStep::RattleStep(const Problem& problem)
 
 void RattleStep::step(State& state, const Loads& loads, double dt) {
   const double start = state.time;
-  // Whoever moved a body in between made the kept factors useless.
+  // Pose changes invalidate cached factors.
   for (std::size_t b = 0; b < state.pose.size(); ++b) {
     const Pose &a = state.pose[b], &c = trialPose_[b];
     if (!(a.position == c.position) || a.orientation.w != c.orientation.w || a.orientation.x != c.orientation.x ||
@@ -126,7 +125,7 @@ int RattleStep::linearise(const Part& part, const std::vector<Frame>& where) {
   return lost;
 }
 
-/// Whether the system still holds the matrix of the end of the stage before, and it is the one this stage needs.
+/// True if the system still holds the matrix of the end of the previous stage, and this stage can use it.
 bool RattleStep::positionsFactored(const Part& part) const {
   if (factored_[at(part.index)] != system_.linearisation(part)) return false;
   for (const int k : part.constraints)

@@ -20,27 +20,27 @@ public:
 
 private:
   using Part = ConstraintSystem::Part;
-  /// What the position solve works with: see the scheme.
+  /// Phases of the position solve: see the scheme.
   enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
 
-  /// How far the position solve of a stage has come.
+  /// Progress of the position solve of a stage.
   struct PositionSolve {
     Phase phase = Phase::kAllRows;
     double tolerance = 0; ///< of gaps [m, rad]
     int lost = 0;         ///< rows that have no pivot
-    int iterations = 0;   ///< in all
-    // Of the present phase.
+    int iterations = 0;   ///< total
+    // Present phase.
     int since = 0;                                                        ///< iterations
     double best = std::numeric_limits<double>::infinity(), before = best; ///< smallest gap, last gap
-    // Of the last iteration.
-    double gap = 0;      ///< largest of the rows that have a pivot
-    double open = 0;     ///< largest of all rows
-    bool follow = false; ///< soft rows have moved too far from what the matrix holds
+    // Last iteration.
+    double gap = 0;      ///< largest gap of rows with a pivot
+    double open = 0;     ///< largest gap of all rows
+    bool follow = false; ///< soft rows differ too much from the factored matrix
     bool done = false, slow = false;
 
     void enter(Phase next) { phase = next, since = 0, best = before = std::numeric_limits<double>::infinity(); }
   };
-  /// Largest gaps so far, of the rows that have a pivot and of all. A gap that is not a number counts as the largest.
+  /// Largest gaps so far, of rows with a pivot and of all rows. NaN counts as the largest.
   struct Gaps {
     double largest = 0, open = 0;
     static void takeLarger(double& most, double gap) {
@@ -53,7 +53,7 @@ private:
   };
 
   void stage(State& state, const Loads& loads, double h);
-  /// Returns the rows without a pivot.
+  /// Returns the number of rows without a pivot.
   int linearise(const Part& part, const std::vector<Frame>& where);
   bool positionsFactored(const Part& part) const;
 
@@ -68,7 +68,7 @@ private:
   int closeWeakRows(const Part& part, const State& state, double h);
   [[noreturn]] void fail(const Part& part, const State& state, double gap, double h) const;
 
-  // What it iterates (rattle_position.cpp).
+  // Unknowns and residuals (rattle_position.cpp).
   void startAxes(const Part& part, const State& state, double h);
   void predictSoftRows(const Part& part, double h);
   void setFirstResidual(const Part& part, const State& state, const Loads& loads, double h);
@@ -89,8 +89,8 @@ private:
   void finish(const Part& part, State& state, const Loads& loads, double h);
   void finishAxis(int a, State& state, double h);
 
-  // Books of the kicks (rattle_ledger.cpp).
-  /// Adds an impulse along a row to the bodies' vectors, and what it takes from bodies that cannot move to the books.
+  // Ledger of the kicks (rattle_ledger.cpp).
+  /// Adds an impulse along a row to the bodies' vectors, and the share of immovable bodies to the ledger.
   void give(int k, int row, double impulse);
   void bookFirstKick(const Part& part, const State& state, const Loads& loads, double h);
   void bookSecondKick(const Part& part, const Loads& loads, double h);
@@ -100,13 +100,13 @@ private:
     Vec3d impulse, moment; ///< in all [N s], [N m s]
     Vec3d place;           ///< of the centre of mass
   };
-  void book(int b, const Mat3d& inertia, const Kick& kick, const Loads& loads, double h);
+  void recordKick(int b, const Mat3d& inertia, const Kick& kick, const Loads& loads, double h);
 
   // Readings (rattle_velocity.cpp).
   void readReactions(const Part& part, State& state, const Loads& loads);
   void readConstraint(int k, State& state);
 
-  /// Spring force that acts at the nodes.
+  /// Spring force at the nodes.
   double nodeForce(const SoftRow& row, double position) const {
     return implicitSprings_ ? 0 : row.constant - row.stiffness * position;
   }
@@ -128,14 +128,14 @@ private:
   std::vector<double> axisRate_, springForce_, axisForce_; ///< at the end of the step
   std::vector<AxisLaw> laws_;                              ///< what linearise() is given, one an axis
   std::vector<Vector6> x_;                                 ///< residuals in, corrections out; one a node
-  std::vector<std::array<double, 6>> impulse_; ///< of the rows, in the position and then in the velocity stage
+  std::vector<std::array<double, 6>> impulse_; ///< row impulses of the position stage, then of the velocity stage
   std::vector<std::array<double, 6>> endImpulse_;
   std::vector<double> couplingImpulse_, couplingEndImpulse_;
   std::vector<Vec3d> gyro_;           ///< gyroscopic momentum at the current iterate, one a movable body
   std::vector<double> inertiaSpread_; ///< one a movable body
-  /// Of one stage; what ledger.hpp has.
-  StepBooks books_;
-  std::vector<char> toGround_;  ///< of each constraint: one of its sides cannot move
+  /// Ledger of one stage.
+  StepLedger stepLedger_;
+  std::vector<char> toGround_;  ///< per constraint: one body is immovable
   std::vector<Vector6> kick_;   ///< known impulses of the second half kick, one a movable body
   std::vector<Vec3d> meanSpin_; ///< between the two half kicks, one a movable body
   std::vector<Vec3d> spin_;     ///< angular momentum after the first half kick, one a movable body
@@ -144,7 +144,7 @@ private:
   std::vector<Pose> trialPose_;
   std::vector<Frame> frames_, trial_;
   std::vector<JointFrames> startFrames_, trialFrames_; ///< one a constraint
-  std::vector<char> relinearised_;                     ///< of each part: the position stage had to leave J(q_n)
+  std::vector<char> relinearised_;                     ///< per part: the position stage has relinearised
   std::vector<long long> factored_;                    ///< of each part: linearisation that holds the last end, or -1
   std::vector<double> gapOf_;                          ///< of each part: largest gap at the current iterate
   Mixing mixing_;

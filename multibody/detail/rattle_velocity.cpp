@@ -16,8 +16,8 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Part of the fastest twist that rates may miss: round-off. One pass solves them; more take out what small pivots
-/// leave.
+/// Tolerance of rates relative to the fastest twist: round-off. One pass solves them; more remove errors of small
+/// pivots.
 constexpr double kRateRoundOff = 1e-14;
 constexpr int kMostPasses = 4;
 
@@ -58,7 +58,7 @@ void RattleStep::factorEnd(const Part& part) {
       laws_[at(a)].driven = soft_[at(a)].driven;
       drivenThen_[at(a)] = soft_[at(a)].driven ? 1 : 0;
     }
-  // A row that a singular position leaves hardly a pivot would take speed out of the motion through it.
+  // A row with a tiny pivot near a singular position would slow down the motion through it.
   system_.scalePivotThreshold(firmPivotScale(options_.positionTolerance));
   const int lost = linearise(part, trial_);
   system_.scalePivotThreshold(1);
@@ -94,7 +94,7 @@ void RattleStep::setSecondKick(const Part& part, const Loads& loads, double h) {
   }
 }
 
-/// What the rows' impulses give to the angular momenta.
+/// Adds the row impulses to the angular momenta.
 void RattleStep::addEndImpulses(const Part& part) {
   for (const int node : part.bodies) x_[at(node)] = {};
   for (const int k : part.constraints)
@@ -109,7 +109,7 @@ void RattleStep::addEndImpulses(const Part& part) {
   for (const int node : part.bodies) spin_[at(node)] += angular(x_[at(node)]);
 }
 
-/// What the rates miss, into the rows' residuals; returns the largest of the rows that have a pivot.
+/// Writes rate errors into the row residuals; returns the largest of rows with a pivot.
 double RattleStep::setRateResiduals(const Part& part) {
   double largest = 0;
   for (const int k : part.constraints) {
@@ -147,13 +147,13 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
     const Vec3d path = trialPose_[at(b)].position - state.pose[at(b)].position;
     const double fall = model_.bodies()[at(b)].mass * dot(loads.gravity, path);
     ledger.gravityWork += fall;
-    books_.potential -= fall;
+    stepLedger_.potential -= fall;
     checkTwist(model_.bodies()[at(b)], {twist_[at(b)].v, mean_[at(b)].w}, state.time, h);
     checkTwist(model_.bodies()[at(b)], {twist_[at(b)].v, twist_[at(b)].w}, state.time, 0);
   }
   for (const int k : part.constraints)
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) finishAxis(a, state, h);
-  books_.addTo(ledger);
+  stepLedger_.addTo(ledger);
   for (const int node : part.bodies) {
     const int b = system_.bodyOf(node);
     state.twist[at(b)] = twist_[at(b)];
@@ -163,7 +163,7 @@ void RattleStep::finish(const Part& part, State& state, const Loads& loads, doub
   }
 }
 
-/// Work along an axis, and where it is now.
+/// Work along an axis, and its new position.
 void RattleStep::finishAxis(int a, State& state, double h) {
   const int k = system_.axes()[at(a)].constraint;
   const std::size_t row = at(system_.axes()[at(a)].row);
@@ -172,14 +172,14 @@ void RattleStep::finishAxis(int a, State& state, double h) {
   const double path = x1_[at(a)] - x0_[at(a)];
   const double loosened = softRows_.energy(s, a, x0_[at(a)]) - softRows_.energy(s, a, x1_[at(a)]);
   ledger.springWork += loosened;
-  books_.elastic -= loosened;
+  stepLedger_.elastic -= loosened;
   ledger.dissipated += s.damping * path * path / h;
-  books_.jointDamping += s.jointDamping * path * path / h;
-  books_.springDamping += s.springDamping * path * path / h;
+  stepLedger_.jointDamping += s.jointDamping * path * path / h;
+  stepLedger_.springDamping += s.springDamping * path * path / h;
   if (s.stops) {
     const double loss = softRows_.stopLoss(a, x0_[at(a)], x1_[at(a)], h);
     ledger.dissipated += loss;
-    books_.stopDamping += loss;
+    stepLedger_.stopDamping += loss;
   }
   ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
   if (s.driven) {
@@ -191,7 +191,7 @@ void RattleStep::finishAxis(int a, State& state, double h) {
   if (isJoint(system_.constraints()[at(k)].kind)) axisPositionIn(state, system_, a) = x1_[at(a)];
 }
 
-/// Reactions at the end of the step, and what springs and dampers do there.
+/// Reactions, and forces of springs and dampers, at the end of the step.
 void RattleStep::readReactions(const Part& part, State& state, const Loads& loads) {
   for (const int k : part.constraints)
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {

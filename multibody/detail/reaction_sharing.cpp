@@ -13,14 +13,14 @@
 #include <numeric>
 #include <utility>
 
-/// J^T W^-2 J is singular: it does not resist what the mechanism is free to do. With A = J^T W^-1 and mu = W lambda the
-/// right-hand side b = A mu_0 has no part along those motions, so that Tikhonov's iteration
+/// J^T W^-2 J is singular: it has no stiffness for free motions of the mechanism. With A = J^T W^-1 and mu = W lambda
+/// the right-hand side b = A mu_0 has no part along those motions, so that Tikhonov's iteration
 ///
 ///   (A A^T + epsilon) dy = b - A A^T y,   y <- y + dy
 ///
 /// goes to the solution by epsilon / (sigma^2 + epsilon) an iteration, sigma the singular values of A. Near singular
-/// positions one of them is small, and what is left would be missing from the balance of forces; a last solve with the
-/// solver's own rows therefore carries J^T (lambda_0 - lambda) exactly.
+/// positions one of them is small, and the error would violate the balance of forces; a last solve with the solver's
+/// own rows therefore carries J^T (lambda_0 - lambda) exactly.
 ///
 /// The same bits on every machine: Eigen's simplicial factorisation of sparse matrices is made of scalar operations in
 /// the order that the pattern gives, unlike its dense products, whose blocks follow the size of the processor's caches.
@@ -30,7 +30,7 @@ namespace {
 
 /// epsilon over the largest diagonal entry of a joint.
 constexpr double kRegularisation = 1e-10;
-/// The iteration ends at round-off of b, where it no longer halves what is left, or here.
+/// The iteration ends at round-off of b, when the residual is no longer halved, or at this limit.
 constexpr double kSharingRoundOff = 1e-15;
 constexpr int kMostIterations = 40;
 
@@ -68,15 +68,15 @@ double spacing(const std::vector<Vec3d>& points) {
 
 } // namespace
 
-/// Joints that share, by loops that have joints in common.
+/// Joints that share reactions, grouped by common loops.
 struct ReactionSharing::Group {
-  /// One hard row. Its column of A: what the multiplier mu gives to body B, in terms of force and torque / L; to A.
+  /// One hard row. Its column of A: force and torque / L of a unit multiplier mu on bodies B and A.
   struct Row {
     int constraint = 0, row = 0;
     int body_A = -1, body_B = -1; ///< in `nodes`; -1: immovable
     Eigen::Matrix<double, 6, 1> onA = Eigen::Matrix<double, 6, 1>::Zero(), onB = onA;
     bool moment = false;
-    double start = 0, mu = 0; ///< W lambda as the solver left it, and as shared
+    double start = 0, mu = 0; ///< W lambda of the solver, and after sharing
   };
   double length = 1;      ///< L [m]
   std::vector<int> nodes; ///< movable bodies
@@ -178,13 +178,13 @@ void ReactionSharing::addGroups(const Redundancy& redundancy, double momentLengt
         }
     }
     group->length = momentLength > 0 ? momentLength : spacing(points);
-    // Joints all at one point have no lever: forces and moments do not do the same work, and any length will do.
+    // Joints at one point have no lever arm: forces and moments are independent, and any length works.
     if (!(group->length > 0)) group->length = 1;
     groups_.push_back(std::move(group));
   }
 }
 
-/// Rows at the present frames, the multipliers that the reactions hold, and b.
+/// Rows at the present frames, multipliers of the reactions, and b.
 void ReactionSharing::startGroup(Group& group, const std::vector<JointReaction>& reactions) {
   const double perLength = 1 / group.length;
   group.b.setZero(static_cast<Eigen::Index>(6 * group.nodes.size()));

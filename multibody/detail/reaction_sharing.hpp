@@ -10,12 +10,11 @@
 
 namespace grouser::multibody::detail {
 
-/// Reactions of joints that hold more than is needed, by least norm.
+/// Reactions of redundantly constrained joints, by least norm.
 ///
-/// Where rows are redundant, what the joints must give, J^T lambda = f, has many solutions: sets n with J^T n = 0 may
-/// be added, which brace the joints against one another and move nothing. The solver leaves redundant rows out, so that
-/// its lambda_0 has zeros there; in terms of rigid bodies nothing tells one solution from another (Wojtyra 2005,
-/// Multibody Syst. Dyn. 14:23). Of all of them this is the one that minimises
+/// With redundant rows the reactions J^T lambda = f are not unique: internal forces n with J^T n = 0 may be added
+/// without changing the motion. The solver drops redundant rows, so that its lambda_0 has zeros there; rigid-body
+/// mechanics does not determine the solution (Wojtyra 2005, Multibody Syst. Dyn. 14:23). This solution minimises
 ///
 ///   sum over joints of |F|^2 + |M / L|^2         F, M: force, and moment about the joint's point, of its hard rows
 ///
@@ -24,18 +23,18 @@ namespace grouser::multibody::detail {
 ///
 ///   lambda = W^-2 J y,   (J^T W^-2 J) y = J^T lambda_0:
 ///
-/// what bearings would take that are all alike and all but rigid, 1 against displacement and L^2 against rotation; y is
-/// how far the bodies give. L is the spacing of the joints that share: the root mean square of the distances between
+/// the reactions of identical, nearly rigid bearings of stiffness 1 in displacement and L^2 in rotation; y is the
+/// displacement of the bodies. L is the spacing of the joints that share: the root mean square of the distances between
 /// any two of them as the model places them.
 ///
-/// Outputs only: works on a system of its own, and nothing of the state is touched.
+/// For outputs only: uses its own system and does not change the state.
 class ReactionSharing {
 public:
   /// `momentLength`: L [m]; 0: the spacing of the joints.
   ReactionSharing(const Model& model, const Redundancy& redundancy, double momentLength);
   ~ReactionSharing();
 
-  /// Replaces the reactions of joints that share, one a joint, given as the solver reads them at `state`.
+  /// Replaces the reactions of joints that share, one per joint, given the solver's reactions at `state`.
   void share(const State& state, std::vector<JointReaction>& reactions);
 
 private:

@@ -8,10 +8,10 @@
 
 namespace grouser::multibody::detail {
 
-/// Accelerations and multipliers lambda of one part, linearised at `frames`, from the differential-algebraic equations
-/// themselves, so that reactions have no error of their own:
+/// Accelerations and multipliers lambda of one part, linearised at `frames`, directly from the differential-algebraic
+/// equations, so that reactions have no time-integration error:
 ///   M a - J^T lambda = f - (0, w x I w),   J a = acceleration imposed - J' v.
-/// `force`: what springs, dampers, stops and force drives exert along each axis, part of f. `x`: one vector a node;
+/// `force`: forces of springs, dampers, stops and force drives along each axis, part of f. `x`: one vector per node;
 /// holds a and lambda afterwards.
 void solveReactions(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                     const std::vector<Frame>& frames, const State& state, const Loads& loads,

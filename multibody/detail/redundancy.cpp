@@ -16,7 +16,7 @@ namespace {
 /// Weak rows while closing: pivots below 1e-6 of a row alone.
 constexpr double kWeakPivot = 1e5;
 
-/// A number in [-1, 1) from a counter (SplitMix64, Steele, Lea and Flood 2014): generic, and the same everywhere.
+/// A number in [-1, 1) from a counter (SplitMix64, Steele, Lea and Flood 2014): deterministic on all machines.
 double generic(std::uint64_t counter) {
   std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -70,9 +70,9 @@ public:
     return true;
   }
 
-  /// Newton's method on C = 0, factored anew each time. Returns whether it arrived. Away from C = 0 rows that depend on
-  /// others there have small pivots, which would throw the iterate far off: those below `weak` times the usual
-  /// threshold are left out (Gauss-Newton with truncated rank).
+  /// Newton's method on C = 0, factored anew each time. Returns true if converged. Away from C = 0 dependent rows have
+  /// small pivots, which would make the iteration diverge: those below `weak` times the usual threshold are dropped
+  /// (Gauss-Newton with truncated rank).
   bool close(const ConstraintSystem::Part& part, double weak) {
     system_.scalePivotThreshold(weak);
     const bool arrived = closeAtThreshold(part);
@@ -143,7 +143,7 @@ Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
   for (const auto& part : system.parts()) {
     const int atStart = explorer.factor(part);
     if (atStart == 0) continue;
-    // A singular start has branches, and a motion may stay on a singular one: the fewest rows found are the truth.
+    // A singular start has branches, and a motion may stay on a singular one: use the smallest number of rows found.
     bool explored = false;
     std::vector<std::pair<int, int>> rows;
     for (int attempt = 0; attempt < 4; ++attempt) {

@@ -8,14 +8,14 @@
 
 namespace grouser::multibody::detail {
 
-/// A redundant row and what implies it, found at set-up.
+/// Redundant rows, found at set-up.
 struct Redundancy {
   std::vector<std::pair<int, int>> rows; ///< constraint, row: dropped
   std::vector<int> couplings;            ///< implied by others
   int singularAtStart = 0;               ///< rows without pivot only at the starting poses: a singular position
 };
 
-/// Finds the hard rows that others imply wherever the mechanism goes: moves it a little along motions its
+/// Finds the hard rows that are implied by others in all positions: moves the mechanism slightly along motions that its
 /// constraints allow (the starting velocities, then generic ones), closes the constraints again by Newton's method, and
 /// takes the rows without pivot there. A row that is dependent only at the starting poses (a folded four-bar) is kept.
 Redundancy findRedundantRows(ConstraintSystem& system, const Model& model);

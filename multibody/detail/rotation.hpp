@@ -12,7 +12,7 @@ namespace grouser::multibody::detail {
 using base::Mat3d;
 using base::Quat;
 using base::Vec3d;
-using multibody::rotatedInertia; // beside that of lanes
+using multibody::rotatedInertia; // besides the version for lanes
 
 /// Quaternion of the rotation by the vector `angle` [rad]: (cos h, sin(h)/h angle/2), h = |angle|/2.
 inline Quat rotationBy(const Vec3d& angle) {
@@ -86,7 +86,7 @@ inline Vec3d gyroscopicMomentum(const Mat3d& I_W, const Vec3d& w, double dt) {
   return 0.5 * first + beta * cross(theta, first);
 }
 
-/// How unlike the principal moments are: tr(I) tr(I^-1) / 9, 1 for a sphere.
+/// Spread of the principal moments: tr(I) tr(I^-1) / 9, 1 for a sphere.
 inline double spreadOf(const Mat3d& I) {
   const auto minor = [&](int i, int j) { return I.m[i][i] * I.m[j][j] - I.m[i][j] * I.m[j][i]; };
   const double xx = minor(1, 2), yy = minor(0, 2), zz = minor(0, 1);

@@ -8,12 +8,12 @@
 
 namespace grouser::multibody::detail {
 
-/// What acts along one axis row over one stage of RATTLE, from position x0 to x1 in the time h.
+/// Forces along one axis row over one stage of RATTLE, from position x0 to x1 in the time h.
 struct SoftRow {
   double constant = 0;                        ///< springs: F = constant - stiffness x
   double stiffness = 0;                       ///< [N/m] or [N m/rad]
   double damping = 0;                         ///< joint's and springs' dampers
-  double jointDamping = 0, springDamping = 0; ///< and either alone
+  double jointDamping = 0, springDamping = 0; ///< contributions
   double applied0 = 0;                        ///< force drives at the beginning and at the end of the stage
   double applied1 = 0;
   bool stops = false;  ///< has end stops
@@ -35,14 +35,14 @@ class SoftRows {
 public:
   SoftRows(const Model& model, const ConstraintSystem& system, const std::vector<double>& driveStart);
 
-  /// Laws over the stage that begins at time t and takes h.
+  /// Laws over the stage from time t to t + h.
   void evaluate(const Loads& loads, double t, double h, std::vector<SoftRow>& rows) const;
 
   /// End stops as discrete gradients of their energies V = stopStiffness over^2 / 2, with `over` beyond the limit:
   ///   F = -(V(x1) - V(x0)) / (x1 - x0) - stopDamping (over1 - over0) / h,   0 where that would pull into the stop,
   /// so that over a stage the work of the elastic part is -(V(x1) - V(x0)) exactly, whatever the stage.
   ForceAndSlope stops(int axis, double x0, double x1, double h) const;
-  /// Their force at a position and rate.
+  /// Force of the stops at a position and rate.
   double stopForce(int axis, double x, double rate) const;
   /// Force of springs and stops, without the springs' dampers, at a position and rate.
   double springForce(const SoftRow& row, int axis, double x, double rate) const {
@@ -50,14 +50,14 @@ public:
   }
   /// Energy of springs (with preloads, as constant forces) and stops at a position.
   double energy(const SoftRow& row, int axis, double x) const;
-  /// Energy that the stops' dampers took over a stage.
+  /// Energy dissipated by the dampers of the stops over a stage.
   double stopLoss(int axis, double x0, double x1, double h) const;
 
 private:
   const Model& model_;
   const ConstraintSystem& system_;
   const std::vector<double>& driveStart_;
-  std::vector<std::vector<int>> stopsOf_; ///< axis springs with limits, one list an axis
+  std::vector<std::vector<int>> stopsOf_; ///< axis springs with limits, one list per axis
 };
 
 } // namespace grouser::multibody::detail

@@ -49,8 +49,7 @@ private:
     return b[0] == body ? b[1] : b[0];
   }
 
-  /// Bodies not yet reached that hang on the bodies of `level`, or on the world by `joints`; each by its strongest
-  /// joint.
+  /// Unreached bodies connected to the bodies of `level`, or to the world by `joints`; each by its strongest joint.
   std::vector<int> reach(const std::vector<int>& level, const std::vector<int>& joints, int depth) {
     std::vector<int> next;
     const auto offer = [&](int k, int parent) {
@@ -76,7 +75,7 @@ private:
     while (!level.empty()) level = reach(level, {}, result_.links[at(level.front())].depth + 1);
   }
 
-  /// Of the bodies not reached; -1 if there is none.
+  /// Picks an unreached body as root; -1 if there is none.
   int pickRoot() const {
     int most = -1;
     std::vector<int> candidates;
@@ -87,7 +86,7 @@ private:
       if (joints == most) candidates.push_back(b);
     }
     if (candidates.size() < 2 || most < 2) return candidates.empty() ? -1 : candidates.front();
-    // Distances from the joint with the fewest rows among those that hang together with the first candidate.
+    // Distances from the joint with the fewest rows in the component of the first candidate.
     std::vector<int> around = component(candidates.front());
     int weakest = jointsOf_[at(candidates.front())].front();
     for (const int b : around)
@@ -108,7 +107,7 @@ private:
     return bodies;
   }
 
-  /// In joints; -1 where no chain of joints leads.
+  /// Distance in joints; -1 if not connected.
   std::vector<int> distancesFrom(const std::vector<int>& bodies) const {
     std::vector<int> distance(reached_.size(), -1), queue;
     for (const int b : bodies)

@@ -5,7 +5,7 @@
 
 namespace grouser::multibody::detail {
 
-/// A constraint as the graph sees it.
+/// A constraint as an edge of the graph.
 struct ConstraintEdge {
   std::vector<int> bodies; ///< that it acts on, movable ones by index; -1 is the world
   /// May be a joint of the tree: acts on two bodies, with three rows that are pure forces and three pure torques on B.
@@ -15,8 +15,8 @@ struct ConstraintEdge {
   unsigned forceRows = 7; ///< of a joint: which three rows are forces
 };
 
-/// How a mechanism is taken apart: each body hangs on its parent by one joint of a spanning tree; the constraints that
-/// are left close loops. A loop constraint's top is the nearest body that all its bodies hang on, itself included.
+/// Spanning tree of a mechanism: each body has one joint to its parent; the other constraints close loops. The top of a
+/// loop constraint is the nearest common ancestor of its bodies, which may be one of them.
 struct SpanningTree {
   struct Link {
     int parent = -1; ///< body; -1 is the world or, without a joint, nothing
@@ -25,13 +25,13 @@ struct SpanningTree {
   };
   struct Loop {
     int constraint = 0;
-    int top = -1;                ///< body; -1 is the world, and what holds free bodies of several trees together
+    int top = -1;                ///< body; -1: the world, or common root of several trees
     std::vector<int> path;       ///< bodies between its own and the top, its own included, the top not
-    std::vector<int> neighbours; ///< loops of a later place in the order that it is coupled with
+    std::vector<int> neighbours; ///< coupled loops later in the order
   };
-  std::vector<Link> links; ///< one a body
+  std::vector<Link> links; ///< one per body
   std::vector<Loop> loops; ///< in the order of elimination: those with the deepest tops first
-  int independent = 0;     ///< parts of the mechanism that nothing joins
+  int independent = 0;     ///< unconnected parts of the mechanism
 };
 
 /// The tree is searched breadth first, from the world, then from the body with the most joints of what is left (among

@@ -21,7 +21,7 @@ void axisStiffness(const ConstraintSystem& system, const Model& model, const Loa
 /// Stiffness of the end stops, one an axis.
 void stopStiffness(const ConstraintSystem& system, const Model& model, std::vector<double>& stiffness);
 
-/// Damping of joints, springs (the greater of damper and stops) and bushings, one an axis.
+/// Damping of joints, springs (the greater of damper and stops) and bushings, one per axis.
 void axisDamping(const ConstraintSystem& system, const Model& model, std::vector<double>& damping);
 
 /// "spring 'bar'" or "bushing 'mount'" of the stiffest spring on an axis.

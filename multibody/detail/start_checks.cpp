@@ -19,14 +19,14 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Joints must be closed this well by who builds the model [m, rad].
+/// Largest gap of joints in a new model [m, rad].
 constexpr double kStartGap = 1e-6;
-/// A drive whose axis can move by less than this part of what it could alone is taken as fixed by the others.
+/// A driven axis with less than this share of its free mobility counts as fixed by others.
 constexpr double kFixedAxis = 1e-9;
 
-/// An axis that couplings leave less than this part of its mobility is locked: round-off, and beyond any reduction.
+/// An axis with less than this share of its mobility is locked by couplings: round-off, below any gear reduction.
 constexpr double kLockedAxis = 1e-13;
-/// Ratios nearer to each other than this are taken as written with a few digits.
+/// Relative difference of ratios that is attributed to rounded input.
 constexpr double kSameRatio = 1e-6;
 
 template <class... Words> [[noreturn]] void refuse(const PartName& part, const Words&... words) {
@@ -35,10 +35,10 @@ template <class... Words> [[noreturn]] void refuse(const PartName& part, const W
   throw PartError(part, "", fault.str());
 }
 
-/// Pivot-free axes: nothing but hard rows.
+/// Free axes: hard rows only.
 std::vector<AxisLaw> hardOnly(const ConstraintSystem& system) { return std::vector<AxisLaw>(system.axes().size()); }
 
-/// What may hold an axis besides joints, for a message.
+/// List of what may hold an axis besides joints, for a message.
 std::string others(const Model& model, const std::string& drive) {
   std::string text;
   for (const Drive& d : model.drives())
@@ -47,13 +47,13 @@ std::string others(const Model& model, const std::string& drive) {
   return text.empty() ? "joints" : "joints, " + text;
 }
 
-/// What couplings make of one axis' motion on another.
+/// Transmission between two axes through couplings.
 struct Train {
   double ratio = 1;
   std::vector<int> couplings;
 };
 
-/// Of the couplings before `end`, from one axis to another; none where these do not join the two.
+/// Transmission by the couplings before `end` from one axis to another; none if they do not connect the two.
 std::optional<Train> trainBetween(const std::vector<CouplingRow>& couplings, int from, int to, int end) {
   std::map<int, Train> reached{{from, {}}};
   for (std::vector<int> next{from}; !next.empty();) {
@@ -82,33 +82,32 @@ std::string namesOf(const Model& model, const std::vector<int>& couplings) {
   return names;
 }
 
-/// Couplings of `part` lock an axis that could move without them: says why. `canMove`: of both axes of each, without
-/// couplings.
+/// Throws for couplings of `part` that lock an axis which could move without them. `canMove`: of both axes of each,
+/// without couplings.
 [[noreturn]] void refuseLock(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                              const std::vector<std::pair<bool, bool>>& canMove) {
-  // A ratio that is not the one which those before it make.
+  // A ratio that contradicts the previous couplings.
   for (const int c : part.couplings) {
     const CouplingRow& row = system.couplings()[at(c)];
     const std::optional<Train> train = trainBetween(system.couplings(), row.axis1, row.axis2, c);
     if (!train || std::fabs(train->ratio - row.ratio) <= kSameRatio * std::fabs(row.ratio)) continue;
     const Coupling& coupling = model.couplings()[at(c)];
     refuse({"coupling", coupling.name}, "joint '", model.joints()[at(coupling.joint2)].name, "' cannot move ",
-           row.ratio, " times as far as joint '", model.joints()[at(coupling.joint1)].name, "', since by ",
+           row.ratio, " times as far as joint '", model.joints()[at(coupling.joint1)].name, "': with ",
            namesOf(model, train->couplings), " it moves ", train->ratio,
-           " times as far; leave one of them out, or correct a ratio");
+           " times as far; remove one of them, or correct a ratio");
   }
   for (std::size_t i = 0; i < canMove.size(); ++i) {
     if (canMove[i].first && canMove[i].second) continue;
     const Coupling& coupling = model.couplings()[at(part.couplings[i])];
     refuse({"coupling", coupling.name}, "the axis of joint '",
            model.joints()[at(canMove[i].first ? coupling.joint2 : coupling.joint1)].name,
-           "' cannot move even without it, since other joints hold it, and nothing that is coupled to it can; leave it "
-           "out, or free that axis");
+           "' is locked by other joints, and so are the axes coupled to it; remove this coupling, or free that axis");
   }
   const Coupling& first = model.couplings()[at(part.couplings.front())];
   refuse({"coupling", first.name}, "joints '", model.joints()[at(first.joint1)].name, "' and '",
-         model.joints()[at(first.joint2)].name, "' cannot move, since the couplings (", namesOf(model, part.couplings),
-         ") contradict each other through the joints; leave one of them out, or correct a ratio");
+         model.joints()[at(first.joint2)].name, "' cannot move: the couplings (", namesOf(model, part.couplings),
+         ") contradict each other through the joints; remove one of them, or correct a ratio");
 }
 
 } // namespace
@@ -121,27 +120,28 @@ void checkClosed(const ConstraintSystem& system, const Model& model) {
     positionError(c, f, error);
     for (int r = 0; r < 6; ++r)
       if (!(std::fabs(error[r]) <= kStartGap))
-        refuse({"joint", model.joints()[at(c.source)].name}, rowName(c.kind, r), " is open by ", error[r],
-               " [m or rad] at the start; allowed are ", kStartGap, "; place the bodies so that it closes");
+        refuse({"joint", model.joints()[at(c.source)].name}, rowName(c.kind, r), " has a gap of ", error[r],
+               " [m or rad] at the start, above the limit of ", kStartGap, "; place the bodies so that it closes");
     const bool alongZ = c.kind == ConstraintKind::kRevolute || c.kind == ConstraintKind::kPrismatic ||
                         c.kind == ConstraintKind::kCylindrical || c.kind == ConstraintKind::kFixed;
     const bool alongX = c.kind == ConstraintKind::kPrismatic || c.kind == ConstraintKind::kFixed;
     if ((alongZ && dot(f.z_A, f.z_B) < 0) || (alongX && dot(f.x_A, f.x_B) < 0))
       refuse({"joint", model.joints()[at(c.source)].name},
-             "the axes of its two frames point in opposite senses at the start; turn one frame by half a turn");
+             "the axes of its two frames point in opposite directions at the start; rotate one frame by 180 degrees");
   }
   for (std::size_t c = 0; c < system.couplings().size(); ++c) {
     const CouplingRow& row = system.couplings()[c];
     const double gap =
         system.positionOfAxis(row.axis2, frames) - row.ratio * system.positionOfAxis(row.axis1, frames) - row.offset;
     if (!(std::fabs(gap) <= kStartGap))
-      refuse({"coupling", model.couplings()[c].name}, "is open by ", gap, " [m or rad] at the start; allowed are ",
-             kStartGap, "; place the bodies so that it closes, or leave its offset out");
+      refuse({"coupling", model.couplings()[c].name}, "has a gap of ", gap,
+             " [m or rad] at the start, above the limit of ", kStartGap,
+             "; place the bodies so that it closes, or remove its offset");
   }
 }
 
-/// An axis that could move but for the couplings, and cannot with them, is one that two of them want to move by
-/// different amounts. Mobility: row . y with y = K^-1 row.
+/// An axis that can move only without the couplings is moved by different amounts by two of them. Mobility: row . y
+/// with y = K^-1 row.
 void checkCouplings(ConstraintSystem& system, const Model& model) {
   const std::vector<Frame> frames = system.framesOfModel();
   const std::vector<AxisLaw> laws = hardOnly(system);
@@ -182,7 +182,7 @@ void checkCouplings(ConstraintSystem& system, const Model& model) {
 
 namespace {
 
-/// The part's drives that impose a motion.
+/// Drives of the part that impose a motion.
 std::vector<int> imposingDrives(const ConstraintSystem& system, const Model& model,
                                 const ConstraintSystem::Part& part) {
   std::vector<int> drives;
@@ -196,7 +196,7 @@ std::vector<int> imposingDrives(const ConstraintSystem& system, const Model& mod
   return drives;
 }
 
-/// J M^-1 J^T of an axis whose bodies nothing holds; y: what a unit impulse along it gives them.
+/// J M^-1 J^T of an axis between free bodies; y: their momenta from a unit impulse along it.
 double freeMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                     const std::vector<Vector6>& y) {
   double free = 0;
@@ -209,8 +209,8 @@ double freeMobility(const ConstraintSystem& system, const Model& model, const Co
   return free;
 }
 
-/// Goes through the drives in order: y_d = K^-1 (row d), with joints and couplings held; what the drives before leave
-/// of row d . y_d is the mobility of its axis (Cholesky's pivot).
+/// For each drive in order: y_d = K^-1 (row d), with joints and couplings held; row d . y_d minus the share of previous
+/// drives is the mobility of its axis (Cholesky pivot).
 void checkMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                    const std::vector<int>& drives) {
   const auto axisOf = [&](int d) {
@@ -237,13 +237,13 @@ void checkMobility(const ConstraintSystem& system, const Model& model, const Con
       if (!(s > kFixedAxis * free))
         refuse({"drive", drive.name}, "the axis of joint '", model.joints()[at(drive.joint)].name,
                "' cannot move on its own: it is already determined by ", others(model, drive.name),
-               "; leave one of them out, or start away from a dead centre");
+               "; remove one of them, or start away from a dead centre");
       L[i][i] = std::sqrt(s);
     }
   }
 }
 
-/// Position laws begin where their axes are.
+/// Checks that position laws start at the axis positions.
 void checkLawStarts(const ConstraintSystem& system, const Model& model) {
   const std::vector<double> start = driveStart(system, model);
   for (std::size_t d = 0; d < model.drives().size(); ++d) {
@@ -251,9 +251,9 @@ void checkLawStarts(const ConstraintSystem& system, const Model& model) {
     if (drive.kind != DriveKind::kPosition) continue;
     const double wanted = drive.law.value(0);
     if (!(std::fabs(wanted - start[d]) <= kStartGap))
-      refuse({"drive", drive.name}, "its law begins at ", wanted, " [rad or m], but the axis of joint '",
+      refuse({"drive", drive.name}, "its law starts at ", wanted, " [rad or m], but the axis of joint '",
              model.joints()[at(drive.joint)].name, "' starts at ", start[d],
-             "; begin the law there, or place the bodies so");
+             "; start the law there, or place the bodies to match");
   }
 }
 
@@ -279,10 +279,10 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
     twist.push_back({body.v_WB, body.w_WB});
     fastest = std::max({fastest, norm(body.v_WB), norm(body.w_WB)});
   }
-  // Numbers written with a few digits are allowed to close to those digits.
+  // Tolerance for input with few digits.
   const double allowed = tolerance * std::max(1.0, fastest);
   const std::string remedy =
-      "; give velocities that fit the constraints, or have them projected (start velocities: accept)";
+      "; set velocities that satisfy the constraints, or project them (start velocities: accept)";
   std::vector<AxisLaw> laws(system.axes().size());
   imposedLaws(system, model, makeLoads(model), 0, laws);
   for (const ConstraintSystem::Part& part : system.parts()) {
@@ -295,8 +295,8 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
         if (!(std::fabs(rate) <= allowed))
           refuse({"joint", model.joints()[at(c.source)].name}, rowName(c.kind, r), ": the start velocities of '",
                  model.bodyName(model.joints()[at(c.source)].bodyA), "' and '",
-                 model.bodyName(model.joints()[at(c.source)].bodyB), "' would open it at ", rate,
-                 " [m/s or rad/s]; allowed are ", allowed, remedy);
+                 model.bodyName(model.joints()[at(c.source)].bodyB), "' open it at a rate of ", rate,
+                 " [m/s or rad/s], above the limit of ", allowed, remedy);
       }
       for (int a = system.firstAxis(k); drives && a < system.firstAxis(k + 1); ++a) {
         if (!laws[at(a)].driven) continue;
@@ -310,8 +310,8 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
       const CouplingRow& row = system.couplings()[at(i)];
       const double rate = system.rateOfAxis(row.axis2, twist) - row.ratio * system.rateOfAxis(row.axis1, twist);
       if (!(std::fabs(rate) <= allowed))
-        refuse({"coupling", model.couplings()[at(i)].name}, "the start velocities would open it at ", rate,
-               " [m/s or rad/s]; allowed are ", allowed, remedy);
+        refuse({"coupling", model.couplings()[at(i)].name}, "the start velocities open it at a rate of ", rate,
+               " [m/s or rad/s], above the limit of ", allowed, remedy);
     }
   }
 }

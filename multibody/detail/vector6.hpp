@@ -6,7 +6,7 @@
 
 namespace grouser::multibody::detail {
 
-inline constexpr Vector6 kStill{}; ///< of what does not move
+inline constexpr Vector6 kStill{}; ///< zero motion
 
 /// A node's six numbers as (linear, angular) and back.
 inline base::Vec3d linear(const Vector6& x) { return {x[0], x[1], x[2]}; }

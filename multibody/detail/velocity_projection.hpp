@@ -8,11 +8,11 @@
 
 namespace grouser::multibody::detail {
 
-/// Laws for linearise() in which nothing but the imposed axes is active, their rates at time t as `speed`.
+/// Laws for linearise() with only the imposed axes active, with their rates at time t as `speed`.
 void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads& loads, double t,
                  std::vector<AxisLaw>& laws);
 
-/// Change of the twists of one part, at a linearised system, that makes them fit the rows: solves
+/// Projects the twists of one part onto the rows of a linearised system: solves
 ///   M dv - J^T dLambda = 0,   J (v + dv) = rate of the laws (0 on hard rows and couplings).
 /// Adds dv to `twist`; the impulses stay in `x`.
 void projectTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Builds a scene from nothing, runs it, and measures the restitution of a bouncing grain.
+"""Builds a scene in Python, runs it, and measures the restitution of a bouncing grain.
 
-    python/examples/bouncing_grain.py [FOLDER]      # of the results; default: out/bouncing_grain
+    python/examples/bouncing_grain.py [FOLDER]      # results; default: out/bouncing_grain
 """
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))  # if the package i
 import grouser  # noqa: E402
 
 RADIUS = 0.01  # [m]
-HEIGHT = 0.05  # of the grain's underside above the plane at the start [m]
+HEIGHT = 0.05  # initial height of the bottom of the grain above the plane [m]
 
 
 def scene_of(restitution: float) -> grouser.Scene:
-    """A grain of glass above a plane of glass."""
+    """A glass grain above a glass plane."""
     scene = grouser.Scene(name="bouncing_grain")
     scene["run"] = {"duration": 0.25, "time_step": 1e-5, "output_interval": 1e-3, "frame_interval": 1e-3}
     scene["material.glass"] = {"stiffness": 1e5, "restitution": restitution, "friction": 0.3}
@@ -31,20 +31,20 @@ def scene_of(restitution: float) -> grouser.Scene:
 
 
 def rebound(run: grouser.Run) -> float:
-    """Speed behind the first impact over the speed before it [-]: the greatest of either sign."""
+    """Ratio of the maximum upward to the maximum downward speed [-]: first impact."""
     velocity = run.frames.grain(0, "velocity")["z"].value  # [frames] [m/s]
     return float(velocity.max() / -velocity.min())
 
 
 def main(folder: str = "out/bouncing_grain") -> dict[float, float]:
-    """{restitution asked for: restitution measured}"""
+    """{restitution of the scene: measured restitution}"""
     measured: dict[float, float] = {}
     for restitution in (0.3, 0.6, 0.9):
         with scene_of(restitution).run(Path(folder) / f"{restitution}", force=True) as run:
             measured[restitution] = rebound(run)
             balance = run["ledger.integration_error"]
-            print(f"restitution {restitution}: measured {measured[restitution]:.4f}; energy lost by the length of the "
-                  f"steps: {balance.value[-1]:.2e} {balance.unit} of "
+            print(f"restitution {restitution}: measured {measured[restitution]:.4f}; time-integration error "
+                  f"{balance.value[-1]:.2e} {balance.unit} of "
                   f"{numpy.max(run['ledger.kinetic'].value):.2e} J")
     return measured
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Cruise control: a PI controller holds the hull's speed on a slope of 0.2 by setting the sprocket speeds.
 
-    python/examples/cruise_control.py [FOLDER]       # of the results; default: out/cruise_control
+    python/examples/cruise_control.py [FOLDER]       # results; default: out/cruise_control
 
 Every 10 ms the controller reads the hull's speed and sets the sprockets. The run is recorded with its control inputs:
 `grouser run --replay FOLDER` repeats it without this program, to the same state hash. Fails if the mean speed of the

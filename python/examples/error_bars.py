@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sweeps a scene over friction and seeds, checks it, and compares the bars of both; then looks at the grains at rest.
+"""Sweeps a scene over friction and seeds, checks it, compares the error bars, and prints facts about the final bed.
 
-    python/examples/error_bars.py [FOLDER]          # of the results; default: out/error_bars
+    python/examples/error_bars.py [FOLDER]          # results; default: out/error_bars
 """
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ import grouser  # noqa: E402
 
 
 def heap() -> grouser.Scene:
-    """Forty grains fall onto a plane that is called ground."""
+    """Forty grains fall onto a plane named ground."""
     scene = grouser.Scene(name="heap")
     scene["run"] = {"duration": 0.2, "time_step": 1e-4, "output_interval": 0.01, "seed": 1}
     scene["material.sand"] = {"stiffness": 2e4, "restitution": 0.4, "friction": 0.5}
@@ -39,11 +39,11 @@ def main(folder: str = "out/error_bars") -> tuple[grouser.Sweep, grouser.Check, 
     check = scene.check(place / "check", axes=["step"], seeds=3, jobs=2, threads=1)
     force = check["ground force z"]
     step = force.errors["step"]
-    print(f"scene as it is: {force.bar}; seeds alone +- {force.by_seeds.half_width:.2g} {force.bar.unit}; "
-          f"half the step changes {step.change.value:.2g} {step.change.unit}: {step.verdict}")
+    print(f"unchanged scene: {force.bar}; seeds only +- {force.by_seeds.half_width:.2g} {force.bar.unit}; "
+          f"half the step: change {step.change.value:.2g} {step.change.unit}: {step.verdict}")
     bed = sweep.runs[0].open().bed()
-    print(f"{len(bed)} grains at the end: the highest centre at {numpy.max(bed.position[:, 2]):.3f} m, "
-          f"{numpy.mean(bed.contacts):.2f} contacts a grain")
+    print(f"{len(bed)} grains at the end: highest centre at {numpy.max(bed.position[:, 2]):.3f} m, "
+          f"{numpy.mean(bed.contacts):.2f} contacts per grain")
     return sweep, check, bed
 
 

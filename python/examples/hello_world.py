@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Steps a simulation in this process and holds the hull's speed: the same as tests/install/example/example.cpp.
+"""Steps a simulation in this process and controls the hull's speed, like tests/install/example/example.cpp.
 
     python/examples/hello_world.py [SCENE]        # default: runs/scenes/rigid_control.toml
 """

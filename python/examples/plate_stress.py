@@ -29,15 +29,15 @@ def scene_of(seed: int) -> grouser.Scene:
                         "material": "sand", "grain_radius": 0.01, "depth": DEPTH}
     scene.add("box", name="plate", position=[SIDE / 2, 0, 0], above_bed=0.001, size=[PLATE, PLATE, 0.02],
               velocity=[0, 0, -0.02], material="steel")
-    half = 5.5 * CELL  # three by three cells stand below the plate
+    half = 5.5 * CELL  # three by three cells below the plate
     scene["output"] = {"plots": False, "picture": False, "fields_cell": CELL,
                        "fields_low": [SIDE / 2 - half, -half, -DEPTH], "fields_high": [SIDE / 2 + half, half, 0.02]}
     return scene
 
 
 def below_corner(width: numpy.ndarray, length: numpy.ndarray, depth: float) -> numpy.ndarray:
-    """Vertical stress over the pressure at `depth` below a corner of a rectangle [-] (Boussinesq 1885, integrated:
-    Newmark 1935); odd in width and length."""
+    """Vertical stress / pressure at `depth` below a corner of a rectangle [-] (Boussinesq 1885, integrated: Newmark
+    1935); odd in width and length."""
     r1, r2, r3 = width**2 + depth**2, length**2 + depth**2, width**2 + length**2 + depth**2
     return (numpy.arctan(width * length / (depth * numpy.sqrt(r3)))
             + width * length * depth / numpy.sqrt(r3) * (1 / r1 + 1 / r2)) / (2 * numpy.pi)
@@ -51,8 +51,8 @@ def boussinesq(depth: float) -> float:
 
 
 def profile(run: grouser.Run) -> tuple[numpy.ndarray, numpy.ndarray]:
-    """Depth of the cells [m], and the vertical stress that the plate adds there over its pressure [-]: means over its
-    footprint and over the frames with a sinkage from 4 to 11 mm."""
+    """Depth of the cells [m], and added vertical stress / plate pressure [-]: means over the footprint of the plate and
+    over the frames with a sinkage from 4 to 11 mm."""
     stress = run.fields("stress")
     force = run["surfaces.plate.force"]["z"]
     below = slice(len(stress.x) // 2 - 1, len(stress.x) // 2 + 2)
@@ -87,7 +87,7 @@ def draw(depth: numpy.ndarray, profiles: numpy.ndarray, picture: str) -> None:
     axes.plot([boussinesq(z) for z in fine], fine / PLATE, "k-", label="Boussinesq, uniform pressure on a square")
     axes.plot(profiles.T, numpy.tile(depth / PLATE, (len(profiles), 1)).T, ".", color="tab:blue", alpha=0.5)
     axes.plot(profiles.mean(axis=0), depth / PLATE, "o-", color="tab:blue", label=f"grains, mean of {len(profiles)} beds")
-    axes.set(xlabel="vertical stress added below the plate / its pressure [-]", ylabel="depth / plate width [-]")
+    axes.set(xlabel="added vertical stress / plate pressure [-]", ylabel="depth / plate width [-]")
     axes.invert_yaxis()
     axes.legend()
     figure.tight_layout()

@@ -9,7 +9,7 @@ soils and settled beds.
         sim.set_sprocket_speed(2.0)
         sim.step(100)
         print(sim.vehicle.speed, sim.vehicle.left.slip)
-    run = scene.run("out/slow", progress=print)  # in a process of its own
+    run = scene.run("out/slow", progress=print)  # in a separate process
     run["vehicle.left.slip"].value          # [rows]; .time [s], .unit, .help
     run.sinkage()["left"].value             # [rows, shoes] [m]
 
@@ -30,7 +30,7 @@ from .simulation import Simulation
 from .soil import Constant, PlateCurve, ShearCurve, SoilTest, open_soil
 from .sweep import Sweep, SweepMean, SweepRun, open_sweep
 
-__version__ = "0.1.0"  # that of CMakeLists.txt: tests/python/package_test.py compares them
+__version__ = "0.1.0"  # equal to CMakeLists.txt: tests/python/package_test.py compares them
 
 __all__ = [
     "AxisError", "BarredSeries", "Bed", "Calibration", "Check", "CheckFigure", "Constant", "DeviceError", "Estimate",

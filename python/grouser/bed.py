@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Grains at rest: a settled bed that the program has kept, or the checkpoint of a run."""
+"""Grains at rest: a settled bed from the cache, or the checkpoint of a run."""
 from __future__ import annotations
 
 import os
@@ -13,11 +13,11 @@ from .errors import FileError
 from .files import fields_of
 from .series import Brief, Quantity
 
-_TOP_BITS, _LOW_BITS = 10, 32  # of a coordinate of 42: base/position.hpp
+_TOP_BITS, _LOW_BITS = 10, 32  # of a 42-bit coordinate: base/position.hpp
 
 
 def metres_of(words: numpy.ndarray, unit: float) -> numpy.ndarray:
-    """[n, 3] [m] of integer positions [n, 4]: the low 32 bits of x, y and z, then three times 10 high bits; `unit`
+    """[n, 3] [m] from integer positions [n, 4]: low 32 bits of x, y and z, then three times 10 high bits; `unit`
     [m]."""
     low, high = words[:, :3].astype(numpy.int64), words[:, 3].astype(numpy.int64)
     top = numpy.stack([high >> (_TOP_BITS * axis) for axis in range(3)], axis=1) & (1 << _TOP_BITS) - 1
@@ -27,31 +27,31 @@ def metres_of(words: numpy.ndarray, unit: float) -> numpy.ndarray:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Bed(Brief):
-    """Grains by id. Fixed grains, those of a rough floor, are among them."""
+    """Grains sorted by id, including fixed ones (rough floor)."""
 
     file: Path
     position: numpy.ndarray  #: [n, 3] [m]
     velocity: numpy.ndarray  #: [n, 3] [m/s]
     spin: numpy.ndarray  #: [n, 3] [rad/s]
     radius: numpy.ndarray  #: [n] [m]
-    material: numpy.ndarray  #: [n] place among the scene's materials of grains; 0 where there is one
+    material: numpy.ndarray  #: [n] index among the scene's grain materials
     fixed: numpy.ndarray  #: [n] True for grains that never move
-    contacts: numpy.ndarray  #: [n] other grains that each touches
+    contacts: numpy.ndarray  #: [n] number of grains in contact
     time_step: float  #: [s]
-    settled: dict[str, Quantity]  #: how it came to rest: time [s], steps, agitation, friction, highest, mean_height [m]
-    structure: dict[str, Quantity]  #: what it is made of (porosity, coordination...); {} where that was not measured
-    scene: str  #: TOML of a run; of a kept bed what it was made of
+    settled: dict[str, Quantity]  #: settling: time [s], steps, agitation (kinetic energy ratio), heights [m]
+    structure: dict[str, Quantity]  #: porosity, coordination...; {} if not measured
+    scene: str  #: TOML of the run, or the recipe of a cached bed
     commit: str
 
     def __len__(self) -> int:
         return len(self.position)
 
     def volume(self) -> float:
-        """Of all grains together [m3]."""
+        """Total volume of the grains [m3]."""
         return float(numpy.sum(self.radius**3) * 4 / 3 * numpy.pi)
 
 
-#: Units of what a checkpoint says of a bed.
+#: Units of the bed quantities in checkpoints.
 _UNITS = {"time": "s", "highest": "m", "lowest": "m", "mean_height": "m", "mean_diameter": "m", "settled_height": "m",
           "thickness": "m", "depth": "m", "distance": "mean diameters"}
 
@@ -65,20 +65,20 @@ def _quantities(group: h5py.Group | None) -> dict[str, Quantity]:
 
 
 def open_bed(path: str | os.PathLike) -> Bed:
-    """Opens a settled bed that was kept (bed-*.h5 in the cache, which a run names in its line "bed"), a checkpoint.h5,
-    or that of a run's folder. FileError where it is none, or is of a program that did not tell the length of a unit."""
+    """Opens a settled bed of the cache (bed-*.h5, named in the line "bed" of a run), a checkpoint.h5, or the checkpoint
+    in a run's folder. FileError for other files, or if the file does not record the unit of positions."""
     path = Path(path)
     path = path / "checkpoint.h5" if path.is_dir() else path
     try:
         file = h5py.File(path, "r", locking=False)
     except OSError as error:
-        raise FileError(f"{path}: cannot be read as a checkpoint or a kept bed: {error}") from error
-    with file, fields_of(path, "a checkpoint or a kept bed"):
+        raise FileError(f"{path}: cannot be read as a checkpoint or cached bed: {error}") from error
+    with file, fields_of(path, "a checkpoint or cached bed"):
         if "grains" not in file or "settled" not in file:
-            raise FileError(f"{path}: holds no grains")
+            raise FileError(f"{path}: contains no grains")
         grains = file["grains"]
         if "unit" not in grains.attrs:
-            raise FileError(f"{path}: does not say what its positions count in: it is of before; make it anew")
+            raise FileError(f"{path}: no unit of positions: written by an old version; run it again")
 
         def column(name: str, missing: float) -> numpy.ndarray:
             values = grains[name][:, 0]
@@ -93,8 +93,8 @@ def open_bed(path: str | os.PathLike) -> Bed:
 
 
 def kept_beds(folder: str | os.PathLike | None = None) -> list[Path]:
-    """Files of the settled beds that are kept, those used last first: in `folder`, else where the program keeps them
-    (GROUSER_CACHE, else XDG_CACHE_HOME/grouser, else ~/.cache/grouser)."""
+    """Files of cached settled beds, most recently used first: in `folder`, else in the program's cache (GROUSER_CACHE,
+    else XDG_CACHE_HOME/grouser, else ~/.cache/grouser)."""
     if folder is None:
         named = os.environ.get("GROUSER_CACHE")
         if named == "":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results of a check: figures and series with their error bars, and what each case cost."""
+"""The results of a check: figures and series with error bars, and the cost of each case."""
 from __future__ import annotations
 
 import os
@@ -18,12 +18,12 @@ from .sweep import value_of
 
 @dataclass(frozen=True, eq=False)
 class AxisError:
-    """What another step, extent, grain size... makes of a figure."""
+    """Change of a figure by another step, extent, grain size..."""
 
     axis: str
-    change: Estimate  #: from the scene as it is, in the figure's unit
-    verdict: str  #: "equal", "differs" or "not shown"
-    order: float  #: of the step, where one was seen; NaN elsewhere
+    change: Estimate  #: relative to the unchanged scene, in the figure's unit
+    verdict: str  #: "equal", "differs" or "inconclusive"
+    order: float  #: observed order of convergence in the step; else NaN
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,36 +31,36 @@ class CheckFigure:
     """A figure with its error bar."""
 
     name: str
-    bar: Estimate  #: value and the bar of all that was run
-    by_seeds: Estimate  #: value and the half of the seeds' 95 % interval
+    bar: Estimate  #: value and error bar of seeds and axes
+    by_seeds: Estimate  #: value and half of the 95 % interval over the seeds
     seeds: int
     errors: dict[str, AxisError]  #: by axis
-    inconclusive: bool = False  #: over fewer than two teeth, or with a bar wider than its value
+    inconclusive: bool = False  #: fewer than two teeth, or an error bar larger than the value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BarredSeries(Series):
-    """A series with half widths, each of the shape [rows]; NaN where unknown. `2 * s` has twice the half widths; those
-    of `s + t` and `s - t` are added, which is the most that they can be: errors of one check are not independent. A
-    series without half widths adds none."""
+    """A series with half widths, each of shape [rows]; NaN if unknown. `2 * s` doubles the half widths; `s + t` and
+    `s - t` add them, an upper bound, since errors of one check are not independent. A series without half widths
+    adds none."""
 
-    by_seeds: numpy.ndarray = None  #: of the seeds' 95 % interval
-    by_step: numpy.ndarray = None  #: of the step
-    bar: numpy.ndarray = None  #: of both together
+    by_seeds: numpy.ndarray = None  #: half width of the 95 % interval over the seeds
+    by_step: numpy.ndarray = None  #: half width of the step
+    bar: numpy.ndarray = None  #: both combined
 
     def _bars(self) -> dict[str, numpy.ndarray]:
         return {"by_seeds": self.by_seeds, "by_step": self.by_step, "bar": self.bar}
 
 
 class Check:
-    """A check's folder: `check["speed"]` is a CheckFigure; `for figure in check` goes through all."""
+    """A check's folder: `check["speed"]` is a CheckFigure; `for figure in check` iterates over all."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
         file = self.folder / "check.json"
-        self.json: dict = read_json(file, "a check")  #: all of check.json
+        self.json: dict = read_json(file, "a check")  #: contents of check.json
         if "figures" not in self.json or "cases" not in self.json:
-            raise FileError(f"{file}: is no file of a check")
+            raise FileError(f"{file}: not the check.json of a check")
         with fields_of(file, "a check"):
             figures = [self._figure(one) for one in self.json["figures"]]
         self.figures: dict[str, CheckFigure] = {figure.name: figure for figure in figures}
@@ -79,9 +79,9 @@ class Check:
                            one.get("inconclusive", False))
 
     def __getitem__(self, name: str) -> CheckFigure:
-        """KeyError names the figures that there are."""
+        """KeyError lists the figures."""
         if name not in self.figures:
-            raise KeyError(f"{self.folder}: there is no figure {name!r}; there are {', '.join(self.figures)}")
+            raise KeyError(f"{self.folder}: no figure {name!r}; figures are {', '.join(self.figures)}")
         return self.figures[name]
 
     def __iter__(self) -> Iterator[CheckFigure]:
@@ -92,13 +92,13 @@ class Check:
 
     @property
     def not_run(self) -> dict[str, str]:
-        """{axis: why it was not asked}"""
+        """{axis: why it was not run}"""
         with fields_of(self.folder / "check.json", "a check"):
             return {omitted["axis"]: omitted["why"] for omitted in self.json["not_asked"]}
 
     @property
     def costs(self) -> dict[str, dict]:
-        """{case: wall_s, cpu_s [s], steps} of one of its runs, medians."""
+        """{case: wall_s, cpu_s [s], steps}, medians per run."""
         file = self.folder / "costs.json"
         told = read_json(file, "costs of a check")
         with fields_of(file, "costs of a check"):
@@ -106,7 +106,7 @@ class Check:
 
     @cached_property
     def series(self) -> dict[str, BarredSeries]:
-        """{name: series with bars} of series.csv."""
+        """{name: series with error bars} of series.csv."""
         file = self.folder / "series.csv"
         rows = read_csv(file)
         columns = {name: numpy.array([value_of(row[name]) for row in rows]) for name in (rows[0] if rows else ())}
@@ -122,5 +122,5 @@ class Check:
 
 
 def open_check(folder: str | os.PathLike) -> Check:
-    """Opens the folder of a check. FileError where it has no check.json."""
+    """Opens the folder of a check. FileError if it has no check.json."""
     return Check(folder)

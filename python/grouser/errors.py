@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What goes wrong, as exceptions."""
+"""Exceptions."""
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -8,13 +8,13 @@ from typing import Any
 
 
 class GrouserError(RuntimeError):
-    """A call of the program that did not end with 0. `str()` is the program's own message."""
+    """The program exited with a code other than 0. `str()` is its message."""
 
     def __init__(self, message: str, exit_code: int, command: list[str], output: str):
         super().__init__(message)
-        self.exit_code = exit_code  #: of the program: docs/commands.md lists them; negative: killed by that signal
-        self.command = command  #: its words
-        self.output = output  #: what it had printed by then
+        self.exit_code = exit_code  #: see docs/commands.md; negative: killed by that signal
+        self.command = command  #: list of arguments
+        self.output = output  #: its output so far
 
 
 class InputError(GrouserError):
@@ -22,15 +22,15 @@ class InputError(GrouserError):
 
 
 class SimulationError(GrouserError):
-    """Exit code 3: the run became unsound, or its results could not be written."""
+    """Exit code 3: the simulation became invalid, or its results could not be written."""
 
 
 class DeviceError(GrouserError):
-    """Exit code 4: the device failed, or the machine has no memory or process left."""
+    """Exit code 4: the device failed, or the machine is out of memory or processes."""
 
 
 class StoppedError(GrouserError):
-    """Exit codes 129, 130 and 143: stopped by SIGHUP, SIGINT or SIGTERM; `resume=True` goes on."""
+    """Exit codes 129, 130 and 143: stopped by SIGHUP, SIGINT or SIGTERM; `resume=True` continues."""
 
 
 KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: DeviceError, 129: StoppedError,
@@ -38,7 +38,7 @@ KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: De
 
 
 def briefly(function: Callable[..., Any]) -> Callable[..., Any]:
-    """What it raises is shown as raised here: the frames inside this package tell a reader nothing."""
+    """Removes the frames of this package from the tracebacks of its exceptions."""
     @wraps(function)
     def called(*given: Any, **options: Any) -> Any:
         try:
@@ -49,4 +49,4 @@ def briefly(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 class FileError(ValueError):
-    """A file or folder that is not what it was opened as."""
+    """A file or folder is not of the expected kind, damaged or unreadable."""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mobility events: what a vehicle passed at which level, its limits, and what was measured."""
+"""Mobility events: verdicts of a vehicle by level, its limits, and measured figures."""
 from __future__ import annotations
 
 import os
@@ -17,7 +17,7 @@ from .series import Estimate, counted, number, split_unit
 class EventRun:
     """One run of an event at a level."""
 
-    verdict: str  #: "go", "no-go", "failed" (for another cause than the vehicle's), "incomplete", "pending"
+    verdict: str  #: "go", "no-go", "failed" (not because of the vehicle), "incomplete", "pending"
     why: str
     folder: Path
 
@@ -26,48 +26,48 @@ class EventRun:
 class EventRow:
     """An event at one of its levels."""
 
-    event: str  #: its word, as `grouser events --only` takes it
+    event: str  #: name, as in `grouser events --only`
     title: str
     level: float  #: NaN for an event without levels
-    level_is: str  #: what the level is, with its unit
-    verdict: str  #: "go", "no-go", "pending"..., as events.txt has it
-    why: str  #: of the first run that is no go; where all are, of the first
-    runs: int  #: that have ended
-    each: tuple[EventRun, ...]  #: all of them, by seed; empty in files of versions that did not write it
-    figures: dict[str, Estimate]  #: means with half of the 95 % interval over the seeds; NaN where there is one
-    overrides: tuple[str, ...]  #: keys of this level, "key=value", laid over `scene`
-    scene: str  #: of the event
-    folder: Path | None  #: of its first run
+    level_is: str  #: meaning of the level, with its unit
+    verdict: str  #: "go", "no-go", "pending"..., as in events.txt
+    why: str  #: reason of the first run that is not a go, else of the first run
+    runs: int  #: number of finished runs
+    each: tuple[EventRun, ...]  #: all runs, by seed; empty in files of older versions
+    figures: dict[str, Estimate]  #: means with half of the 95 % interval over the seeds; NaN for one seed
+    overrides: tuple[str, ...]  #: keys of this level, "key=value", applied to `scene`
+    scene: str  #: scene of the event
+    folder: Path | None  #: folder of the first run
 
     def open(self) -> Run:
-        """The results of its first run. FileError where there are none."""
+        """The results of its first run. FileError if there are none."""
         if self.folder is None:
-            raise FileError(f"{self.event}: none of its runs has ended")
+            raise FileError(f"{self.event}: no run has finished")
         return Run(self.folder)
 
 
 @dataclass(frozen=True, eq=False)
 class EventLimit:
-    """Between which levels an event ends to be passed."""
+    """The limit of an event, between two levels."""
 
     event: str
     level_is: str
-    go: float  #: the hardest level that all runs pass; NaN where there is none
-    no_go: float  #: the easiest that some do not; NaN where all pass
-    reference: str  #: what geometry and friction say
-    agrees: bool | None  #: None where that cannot be said
+    go: float  #: the hardest level that all runs pass; NaN if none
+    no_go: float  #: the easiest level that a run fails; NaN if none
+    reference: str  #: limit expected from geometry and friction
+    agrees: bool | None  #: None if unknown
 
 
 class Events:
-    """The folder of `grouser events`. `for row in events` goes through events and levels; `events["step"]` has the rows
-    of one event."""
+    """The folder of `grouser events`. `for row in events` iterates over events and levels; `events["step"]` are the
+    rows of one event."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
         file = self.folder / "events.json"
-        self.json: dict = read_json(file, "events")  #: all of events.json
+        self.json: dict = read_json(file, "events")  #: contents of events.json
         if "rows" not in self.json:
-            raise FileError(f"{file}: is no file of events")
+            raise FileError(f"{file}: not the events.json of mobility events")
         self.vehicle: str = self.json.get("vehicle", "")
         self.soil: str = self.json.get("soil", "")
         with fields_of(file, "events"):
@@ -92,10 +92,10 @@ class Events:
                         self.folder / Path(picture).parent if picture else None)
 
     def __getitem__(self, event: str) -> list[EventRow]:
-        """KeyError names the events that there are."""
+        """KeyError lists the events."""
         rows = [row for row in self.rows if row.event == event]
         if not rows:
-            raise KeyError(f"{self.folder}: there is no event {event!r}; there are "
+            raise KeyError(f"{self.folder}: no event {event!r}; events are "
                            f"{', '.join(dict.fromkeys(row.event for row in self.rows))}")
         return rows
 
@@ -107,5 +107,5 @@ class Events:
 
 
 def open_events(folder: str | os.PathLike) -> Events:
-    """Opens the folder of `grouser events`. FileError where it has no events.json."""
+    """Opens the folder of `grouser events`. FileError if it has no events.json."""
     return Events(folder)

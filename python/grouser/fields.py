@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields of the soil on a grid, from frames.h5."""
+"""Soil fields on a grid, from frames.h5."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -8,27 +8,27 @@ import numpy
 
 from .series import Quantity
 
-#: Fields that frames hold where the scene has output.fields_cell: name, (unit, shape of a cell's value, what it is).
+#: Fields in frames of scenes with output.fields_cell: name, (unit, shape of a cell's value, definition).
 FIELDS = {"stress": ("Pa", (3, 3), "mean stress of a cell (Love-Weber), negative in compression"),
-          "strain_rate": ("1/s", (3, 3), "symmetric gradient of the velocity; NaN where grains are too few"),
-          "velocity": ("m/s", (3,), "mean of the grains, weighted with mass; NaN without grains"),
-          "porosity": ("-", (), "pores over volume"),
-          "coordination": ("-", (), "contacts of a grain, mean; NaN without grains"),
-          "mechanical_coordination": ("-", (), "contacts of a grain that has two or more, mean")}
-#: Where xx, xy, xz, yy, yz, zz stand in a tensor.
+          "strain_rate": ("1/s", (3, 3), "symmetric gradient of the velocity; NaN with too few grains"),
+          "velocity": ("m/s", (3,), "mass-weighted mean of the grains; NaN without grains"),
+          "porosity": ("-", (), "pore volume / total volume"),
+          "coordination": ("-", (), "mean number of contacts per grain; NaN without grains"),
+          "mechanical_coordination": ("-", (), "mean number of contacts of grains with two or more")}
+#: Positions of xx, xy, xz, yy, yz, zz in a tensor.
 _PLACES = numpy.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Field(Quantity):
-    """A field of the soil over time: `value` has the shape [frames, z, y, x], of vectors [..., 3], of tensors
-    [..., 3, 3]. The cell [k, j, i] has its centre at (x[i], y[j], z[k])."""
+    """A soil field over time: `value` has the shape [frames, z, y, x], vectors [..., 3], tensors [..., 3, 3]. The
+    centre of cell [k, j, i] is (x[i], y[j], z[k])."""
 
     time: numpy.ndarray = None  #: [frames] [s]
     x: numpy.ndarray = None  #: [nx] centres of the cells [m]
-    y: numpy.ndarray = None  #: [ny] the same along y
-    z: numpy.ndarray = None  #: [nz] the same along z
-    origin: numpy.ndarray = None  #: [3] lower corner of the box of cells [m]
+    y: numpy.ndarray = None  #: [ny] along y
+    z: numpy.ndarray = None  #: [nz] along z
+    origin: numpy.ndarray = None  #: [3] lower corner of the grid [m]
     spacing: numpy.ndarray = None  #: [3] edges of a cell [m]
 
     @property
@@ -38,20 +38,20 @@ class Field(Quantity):
 
 
 def field_of(groups: list, time: numpy.ndarray, name: str, where: object) -> Field:
-    """`groups`: fields of each frame, None where it has none. KeyError where there is no such field in any; ValueError
-    where frames have different grids."""
+    """`groups`: fields of each frame, or None. KeyError if no frame has the field; ValueError if the grids of the
+    frames differ."""
     if name not in FIELDS:
-        raise KeyError(f"there is no field {name!r}; fields are {', '.join(FIELDS)}")
+        raise KeyError(f"no field {name!r}; fields are {', '.join(FIELDS)}")
     kept = [place for place, group in enumerate(groups) if group is not None]
     if not kept:
-        raise KeyError(f"{where}: has no fields of the soil; set output.fields_cell in the scene")
+        raise KeyError(f"{where}: no soil fields; set output.fields_cell in the scene")
     first = groups[kept[0]]
     origin, spacing = first["origin"][:], first["spacing"][:]
     for place in kept:
         group = groups[place]
         if (group["porosity"].shape != first["porosity"].shape or not numpy.array_equal(group["origin"][:], origin)
                 or not numpy.array_equal(group["spacing"][:], spacing)):
-            raise ValueError(f"{where}: frames {kept[0]} and {place} have different grids of fields; read them one by one: "
+            raise ValueError(f"{where}: frames {kept[0]} and {place} have different grids; read them one by one: "
                              "run.frames[n].field(name)")
     unit, shape, about = FIELDS[name]
     value = numpy.stack([groups[place][name][:] for place in kept])

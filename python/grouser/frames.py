@@ -16,7 +16,7 @@ from .fields import Field, field_of
 from .files import fields_of, still_open
 from .series import Brief, Series, counted, nearest
 
-#: Units of what frames hold of grains.
+#: Units of grain quantities in frames.
 UNITS = {"id": "-", "position": "m", "radius": "m", "speed": "m/s", "velocity": "m/s", "contact_force": "N",
          "fixed": "-"}
 
@@ -26,13 +26,12 @@ class Mesh(Brief):
     """Triangles of the parts, or of the ground."""
 
     vertices: numpy.ndarray  #: [v, 3] in the world [m]
-    triangles: numpy.ndarray  #: [t, 3] places of their corners among the vertices
-    part: numpy.ndarray | None  #: [t] place of the part among Frames.parts; None for the ground
+    triangles: numpy.ndarray  #: [t, 3] indices of the vertices
+    part: numpy.ndarray | None  #: [t] index in Frames.parts; None for the ground
 
 
 class Frame:
-    """One instant. Grains are read when they are asked for; `frame.position` and the like have one row a grain, in the
-    order of `frame.id`."""
+    """One frame. Data are read on access; `frame.position` etc. have one row per grain, in the order of `frame.id`."""
 
     def __init__(self, frames: Frames, place: int):
         self._frames, self._name = frames, frames._names[place]
@@ -51,17 +50,17 @@ class Frame:
         return len(self._group["grains/id"]) if "grains" in self._group else 0
 
     def grains(self, name: str) -> numpy.ndarray:
-        """A quantity of all grains, [n] or [n, 3]: the keys of `grouser.UNITS`. KeyError where frames lack it."""
+        """A quantity of all grains, [n] or [n, 3]: the keys of `grouser.UNITS`. KeyError if the frames lack it."""
         if "grains" not in self._group:
             raise KeyError(f"{self._frames.path}: this frame has no grains")
         grains = self._group["grains"]
         if name not in grains:
-            raise KeyError(f"{self._frames.path}: grains have no {name!r}, but {', '.join(grains)}")
+            raise KeyError(f"{self._frames.path}: grains have no {name!r}; they have {', '.join(grains)}")
         return grains[name][:]
 
     @property
     def id(self) -> numpy.ndarray:
-        """[n]: who each grain is, for all of the run."""
+        """[n] identity of each grain, constant during the run."""
         return self.grains("id")
 
     @property
@@ -81,21 +80,21 @@ class Frame:
 
     @property
     def contact_force(self) -> numpy.ndarray:
-        """[n, 3] resultant of all contacts of a grain [N]; NaN in the first frame. KeyError where frames lack it."""
+        """[n, 3] resultant of all contacts of a grain [N]; NaN in the first frame. KeyError if the frames lack it."""
         return self.grains("contact_force")
 
     @property
     def has_fields(self) -> bool:
-        """Whether this frame has fields of the soil."""
+        """Whether this frame has soil fields."""
         return "fields" in self._group
 
     def field(self, name: str) -> Field:
-        """A field of the soil in this frame alone, with one row: see Frames.fields()."""
+        """A soil field in this frame only, with one row: see Frames.fields()."""
         return field_of([self._group.get("fields")], numpy.array([self.time]), name, self._frames.path)
 
     def soil(self, name: str) -> numpy.ndarray:
         """Deformable ground in this frame: "position" [v, 3] [m] and "triangles" [t, 3]; at the vertices "sinkage" [m],
-        "pressure", "max_pressure", "shear" [v] and "shear_vector" [v, 3] [Pa]. KeyError where there is none."""
+        "pressure", "max_pressure", "shear" [v] and "shear_vector" [v, 3] [Pa]. KeyError if there is none."""
         soil = self._group.get("soil", {})
         if name not in soil:
             raise KeyError(f"{self._frames.path}: this frame has no {name!r} of deformable soil")
@@ -103,12 +102,13 @@ class Frame:
 
     @property
     def poses(self) -> numpy.ndarray:
-        """[parts, 7]: place [m] and orientation (quaternion, scalar first) of every part's frame in the world, in the
+        """[parts, 7]: position [m] and orientation (quaternion, scalar first) of each part's frame in the world, in the
         order of Frames.parts."""
         return self._group["parts/pose"][:] if "parts" in self._group else numpy.empty((0, 7))
 
     def pose(self, part: str) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """Place [3] [m] and rotation [3, 3] of a part: a point p of its frame lies at `place + rotation @ p`."""
+        """Position [3] [m] and rotation [3, 3] of a part: world = position + rotation @ p for a point p of its
+        frame."""
         row = self._group["parts/pose"][self._frames.place_of(part)]
         return row[:3], rotation(row[3:])
 
@@ -120,7 +120,7 @@ class Frame:
 
 
 def rotation(quaternion: numpy.ndarray) -> numpy.ndarray:
-    """[..., 3, 3] of quaternions [..., 4], scalar first: turns a vector of the part's frame into the world's."""
+    """[..., 3, 3] from quaternions [..., 4], scalar first: part frame to world frame."""
     w, x, y, z = numpy.moveaxis(numpy.asarray(quaternion, dtype=float), -1, 0)
     rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
@@ -128,7 +128,7 @@ def rotation(quaternion: numpy.ndarray) -> numpy.ndarray:
     return numpy.moveaxis(numpy.array(rows), (0, 1), (-2, -1))
 
 
-#: What frames.h5 holds beside frames.
+#: Groups of frames.h5 that are not frames.
 _BESIDE = {"ground", "parts", "vertices"}
 
 
@@ -146,7 +146,7 @@ class Frames:
         self._names = sorted(name for name in self._opened if name.isdigit())
         if not self._names and set(self._opened) - _BESIDE:
             self._opened.close()
-            raise FileError(f"{path}: holds no frames; it is not the frames.h5 of a run")
+            raise FileError(f"{path}: no frames; not the frames.h5 of a run")
         with fields_of(path, "the frames of a run"):
             attributes = [self._opened[name].attrs for name in self._names]
             self.time = numpy.array([one["time"] for one in attributes])  #: [frames] [s]
@@ -166,11 +166,11 @@ class Frames:
         return len(self._names)
 
     def __getitem__(self, index: int | slice) -> Frame | list[Frame]:
-        """A frame, or of a slice a list of them. IndexError where there are fewer."""
+        """A frame, or for a slice a list of frames. IndexError if out of range."""
         if isinstance(index, slice):
             return [self[i] for i in range(*index.indices(len(self)))]
         if not -len(self) <= index < len(self):
-            raise IndexError(f"{self.path}: has {counted(len(self), 'frame')}, 0 to {len(self) - 1}; there is no frame "
+            raise IndexError(f"{self.path}: has {counted(len(self), 'frame')}, 0 to {len(self) - 1}; no frame "
                              f"{index}")
         return Frame(self, index)
 
@@ -178,8 +178,8 @@ class Frames:
         return (self[i] for i in range(len(self)))
 
     def at(self, time: float) -> Frame:
-        """The frame nearest to `time` [s]. ValueError where there are none, or none near it: more than their interval
-        before the first or behind the last."""
+        """The frame nearest to `time` [s]. ValueError if there are none, or if `time` is more than one interval before
+        the first or after the last."""
         return self[nearest(self.time, time, "frames", str(self.path))]
 
     @cached_property
@@ -191,46 +191,46 @@ class Frames:
         return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
 
     def place_of(self, part: str) -> int:
-        """Place of a part among `parts`. KeyError names some where there is none such."""
+        """Index of a part in `parts`. KeyError lists some names."""
         if part not in self.parts:
-            raise KeyError(f"there is no part {part!r}; parts are {', '.join(self.parts[:6])}...")
+            raise KeyError(f"no part {part!r}; parts are {', '.join(self.parts[:6])}...")
         return self.parts.index(part)
 
     def part(self, name: str) -> Series:
-        """A part over time: [frames, 7], place [m] and orientation (quaternion, scalar first) of its frame."""
+        """A part over time: [frames, 7], position [m] and orientation (quaternion, scalar first) of its frame."""
         place = self.place_of(name)
         poses = numpy.array([self._file[frame]["parts/pose"][place] for frame in self._names])
-        return Series(poses, "m, -", "place and orientation of a part", name, self.time, self.step,
+        return Series(poses, "m, -", "position and orientation of a part", name, self.time, self.step,
                       ("x", "y", "z", "qw", "qx", "qy", "qz"))
 
     def grain(self, id: int, name: str = "position") -> Series:
-        """A quantity of one grain over time: [frames] or [frames, 3]; NaN in frames that it is not in. KeyError where
-        no frame has it."""
+        """A quantity of one grain over time: [frames] or [frames, 3]; NaN in frames without the grain. KeyError if no
+        frame has it."""
         rows: list[numpy.ndarray | None] = []
         for frame in self:
             at = numpy.flatnonzero(frame.id == id) if len(frame) else ()
             rows.append(frame.grains(name)[at[0]] if len(at) else None)
         there = next((row for row in rows if row is not None), None)
         if there is None:
-            raise KeyError(f"{self.path}: no frame has a grain {id}")
+            raise KeyError(f"{self.path}: no frame has grain {id}")
         values = numpy.array([numpy.full_like(there, numpy.nan, dtype=float) if row is None else row for row in rows])
         return Series(values, UNITS.get(name, ""), "", f"grain {id} {name}", self.time, self.step,
                       ("x", "y", "z") if values.ndim == 2 else ())
 
     def fields(self, name: str) -> Field:
-        """A field of the soil over time: "stress", "strain_rate", "velocity", "porosity", "coordination" or
-        "mechanical_coordination", [frames, z, y, x], of vectors [..., 3], of tensors [..., 3, 3]. KeyError where there
-        is no such field, or the scene had no output.fields_cell; ValueError where frames have different grids."""
+        """A soil field over time: "stress", "strain_rate", "velocity", "porosity", "coordination" or
+        "mechanical_coordination", [frames, z, y, x], vectors [..., 3], tensors [..., 3, 3]. KeyError for an unknown
+        field or a scene without output.fields_cell; ValueError if the grids of the frames differ."""
         return field_of([self._file[frame].get("fields") for frame in self._names], self.time, name, self.path)
 
     @property
     def ground(self) -> Mesh | None:
-        """Rigid ground as drawn; None without."""
+        """Triangles of rigid ground; None without."""
         if "ground" not in self._file:
             return None
         return Mesh(self._file["ground/position"][:], self._file["ground/triangles"][:], None)
 
 
 def open_frames(path: str | os.PathLike) -> Frames:
-    """Opens frames.h5, or that of a run's folder. FileError where it cannot be read."""
+    """Opens a frames.h5, or that of a run's folder. FileError if it cannot be read."""
     return Frames(path)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The keys that scenes have, by the program's own tables (`grouser fields`)."""
+"""Keys of scenes, from the program's tables (`grouser fields`)."""
 from __future__ import annotations
 
 import difflib
@@ -18,7 +18,7 @@ _ANY = ("NAME", "a|b", "SECTION")  # placeholders for a name in the program's ta
 
 @cache
 def _sections(vehicle: bool = False) -> dict[tuple[str, ...], list[str]]:
-    """{("driver", "table"): its keys}; {} where the program cannot be asked."""
+    """{("driver", "table"): its keys}; {} if the program does not answer."""
     try:
         words = [find_program(), "fields", *(["--vehicle"] if vehicle else [])]
         text = subprocess.run(words, capture_output=True, text=True, check=True).stdout
@@ -44,8 +44,8 @@ def _dotted(path: list[str]) -> str:
 
 
 def check(path: list[str], value: Any) -> None:
-    """KeyError, with the nearest key, where a value is set at what is no key of a scene. Says nothing where the program
-    cannot be asked, nor of keys of a vehicle file's lists."""
+    """KeyError with the nearest key for an unknown key of a scene. No check if the program does not answer, nor for
+    keys in lists of a vehicle file."""
     sections = _sections()
     if not sections or path == ["version"]:
         return
@@ -73,13 +73,13 @@ def _check_leaf(path: list[str], sections: dict[tuple[str, ...], list[str]]) -> 
     if near := difflib.get_close_matches(key, here, 1, 0.6):
         _refuse(path, [_dotted([*section, near[0]])])
     if any(_fits(pattern, path) for pattern in sections):
-        raise KeyError(f"{_dotted(path)}: is a section; set one of its keys, or all of it to a dict")
+        raise KeyError(f"{_dotted(path)} is a section; set one of its keys, or set it to a dict")
 
     def named(pattern: tuple[str, ...]) -> list[str]:
-        """With the names that the path has in it."""
+        """The pattern with its placeholders replaced by the names of the path."""
         return [b if a in _ANY else a for a, b in zip(pattern, section)] if len(pattern) == len(section) else [*pattern]
 
-    # The one key of this name in another section, else one of the section that was named, or that name is wrong.
+    # The only key of this name in another section, else a key of this section, else any key.
     whole = [_dotted([*named(pattern), k]) for pattern, known in sections.items() for k in known]
     same = [word for word in whole if word.rpartition(".")[2] == key]
     own = [_dotted([*section, k]) for k in here]

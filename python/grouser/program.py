@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls the program `grouser`: its progress as it comes, its errors as exceptions."""
+"""Calls the program `grouser`: progress as callbacks, errors as exceptions."""
 from __future__ import annotations
 
 import codecs
@@ -18,7 +18,7 @@ from .errors import KINDS, GrouserError, briefly
 #: "settling:  12.3 %, t 0.10 s, about 4 s left", as runs/support/progress.cpp writes it
 _PROGRESS = re.compile(r"(?P<what>.+?): +(?P<percent>[\d.]+) %, (?P<detail>.*), "
                        r"(?P<left>[^,]+ left|time left unknown)")
-_ERASE = "\x1b[K"  # what a terminal is told before a line is written anew
+_ERASE = "\x1b[K"  # erases a terminal line before it is rewritten
 _ERROR = "grouser: error: "
 
 
@@ -26,8 +26,8 @@ _ERROR = "grouser: error: "
 class Progress:
     """A line of progress of a running program."""
 
-    what: str  #: what it is at: "settling", "driving"
-    fraction: float  #: of that, 0 to 1
+    what: str  #: phase: "settling", "driving"
+    fraction: float  #: finished part of the phase, 0 to 1
     detail: str  #: "t 1.20 s"
     left: str  #: "about 42 s left"
 
@@ -36,9 +36,8 @@ class Progress:
 
 
 def find_program() -> Path:
-    """The program: GROUSER_PROGRAM of the environment, else build/bin/grouser of the checkout that this package lies
-    in, else the one that was installed with it, else `grouser` of the PATH. FileNotFoundError says what to do where
-    there is none."""
+    """Path of the program: environment variable GROUSER_PROGRAM, else build/bin/grouser of the checkout of this
+    package, else the one installed with it, else `grouser` in the PATH. FileNotFoundError if there is none."""
     given = os.environ.get("GROUSER_PROGRAM")
     here = Path(__file__).resolve().parent
     installed = [up / "bin" / "grouser" for up in here.parents]  # PREFIX/lib/python3/dist-packages/grouser
@@ -48,18 +47,17 @@ def find_program() -> Path:
         if candidate.is_file() and os.access(candidate, os.X_OK):
             return candidate
     raise FileNotFoundError(
-        f"GROUSER_PROGRAM: {given} is no program" if given else
-        "the program grouser was not found: build it (cmake --build build --target grouser), install it, or name it in "
-        "the environment as GROUSER_PROGRAM")
+        f"GROUSER_PROGRAM: {given} is not an executable file" if given else
+        "program grouser not found: build it (cmake --build build --target grouser), install it, or set the "
+        "environment variable GROUSER_PROGRAM to its path")
 
 
 class Job:
     """A running call of the program. Several may run at the same time.
 
-    words: the command line behind the program's name. folder: that it is started in. progress: called with a Progress
-    for each line of progress, from another thread; None: nobody is; what it raises stops the call, and `wait()` raises
-    it. environment: variables beside those of this process. refused: called where the program ends with exit code 2.
-    worded: what becomes of its message.
+    words: arguments of the program. folder: working directory. progress: callback(Progress) for each line of progress,
+    from another thread; an exception in it stops the call and is raised by `wait()`. environment: additional variables.
+    refused: called on exit code 2. worded: converts the error message.
     """
 
     def __init__(self, words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
@@ -68,10 +66,10 @@ class Job:
         self.command = [str(find_program()), *(os.fspath(word) for word in words)]
         self.progress: Progress | None = None  #: the last line of progress
         self._tell, self._refused, self._worded = progress, refused, worded
-        self._raised: BaseException | None = None  # by progress
+        self._raised: BaseException | None = None  # exception of the callback
         self._lines: list[str] = []
         self._errors: list[str] = []
-        # On a terminal the program tells its progress five times a second, else every five seconds.
+        # On a terminal the program prints progress five times per second, otherwise every five seconds.
         reader, writer = pty.openpty()
         try:
             self._process = subprocess.Popen(
@@ -93,23 +91,23 @@ class Job:
 
     @property
     def output(self) -> str:
-        """What the program has printed as results so far."""
+        """Standard output so far."""
         return "".join(self._lines)
 
     @property
     def messages(self) -> list[str]:
-        """Its lines beside results and progress so far: warnings and errors."""
+        """Standard error so far, without progress: warnings and errors."""
         return list(self._errors)
 
     def stop(self) -> None:
-        """Asks it to stop; a run leaves a checkpoint, and `wait()` then raises StoppedError."""
+        """Stops the program; a run writes a checkpoint, and `wait()` then raises StoppedError."""
         if self.running:
-            self._process.terminate()  # SIGINT means nothing to what was started in the background
+            self._process.terminate()  # background processes ignore SIGINT
 
     def wait(self) -> str:
-        """Waits for its end and returns what it printed. Raises InputError, SimulationError, DeviceError, StoppedError
-        or GrouserError with the program's message and exit code. An exception here, such as Ctrl-C, stops it first; so
-        does one that `progress` has raised."""
+        """Waits for the end and returns the standard output. Raises InputError, SimulationError, DeviceError,
+        StoppedError or GrouserError with the program's message and exit code. An exception here (such as Ctrl-C) or
+        in `progress` stops the program first."""
         try:
             code = self._process.wait()
         except BaseException:
@@ -130,7 +128,7 @@ class Job:
         for k, line in enumerate(self._errors):
             if line.startswith(_ERROR):
                 return "\n".join(self._errors[k:])[len(_ERROR):]
-        return "\n".join(self._errors) or f"{' '.join(self.command)}: ended with {code}, and said nothing"
+        return "\n".join(self._errors) or f"{' '.join(self.command)}: exit code {code} without a message"
 
     def _read_output(self) -> None:
         with self._process.stdout as output:
@@ -143,12 +141,12 @@ class Job:
             while True:
                 try:
                     piece = decoder.decode(terminal.read(4096))
-                except OSError:  # the program has closed its end
+                except OSError:  # the program has closed the pipe
                     piece = ""
                 *whole, rest = re.split(r"[\r\n]+", rest + piece)
                 for line in whole:
                     self._take(line)
-                # A line of progress stands without its end until the next one.
+                # A line of progress has no newline until the next one.
                 if _PROGRESS.fullmatch(rest.replace(_ERASE, "")):
                     self._take(rest)
                     rest = ""
@@ -166,7 +164,7 @@ class Job:
             if self._tell and self._raised is None:
                 try:
                     self._tell(self.progress)
-                except BaseException as error:  # whatever it is, it is the caller's: wait() raises it there
+                except BaseException as error:  # wait() raises it in the caller's thread
                     self._raised = error
                     self.stop()
         elif line.strip():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results of one run."""
+"""The results of a run."""
 from __future__ import annotations
 
 import os
@@ -24,15 +24,15 @@ SIDES = ("left", "right")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Surface(Brief):
-    """The undisturbed surface of the bed, before the vehicle touched it, on a grid of nodes, and what became of it:
-    `surface.final_height - surface.height` are ruts where it is below 0."""
+    """The undisturbed surface of the bed on a grid of nodes, before the vehicle touches it, and the final surface:
+    ruts where `surface.final_height - surface.height` is negative."""
 
     x: numpy.ndarray  #: [columns] of the nodes [m]
     y: numpy.ndarray  #: [rows] of the nodes [m]
     height: numpy.ndarray  #: [rows, columns] at (x[column], y[row]) [m]
     interpolation: str  #: between nodes: "bilinear", "Catmull-Rom" or "monotone"
-    final_height: numpy.ndarray | None = None  #: [rows, columns] at the same nodes when the run ended [m]; None where
-    #: it was not looked at (a run that has not ended, output.final_surface = false)
+    final_height: numpy.ndarray | None = None  #: [rows, columns] at the end of the run [m]; None if not recorded
+    #: (unfinished run, output.final_surface = false)
 
 
 def text_of(value: object) -> str:
@@ -40,7 +40,7 @@ def text_of(value: object) -> str:
 
 
 def quantity_of(dataset: h5py.Dataset, name: str) -> Quantity:
-    """A dataset with its attributes; one number has the shape ()."""
+    """A dataset with its attributes; a single number has the shape ()."""
     value = dataset[()]
     if value.shape == (1,):
         value = value[0]
@@ -48,11 +48,10 @@ def quantity_of(dataset: h5py.Dataset, name: str) -> Quantity:
 
 
 class Run:
-    """What a run has left in its folder. Everything is read when it is asked for; a run that is still going on can be
-    opened, and opened again later.
+    """The results in the folder of a run. Data are read on access. A running simulation can be opened, and opened again
+    later.
 
-    `run["vehicle.left.slip"]` is a Series; `run.names()` lists them; `run.constants` has the numbers that do not
-    change.
+    `run["vehicle.left.slip"]` is a Series; `run.names()` lists them; `run.constants` are the constants.
     """
 
     def __init__(self, path: str | os.PathLike):
@@ -60,19 +59,19 @@ class Run:
         self.folder: Path = path.parent if path.name == "results.h5" else path
         self.file: Path = self.folder / "results.h5"
         if not self.file.is_file():
-            raise FileError(f"{self.folder}: has no results.h5; name the folder of a run")
+            raise FileError(f"{self.folder}: no results.h5; give the folder of a run")
         try:
             self._opened = h5py.File(self.file, "r", locking=False)
         except OSError as error:
             raise FileError(f"{self.file}: cannot be read: {error}") from error
         if "series/time" not in self._opened or "series/step" not in self._opened:
             self._opened.close()
-            raise FileError(f"{self.file}: holds no series; it is not the results.h5 of a run")
-        # step, time and every quantity have been written to the same row but where the program was killed meanwhile
+            raise FileError(f"{self.file}: no series; not the results.h5 of a run")
+        # the number of rows differs between quantities only if the program was killed while writing
         self._rows = min(len(group["value"]) for group in self._groups.values()) if self._groups else 0
 
     def close(self) -> None:
-        """Closes results.h5, and frames.h5 where it was opened."""
+        """Closes results.h5 and frames.h5."""
         if self._opened and self.__dict__.get("frames") is not None:
             self.frames.close()
         self._opened.close()
@@ -103,7 +102,7 @@ class Run:
         return groups
 
     def names(self, beginning: str = "") -> list[str]:
-        """Names of all series, or of those that begin so: `run.names("vehicle.left.")`."""
+        """Names of all series, or of those with a prefix: `run.names("vehicle.left.")`."""
         return [name for name in self._groups if name.startswith(beginning)]
 
     def __contains__(self, name: str) -> bool:
@@ -113,10 +112,10 @@ class Run:
         return iter(self._groups)
 
     def __getitem__(self, name: str) -> Series:
-        """A series by its name, with dots (or slashes). KeyError where the run has none such."""
+        """A series by its name, with dots (or slashes). KeyError if the run does not have it."""
         group = self._groups.get(name.replace("/", "."))
         if group is None:
-            raise KeyError(f"{self.folder}: there is no series {name!r}; names() lists all {len(self._groups)}")
+            raise KeyError(f"{self.folder}: no series {name!r}; names() lists all {len(self._groups)}")
         time, step, rows = self.time, self.step, self._rows
         with fields_of(self.file, "the results of a run"):
             value = group["value"]
@@ -131,22 +130,22 @@ class Run:
 
     @property
     def step(self) -> numpy.ndarray:
-        """[rows] number of the step [-]"""
+        """[rows] step number [-]"""
         return self._open["series/step"][:self._rows]
 
     def by_shoe(self, name: str) -> dict[str, Series]:
-        """{"left": ..., "right": ...} of a quantity with one number a shoe, each of the shape [rows, shoes]: "sinkage",
+        """{"left": ..., "right": ...} of a quantity with a value per shoe, each [rows, shoes]: "sinkage",
         "tension", "pad_height", "ground_pressure", "on_ground". KeyError for a run without a vehicle."""
         return {side: self[f"vehicle.{side}.{name}"] for side in SIDES}
 
     def sinkage(self) -> dict[str, Series]:
-        """{"left": ..., "right": ...}, each [rows, shoes] [m]: NaN for shoes that are off the ground run or carry
-        nothing. KeyError for a run without a vehicle."""
+        """{"left": ..., "right": ...}, each [rows, shoes] [m]: NaN for shoes without ground contact. KeyError for a run
+        without a vehicle."""
         return self.by_shoe("sinkage")
 
     @cached_property
     def constants(self) -> dict[str, Quantity]:
-        """{name: Quantity} of what is no series: "vehicle.mass", "terrain.bed.porosity", curves such as
+        """{name: Quantity} of all constants: "vehicle.mass", "terrain.bed.porosity", curves such as
         "terrain.bed.depth" [n]."""
         constants: dict[str, Quantity] = {}
 
@@ -161,7 +160,7 @@ class Run:
 
     @property
     def surface(self) -> Surface | None:
-        """The undisturbed surface and that at the end; None for a run without a vehicle on a bed."""
+        """The undisturbed and the final surface; None for a run without a vehicle on a bed."""
         group = self._open.get("terrain/surface")
         if group is None:
             return None
@@ -183,40 +182,40 @@ class Run:
 
     @cached_property
     def manifest(self) -> dict:
-        """manifest.json: status, program, machine, times, figures, files; {} where it is missing."""
+        """manifest.json: status, program, machine, times, figures, files; {} if missing."""
         file = self.folder / "manifest.json"
         return read_json(file, "the manifest of a run") if file.is_file() else {}
 
     @property
     def status(self) -> str:
-        """"finished", "incomplete" (its vehicle never drove, or fewer than two teeth), "failed", "stopped" or "running";
-        "unknown" without a manifest."""
+        """"finished", "incomplete" (its vehicle never drove, or fewer than two teeth), "failed", "stopped" or
+        "running"; "unknown" without a manifest."""
         return self.manifest.get("status", "unknown")
 
     @property
     def facts(self) -> dict[str, str | list[str]]:
-        """What results.h5 says of the run as a whole: version, commit, machine, state_hash, names of parts..."""
+        """Attributes of results.h5: version, commit, machine, state_hash, names of parts..."""
         return {name: text_of(value) if isinstance(value, (str, bytes)) else [text_of(v) for v in value]
                 for name, value in self._open.attrs.items() if name != "scene"}
 
     @cached_property
     def frames(self) -> Frames | None:
-        """Grains and parts over time; None where the run wrote no frames."""
-        self._open  # a closed run opens no more files
+        """Grains and parts over time; None if the run wrote no frames."""
+        self._open  # raises if the run is closed
         file = self.folder / "frames.h5"
         return Frames(file) if file.is_file() else None
 
     def fields(self, name: str) -> Field:
-        """A field of the soil over time: see Frames.fields()."""
+        """A soil field over time: see Frames.fields()."""
         if self.frames is None:
-            raise KeyError(f"{self.folder}: has no frames.h5, which holds the fields of the soil")
+            raise KeyError(f"{self.folder}: no frames.h5, which contains the soil fields")
         return self.frames.fields(name)
 
     def bed(self) -> Bed:
-        """The grains of the run's checkpoint, as they lay when it was written. FileError where there is none."""
+        """The grains of the run's checkpoint. FileError if there is none."""
         return open_bed(self.folder)
 
 
 def open_run(path: str | os.PathLike) -> Run:
-    """Opens the results of a run: its folder, or the results.h5 in it. FileError where there are none."""
+    """Opens the results of a run: its folder or results.h5. FileError if there are none."""
     return Run(path)

@@ -26,7 +26,7 @@ Tell = Callable[[Progress], None] | None
 
 
 def _path_of(key: str) -> list[str]:
-    """["contact", "clay|loam", "friction"] of 'contact."clay|loam".friction'. KeyError where it is no key."""
+    """["contact", "clay|loam", "friction"] from 'contact."clay|loam".friction'. KeyError if it is not a key."""
     path: list[str] = []
     try:
         table: Any = tomllib.loads(f"{key} = 0")
@@ -34,17 +34,17 @@ def _path_of(key: str) -> list[str]:
             (name, table), = table.items()
             path.append(name)
     except ValueError:
-        raise KeyError(f"{key!r} is no key: words with dots between them, in quotes what is not of letters, digits, _ "
-                       "and -") from None
+        raise KeyError(f"{key!r} is no key: expected words separated by dots, in quotes unless they consist of "
+                       "letters, digits, _ and -") from None
     return path
 
 
 class Scene:
-    """A scene as a document of TOML: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys. An unknown key is an
-    error where it is set; the program judges the values when the scene is run, planned or checked.
+    """A scene as a TOML document: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys. Setting an unknown key
+    raises KeyError; values are checked by the program when the scene is run, planned or checked.
 
-    document: nested dicts, as tomllib reads them; without it an empty scene of version 1. folder: that its files are
-    named from. name: of its results, and what messages call it. KeyError for a key that no scene has.
+    document: nested dicts, as read by tomllib; default: an empty scene of version 1. folder: base of relative paths in
+    the scene. name: of its results, and in messages. KeyError for unknown keys.
     """
 
     def __init__(self, document: Mapping[str, Any] | None = None, folder: str | os.PathLike = ".", name: str = "scene"):
@@ -60,14 +60,14 @@ class Scene:
 
     @classmethod
     def read(cls, file: str | os.PathLike) -> Scene:
-        """Reads a scene file; its comments are lost. FileError where it is no TOML."""
+        """Reads a scene file; its comments are lost. FileError if it is not TOML."""
         file = Path(file)
         try:
             document = tomllib.loads(file.read_text(encoding="utf-8-sig"))
         except OSError as error:
             raise FileError(f"{file}: cannot be read: {error.strerror}") from error
         except UnicodeDecodeError as error:
-            raise FileError(f"{file}: is no text in UTF-8; save it as such") from error
+            raise FileError(f"{file}: is no text in UTF-8; save it as UTF-8") from error
         except ValueError as error:
             raise FileError(f"{file}: {error}") from error
         scene = cls(None, file.parent, file.stem)
@@ -80,8 +80,8 @@ class Scene:
         return other
 
     def __getitem__(self, key: str) -> Any:
-        """The value of "section.key", or a whole section. KeyError where the scene does not say it (defaults are the
-        program's: `Run.scene` has all)."""
+        """The value of "section.key", or a whole section. KeyError if the scene does not set it (`Run.scene` contains
+        the defaults too)."""
         table: Any = self.document
         for word in _path_of(key):
             if not isinstance(table, dict) or word not in table:
@@ -91,8 +91,8 @@ class Scene:
 
     @briefly
     def __setitem__(self, key: str, value: Any) -> None:
-        """Sets "section.key", or a whole section to a dict. KeyError where no scene has such a key, or something on the way is no section, such as
-        a list ([[grains]], [[plane]]...), which `add()` and `scene["grains"][0]` are for."""
+        """Sets "section.key", or a whole section to a dict. KeyError for an unknown key, or if a part of the path is
+        not a section, such as a list ([[grains]], [[plane]]...; use `add()` and `scene["grains"][0]`)."""
         *sections, last = path = _path_of(key)
         table: Any = self.document
         for k, word in enumerate(sections):  # report a wrong section before a wrong key
@@ -104,7 +104,7 @@ class Scene:
         table[last] = copy.deepcopy(value)
 
     def __delitem__(self, key: str) -> None:
-        """Takes a key or a section out. KeyError where the scene does not have it."""
+        """Removes a key or a section. KeyError if the scene does not have it."""
         *sections, last = _path_of(key)
         table = self.document
         for k, word in enumerate(sections):
@@ -124,8 +124,8 @@ class Scene:
 
     @briefly
     def add(self, section: str, **values: Any) -> Scene:
-        """Adds a section to a list: `scene.add("plane", material="glass")`. Returns the scene. KeyError for an unknown
-        key."""
+        """Appends a section to a list: `scene.add("plane", material="glass")`. Returns the scene. KeyError for an
+        unknown key."""
         keys.check([section], values)
         self.document.setdefault(section, []).append(copy.deepcopy(values))
         return self
@@ -135,25 +135,25 @@ class Scene:
         return document_text(self.document)
 
     def write(self, file: str | os.PathLike) -> Path:
-        """Writes the scene file, and folders on the way."""
+        """Writes the scene file, and creates missing folders."""
         file = Path(file)
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(self.text(), encoding="utf-8")
         return file
 
-    # These methods write the scene beside the folder of its results, as FOLDER.toml; messages name the scene.
+    # These methods write the scene next to the folder of its results, as FOLDER.toml; messages name the scene.
 
     @briefly
     def start(self, out: str | os.PathLike, *, force: bool = False, resume: bool | str | os.PathLike = False,
               until: str = "", device: str = "", threads: int | None = None, hash: bool = False, cache: bool = True,
               progress: Tell = None, environment: dict[str, str] | None = None) -> Job:
-        """Starts `grouser run` and returns at once; `Run(out)` opens what is there already.
+        """Starts `grouser run` and returns at once; `Run(out)` opens the results so far.
 
-        out: folder of the results. force: overwrite what is in it. resume: go on from its checkpoint, or branch
-        from the one that is named, of another run. until: "rest" ends the run before the vehicle drives. device: "auto",
-        "cpu" or "cuda"; threads: of the CPU, 0 for all; else as the scene says. hash: print the hash of the final
-        state. cache: take and keep settled beds and cut parts. progress: called with each line of progress, from
-        another thread. environment: variables beside those of this process.
+        out: folder of the results. force: overwrite it. resume: True continues from its checkpoint; a path branches
+        from the checkpoint of another run. until: "rest" ends the run before the vehicle drives. device: "auto", "cpu"
+        or "cuda". threads: CPU threads, 0: all. Defaults of both: as in the scene. hash: print the hash of the final
+        state. cache: reuse settled beds and cut meshes. progress: callback(Progress), from another thread. environment:
+        additional variables.
         """
         words = [flag for flag, given in (("--force", force), ("--hash", hash), ("--no-cache", not cache)) if given]
         words += _with_file("--resume", resume) + (["--until", until] if until else [])
@@ -161,21 +161,21 @@ class Scene:
 
     @briefly
     def run(self, out: str | os.PathLike, **options: Any) -> Run:
-        """Runs the scene to its end and opens the results; options as of `start()`. Raises what Job.wait() does."""
+        """Runs the scene and opens the results; options of `start()`, exceptions of Job.wait()."""
         self.start(out, **options).wait()
         return Run(out)
 
     @briefly
     def plan(self, *, probe: bool = False) -> str:
-        """What `grouser plan` says: features, size, step; with `probe` also how long a run will take. Raises InputError
-        for a wrong scene, and writes nothing that stays."""
+        """The output of `grouser plan`: features, size, step; with `probe` also the estimated run time. InputError for
+        an invalid scene. Leaves no files."""
         with tempfile.TemporaryDirectory() as folder:
             file = self.write(Path(folder) / f"{self.name}.toml")
             words = ["plan", file, *([] if probe else ["--no-probe"])]
             return self._worded(Job(words, self.folder, worded=lambda text: self._worded(text, file)).wait(), file)
 
     def _worded(self, text: str, file: Path) -> str:
-        """A message of the program, with the scene in place of the file that was written for it and its lines."""
+        """A message of the program, with the name of the scene instead of the temporary file and line."""
         return re.sub(re.escape(str(file)) + r"(:\d+)*", lambda _: self._called, text)
 
     @briefly
@@ -183,12 +183,12 @@ class Scene:
               cases: Mapping[str, Mapping[str, Any]] | None = None, jobs: int = 1, force: bool = False,
               from_checkpoint: bool | str | os.PathLike = False, device: str = "", threads: int | None = None,
               progress: Tell = None, environment: dict[str, str] | None = None) -> Sweep:
-        """Runs `grouser sweep`: all combinations, which goes on where it stopped.
+        """Runs `grouser sweep` over all combinations; continues an interrupted sweep.
 
-        values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}; a text or a number is one value. cases: {name: {key: value}}, keys that
-        change together. seeds: each combination with run.seed 1 to so many. jobs: runs at the same time.
-        from_checkpoint: all runs branch from this checkpoint, or from the vehicle that is lowered once for them (True).
-        SimulationError names the runs that failed; `Sweep(out)` opens the others.
+        values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}; a string or number is a single value. cases:
+        {name: {key: value}}, keys that change together. seeds: run.seed from 1 to `seeds` for each combination. jobs:
+        number of parallel runs. from_checkpoint: all runs branch from this checkpoint; True: from one common run until
+        the vehicle is at rest. SimulationError names the failed runs; `Sweep(out)` opens the others.
         """
         words = ["--jobs", str(jobs)]
         for key, several in (values or {}).items():
@@ -205,10 +205,10 @@ class Scene:
     def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "",
               jobs: int = 1, draws: int = 0, force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
               environment: dict[str, str] | None = None) -> Check:
-        """Runs `grouser check`: error bars of all figures, which goes on where it stopped.
+        """Runs `grouser check`: error bars of all figures; continues an interrupted check.
 
-        axes: what to vary (["step", "grain_size"], or one as a text); empty: all. seeds: of every case. budget: "90s", "20min", "1.5h";
-        empty: all of it. draws: samples of the constants of deformable soil.
+        axes: what to vary (["step", "grain_size"], or one string); empty: all. seeds: per case. budget: "90s", "20min",
+        "1.5h"; empty: unlimited. draws: samples of the constants of deformable soil.
         """
         words = ["--jobs", str(jobs), "--seeds", str(seeds)] + (["--draws", str(draws)] if draws else [])
         axes = axes if isinstance(axes, str) else ",".join(axes)
@@ -219,8 +219,7 @@ class Scene:
 
     def _started(self, command: str, out: str | os.PathLike, words: list[str], progress: Tell,
                  environment: dict[str, str] | None) -> Job:
-        """Where the program refuses the call, the scene beside a folder that was there is again what it was: that of
-        the results in the folder."""
+        """If the program rejects the call, restores the scene file next to an existing folder: that of its results."""
         out = Path(out).resolve()
         file = out.parent / f"{out.name}.toml"
         before = _own_text(file)
@@ -244,14 +243,14 @@ class Scene:
 
 
 def _with_file(option: str, given: bool | str | os.PathLike) -> list[str]:
-    """Words of an option that may name a file; none where it is not given."""
+    """Arguments of an option with an optional file."""
     if not given:
         return []
     return [option] if given is True else [option, str(Path(given).resolve())]
 
 
 def _own_text(file: Path) -> str | None:
-    """Of a scene file that this package has written, or None where there is none. FileError where it is another's."""
+    """Text of a scene file written by this package; None if there is none. FileError for other files."""
     try:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -259,13 +258,13 @@ def _own_text(file: Path) -> str | None:
     except (OSError, UnicodeDecodeError):
         text = ""
     if not text.startswith(_MARK):
-        raise FileError(f"{file} is there already, and was not written by this package: give out another name, or "
-                        "move that file")
+        raise FileError(f"{file} exists and was not written by this package: choose another `out`, or move the "
+                        "file")
     return text
 
 
 def _put(file: Path, text: str) -> None:
-    """Writes a file under another name and puts it in place: it is there whole, or as it was."""
+    """Writes a file atomically, by renaming a temporary one."""
     new = file.with_name(f".{file.name}.{os.getpid()}")
     try:
         new.write_text(text, encoding="utf-8")
@@ -277,9 +276,8 @@ def _put(file: Path, text: str) -> None:
 @briefly
 def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Iterable[str] = (), *, progress: Tell = None,
                  environment: dict[str, str] | None = None) -> SoilTest:
-    """Runs `grouser soil`: the constants of a soil by its name, or by a file that ends in .toml. options: words of the
-    command line, such as ["--quick", "--jobs", "2"]. SimulationError where tests ended unsoundly; `SoilTest(out)` opens
-    what the others gave."""
+    """Runs `grouser soil`: constants of a soil, given by name or by a .toml file. options: further arguments, such as
+    ["--quick", "--jobs", "2"]. SimulationError if tests had an unsound result; `SoilTest(out)` opens the others."""
     call(["soil", soil, "--out", out, *options], None, progress, environment)
     return SoilTest(out)
 
@@ -293,12 +291,12 @@ def _section(table: Any, path: list[str], key: str) -> dict[str, Any]:
 
 
 def _several(values: Any) -> Iterable[Any]:
-    """A text is one value, not its letters."""
+    """A string is a single value, not a sequence."""
     return values if isinstance(values, Iterable) and not isinstance(values, (str, bytes)) else [values]
 
 
 def _word(value: Any) -> str:
-    """A value on the command line; texts that hold commas are quoted."""
+    """A value on the command line; strings with commas are quoted."""
     if isinstance(value, str):
         return value_text(value) if "," in value else value
     return value_text(value)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Numbers with their units: what all readers return."""
+"""Numbers with units, as returned by all readers."""
 from __future__ import annotations
 
 import math
@@ -12,7 +12,7 @@ import numpy
 
 
 class Brief:
-    """Of a dataclass: its name and fields in one line, of arrays the shape."""
+    """repr() of a dataclass: name and fields in one line, shapes of arrays."""
 
     def __repr__(self) -> str:
         def text(value: object) -> str:
@@ -22,16 +22,16 @@ class Brief:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Quantity:
-    """A number or an array with its unit.
+    """A number or an array with a unit.
 
-    `2 * q`, `q * 2` and `q / 2` keep the unit; `q + r` and `q - r` are for quantities of the same unit, and for plain
-    numbers where q has none ("-"): ValueError names both units where they differ. numpy takes a quantity as its value:
-    `numpy.mean(q)`, `numpy.asarray(q) ** 2`.
+    `2 * q`, `q * 2` and `q / 2` keep the unit; `q + r` and `q - r` require equal units, or a plain number if q is
+    dimensionless ("-"); otherwise ValueError names both units. numpy functions use the value: `numpy.mean(q)`,
+    `numpy.asarray(q) ** 2`.
     """
 
     value: numpy.ndarray  #: any shape; a single number has the shape ()
-    unit: str  #: "m"; "-" where dimensionless; "" where the file says none
-    help: str = ""  #: one line
+    unit: str  #: "m"; "-": dimensionless; "": not in the file
+    help: str = ""  #: definition, one line
     name: str = ""  #: with dots, as in timeseries.csv: "vehicle.pitch_radius"
 
     def __array__(self, dtype=None, copy=None) -> numpy.ndarray:
@@ -41,7 +41,7 @@ class Quantity:
         return float(self.value)
 
     def __repr__(self) -> str:
-        """What it is, in one line: "slip [-]: 0.0729", "depth [m]: [24], 0 to 0.23"."""
+        """Summary in one line: "slip [-]: 0.0729", "depth [m]: [24], 0 to 0.23"."""
         return f"{self._told()}: {self._summary()}"
 
     def _summary(self) -> str:
@@ -52,7 +52,7 @@ class Quantity:
             return f"{float(value):.6g}"
         there = value[numpy.isfinite(value)]
         if not there.size:
-            return f"{list(value.shape)}, no number in it"
+            return f"{list(value.shape)}, no finite value"
         unknown = value.size - there.size
         return (f"{list(value.shape)}, {there.min():.4g} to {there.max():.4g}"
                 + (f", {unknown} of {value.size} are NaN" if unknown else ""))
@@ -63,7 +63,7 @@ class Quantity:
     def __iter__(self) -> Iterator:
         return iter(self.value)
 
-    __array_priority__ = 1000  # so that numpy leaves 2 * q to q, where it is numpy's 2
+    __array_priority__ = 1000  # numpy scalars use q.__rmul__ for 2 * q
 
     def __mul__(self, factor: float | numpy.ndarray) -> Quantity:
         return self._scaled(factor, numpy.multiply, "*")
@@ -92,7 +92,7 @@ class Quantity:
         return replace(self, value=value, name=name, help="", **(bars or {}))
 
     def _bars(self) -> dict[str, numpy.ndarray]:
-        """Half widths, of the shape of `value`, by the names of their fields."""
+        """Half widths by field name, each of the shape of `value`."""
         return {}
 
     def _told(self) -> str:
@@ -100,14 +100,14 @@ class Quantity:
 
     def _scaled(self, factor: float | numpy.ndarray, function: numpy.ufunc, sign: str) -> Quantity:
         if isinstance(factor, Quantity):
-            raise ValueError(f"{self._told()} {sign} {factor._told()}: of what unit that is, is not reckoned here; take "
-                             "the values: .value")
+            raise ValueError(f"{self._told()} {sign} {factor._told()}: products of units are not supported; use the "
+                             "values: .value")
         if not isinstance(factor, (Number, numpy.ndarray)):
             return NotImplemented
         value = function(self.value, factor)
         if value.shape != numpy.shape(self.value):
-            raise ValueError(f"{self._told()} has the shape {numpy.shape(self.value)}, which is not multiplied or divided "
-                             f"by one of {numpy.shape(factor)}")
+            raise ValueError(f"{self._told()} has the shape {numpy.shape(self.value)} and cannot be multiplied or "
+                             f"divided by an array of shape {numpy.shape(factor)}")
         return self._with(value, f"{self.name} {sign} {factor if isinstance(factor, Number) else 'an array'}",
                           {name: function(bar, numpy.abs(factor)) for name, bar in self._bars().items()})
 
@@ -121,43 +121,43 @@ class Quantity:
         if left.unit != right.unit:
             raise ValueError(f"{told}: the units differ")
         if isinstance(left, Series) and isinstance(right, Series) and not numpy.array_equal(left.time, right.time):
-            raise ValueError(f"{told}: their rows are of other times")
+            raise ValueError(f"{told}: the rows are of different times")
         whole = max(left, right, key=lambda one: (isinstance(one, Series), bool(one._bars())))
         value = function(left.value, right.value)
         if value.shape != numpy.shape(whole.value):
-            raise ValueError(f"{told}: shapes {numpy.shape(left.value)} and {numpy.shape(right.value)} do not fit")
+            raise ValueError(f"{told}: shapes {numpy.shape(left.value)} and {numpy.shape(right.value)} differ")
         bars = {name: sum(one._bars()[name] for one in (left, right) if name in one._bars()) for name in whole._bars()}
         return whole._with(value, f"{left.name} {sign} {right.name}", bars)
 
 
 def _range(value: numpy.ndarray) -> str:
     there = value[numpy.isfinite(value)]
-    return f"{there.min():.4g} to {there.max():.4g}" if there.size else "no number"
+    return f"{there.min():.4g} to {there.max():.4g}" if there.size else "no finite value"
 
 
 def nearest(times: numpy.ndarray, time: float, what: str, where: object) -> int:
-    """Place of the one of `times` nearest to `time` [s]. ValueError where there are none, or where `time` lies further
-    beyond the first or the last than they are apart there; `what` has these times, in `where`."""
+    """Index of the element of `times` nearest to `time` [s]. ValueError if there are none, or if `time` is more than
+    one interval outside; `what`, `where`: for the message."""
     if len(times) == 0:
         raise ValueError(f"{where}: has no {what}")
     before, behind = (times[1] - times[0], times[-1] - times[-2]) if len(times) > 1 else (1e-9, 1e-9)
     if not times[0] - before <= time <= times[-1] + behind:
-        raise ValueError(f"{where}: has no {what} at {time:g} s; they go from {times[0]:g} to {times[-1]:g} s")
+        raise ValueError(f"{where}: has no {what} at {time:g} s; times are {times[0]:g} to {times[-1]:g} s")
     return int(numpy.argmin(numpy.abs(times - time)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Series(Quantity):
-    """A quantity over time: `value` has the shape [rows], or [rows, columns]. `for row in series` goes through the rows
+    """A quantity over time: `value` has the shape [rows] or [rows, columns]. `for row in series` iterates over the rows
     of `value`."""
 
     time: numpy.ndarray = None  #: [rows] [s]
     step: numpy.ndarray = None  #: [rows] [-]
-    labels: tuple[str, ...] = ()  #: of the columns, e.g. ("x", "y", "z"); empty: none, or one a shoe
+    labels: tuple[str, ...] = ()  #: column names, e.g. ("x", "y", "z"); empty: none, or one column per shoe
 
     def _summary(self) -> str:
-        """Rows, and from when to when; of one number a row the first, last, least, mean and largest; of named columns
-        the range of each; of one number a shoe the range of all."""
+        """Number of rows and time range; for one column first, last, minimum, mean and maximum; for named columns the
+        range of each; for a value per shoe the range of all."""
         rows = counted(len(self.value), "row")
         if not len(self.value):
             return rows
@@ -169,7 +169,7 @@ class Series(Quantity):
             rows += f", first {self.value[0]:.4g}, last {self.value[-1]:.4g}"
         there = self.value[numpy.isfinite(self.value)]
         if not there.size:
-            return f"{rows}, no number in it"
+            return f"{rows}, no finite value"
         if not several:
             rows += f", min {there.min():.4g}, mean {there.mean():.4g}, max {there.max():.4g}"
         elif self.labels:
@@ -180,8 +180,8 @@ class Series(Quantity):
         return rows + (f", {unknown} of {numpy.size(self.value)} are NaN" if unknown else "")
 
     def __getitem__(self, label: str | int | slice) -> Series | numpy.ndarray:
-        """A column by its label: `run["vehicle.position"]["x"]`, as a series of the shape [rows]; KeyError names those
-        that there are. `series[10:20]` is a series of these rows, `series[-1]` the last row of `value`."""
+        """A column by its label: `run["vehicle.position"]["x"]`, as a series of shape [rows]; KeyError lists the
+        labels. `series[10:20]` is a series of these rows, `series[-1]` the last row of `value`."""
         if isinstance(label, slice):
             return self._taken(label)
         if isinstance(label, (int, numpy.integer)):
@@ -192,7 +192,7 @@ class Series(Quantity):
         return Series(column, self.unit, self.help, f"{self.name}.{label}", self.time, self.step)
 
     def between(self, start: float, end: float) -> Series:
-        """The rows of times in [start, end] [s]."""
+        """The rows with times in [start, end] [s]."""
         return self._taken((self.time >= start) & (self.time <= end))
 
     def _taken(self, rows: slice | numpy.ndarray) -> Series:
@@ -200,17 +200,17 @@ class Series(Quantity):
         return replace(self, **{name: field[rows] for name, field in by_row.items() if field is not None})
 
     def at(self, time: float) -> numpy.ndarray:
-        """The row nearest to `time` [s]: of the shape () or [columns]. ValueError where there are no rows, or none near
-        it: more than their interval before the first or behind the last."""
+        """The row nearest to `time` [s]: shape () or [columns]. ValueError if there are no rows, or if `time` is more
+        than one interval before the first or after the last."""
         return self.value[nearest(self.time, time, "rows", self.name)]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Estimate:
-    """A value with half of its interval, of 95 % where not said otherwise."""
+    """A value with half of its interval (95 % unless stated otherwise)."""
 
-    value: float  #: NaN where unknown
-    half_width: float  #: inf or NaN where unknown
+    value: float  #: NaN if unknown
+    half_width: float  #: inf or NaN if unknown
     unit: str
     name: str = ""
 
@@ -224,7 +224,7 @@ class Estimate:
 
     @property
     def inconclusive(self) -> bool:
-        """Whether the interval is wider than the value is large: then not even its sign is sure."""
+        """Whether the half width exceeds the value, so that its sign is not certain."""
         return abs(self.value) < self.half_width < float("inf")
 
     def __float__(self) -> float:
@@ -239,16 +239,16 @@ class Estimate:
 
 
 def estimate_text(value: float, half: float | None) -> tuple[str, str, int]:
-    """A value and half of its interval as texts: no more digits than the interval allows, two of its own; and a power of
-    ten of both, 0 for none. The second text is "?" for an interval that is unknown, "" for one below 1e-9 of the value,
-    where the runs agree but for rounding."""
+    """A value and half of its interval as texts, rounded to two digits of the half width; and a common power of ten, 0
+    for none. The second text is "?" for an unknown interval, "" for one below 1e-9 of the value (the runs agree except
+    for rounding)."""
     if half is None or not math.isfinite(half) or not math.isfinite(value):
         return f"{value:.4g}", "?" if math.isfinite(value) else "", 0
     if half <= 1e-9 * abs(value):
         return f"{value:.6g}", "", 0
     places = 1 - math.floor(math.log10(half))
     size = max(abs(value), half)
-    if size >= 1e6 or size < 1e-3 or places > 9:  # one power of ten for both
+    if size >= 1e6 or size < 1e-3 or places > 9:  # common power of ten
         power = math.floor(math.log10(size))
         places = max(0, places + power)
         value, half = value / 10.0**power, half / 10.0**power
@@ -258,17 +258,17 @@ def estimate_text(value: float, half: float | None) -> tuple[str, str, int]:
 
 
 def number(value: float | None) -> float:
-    """Of JSON, whose null stands for a number that is not known: NaN."""
+    """A number of JSON; NaN for null (unknown)."""
     return float("nan") if value is None else float(value)
 
 
 def counted(number: int, one: str, many: str = "") -> str:
-    """"1 seed", "3 seeds": a number with the word that it counts."""
+    """"1 seed", "3 seeds"."""
     return f"{number} {one if number == 1 else many or one + 's'}"
 
 
 def split_unit(heading: str) -> tuple[str, str]:
-    """("sinkage mean", "m") of "sinkage mean [m]", ("way at the end", "m") of "way [m] at the end"; the unit is ""
-    where the heading has none."""
+    """("sinkage mean", "m") from "sinkage mean [m]", ("way at the end", "m") from "way [m] at the end"; the unit is ""
+    if the heading has none."""
     found = re.fullmatch(r"(.*) \[([^\[\]]*)\]( .*)?", heading)
     return (found[1] + (found[3] or ""), found[2]) if found else (heading, "")

@@ -19,7 +19,7 @@ Three = Sequence[float]
 
 
 def _core() -> ModuleType:
-    """The extension module: installed beside this file, else in the checkout's build folder."""
+    """The extension module: installed next to this file, else in the checkout's build folder."""
     # OpenMP reads this when it is loaded: waiting threads spin briefly and then leave the cores to other programs.
     if "OMP_WAIT_POLICY" not in os.environ:
         os.environ.setdefault("GOMP_SPINCOUNT", "5000")
@@ -43,12 +43,12 @@ def _core() -> ModuleType:
 def _number(name: str, value: Any) -> float:
     if isinstance(value, (int, float, np.number)):
         return float(value)
-    raise TypeError(f"{name}: a number, not {value!r}")
+    raise TypeError(f"{name}: expected a number, not {value!r}")
 
 
 def _whole(name: str, value: Any) -> int:
     if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
-        raise TypeError(f"{name}: a whole number, not {value!r}")
+        raise TypeError(f"{name}: expected an integer, not {value!r}")
     if abs(int(value)) >= 2**62:
         raise errors.InputError(f"{name} = {value} is out of range", 2, [], "")
     return int(value)
@@ -61,7 +61,7 @@ def _pair(left: Any, right: Any) -> tuple[float, float]:
 
 def _three(name: str, value: Any) -> list[float]:
     if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != 3:
-        raise TypeError(f"{name}: three numbers (x, y, z), not {value!r}")
+        raise TypeError(f"{name}: expected three numbers (x, y, z), not {value!r}")
     return [_number(name, v) for v in value]
 
 
@@ -98,7 +98,7 @@ class Simulation:
                  device: str | None = None, threads: int | None = None, overwrite: bool = False, cache: bool = True,
                  settling: Callable[[float, float], Any] | None = None, checkpoint: str | os.PathLike | None = None):
         if settling is not None and not callable(settling):
-            raise TypeError(f"settling: a function of time and energy, not {settling!r}")
+            raise TypeError(f"settling: expected a function of time and energy ratio, not {settling!r}")
         if not isinstance(scene, Scene):
             scene = Scene.read(scene)
         place = scene.folder / f"{scene.name}.toml"
@@ -119,7 +119,7 @@ class Simulation:
         self.close()
 
     def __reduce__(self) -> Any:
-        raise TypeError("a simulation cannot be pickled; save() a checkpoint and make another from it")
+        raise TypeError("a simulation cannot be pickled; save() a checkpoint and create another simulation from it")
 
     def __repr__(self) -> str:
         if not self._run.open:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A soil as it was measured in virtual tests."""
+"""The results of virtual soil tests."""
 from __future__ import annotations
 
 import os
@@ -15,30 +15,30 @@ from .series import Brief, Estimate, number
 
 @dataclass(frozen=True, eq=False)
 class Constant:
-    """A constant of the soil, as measured and as published."""
+    """A soil constant, measured and published."""
 
     measured: Estimate
-    published: tuple[tuple[float, str], ...]  #: (value, source), in the unit of what was measured
-    span: tuple[float, float] | None  #: that the published values leave room for
+    published: tuple[tuple[float, str], ...]  #: (value, source), in the unit of the measured value
+    span: tuple[float, float] | None  #: range of the published values
     verdict: str  #: "inside", "outside"...; "-" where not measured
-    inconclusive: str = ""  #: why the measured value is not to be used; empty where it is sound
+    inconclusive: str = ""  #: why the measured value is inconclusive, else empty
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlateCurve(Brief):
-    """One plate pushed into one bed, lifted, and pushed again."""
+    """Pressure over sinkage of one plate on one bed: loading, unloading, reloading."""
 
     plate: str  #: "small" or "large"
     breadth: float  #: [m]
     seed: int
-    phase: numpy.ndarray  #: [points] 0 down, 3 held there, 1 up, 2 down again
+    phase: numpy.ndarray  #: [points] 0 loading, 3 holding, 1 unloading, 2 reloading
     sinkage: numpy.ndarray  #: [points] [m]
     pressure: numpy.ndarray  #: [points] [Pa]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ShearCurve(Brief):
-    """One layer sheared under one load."""
+    """Shear test of one layer under one load."""
 
     load: float  #: [Pa]
     seed: int
@@ -48,19 +48,19 @@ class ShearCurve(Brief):
 
 
 class SoilTest:
-    """The folder of `grouser soil`: `test["phi"]` is a Constant, of n, k_phi, k_c, c, phi, K."""
+    """The folder of `grouser soil`: `test["phi"]` is a Constant; constants are n, k_phi, k_c, c, phi, K."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
         file = self.folder / "soil.json"
-        self.json: dict = read_json(file, "a soil's test")  #: all of soil.json
+        self.json: dict = read_json(file, "a soil test")  #: contents of soil.json
         if "constants" not in self.json:
-            raise FileError(f"{file}: is no file of a soil's test")
-        with fields_of(file, "a soil's test"):
+            raise FileError(f"{file}: not the soil.json of a soil test")
+        with fields_of(file, "a soil test"):
             self.name: str = self.json["soil"]
             self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
             self.coarse: bool = self.json["care"] == "coarse"  #: measured with --quick
-            #: Names of tests that ended unsoundly and were done again with shorter steps.
+            #: Names of tests repeated with shorter time steps after an unsound result.
             self.shorter_steps: list[str] = list(self.json.get("tests_with_shorter_steps", []))
             self.constants: dict[str, Constant] = {
                 name: Constant(Estimate(number(one["value"]), number(one["half_width"]), one["unit"], name),
@@ -73,20 +73,20 @@ class SoilTest:
         return f"<grouser.SoilTest {self.folder}: {', '.join(map(str, (c.measured for c in self.constants.values())))}>"
 
     def __getitem__(self, name: str) -> Constant:
-        """KeyError names the constants that there are."""
+        """KeyError lists the constants."""
         if name not in self.constants:
-            raise KeyError(f"{self.folder}: there is no constant {name!r}; there are {', '.join(self.constants)}")
+            raise KeyError(f"{self.folder}: no constant {name!r}; constants are {', '.join(self.constants)}")
         return self.constants[name]
 
     def plates(self) -> list[PlateCurve]:
-        """Pressure over sinkage, a curve a bed. FileError where there are none."""
+        """Pressure over sinkage, one curve per bed. FileError if there are none."""
         groups = _grouped(read_csv(self.folder / "plates.csv"), ("plate", "breadth [m]", "seed"))
         return [PlateCurve(plate, float(breadth), int(seed), _column(rows, "phase").astype(int),
                            _column(rows, "sinkage [m]"), _column(rows, "pressure [Pa]"))
                 for (plate, breadth, seed), rows in groups.items()]
 
     def shear(self) -> list[ShearCurve]:
-        """Stress over displacement, a curve a sample. FileError where there are none."""
+        """Stress over displacement, one curve per sample. FileError if there are none."""
         groups = _grouped(read_csv(self.folder / "shear.csv"), ("load [Pa]", "seed"))
         return [ShearCurve(float(load), int(seed), _column(rows, "displacement [m]"),
                            _column(rows, "shear stress [Pa]"), _column(rows, "normal stress [Pa]"))
@@ -105,5 +105,5 @@ def _column(rows: list[dict[str, str]], name: str) -> numpy.ndarray:
 
 
 def open_soil(folder: str | os.PathLike) -> SoilTest:
-    """Opens the folder of `grouser soil`. FileError where it has no soil.json."""
+    """Opens the folder of `grouser soil`. FileError if it has no soil.json."""
     return SoilTest(folder)

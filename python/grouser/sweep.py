@@ -14,7 +14,7 @@ from .files import fields_of, read_csv
 from .run import Run
 from .series import Estimate, Quantity, counted, split_unit
 
-#: How the doubt of a run begins that names the figures which it is of; and the cell of one that the message tells.
+#: Prefix of a reason that lists inconclusive figures; cell text if the reason is in the column "message".
 _TURNED, _SEE_MESSAGE = "direction of motion changes: ", "see message"
 
 #: Columns of summary.csv between the swept keys and the figures.
@@ -23,10 +23,10 @@ _BEHIND = ("state hash", "commit")
 
 
 def value_of(text: str) -> float:
-    """The number of a cell; NaN where it is empty or is no number."""
+    """The number in a cell; NaN if it is empty or not a number."""
     try:
         return float(text)
-    except (TypeError, ValueError):  # None where a row is cut short
+    except (TypeError, ValueError):  # None in a truncated row
         return float("nan")
 
 
@@ -34,17 +34,17 @@ def value_of(text: str) -> float:
 class SweepRun:
     """One run of a sweep."""
 
-    name: str  #: of its folder
+    name: str  #: name of the folder
     keys: dict[str, str]  #: {swept key: its value as given}
     status: str  #: "finished", "incomplete", "failed"...
-    message: str  #: why it did not end, or is incomplete
-    inconclusive: str  #: why its figures are, as over fewer than two teeth; "" where they are sound
-    figures: dict[str, float]  #: {"sinkage mean": ...}; NaN where it has none; units stand in Sweep.units
+    message: str  #: why it failed or is incomplete
+    inconclusive: str  #: why its figures are inconclusive (e.g. fewer than two teeth), else ""
+    figures: dict[str, float]  #: {"sinkage mean": ...}; NaN if missing; units are in Sweep.units
     state_hash: str
     folder: Path
 
     def doubt(self, figure: str) -> str:
-        """Why this figure of the run is inconclusive; "" where it is sound."""
+        """Why this figure of the run is inconclusive, else ""."""
         named = self.inconclusive.removeprefix(_TURNED)
         return "" if named != self.inconclusive and figure not in named.split(", ") else self.inconclusive
 
@@ -55,20 +55,20 @@ class SweepRun:
 
 @dataclass(frozen=True, eq=False)
 class SweepMean:
-    """Of a figure over the seeds of one combination."""
+    """Mean of a figure over the seeds of one combination."""
 
     keys: dict[str, str]  #: {swept key: its value as given}, without the seed
     seeds: int
     mean: Estimate
-    difference: Estimate  #: to the first combination, seed by seed, in the figure's unit
-    inconclusive: str = ""  #: why the mean is, as over fewer than two teeth; "" where it is sound
+    difference: Estimate  #: paired difference to the first combination, in the figure's unit
+    inconclusive: str = ""  #: why the mean is inconclusive (e.g. fewer than two teeth), else ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class _OfRuns(Quantity):
     """A figure of all runs."""
 
-    doubtful: tuple[str, ...] = ()  #: names of the runs of which it is inconclusive
+    doubtful: tuple[str, ...] = ()  #: names of the runs with an inconclusive value
 
     def _summary(self) -> str:
         return super()._summary() + (f", inconclusive: {', '.join(self.doubtful)}" if self.doubtful else "")
@@ -76,22 +76,22 @@ class _OfRuns(Quantity):
 
 class _Means(dict[str, list[SweepMean]]):
     def __missing__(self, figure: str) -> list[SweepMean]:
-        raise KeyError(f"there are no means of {figure!r}; there are {', '.join(self) or 'none, for no seeds were run'}")
+        raise KeyError(f"no means of {figure!r}; means are {', '.join(self) or 'none, since no seeds were run'}")
 
 
 class Sweep:
-    """A sweep's folder. `sweep["sinkage mean"]` has that figure of all runs, in the order of `sweep.runs`."""
+    """The folder of a sweep. `sweep["sinkage mean"]`: that figure of all runs, in the order of `sweep.runs`."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
         rows = read_csv(self.folder / "summary.csv")
         columns = list(rows[0]) if rows else []
         if not rows and (self.folder / "summary.csv").read_text(encoding="utf-8").startswith("run,"):
-            raise FileError(f"{self.folder / 'summary.csv'}: holds no run")
+            raise FileError(f"{self.folder / 'summary.csv'}: holds no runs")
         if not rows or columns[0] != "run" or any(name not in columns for name in _ABOUT):
-            raise FileError(f"{self.folder / 'summary.csv'}: is no summary of a sweep")
+            raise FileError(f"{self.folder / 'summary.csv'}: not the summary of a sweep")
         first = columns.index("status")
-        self.keys: list[str] = columns[1:first]  #: the swept ones
+        self.keys: list[str] = columns[1:first]  #: swept keys
         figures = [c for c in columns[first:] if c not in (*_ABOUT, "inconclusive", *_BEHIND)]
         with fields_of(self.folder / "summary.csv", "the summary of a sweep"):
             self.units: dict[str, str] = dict(map(split_unit, figures))  #: {figure: unit}
@@ -109,24 +109,25 @@ class Sweep:
         return f"<grouser.Sweep {told}>"
 
     def __getitem__(self, figure: str) -> Quantity:
-        """[runs] of a figure, NaN where a run has none; inconclusive ones too, whose runs its text names. KeyError names the figures that there are."""
+        """[runs] values of a figure, NaN if missing, including inconclusive ones (listed in `doubtful`). KeyError lists
+        the figures."""
         if figure not in self.units:
-            raise KeyError(f"{self.folder}: there is no figure {figure!r}; there are {', '.join(self.units)}")
+            raise KeyError(f"{self.folder}: no figure {figure!r}; figures are {', '.join(self.units)}")
         return _OfRuns(numpy.array([run.figures[figure] for run in self.runs]), self.units[figure], "", figure,
                        tuple(run.name for run in self.runs if run.doubt(figure)))
 
     def values(self, key: str) -> numpy.ndarray:
-        """[runs] of a swept key: numbers where all are numbers, else texts. KeyError for one that was not swept."""
+        """[runs] values of a swept key: numbers if all are numeric, else strings. KeyError for other keys."""
         if key not in self.keys:
-            raise KeyError(f"{self.folder}: {key!r} was not swept; swept were {', '.join(self.keys)}")
+            raise KeyError(f"{self.folder}: {key!r} was not swept; swept keys are {', '.join(self.keys)}")
         texts = [run.keys[key] for run in self.runs]
         numbers = numpy.array([value_of(text) for text in texts])
         return numpy.array(texts) if numpy.isnan(numbers).any() else numbers
 
     @cached_property
     def means(self) -> dict[str, list[SweepMean]]:
-        """{figure: [a mean for each combination]} with 95 % intervals over seeds; {} for a sweep without seeds. Figures
-        are named as in `units`: those of summary.csv, without their units. KeyError names them."""
+        """{figure: [mean of each combination]} with 95 % intervals over seeds; {} for a sweep without seeds. Figures
+        are named as in `units`: those of summary.csv without their units. KeyError lists them."""
         file = self.folder / "intervals.csv"
         means = _Means()
         if not file.is_file():
@@ -144,5 +145,5 @@ class Sweep:
 
 
 def open_sweep(folder: str | os.PathLike) -> Sweep:
-    """Opens the folder of a sweep. FileError where it has no summary."""
+    """Opens the folder of a sweep. FileError if it has no summary."""
     return Sweep(folder)

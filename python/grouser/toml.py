@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes TOML; Python reads it (tomllib), but does not write it."""
+"""Writes TOML, which Python's tomllib can only read."""
 from __future__ import annotations
 
 import math
@@ -12,7 +12,7 @@ _ESCAPES = {'"': '\\"', "\\": "\\\\", "\b": "\\b", "\t": "\\t", "\n": "\\n", "\f
 
 
 def key_text(key: str) -> str:
-    """A key as TOML has it: quoted where it has to be."""
+    """A TOML key, quoted if necessary."""
     return key if _BARE.fullmatch(key) else _string(key)
 
 
@@ -21,7 +21,7 @@ def _string(text: str) -> str:
 
 
 def value_text(value: object) -> str:
-    """A value as TOML has it. Numbers keep all their digits; TypeError for what TOML does not know."""
+    """A TOML value. Numbers keep full precision; TypeError for other types."""
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
     if isinstance(value, bool):
@@ -36,7 +36,7 @@ def value_text(value: object) -> str:
         return "[" + ", ".join(map(value_text, value)) + "]"
     if isinstance(value, dict):
         return "{" + ", ".join(f"{key_text(k)} = {value_text(v)}" for k, v in value.items()) + "}"
-    raise TypeError(f"{value!r} is no number, text, truth value, list or table")
+    raise TypeError(f"{value!r} is not a number, string, boolean, list or dict")
 
 
 def _is_list_of_tables(value: object) -> bool:
@@ -56,7 +56,7 @@ def _write(table: dict, path: str, lines: list[str]) -> None:
     for key, value in inner.items():
         name = f"{path}.{key_text(key)}" if path else key_text(key)
         if isinstance(value, dict):
-            # A table of tables alone needs no header of its own: [material.soil], not [material] before it.
+            # A table that contains only tables needs no header: [material.soil] without [material].
             if not value or any(not isinstance(v, dict) for v in value.values()):
                 lines += ["", f"[{name}]"]
             _write(value, name, lines)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The simulation in process for Python: grouser._core, on the public C++ interface alone. python/grouser/simulation.py
-// is what users see of it.
+// In-process simulation for Python: grouser._core, based on the public C++ interface only. The user interface is
+// python/grouser/simulation.py.
 #include <grouser/grouser.hpp>
 
 #include <pybind11/functional.h>
@@ -20,9 +20,9 @@ namespace {
 
 using grouser::Vec3;
 
-static_assert(sizeof(Vec3) == 3 * sizeof(double), "an array of places is one of numbers");
+static_assert(sizeof(Vec3) == 3 * sizeof(double), "an array of positions is an array of doubles");
 
-/// Raises the package's own exception of that name and exit code, for an error of the library.
+/// Raises the package's exception of this name and exit code for an error of the library.
 void raise(const char* name, int code, const char* message) {
   const py::object kind = py::module_::import("grouser.errors").attr(name);
   PyErr_SetObject(kind.ptr(), kind(message, code, py::list(), "").ptr());
@@ -45,7 +45,7 @@ py::array vector(const Vec3& v) { return copied(std::vector<double>{v.x, v.y, v.
 
 Vec3 threeOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-/// A simulation that one thread uses at a time.
+/// A simulation used by one thread at a time.
 class Simulation {
 public:
   Simulation(const std::string& scene, const std::filesystem::path& place, grouser::Options options,
@@ -69,7 +69,7 @@ public:
     if (interrupted) throw py::error_already_set();
   }
 
-  /// A view: the array is filled anew after a step, unless somebody still holds it; then it keeps what it has.
+  /// A view: refilled after a step, unless it is still referenced; then it keeps its values.
   py::array positions() {
     grouser::Simulation& run = used();
     if (positions_ && filledAt_ == run.steps()) return *positions_;
@@ -109,7 +109,7 @@ public:
 
   grouser::Simulation& used() {
     if (!run_) throw grouser::InputError("the simulation is closed");
-    if (busy_) throw grouser::InputError("another thread is using this simulation; one at a time");
+    if (busy_) throw grouser::InputError("another thread is using this simulation; use it from one thread at a time");
     return *run_;
   }
   void close() { used(), run_.reset(), positions_.reset(); }

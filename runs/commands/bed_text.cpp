@@ -21,8 +21,8 @@ namespace {
 constexpr double kDeep = 1.6, kWide = 9.6; // of the pad's width
 constexpr double kGrainsInPad = 20;
 
-/// Mean of the grains that a pad presses [m]: of a bed that is coarser below those at its surface, where they are as
-/// deep as a plate asks for that is to sink as in a bed of them alone (docs/soils.md#virtual-soil-tests).
+/// Mean diameter of the grains under a pad [m]; in a graded bed that of the surface layer, if it is deep enough for a
+/// plate to sink as in a uniform bed (docs/soils.md#virtual-soil-tests).
 double pressedDiameter(const coupling::Simulation& simulation, double padWidth) {
   constexpr double kFine = 0.1; // of the pad's width
   const std::optional<coupling::GrainsSetup>& grains = simulation.setup().ground.grains;
@@ -56,41 +56,39 @@ std::string bedText(const coupling::Simulation& simulation) {
   const coupling::SettleReport& settled = simulation.settled();
   std::string text;
   if (settled.steps > 0)
-    text = fmt::format("settled   in {:.2f} s simulated; kinetic energy a grain {:.2g} of m g radius{}\n", settled.time,
-                       settled.agitation,
+    text = fmt::format("settled   in {:.2f} s simulated; kinetic energy ratio {:.2g} (per grain, over m g radius){}\n",
+                       settled.time, settled.agitation,
                        settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
   if (const std::optional<terrain::BedStructure>& bed = simulation.ground().structure; bed && bed->grains > 0)
     text += fmt::format(
-        "packing   porosity {:.4f} +- {:.4f}, {:.2f} contacts a grain, {:.1f} % rattlers, {:.1f} % in crystals\n"
-        "surface   {:.4f} m in the mean, {:.4f} to {:.4f} m; {:.4f} m above the floor, {:.1f} mean diameters\n",
+        "packing   porosity {:.4f} +- {:.4f}, {:.2f} contacts per grain, {:.1f} % rattlers, {:.1f} % crystalline\n"
+        "surface   mean height {:.4f} m, range {:.4f} to {:.4f} m; bed thickness {:.4f} m, {:.1f} mean diameters\n",
         bed->porosity, bed->porosityError, bed->coordination, 100 * bed->rattlers, 100 * bed->order, bed->settledHeight,
         bed->lowest, bed->highest, bed->thickness, bed->thickness / bed->meanDiameter);
-  if (settled.highest != 0) text += fmt::format("          highest grain up to {:.6g} m\n", settled.highest);
+  if (settled.highest != 0) text += fmt::format("          top of the highest grain at {:.6g} m\n", settled.highest);
   return text;
 }
 
 std::vector<std::string> bedNotes(const TrackOnBed& t) {
   std::vector<std::string> notes;
   const double deep = kDeep * t.padWidth, wide = t.gauge + kWide * t.padWidth, fine = t.padWidth / kGrainsInPad;
-  if (t.thickness + 0.5 * t.meanDiameter < deep) // which beds come to lie lower than asked for, at most
-    notes.push_back(
-        fmt::format("the bed is {:.2f} m deep, and tracks {:.2f} m wide work on it {:.2f} m deep: sinkage "
-                    "and traction depend on the floor; terrain.depth = {:.2g}, and as much more as the tracks "
-                    "sink, frees them of it",
-                    t.thickness, t.padWidth, deep, deep));
+  if (t.thickness + 0.5 * t.meanDiameter < deep) // beds settle to at most this much below terrain.depth
+    notes.push_back(fmt::format(
+        "the bed is {:.2f} m deep, but tracks {:.2f} m wide load it to a depth of {:.2f} m: sinkage and traction "
+        "depend on the floor; use terrain.depth >= {:.2g} m plus sinkage to remove the floor effect",
+        t.thickness, t.padWidth, deep, deep));
   if (t.walls && t.width < wide)
-    notes.push_back(
-        fmt::format("the bed is {:.2f} m wide, and both tracks work on it {:.2f} m wide: its walls hold the "
-                    "soil; a terrain.size of {:.2g} m across frees it of them",
-                    t.width, wide, wide));
+    notes.push_back(fmt::format("the bed is {:.2f} m wide, but both tracks load a width of {:.2f} m: the walls confine "
+                                "the soil; use a width in terrain.size >= {:.2g} m to remove the wall effect",
+                                t.width, wide, wide));
   if (t.pressedDiameter > fine)
-    notes.push_back(fmt::format("a pad is {:.1f} mean grains wide, and {:g} are wanted: so coarse a soil carries more; "
-                                "terrain.grain_radius = {:.2g}, or a terrain.sieve_size of such grains, has them",
-                                t.padWidth / t.pressedDiameter, kGrainsInPad, 0.5 * fine));
+    notes.push_back(
+        fmt::format("a pad is {:.1f} mean grain diameters wide, fewer than {:g}: coarse grains overestimate bearing "
+                    "capacity; use terrain.grain_radius <= {:.2g} m, or a finer terrain.sieve_size",
+                    t.padWidth / t.pressedDiameter, kGrainsInPad, 0.5 * fine));
   if (!t.roughFloor)
-    notes.emplace_back(
-        "the floor is smooth: grains roll on it as on the balls of a bearing; terrain.floor_grains = true "
-        "makes it rough");
+    notes.emplace_back("the floor is smooth, so grains roll on it without resistance; set terrain.floor_grains = true "
+                       "for a rough floor");
   return notes;
 }
 
@@ -121,18 +119,16 @@ double leanOf(const base::Vec3d& gravity) {
 }
 
 std::string porosityWarning(double wanted, const terrain::BedStructure& bed, const base::Vec3d& gravity) {
-  constexpr double kOff = 0.01, kErrors = 3; // five times what beds are prepared to [-]; standard errors
+  constexpr double kOff = 0.01, kErrors = 3; // five times the tolerance of the preparation [-]; standard errors
   if (bed.grains == 0 || std::fabs(bed.porosity - wanted) <= std::max(kOff, kErrors * bed.porosityError)) return "";
   const double lean = leanOf(gravity);
-  return fmt::format(
-      "the settled bed has a porosity of {:.3f}, terrain.porosity asks for {:g}: {}", bed.porosity, wanted,
-      lean > 0
-          ? fmt::format("it was prepared under gravity straight down, and moved when run.gravity began to act, which "
-                        "leans by {:.1f} degrees; raise the material's friction or rolling_friction, lean less, or "
-                        "report the porosity measured",
-                        lean)
-          : "so small or shallow a bed packs otherwise than the wide one on which its preparation is tried; enlarge "
-            "terrain.size or depth, or report the porosity measured");
+  return fmt::format("the settled bed has a porosity of {:.3f}, but terrain.porosity = {:g}: {}", bed.porosity, wanted,
+                     lean > 0 ? fmt::format("it was prepared under vertical gravity and moved when run.gravity, tilted "
+                                            "by {:.1f} degrees, began to act; raise the material's friction or "
+                                            "rolling_friction, reduce the tilt, or report the measured porosity",
+                                            lean)
+                              : "a small or shallow bed packs differently from the wide bed that its preparation is "
+                                "tuned on; enlarge terrain.size or depth, or report the measured porosity");
 }
 
 std::string porosityWarning(const coupling::Simulation& simulation) {

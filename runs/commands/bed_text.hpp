@@ -9,25 +9,25 @@
 
 namespace grouser::commands {
 
-/// How many grains there are, how large, and how many of them never move: "1000 of radius 0.02 to 0.03 m, 50 fixed".
+/// Number of grains, their radii, and the number of fixed ones: "1000 of radius 0.02 to 0.03 m, 50 fixed".
 std::string grainsText(const terrain::Grains& grains);
 
-/// Lines on how the bed came to rest and what it is made of; empty without one.
+/// Lines on settling, packing and surface of the bed; empty without a bed.
 std::string bedText(const coupling::Simulation& simulation);
 
-/// A vehicle and the bed under it.
+/// Dimensions of a vehicle and of the bed under it.
 struct TrackOnBed {
   double padWidth;     ///< b [m]
   double gauge;        ///< between the middles of the tracks [m]
   double thickness;    ///< of the bed [m]
-  double width;        ///< across the vehicle's way [m]
+  double width;        ///< across the driving direction [m]
   double meanDiameter; ///< of all grains [m]
-  bool walls;          ///< at the sides, and not periodic boundaries
+  bool walls;          ///< at the sides, instead of periodic boundaries
   bool roughFloor;
-  double pressedDiameter; ///< mean of the grains that pads press [m]
+  double pressedDiameter; ///< mean diameter of the grains under the pads [m]
 };
 
-/// What so small a bed, or one of so few grains, cannot tell: a note for each rule that it breaks. The mechanism below
+/// Notes on a bed that is too small or too coarse for its vehicle, one for each rule. The failure mechanism below
 /// a strip of width b reaches 1.6 b deep and 9.6 b wide where the angle of friction is 30 degrees (Prandtl); fewer than
 /// 20 grains in the width of a plate make it sink less (docs/beds.md).
 std::vector<std::string> bedNotes(const TrackOnBed& track);
@@ -37,10 +37,10 @@ std::vector<std::string> bedNotes(const scene::Scene& scene);
 /// The notes of a run with a vehicle on a bed; empty without.
 std::vector<std::string> bedNotes(const coupling::Simulation& simulation);
 
-/// Angle between gravity and straight down [deg]; 0 without gravity.
+/// Angle between gravity and the vertical [deg]; 0 without gravity.
 double leanOf(const base::Vec3d& gravity);
 
-/// Where a settled bed has another porosity than the one that terrain.porosity asks for, and why; else empty.
+/// Warning with cause if the porosity of a settled bed differs from terrain.porosity; else empty.
 std::string porosityWarning(double wanted, const terrain::BedStructure& bed, const base::Vec3d& gravity);
 /// The same for the bed of a run; empty without a requested porosity.
 std::string porosityWarning(const coupling::Simulation& simulation);

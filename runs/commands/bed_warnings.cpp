@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLeastCover = 0.5; // smallest share of the floor that loose grains cover without a warning [-]
 
-/// With what the soil of the scene's bed says of packings.
+/// Material properties of the scene's bed that bound its porosity.
 BedQuality qualityOf(const scene::Scene& scene) {
   const scene::Material& m = scene.material(scene.terrain->material);
   BedQuality bed;

@@ -8,18 +8,18 @@
 #include <string>
 #include <vector>
 
-/// Beds that are none: too loose for a packing of spheres, or hardly anything but their floor.
+/// Warnings about beds that are too loose for a packing of spheres, or thinner than one layer.
 namespace grouser::commands {
 
 struct BedQuality {
   std::int64_t grains = 0, fixed = 0; ///< grains of the bed, and the fixed ones among them
-  std::int64_t measured = 0;          ///< grains that tell the porosity; 0: it is not known
+  std::int64_t measured = 0;          ///< grains in the porosity measurement; 0: porosity unknown
   double porosity = 0, porosityError = 0;
   bool rollingFriction = false, cohesion = false;
   double cover = 1; ///< share of the floor that the loose grains cover side by side [-]
 };
 
-/// A line for each of terrain/packing_limits.hpp that a bed is beyond.
+/// One warning for each limit of terrain/packing_limits.hpp that the bed exceeds.
 std::vector<std::string> bedWarnings(const BedQuality& bed);
 
 /// Warnings about the settled bed of a run; empty without a bed.

@@ -15,47 +15,48 @@ namespace grouser::commands {
 
 namespace {
 
-/// Of the benches of a bed and of a scene's step.
+/// Options common to the benchmarks of beds and steps.
 void addCommon(CLI::App& sub, bench::BenchCommand& c) {
   sub.add_option("--device", c.device, "auto, cpu or cuda");
   sub.add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
-  sub.add_option("--json", c.json, "write the figures to this file")->check(support::writableFile("--json"));
+  sub.add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));
 }
 
-/// What the bed is made of.
+/// Options of the grains of the bed.
 void addGrains(CLI::App& bed, bench::BedBench& b) {
   bed.add_option("--grains", b.grains, "number of grains")
       ->check(support::wholeNumber(1, 1'000'000'000))
       ->capture_default_str();
-  bed.add_option("--radius", b.radius, "[m]")->check(support::positive("a length in metres"))->capture_default_str();
-  bed.add_option("--jitter", b.jitter, "of the lattice, as a share of its free gap [-]")
+  bed.add_option("--radius", b.radius, "grain radius [m]")
+      ->check(support::positive("a length in metres"))
+      ->capture_default_str();
+  bed.add_option("--jitter", b.jitter, "random displacement from the lattice, as a fraction of its free gap [-]")
       ->check(support::between(0.0, 1.0))
       ->capture_default_str();
   bed.add_option("--friction", b.friction, "Coulomb coefficient [-]")
       ->check(support::notNegative("a number"))
       ->capture_default_str();
-  bed.add_option("--restitution", b.restitution, "[-], above 0")
+  bed.add_option("--restitution", b.restitution, "coefficient of restitution [-]")
       ->check(support::between(1e-3, 1.0))
       ->capture_default_str();
-  bed.add_option("--stiffness", b.stiffness, "[N/m]")
+  bed.add_option("--stiffness", b.stiffness, "contact stiffness [N/m]")
       ->check(support::positive("a stiffness in N/m"))
       ->capture_default_str();
   CLI::Option* const spread =
       bed.add_option("--radii-spread", b.radiiSpread,
-                     "radii uniform within this share of their mean, of the same mean volume as --radius [-]")
+                     "half-width of uniformly distributed radii over their mean; same mean volume as with --radius [-]")
           ->check(support::between(0.0, 0.8))
           ->capture_default_str();
-  bed.add_flag("--hertz", b.hertz, "Hertz' law, as stiff as --stiffness at an overlap of 1e-3 radii");
+  bed.add_flag("--hertz", b.hertz, "Hertz law, with stiffness --stiffness at an overlap of 1e-3 radii");
   bed.add_option("--rolling", b.rolling, "rolling friction [-]")
       ->check(support::notNegative("a number"))
       ->capture_default_str();
   CLI::Option* const floor =
       bed.add_flag("--fixed-floor", b.fixedFloor, "a layer of fixed grains in place of the plane below");
-  bed.add_flag("--periodic", b.periodic, "along x and y, in place of walls");
-  bed.add_option(
-         "--start", b.start,
-         "grains from this file in place of the lattice, all of --radius and as many as --grains: lines of x, y, "
-         "z, r [m], vx, vy, vz [m/s], wx, wy, wz [rad/s], as --save writes them")
+  bed.add_flag("--periodic", b.periodic, "periodic boundaries along x and y, in place of walls");
+  bed.add_option("--start", b.start,
+                 "file of initial grains in place of the lattice, --grains lines of x, y, z, r [m], vx, vy, vz [m/s], "
+                 "wx, wy, wz [rad/s], as written by --save; all radii equal --radius")
       ->excludes(floor, spread);
   bed.add_option("--save", b.save, "write the grains to this file after the last batch")
       ->check(support::writableFile("--save"));
@@ -65,27 +66,27 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
   const auto command = std::make_shared<bench::BenchCommand>();
   command->ranks = &invocation.ranks;
   bench::BedBench& b = command->bed;
-  CLI::App* bed =
-      benches.add_subcommand("bed", "Grains alone: five settled layers in a box, the bed that figures are compared on");
+  CLI::App* bed = benches.add_subcommand(
+      "bed", "Grains only: five settled layers in a box, the reference bed of speed comparisons");
   addGrains(*bed, b);
-  bed->add_option("--lanes", b.lanes, "contacts that a CPU works on side by side, at most: 16, 8, 4 or 1")
+  bed->add_option("--lanes", b.lanes, "maximum SIMD width of the CPU, in contacts: 16, 8, 4 or 1")
       ->check(CLI::IsMember({16, 8, 4, 1}))
       ->capture_default_str();
-  bed->add_option("--skin", b.skin, "of the neighbour lists, in radii [-]")
+  bed->add_option("--skin", b.skin, "skin of the neighbour lists, in grain radii [-]")
       ->check(support::between(1e-3, 4.0))
       ->capture_default_str();
-  bed->add_option("--time-step", b.timeStep, "[s]")
+  bed->add_option("--time-step", b.timeStep, "time step [s]")
       ->check(support::positive("a time in seconds"))
       ->capture_default_str();
   bed->add_option("--settle", b.settleTime, "simulated time before timing [s]")
       ->check(support::notNegative("a time in seconds"))
       ->capture_default_str();
-  bed->add_option("--steps", b.steps, "of one batch; default: about a second's")->check(support::wholeNumber(1));
+  bed->add_option("--steps", b.steps, "steps per batch; default: about one second of run time")
+      ->check(support::wholeNumber(1));
   bed->add_option("--batches", b.batches, "timed batches")->check(support::wholeNumber(1, 1000))->capture_default_str();
-  support::addChoice(
-      *bed, "--peer-memory", b.peerMemory,
-      "several ranks: GPUs of one machine read each other's memory where they can, never, or not without");
-  bed->add_flag("--ledger", b.ledger, "keep the books of energies, as runs do");
+  support::addChoice(*bed, "--peer-memory", b.peerMemory,
+                     "direct memory access between the GPUs of one machine: if possible, never, or required");
+  bed->add_flag("--ledger", b.ledger, "keep an energy ledger, as runs do");
   bed->add_flag("--hash", b.hash, "print the hash of the final state");
   addCommon(*bed, *command);
   bed->callback([command, words = invocation.words] {
@@ -94,17 +95,17 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
   });
 }
 
-/// The time of --after, which may stand after "drive+".
+/// Time in the value of --after, without "drive+".
 std::string timeIn(const std::string& word) {
   if (word == "drive") return "0";
   return word.rfind("drive+", 0) == 0 ? word.substr(6) : word;
 }
 
-/// What is wrong with the word of --after; "" where nothing is.
+/// Error message for a value of --after; "" if it is valid.
 std::string startFault(const std::string& word) {
   std::string time = timeIn(word);
   if (support::notNegative("a time in seconds")(time).empty()) return "";
-  return word + " is neither a time in seconds of at least 0, nor drive, nor such as drive+0.5";
+  return word + " is not a time in seconds of at least 0, drive, or drive+TIME, e.g. drive+0.5";
 }
 
 void setStart(bench::StepBenchOptions& o, const std::string& word) {
@@ -116,17 +117,17 @@ void addStep(CLI::App& benches, const Invocation& invocation) {
   const auto command = std::make_shared<bench::BenchCommand>();
   bench::BenchCommand& c = *command;
   c.ranks = &invocation.ranks;
-  CLI::App* step = benches.add_subcommand("step", "Where each microsecond of a scene's step goes");
+  CLI::App* step = benches.add_subcommand("step", "Wall time of each part of a scene's time step");
   step->add_option("scene", c.scene, "scene file")->required();
   step->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
-  step->add_option("--steps", c.step.steps, "of one batch")->check(support::wholeNumber(1))->capture_default_str();
+  step->add_option("--steps", c.step.steps, "steps per batch")->check(support::wholeNumber(1))->capture_default_str();
   step->add_option("--batches", c.step.batches, "timed batches")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   step->add_option_function<std::string>(
           "--after", [command](const std::string& word) { setStart(command->step, word); },
-          "simulated time before timing [s]; drive, or drive+T: T seconds after the vehicle drove off; default: until "
-          "the drive is up to speed")
+          "simulated time before timing [s]; drive or drive+T: until T seconds after the start of the drive; default: "
+          "until the drive has reached its speed")
       ->check(CLI::Validator([](const std::string& word) { return startFault(word); }, "TIME|drive|drive+TIME"));
   addCommon(*step, c);
   step->callback([command, words = invocation.words] {
@@ -141,26 +142,28 @@ void addContacts(CLI::App& benches, const Invocation& invocation) {
   bench::ContactsBench& c = *command;
   c.ranks = &invocation.ranks;
   CLI::App* contacts = benches.add_subcommand(
-      "contacts", "Contact detection alone, over the number of contacts, beside sequential Bullet");
+      "contacts", "Contact detection only, over the number of contacts, compared with sequential Bullet");
   contacts
-      ->add_option("--contacts", c.contacts,
-                   "about so many, each pair once: a list such as 1e5,1e6,1e7; default: 3e4 to 1e7 on the CPU, 1e6 to "
-                   "6e9 on a GPU")
+      ->add_option(
+          "--contacts", c.contacts,
+          "approximate numbers of contacts, each pair once, e.g. 1e5,1e6,1e7; default: 3e4 to 1e7 on the CPU, 1e6 to "
+          "6e9 on a GPU")
       ->delimiter(',')
       ->check(support::between(1.0, 6.4e9));
   contacts->add_flag("--count-only", c.countOnly, "count the pairs, do not store them");
   contacts->add_option("--at-a-time", c.atATime, "spheres sorted at a time; default: all on the CPU, 2.5e8 on a GPU")
       ->check(support::wholeNumber(1));
-  contacts->add_option("--repeats", c.repeats, "of each search; the median is reported")
+  contacts->add_option("--repeats", c.repeats, "repetitions of each search; the median is reported")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  contacts->add_option("--bullet", c.bulletSpheres, "compare with Bullet up to so many spheres; 0: not at all")
+  contacts
+      ->add_option("--bullet", c.bulletSpheres, "largest number of spheres to compare with Bullet; 0: no comparison")
       ->check(support::wholeNumber(0, 10'000'000))
       ->capture_default_str();
   contacts->add_option("--device", c.device, "auto, cpu or cuda")->capture_default_str();
   contacts->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
-  contacts->add_option("--json", c.json, "write the figures to this file")->check(support::writableFile("--json"));
-  contacts->add_option("--plot", c.plot, "draw them into this PNG file");
+  contacts->add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));
+  contacts->add_option("--plot", c.plot, "plot the results to this PNG file");
   contacts->callback([command, words = invocation.words] {
     requireSameWords("bench contacts", words, command->ranks->comm());
     bench::benchContactsCommand(*command);
@@ -172,24 +175,26 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
   bench::MultibodyBench& c = *command;
   c.comm = comm;
   CLI::App* multibody = benches.add_subcommand(
-      "multibody", "The multibody solver alone, on one core: the vehicle's graph, and rings of 46, 92 and 184 shoes");
-  multibody->add_option("--vehicle", c.vehicle, "spec file; default: the light tracked vehicle");
-  multibody->add_option("--speed", c.speed, "of the sprockets [rad/s]")
+      "multibody", "Multibody solver only, on one core: the vehicle, and rings of 46, 92 and 184 shoes");
+  multibody->add_option("--vehicle", c.vehicle, "vehicle file; default: the light tracked vehicle");
+  multibody->add_option("--speed", c.speed, "sprocket speed [rad/s]")
       ->check(support::between(-20.0, 20.0))
       ->capture_default_str();
-  multibody->add_option("--time-step", c.timeStep, "[s]")->check(support::between(1e-6, 1e-4))->capture_default_str();
-  multibody->add_option("--steps", c.steps, "of one batch")->check(support::wholeNumber(1))->capture_default_str();
+  multibody->add_option("--time-step", c.timeStep, "time step [s]")
+      ->check(support::between(1e-6, 1e-4))
+      ->capture_default_str();
+  multibody->add_option("--steps", c.steps, "steps per batch")->check(support::wholeNumber(1))->capture_default_str();
   multibody->add_option("--batches", c.batches, "timed batches")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  multibody->add_option("--json", c.json, "write the figures to this file")->check(support::writableFile("--json"));
+  multibody->add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));
   multibody->callback([command] { bench::benchMultibodyCommand(*command); });
 }
 
 } // namespace
 
 void addBench(CLI::App& app, const Invocation& invocation) {
-  CLI::App* benches = app.add_subcommand("bench", "Figures of speed, with machine and commit");
+  CLI::App* benches = app.add_subcommand("bench", "Speed benchmarks, with machine and commit");
   benches->require_subcommand(1);
   addBed(*benches, invocation);
   addStep(*benches, invocation);

@@ -32,7 +32,8 @@ void checkCommand(CheckCommand command) {
   sweeps::checkGivenOnce(options.fixed);
   for (const std::string& set : options.fixed)
     if (sweeps::keyOf(set) == "run.seed")
-      throw base::InputError("--set run.seed: a check runs the seeds from the scene's own on; change it in the file");
+      throw base::InputError("--set run.seed: a check runs several seeds, starting with that of the scene; change "
+                             "run.seed in the scene file");
   for (const std::string& word : command.axes) options.axes.push_back(sweeps::checkAxisOf(word));
   const std::filesystem::path file = command.scene;
   options.sweep.program = std::filesystem::read_symlink("/proc/self/exe");
@@ -51,32 +52,34 @@ void addCheck(CLI::App& app, const Invocation&) {
   check->add_option("--set", c.options.fixed, kSetHelp)->allow_extra_args(false);
   check
       ->add_option("--seeds", c.options.seeds,
-                   "seeds of every case, from run.seed on, where they make a difference; with --budget or --of at most "
-                   "so many; default: 8, with --of 24")
+                   "number of seeds of each case, starting with run.seed, where the seed has an effect; a maximum with "
+                   "--budget or --of; default: 8, with --of 24")
       ->check(support::wholeNumber(2, 1000));
   check
-      ->add_option("--bar", c.options.percent,
-                   "percent of a figure's value (10 or 10%) within which verdicts call it equal, and that --of wants; "
-                   "default: 5")
+      ->add_option(
+          "--bar", c.options.percent,
+          "tolerance of the verdict equal, and target of --of, in percent of a figure's value (10 or 10%); default: 5")
       ->transform(support::percentSign())
       ->check(support::positive("a share in percent"));
   check
-      ->add_option("--of", c.options.figures,
-                   "choose the runs that narrow the error bars of these figures at the least cost, until each is "
-                   "within --bar: sinkage, "
-                   "torque, speed, slip, tension, motion_resistance, or any figure of check.json")
+      ->add_option(
+          "--of", c.options.figures,
+          "figures whose error bars are reduced to --bar, with the runs that do so at the least cost: sinkage, "
+          "torque, speed, slip, tension, motion_resistance, or any figure of check.json")
       ->delimiter(',');
   check
-      ->add_option("--axes", c.axes,
-                   "what to vary: step, skin, depth, width, floor, grain_size, spheres, precision, node_spacing (of "
-                   "deformable soil); default: all")
+      ->add_option(
+          "--axes", c.axes,
+          "parameters to vary: step, skin, depth, width, floor, grain_size, spheres, precision, node_spacing (of "
+          "deformable soil); default: all")
       ->delimiter(',');
   check
       ->add_option("--draws", c.options.draws,
                    "samples of the constants of deformable soil, for the parameter error of each figure; default: 0")
       ->check(support::wholeNumber(0, 1000));
   check->add_option("--budget", c.options.budget,
-                    "time for all of it, e.g. 90s, 20min or 1.5h: the first run decides what fits, the rest is named");
+                    "limit of the total wall time, e.g. 90s, 20min or 1.5h; the first run decides which runs fit, the "
+                    "others are listed");
   addProcessOptions(
       *check, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
       "folder for the runs' folders and the results; default: out/NAME_check");

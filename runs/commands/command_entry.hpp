@@ -12,7 +12,7 @@
 /// NAME_options.cpp, and a line in allCommands().
 namespace grouser::commands {
 
-/// What the program was started with.
+/// Ranks and command line of the program.
 struct Invocation {
   const base::Ranks& ranks;
   std::string words; ///< the whole command line
@@ -21,7 +21,7 @@ struct Invocation {
 enum class RankUse {
   shared,    ///< the ranks do it together
   firstRank, ///< the first rank does it, the others end
-  refused    ///< several ranks would only hinder each other
+  refused    ///< an error on several ranks
 };
 
 struct CommandEntry {
@@ -29,7 +29,7 @@ struct CommandEntry {
   /// Adds the subcommand; its callback does the work, and keeps alive what the options fill.
   void (*add)(CLI::App& app, const Invocation& invocation);
   RankUse ranks = RankUse::firstRank;
-  std::string insteadOfRanks{}; ///< where they are refused: the rest of that message
+  std::string insteadOfRanks{}; ///< where ranks are refused: the end of the error message
 };
 
 /// In the order of `grouser --help`.

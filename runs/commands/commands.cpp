@@ -16,6 +16,7 @@
 #include "runs/commands/plan.hpp"
 #include "runs/commands/process_options.hpp"
 #include "runs/commands/run_scene.hpp"
+#include "runs/commands/run_summary.hpp"
 #include "runs/output/manifest.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
@@ -30,6 +31,7 @@
 #include "runs/storage/sphere_cache.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/output_place.hpp"
+#include "runs/support/shell_word.hpp"
 #include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "spheredecomp/decompose.hpp"
@@ -47,14 +49,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-void drawAndName(const fs::path& results, const fs::path& folder, const std::vector<std::string>& names) {
+void drawAndName(const fs::path& results, const fs::path& folder, const std::vector<std::string>& names,
+                 bool verbose = true) {
   std::string warning;
   for (const fs::path& plot : output::drawPlots(results, folder, names, warning))
-    fmt::print("plot      {}\n", plot.string());
-  if (!warning.empty()) support::tell("grouser: warning: {}\n", warning);
+    if (verbose) fmt::print("plot      {}\n", plot.string());
+  if (!warning.empty()) support::tell("WARNING: {}\n", warning);
 }
 
-/// Of the results: `given` on the command line, or as the scene says.
+/// Folder of the results: `given` on the command line, or that of the scene.
 fs::path folderOf(const scene::Scene& scene, const std::string& given) {
   return !given.empty()                 ? fs::path(given)
          : !scene.output.folder.empty() ? fs::path(scene.output.folder)
@@ -65,12 +68,12 @@ void nameIfThere(const char* what, const fs::path& file) {
   if (fs::exists(file)) fmt::print("{:<9} {}\n", what, file.string());
 }
 
-/// A run goes on in the folder of its checkpoint; a branch goes elsewhere.
+/// A resumed run writes to the folder of its checkpoint, a branch to another one.
 void chooseCheckpoint(const RunCommand& command, const setup::Provenance& provenance, session::RunRequest& options) {
   std::error_code error;
   if (!command.checkpoint.empty() && !fs::is_regular_file(command.checkpoint, error))
-    throw base::InputError(fmt::format("--resume {}: there is no such file; name the checkpoint.h5 of a run, or leave "
-                                       "the name away for that in the run's own folder",
+    throw base::InputError(fmt::format("--resume {}: there is no such file; give the checkpoint.h5 of a run, or omit "
+                                       "the name to use the one in the run's own folder",
                                        command.checkpoint));
   options.resume =
       command.checkpoint.empty() ? options.folder / storage::kCheckpointName : fs::path(command.checkpoint);
@@ -84,12 +87,12 @@ void chooseCheckpoint(const RunCommand& command, const setup::Provenance& proven
   }
   if (!isNamed) options.folder += "_branch";
   if (fs::equivalent(options.folder, home, error))
-    throw base::InputError(fmt::format("{}: holds the run that this one branches from, with another [driver] or "
-                                       "[hitch]; name another folder with --out, and the checkpoint with --resume {}",
+    throw base::InputError(fmt::format("{}: holds the original run, from which [driver] or [hitch] of the branch "
+                                       "differs; name another folder with --out, and the checkpoint with --resume {}",
                                        options.folder.string(), options.resume->string()));
 }
 
-/// Of preparation and steps [s]: what a run without pictures takes.
+/// Wall time of preparation and steps [s], without pictures.
 double secondsOf(const output::Summary& summary) {
   double seconds = 0;
   for (const char* part : {"wall_preparation_s", "wall_steps_s"})
@@ -119,7 +122,7 @@ void runCommand(const RunCommand& command) {
   options.cache = command.cache;
   options.commandLine = command.commandLine;
   options.switches = switchesText(scene);
-  options.ranks = command.ranks;
+  options.ranks = command.ranks, options.verbose = command.verbose;
   options.untilRest = !command.until.empty();
   if (!command.resume && options.comm().first()) output::checkOutputFolder(options.folder, options.force);
   const setup::Provenance provenance = setup::provenanceOf(scene);
@@ -129,16 +132,18 @@ void runCommand(const RunCommand& command) {
   if (!options.comm().first()) return;
 
   const fs::path results = options.folder / "results.h5";
-  nameIfThere("results", results);
-  nameIfThere("series", options.folder / "timeseries.csv");
-  nameIfThere("grains", options.folder / "grains.csv");
-  if (scene.vehicle) fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, options.folder).string());
-  if (scene.output.plots) drawAndName(results, options.folder, output::kAllPlots);
-  nameIfThere("picture", options.folder / "picture.png");
-  nameIfThere("frames", options.folder / "frames.xdmf");
+  if (scene.vehicle) output::writeSinkageCsv(results, options.folder);
+  if (scene.output.plots) drawAndName(results, options.folder, output::kAllPlots, command.verbose);
   output::listFiles(options.folder);
+  if (command.verbose)
+    for (const char* file : {"timeseries.csv", "grains.csv", "sinkage.csv", "picture.png", "frames.xdmf", "results.h5"})
+      nameIfThere("file", options.folder / file);
+  if (scene.vehicle && !options.untilRest)
+    fmt::print("{}", driveFiguresText(options.folder, command.beside, summary.incomplete));
+  fmt::print("{}results   {} (page for a browser: grouser report {})\n", energyText(summary), options.folder.string(),
+             support::shellWord(options.folder.string()));
   if (!command.steps && !options.untilRest)
-    fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary)));
+    fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary), command.verbose));
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 
@@ -158,7 +163,7 @@ void sweepCommand(const SweepCommand& command) {
   options.jobs = command.jobs, options.seconds = command.seconds, options.force = command.force;
   if (command.branches) options.from = command.checkpoint;
   if (const int failed = sweeps::runSweep(plan, options))
-    throw base::SimulationError(fmt::format("{} of {} failed; their messages stand in {}", failed,
+    throw base::SimulationError(fmt::format("{} of {} failed; see the messages in {}", failed,
                                             base::counted(plan.runs.size(), "run"),
                                             (options.folder / sweeps::kSummaryFile).string()));
 }
@@ -174,7 +179,7 @@ void sinkageCommand(const SinkageCommand& command) {
   support::requireFolder(folder);
   if (command.shoes.empty()) {
     if (!command.control.empty())
-      throw base::InputError("--control is drawn behind single shoes; name them by --shoes, such as 10-13,20");
+      throw base::InputError("--control requires --shoes: the shoes to compare, such as 10-13,20");
     if (!command.track.empty())
       throw base::InputError("--track requires --shoes: the shoes of that track, such as 10-13,20");
     fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder).string());
@@ -197,7 +202,7 @@ void planCommand(const PlanCommand& command) {
   scene::printNotes(scene);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, nullptr);
   const fs::path folder = folderOf(scene, command.folder);
-  // What does not fit is neither laid nor run, but shown.
+  // A scene that does not fit is printed, but not laid or run.
   std::string misfit;
   try {
     forecast::requireFit(scene, exec, folder, true, true, nullptr);
@@ -207,7 +212,7 @@ void planCommand(const PlanCommand& command) {
   try {
     sweeps::checkScene(scene, false);
   } catch (const base::InputError&) {
-    // The size of such a scene is its fault, whatever is wrong with its step.
+    // For a scene that does not fit, this error precedes all others.
     if (!misfit.empty()) throw base::InputError(misfit);
     throw;
   }
@@ -232,7 +237,7 @@ void spheresCommand(const SpheresCommand& command) {
   std::error_code error;
   if (!command.csv.empty() && !command.force && fs::exists(command.csv, error))
     throw base::InputError(
-        fmt::format("--csv {}: the file is there already; name another, or overwrite it with --force", command.csv));
+        fmt::format("--csv {}: the file already exists; name another, or overwrite it with --force", command.csv));
   const base::TriangleMesh mesh = spheredecomp::importMesh(command.mesh);
   std::optional<storage::SphereCache> kept = storage::SphereCache::ofUser();
   const base::SphereSet set =

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// What each command of the program does, once its words are parsed. All throw; `main` catches.
+/// Actions of the program's commands, after parsing. All throw; `main` catches.
 namespace grouser::commands {
 
 struct RunCommand {
@@ -23,6 +23,8 @@ struct RunCommand {
   bool force = false;
   bool cache = true; ///< of settled beds
   bool hash = false;
+  bool verbose = false; ///< print ledger, momentum, times and all files
+  std::string beside;   ///< folder of another run whose figures stand in a second column; empty: none
   bool resume = false;
   std::string checkpoint; ///< of --resume; empty: that of the folder
   std::string replay;     ///< folder of the run to repeat, instead of a scene; empty: none
@@ -40,12 +42,12 @@ struct SweepCommand {
   std::optional<int> threads;               ///< empty: as the scene says
   std::string folder;                       ///< empty: out/NAME_sweep
   int jobs = 1;
-  double seconds = 0; ///< no run is begun after so many; 0: no end
+  double seconds = 0; ///< no run starts after this wall time; 0: no limit
   bool force = false;
-  bool branches = false;  ///< all runs begin with the state of one checkpoint
-  std::string checkpoint; ///< which; empty: of a vehicle lowered for that
+  bool branches = false;  ///< all runs branch from one checkpoint
+  std::string checkpoint; ///< the checkpoint; empty: one of a vehicle that the sweep lowers
 };
-/// Throws SimulationError where a run has failed, when all have ended.
+/// Throws SimulationError after all runs have ended, if one has failed.
 void sweepCommand(const SweepCommand& command);
 
 struct HashCommand {
@@ -60,22 +62,22 @@ struct SinkageCommand {
   std::string track;   ///< track of these shoes: "left" or "right"; empty: both
   std::string control; ///< results of the same vehicle on rigid ground, drawn behind those shoes; empty: none
 };
-/// Throws InputError for shoes that are none, and a track or a control without them.
+/// Throws InputError for unknown shoes, and for a track or control without shoes.
 void sinkageCommand(const SinkageCommand& command);
 
 struct PlanCommand {
   std::string scene;
   std::vector<std::string> overrides;
-  int ranks = 1;              ///< to be planned for
+  int ranks = 1;              ///< number of ranks of the planned run
   std::string device;         ///< empty: as the scene says
   std::optional<int> threads; ///< empty: as the scene says
-  std::string folder;         ///< that results would go to; empty: as the scene says
+  std::string folder;         ///< of the results; empty: as the scene says
   bool forecast = true;       ///< predict the run time, by a short probe
-  bool probe = false;         ///< by the long probe
-  bool cache = true;          ///< as that of a run
+  bool probe = false;         ///< with the long probe
+  bool cache = true;          ///< of settled beds and sphere sets, as in a run
   std::string json;           ///< file for the forecast; empty: none
 };
-/// Throws InputError where the run would not fit this machine, when all is printed.
+/// Throws InputError, after printing, if the run does not fit this machine.
 void planCommand(const PlanCommand& command);
 
 struct SpheresCommand {
@@ -88,16 +90,16 @@ struct SpheresCommand {
 void spheresCommand(const SpheresCommand& command);
 
 struct SoilsCommand {
-  std::string soil;      ///< name or path; empty: all of them, in short
+  std::string soil;      ///< name or path; empty: a list of all
   bool markdown = false; ///< the table of docs/soils.md
 };
 void soilsCommand(const SoilsCommand& command);
 
 struct FieldsCommand {
-  bool soil = false;     ///< of a soil's file
+  bool soil = false;     ///< the keys of a soil file
   bool vehicle = false;  ///< the keys of a vehicle file, not of a scene
-  bool files = false;    ///< what files of results hold, as docs/files.md has it
-  bool markdown = false; ///< both, as docs/keys.md has them
+  bool files = false;    ///< contents of results files, as in docs/files.md
+  bool markdown = false; ///< all keys, as in docs/keys.md
 };
 void fieldsCommand(const FieldsCommand& command);
 

@@ -44,7 +44,7 @@ void compareCommand(CompareCommand command) {
     for (const auto& [key, option] :
          {std::pair{"terrain.kind", "--grounds"}, {"run.contact", "--contact"}, {"run.seed", "--seeds"}})
       if (sweeps::keyOf(set) == key && (std::string(option) != "--contact" || !command.contacts.empty()))
-        throw base::InputError(fmt::format("--set {}: {} sets this key; leave it out", set, option));
+        throw base::InputError(fmt::format("--set {}: {} sets this key; remove it from --set", set, option));
   const fs::path file = command.scene;
   options.sweep.program = fs::read_symlink("/proc/self/exe");
   options.sweep.folder =
@@ -74,15 +74,16 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
                    fmt::format("two or more of {}, separated by commas; in place of --grounds",
                                fmt::join(base::wordsOf<scene::ContactMethod>(), ", ")))
       ->delimiter(',');
-  compare->add_option("--seeds", c.options.seeds, "of grains, a run each; other grounds have one run")
+  compare
+      ->add_option("--seeds", c.options.seeds,
+                   "number of seeds of granular ground, one run each; other grounds have one run")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  compare
-      ->add_option("--set", c.options.fixed, std::string(kSetHelp) + "; keys of one kind of ground apply to it alone")
+  compare->add_option("--set", c.options.fixed, std::string(kSetHelp) + "; keys of one kind of ground apply only to it")
       ->allow_extra_args(false);
   compare
       ->add_option("--bar", c.options.percent,
-                   "percent of the larger mean (10 or 10%) within which verdicts call a figure equal; default: 5")
+                   "tolerance of the verdict equal, in percent of the larger mean (10 or 10%); default: 5")
       ->transform(support::percentSign())
       ->check(support::positive("a share in percent"));
   addProcessOptions(

@@ -33,7 +33,7 @@ void describeDrive(const scene::Scene& scene, const coupling::Simulation& simula
   if (!endsAtRest) summary.incomplete = incompleteText(scene, simulation, teeth);
   if (!summary.incomplete.empty()) fmt::print("WARNING: {}\n", summary.incomplete);
   if (const std::optional<double> start = simulation.vehicle()->driveStart(); start && *start <= simulation.time())
-    fmt::print("drive     from {:.6g} s on\n", *start);
+    fmt::print("drive     sprockets start at {:.6g} s\n", *start);
   if (const std::string& end = simulation.vehicle()->ended(); !end.empty())
     fmt::print("ended     at {:.6g} s by {}\n", simulation.time(), end);
   if (const vehicle::BlowMeter blows = simulation.vehicle()->observe().blows; blows.isBlow())

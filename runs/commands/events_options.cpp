@@ -19,53 +19,50 @@ namespace {
 /// Options for vehicle, ground, beds, execution and results, common to `events` and `map`.
 void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& defaultFolder) {
   events::EventOptions& o = c.options;
-  app.add_option("--vehicle", o.vehicle, "a ready vehicle by name, or a vehicle file that ends in .toml")
-      ->capture_default_str();
-  app.add_option("--soil", o.soil, "rigid, or a soil by its name (`grouser soils`)")->capture_default_str();
+  app.add_option("--vehicle", o.vehicle, "name of a ready vehicle, or a vehicle file (.toml)")->capture_default_str();
+  app.add_option("--soil", o.soil, "rigid, or the name of a soil (`grouser soils`)")->capture_default_str();
   app.add_option_function<std::string>(
          "--ground", [&o](const std::string& word) { o.ground = base::valueOf<scene::TerrainKind>(word); },
          "rigid, granular, or scm: deformable soil without grains; default: rigid with --soil rigid, else granular")
       ->check(CLI::IsMember(base::wordsOf<scene::TerrainKind>()));
   app.add_option("--speed", o.speed,
-                 "commanded [m/s], but twice that in acceleration; default: 1.2 of the light vehicle, others by the "
-                 "root of their pitch radius")
+                 "commanded speed [m/s], doubled in acceleration; default: 1.2 for the light vehicle, for others "
+                 "scaled by the square root of the pitch radius")
       ->check(support::positive("a speed in metres a second"));
   const events::BedCare &full = events::kFullCare, &quick = events::kQuickCare;
-  app.add_option("--seeds", o.seeds,
-                 fmt::format("beds of each level; default: {}; with --quick {}", full.seeds, quick.seeds))
-      ->check(support::wholeNumber(1, 1000));
   app.add_option(
-         "--draws", o.draws,
-         "with --ground scm: samples of the soil's constants, a run each at every level; default: 0, the nominal "
-         "constants")
+         "--seeds", o.seeds,
+         fmt::format("number of seeds (beds) of each level; default: {}; with --quick {}", full.seeds, quick.seeds))
+      ->check(support::wholeNumber(1, 1000));
+  app.add_option("--draws", o.draws,
+                 "with --ground scm: samples of the soil's constants, one run each at every level; default: 0, the "
+                 "nominal constants")
       ->check(support::wholeNumber(2, 1000));
   app.add_option(
          "--grain-radius", o.grainRadius,
-         fmt::format(
-             "mean radius of the bed's grains [m]; default: {:g} of them on the width of a pad; with --quick {:g}",
-             full.grainsOnPad, quick.grainsOnPad))
+         fmt::format("mean radius of the bed's grains [m]; default: {:g} grains across a pad; with --quick {:g}",
+                     full.grainsOnPad, quick.grainsOnPad))
       ->check(support::positive("a length in metres"));
-  app.add_option(
-         "--depth", o.depth,
-         fmt::format("of the bed [m]; default: {:g} widths of a pad; with --quick {:g}", full.depth, quick.depth))
+  app.add_option("--depth", o.depth,
+                 fmt::format("bed depth [m]; default: {:g} pad widths; with --quick {:g}", full.depth, quick.depth))
       ->check(support::positive("a length in metres"));
   app.add_flag("--quick", o.quick,
-               "coarse and shallow beds, fewer levels and seeds: on sandy loam about an hour of 16 cores, see --plan");
+               "coarse and shallow beds, fewer levels and seeds: about an hour on 16 cores for sandy loam, see --plan");
   app.add_option("--set", o.fixed, kSetHelp)->allow_extra_args(false);
-  app.add_flag("--plan", c.plan, "only say how long all of it will take, here and on an H200");
+  app.add_flag("--plan", c.plan, "only print the estimated run time, on this machine and on an H200");
   jobs::addPieceOptions(app, c.pieces);
-  app.get_option("--seconds")->description("no further run is begun after so many, 0: no limit");
-  app.add_option("--jobs", c.jobs, "runs at the same time, which share the cores")
+  app.get_option("--seconds")->description("start no further run after this wall time [s]; 0: no limit");
+  app.add_option("--jobs", c.jobs, "number of concurrent runs, which share the cores")
       ->check(support::wholeNumber(1, 1024))
       ->capture_default_str();
   support::addOut(app, c.folder, "folder of the results; default: " + defaultFolder);
-  app.add_flag("--force", c.force, "run again what has been run, and overwrite what is in that folder");
+  app.add_flag("--force", c.force, "repeat finished runs, and overwrite the results in that folder");
 }
 
 void addLevels(CLI::App& app, events::EventOptions& o, const std::string& ofWhich) {
   app.add_option("--levels", o.levels,
                  ofWhich + ", separated by commas: tangents of slopes [-], heights, widths "
-                           "and radii [m]; default: by the vehicle's size and friction")
+                           "and radii [m]; default: from the vehicle's size and friction")
       ->delimiter(',');
 }
 
@@ -82,18 +79,18 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
                    fmt::format("events, separated by commas, of {}; default: all",
                                fmt::join(base::wordsOf<events::Event>(), ", ")))
       ->delimiter(',');
-  addLevels(*events, c.options, "of the one event that --only names");
+  addLevels(*events, c.options, "levels of the single event given by --only");
   addEventRuns(*events, c, "out/events_VEHICLE_SOIL, with scm out/events_VEHICLE_SOIL_scm");
-  events->add_flag("--films", c.films, "a film of the first run of each level; frames take room on the disk");
+  events->add_flag("--films", c.films, "film the first run of each level; its frames need disk space");
   events
       ->add_option("--against", c.against,
-                   "folders of results of other `grouser events`, separated by commas, e.g. of the same soil as "
-                   "grains: differences with verdicts")
+                   "results folders of other `grouser events` calls to compare with, separated by commas, e.g. of the "
+                   "same soil as grains")
       ->delimiter(',');
   events
-      ->add_option("--bar", c.percent,
-                   "with --against: percent of the larger mean (10 or 10%) within which verdicts call a figure "
-                   "equal; default: 5")
+      ->add_option(
+          "--bar", c.percent,
+          "with --against: tolerance of the verdict equal, in percent of the larger mean (10 or 10%); default: 5")
       ->transform(support::percentSign())
       ->check(support::positive("a share in percent"));
   events->callback([command] { events::eventsCommand(*command); });

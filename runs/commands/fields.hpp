@@ -5,10 +5,10 @@
 
 namespace grouser::commands {
 
-/// All keys of scene, vehicle and soil files: docs/keys.md, byte by byte.
+/// All keys of scene, vehicle and soil files: docs/keys.md, byte for byte.
 std::string keysDocument();
 
-/// All that the files of results may hold: docs/files.md, byte by byte.
+/// All datasets and attributes of results files: docs/files.md, byte for byte.
 std::string filesDocument();
 
 } // namespace grouser::commands

@@ -14,7 +14,7 @@ namespace grouser::commands {
 namespace {
 
 std::string tableOf(const std::vector<support::FileField>& fields) {
-  std::string text = "| dataset, or attribute behind @ | type | shape | unit | what it is |\n|---|---|---|---|---|\n";
+  std::string text = "| dataset, or attribute behind @ | type | shape | unit | meaning |\n|---|---|---|---|---|\n";
   for (const support::FileField& f : fields)
     text += fmt::format("| `{}{}` | {} | {} | {} | {} |\n", f.path.starts_with('/') ? "" : "/", f.path, f.type, f.shape,
                         f.unit, f.help);
@@ -26,14 +26,15 @@ constexpr const char* kHead =
 
 # Files of results
 
-All that `results.h5`, `frames.h5` and `checkpoint.h5` may hold, from the tables that write them; a file holds what its
-scene has. HDF5; numbers are little-endian. Words in capitals stand for names, shapes in words for how many there are.
+Datasets and attributes of `results.h5`, `frames.h5` and `checkpoint.h5`, from the tables that write them; a file
+contains those that its scene needs. HDF5; numbers are little-endian. Words in capitals stand for names, words in shapes
+for counts.
 Definitions: [reports.md](reports.md#definitions). Reading from Python: [control.md](control.md).
 
 ## results.h5
 
-Of each quantity of a series the group holds `value`, with the attributes `unit`, `help` and, of vectors, `labels`;
-`step` and `time` beside it are those of `series`. SIDE is `left` or `right`, NAME the name of a surface, a body or a
+The group of each time series holds `value`, with the attributes `unit`, `help` and, for vectors, `labels`; its `step`
+and `time` are those of `series`. SIDE is `left` or `right`, NAME the name of a surface, a body or a
 joint. Other datasets have the attributes `unit` and `help`.
 
 )";
@@ -41,15 +42,16 @@ joint. Other datasets have the attributes `unit` and `help`.
 constexpr const char* kFrames = R"(
 ## frames.h5
 
-A group for each frame, from `000000` on. `frames.xdmf` says the same to ParaView.
+One group per frame, numbered from `000000`. `frames.xdmf` describes the file to ParaView.
 
 )";
 
 constexpr const char* kCheckpoint = R"(
-## checkpoint.h5, and beds that are kept
+## checkpoint.h5 and cached beds
 
-The state, to go on from ([large_runs.md](large_runs.md#stop-and-resume)); behind 512 bytes with its seal. Lists of several numbers that have
-no names are for the program alone. A bed that is kept (`bed-*.h5`) is the same, with the grains and how they settled.
+The state from which a run resumes ([large_runs.md](large_runs.md#stop-and-resume)), after a header of 512 bytes with a
+checksum. Lists of unnamed numbers are internal to the program. A cached bed (`bed-*.h5`) has the same format, with
+grains and settling data only.
 
 )";
 

@@ -11,7 +11,7 @@ namespace grouser::commands {
 
 namespace {
 
-/// Energies of deformable soil: those that it holds, then those that it has dissipated.
+/// Energies of deformable soil: elastic, then dissipated.
 std::string soilText(const scm::SoilEnergy& soil) {
   std::string text = "elastic energy [J]:";
   std::size_t number = 0;
@@ -32,10 +32,10 @@ void describeLedger(coupling::Simulation& simulation) {
   const coupling::Ledger l = simulation.ledger();
   const coupling::VehicleRig* rig = simulation.vehicle();
   const std::string hitch =
-      rig && rig->towing() ? fmt::format(" (of the hitch {:.4g})", rig->towing()->work()) : std::string();
+      rig && rig->towing() ? fmt::format(" (hitch {:.4g})", rig->towing()->work()) : std::string();
   fmt::print(
       "ledger    since the start [J]: drive work {:.4g}{} = kinetic {:+.4g}, potential {:+.4g}, elastic {:+.4g}, "
-      "dissipated {:+.4g}, integration error {:+.3g}; left over {:.2g}\n",
+      "dissipated {:+.4g}, integration error {:+.3g}; residual {:.2g}\n",
       l.driveWork, hitch, l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.integrationError, l.residual);
   std::string causes;
   for (const coupling::DissipationCause& cause : coupling::kDissipationCauses)
@@ -49,7 +49,7 @@ void describeLedger(coupling::Simulation& simulation) {
   if (!causes.empty()) fmt::print("          dissipated by {}\n", causes);
   if (deforms) fmt::print("soil      {}\n", soilText(l.soil));
   const auto shown = [](const base::Vec3d& v) { return fmt::format("({:.2g}, {:.2g}, {:.2g})", v.x, v.y, v.z); };
-  fmt::print("momentum  left over {} N s, angular {} N m s\n", shown(l.momentumResidual), shown(l.angularResidual));
+  fmt::print("momentum  residual {} N s, angular {} N m s\n", shown(l.momentumResidual), shown(l.angularResidual));
   if (simulation.vehicle() && simulation.ground().grains)
     fmt::print("impulse   on vehicle plus on bed: ({:g}, {:g}, {:g}) N s\n", l.impulseResidual.x, l.impulseResidual.y,
                l.impulseResidual.z);

@@ -7,7 +7,7 @@ class Simulation;
 
 namespace grouser::commands {
 
-/// Prints the run's energies and momenta, and what finite steps and rounding have made of them.
+/// Prints the run's energy balance and momenta, with integration error and residuals.
 void describeLedger(coupling::Simulation& simulation);
 
 } // namespace grouser::commands

@@ -28,8 +28,8 @@ namespace {
 
 using namespace grouser;
 
-/// A standard stream that was closed would give its number to the next file that is opened, which would then get what
-/// is meant for the stream. What nobody wants to read is lost; where results are printed, printing them fails.
+/// Opens closed standard streams, whose descriptors would otherwise go to the next opened file, which would then
+/// receive their output. Output to a closed stderr is lost; results printed to a closed stdout are an error.
 void occupyStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
@@ -44,7 +44,7 @@ void waitBriefly(char** argv) {
   execv("/proc/self/exe", argv); // returns only if it failed: then the default will do
 }
 
-/// Says why, and ends the other ranks too. What all ranks find out alike is said by the first; the others wait a moment
+/// Prints the error and ends all ranks. An error that all ranks find is printed by the first; the others wait a moment
 /// for it to end them.
 int fail(const base::Ranks& ranks, support::FailureKind kind, const std::string& message) {
   const int code = support::exitCode(kind);
@@ -58,7 +58,7 @@ int fail(const base::Ranks& ranks, support::FailureKind kind, const std::string&
   return code;
 }
 
-/// Whether all that was printed has arrived.
+/// True if all output was written.
 bool printedAll() {
   std::cout.flush();
   return std::fflush(stdout) == 0 && !std::ferror(stdout) && std::cout.good();
@@ -71,7 +71,7 @@ void addCommands(CLI::App& app, const std::vector<commands::CommandEntry>& all,
     if (command.ranks != commands::RankUse::refused) continue;
     app.get_subcommand(command.name)->preparse_callback([command, comm = invocation.ranks.comm()](std::size_t) {
       if (!comm.alone())
-        throw base::InputError(fmt::format("grouser {} is no work for {} ranks: start it without mpirun{}",
+        throw base::InputError(fmt::format("grouser {} does not support MPI ({} ranks): start it without mpirun{}",
                                            command.name, comm.size(), command.insteadOfRanks));
     });
   }
@@ -81,7 +81,7 @@ int failToPrint(const base::Ranks& ranks) {
   return fail(ranks, support::FailureKind::notWritten, "the standard output could not be written; is the disk full?");
 }
 
-/// The command that goes on with what this one has left, or begins again where it has left nothing.
+/// The command that resumes the stopped one, or repeats it if it left nothing.
 std::string nextCommand(const CLI::App& app, std::vector<std::string> words, const base::Ranks& ranks,
                         const support::Stopped& stopped) {
   const CLI::App* command = &app;
@@ -94,34 +94,34 @@ std::string nextCommand(const CLI::App& app, std::vector<std::string> words, con
   };
   if (resumes) std::erase(words, "--force");
   if (resumes && !has("--resume")) words.emplace_back("--resume");
-  // Results that the call has left block a call that begins again.
+  // Results of the stopped call block a repetition without --force.
   const bool isInTheWay = !resumes && stopped.left() == support::Stopped::Left::work;
   if (isInTheWay && command->get_option_no_throw("--force") && !has("--force")) words.emplace_back("--force");
   if (!ranks.comm().alone()) words.insert(words.begin(), {"mpirun", "-np", std::to_string(ranks.comm().size())});
-  return fmt::format("{} with: {}", resumes ? "go on" : "begin again", support::shellLine(words));
+  return fmt::format("{} with: {}", resumes ? "resume" : "start again", support::shellLine(words));
 }
 
-/// Whether the first rank does it alone; a word that is no command is complained about by the first, too.
+/// True for commands that run on the first rank only, and for unknown ones.
 bool isForFirstRank(const std::string& word, const std::vector<commands::CommandEntry>& all) {
   for (const commands::CommandEntry& command : all)
     if (command.name == word) return command.ranks != commands::RankUse::shared;
   return true;
 }
 
-/// "run", "bench bed": what ranks must do alike from the beginning.
+/// Command that must be the same on all ranks: "run", "bench bed".
 std::string commandOf(const std::vector<std::string>& words) {
   const std::string command = words.size() > 1 ? words[1] : "";
   return command == "bench" && words.size() > 2 ? command + " " + words[2] : command;
 }
 
-/// Parses the words and does what they say, as one of several ranks perhaps; what goes wrong is thrown.
-void obey(CLI::App& app, int argc, char** argv, const base::Ranks& ranks) {
+/// Parses the command line and runs the command, on each rank; throws all errors.
+void parseAndRun(CLI::App& app, int argc, char** argv, const base::Ranks& ranks) {
   const std::vector<std::string> words(argv, argv + argc);
   const std::vector<commands::CommandEntry> all = commands::allCommands();
   addCommands(app, all, {ranks, support::shellLine(words)});
   support::refuseOptionsAsValues(app);
   commands::requireSameCommand(commandOf(words), ranks.comm());
-  if (!ranks.comm().first() && argc > 1 && isForFirstRank(words[1], all)) return; // the first ends all where it fails
+  if (!ranks.comm().first() && argc > 1 && isForFirstRank(words[1], all)) return; // on failure the first ends all
   if (const std::string unknown = support::unknownCommand(app, argc, argv); !unknown.empty())
     throw base::InputError(unknown);
   app.parse(argc, argv);
@@ -132,25 +132,23 @@ void obey(CLI::App& app, int argc, char** argv, const base::Ranks& ranks) {
 int main(int argc, char** argv) {
   occupyStandardStreams();
   waitBriefly(argv);
-  // A limit to the size of files is met as a full disk is: by a message, not by the signal's silent end.
+  // Exceeding the limit of file sizes then gives an error message, as a full disk does, instead of ending by a signal.
   std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGCHLD, SIG_DFL); // ignored, as some supervisors leave it, it would take the ends of processes away
+  std::signal(SIGCHLD, SIG_DFL); // if ignored, as under some supervisors, exit states of processes are lost
   const base::Ranks ranks(argc, argv);
   // One rank speaks for all.
   if (!ranks.comm().first() && !std::freopen("/dev/null", "w", stdout))
     return support::exitCode(support::FailureKind::stray);
-  CLI::App app("grouser drives a tracked vehicle over granular terrain, and says how wrong its answer is.", "grouser");
+  CLI::App app("grouser simulates a tracked vehicle on granular terrain and quantifies its error.", "grouser");
   app.formatter(commands::helpFormatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", support::versionText());
-  app.footer(
-      "Exit codes: 0 sound result, 2 wrong input, 3 the simulation became unsound or its results could not be written, "
-      "4 device or memory, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM, 1 internal error.\nSettled beds and "
-      "the "
-      "spheres of parts are kept in GROUSER_CACHE, or else in "
-      "$XDG_CACHE_HOME/grouser, or else in ~/.cache/grouser, up to GROUSER_CACHE_GIB (2) GiB.");
+  app.footer("Exit codes: 0 success, 1 internal error, 2 invalid input, 3 unsound simulation or results not written, 4 "
+             "device or memory error, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.\nSettled beds and sphere "
+             "sets are cached in GROUSER_CACHE, otherwise in $XDG_CACHE_HOME/grouser, otherwise in ~/.cache/grouser, "
+             "up to GROUSER_CACHE_GIB (default 2) GiB.");
   try {
-    obey(app, argc, argv, ranks);
+    parseAndRun(app, argc, argv, ranks);
     return printedAll() ? 0 : failToPrint(ranks);
   } catch (const CLI::Success& e) {
     const int code = app.exit(e); // --help and --version

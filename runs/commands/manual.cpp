@@ -43,7 +43,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// "-h, --help", "--seeds"; "scene" of a word.
+/// "-h, --help", "--seeds"; "scene" for an argument.
 std::string namesOf(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true);
   std::vector<std::string> names;
@@ -54,7 +54,7 @@ std::string namesOf(const CLI::Option& option) {
 
 bool takesValue(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// " INT in 0..1024", " {auto,cpu}": what stands behind the name of an option; "" of a flag, and of a word.
+/// " INT in 0..1024", " {auto,cpu}": value of an option, after its name; "" for a flag or an argument.
 std::string valueOf(const CLI::Option& option) {
   if (!takesValue(option) || option.get_positional()) return "";
   std::string value = option.get_type_name();
@@ -64,14 +64,14 @@ std::string valueOf(const CLI::Option& option) {
   return " " + value + (option.get_expected_max() == CLI::detail::expected_max_vector_size ? " ..." : "");
 }
 
-/// " (not with --start)": of options that need or exclude others.
+/// " (not with --start)": options that an option needs or excludes.
 std::string othersText(const char* relation, const std::set<CLI::Option*>& options) {
   std::set<std::string> names;
   for (const CLI::Option* option : options) names.insert(option->get_name());
   return names.empty() ? "" : fmt::format(" ({} {})", relation, fmt::join(names, ", "));
 }
 
-/// What an option is for, as help has it.
+/// Description of an option, as in --help.
 std::string descriptionOf(const CLI::Option& option) {
   std::string text = option.get_description();
   if (!option.get_default_str().empty()) text += fmt::format(" (default: {})", option.get_default_str());
@@ -79,7 +79,7 @@ std::string descriptionOf(const CLI::Option& option) {
   return text + othersText("only with", option.get_needs()) + othersText("not with", option.get_excludes());
 }
 
-/// Help in the words of the manual.
+/// Help with the names, values and descriptions of the manual.
 class HelpFormatter : public CLI::Formatter {
   std::string make_option_name(const CLI::Option* option, bool) const override { return namesOf(*option); }
   std::string make_option_opts(const CLI::Option* option) const override { return valueOf(*option); }
@@ -111,7 +111,7 @@ std::string synopsis(const CLI::App& app, const std::string& path) {
   return text + "\n";
 }
 
-/// Words, options and commands of `app`, and each of its commands with theirs.
+/// Arguments, options and commands of `app`, then those of each command.
 std::string sectionsOf(const CLI::App& app, const std::string& path, const char* heading) {
   const std::string words = optionsText(app, true), options = optionsText(app, false);
   std::string text;
@@ -133,7 +133,7 @@ std::string cell(const std::string& text) {
   return out;
 }
 
-/// A heading, words and options of each command below `app`, and those of its own.
+/// Heading, arguments and options of each command below `app` and of its subcommands.
 std::string commandsInMarkdown(const CLI::App& app, const std::string& path) {
   std::string text;
   for (const CLI::App* command : commandsOf(app)) {
@@ -155,12 +155,12 @@ std::string head(const std::string& name, const std::string& description) {
 }
 
 constexpr const char* kEnvironment =
-    ".SH ENVIRONMENT\n.TP\n\\fBGROUSER_CACHE\\fR, \\fBGROUSER_CACHE_GIB\\fR\nfolder of settled beds and cut parts, and "
-    "its size in GiB\n.TP\n\\fBGROUSER_GPU\\fR\nof several GPUs the one to begin with, counted from 0; ranks, and runs "
-    "at the same time, go on from it in turn\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets and plots, in the place of "
-    "the installed one\n";
+    ".SH ENVIRONMENT\n.TP\n\\fBGROUSER_CACHE\\fR, \\fBGROUSER_CACHE_GIB\\fR\ncache folder of settled beds and sphere "
+    "sets, and its maximum size in GiB\n.TP\n\\fBGROUSER_GPU\\fR\nindex of the first GPU to use, counted from 0; ranks "
+    "and concurrent runs use the next ones in turn\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets and plot scripts, in "
+    "place of the installed one\n";
 
-/// What bash knows of a command: "run" or "bench bed".
+/// Completions of a command: "run" or "bench bed".
 void addCases(const CLI::App& app, const std::string& path, std::string& text) {
   std::vector<std::string> words;
   for (const CLI::App* command : commandsOf(app)) words.push_back(command->get_name());
@@ -217,7 +217,7 @@ std::string manualPage(const CLI::App& app, const CLI::App* command) {
 std::string optionsDocument(const CLI::App& app) {
   return "<!-- Written by `grouser manual --markdown > docs/options.md`: change the commands in the source, not this "
          "file. "
-         "-->\n# Options\n\nThe words and options of every command, as `--help` has them. What the commands are for: "
+         "-->\n# Options\n\nArguments and options of all commands, as `--help` prints them. Purpose of the commands: "
          "[commands.md](commands.md).\n" +
          commandsInMarkdown(app, "grouser");
 }
@@ -262,7 +262,7 @@ void writeManual(const CLI::App& app, const std::filesystem::path& folder) {
   const std::filesystem::path pages = folder / "man/man1", completions = folder / "bash-completion/completions";
   for (const std::filesystem::path& made : {pages, completions})
     if (std::error_code error; std::filesystem::create_directories(made, error), error)
-      throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with --folder",
+      throw base::InputError(fmt::format("{}: the folder cannot be created ({}); name another with --folder",
                                          made.string(), error.message()));
   support::replaceTextFile(pages / "grouser.1", manualPage(app, nullptr));
   for (const CLI::App* command : commandsOf(app))

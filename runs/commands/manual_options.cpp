@@ -33,7 +33,7 @@ void manualCommand(const CLI::App& app, const ManualCommand& c) {
     if (each->get_name() == c.command) command = each;
   }
   if (!command && !c.command.empty())
-    throw base::InputError(fmt::format("manual: \"{}\" is no command; did you mean \"{}\"?", c.command,
+    throw base::InputError(fmt::format("manual: \"{}\" is not a command; did you mean \"{}\"?", c.command,
                                        base::nearestWord(c.command, names)));
   fmt::print("{}", manualPage(app, command));
 }
@@ -44,10 +44,11 @@ void addManual(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<ManualCommand>();
   CLI::App* manual =
       app.add_subcommand("manual", "The manual page of the program or of a command, for man; completion for bash");
-  CLI::Option* name = manual->add_option("command", command->command, "of which command; default: of the program");
-  CLI::Option* completion = manual->add_flag("--completion", command->completion, "bash's completion instead");
+  CLI::Option* name = manual->add_option("command", command->command, "command of the page; default: the program");
+  CLI::Option* completion =
+      manual->add_flag("--completion", command->completion, "print the completion for bash instead");
   CLI::Option* markdown =
-      manual->add_flag("--markdown", command->markdown, "of all commands, as docs/options.md has it");
+      manual->add_flag("--markdown", command->markdown, "print the options of all commands, as in docs/options.md");
   CLI::Option* folder =
       manual->add_option("--folder", command->folder, "write all pages and the completion below this folder instead");
   completion->excludes(name), folder->excludes(name), folder->excludes(completion);

@@ -45,38 +45,37 @@ std::string onOff(bool on, const std::string& what, const std::string& why) {
   return why.empty() ? line + "\n" : fmt::format("{:<33} {}\n", line, why);
 }
 
-/// Memory of the grains, by what it is for.
+/// Memory of the grains by use.
 std::string memoryText(const scene::Scene& scene, double grains) {
   const setup::GrainMemory m = setup::grainMemory(scene);
-  std::string text = fmt::format("  {:<24} about {:.1f} MiB, {:.0f} bytes a grain:\n", "memory for grains",
+  std::string text = fmt::format("  {:<24} about {:.1f} MiB, {:.0f} bytes per grain:\n", "memory for grains",
                                  grains * m.total() / 1048576.0, m.total());
   const auto part = [&](const char* what, double bytes) { text += fmt::format("    {:<22} {:.0f}\n", what, bytes); };
   part("state", m.state), part("neighbour lists", m.lists), part("contact history", m.history);
   part("planes and floor", m.boundaries);
-  part("more while lists are made", m.rebuild);
+  part("extra during list builds", m.rebuild);
   return text;
 }
 
-/// What a vehicle meets beside its ground.
+/// Obstacles in contact with the vehicle.
 std::string obstaclesLine(const scene::Scene& scene) {
   std::string names;
   for (const coupling::Obstacle& o : setup::obstaclesOf(scene)) names += (names.empty() ? "" : ", ") + o.surface.name;
-  const std::string hull = setup::hullTouches(scene) ? "the hull touches too" : "the hull touches nothing";
-  return onOff(!names.empty(), "obstacles", (names.empty() ? "none to the vehicle" : names) + "; " + hull);
+  const std::string hull = setup::hullTouches(scene) ? "hull contact on" : "hull contact off";
+  return onOff(!names.empty(), "obstacles", (names.empty() ? "none in contact with the vehicle" : names) + "; " + hull);
 }
 
-/// Why grains do not pull on the parts of the vehicle.
+/// Reason why soil does not adhere to the vehicle.
 std::string whyNothingSticks(const scene::Scene& scene, bool cohere, bool yield) {
   if (!cohere)
-    return yield ? "grains pull by surface_energy or adhesion_stiffness alone, which act between grains"
-                 : "grains have no cohesion";
+    return yield ? "surface_energy and adhesion_stiffness act only between grains" : "grains have no cohesion";
   const std::string& material = scene.vehicle->material;
   if (material.empty()) return fmt::format("vehicle.adhesion = {:g}", scene.vehicle->adhesion);
-  return scene.material(material).cohesion > 0 ? "its pair of materials has no cohesion"
+  return scene.material(material).cohesion > 0 ? "the material pair has no cohesion"
                                                : "material." + material + " has no cohesion";
 }
 
-/// Whether grains pull on the parts of the vehicle.
+/// Adhesion of soil to the vehicle.
 std::string stickingLine(const scene::Scene& scene) {
   bool meet = false, cohere = false, yield = false;
   double pull = 0;
@@ -89,9 +88,9 @@ std::string stickingLine(const scene::Scene& scene) {
   }
   if (!meet)
     return scene.vehicle && scene.vehicle->adhesion > 0
-               ? onOff(false, "soil sticks to vehicle", "no grains: vehicle.adhesion does nothing")
+               ? onOff(false, "soil adhesion to vehicle", "no grains: vehicle.adhesion has no effect")
                : "";
-  return onOff(pull > 0, "soil sticks to vehicle",
+  return onOff(pull > 0, "soil adhesion to vehicle",
                pull > 0 ? fmt::format("cohesion of {:.4g} J/m2", pull) : whyNothingSticks(scene, cohere, yield));
 }
 
@@ -104,54 +103,52 @@ std::string surfacesLine(const scene::Scene& scene) {
     s.free ? ++freed : moved += s.moves ? 1 : 0;
     both += s.free && (s.section.velocity || s.section.spin || s.section.amplitude) ? 1 : 0;
   }
-  if (names.empty())
-    return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], no plane that moves or has a name");
+  if (names.empty()) return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], no moving or named plane");
   return onOff(true, "surfaces",
                fmt::format("{}; {} moved, {} free{}", names, moved, freed,
-                           both > 0 ? fmt::format(", {} of these pulled or turned besides", both) : ""));
+                           both > 0 ? fmt::format(", {} of these also driven", both) : ""));
 }
 
 /// "plate, 12 grains; the bed settles without them".
 std::string putOnBedLine(const scene::Scene& scene) {
   if (!setup::isPutOnBed(scene))
-    return onOff(false, "put on the settled bed", "no grain, mesh or moving surface beside a bed");
+    return onOff(false, "placed on settled bed", "no grain, mesh or moving surface with a bed");
   std::string names;
   for (const setup::SceneSurface& s : setup::surfacesOf(scene))
     if (s.placedLater) names += (names.empty() ? "" : ", ") + s.name;
   if (const std::int64_t grains = setup::placedCount(scene); grains > 0)
     names += (names.empty() ? "" : ", ") + base::counted(grains, "grain");
-  return onOff(true, "put on the settled bed", names);
+  return onOff(true, "placed on settled bed", names);
 }
 
-/// How high the bed stands once it has settled, where a run has kept it.
+/// Height of the settled bed, if it is in the cache.
 std::string bedHeightText(const scene::Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit <= 0) return "";
   std::optional<coupling::SettleReport> settled;
   if (const std::string origin = setup::originOfBed(scene); !origin.empty())
     if (const auto beds = storage::BedCache::ofUser()) settled = beds->find(origin);
   return fmt::format("  {:<24} {}\n", "settled bed",
-                     settled ? fmt::format("mean height {:.5g} m, highest grain up to {:.6g} m (in the cache)",
+                     settled ? fmt::format("mean height {:.5g} m, top of the highest grain {:.6g} m (in the cache)",
                                            settled->meanHeight, settled->highest)
-                             : "height not known before a run has settled it");
+                             : "height unknown until a run has settled it");
 }
 
-/// What of a bed's settlement under the ground run of a vehicle happens above its floor, were it an elastic solid.
+/// Settlement of the bed under the tracks over that of an elastic half-space.
 std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   if (!scene.terrain || !scene.terrain->granular() || !scene.terrain->depth) return "";
   constexpr double kPoisson = 0.25; // of loose soil
   const double half = 0.5 * spec.groundRun(), depth = *scene.terrain->depth;
   std::vector<forecast::LoadedRectangle> tracks;
-  for (const double y : {spec.trackOffset, -spec.trackOffset}) // of a single track both are one: shares stay
+  for (const double y : {spec.trackOffset, -spec.trackOffset}) // a single track: the same ratio
     tracks.push_back({0, y, half > 0 ? half : spec.shoe.halfLength, spec.shoe.padHalfWidth});
   const auto settles = [&](double d) { return forecast::layerSettlement(tracks, d, kPoisson); };
   const double whole = settles(base::kInfinity);
-  return fmt::format("  {:<24} {:g} m: an elastic layer settles {:.0f} % of what one without a floor does under these "
-                     "tracks; {:g} m: {:.0f} %\n",
-                     "depth of the bed", depth, 100 * settles(depth) / whole, 2 * depth,
-                     100 * settles(2 * depth) / whole);
+  return fmt::format("  {:<24} {:g} m: an elastic layer settles {:.0f} % as much as a half-space under these tracks; "
+                     "{:g} m: {:.0f} %\n",
+                     "bed depth", depth, 100 * settles(depth) / whole, 2 * depth, 100 * settles(2 * depth) / whole);
 }
 
-/// How a bed is made; `t` is null without one.
+/// Features of the bed; `t` is null without one.
 std::string bedLines(const scene::Terrain* t, const base::Vec3d& gravity) {
   const std::string none = "no bed";
   const bool random = t && !t->lattice();
@@ -159,18 +156,20 @@ std::string bedLines(const scene::Terrain* t, const base::Vec3d& gravity) {
                            !t       ? none
                            : random ? fmt::format("radii {}", base::wordOf(*t->radiusDistribution))
                                     : "terrain.arrangement = \"lattice\"");
-  text += onOff(t && t->porosity, "preparation",
-                !t            ? none
-                : t->porosity ? fmt::format("to a porosity of {:g}{}", *t->porosity,
-                                            leanOf(gravity) > 0
-                                                ? fmt::format(" under gravity straight down; run.gravity leans by "
-                                                              "{:.1f} degrees, and may loosen it",
-                                                              leanOf(gravity))
-                                                : "")
-                              : "terrain.porosity is not given: as poured");
+  text += onOff(
+      t && t->porosity, "preparation",
+      !t ? none
+      : t->porosity
+          ? fmt::format(
+                "to a porosity of {:g}{}", *t->porosity,
+                leanOf(gravity) > 0
+                    ? fmt::format(" under vertical gravity; run.gravity is tilted by {:.1f} degrees and may loosen it",
+                                  leanOf(gravity))
+                    : "")
+          : "terrain.porosity is not given: as poured");
   text += onOff(t && t->coarsening, "grading by depth",
                 !t              ? none
-                : t->coarsening ? fmt::format("radius {:g} m down to {:g} m, {:g} m below", *t->grainRadius,
+                : t->coarsening ? fmt::format("radius {:g} m to a depth of {:g} m, {:g} m below", *t->grainRadius,
                                               *t->fineDepth, *t->coarsestRadius)
                                 : "terrain.coarsening is not given");
   text += onOff(t && t->floorGrains, "fixed grains on the floor",
@@ -207,10 +206,10 @@ std::string switchesText(const scene::Scene& scene) {
     text += onOff(has(terrain::kManyRadii), "radius of each grain",
                   kinds.manyRadii() ? fmt::format("{:g} to {:g} m", kinds.smallest, kinds.largest)
                                     : fmt::format("all {:g} m", kinds.largest));
-    text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in all", kinds.material.size()));
+    text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in total", kinds.material.size()));
     const bool implicit = setup::hasComplementarity(scene);
     if (implicit)
-      text += onOff(true, "complementarity contacts", "no kernel of their own for each scene");
+      text += onOff(true, "complementarity contacts", "no kernel specific to the scene");
     else
       text += fmt::format("       {:<26} {}\n", "kernel of the grains",
                           terrain::stepKernelText(traits.features, traits.model));
@@ -236,7 +235,7 @@ std::string switchesText(const scene::Scene& scene) {
                 scene.vehicle ? scene.vehicle->spec : "no [vehicle]: no mesh is read");
   if (scene.vehicle) text += obstaclesLine(scene);
   const bool shoesAlone = scene.vehicle && bed && scene.vehicle->soilContact == scene::SoilContact::shoes;
-  text += onOff(shoesAlone, "soil meets shoes alone", shoesAlone ? "vehicle.soil_contact = \"shoes\"" : "");
+  text += onOff(shoesAlone, "soil contact: shoes only", shoesAlone ? "vehicle.soil_contact = \"shoes\"" : "");
   if (scene.vehicle) text += stickingLine(scene);
   const bool crush = setup::crushes(scene, kinds);
   text += onOff(crush, "crushing grains", crush ? "against parts" : "no crushing_strength");
@@ -246,7 +245,7 @@ std::string switchesText(const scene::Scene& scene) {
   text += onOff(scene.fluid.has_value(), "fluid",
                 scene.fluid ? fmt::format("spacing {:g} m", scene.fluid->spacing) : "no [fluid]");
   text += onOff(scene.output.frames, "frames",
-                scene.output.frames ? fmt::format("{:.0f}, one each {} s",
+                scene.output.frames ? fmt::format("{:.0f}, one every {} s",
                                                   std::floor(scene.run.duration / scene.run.frameInterval + 1e-9) + 1,
                                                   scene.run.frameInterval)
                                     : "output.frames = false");
@@ -261,7 +260,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   std::string text;
   if (const std::string warning = setup::shortDriveWarning(scene); !warning.empty())
     text = fmt::format("WARNING: {}\n\n", warning);
-  text += fmt::format("{}\n\nswitched on and off\n{}\nsize\n", scene.file.string(), switchesText(scene));
+  text += fmt::format("{}\n\nactive features\n{}\nsize\n", scene.file.string(), switchesText(scene));
   const std::int64_t grains = counted ? counted->grains : setup::plannedGrains(scene);
   const std::string doubt = counted && !counted->exact ? fmt::format(" ({})", counted->doubt) : "";
   text += fmt::format("  {:<24} {}{}\n", "grains", grains, doubt);
@@ -290,21 +289,21 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   const bool implicit = setup::hasComplementarity(scene);
   if (const double calm = limit.calm;
       grains && !implicit && (scene.mechanism.empty() || scene.mechanism.touches()) && step > calm)
-    text += fmt::format("\nwarning: at steps above {} s strong dashpots let grains at rest tremble "
-                        "(docs/steps.md#choice-of-the-time-step)\n",
+    text += fmt::format("\nWARNING: at time steps above {} s strong contact damping makes grains at rest vibrate; "
+                        "choose a smaller run.time_step (docs/steps.md#choice-of-the-time-step)\n",
                         base::roundedDown(calm, 4));
   const setup::TerrainRemarks remarks = setup::terrainRemarks(scene);
   for (const std::string& warning : remarks.warnings) text += fmt::format("\nWARNING: {}\n", warning);
   for (const std::string& note : remarks.notes) text += fmt::format("\nnote: {}\n", note);
-  for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nwarning: {}\n", warning);
+  for (const std::string& warning : setup::vehicleWarnings(scene)) text += fmt::format("\nWARNING: {}\n", warning);
   for (const std::string& note : setup::meshNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   for (const std::string& note : bedNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   for (const std::string& note : setup::freeSurfaceNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   if (!scene.mechanism.empty()) {
     if (const std::string warning = setup::bodyContactsNote(scene); !warning.empty())
-      text += fmt::format("\nwarning: {}\n", warning);
+      text += fmt::format("\nWARNING: {}\n", warning);
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
-      text += fmt::format("\nwarning: {}\n", warning);
+      text += fmt::format("\nWARNING: {}\n", warning);
     if (const std::string note = setup::springStepNote(scene); !note.empty()) text += fmt::format("\nnote: {}\n", note);
   }
   return text;

@@ -10,26 +10,26 @@
 
 namespace grouser::commands {
 
-/// What the scene switches on and leaves out, its size, memory and time step. Reads height-map and vehicle spec.
-/// `counted`: its grains, where they have been counted; null: about as many as their volume tells.
+/// Active features, size, memory and time step of a scene. Reads height-map and vehicle spec. `counted`: the counted
+/// grains; null: their number is estimated from their volume.
 std::string planText(const scene::Scene& scene, const forecast::CountedGrains* counted = nullptr);
 
-/// What the scene switches on and leaves out, a line each: two spaces, "on" or "off", in columns 7 to 32 what, from 34
-/// on why or how. A line without either word tells more of the one before.
+/// Active and inactive features, a line each: two spaces, "on" or "off", the feature in columns 7 to 32, the reason
+/// from column 34. A line without either word continues the previous one.
 std::string switchesText(const scene::Scene& scene);
 
-/// A part of it: particles, markers, sound speed and step limits of the fluid. Empty without one.
+/// Section of planText(): particles, markers, sound speed and step limits of the fluid. Empty without a fluid.
 std::string fluidText(const scene::Scene& scene, double timeStep);
 
-/// A part of it: every pair of materials that can meet, with the values that act between them, and a note where a value
-/// of one material does nothing. Empty where nothing can touch.
+/// Section of planText(): contact parameters by material pair, with a note on each value that has no effect. Empty
+/// without contacts.
 std::string pairsText(const scene::Scene& scene);
 
-/// A part of it: shortest contact, time step, number of steps, and the stable steps of a vehicle's own contacts.
-/// `step` of the run [s]; `grains`: how many.
+/// Section of planText(): shortest contact, time step, number of steps, and stable steps of a vehicle's own contacts.
+/// `step` of the run [s]; `grains`: their number.
 std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, double step, double grains);
 
-/// How `ranks` ranks would share the scene's grains: lattice, ghosts, memory, messages. Empty for a scene without
+/// Distribution of the scene's grains over `ranks` ranks: lattice, ghosts, memory, messages. Empty for a scene without
 /// grains.
 std::string sharePlan(const scene::Scene& scene, int ranks);
 

@@ -35,16 +35,17 @@ std::string fluidText(const scene::Scene& scene, double timeStep) {
   for (int a = 0; a < 3; ++a) {
     const double parts = size[a] / m.spacing;
     if (!(m.dimensions == 2 && a == 1) && !(a == 2 && !scene.fluid->lid) && std::fabs(parts - std::round(parts)) > 1e-6)
-      line("", fmt::format("along {} no whole number of spacings: its wall acts up to {:g} m off", "xyz"[a],
-                           0.5 * m.spacing));
+      line("", fmt::format("the length along {} is not a multiple of the spacing: its wall is up to {:g} m off",
+                           "xyz"[a], 0.5 * m.spacing));
   }
   line("  sound speed", fmt::format("{:.4g} m/s", m.soundSpeed));
   const fluid::StepLimits limits = setup::fluidStepLimits(scene);
-  line("  steps at most", fmt::format("{:.3g} s for sound, {:.3g} s for gravity{}", limits.sound, limits.force,
-                                      m.viscosity > 0 ? fmt::format(", {:.3g} s for viscosity", limits.viscous) : ""));
+  line("  maximum time step",
+       fmt::format("{:.3g} s for sound, {:.3g} s for gravity{}", limits.sound, limits.force,
+                   m.viscosity > 0 ? fmt::format(", {:.3g} s for viscosity", limits.viscous) : ""));
   if (scene.vehicle && scene.fluid->level) {
     const double volume = setup::StartingBodies(scene).vehicleBelow(*scene.fluid->level);
-    line("  vehicle", fmt::format("displaces {:.4g} m3 below the level: lift at rest {:.4g} N", volume,
+    line("  vehicle", fmt::format("displaces {:.4g} m3 below the level: buoyancy at rest {:.4g} N", volume,
                                   m.density * norm(m.gravity) * volume));
   }
   if (setup->stepsPerStep > 1)
@@ -53,10 +54,9 @@ std::string fluidText(const scene::Scene& scene, double timeStep) {
   for (const coupling::BodyInFluid& b : setup->bodies) gains[b.column] = std::max(gains[b.column], b.gain);
   for (const auto& [column, gain] : gains)
     if (gain > 1)
-      line("  added mass",
-           fmt::format("{}: fluid beside the surface has up to {:.3g} times the mass of a body, and its "
-                       "pressure follows it within {:.0f} steps",
-                       column, gain, std::ceil(1 + gain)));
+      line("  added mass", fmt::format("{}: the fluid at the surface has up to {:.3g} times the mass of a body; its "
+                                       "pressure responds within {:.0f} steps",
+                                       column, gain, std::ceil(1 + gain)));
   return text;
 }
 

@@ -34,7 +34,7 @@ std::string soilText(const coupling::ScmSetup& setup, std::size_t width) {
   const scm::SoilConstants& soil = setup.soil;
   std::string text =
       fmt::format("  {:<{}}  n {:.4g}, k_c {:.4g} N/m^(n+1), k_phi {:.4g} N/m^(n+2), c {:.4g} Pa, tan phi {:.4g}, K "
-                  "{:.4g} m; nodes {:.4g} m apart\n",
+                  "{:.4g} m; node spacing {:.4g} m\n",
                   "deformable soil", width, soil.exponent, soil.kc, soil.kphi, soil.cohesion, soil.friction,
                   soil.shearDisplacement, setup.spacing);
   text += fmt::format("  {:<{}}  slip sinkage {:.3g} up to {:.3g} m, {:.3g} of a rut's volume displaced, tan(angle of "
@@ -53,11 +53,11 @@ std::string pairsText(const scene::Scene& scene) {
   const auto nameOf = [](const setup::MeetingPair& p) { return fmt::format("{}: {}, {}", p.what, p.grain, p.partner); };
   for (const setup::MeetingPair& p : pairs) width = std::max(width, nameOf(p).size());
   if (!pairs.empty())
-    text += fmt::format(
-        "\nwhat acts where they meet\n  {:<{}}  {:<6} {:>11} {:>11} {:>8} {:>8} {:>8}\n  {:<{}}  {:<6} {:>11} "
-        "{:>11} {:>8} {:>8} {:>8}\n",
-        "materials", width, "law", "stiffness", "restitution", "friction", "rolling", "cohesion", "", width, "",
-        "N/m or Pa", "-", "-", "-", "J/m2");
+    text += fmt::format("\ncontact parameters by material pair\n  {:<{}}  {:<6} {:>11} {:>11} {:>8} {:>8} {:>8}\n  "
+                        "{:<{}}  {:<6} {:>11} "
+                        "{:>11} {:>8} {:>8} {:>8}\n",
+                        "materials", width, "law", "stiffness", "restitution", "friction", "rolling", "cohesion", "",
+                        width, "", "N/m or Pa", "-", "-", "-", "J/m2");
   for (const setup::MeetingPair& p : pairs) {
     text += fmt::format("  {:<{}}  {:<6} {:>11.4g} {:>11.4g} {:>8.4g} {:>8.4g} {:>8.4g}\n", nameOf(p), width,
                         p.law.hertz ? "hertz" : "linear", p.stiffness, p.restitution, p.law.friction,
@@ -68,16 +68,16 @@ std::string pairsText(const scene::Scene& scene) {
     if (!actsWithoutGrains(scene, m.name) && std::none_of(pairs.begin(), pairs.end(), [&](const setup::MeetingPair& p) {
           return p.grain == m.name || p.partner == m.name;
         }))
-      notes += fmt::format("  note: material.{} acts on nothing here{}\n", m.name,
+      notes += fmt::format("  note: material.{} has no effect in this scene{}\n", m.name,
                            scene.vehicle && pairs.empty()
-                               ? ": between vehicle and rigid ground all contact data are the vehicle file's"
+                               ? ": the vehicle file has all contact parameters between vehicle and rigid ground"
                                : "");
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
-    if (text.empty()) text += "\nwhat acts where they meet\n";
+    if (text.empty()) text += "\ncontact parameters by material pair\n";
     const auto part = [&](const char* what, double friction) {
-      text += fmt::format("  {:<{}}  foundation of {:.4g} N/m3, relaxation {:.4g} s, friction {:.4g}\n", what, width,
-                          spec.contact.foundationModulus, spec.contact.relaxationTime, friction);
+      text += fmt::format("  {:<{}}  elastic foundation {:.4g} N/m3, relaxation time {:.4g} s, friction {:.4g}\n", what,
+                          width, spec.contact.foundationModulus, spec.contact.relaxationTime, friction);
     };
     part("shoe on running gear", spec.contact.frictionInside);
     if (scene.terrain && !scene.terrain->granular() && !scene.deformable())

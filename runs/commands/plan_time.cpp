@@ -30,24 +30,25 @@ std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, d
   std::string text = "\ntime\n";
   const double contact = setup::shortestContact(scene);
   const double resolved = contact / scene.run.stepsPerContact;
-  const bool implicit = setup::hasComplementarity(scene); // its steps resolve no contact
+  const bool implicit = setup::hasComplementarity(scene); // its steps do not resolve contacts
   if (contact > 0 && !implicit) {
     text += fmt::format("  {:<24} {:.4g} s\n", "shortest grain contact", contact);
-    text += fmt::format("  {:<24} {:.4g} s ({:.0f} steps a contact)\n", "largest sound step", resolved,
+    text += fmt::format("  {:<24} {:.4g} s ({:.0f} steps per contact)\n", "maximum time step", resolved,
                         scene.run.stepsPerContact);
   }
   const double steps = std::round(scene.run.duration / step);
   if (scene.run.tolerance) {
-    text += fmt::format("  {:<24} as the error allows, {:g} m or rad a second\n", "time step", *scene.run.tolerance);
+    text +=
+        fmt::format("  {:<24} adaptive, error at most {:g} m or rad per second\n", "time step", *scene.run.tolerance);
   } else {
     text += fmt::format("  {:<24} {:.4g} s{}\n", "time step", step,
-                        contact > 0 && !implicit ? fmt::format(", {:.1f} a contact", contact / step) : "");
+                        contact > 0 && !implicit ? fmt::format(", {:.1f} steps per contact", contact / step) : "");
     text += fmt::format("  {:<24} {:.0f} for {} s\n", "steps", steps, scene.run.duration);
   }
   if (scene.vehicle) text += boundsText(limit);
   if (grains > 0) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * grains);
   if (contact > 0 && !implicit && step > resolved * 1.0000001)
-    text += fmt::format("\nwarning: the time step resolves a contact by {:.1f} steps only; choose {} s or less\n",
+    text += fmt::format("\nWARNING: the time step resolves a contact by only {:.1f} steps; choose {} s or less\n",
                         contact / step, base::roundedDown(resolved, 4));
   return text;
 }

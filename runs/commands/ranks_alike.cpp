@@ -33,7 +33,7 @@ Fact program() {
           fmt::format("{}, {}, {}, {}", build.version, build.commit, build.compiler, support::programHash())};
 }
 
-/// All words behind the program's name.
+/// Command line without the program's name.
 Fact words(const std::string& commandLine) {
   return {"command line", commandLine.substr(std::min(commandLine.find(' '), commandLine.size()))};
 }
@@ -47,9 +47,9 @@ void requireSame(const std::string& who, const std::vector<Fact>& facts, const b
       if (all[r] == all[0]) continue;
       const std::string first(all[0].begin(), all[0].end()), other(all[r].begin(), all[r].end());
       const bool brief = first.size() < 200 && other.size() < 200;
-      throw base::InputError(fmt::format("{}: rank {} has another {} than rank 0{}; start all ranks with the same "
-                                         "program, files and words",
-                                         who, r, fact.what, brief ? fmt::format(" ({} beside {})", other, first) : ""));
+      throw base::InputError(fmt::format(
+          "{}: rank {} has a different {} from rank 0{}; start all ranks with the same program, files and command line",
+          who, r, fact.what, brief ? fmt::format(" ({} instead of {})", other, first) : ""));
     }
   }
 }
@@ -58,12 +58,9 @@ void requireSame(const std::string& who, const std::vector<Fact>& facts, const b
 
 void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm) {
   if (comm.alone()) return;
-  requireSame(provenance.file.string(),
-              {program(),
-               {"scene", provenance.resolved},
-               {"files that the scene names", provenance.inputs},
-               words(commandLine)},
-              comm);
+  requireSame(
+      provenance.file.string(),
+      {program(), {"scene", provenance.resolved}, {"set of input files", provenance.inputs}, words(commandLine)}, comm);
 }
 
 void requireSameWords(const std::string& command, const std::string& commandLine, const base::Comm& comm) {

@@ -8,13 +8,13 @@
 
 namespace grouser::commands {
 
-/// Throws base::InputError where a rank was started with another command than the first one: some of them would wait
-/// for ever for what the others never do. `command`: "run", or "bench bed".
+/// Throws base::InputError where a rank was started with another command than the first one, which would end in a
+/// deadlock. `command`: "run", or "bench bed".
 void requireSameCommand(const std::string& command, const base::Comm& comm);
 
-/// Throws base::InputError, naming the rank and what differs, where the ranks run other programs or other scenes than
-/// the first one, or another command line: the promise of one answer holds for one program and one
-/// scene. `commandLine`: the program, and all its words behind the first space.
+/// Throws base::InputError, naming rank and difference, if program, scene or command line of a rank differ from those
+/// of the first: results are reproducible for one program and one scene only. `commandLine`: the program, and its
+/// arguments after the first space.
 void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm);
 
 /// The same of a command without a scene: program and command line. `command`: begins the message.

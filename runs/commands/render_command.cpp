@@ -36,14 +36,14 @@ std::vector<std::size_t> chosenFrames(const output::FramesReader& reader, const 
   if (!frames.empty() && frames.back() >= count)
     throw base::InputError(fmt::format("--frame {}: {}", frames.back(), held));
   if (!frames.empty()) return frames;
-  // Output times are sums of steps: a hair's breadth on either side belongs to the range.
+  // Output times are sums of steps: tolerance for their rounding.
   const double hair = 1e-9 * std::max(1.0, std::fabs(reader.time(count - 1)));
   std::size_t inRange = 0;
   for (std::size_t i = 0; i < count; ++i) {
     if (reader.time(i) < c.from - hair || (c.to && reader.time(i) > *c.to + hair)) continue;
     if (inRange++ % c.every == 0) frames.push_back(i);
   }
-  if (frames.empty()) throw base::InputError(fmt::format("--from and --to leave no frame: {}", held));
+  if (frames.empty()) throw base::InputError(fmt::format("no frame between --from and --to: {}", held));
   return frames;
 }
 
@@ -57,7 +57,7 @@ render::LookAt lookAtOf(const std::string& text, bool hasVehicle, base::Vec3d& p
     const bool isLast = k == 2;
     if (error != std::errc{} || !std::isfinite(point[k]) || (isLast ? stop != end : stop == end || *stop != ','))
       throw base::InputError(
-          fmt::format("--look-at {}: is none of vehicle, all and a place X,Y,Z in metres, e.g. 1.5,0,0.2", text));
+          fmt::format("--look-at {}: must be vehicle, all or a point X,Y,Z in metres, e.g. 1.5,0,0.2", text));
     at = stop + 1;
   }
   return render::LookAt::Point;
@@ -77,7 +77,7 @@ render::PaintOptions paintOptions(const RenderCommand& c, bool hasVehicle) {
   if (!c.range.empty()) {
     if (!ground && o.quantity != render::GrainQuantity::Depth && o.quantity != render::GrainQuantity::Speed)
       throw base::InputError(
-          fmt::format("--range: is for the colours depth, speed, sinkage, pressure and shear, not for {}", c.color));
+          fmt::format("--range: applies to the colours depth, speed, sinkage, pressure and shear, not to {}", c.color));
     if (!(c.range[0] < c.range[1]))
       throw base::InputError(fmt::format("--range {:g} {:g}: give the lower end first", c.range[0], c.range[1]));
     o.range = render::ValueRange{c.range[0], c.range[1]};
@@ -98,24 +98,23 @@ fs::path unfinished(const fs::path& picture) {
 /// The number of cores this rank may use.
 int coresOf(const RenderCommand& c) { return std::max(1, omp_get_num_procs() / c.comm.size()); }
 
-/// Throws where something would be overwritten, or cannot be.
+/// Throws if a picture or the film exists, or cannot be written.
 void checkTargets(const RenderCommand& c, const fs::path& folder, const std::vector<std::size_t>& frames) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw base::InputError(fmt::format("--out {}: is a file; name a folder for the pictures", folder.string()));
+    throw base::InputError(fmt::format("--out {}: is a file; give a folder for the pictures", folder.string()));
   if (!c.film.empty()) render::checkFilm(c.film);
   if (c.force) return;
   for (const std::size_t frame : frames)
     if (const fs::path file = picturePath(folder, frame); fs::exists(file, error))
-      throw base::InputError(fmt::format("{}: is there already; overwrite it with --force, or name another folder with "
-                                         "--out",
-                                         file.string()));
+      throw base::InputError(fmt::format(
+          "{}: already exists; overwrite it with --force, or name another folder with --out", file.string()));
   if (!c.film.empty() && fs::exists(c.film, error))
     throw base::InputError(
-        fmt::format("--film {}: is there already; overwrite it with --force, or name another file", c.film));
+        fmt::format("--film {}: already exists; overwrite it with --force, or name another file", c.film));
 }
 
-/// Removes what an error or a signal has left unfinished.
+/// Removes unfinished pictures after an error or a signal.
 class Sweeper {
 public:
   explicit Sweeper(std::vector<fs::path> pictures) : pictures_(std::move(pictures)) {}
@@ -181,11 +180,11 @@ void renderCommand(const RenderCommand& c) {
   support::requireFolder(folder);
   checkTargets(c, folder, frames);
   const render::FramePainter painter(reader, options);
-  c.comm.wait(); // all have looked at what is there before the first of them writes
+  c.comm.wait(); // all ranks have checked the targets before the first of them writes
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder, error))
-    throw base::InputError(fmt::format("--out {}: the folder cannot be made: {}", folder.string(), error.message()));
+    throw base::InputError(fmt::format("--out {}: the folder cannot be created: {}", folder.string(), error.message()));
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -196,7 +195,7 @@ void renderCommand(const RenderCommand& c) {
   const int workers = std::min<int>(c.comm.size() * c.processes, static_cast<int>(frames.size()));
   fmt::print("pictures  {} of {} x {} in {}\n", frames.size(), options.view.width, options.view.height,
              folder.string());
-  fmt::print("speed     {:.2f} frames/s: {:.2f} s by {} process{}\n", static_cast<double>(frames.size()) / seconds,
+  fmt::print("speed     {:.2f} frames/s: {:.2f} s with {} process{}\n", static_cast<double>(frames.size()) / seconds,
              seconds, workers, workers == 1 ? "" : "es");
   if (c.film.empty()) return;
   std::vector<fs::path> pictures;

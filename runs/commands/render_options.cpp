@@ -13,35 +13,35 @@ namespace {
 void addCamera(CLI::App& render, RenderCommand& c) {
   render.add_option(
       "--look-at", c.lookAt,
-      "vehicle (moves with it), all (whatever there is) or a place X,Y,Z [m]; default: vehicle, or all where "
-      "there is none");
+      "camera target: vehicle (followed), all, or a point X,Y,Z [m]; default: vehicle, or all without a vehicle");
   render
       .add_option(
           "--azimuth", c.azimuth,
-          "of the camera about the vertical, 0 is +x [deg]; default: -55, or -140 for a vehicle on deformable soil")
+          "camera azimuth about the vertical, 0 is +x [deg]; default: -55, or -140 for a vehicle on deformable soil")
       ->check(support::between(-360.0, 360.0));
   render
-      .add_option(
-          "--elevation", c.elevation,
-          "of the camera above the horizon [deg]; default: 14, 24 on deformable soil, 30 for a bed, 60 for what lies "
-          "flat")
+      .add_option("--elevation", c.elevation,
+                  "camera elevation above the horizon [deg]; default: 14, 24 on deformable soil, 30 for a bed, 60 for "
+                  "a flat scene")
       ->check(support::between(-90.0, 90.0));
-  render.add_option("--distance", c.distance, "of the camera from what it looks at [m]; default: it fills the picture")
+  render
+      .add_option("--distance", c.distance,
+                  "distance of the camera from its target [m]; default: the target fills the picture")
       ->check(support::positive("a length in metres"));
 }
 
-/// Which frames of the file.
+/// Options that select frames.
 void addFrames(CLI::App& render, RenderCommand& c) {
-  CLI::Option* frame = render.add_option("--frame", c.frame, "only the frame of this number; may be repeated")
+  CLI::Option* frame = render.add_option("--frame", c.frame, "number of a single frame to render; may be repeated")
                            ->check(support::wholeNumber(0))
                            ->allow_extra_args(false);
-  CLI::Option* every = render.add_option("--every", c.every, "only each so-manieth frame")
+  CLI::Option* every = render.add_option("--every", c.every, "render every N-th frame")
                            ->check(support::wholeNumber(1))
                            ->capture_default_str();
-  CLI::Option* from = render.add_option("--from", c.from, "leave out the frames before this time [s]")
+  CLI::Option* from = render.add_option("--from", c.from, "start time of the frames [s]")
                           ->check(support::notNegative("a time in seconds"));
-  CLI::Option* to = render.add_option("--to", c.to, "leave out the frames after this time [s]")
-                        ->check(support::notNegative("a time in seconds"));
+  CLI::Option* to =
+      render.add_option("--to", c.to, "end time of the frames [s]")->check(support::notNegative("a time in seconds"));
   frame->excludes(every)->excludes(from)->excludes(to);
 }
 
@@ -56,25 +56,28 @@ void addRender(CLI::App& app, const Invocation& invocation) {
       ->required()
       ->transform(support::orItsFolder("frames.h5"));
   support::addOut(*render, c.folder, "folder of the pictures; default: pictures/ beside the file");
-  render->add_option("--film", c.film, "make the pictures into this film: .mp4, .mkv or .mov; needs ffmpeg");
-  render->add_option("--fps", c.framesPerSecond, "pictures a second of the film")
+  render->add_option("--film", c.film, "film file to make from the pictures: .mp4, .mkv or .mov; requires ffmpeg");
+  render->add_option("--fps", c.framesPerSecond, "frames per second of the film")
       ->check(support::positive("a number"))
       ->capture_default_str();
   render
       ->add_option(
           "--color", c.color,
-          "of the grains: depth, speed, subdomain, role or white; of deformable soil: sinkage, pressure or shear")
+          "colour of grains: depth, speed, subdomain, role or white; of deformable soil: sinkage, pressure or shear")
       ->capture_default_str();
-  render->add_option("--range", c.range, "values at the ends of the colours [m, m/s or Pa]; default: from the file")
+  render
+      ->add_option("--range", c.range, "lower and upper end of the colour scale [m, m/s or Pa]; default: from the file")
       ->expected(2)
       ->type_name("LOW HIGH");
-  render->add_option("--borders", c.borders, "between subdomains [m], e.g. x=0.5 or y=-1,1; default: those in the file")
+  render
+      ->add_option("--borders", c.borders,
+                   "borders between subdomains [m], e.g. x=0.5 or y=-1,1; default: those in the file")
       ->allow_extra_args(false);
   addCamera(*render, c);
-  render->add_option("--size", c.size, "of a picture in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
+  render->add_option("--size", c.size, "picture size in pixels")->type_name("WIDTHxHEIGHT")->capture_default_str();
   addFrames(*render, c);
-  render->add_flag("!--no-labels", c.labels, "leave out time and colour scale");
-  render->add_option("--processes", c.processes, "that share the frames")
+  render->add_flag("!--no-labels", c.labels, "omit time and colour scale");
+  render->add_option("--processes", c.processes, "number of processes that share the frames")
       ->check(support::wholeNumber(1, 1024))
       ->capture_default_str();
   render->add_option("--threads", c.threads, "CPU threads of each process; default: all cores shared among them")

@@ -25,11 +25,11 @@ namespace {
 fs::path temporaryFolder() {
   std::error_code error;
   fs::path folder = fs::temp_directory_path(error);
-  if (error) throw base::InputError("TMPDIR names no folder; set it to one for temporary files");
+  if (error) throw base::InputError("TMPDIR is not a folder; set it to one for temporary files");
   return folder;
 }
 
-/// A file for what the program has to tell the scripts; gone with this.
+/// Temporary file with the program's data for the scripts.
 class PassedFile {
 public:
   explicit PassedFile(const std::string& text)
@@ -52,12 +52,12 @@ void checkPlaces(const ReportCommand& command, const fs::path& file) {
   std::error_code error;
   if (!fs::is_directory(command.folder, error))
     throw base::InputError(fmt::format(
-        "{}: is no folder; name that of a run, a sweep, a check, a set of events, a soil's tests or a calibration",
+        "{}: is not a folder; give that of a run, a sweep, a check, a set of events, a soil test or a calibration",
         command.folder));
   if (fs::is_directory(file, error))
-    throw base::InputError(fmt::format("--out {}: is a folder; name a file", file.string()));
+    throw base::InputError(fmt::format("--out {}: is a folder; give a file", file.string()));
   if (!command.force && fs::exists(file, error))
-    throw base::InputError(fmt::format("{}: is there already; overwrite it with --force, or name another file with "
+    throw base::InputError(fmt::format("{}: already exists; overwrite it with --force, or name another file with "
                                        "--out",
                                        file.string()));
   support::requireFile(file, "--out");

@@ -8,15 +8,15 @@ namespace grouser::commands {
 struct ReportCommand {
   std::string folder; ///< of a run, a sweep, a check or a soil's tests
   std::string file;   ///< of the page; empty: report.html in the folder
-  std::string film;   ///< to be in it; empty: one that lies in the folder
-  int frames = 60;    ///< at most so many in the 3-D view; 0: no view
-  int grains = 40000; ///< at most so many there
+  std::string film;   ///< to embed; empty: one in the folder
+  int frames = 60;    ///< maximum in the 3-D view; 0: no view
+  int grains = 40000; ///< maximum in the 3-D view
   bool force = false; ///< overwrite the page
 };
 
-/// Writes one page of all that a folder of results holds, to be looked at without a server or a network, by the scripts
-/// of runs/report/. Throws InputError where the folder holds no results, or damaged ones, where the page is there
-/// already, and where Python, its packages or a library of the page are not installed.
+/// Writes an HTML page about a results folder, viewable without a server or a network, with the scripts of
+/// runs/report/. Throws InputError if the folder has no results or damaged ones, if the page exists, and if Python, its
+/// packages or a library of the page are not installed.
 void reportCommand(const ReportCommand& command);
 
 } // namespace grouser::commands

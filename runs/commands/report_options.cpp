@@ -11,23 +11,23 @@ namespace grouser::commands {
 void addReport(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<ReportCommand>();
   ReportCommand& r = *command;
-  CLI::App* report = app.add_subcommand("report", "One page for a browser of all that a run, sweep, check, set of "
-                                                  "events, soil or calibration has left: figures with their error "
-                                                  "bars, plots, 3-D view, provenance");
-  report->add_option("folder", r.folder, "the folder of the results")->required();
+  CLI::App* report = app.add_subcommand("report", "HTML page about a run, sweep, check, set of events, soil test or "
+                                                  "calibration: figures with error bars, plots, 3-D view, provenance");
+  report->add_option("folder", r.folder, "folder of the results")->required();
   support::addOut(*report, r.file, "file of the page; default: report.html in the folder");
-  report->add_option("--film", r.film, "film to be in it; default: one that lies in the folder and is not too large");
+  report->add_option("--film", r.film, "film to embed; default: one in the folder, if it is small enough");
   report
       ->add_option("--frames", r.frames,
-                   "at most so many frames in the 3-D view, evenly spread over those of the run; 0: no view")
+                   "maximum number of frames in the 3-D view, evenly spread over those of the run; 0: no view")
       ->check(support::wholeNumber(0))
       ->capture_default_str();
   report
-      ->add_option("--grains", r.grains,
-                   "at most so many grains there: those at the surface of the bed first, then those that moved most")
+      ->add_option(
+          "--grains", r.grains,
+          "maximum number of grains in the 3-D view: those at the bed surface first, then those that moved most")
       ->check(support::wholeNumber(1))
       ->capture_default_str();
-  report->add_flag("--force", r.force, "overwrite a page that is there already");
+  report->add_flag("--force", r.force, "overwrite an existing page");
   report->callback([command] { reportCommand(*command); });
 }
 

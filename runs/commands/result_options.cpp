@@ -25,14 +25,14 @@ void addSinkage(CLI::App& app, const Invocation&) {
   sinkage->add_option("results", s.results, "results.h5 of a run, or the run's folder")
       ->required()
       ->transform(support::orItsFolder("results.h5"));
-  support::addOut(*sinkage, s.folder, "folder; default: beside the results");
-  sinkage->add_option("--shoes", s.shoes,
-                      "single shoes, counted from 0: 10-13,20; writes sinkage_shoes.csv, and draws their heights and "
-                      "sinkage");
-  sinkage->add_option("--track", s.track, "of the shoes of --shoes: left or right; default: those of both tracks")
+  support::addOut(*sinkage, s.folder, "output folder; default: that of the results");
+  sinkage->add_option(
+      "--shoes", s.shoes,
+      "single shoes, counted from 0, e.g. 10-13,20; writes sinkage_shoes.csv, and plots their height and sinkage");
+  sinkage->add_option("--track", s.track, "track of the shoes of --shoes: left or right; default: both")
       ->check(CLI::IsMember({"left", "right"}));
   sinkage->add_option("--control", s.control,
-                      "results.h5 of the same vehicle on rigid ground, whose shoes are drawn behind those of --shoes");
+                      "results.h5 of the same vehicle on rigid ground, plotted behind the shoes of --shoes");
   sinkage->callback([command] { sinkageCommand(*command); });
 }
 

@@ -41,10 +41,10 @@ namespace {
 
 using support::Stopwatch;
 
-/// Of all threads of this process since it began [s].
+/// CPU time of all threads of this process [s].
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// How the grains are divided among the ranks.
+/// Prints the shares of the ranks.
 void describeRanks(const coupling::Simulation& simulation) {
   const auto& grains = simulation.ground().grains;
   if (!grains || !grains->distribution()) return;
@@ -58,22 +58,23 @@ void describeRanks(const coupling::Simulation& simulation) {
              100 * ghosts / static_cast<double>(grains->count()));
 }
 
-/// How well the work was shared while driving. `waiting`: this rank's share of that time that it waited [-].
-void describeSharing(const coupling::Simulation& simulation, double waiting, output::Summary& summary) {
+/// Prints the balance of the ranks' work. `waiting`: share of the time that this rank waited [-].
+void describeSharing(const coupling::Simulation& simulation, double waiting, bool verbose, output::Summary& summary) {
   const auto& grains = simulation.ground().grains;
   const base::Comm& comm = simulation.comm();
   if (!grains || !grains->distribution()) return;
   const std::vector<double> waited = comm.gatherValue(waiting);
   const double least = *std::min_element(waited.begin(), waited.end()),
                most = *std::max_element(waited.begin(), waited.end());
-  fmt::print("ranks     waited for others {:.1f} to {:.1f} % of the time; cuts moved {} times\n", 100 * least,
-             100 * most, grains->distribution()->rebalancings());
+  if (verbose)
+    fmt::print("ranks     MPI wait time {:.1f} to {:.1f} % of the run; subdomains resized {} times\n", 100 * least,
+               100 * most, grains->distribution()->rebalancings());
   summary.figures["rank_waiting_least"] = least;
   summary.figures["rank_waiting_most"] = most;
   summary.figures["rebalancings"] = static_cast<double>(grains->distribution()->rebalancings());
 }
 
-/// Where what stands on a settled bed has been put.
+/// Prints the positions of objects placed on the settled bed.
 void describePlaced(const coupling::Simulation& simulation) {
   const coupling::GroundSetup& ground = simulation.setup().ground;
   for (const coupling::SurfaceSetup& s : ground.surfaces)
@@ -108,9 +109,7 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
                rig->parts().shapes() ? "shapes" : "samples", rig->parts().totalSpheres(),
                std::count_if(figures.begin(), figures.end(), isCut), figures.size());
     if (simulation.ground().grains && simulation.setup().vehicle->soilTouchesShoesOnly)
-      fmt::print(
-          "soil      meets the shoes alone (vehicle.soil_contact): wheels, sprocket, rollers and idler pass through "
-          "it\n");
+      fmt::print("soil      soil contact: track shoes only (vehicle.soil_contact)\n");
   }
   for (const std::string& note : bedNotes(simulation)) fmt::print("note      {}\n", note);
   if (const coupling::Mechanism* mechanism = simulation.mechanism())
@@ -140,35 +139,38 @@ void describeSqueezed(const coupling::Simulation& simulation, session::Recorder&
   fmt::print("{}", recorder.squeezed().text());
 }
 
-/// Prints the statistics of the solver of complementarity contacts.
-void describeSolver(const coupling::Simulation& simulation) {
+/// Prints the statistics of the solver of complementarity contacts; without `verbose` only missed steps.
+void describeSolver(const coupling::Simulation& simulation, bool verbose) {
   if (!simulation.ground().grains || !simulation.ground().grains->system().impulses) return;
   const terrain::ImpulseTotals& all = simulation.ground().grains->system().impulses->totals();
   const terrain::ImpulseCost& cost = simulation.ground().grains->system().impulses->cost();
   const auto evaluations = static_cast<double>(std::max<std::int64_t>(1, cost.evaluations));
   const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, all.steps));
-  fmt::print(
-      "solver    {:.1f} iterations per step, {:.3g} us per iteration{}, residual {:.2g} m/s at most (limit {:.2g} "
-      "m/s){}\n",
-      static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / evaluations,
-      cost.bytes > 0
-          ? fmt::format(", {:.3g} kB sent per iteration (rank 0)", 1e-3 * static_cast<double>(cost.bytes) / evaluations)
-          : "",
-      all.worst, asked.residual,
-      all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step")) : "");
+  if (verbose)
+    fmt::print(
+        "solver    {:.1f} iterations per step, {:.3g} us per iteration{}, residual {:.2g} m/s at most (limit {:.2g} "
+        "m/s){}\n",
+        static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / evaluations,
+        cost.bytes > 0 ? fmt::format(", {:.3g} kB sent per iteration (rank 0)",
+                                     1e-3 * static_cast<double>(cost.bytes) / evaluations)
+                       : "",
+        all.worst, asked.residual,
+        all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step"))
+                        : "");
   if (all.missed > 0)
     fmt::print("WARNING: {} of {} exceed run.residual; raise complementarity.iterations or run.residual, or use a "
                "smaller time_step\n",
                base::counted(all.missed, "step"), all.steps);
 }
 
-/// What steps an error chose.
-void describeSteps(const coupling::Mechanism& mechanism, output::Summary& summary) {
+/// Steps of a mechanism with error control.
+void describeSteps(const coupling::Mechanism& mechanism, bool verbose, output::Summary& summary) {
   if (!mechanism.controller()) return;
   const coupling::StepController::Record& r = mechanism.controller()->record();
-  fmt::print("steps     {} of {:.3g} to {:.3g} s of the mechanism's own, {} stretches done again\n", r.taken,
-             r.smallest, r.largest, r.rejected);
+  if (verbose)
+    fmt::print("steps     mechanism: {} steps of {:.3g} to {:.3g} s, {} repeated\n", r.taken, r.smallest, r.largest,
+               r.rejected);
   summary.figures["mechanism_steps"] = static_cast<double>(r.taken);
   summary.figures["mechanism_stretches_rejected"] = static_cast<double>(r.rejected);
   summary.figures["mechanism_step_smallest_s"] = r.smallest;
@@ -229,7 +231,7 @@ void noteOrigin(const storage::Checkpoint& former, bool branch, output::Summary&
   if (former.branchedFrom) summary.figures["branched_at_step"] = static_cast<double>(former.branchedFrom->step);
 }
 
-/// What of the command line ended the run. `cut`: its last step is not that of the scene.
+/// Records the option that ended the run. `cut`: the last step is not that of the scene.
 void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
   if (endsAtRest)
     run.writer().fact("ended_by", output::kUntilRest);
@@ -309,14 +311,17 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, simulation.steps() - begin));
     if (options.hash) summary.stateHash = simulation.stateHash();
     if (options.replay && total == all) describeReplay(recorded, provenance, summary.stateHash);
-    describeLedger(simulation);
-    describeSolver(simulation);
+    describeSolver(simulation, options.verbose);
     describeSqueezed(simulation, run.recorder(), summary);
-    fmt::print("wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us a step), {:.1f} s of CPU "
-               "time\n",
-               prepared, drove, simulation.steps() - begin, timeStep, summary.figures["microseconds_a_step"], cpu);
-    if (simulation.mechanism()) describeSteps(*simulation.mechanism(), summary);
-    describeSharing(simulation, waiting, summary);
+    if (options.verbose) {
+      describeLedger(simulation);
+      fmt::print(
+          "wall      {:.1f} s preparation, {:.1f} s for {} steps of {:g} s ({:.0f} us per step), {:.1f} s of CPU "
+          "time\n",
+          prepared, drove, simulation.steps() - begin, timeStep, summary.figures["microseconds_a_step"], cpu);
+    }
+    if (simulation.mechanism()) describeSteps(*simulation.mechanism(), options.verbose, summary);
+    describeSharing(simulation, waiting, options.verbose, summary);
     run.writer().finish(summary);
   });
   return summary;

@@ -8,10 +8,10 @@
 
 namespace grouser::commands {
 
-/// Runs a scene, of this provenance, to its end and writes its folder through a RunWriter; what it returns has gone
-/// into the manifest too. With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at
-/// the end, and where SIGINT or SIGTERM stops the run. One that fails leaves what is needed to see why. Throws
-/// InputError, SimulationError, DeviceError, or Stopped.
+/// Runs a scene, of this provenance, to its end and writes its folder through a RunWriter; the returned summary is also
+/// in the manifest. With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at the
+/// end, and where SIGINT or SIGTERM stops the run. A failed run leaves files for diagnosis. Throws InputError,
+/// SimulationError, DeviceError, or Stopped.
 output::Summary runScene(const scene::Scene& scene, const setup::Provenance& provenance,
                          const session::RunRequest& options);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a scene would be divided among ranks, before it is run.
+// Planned distribution of a scene among ranks.
 #include "runs/commands/plan.hpp"
 
 #include "base/error.hpp"
@@ -68,11 +68,11 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
   const double each = grains / ranks, ghosts = std::min(each * (grown - 1), grains - each);
   std::string text = fmt::format("\n{} ranks\n", ranks);
   text += fmt::format("  {:<24} {} x {} x {}\n", "subdomains", shape[0], shape[1], shape[2]);
-  text += fmt::format("  {:<24} {:.0f}, and up to {:.0f} ghosts\n", "grains a rank", each, ghosts);
-  text += fmt::format("  {:<24} {:.2f} % of the grains\n", "ghosts in all", 100 * std::min(all - 1, ranks - 1.0));
-  text += fmt::format("  {:<24} about {:.1f} MiB a rank\n", "memory for grains",
+  text += fmt::format("  {:<24} {:.0f}, and up to {:.0f} ghosts\n", "grains per rank", each, ghosts);
+  text += fmt::format("  {:<24} {:.2f} % of the grains\n", "total ghosts", 100 * std::min(all - 1, ranks - 1.0));
+  text += fmt::format("  {:<24} about {:.1f} MiB per rank\n", "memory for grains",
                       (each + ghosts) * setup::grainMemory(scene).most() / 1048576.0);
-  text += fmt::format("  {:<24} {:.0f} KiB a rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);
+  text += fmt::format("  {:<24} {:.0f} KiB per rank and step\n", "messages", ghosts * kBytesPerGhost / 1024);
   return text;
 }
 

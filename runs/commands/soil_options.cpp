@@ -50,33 +50,36 @@ private:
 
 void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--seeds", &PlanOptions::seeds, support::wholeNumber(1, 1000),
-           "beds of the small plate, and samples of each load");
-  keys.add(soil, "--large-seeds", &PlanOptions::largeSeeds, support::wholeNumber(1, 1000), "beds of the large plate");
+           "number of beds of the small plate, and of samples of each shear load");
+  keys.add(soil, "--large-seeds", &PlanOptions::largeSeeds, support::wholeNumber(1, 1000),
+           "number of beds of the large plate");
   keys.add(soil, "--plate-grains", &PlanOptions::plateGrains, support::between(4, 1000),
            "breadth of the small plate [mean grain diameters]");
   keys.add(soil, "--plate-ratio", &PlanOptions::plateRatio, support::between(1.2, 20),
            "breadth of the large plate over that of the small one [-]");
-  keys.add(soil, "--bin", &PlanOptions::bin, support::between(2, 100), "width of a bed beside the plate [breadths]");
-  keys.add(soil, "--depth", &PlanOptions::depth, support::between(0.5, 100), "of a bed [breadths]");
+  keys.add(soil, "--bin", &PlanOptions::bin, support::between(2, 100), "bed width between the boundaries [breadths]");
+  keys.add(soil, "--depth", &PlanOptions::depth, support::between(0.5, 100), "bed depth [breadths]");
   keys.add(soil, "--thickness", &PlanOptions::thickness, support::between(3.5, 1000),
-           "of a bed along the strip [mean grain diameters]");
+           "bed thickness along the strip [mean grain diameters]");
   keys.add(soil, "--pressure", &PlanOptions::mostPressure, support::between(1e3, 1e7),
-           "to which plates are pushed, unless they sink 0.3 breadths before [Pa]");
+           "maximum plate pressure; the test ends earlier at a sinkage of 0.3 breadths [Pa]");
   keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
-           "of the plates: speed/breadth d sqrt(density/pressure) [-]");
+           "inertial number of the plate tests: speed/breadth d sqrt(density/pressure) [-]");
   keys.add(soil, "--plate-waves", &PlanOptions::plateWaves, support::between(1e-4, 10),
-           "pressure that the waves of a moving plate add, over the track's: as slowly plates go in firm soil [-]");
+           "limit of the pressure from waves of the moving plate, over the track pressure; bounds the speed in firm "
+           "soil [-]");
   keys.add(soil, "--shear-inertial-number", &PlanOptions::shearInertialNumber, support::between(1e-6, 0.1),
-           "of the shear: rate d sqrt(density/stress) [-]");
+           "inertial number of the shear tests: rate d sqrt(density/stress) [-]");
   keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),
-           "to which layers are sheared [-]");
-  keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7), "on sheared layers [Pa]");
+           "final shear strain of the layers [-]");
+  keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7),
+           "normal stresses of the shear tests [Pa]");
   keys.add(soil, "--steps-per-contact", &PlanOptions::stepsPerContact, support::between(6, 600),
-           "of the shortest contact; more where tests end unsoundly");
+           "time steps per shortest contact; raised for tests that end unsound");
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
-           "of the sheared layer, at least ten grains [m]");
+           "height of the sheared layer, at least ten grains [m]");
   soil.add_flag("!--no-wide", keys.wide(),
-                "leave out the small plate on beds of twice the width; --calibrate does so anyhow");
+                "omit the small plate on beds of twice the width, as --calibrate always does");
 }
 
 void doSoil(const virtual_tests::SoilCommand& c, const std::string& targets, const std::string& words) {
@@ -100,22 +103,23 @@ void addSoil(CLI::App& app, const Invocation& invocation) {
       "soil", "A soil's constants (Bekker, Mohr-Coulomb, Janosi) measured in a virtual bevameter, with intervals");
   soil->add_option("soil", c.soil, "name of a soil, or a soil file that ends in .toml");
   soil->add_option("--calibrate", *targets,
-                   "instead: a file of targets; finds contact parameters for wanted constants, and writes a soil file");
-  soil->add_option("--grain-radius", c.grainRadius,
-                   "mean radius of the grains tested [m]; stiffness and cohesion grow with it; default: the file's")
+                   "file of target constants; finds contact parameters that reproduce them, and writes a soil file");
+  soil->add_option(
+          "--grain-radius", c.grainRadius,
+          "mean radius of the grains tested [m]; stiffness and cohesion scale with it; default: that of the soil file")
       ->check(support::positive("a length in metres"));
   const auto keys = std::make_shared<PlanKeys>(c.plan);
   addPlanOptions(*soil, *keys);
   jobs::addPieceOptions(*soil, c.pieces);
-  soil->add_option("--jobs", c.jobs, "tests at the same time, each a process on its share of --threads")
+  soil->add_option("--jobs", c.jobs, "number of concurrent tests, each a process with its share of --threads")
       ->check(support::wholeNumber(1, 256))
       ->capture_default_str();
   soil->add_flag("--quick", c.place.quick, "a coarse pass in minutes: small plates of few grains, pushed fast");
   soil->add_flag("--fit-scm", c.fitScm,
                  "also fit the soil contact model (terrain.kind = \"scm\") to the tests: constants for [scm], and the "
-                 "residual that no constants remove");
+                 "residual of the fit");
   support::addOut(*soil, c.place.folder, "folder of the results; default: out/soil_NAME, or out/calibrate_NAME");
-  soil->add_flag("--force", c.place.force, "overwrite what is in that folder");
+  soil->add_flag("--force", c.place.force, "overwrite the results in that folder");
   soil->callback([command, keys, targets, words = invocation.words] {
     if (command->place.quick) keys->takeQuick();
     doSoil(*command, *targets, words);

@@ -22,10 +22,10 @@ using scene::SoilQuantity;
 
 namespace {
 
-/// A scene that might stand in a folder.
+/// Path of a scene in a folder, which need not exist.
 fs::path sceneIn(const fs::path& folder) { return folder / "scene.toml"; }
 
-/// "1.1", "20 to 25": a constant in a unit of `unit` SI units, with what its sources differ by.
+/// "1.1", "20 to 25": a constant in a unit of `unit` SI units, with the range of its sources.
 std::string published(const Soil& soil, SoilQuantity quantity, double unit) {
   const auto found = std::find_if(soil.published.begin(), soil.published.end(),
                                   [&](const scene::PublishedConstant& c) { return c.quantity == quantity; });
@@ -35,7 +35,7 @@ std::string published(const Soil& soil, SoilQuantity quantity, double unit) {
                     : fmt::format("{:.5g}", found->value / unit);
 }
 
-/// "7", "7 to 20": radii at which a soil has been measured, or is meant to hold [mm].
+/// "7", "7 to 20": radii at which a soil has been calibrated, or is meant to be used [mm].
 std::string radii(const Soil& soil) {
   const auto [least, greatest] = soil.grains.calibratedRadii;
   return least < greatest ? fmt::format("{:g} to {:g}", 1000 * least, 1000 * greatest)
@@ -105,13 +105,13 @@ std::string soilText(const std::string& word, const fs::path& folder) {
   std::vector<fs::path> tried;
   const fs::path file = scene::findSoil(word, sceneIn(folder), tried);
   if (file.empty())
-    throw base::InputError(fmt::format("soils {}: is no soil; {}", word, scene::soilHint(word, sceneIn(folder))));
+    throw base::InputError(fmt::format("soils {}: is not a soil; {}", word, scene::soilHint(word, sceneIn(folder))));
   const Soil soil = scene::readSoil(file);
   std::string text = fmt::format("{}: {}, {}\n{}\n  {} ({})\n\n", soil.name, soil.head.title, state(soil),
                                  soil.head.description, soil.file.string(), soil.hash);
-  text += fmt::format("its grains: radius {:g} mm +- {:g} %, {}\n", 1000 * soil.grains.radius,
-                      100 * soil.grains.radiusSpread,
-                      soil.grains.porosity ? fmt::format("porosity {:g}", *soil.grains.porosity) : "as poured");
+  text +=
+      fmt::format("grains: radius {:g} mm +- {:g} %, {}\n", 1000 * soil.grains.radius, 100 * soil.grains.radiusSpread,
+                  soil.grains.porosity ? fmt::format("porosity {:g}", *soil.grains.porosity) : "as poured");
   text += "\npublished, with 95 % intervals of the constants of the soil contact model\n";
   const std::vector<scene::ContactConstant> constants =
       scene::contactConstants(soil, scene::SoilConstantsFrom::published);
@@ -124,7 +124,7 @@ std::string soilText(const std::string& word, const fs::path& folder) {
   if (constants.size() == scene::kContactQuantities.size())
     text += "  " + scene::jointDistributionText(constants) + "\n";
   if (soil.published.empty()) text += "  nothing\n";
-  text += "\nreached by its contact parameters\n";
+  text += "\nmeasured with its contact parameters\n";
   for (const scene::ReachedConstant& c : soil.reached)
     text += fmt::format("  {:<13} {:g} +- {:.2g} {} with grains of {:g} mm: {}\n", base::wordOf(c.quantity), c.value,
                         c.halfWidth, c.unit, 1000 * c.grainRadius, c.command);

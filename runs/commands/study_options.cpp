@@ -18,15 +18,15 @@ void addStudy(CLI::App& app, const Invocation&) {
   CLI::App* study = app.add_subcommand("study", "Error against run time, stable steps, precision: tables and plots");
   study->require_subcommand(1);
   CLI::App* multibody = study->add_subcommand(
-      "multibody", "Mechanisms whose motion is known: error, order, drift and CPU time of each integrator and step");
+      "multibody", "Mechanisms with known motion: error, order, drift and CPU time of each integrator and step");
   std::string names;
   for (const studies::StudyCase& known : studies::studyCases()) names += (names.empty() ? "" : ", ") + known.name;
-  multibody->add_option("--cases", c.cases, "names, separated by commas, of " + names + "; default: all")
+  multibody->add_option("--cases", c.cases, "cases, separated by commas, of " + names + "; default: all")
       ->delimiter(',');
-  multibody->add_flag("--stability", c.stability, "instead: which steps are stable, against what theory says");
-  studies::addPlace(*multibody, c.place, "multibody", "three long steps only, and none of the cases that take minutes");
+  multibody->add_flag("--stability", c.stability, "stable time steps, compared with theory, instead");
+  studies::addPlace(*multibody, c.place, "multibody", "three long steps only, without the cases that take minutes");
   studies::QuickValues quick;
-  quick.instead(multibody->add_option("--budget", c.budget, "runs that would take more CPU time are left out [s]")
+  quick.instead(multibody->add_option("--budget", c.budget, "maximum CPU time of a run; longer ones are omitted [s]")
                     ->check(support::positive("a time in seconds"))
                     ->capture_default_str(),
                 c.budget, 0.5);

@@ -62,7 +62,7 @@ support::Estimate relativeDifference(std::span<const double> a, std::span<const 
 }
 
 support::Estimate pairedChange(std::span<const double> a, std::span<const double> b) {
-  if (a.size() != b.size()) throw std::invalid_argument("pairedChange: not as many of both");
+  if (a.size() != b.size()) throw std::invalid_argument("pairedChange: samples of different size");
   std::vector<double> changes;
   for (std::size_t i = 0; i < a.size(); ++i) changes.push_back(b[i] - a[i]);
   return interval95(changes);
@@ -87,13 +87,13 @@ std::string verdictText(Verdict verdict) {
   case Verdict::differs:
     return "differs";
   default:
-    return "not shown";
+    return "inconclusive";
   }
 }
 
 namespace {
 
-/// Whether all seeds agree but for rounding: such an interval is none.
+/// Whether all seeds agree but for rounding; then no interval is shown.
 bool isExact(const support::Estimate& e) { return e.halfWidth <= 1e-9 * std::fabs(e.value); }
 
 } // namespace

@@ -6,12 +6,12 @@
 #include <span>
 #include <string>
 
-/// What a few seeds tell: means with intervals, and whether two of them are equal within a bar.
+/// Statistics of a few seeds: means with intervals, and equality of means within a tolerance.
 namespace grouser::jobs {
 
 /// Mean and half width of its 95 % interval by Student's distribution; infinite for fewer than two values.
 support::Estimate interval95(std::span<const double> values);
-/// The same where the interval is to miss the mean with this chance, in (0, 1).
+/// The same for an interval that misses the mean with probability `miss`, in (0, 1).
 support::Estimate interval(std::span<const double> values, double miss);
 /// Prediction interval: mean, and the half width of the interval that misses one further value with this chance.
 support::Estimate predictionInterval(std::span<const double> values, double miss);
@@ -31,14 +31,14 @@ support::Estimate pairedDifference(std::span<const double> a, std::span<const do
 enum class Verdict {
   equal,   ///< the whole interval lies within the bar
   differs, ///< the whole interval lies outside
-  notShown ///< too wide to tell
+  notShown ///< the interval crosses the bar
 };
-/// Of a difference whose interval is to lie in [-bar, bar].
+/// Verdict on a difference, equal if its interval lies in [-bar, bar].
 Verdict judge(const support::Estimate& difference, double bar);
-std::string verdictText(Verdict verdict); ///< "equal", "differs", "not shown"
+std::string verdictText(Verdict verdict); ///< "equal", "differs", "inconclusive"
 
-/// Whether the interval is wider than the value is large, so that not even its sign is sure. One value alone has no
-/// interval, and no such doubt.
+/// Whether the half width exceeds the value, so that even its sign is uncertain. False for a single value, which has no
+/// interval.
 bool isInconclusive(const support::Estimate& estimate);
 
 /// "12.3 +- 0.4" with so many digits after the point; "12.3" where the interval is below 1e-9 of the value, so that the

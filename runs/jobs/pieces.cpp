@@ -43,7 +43,7 @@ void addDeviceOptions(CLI::App& app, std::string& device, int& threads) {
   app.add_option("--device", device, "auto, cpu or cuda")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
       ->capture_default_str();
-  app.add_option("--threads", threads, "CPU threads, 0 for all; the answer does not depend on it")
+  app.add_option("--threads", threads, "CPU threads, 0 for all; the results do not depend on it")
       ->check(support::wholeNumber(0, 1024))
       ->capture_default_str();
 }
@@ -51,15 +51,15 @@ void addDeviceOptions(CLI::App& app, std::string& device, int& threads) {
 void addPieceOptions(CLI::App& app, PieceOptions& o) {
   app.add_flag(
       "--resume", o.resume,
-      "go on with the runs that earlier calls have left in the folder; a call with the same options does so anyway");
+      "continue with the runs of earlier calls in the folder, as a call with the same options does by default");
   app.add_option("--part", o.part,
-                 "e.g. 2/8: every eighth run only, from the second on, to share a study among calls "
-                 "at the same time; a last call without it writes the tables")
+                 "share of the runs, e.g. 2/8: every eighth run, starting with the second, to divide a study among "
+                 "concurrent calls; a last call without it writes the tables")
       ->check(CLI::Validator(
           [](const std::string& text) { return partOf(text) ? std::string() : text + " is not a part such as 2/8"; },
           "PART/PARTS"));
   app.add_option("--seconds", o.seconds,
-                 "no further run is begun that would end after so many, by how long the last one took; 0: no end")
+                 "start no further run that would end after this wall time [s], judged by the last run; 0: no limit")
       ->check(support::notNegative("a time in seconds"));
   addDeviceOptions(app, o.device, o.threads);
 }
@@ -82,9 +82,8 @@ void Recipe::keep() const {
 std::size_t Table::column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw base::InputError(fmt::format("a table of an earlier call has no column \"{}\": it is of another version; "
-                                       "begin anew with --force",
-                                       name));
+    throw base::InputError(fmt::format(
+        "a table of an earlier call has no column \"{}\": it is from another version; start again with --force", name));
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -118,8 +117,8 @@ Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOpt
   const bool hasRuns = (isAsked || !place.force) && fs::exists(file, missing);
   const bool isSame = hasRuns && kept.isThere();
   if (hasRuns && !isSame)
-    throw base::InputError(fmt::format("{}: the runs in this folder were made with other options; call with those, "
-                                       "take another --out, or overwrite it with --force",
+    throw base::InputError(fmt::format("{}: the runs in this folder were made with other options; use the same "
+                                       "options, name another folder with --out, or overwrite it with --force",
                                        file.string()));
   const bool goesOn = isAsked || isSame;
   where.force = place.force || goesOn;
@@ -145,7 +144,7 @@ Table Pieces::read(const std::string& run) const {
     std::vector<double> row;
     for (std::istringstream cells(line); std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
     if (row.size() != table.names.size())
-      throw base::InputError(fmt::format("{}: a line has {} numbers, not {}; remove the file and call again",
+      throw base::InputError(fmt::format("{}: a line has {} numbers, not {}; remove the file and repeat the call",
                                          file(run).string(), row.size(), table.names.size()));
     table.rows.push_back(row);
   }
@@ -180,7 +179,7 @@ bool Pieces::dueBeside(const std::string& run) {
 }
 
 bool Pieces::inTime(const std::string& run) {
-  double expected = 0; // the first run of a call is begun whatever it takes
+  double expected = 0; // the first run of a call always starts
   if (const auto known = took_.find(kindOf(run)); known != took_.end())
     expected = known->second;
   else

@@ -22,11 +22,11 @@ struct Part {
   bool has(std::size_t run) const { return static_cast<int>(run) % count == number - 1; }
 };
 
-/// What a call does of a study.
+/// Share of a study that a call runs.
 struct PieceOptions {
-  bool resume = false; ///< goes on with what an earlier call has left
+  bool resume = false; ///< continue with the runs of earlier calls
   std::string part;    ///< "2/8": every eighth run, from the second on; empty: all
-  double seconds = 0;  ///< no run is begun after these [s]; 0: no end
+  double seconds = 0;  ///< no run starts after this wall time [s]; 0: no limit
   std::string device = "auto";
   int threads = 1;
   Part share() const; ///< as `part` says
@@ -35,12 +35,12 @@ void addPieceOptions(CLI::App& app, PieceOptions& options);
 /// --device and --threads alone.
 void addDeviceOptions(CLI::App& app, std::string& device, int& threads);
 
-/// A file in a folder of runs that says what they depend on: a call that has the same text goes on with them.
+/// File with all inputs of the runs in a folder: a call with the same text continues them.
 class Recipe {
 public:
   Recipe(std::filesystem::path file, std::string text) : file_(std::move(file)), text_(std::move(text)) {}
-  bool isThere() const; ///< with this very text
-  void keep() const;    ///< several parts of a call may do so at the same time
+  bool isThere() const; ///< with exactly this text
+  void keep() const;    ///< several concurrent parts may call it
 
 private:
   std::filesystem::path file_;
@@ -68,15 +68,15 @@ public:
   bool has(const std::string& run) const;
   Table read(const std::string& run) const;
   void keep(const std::string& run, const Table& table);
-  /// Whether this call is to do the run: it is of its part, not there yet, and time is left for as long as the last of
-  /// its kind took in this call (of a kind that is new: the longest of all). Counts the runs: called once for each, in
-  /// an order that is the same in all calls. The kind is the run's name up to its last underscore.
+  /// Whether this call is to do the run: it belongs to its part, is not there yet, and the time left suffices for the
+  /// last run of its kind (for a new kind: the longest of all). Counts the runs: called once for each, in the same
+  /// order in all calls. The kind is the run's name up to its last underscore.
   bool due(const std::string& run);
-  /// The same of a run that stands beside the one due() was last asked for: of its part, and not counted.
+  /// The same for a run that accompanies the last one of due(): of the same part, and not counted.
   bool dueBeside(const std::string& run);
-  /// The same of the time alone, for a process that works for this one: the run begins now if so.
+  /// Checks the time only, for a child process; if true, the run starts now.
   bool inTime(const std::string& run);
-  /// A folder for what the run needs on its way, which a call that is stopped leaves to the next.
+  /// Working folder of the run, which a stopped call leaves to the next.
   std::filesystem::path begin(const std::string& run) const;
   int left() const { return left_; } ///< runs seen that were not there and not due
 

@@ -26,16 +26,16 @@ namespace grouser::jobs {
 
 namespace {
 
-// What a child says: one letter for each piece done; where one fails, the letter of its kind and then the message to
-// the end.
+// Output of a child: one letter for each finished piece; on failure the letter of its kind, then the message.
 constexpr char kDone = '.', kFirstKind = 'a';
 constexpr int kPause = 100; ///< between looks at the signals [ms]
 
-/// What is to be done next, for all processes.
+/// Index of the next piece, shared by all processes.
 class NextPiece {
 public:
   NextPiece() : block_(base::createShared(sizeof(Number))) {
-    if (!block_.memory) throw base::DeviceError("no memory to share among processes; take --jobs 1 or --processes 1");
+    if (!block_.memory)
+      throw base::DeviceError("no shared memory for several processes; use --jobs 1 or --processes 1");
     number_ = new (block_.memory) Number(0);
   }
   ~NextPiece() { base::closeShared(block_.memory, sizeof(Number)), base::endSharing(block_); }
@@ -50,7 +50,7 @@ private:
   Number* number_ = nullptr;
 };
 
-/// In a process of its own: does pieces as long as there are any, and reports them.
+/// Runs in a child process: takes pieces until none are left, and reports them.
 void doPieces(const support::Descriptor& report, NextPiece& next, std::size_t count,
               const std::function<void(std::size_t)>& work) {
   try {
@@ -64,7 +64,7 @@ void doPieces(const support::Descriptor& report, NextPiece& next, std::size_t co
   }
 }
 
-/// Takes a report; what follows the letters of pieces done is a failure's. False when the process has ended.
+/// Reads a report; text after the letters of finished pieces describes a failure. False when the process has ended.
 bool listen(support::ChildProcess& child, std::string& failure, const std::function<void()>& done) {
   std::string report;
   const bool goesOn = child.read(report);
@@ -77,12 +77,12 @@ bool listen(support::ChildProcess& child, std::string& failure, const std::funct
   return goesOn;
 }
 
-/// What the end of a process means.
+/// Throws the error of a process that has ended.
 void judge(const support::ProcessEnd& end, const std::string& failure) {
   if (!failure.empty())
     support::rethrow({static_cast<support::FailureKind>(failure[0] - kFirstKind), failure.substr(1)});
   if (end.signal == SIGKILL)
-    throw base::DeviceError("one of the processes was killed; out of memory? Take fewer --processes");
+    throw base::DeviceError("one of the processes was killed; out of memory? Use fewer --processes");
   if (end.signal != 0) throw std::runtime_error(fmt::format("one of the processes was {}", end.text()));
 }
 

@@ -7,13 +7,12 @@
 #include <string>
 #include <vector>
 
-/// What studies have in common: series of runs that answer one question, such as `grouser study` and the virtual tests
-/// of a soil.
+/// Common parts of studies: series of runs for one question, such as `grouser study` and the virtual soil tests.
 namespace grouser::jobs {
 
 inline constexpr double kGravity = 9.81; ///< in all studies [m/s2]
 
-/// Where a study writes, and how much it does.
+/// Folder and extent of a study.
 struct StudyPlace {
   std::string folder; ///< empty: out/study_NAME
   bool force = false; ///< overwrite what is in it

@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes mechanisms whose scene files are long: make_mechanisms.py NAME [NUMBER...] [FILE]
+"""Generates long scene files of mechanisms: make_mechanisms.py NAME [NUMBER...] [FILE]
 
     fourbar N          N four-bar linkages in a row: 2 N + 1 rods of 1 m and 1 kg (IFToMM benchmark, problem A02)
     andrews            Andrews' squeezing mechanism (IFToMM benchmark, problem A03; IVP test set)
     ring N SPIN        a ring of N track links spinning about its centre [rad/s]
     chain N TIP        a hanging chain of N links of 0.15 m and 1 kg with a mass at its end [kg]
-    bennett            Bennett's linkage, overconstrained and yet movable
+    bennett            Bennett's linkage, overconstrained but movable
     strand N SAG       a strand of N track links between two rollers 0.667 m apart, sagging by SAG [m]
 
-Without FILE to the terminal. The files beside this script are what it wrote:
+Without FILE it prints to the terminal. It generated the files in its folder:
     for m in 'fourbar 2' 'fourbar 40' andrews 'ring 46 10' 'chain 100 1e6' 'strand 12 0.01'; do ...; done
 """
 import math
@@ -74,7 +74,7 @@ def fourbar(n):
 
 
 def andrews():
-    """Constants and start of the IVP test set; angles are absolute or relative as there."""
+    """Constants and initial state of the IVP test set, with its absolute and relative angles."""
     m = (.04325, .00365, .02373, .00706, .07050, .00706, .05498)
     inertia = (2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5)
     xa, ya, xb, yb, xc, yc, c0 = -.06934, -.00227, -.03635, .03273, .014, .072, 4530
@@ -149,8 +149,8 @@ def chain(n, tip):
     n, tip = int(n), float(tip)
     length, mass = .15, 1
     out = head(f"A hanging chain of {n} links with {tip:g} kg at its end, {tip / mass:g} times a link's mass. At rest the pin above link i carries\n"
-               f"(({n} - i) {mass} kg + {tip:g} kg) g; the first {(n * mass + tip) * G:.6g} N. It hangs still, but the least push makes its links swing\n"
-               "across that pull: the step is one with which such swings do not grow.",
+               f"(({n} - i) {mass} kg + {tip:g} kg) g; the first {(n * mass + tip) * G:.6g} N. It hangs at rest; the time step is small enough that\n"
+               "transverse oscillations of the links do not grow.",
                duration=1, time_step=f"{min(1e-3, .05 / math.sqrt(n + tip / mass)):.1g}", gravity=vector(0, 0, -G), output_interval=.01, frame_interval=.1)
     out += "\n[output]\nrecord = " + names("link 0", "tip", "pin 0", f"pin {n // 2}", "tip pin") + "\n"
     for i in range(n):
@@ -165,8 +165,8 @@ def chain(n, tip):
 
 
 def strand(n, sag):
-    """Links at rest between two points: at each pin the horizontal force H is the same, the vertical one a link's weight less than
-    at the pin before; the direction of a link is that of the force in its middle. H is found so that the span fits."""
+    """Links at rest between two points: the horizontal force H is the same at each pin, the vertical force decreases by
+    the weight of a link; each link has the direction of the force at its middle. H is found from the span."""
     n, sag = int(n), float(sag)
     span, mass = .667, 18.02 * .667 / (.154 * n)
     # For a given H the shape is a discrete catenary of links of length p; p and H follow from span and sag.
@@ -197,8 +197,8 @@ def strand(n, sag):
 
 
 def bennett():
-    """Link lengths a, b, a, b and twists alpha, beta with sin(alpha) / a = sin(beta) / b; the other turns follow from the first:
-    tan(t1 / 2) tan(t2 / 2) = sin((beta + alpha) / 2) / sin((beta - alpha) / 2)."""
+    """Link lengths a, b, a, b and twists alpha, beta with sin(alpha) / a = sin(beta) / b; the other turns follow from
+    the first: tan(t1 / 2) tan(t2 / 2) = sin((beta + alpha) / 2) / sin((beta - alpha) / 2)."""
     a, alpha, beta = 1.0, math.radians(30), math.radians(70)
     b = a * math.sin(beta) / math.sin(alpha)
     t1 = math.radians(60)
@@ -215,8 +215,8 @@ def bennett():
         y, z = mix(y, math.cos(twist), z, math.sin(twist)), mix(z, math.cos(twist), y, -math.sin(twist))
     gap = max(abs(i - j) for u, v in ((p, pins[0][0]), (z, pins[0][1])) for i, j in zip(u, v))
     assert gap < 1e-12, gap
-    out = head("Bennett's linkage: four links on four hinges whose axes are skew. Counting rows it is held three times more than a\n"
-               "mechanism may be (4 x 5 rows against 3 x 6 freedoms), and yet it moves: one freedom.",
+    out = head("Bennett's linkage: four links on four hinges whose axes are skew. It has 4 x 5 constraint rows for 3 x 6 degrees of\n"
+               "freedom, three more than a movable mechanism should have, but one degree of freedom remains.",
                duration=5, time_step="1e-3", gravity=vector(0, 0, -G), output_interval=.01)
     for i in range(1, 4):
         (p0, _), (p1, _) = pins[i], pins[(i + 1) % 4]

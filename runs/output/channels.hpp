@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-/// The quantities of a time series: one list for who writes results.h5 and who reads it.
+/// Quantities of a time series: one list for writer and reader of results.h5.
 namespace grouser::output {
 
 inline const std::vector<std::string> kAxes = {"x", "y", "z"}; ///< columns of a vector
@@ -73,14 +73,14 @@ private:
 /// The bed at the time of a row.
 struct TerrainReading {
   coupling::Ledger ledger;
-  double radius{};                                  ///< that of the grains' model, in which overlaps are told [m]
-  double crushed{};                                 ///< grains taken out since the start
-  std::int64_t rebuilds{};                          ///< of the neighbour list
-  std::optional<coupling::PressedMost> pressedMost; ///< empty where grains meet no part
+  double radius{};         ///< radius of the grains' model, the unit of overlaps [m]
+  double crushed{};        ///< grains removed since the start
+  std::int64_t rebuilds{}; ///< of the neighbour list
+  std::optional<coupling::DeepestPartOverlap> deepestPartOverlap; ///< empty if grains touch no part
 };
 /// State of the bed and its contacts.
 Columns<TerrainReading> terrainColumns();
-/// Loads on a rigid surface and what moves it, under surfaces/NAME. `hasPivot`: its torque about that too.
+/// Loads on a rigid surface and power of its drive, under surfaces/NAME. `hasPivot`: also its torque about the pivot.
 Columns<coupling::Surfaces::Observation> surfaceColumns(const std::string& name, bool hasPivot = false);
 /// The mean force of a vehicle on a surface at rest, under obstacles/NAME.
 Columns<base::Vec3d> obstacleColumns(const std::string& name);
@@ -89,9 +89,9 @@ struct HitchReading {
   coupling::HitchObservation hitch;
   double drawbarPull{}; ///< [N]
 };
-/// What a vehicle pulls at its hitch.
+/// Loads at the hitch of a vehicle.
 Columns<HitchReading> hitchColumns();
-/// What grains touch of a vehicle.
+/// Contacts of grains with the parts of a vehicle.
 Columns<coupling::GearContacts> gearColumns();
 /// Columns of the ledger that only some scenes have.
 struct LedgerParts {

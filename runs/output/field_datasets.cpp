@@ -27,7 +27,7 @@ Numbers ofTensors(const std::vector<terrain::Tensor6>& values) {
   return all;
 }
 
-/// A quantity of each cell: the one list, which a new field is added to.
+/// A quantity of each cell: the list of all fields.
 struct FieldDataset {
   const char* name;
   std::uint64_t width; ///< 1: scalar, 3: vector, 6: symmetric tensor xx, xy, xz, yy, yz, zz, as XDMF has it
@@ -36,17 +36,18 @@ struct FieldDataset {
 };
 const FieldDataset kFieldDatasets[] = {
     {"stress", 6, [](const SoilFields& f) { return ofTensors(f.stress); }, "Pa",
-     "Love-Weber: xx, xy, xz, yy, yz, zz, mean over the cell with its pores; negative in compression"},
+     "Love-Weber stress xx, xy, xz, yy, yz, zz, mean over the cell with its pores; negative in compression"},
     {"strain_rate", 6, [](const SoilFields& f) { return ofTensors(f.strainRate); }, "1/s",
-     "xx, xy, xz, yy, yz, zz of the linear velocity field that fits the cell's grains best; NaN where they are too "
-     "few"},
+     "strain rate xx, xy, xz, yy, yz, zz of a linear velocity field fitted to the cell's grains; NaN with too few "
+     "grains"},
     {"velocity", 3, [](const SoilFields& f) { return ofVectors(f.velocity); }, "m/s",
-     "mean of the grains, weighted with mass; NaN in a cell without grains"},
-    {"porosity", 1, [](const SoilFields& f) { return ofScalars(f.porosity); }, "-", "pores over volume of the cell"},
+     "mass-weighted mean velocity of the grains; NaN in a cell without grains"},
+    {"porosity", 1, [](const SoilFields& f) { return ofScalars(f.porosity); }, "-",
+     "pore volume over the volume of the cell"},
     {"coordination", 1, [](const SoilFields& f) { return ofScalars(f.coordination); }, "-",
-     "contacts of a grain, mean; NaN in a cell without grains"},
+     "mean number of contacts per grain; NaN in a cell without grains"},
     {"mechanical_coordination", 1, [](const SoilFields& f) { return ofScalars(f.mechanicalCoordination); }, "-",
-     "the same of grains with two contacts or more"},
+     "mean number of contacts per grain, of grains with two contacts or more"},
 };
 
 constexpr const char *kOrigin = "/fields/origin", *kSpacing = "/fields/spacing";
@@ -64,7 +65,7 @@ terrain::FieldGrid gridIn(const support::Hdf5File& file, const std::string& fram
   const std::vector<double> low = file.numbers(frame + kOrigin), cell = file.numbers(frame + kSpacing);
   const std::vector<std::uint64_t> shape = file.shape(frame + "/fields/porosity");
   if (low.size() != 3 || cell.size() != 3 || shape.size() != 3)
-    throw base::InputError(file.path().string() + frame + "/fields: is no grid of cells");
+    throw base::InputError(file.path().string() + frame + "/fields: is not a grid of cells");
   grid.low = {low[0], low[1], low[2]}, grid.cell = {cell[0], cell[1], cell[2]};
   for (std::size_t a = 0; a < 3; ++a) grid.cells[a] = static_cast<int>(shape[2 - a]);
   return grid;
@@ -117,8 +118,8 @@ std::optional<terrain::FieldGrid> formerFieldGrid(const std::filesystem::path& f
 
 std::vector<support::FileField> soilFieldFields(const std::string& frame) {
   std::vector<support::FileField> fields{
-      {frame + "fields/origin", "float64", "[3]", "m", "lower corner of the box of cells, of output.fields_cell"},
-      {frame + "fields/spacing", "float64", "[3]", "m", "edges of a cell along x, y, z"}};
+      {frame + "fields/origin", "float64", "[3]", "m", "lower corner of the grid of output.fields_cell"},
+      {frame + "fields/spacing", "float64", "[3]", "m", "size of a cell along x, y, z"}};
   for (const FieldDataset& d : kFieldDatasets)
     fields.push_back({frame + "fields/" + d.name, "float32",
                       d.width == 1 ? "[z, y, x]" : fmt::format("[z, y, x, {}]", d.width), d.unit, d.help});

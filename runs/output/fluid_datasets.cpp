@@ -24,9 +24,9 @@ struct FluidDataset {
   const char *unit, *help;
 };
 const FluidDataset kDatasets[] = {
-    {"position", 3, &FluidPoints::position, nullptr, "m", "of the particles of the fluid, by number"},
-    {"velocity", 3, &FluidPoints::velocity, nullptr, "m/s", "of the particles"},
-    {"pressure", 1, nullptr, &FluidPoints::pressure, "Pa", "of the particles"},
+    {"position", 3, &FluidPoints::position, nullptr, "m", "positions of the fluid particles, by number"},
+    {"velocity", 3, &FluidPoints::velocity, nullptr, "m/s", "velocities of the particles"},
+    {"pressure", 1, nullptr, &FluidPoints::pressure, "Pa", "pressures of the particles"},
 };
 
 std::string groupOf(const std::string& frame) { return frame + "/fluid"; }
@@ -97,7 +97,7 @@ void drawFluid(const FluidPoints& fluid, std::vector<base::Vec3f>& positions, st
 
 std::vector<support::FileField> fluidFields(const std::string& frame) {
   std::vector<support::FileField> fields{
-      {frame + "fluid@spacing", "float64", "", "m", "initial distance of the particles"}};
+      {frame + "fluid@spacing", "float64", "", "m", "initial spacing of the particles"}};
   for (const FluidDataset& d : kDatasets)
     fields.push_back(
         {frame + "fluid/" + d.name, "float32", d.width == 1 ? "[particles]" : "[particles, 3]", d.unit, d.help});

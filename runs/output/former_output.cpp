@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Reads the rows that the checkpoint counted. Returns what is wrong with them, or nothing.
+/// Reads the rows that the checkpoint counted. Returns an error message, or an empty text.
 std::string readCounted(const fs::path& path, const std::vector<Channel>& channels, std::int64_t step,
                         std::int64_t count, std::vector<Row>& rows) {
   const support::Hdf5File file = support::Hdf5File::open(path);
@@ -24,7 +24,7 @@ std::string readCounted(const fs::path& path, const std::vector<Channel>& channe
   const std::size_t most = std::min({steps.size(), times.size(), static_cast<std::size_t>(count)});
   for (std::size_t i = 0; i < most && steps[i] <= step; ++i) rows.push_back({steps[i], times[i], {}});
   if (static_cast<std::int64_t>(rows.size()) != count)
-    return fmt::format("holds {} rows up to step {}, where the checkpoint counted {}", rows.size(), step, count);
+    return fmt::format("holds {} rows up to step {}, but the checkpoint counted {}", rows.size(), step, count);
   for (const Channel& c : channels) {
     const std::vector<double> values = file.read<double>("/" + c.path + "/value");
     const auto width = static_cast<std::size_t>(c.width);
@@ -49,8 +49,8 @@ std::vector<Row> readRows(const fs::path& folder, const std::vector<Channel>& ch
     fault = fmt::format("cannot be read ({})", error.what());
   }
   if (!fault.empty())
-    throw base::InputError(fmt::format("{}: {}, so the rows before the checkpoint cannot be kept; bring back the file "
-                                       "that the run wrote, or go on without them by --force",
+    throw base::InputError(fmt::format("{}: {}, so the rows before the checkpoint cannot be kept; restore the file of "
+                                       "the run, or continue without them by --force",
                                        path.string(), fault));
   return rows;
 }
@@ -65,7 +65,7 @@ std::int64_t keptFrames(const fs::path& folder, std::int64_t step, std::int64_t 
   }
   if (found < count)
     throw base::InputError(fmt::format("{}: does not hold the {} frames up to step {} that the checkpoint counted; "
-                                       "bring back the file that the run wrote, or go on without them by --force",
+                                       "restore the file of the run, or continue without them by --force",
                                        (folder / "frames.h5").string(), count, step));
   return atEnd && found == count + 1 ? found : count;
 }

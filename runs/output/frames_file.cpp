@@ -31,7 +31,7 @@ std::vector<float> speedsOf(const Frame& frame) {
   return speeds;
 }
 
-/// What frames.h5 holds of each grain beside its id: the one list, which a new quantity is added to.
+/// Quantities of each grain in frames.h5 beside its id: the list of all.
 struct GrainDataset {
   const char* name;                           ///< in the file and in ParaView
   std::uint64_t width;                        ///< numbers a grain
@@ -40,16 +40,16 @@ struct GrainDataset {
 };
 constexpr const char* kPosition = "position"; // the points themselves, in ParaView
 const GrainDataset kGrainDatasets[] = {
-    {kPosition, 3, [](const Frame& f) { return flat(f.positions); }, "m", "of the centre"},
-    {"radius", 1, [](const Frame& f) { return f.radii; }, "m", ""},
-    {"speed", 1, speedsOf, "m/s", "of the centre"},
-    {"velocity", 3, [](const Frame& f) { return flat(f.velocities); }, "m/s", "of the centre"},
+    {kPosition, 3, [](const Frame& f) { return flat(f.positions); }, "m", "position of the centre"},
+    {"radius", 1, [](const Frame& f) { return f.radii; }, "m", "grain radius"},
+    {"speed", 1, speedsOf, "m/s", "speed of the centre"},
+    {"velocity", 3, [](const Frame& f) { return flat(f.velocities); }, "m/s", "velocity of the centre"},
     {"contact_force", 3, [](const Frame& f) { return flat(f.contactForces); }, "N",
-     "resultant of all that touches it; NaN before the first step, 0 of fixed grains"},
+     "resultant of all contact forces; NaN before the first step, 0 for fixed grains"},
     {"fixed", 1, [](const Frame& f) { return f.fixed; }, "-", "1 for a grain that never moves"},
 };
 
-/// Whether frames like this one have it, on all ranks: some may have no grains.
+/// Whether such frames have the dataset, on all ranks, even those without grains.
 bool hasDataset(std::string_view name, const Frame& frame) {
   return name == "contact_force" ? frame.withContactForces : name != "fixed" || frame.withFixed;
 }
@@ -167,7 +167,7 @@ void FramesFile::add(const Frame& frame) {
   if (!steps_.empty()) writeXdmf();
 }
 
-/// At most, with what HDF5 adds of its own.
+/// Upper bound, including HDF5's overhead.
 std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) const {
   constexpr std::uint64_t kOwn = 32768, kAName = 64;
   std::uint64_t aGrain = 2 * sizeof(std::uint32_t); // id and list of vertices
@@ -225,7 +225,7 @@ void FramesFile::writeGrains(support::Hdf5File& file, const Frame& frame, const 
 }
 
 /// The list of `grains` vertices, which frames of as many grains share. They are just 0, 1, 2..., but not every reader
-/// makes them up.
+/// generates them.
 std::string FramesFile::listVertices(std::size_t grains) {
   std::string list = fmt::format("/vertices/{}", grains);
   if (file_->has(list)) return list;
@@ -279,30 +279,31 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
 std::vector<support::FileField> frameFields() {
   const std::string frame = "FRAME/", grains = frame + "grains/";
   std::vector<support::FileField> fields{
-      {"FRAME@time", "float64", "", "s", "of the frame; FRAME is its number, with six digits or more"},
-      {"FRAME@step", "float64", "", "-", "number of its step"},
-      {grains + "id", "uint32", "[grains]", "-", "who each grain is, for all of the run"}};
+      {"FRAME@time", "float64", "", "s", "time of the frame; FRAME is its number, with six digits or more"},
+      {"FRAME@step", "float64", "", "-", "step number of the frame"},
+      {grains + "id", "uint32", "[grains]", "-", "identifier of each grain, constant during the run"}};
   for (const GrainDataset& d : kGrainDatasets)
     fields.push_back(
         {grains + d.name, "float32", d.width == 1 ? "[grains]" : fmt::format("[grains, {}]", d.width), d.unit, d.help});
   for (const auto& more : {soilFieldFields(frame), soilSurfaceFields(frame), fluidFields(frame)})
     fields.insert(fields.end(), more.begin(), more.end());
-  const char* corners = "places of the corners of each triangle among the vertices";
+  const char* corners = "vertex indices of each triangle";
   const std::vector<support::FileField> others{
       {frame + "parts/pose", "float64", "[parts, 7]", "m, -",
-       "place of every part's frame in the world, and its orientation as a quaternion, scalar first"},
-      {frame + "parts/pose@columns", "texts", "[7]", "", "names of these seven"},
-      {frame + "parts/position", "float32", "[vertices, 3]", "m", "of the vertices of all parts in the world"},
+       "position and orientation quaternion (scalar first) of every part's frame in the world"},
+      {frame + "parts/pose@columns", "texts", "[7]", "", "names of these seven columns"},
+      {frame + "parts/position", "float32", "[vertices, 3]", "m", "world positions of the vertices of all parts"},
       {frame + "partition/AXIS", "float64", "[borders]", "m",
-       "where borders between the subdomains of several ranks cross the x, y and z axis"},
+       "positions of the borders between the subdomains of several ranks on the x, y and z axis"},
       {"parts/triangles", "uint32", "[triangles, 3]", "-", corners},
-      {"parts/part", "uint32", "[triangles]", "-", "place of each triangle's part among the names"},
-      {"parts/part@names", "texts", "[parts]", "", "of the parts"},
-      {"parts/kind", "uint32", "[triangles]", "-", "place of the kind of each triangle's part among the names"},
-      {"parts/kind@names", "texts", "[kinds]", "", "of the kinds"},
-      {"ground/position", "float32", "[vertices, 3]", "m", "of rigid ground and planes"},
+      {"parts/part", "uint32", "[triangles]", "-", "index of each triangle's part in names"},
+      {"parts/part@names", "texts", "[parts]", "", "names of the parts"},
+      {"parts/kind", "uint32", "[triangles]", "-", "index of the kind of each triangle's part in names"},
+      {"parts/kind@names", "texts", "[kinds]", "", "names of the kinds"},
+      {"ground/position", "float32", "[vertices, 3]", "m", "vertices of rigid ground and planes"},
       {"ground/triangles", "uint32", "[triangles, 3]", "-", corners},
-      {"vertices/NUMBER", "uint32", "[NUMBER, 1]", "-", "0, 1, 2... for frames of as many grains; ParaView wants it"}};
+      {"vertices/NUMBER", "uint32", "[NUMBER, 1]", "-",
+       "0, 1, 2... for frames with this number of grains; required by ParaView"}};
   fields.insert(fields.end(), others.begin(), others.end());
   return fields;
 }

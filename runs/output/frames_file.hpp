@@ -28,10 +28,10 @@ public:
   /// On several ranks all of them call everything here; each gives its own grains.
   FramesFile(const std::filesystem::path& folder, std::vector<FramePart> parts, const base::TriangleMesh& ground,
              const base::Comm& comm = {});
-  /// Goes on with the files of a stopped run of the same parts and ground: all but the first `kept` frames are removed.
+  /// Continues the files of a stopped run with the same parts and ground: all but the first `kept` frames are removed.
   static FramesFile goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
                          const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm = {});
-  /// How many frames the folder holds up to and with `lastStep`. Throws base::InputError where there is no such file.
+  /// Number of frames in the folder up to and including `lastStep`. Throws base::InputError if the file is missing.
   static std::int64_t framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep);
 
   /// Throws std::logic_error where the arrays' lengths do not agree.
@@ -58,7 +58,7 @@ private:
   std::int64_t count_ = 0;
 };
 
-/// All that frames.h5 may hold.
+/// All fields of frames.h5.
 std::vector<support::FileField> frameFields();
 
 } // namespace grouser::output

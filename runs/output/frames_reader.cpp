@@ -16,7 +16,7 @@ namespace {
 
 std::string groupOf(std::size_t frame) { return fmt::format("/{:06}", frame); }
 
-/// Opens the file, with what to do about it where it cannot be opened.
+/// Opens the file. Errors state the remedy.
 support::Hdf5File opened(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
@@ -25,7 +25,7 @@ support::Hdf5File opened(const std::filesystem::path& path) {
     return support::Hdf5File::open(path);
   } catch (const base::InputError&) {
     throw base::InputError(fmt::format(
-        "{}: is no HDF5 file, was cut short, or a run is still writing it; give the frames.h5 of a run that has ended",
+        "{}: is not an HDF5 file, is truncated, or a run is still writing it; give the frames.h5 of a finished run",
         path.string()));
   }
 }
@@ -61,7 +61,7 @@ std::vector<base::Vec3f> FramesReader::points(const std::string& dataset) const 
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
     if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
-      damaged(fmt::format("row {} of {} is no place", i, dataset));
+      damaged(fmt::format("row {} of {} is not finite", i, dataset));
   }
   return points;
 }
@@ -84,7 +84,7 @@ void FramesReader::readParts() {
   if (corners.size() != 3 * partOf.size() || kindOf.size() != partOf.size()) damaged("/parts/triangles has no parts");
   parts_.resize(names.size());
   for (std::size_t t = 0; t < partOf.size(); ++t) {
-    if (partOf[t] >= names.size() || kindOf[t] >= kinds.size()) damaged("a triangle of /parts is of no part");
+    if (partOf[t] >= names.size() || kindOf[t] >= kinds.size()) damaged("a triangle of /parts belongs to no part");
     StoredPart& part = parts_[partOf[t]];
     part.name = names[partOf[t]], part.kind = base::valueOf<PartKind>(kinds[kindOf[t]]).value_or(PartKind::other);
     part.triangles.insert(part.triangles.end(), &corners[3 * t], &corners[3 * t] + 3);
@@ -102,7 +102,7 @@ void FramesReader::readGround() {
   for (const base::Vec3f& p : points("/ground/position")) ground_.vertices.push_back(p.as<double>());
   ground_.indices = file_.read<std::uint32_t>("/ground/triangles");
   for (const std::uint32_t v : ground_.indices)
-    if (v >= ground_.vertices.size()) damaged("a triangle of /ground has a corner that is not there");
+    if (v >= ground_.vertices.size()) damaged("a triangle of /ground names a missing vertex");
 }
 
 StoredFrame FramesReader::read(std::size_t frame) const {
@@ -115,7 +115,7 @@ StoredFrame FramesReader::read(std::size_t frame) const {
     f.speeds = perGrain(at + "/speed", f.positions.size());
   }
   if (f.positions.empty())
-    if (const auto fluid = readFluid(file_, group)) drawFluid(*fluid, f.positions, f.radii, f.speeds);
+    if (const auto fluid = readFluid(file_, group)) f.fluid = true, drawFluid(*fluid, f.positions, f.radii, f.speeds);
   if (!parts_.empty()) {
     f.partVertices = points(group + "/parts/position");
     for (const StoredPart& part : parts_)
@@ -126,7 +126,7 @@ StoredFrame FramesReader::read(std::size_t frame) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::string places = group + "/partition/" + "xyz"[axis]; file_.has(places)) {
       f.borders[axis] = file_.read<double>(places);
-      if (!std::is_sorted(f.borders[axis].begin(), f.borders[axis].end())) damaged(places + " does not ascend");
+      if (!std::is_sorted(f.borders[axis].begin(), f.borders[axis].end())) damaged(places + " is not ascending");
     }
   return f;
 }

@@ -26,13 +26,14 @@ struct StoredFrame {
   std::vector<base::Vec3f> positions;         ///< [m]
   std::vector<float> radii;                   ///< [m]
   std::vector<float> speeds;                  ///< [m/s]
+  bool fluid = false;                         ///< the positions are particles of a fluid, not grains
   std::vector<base::Vec3f> partVertices;      ///< [m], world
   std::shared_ptr<const SoilSurface> soil;    ///< deformable ground; may be null
   std::array<std::vector<double>, 3> borders; ///< as in Frame
 };
 
-/// Reads the frames.h5 that a run has left (frames_file.hpp says what is in it). Every call throws base::InputError
-/// where the file is not as it should be.
+/// Reads the frames.h5 that a run has left (frames_file.hpp says what is in it). Every call throws base::InputError for
+/// a damaged file.
 class FramesReader {
 public:
   explicit FramesReader(const std::filesystem::path& file);

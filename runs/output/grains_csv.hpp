@@ -18,16 +18,15 @@ inline constexpr const char* kGrainsCsvName = "grains.csv";
 /// bits.
 class GrainsCsv {
 public:
-  /// Of scenes with more grains, or of runs that would write more lines, it is not written unless asked for.
+  /// Limits above which the file is written only on request.
   static constexpr std::int64_t kMostGrains = 1000, kMostLines = 1'000'000;
-  static constexpr double kLineBytes = 220; ///< about, at most
+  static constexpr double kLineBytes = 220; ///< approximate upper bound
   /// Whether a run of `grains`, those that are poured in later among them, writes the file. `asked`:
   /// output.grains_csv.
   static bool isWanted(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval);
 
-  /// Begins the file anew, or goes on with it: then what came after the last row that is `kept` of the time series [its
-  /// step; -1: none is] is cut off. Throws support::NotWritten. On several ranks all of them have one, and the first
-  /// writes.
+  /// Starts a new file, or continues it: then lines after the last `kept` row of the time series [its step; -1: none]
+  /// are removed. Throws support::NotWritten. On several ranks all of them have one, and the first writes.
   GrainsCsv(const std::filesystem::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm);
 
   void add(std::int64_t step, double time, const terrain::Grains& grains);

@@ -11,7 +11,7 @@
 
 namespace grouser::output {
 
-/// manifest.json: what was run, by which program, on which machine, and what came of it.
+/// manifest.json: scene, program, machine and outcome of a run.
 class Manifest {
 public:
   Manifest(const std::filesystem::path& folder, const setup::Provenance& provenance,
@@ -20,8 +20,8 @@ public:
   void note(const std::string& key, const std::string& text) { notes_[key] = text; }
   void add(const Summary& summary) { summary_ = summary; }
 
-  /// Writes the file with the folder's files of this moment, by renaming. That a run has failed or was stopped is said
-  /// on a full disk too: then by writing over what is there.
+  /// Writes the file, with the current files of the folder, by renaming. On a full disk the status of a failed or
+  /// stopped run is written over the existing file.
   void write(RunStatus status) const;
 
 private:
@@ -34,7 +34,7 @@ private:
   Summary summary_;
 };
 
-/// Brings the list of files in the manifest of `folder` up to date, after plots have been drawn.
+/// Updates the list of files in the manifest of `folder`, after plots have been drawn.
 void listFiles(const std::filesystem::path& folder);
 
 } // namespace grouser::output

@@ -49,7 +49,7 @@ const multibody::Joint& jointOf(const multibody::Model& model, int joint) {
   return model.joints()[static_cast<std::size_t>(joint)];
 }
 
-/// The end stops of a joint alone are no spring of their own.
+/// End stops without stiffness, damping and preload are not listed as springs.
 bool isSpring(const multibody::AxisSpring& s) { return s.stiffness > 0 || s.damping > 0 || s.preload != 0; }
 
 std::string driveUnit(multibody::DriveKind kind, bool turning) {
@@ -58,7 +58,7 @@ std::string driveUnit(multibody::DriveKind kind, bool turning) {
   return turning ? "N m" : "N";
 }
 
-/// Share of the kinetic energy at the start below which a blow is round-off of what was typed [-].
+/// Threshold of the initial impulse energy over the kinetic energy, below which it is round-off of the input [-].
 constexpr double kBlowShown = 1e-6;
 /// Redundant rows that are named before "and ... more" [-].
 constexpr std::size_t kRowsShown = 8;
@@ -133,7 +133,7 @@ private:
     for (std::size_t i = from; i < parts.size(); ++i)
       if (isKept(record_, parts[i].name)) add(i, fmt::format("{}/{}/", group, parts[i].name), parts[i]);
   }
-  /// A number or vector that is found in a step: not known before the first.
+  /// A number or vector that is computed in a step: NaN before the first.
   template <class Read>
   void addOfStep(const std::string& path, const std::string& unit, const std::string& help, Read read) {
     columns_.add(path, unit, help, [read](const Reading& r) {
@@ -153,15 +153,17 @@ private:
     forKept(model_.bodies(), from_.bodies, "bodies", [&](std::size_t i, const std::string& path, const auto&) {
       const auto pose = [i](const Reading& r) -> const base::Pose& { return r.mechanism.state().pose[i]; };
       const auto twist = [i](const Reading& r) -> const multibody::Twist& { return r.mechanism.state().twist[i]; };
-      columns_.add(path + "position", "m", "of the centre of mass", [=](const Reading& r) { return pose(r).position; });
+      columns_.add(path + "position", "m", "position of the centre of mass",
+                   [=](const Reading& r) { return pose(r).position; });
       columns_.add(path + "orientation", "-", "quaternion from body to world",
                    [=](const Reading& r) { return pose(r).orientation; }, {"w", "x", "y", "z"});
-      columns_.add(path + "velocity", "m/s", "of the centre of mass", [=](const Reading& r) { return twist(r).v; });
+      columns_.add(path + "velocity", "m/s", "velocity of the centre of mass",
+                   [=](const Reading& r) { return twist(r).v; });
       columns_.add(path + "spin", "rad/s", "angular velocity, world components",
                    [=](const Reading& r) { return twist(r).w; });
       if (touching_[i])
         addOfStep(path + "contact_force", "N",
-                  "of all contacts of its shapes, mean since the last row, world components",
+                  "force of all contacts of its shapes, mean since the last row, world components",
                   [i](const Reading& r) { return r.contacts[i]; });
     });
   }
@@ -169,12 +171,12 @@ private:
   void addJoints() {
     forKept(model_.joints(), from_.joints, "joints",
             [&](std::size_t i, const std::string& path, const multibody::Joint& joint) {
-              addOfStep(
-                  path + "force", "N",
-                  "on the second body from the first, with springs and drives of the axis, without couplings; world "
-                  "components",
-                  [i](const Reading& r) { return r.reactions[i].force; });
-              addOfStep(path + "torque", "N m", "the same, about the joint",
+              addOfStep(path + "force", "N",
+                        "force on the second body from the first, with springs and drives of the axis, without "
+                        "couplings; world components",
+                        [i](const Reading& r) { return r.reactions[i].force; });
+              addOfStep(path + "torque", "N m",
+                        "torque on the second body from the first about the joint, with the same contributions",
                         [i](const Reading& r) { return r.reactions[i].torque; });
               for (const NamedAxis& a : axesOf(joint)) addAxis(static_cast<int>(i), path + a.prefix, a);
             });
@@ -183,27 +185,28 @@ private:
     const auto axis = [joint, which = a.axis](const Reading& r) {
       return multibody::axisReading(r.mechanism.model(), r.mechanism.state(), joint, which);
     };
-    columns_.add(path + "position", a.turns ? "rad" : "m", "of the free axis",
+    columns_.add(path + "position", a.turns ? "rad" : "m", "position of the free axis",
                  [=](const Reading& r) { return axis(r).position; });
-    columns_.add(path + "rate", a.turns ? "rad/s" : "m/s", "of the free axis",
+    columns_.add(path + "rate", a.turns ? "rad/s" : "m/s", "rate of the free axis",
                  [=](const Reading& r) { return axis(r).rate; });
-    addOfStep(path + "force_along", a.turns ? "N m" : "N", "of damping, springs, stops and drive along the free axis",
+    addOfStep(path + "force_along", a.turns ? "N m" : "N",
+              "force or torque of damping, springs, stops and drive along the free axis",
               [=](const Reading& r) { return axis(r).axisForce; });
   }
 
   void addSprings() {
     forKept(model_.pointSprings(), from_.pointSprings, "springs",
             [&](std::size_t i, const std::string& path, const auto&) {
-              addOfStep(path + "force", "N", "positive pushes apart",
+              addOfStep(path + "force", "N", "spring force, positive in compression",
                         [i](const Reading& r) { return r.mechanism.state().spring[i].force; });
-              columns_.add(path + "length", "m", "between its ends",
+              columns_.add(path + "length", "m", "distance between its ends",
                            [i](const Reading& r) { return r.mechanism.state().spring[i].length; });
             });
     forKept(model_.axisSprings(), from_.axisSprings, "springs",
             [&](std::size_t i, const std::string& path, const auto& spring) {
               if (!isSpring(spring)) return;
               columns_.add(path + "force", turnsAbout(spring.joint, spring.axis) ? "N m" : "N",
-                           "on the second body along the axis",
+                           "force or torque on the second body along the axis",
                            [i](const Reading& r) { return r.mechanism.axisSpringForce(static_cast<int>(i)); });
             });
   }
@@ -211,11 +214,11 @@ private:
   void addBushings() {
     forKept(model_.bushings(), from_.bushings, "bushings", [&](std::size_t i, const std::string& path, const auto&) {
       const auto bushing = [i](const Reading& r) { return r.mechanism.state().bushing[i]; };
-      addOfStep(path + "force", "N", "on the second body, world components",
+      addOfStep(path + "force", "N", "force on the second body, world components",
                 [=](const Reading& r) { return bushing(r).force; });
-      addOfStep(path + "torque", "N m", "on the second body, world components",
+      addOfStep(path + "torque", "N m", "torque on the second body, world components",
                 [=](const Reading& r) { return bushing(r).torque; });
-      columns_.add(path + "translation", "m", "in the bushing's axes on the first body",
+      columns_.add(path + "translation", "m", "displacement in the bushing's axes on the first body",
                    [=](const Reading& r) { return bushing(r).translation; });
       columns_.add(path + "rotation", "rad", "rotation vector in the same axes",
                    [=](const Reading& r) { return bushing(r).rotation; });
@@ -227,11 +230,11 @@ private:
             [&](std::size_t i, const std::string& path, const multibody::Drive& d) {
               const bool turning = turnsAbout(d.joint, d.axis);
               const auto drive = [i](const Reading& r) { return r.mechanism.drive(static_cast<int>(i)); };
-              columns_.add(path + "value", driveUnit(d.kind, turning), "what it imposes",
+              columns_.add(path + "value", driveUnit(d.kind, turning), "imposed value",
                            [=](const Reading& r) { return drive(r).value; });
-              addOfStep(path + "torque", turning ? "N m" : "N", "that it takes",
+              addOfStep(path + "torque", turning ? "N m" : "N", "torque or force of the drive along the axis",
                         [=](const Reading& r) { return drive(r).torque; });
-              addOfStep(path + "power", "W", "that it gives to the mechanism",
+              addOfStep(path + "power", "W", "power input to the mechanism",
                         [=](const Reading& r) { return drive(r).power; });
             });
   }
@@ -239,23 +242,23 @@ private:
   void addCouplings() {
     forKept(model_.couplings(), from_.couplings, "couplings",
             [&](std::size_t i, const std::string& path, const auto& coupling) {
-              addOfStep(
-                  path + "force", turnsAbout(coupling.joint2, coupling.axis2) ? "N m" : "N",
-                  "on the second axis, beside what the joint's force and torque hold; the first feels minus the ratio "
-                  "times it",
-                  [i](const Reading& r) { return r.mechanism.state().coupling[i].force; });
+              addOfStep(path + "force", turnsAbout(coupling.joint2, coupling.axis2) ? "N m" : "N",
+                        "force or torque on the second axis, not included in the joint's force and torque; the first "
+                        "axis carries minus the ratio times it",
+                        [i](const Reading& r) { return r.mechanism.state().coupling[i].force; });
             });
   }
 
   void addWhole() {
-    columns_.add("momentum/linear", "kg m/s", "of all bodies", [](const Reading& r) { return r.now.linearMomentum; });
-    columns_.add("momentum/angular", "kg m2/s", "of all bodies about the world's origin",
+    columns_.add("momentum/linear", "kg m/s", "momentum of all bodies",
+                 [](const Reading& r) { return r.now.linearMomentum; });
+    columns_.add("momentum/angular", "kg m2/s", "angular momentum of all bodies about the world's origin",
                  [](const Reading& r) { return r.now.angularMomentum; });
-    columns_.add("constraints/position_error", "m", "widest gap of a joint since the last row [m, rad]",
+    columns_.add("constraints/position_error", "m", "largest position error of a joint since the last row [m, rad]",
                  [](const Reading& r) { return r.drift.position; });
-    columns_.add("constraints/velocity_error", "m/s", "fastest opening of a joint now [m/s, rad/s]",
+    columns_.add("constraints/velocity_error", "m/s", "largest velocity error of a joint now [m/s, rad/s]",
                  [](const Reading& r) { return r.drift.velocity; });
-    columns_.add("constraints/iterations", "-", "most of a step since the last row",
+    columns_.add("constraints/iterations", "-", "most iterations of a step since the last row",
                  [](const Reading& r) { return r.drift.iterations; });
     columns_.add("constraints/singular_steps", "-", "steps through a singular position since the last row",
                  [](const Reading& r) { return r.drift.singularSteps; });
@@ -284,7 +287,7 @@ Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const 
 Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names) {
   Columns<std::vector<double>> columns("bodies/");
   for (std::size_t p = 0; p < names.size(); ++p)
-    columns.add(names[p] + "/grain_mass", "kg", "of the grains with centres in the box of probe_size",
+    columns.add(names[p] + "/grain_mass", "kg", "mass of the grains with centres in the box of probe_size",
                 [p](const std::vector<double>& masses) { return masses[p]; });
   return columns;
 }
@@ -307,16 +310,15 @@ std::string mechanismSize(const coupling::Mechanism& mechanism) {
   line("springs and bushings",
        fmt::format("{}", model.axisSprings().size() + model.pointSprings().size() + model.bushings().size()));
   line("drives and couplings", fmt::format("{}", model.drives().size() + model.couplings().size()));
-  line("degrees of freedom", fmt::format("{}, drives left out", solver.degreesOfFreedom()));
+  line("degrees of freedom", fmt::format("{}, not counting drives", solver.degreesOfFreedom()));
   if (std::fabs(mechanism.startBlow()) >
       kBlowShown * (std::fabs(mechanism.startBlow()) + mechanism.bodiesBalance().now.kinetic))
-    line("at the start",
-         fmt::format("the drives jump to their speed: {:.4g} J in a blow; give the bodies that velocity, or "
-                     "let the drives come up to it",
-                     mechanism.startBlow()));
+    line("at the start", fmt::format("the drives jump to their speed, an impact of {:.4g} J; give the bodies that "
+                                     "velocity, or ramp the drives up to it",
+                                     mechanism.startBlow()));
   const std::vector<std::string> redundant = solver.redundantRowNames();
   if (redundant.empty()) return text;
-  line("rows held more than once", fmt::format("{}; the reactions of least norm are given", redundant.size()));
+  line("redundant constraints", fmt::format("{}; reactions are those of least norm", redundant.size()));
   for (std::size_t i = 0; i < std::min(redundant.size(), kRowsShown); ++i) line("", redundant[i]);
   if (redundant.size() > kRowsShown) line("", fmt::format("and {} more", redundant.size() - kRowsShown));
   return text;

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-/// What a run writes of a mechanism.
+/// Output of a mechanism.
 namespace grouser::output {
 
-/// A mechanism, or the bodies beside a vehicle, at the time of a row. What acts on its bodies is found in a step:
-/// before the first it is NaN.
+/// A mechanism, or the bodies beside a vehicle, at the time of a row. Loads on its bodies are computed in a step, and
+/// NaN before the first.
 struct MechanismReading {
   explicit MechanismReading(const coupling::BodiesInContact& bodies, const coupling::Mechanism::Drift& drift = {});
   explicit MechanismReading(const coupling::Mechanism& m) : MechanismReading(m, m.drift()) {}
@@ -29,13 +29,13 @@ Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const 
                                            const std::vector<std::string>& record,
                                            const multibody::PartCounts& ofVehicle = {});
 
-/// Mass of the grains in the probes of bodies, `names` those of the bodies; of a source the masses [kg].
+/// Mass of the grains in the probes of bodies, `names` those of the bodies; the source has the masses [kg].
 Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names);
 
 /// "RATTLE of order 2, springs implicit".
 std::string integratorText(const multibody::SolverOptions& options);
 
-/// Lines about the size of a mechanism: bodies, joints, freedoms, rows held more than once.
+/// Lines about the size of a mechanism: bodies, joints, degrees of freedom, redundant constraints.
 std::string mechanismSize(const coupling::Mechanism& mechanism);
 
 /// Each body as its shapes, or a box and thin bars to its joints, for pictures and ParaView; without those of a

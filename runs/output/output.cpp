@@ -28,13 +28,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Rows of a channel that are allotted at a time: enough that a long run does not scatter, small enough for short ones.
+/// Rows of a channel that are allotted at a time: a compromise between long and short runs.
 constexpr int kChunkRows = 64;
 
-/// What HDF5 may add of its own when a data set grows by so many rows: nodes of its tree of chunks [bytes].
+/// Overhead of HDF5 when a dataset grows by so many rows: nodes of its chunk tree [bytes].
 constexpr std::uint64_t kTreeBytes = 8192;
 
-/// The files of a run; what else lies in its folder is not ours.
+/// Files of a run; other files in its folder are left alone.
 constexpr const char* kFiles[] = {"results.h5",
                                   "timeseries.csv",
                                   "frames.h5",
@@ -59,7 +59,7 @@ fs::path prepared(fs::path folder, const RunWriter::Options& options, support::F
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
-    throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with {}", folder.string(),
+    throw base::InputError(fmt::format("{}: the folder cannot be created ({}); name another with {}", folder.string(),
                                        error.message(), options.names.out));
   claimFolder(lock, folder, options.names);
   checkOutputFolder(folder, options.force, options.names); // another run may have been quicker
@@ -82,7 +82,7 @@ void checkOutputFolder(const fs::path& folder, bool force, const OptionNames& na
   if (!force && fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw base::InputError(fmt::format(
         "{}: the folder is not empty; name another with {}, {}or overwrite it with {}", folder.string(), names.out,
-        fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("go on with {}, ", names.resume) : "",
+        fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("resume with {}, ", names.resume) : "",
         names.force));
 }
 
@@ -110,7 +110,7 @@ struct RunWriter::Series {
   std::optional<support::GrowingDataset> inputs; ///< made by the first
   std::size_t inputsWritten = 0;                 ///< [numbers]
 
-  /// While former rows are copied the new files have another name, so that a kill loses none.
+  /// While former rows are copied, the new files have another name, so that a kill loses none.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
   Series(const fs::path& where, const setup::Provenance& provenance, std::vector<Channel> list, const Options& given)
@@ -170,7 +170,7 @@ struct RunWriter::Series {
     results.flush();
   }
 
-  /// What is no series.
+  /// Data other than series.
   void array(const ResultConstant& what, const std::vector<double>& numbers, const std::vector<std::uint64_t>& shape) {
     results.write(std::string("/") + what.path, numbers, shape);
     describe(what);
@@ -250,10 +250,9 @@ RunWriter::RunWriter(fs::path folder, const setup::Provenance& provenance, std::
   if (const std::optional<int> rank = support::rankNotSeeing(folder, impl_->options.comm); rank && *rank > 0) {
     impl_.reset();
     takeBack();
-    throw base::InputError(fmt::format(
-        "{}: rank {} does not see this folder of rank 0; start all ranks in the same folder, and where they "
-        "run on several hosts let --out name one that all of these share",
-        folder.string(), *rank));
+    throw base::InputError(fmt::format("{}: rank {} does not see this folder of rank 0; start all ranks in the same "
+                                       "folder; on several hosts, use --out with a folder that all hosts share",
+                                       folder.string(), *rank));
   }
 }
 

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-/// What a run leaves in its folder: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
+/// Results folder of a run: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
 /// scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing
 /// of how a simulation computes it.
 namespace grouser::output {
@@ -28,13 +28,13 @@ namespace grouser::output {
 /// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
 void checkOutputFolder(const std::filesystem::path& folder, bool force, const OptionNames& names = {});
 
-/// Takes the lock of the folder that a run writes in, if it is there. Throws base::InputError where another run holds
+/// Locks the folder that a run writes in, if it exists. Throws base::InputError where another run holds
 /// it.
 void claimFolder(support::FileLock& lock, const std::filesystem::path& folder, const OptionNames& names = {});
 
-/// What a resumed run keeps of the folder it goes on with; what came later is cut off.
+/// Rows and frames that a resumed run keeps; later ones are removed.
 struct FormerOutput {
-  std::vector<Row> rows;   ///< to begin the new files with
+  std::vector<Row> rows;   ///< first rows of the new files
   std::int64_t frames = 0; ///< kept of frames.h5; 0: it is made anew
 };
 
@@ -63,7 +63,7 @@ public:
 
   /// A fact of the run, in manifest.json and as an attribute of results.h5.
   void fact(const std::string& key, const std::string& text);
-  /// The names of parts that rows speak of by their places, as an attribute of results.h5.
+  /// Names of the parts by the index that rows use, as an attribute of results.h5.
   void namesOfParts(const std::vector<std::string>& names);
 
   /// The undisturbed surface that sinkage is measured from, in results.h5: terrain/surface/{x, y, height}.
@@ -75,13 +75,13 @@ public:
   /// Deformable soil at the end, in results.h5: terrain/soil/.
   void soil(const SoilResult& soil);
 
-  /// What the bed is made of, in results.h5: terrain/bed/.
+  /// Structure of the bed, in results.h5: terrain/bed/.
   void bed(const terrain::BedStructure& bed);
 
   /// Parts and rigid ground of the pictures; once, before the first frame. The ground mesh may be empty.
   void setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground);
 
-  /// All that has been set from outside so far, coupling::Input::kNumbers a setting; in results.h5: inputs/series.
+  /// All inputs set so far, coupling::Input::kNumbers a setting; in results.h5: inputs/series.
   void inputs(const std::vector<double>& all);
 
   void row(const Row& row);
@@ -94,13 +94,13 @@ public:
   /// Instead of finish: the run was stopped and may be resumed.
   void stop(const std::string& reason);
 
-  /// That were kept of a former run; of the first rank.
+  /// Rows kept from a former run; on the first rank.
   std::vector<Row> formerRows() const;
   std::int64_t rows() const;   ///< written so far, former ones among them
   std::int64_t frames() const; ///< the same
-  /// Step of the last row that was kept of a former run; -1: none was. Of the first rank.
+  /// Step of the last row kept from a former run; -1: none. On the first rank.
   std::int64_t keptUpTo() const;
-  /// Brings the rows to the disk, before a checkpoint counts on them.
+  /// Flushes the rows to the disk, before a checkpoint relies on them.
   void sync();
 
   const std::filesystem::path& folder() const;

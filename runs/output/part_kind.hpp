@@ -7,7 +7,7 @@
 
 namespace grouser::output {
 
-/// What a part of the pictures is: decides its colour. The words stand in frames.h5.
+/// Kind of a part in pictures, which sets its colour. The words are stored in frames.h5.
 enum class PartKind {
   other, ///< or of another program's file
   chassis,
@@ -26,7 +26,7 @@ enum class PartKind {
   body5
 };
 
-/// Of a mechanism's free bodies, in turn.
+/// Kinds of a mechanism's free bodies, in turn.
 inline constexpr PartKind kBodyKinds[] = {PartKind::body0, PartKind::body1, PartKind::body2,
                                           PartKind::body3, PartKind::body4, PartKind::body5};
 

@@ -15,7 +15,7 @@ struct HalfSpace {
   double offset;
 };
 
-/// What of a convex polygon lies at normal . x >= offset (Sutherland and Hodgman).
+/// Part of a convex polygon at normal . x >= offset (Sutherland and Hodgman).
 std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const HalfSpace& h) {
   std::vector<Vec3d> kept;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -28,7 +28,7 @@ std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const HalfSpace& h
 }
 
 constexpr double kFloor = 0.9;      ///< z of the normal of a plane that is a floor, at least
-constexpr double kFarOverRoom = 12; ///< so far a floor goes on beyond the room: to where no camera looks
+constexpr double kFarOverRoom = 12; ///< extent of a floor beyond the room, outside all camera views
 
 bool isFloor(const setup::DrawnPlanes::Plane& plane) { return plane.normal.z > kFloor; }
 

@@ -12,7 +12,7 @@ base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn);
 /// One of them, where it is at the start.
 base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn, std::size_t plane);
 
-/// Those that face up, on and on as far as the others let them: what one sees in a picture is a floor, not a patch.
+/// Planes that face up, extended up to the other planes, so that pictures show a floor and not a patch.
 base::TriangleMesh floorMesh(const setup::DrawnPlanes& drawn);
 /// One of them; where it does not face up, as planeMesh().
 base::TriangleMesh floorMesh(const setup::DrawnPlanes& drawn, std::size_t plane);

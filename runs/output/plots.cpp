@@ -11,10 +11,10 @@ namespace grouser::output {
 
 namespace {
 
-// Debian's, for which python3-matplotlib and python3-h5py are packaged; another may stand before it on the PATH.
+// Debian's Python, with packages python3-matplotlib and python3-h5py; another may precede it on the PATH.
 constexpr const char* kPython = "/usr/bin/python3";
 
-/// Runs a script of runs/plots/. False, with a `warning`, where it does not end well.
+/// Runs a script of runs/plots/. False, with a `warning`, on failure.
 bool draw(const std::string& name, const std::vector<std::string>& arguments, std::string& warning) {
   const std::filesystem::path script = support::shareFolder() / "runs" / "plots" / name;
   warning.clear();
@@ -55,7 +55,7 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
   words.push_back(file.string());
   std::string warning;
   if (!draw(script, words, warning))
-    support::tell("grouser: warning: {}\n", warning);
+    support::tell("WARNING: {}\n", warning);
   else if (std::filesystem::exists(file, error))
     fmt::print("plot      {}\n", file.string());
 }

@@ -14,13 +14,13 @@ inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage",   
                                                    "drive",        "mechanism", "ledger",  "figure"};
 
 /// Draws `names` as NAME.png into `folder` by Python and matplotlib, and returns the files drawn; a plot whose
-/// quantities the results lack is left out. Where Python or a package is missing nothing is drawn, and `warning` says
-/// what to install.
+/// quantities the results lack is omitted. If Python or a package is missing, nothing is drawn, and `warning` names the
+/// package.
 std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
                                              const std::vector<std::string>& names, std::string& warning);
 
 /// Draws by `script` of runs/plots/ what `inputs` hold into `file`, in place of a former one, and prints its name; on
-/// stderr a warning where it could not be drawn. Nothing is said where there is nothing to draw.
+/// stderr a warning where it could not be drawn. Silent if there is nothing to draw.
 void drawPicture(const std::string& script, const std::vector<std::filesystem::path>& inputs,
                  const std::filesystem::path& file);
 
@@ -29,7 +29,7 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
 support::CallOutcome callPython(const std::filesystem::path& script, const std::vector<std::string>& words);
 inline constexpr int kMissingPackage = 3;
 
-/// Runs a Python script with these words. False, with a `warning`, where it does not end well.
+/// Runs a Python script with these words. False, with a `warning`, on failure.
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& words, std::string& warning);
 
 } // namespace grouser::output

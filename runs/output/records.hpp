@@ -16,7 +16,7 @@ namespace grouser::terrain {
 struct SoilFields;
 }
 
-/// What is written of a run, as plain data: rows of the time series, frames of the pictures, and its end.
+/// Output of a run as plain data: rows of the time series, frames of the pictures, and the summary.
 namespace grouser::output {
 
 /// The surface of the ground before a vehicle touched it, on a grid of nodes.
@@ -51,7 +51,7 @@ struct FramePart {
   base::TriangleMesh mesh; ///< body frame
 };
 
-/// Deformable soil as it lies in a frame: triangles, and values at their vertices.
+/// Deformable soil in a frame: triangles, and values at their vertices.
 struct SoilSurface {
   base::TriangleMesh mesh;                  ///< world
   std::vector<float> sinkage;               ///< below the undisturbed surface [m]
@@ -89,14 +89,14 @@ struct Frame {
   std::array<std::vector<double>, 3> borders;
 };
 
-/// What is known when a run ends.
+/// Summary of a run.
 struct Summary {
   std::int64_t steps{};
   double simulatedTime{};                ///< [s]
   double wallTime{};                     ///< [s]
   std::string stateHash;                 ///< hexadecimal; empty where not taken
   std::string incomplete;                ///< why a vehicle did not drive, or too little; empty where it is complete
-  std::map<std::string, double> figures; ///< anything else worth keeping: "particle steps per second"
+  std::map<std::string, double> figures; ///< other figures: "particle steps per second"
 };
 
 } // namespace grouser::output

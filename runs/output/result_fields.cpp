@@ -17,7 +17,7 @@ namespace {
 
 using support::FileField;
 
-/// A mechanism with one of everything, whose series are those that any may have.
+/// A mechanism with all kinds of parts, whose series include those of any mechanism.
 multibody::Model modelOfAll() {
   using namespace multibody;
   Model model;
@@ -71,7 +71,7 @@ std::string shapeOf(const Channel& c) {
   return c.columns.empty() ? "[rows, shoes]" : fmt::format("[rows, {}]", c.width);
 }
 
-/// Adds `one` to `all`, unless it stands there.
+/// Adds `one` to `all`, unless it is there.
 void addWords(std::string& all, const char* between, const std::string& one) {
   if ((between + all + between).find(between + one + between) == std::string::npos) all += between + one;
 }
@@ -95,17 +95,17 @@ FileField fieldOf(const ResultConstant& c, const char* shape) { return {c.path, 
 std::vector<FileField> resultFields() {
   std::vector<FileField> fields{
       {"/@creator", "text", "", "", "\"grouser\""},
-      {"/@version", "text", "", "", "of the program"},
-      {"/@commit", "text", "", "", "that it was built from; \"-dirty\" behind it where the sources were changed"},
+      {"/@version", "text", "", "", "version of the program"},
+      {"/@commit", "text", "", "", "commit of the program; \"-dirty\" is appended if the sources were changed"},
       {"/@machine", "text", "", "", "processor, cores, memory, system"},
       {"/@scene", "text", "", "", "the resolved scene, TOML"},
-      {"/@state_hash", "text", "", "", "of the end, 16 hexadecimal digits; empty without --hash"},
-      {"/@branched_from", "text", "", "", "checkpoint, step and state hash that a branch began with"},
-      {"/@soil_contact", "text", "", "", "which parts of a vehicle grains touch: \"all\" or \"shoes\""},
-      {"/@parts", "texts", "", "", "names of the parts that terrain/part_overlap_by counts from 0"},
-      {"/@deepest_in_a_part", "text", "", "", "the greatest overlap of a grain with a part, which part, and when"},
-      {"series/step", "int64", "[rows]", "-", "number of the step; the same dataset lies beside every value"},
-      {"series/time", "float64", "[rows]", "s", "of the row; the same dataset lies beside every value"},
+      {"/@state_hash", "text", "", "", "final state hash, 16 hexadecimal digits; empty without --hash"},
+      {"/@branched_from", "text", "", "", "checkpoint, step and state hash at the start of a branch"},
+      {"/@soil_contact", "text", "", "", "parts of a vehicle that grains touch: \"all\" or \"shoes\""},
+      {"/@parts", "texts", "", "", "names of the parts, indexed from 0 by terrain/part_overlap_by"},
+      {"/@deepest_in_a_part", "text", "", "", "largest overlap of a grain with a part, with part and time"},
+      {"series/step", "int64", "[rows]", "-", "step number; the same dataset is linked beside every value"},
+      {"series/time", "float64", "[rows]", "s", "time of the row; the same dataset is linked beside every value"},
       fieldOf(kPitchRadius, "[1]"),
       fieldOf(kVehicleMass, "[1]"),
       fieldOf(kSurfaceX, "[columns]"),
@@ -113,10 +113,10 @@ std::vector<FileField> resultFields() {
       fieldOf(kSurfaceHeight, "[lines, columns]"),
       fieldOf(kSurfaceFinal, "[lines, columns]"),
       {std::string(kSurfaceHeight.path) + "@interpolation", "text", "", "",
-       "between the nodes: \"bilinear\", \"Catmull-Rom\" or \"monotone\""}};
+       "interpolation between the nodes: \"bilinear\", \"Catmull-Rom\" or \"monotone\""}};
   fields.push_back(fieldOf(kInputs, "[settings, 10]"));
   fields.push_back(
-      {std::string(kInputs.path) + "@kinds", "texts", "", "", "what can be set, in the order of its numbers"});
+      {std::string(kInputs.path) + "@kinds", "texts", "", "", "kinds of inputs, in the order of their numbers"});
   for (const BedConstant& c : kBedConstants) fields.push_back(fieldOf(c.constant, "[1]"));
   for (const SoilConstantField& c : kSoilConstants) fields.push_back(fieldOf(c.constant, "[1]"));
   for (const SoilLine& l : kSoilLines) fields.push_back(fieldOf(l.line, l.shape));

@@ -7,27 +7,27 @@
 
 #include <vector>
 
-/// What results.h5 holds beside its series: the tables that write it and that describe it.
+/// Contents of results.h5 beside its series: tables for writing and describing it.
 namespace grouser::output {
 
 inline constexpr ResultConstant kPitchRadius{"vehicle/pitch_radius", "m", "teeth x pitch / (2 pi)"};
-inline constexpr ResultConstant kVehicleMass{"vehicle/mass", "kg", "of all its bodies"};
+inline constexpr ResultConstant kVehicleMass{"vehicle/mass", "kg", "mass of the vehicle"};
 
-/// A number of the bed as it settled.
+/// A number of the settled bed.
 struct BedConstant {
   ResultConstant constant;
   double terrain::BedStructure::*member;
 };
 using terrain::BedStructure;
 inline constexpr BedConstant kBedConstants[] = {
-    {{"terrain/bed/porosity", "-", "share of points that lie in no grain"}, &BedStructure::porosity},
-    {{"terrain/bed/porosity_error", "-", "standard error of that"}, &BedStructure::porosityError},
-    {{"terrain/bed/coordination", "-", "contacts a grain"}, &BedStructure::coordination},
-    {{"terrain/bed/rattlers", "-", "share of the grains with fewer than two contacts"}, &BedStructure::rattlers},
-    {{"terrain/bed/order", "-", "share of the grains in crystalline surroundings"}, &BedStructure::order},
-    {{"terrain/bed/mean_diameter", "m", "by number"}, &BedStructure::meanDiameter},
-    {{"terrain/bed/settled_height", "m", "mean of the undisturbed surface"}, &BedStructure::settledHeight},
-    {{"terrain/bed/thickness", "m", "mean of that surface above the floor"}, &BedStructure::thickness},
+    {{"terrain/bed/porosity", "-", "fraction of sample points outside all grains"}, &BedStructure::porosity},
+    {{"terrain/bed/porosity_error", "-", "standard error of the porosity"}, &BedStructure::porosityError},
+    {{"terrain/bed/coordination", "-", "contacts per grain"}, &BedStructure::coordination},
+    {{"terrain/bed/rattlers", "-", "fraction of grains with fewer than two contacts"}, &BedStructure::rattlers},
+    {{"terrain/bed/order", "-", "fraction of grains in crystalline order"}, &BedStructure::order},
+    {{"terrain/bed/mean_diameter", "m", "number mean of the grain diameter"}, &BedStructure::meanDiameter},
+    {{"terrain/bed/settled_height", "m", "mean height of the undisturbed surface"}, &BedStructure::settledHeight},
+    {{"terrain/bed/thickness", "m", "mean height of that surface above the floor"}, &BedStructure::thickness},
 };
 
 /// Numbers of the bed over a distance or a depth.
@@ -36,31 +36,30 @@ struct BedCurve {
   std::vector<double> terrain::BedStructure::*member;
 };
 inline constexpr BedCurve kBedCurves[] = {
-    {{"terrain/bed/distance", "mean diameters", "between the centres of two grains"}, &BedStructure::distance},
-    {{"terrain/bed/radial_distribution", "-", "how many more grains lie at that distance than by chance"},
+    {{"terrain/bed/distance", "mean diameters", "distance between the centres of two grains"}, &BedStructure::distance},
+    {{"terrain/bed/radial_distribution", "-", "radial distribution function at that distance"},
      &BedStructure::radialDistribution},
-    {{"terrain/bed/depth", "m", "below the undisturbed surface"}, &BedStructure::depth},
-    {{"terrain/bed/porosity_at_depth", "-", "at that depth"}, &BedStructure::porosityAtDepth},
+    {{"terrain/bed/depth", "m", "depth below the undisturbed surface"}, &BedStructure::depth},
+    {{"terrain/bed/porosity_at_depth", "-", "porosity at that depth"}, &BedStructure::porosityAtDepth},
 };
 
-/// The undisturbed surface, with what it is [m].
-inline constexpr ResultConstant kSurfaceX{"terrain/surface/x", "m", "of the nodes"},
-    kSurfaceY{"terrain/surface/y", "m", "of the nodes"},
-    kSurfaceHeight{
-        "terrain/surface/height", "m",
-        "of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], column i at x[i]"},
-    kSurfaceFinal{
-        "terrain/surface/final_height", "m",
-        "of the bed's surface at the same nodes at the end of the run, found alike: what is below `height` are "
-        "ruts; a bed under a vehicle alone, and where output.final_surface asks for it"};
+/// Undisturbed surface [m].
+inline constexpr ResultConstant kSurfaceX{"terrain/surface/x", "m", "x of the nodes"},
+    kSurfaceY{"terrain/surface/y", "m", "y of the nodes"},
+    kSurfaceHeight{"terrain/surface/height", "m",
+                   "height of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], "
+                   "column i at x[i]"},
+    kSurfaceFinal{"terrain/surface/final_height", "m",
+                  "height of the bed's surface at the same nodes at the end of the run, found in the same way; below "
+                  "`height` in ruts; only for a bed under a vehicle, with output.final_surface"};
 
-/// What was set from outside while the run went, where anything was.
+/// Inputs set during the run, if any.
 inline constexpr ResultConstant kInputs{
     "inputs/series", "-, various",
-    "a row a setting: step before which it was made, kind (its place in the attribute kinds), target (track 0 left, 1 "
-    "right; place of a body), 1 where it was released, six values in the unit of the kind"};
+    "one row per input: step before which it was set, kind (index in the attribute kinds), target (track: 0 left, 1 "
+    "right; index of a body), 1 if it was released, six values in the unit of the kind"};
 
-/// All that results.h5 may hold. Of each quantity of a series the dataset `value`; beside it lie `step` and `time`.
+/// All fields of results.h5. For each series the dataset `value`, beside which are `step` and `time`.
 std::vector<support::FileField> resultFields();
 
 } // namespace grouser::output

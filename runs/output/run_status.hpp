@@ -7,17 +7,17 @@ namespace grouser::output {
 
 inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that has stopped before its drive
 
-/// How a run stands, as its manifest and the summary of a sweep say.
+/// Status of a run in its manifest and in the summary of a sweep.
 enum class RunStatus {
   pending, ///< of a sweep: not yet begun
   running,
   finished,
-  incomplete, ///< ended as well, but its vehicle never drove, or too little for figures
+  incomplete, ///< ended, but its vehicle never drove, or too little for figures
   failed,
   stopped ///< by a signal; can be resumed
 };
 
-/// Whether a run has come to its end, by itself and without a fault.
+/// Whether a run has reached its end without a fault.
 constexpr bool hasEnded(RunStatus status) { return status == RunStatus::finished || status == RunStatus::incomplete; }
 
 } // namespace grouser::output

@@ -20,7 +20,7 @@ namespace grouser::output {
 
 namespace {
 
-constexpr int kMostShoes = 10000; // in a range, so that a slip of the finger fills no memory
+constexpr int kMostShoes = 10000; // in a range, so that a typing error does not fill the memory
 
 struct Track {
   std::string side;
@@ -49,15 +49,15 @@ Tracks readSinkage(const std::filesystem::path& results, const std::string& chos
     read.time = file.numbers(group + "/time");
     read.tracks.push_back({side, file.shape(group + "/value").back(), file.numbers(group + "/value")});
     if (read.tracks.back().values.size() != read.time.size() * read.tracks.back().shoes)
-      throw base::InputError(
-          fmt::format("{}: {} has another length than its times; the file is damaged, run the scene again",
-                      results.string(), group));
+      throw base::InputError(fmt::format(
+          "{}: {} and its times differ in length; the file is damaged, run the scene again", results.string(), group));
   }
   if (any && read.tracks.empty())
     throw base::InputError(fmt::format("--track {}: {} has no such track", chosen, results.string()));
   if (read.tracks.empty())
-    throw base::InputError(fmt::format(
-        "{}: has no sinkage, for its scene has no vehicle; give the results of one that has", results.string()));
+    throw base::InputError(
+        fmt::format("{}: has no sinkage, because its scene has no vehicle; give the results of a run with a vehicle",
+                    results.string()));
   return read;
 }
 
@@ -81,7 +81,7 @@ std::vector<int> shoesNamed(const std::string& list) {
   std::string_view rest = list;
   while (true) {
     const std::optional<int> first = takeNumber(rest);
-    if (!first) refuse("is no list of shoes");
+    if (!first) refuse("is not a list of shoes");
     int last = *first;
     if (!rest.empty() && rest.front() == '-') {
       rest.remove_prefix(1);
@@ -93,7 +93,7 @@ std::vector<int> shoesNamed(const std::string& list) {
     }
     for (int s = *first; s <= last; ++s) shoes.push_back(s);
     if (rest.empty()) break;
-    if (rest.front() != ',') refuse("is no list of shoes");
+    if (rest.front() != ',') refuse("is not a list of shoes");
     rest.remove_prefix(1);
   }
   return shoes;

@@ -16,7 +16,7 @@ namespace {
 
 using Numbers = std::vector<float>;
 
-/// A quantity of each vertex: the one list, which a new field is added to.
+/// A quantity of each vertex: the list of all.
 struct SoilDataset {
   const char* name;
   std::uint64_t width; ///< 1: scalar, 3: vector
@@ -31,13 +31,13 @@ const SoilDataset kSoilDatasets[] = {
        for (std::size_t v = 0; v + 2 < n.size(); v += 3)
          s.mesh.vertices.push_back({double{n[v]}, double{n[v + 1]}, double{n[v + 2]}});
      },
-     "m", "of the vertices of deformable soil as it lies now: at node spacing where it was touched, coarser elsewhere"},
+     "m", "vertices of the deformed soil surface, at node spacing where it was touched, coarser elsewhere"},
     {"sinkage", 1, [](const SoilSurface& s) { return s.sinkage; },
      [](SoilSurface& s, Numbers n) { s.sinkage = std::move(n); }, "m",
-     "of the surface below the undisturbed one; negative above it"},
+     "sinkage below the undisturbed surface; negative above it"},
     {"pressure", 1, [](const SoilSurface& s) { return s.pressure; },
      [](SoilSurface& s, Numbers n) { s.pressure = std::move(n); }, "Pa",
-     "on the soil, mean over the square of a node, without damping"},
+     "pressure on the soil, mean over the square of a node, without damping"},
     {"max_pressure", 1, [](const SoilSurface& s) { return s.maxPressure; },
      [](SoilSurface& s, Numbers n) { s.maxPressure = std::move(n); }, "Pa", "maximum of the pressure since the start"},
     {"shear", 1,
@@ -108,13 +108,13 @@ std::shared_ptr<const SoilSurface> readSoil(const support::Hdf5File& file, const
     d.set(*soil, std::move(numbers));
   }
   for (const std::uint32_t v : soil->mesh.indices)
-    if (v >= soil->mesh.vertices.size()) throw damaged(frame + kTriangles, "names a vertex that is not there");
+    if (v >= soil->mesh.vertices.size()) throw damaged(frame + kTriangles, "names a missing vertex");
   return soil;
 }
 
 std::vector<support::FileField> soilSurfaceFields(const std::string& frame) {
   std::vector<support::FileField> fields{{frame + "soil/triangles", "uint32", "[triangles, 3]", "-",
-                                          "places of the corners of each triangle among the vertices of the soil"}};
+                                          "indices of the corners of each triangle in the vertices of the soil"}};
   for (const SoilDataset& d : kSoilDatasets)
     fields.push_back(
         {frame + "soil/" + d.name, "float32", d.width == 1 ? "[vertices]" : "[vertices, 3]", d.unit, d.help});

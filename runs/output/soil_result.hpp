@@ -27,11 +27,12 @@ struct SoilMapField {
 };
 inline constexpr SoilMapField kSoilMaps[] = {
     {{"terrain/soil/sinkage", "m",
-      "of deformable soil at the end of the run, below the undisturbed surface; row j at y = origin[1] + j spacing, "
+      "sinkage of deformable soil below the undisturbed surface at the end of the run; row j at y = origin[1] + j "
+      "spacing, "
       "column "
       "i at x = origin[0] + i spacing"},
      &SoilResult::sinkage},
-    {{"terrain/soil/pressure", "Pa", "on the soil at the end, at the same nodes"}, &SoilResult::pressure},
+    {{"terrain/soil/pressure", "Pa", "pressure on the soil at the end, at the same nodes"}, &SoilResult::pressure},
     {{"terrain/soil/shear", "Pa", "magnitude of the shear stress on the soil at the end, at the same nodes"},
      &SoilResult::shear},
     {{"terrain/soil/max_pressure", "Pa", "maximum of the pressure since the start, at the same nodes"},
@@ -48,12 +49,14 @@ inline constexpr SoilLine kSoilLines[] = {
     {{"terrain/soil/origin", "m", "x and y of the first node of the maps of deformable soil"},
      "[2]",
      &SoilResult::origin},
-    {{"terrain/soil/spacing", "m", "of the nodes of these maps"}, "[1]", &SoilResult::spacing},
-    {{"terrain/soil/section_offset", "m", "of the rut's section from the middle of the vehicle, left positive"},
+    {{"terrain/soil/spacing", "m", "node spacing of these maps"}, "[1]", &SoilResult::spacing},
+    {{"terrain/soil/section_offset", "m",
+      "lateral offset in the rut's section from the middle of the vehicle, left positive"},
      "[n]",
      &SoilResult::sectionOffset},
     {{"terrain/soil/section_sinkage", "m",
-      "mean over the last 0.5 m of the rut behind the tracks, across the heading at the end; without a rut: under the "
+      "sinkage, mean over the last 0.5 m of the rut behind the tracks, across the heading at the end; without a rut: "
+      "under the "
       "tracks"},
      "[n]",
      &SoilResult::sectionSinkage},
@@ -74,14 +77,14 @@ inline constexpr SoilConstantField kSoilConstants[] = {
     {{"terrain/soil/elastic_ratio", "-",
       "ratio of the unloading slope to p / z at the end of virgin loading, at least"},
      &scm::SoilConstants::elasticRatio},
-    {{"terrain/soil/damping", "Pa s/m", "of compression and shear"}, &scm::SoilConstants::damping},
+    {{"terrain/soil/damping", "Pa s/m", "damping of compression and shear"}, &scm::SoilConstants::damping},
     {{"terrain/soil/slip_sinkage", "-", "sinkage per shear displacement at constant pressure"},
      &scm::SoilConstants::slipSinkage},
     {{"terrain/soil/maximum_slip_sinkage", "m", "limit of slip sinkage"}, &scm::SoilConstants::maximumSlipSinkage},
-    {{"terrain/soil/unit_weight", "N/m3", "of the soil"}, &scm::SoilConstants::unitWeight},
+    {{"terrain/soil/unit_weight", "N/m3", "unit weight of the soil"}, &scm::SoilConstants::unitWeight},
 };
 
-/// `position` and unit vector `heading` of the vehicle. Empty maps where no soil was touched.
+/// `position` and unit vector `heading` of the vehicle. Empty maps if no soil was touched.
 SoilResult soilResult(const coupling::GroundFields& fields, const base::Vec3d& position, const base::Vec3d& heading);
 
 } // namespace grouser::output

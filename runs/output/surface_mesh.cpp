@@ -110,7 +110,7 @@ TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::Surfa
   TriangleMesh mesh = endless ? floorMesh(planes, surface.number) : planeMesh(planes, surface.number);
   for (Vec3d& v : mesh.vertices) {
     v = surface.start.toBody(v);
-    if (surface.aboveBed) v.z = 0; // where it was drawn nobody knew its height
+    if (surface.aboveBed) v.z = 0; // its height was unknown when it was drawn
   }
   return mesh;
 }

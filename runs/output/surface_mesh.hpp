@@ -11,7 +11,7 @@ namespace grouser::output {
 base::TriangleMesh shapeMesh(const contact::SurfaceGeometry& shape);
 
 /// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
-/// cylinder shows its inside. `endless`: a floor goes on as far as one sees.
+/// cylinder shows its inside. `endless`: a floor extends to the horizon.
 base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::SurfaceSetup& surface,
                                bool endless = false);
 

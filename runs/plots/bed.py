@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the bed is made of before anything touches it: porosity over depth, and how far its grains lie from each other."""
+"""Structure of the settled bed: porosity over depth, and radial distribution."""
 import drawing
 
 
@@ -8,7 +8,7 @@ def plot(run):
     distance, radial = run.field("terrain/bed/distance"), run.field("terrain/bed/radial_distribution")
     if depth is None or len(depth) == 0:
         return None
-    # A bed of few layers has no radial distribution.
+    # Beds of few layers have no radial distribution.
     figure, (left, *rest) = drawing.panels(2 if len(distance) > 0 else 1)
     bulk = run.get("terrain/bed/porosity")
     left.plot(porosity, 1000 * depth, color="tab:brown")
@@ -24,5 +24,5 @@ def plot(run):
         right.set_xlabel("distance [mean diameters]")
         right.set_ylabel("radial distribution [-]")
         order = run.get("terrain/bed/order")
-        right.set_title(f"{100 * order:.1f} % of the grains in crystals", fontsize=9)
+        right.set_title(f"{100 * order:.1f} % of the grains in crystalline order", fontsize=9)
     return figure

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a check: check.py CHECK.json COSTS.json FILE.png
 
-Error over the wall time of a run, of up to six figures: the steps that were run with their error bars as a line, the
-other axes as the change that they bring, with its 95 % interval. What failed or was refused stands at the upper edge as
-a cross, at the run time that was to be expected. Lines at 10, 5 and 1 %.
+Error over the wall time of a run, for up to six figures: time steps with their error bars as a line, other axes as
+changes with 95 % intervals. Failed and rejected runs are crosses at the upper edge, at their expected run time. Lines
+at 10, 5 and 1 %.
 """
 import json
 import math
@@ -15,7 +15,7 @@ DOUBTFUL = {"markerfacecolor": "none"}
 AXES = {"depth": ("s", "C1"), "width": ("D", "C2"), "floor": ("v", "C3"), "grain_size": ("^", "C4"),
         "spheres": ("P", "C5"), "precision": ("*", "C6"), "node_spacing": ("h", "C7"), "parameter": ("X", "C8")}
 MOST = 6
-LEAST = 5e-3  # of the value: smaller errors end at the lower edge
+LEAST = 5e-3  # fraction of the value; smaller errors are drawn at the lower edge
 
 
 def share(number, value):
@@ -23,12 +23,12 @@ def share(number, value):
 
 
 def is_doubtful(figure):
-    """Whether a figure is marked inconclusive; what is 0 in all runs is sure."""
+    """Whether a figure is marked inconclusive; values that are 0 in all runs are certain."""
     return bool(figure.get("inconclusive")) and not figure["value"] == figure["bar"] == 0
 
 
 def ticks_between(low, high, most=5):
-    """Places with room for their numbers on a logarithmic axis: of 1, 2, 5 or 1 a decade, or few even ones."""
+    """Ticks of a logarithmic axis with room for their labels: 1, 2, 5 or 1 per decade, or few evenly spaced ones."""
     for digits in ((1, 2, 5), (1,)):
         places = [digit * 10.0**power for power in range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
                   for digit in digits if low <= digit * 10.0**power <= high]
@@ -48,7 +48,7 @@ def panel(axis, figure, check, costs):
              for name, bar in zip(check["step_cases"], figure["bar_of_step"]) if share(bar, value)]
     steps.sort()
     if steps:
-        axis.plot([s[0] for s in steps], [s[1] for s in steps], "o-", color="C0", label="step, its error bar",
+        axis.plot([s[0] for s in steps], [s[1] for s in steps], "o-", color="C0", label="time step, with error bar",
                   markevery=[not doubtful and name not in incomplete for _, _, name in steps])
         for wall, error, name in steps:
             if doubtful or name in incomplete:
@@ -115,7 +115,7 @@ def draw(check_path, costs_path):
     for axis in panels[len(figures):]:
         axis.set_visible(False)
     for row in range(rows):
-        panels[row * columns].set_ylabel("error over value [-]")
+        panels[row * columns].set_ylabel("error / value [-]")
     for axis in panels[:len(figures)][-columns:]:
         axis.set_xlabel("wall time of a run [s]")
     doubts = "; open: inconclusive or incomplete" if any(map(is_doubtful, figures)) or any(

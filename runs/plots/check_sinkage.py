@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Recomputes the sinkage of every shoe from the poses in frames.h5 and the undisturbed surface in results.h5, by its
-definition and without the program, and compares it with the series of the run:
+"""Recomputes the sinkage of each shoe from the poses in frames.h5 and the undisturbed surface in results.h5,
+independently of the program, and compares it with the series of the run:
 
     check_sinkage.py FOLDER [TOLERANCE]
 
-FOLDER is that of a run with a vehicle whose frames and rows fall together (run.frame_interval a multiple of
-run.output_interval). Prints the largest difference; exit code 1 where it is above TOLERANCE [m], default 1e-6, where a
-shoe off the ground run has a sinkage, or where there is nothing to compare."""
+FOLDER: a run with a vehicle and run.frame_interval a multiple of run.output_interval. Prints the largest difference.
+Exit code 1 if it exceeds TOLERANCE [m] (default 1e-6), if a shoe outside the track-ground contact length has a
+sinkage, or if there is nothing to compare."""
 import math
 import os
 import re
@@ -18,17 +18,17 @@ import numpy
 
 
 def surface_of(results):
-    """Height of the undisturbed surface at (x, y), as the file says it is interpolated between its nodes."""
+    """Height of the undisturbed surface at (x, y), with the interpolation named in the file."""
     group = results["terrain/surface"]
     x, y, height = group["x"][:], group["y"][:], group["height"][:]
     smooth = group["height"].attrs["interpolation"]
     smooth = smooth.decode() if isinstance(smooth, bytes) else smooth
     if smooth == "monotone":
-        sys.exit("the ground has terrain.interpolation = \"monotone\", which is not computed here; set \"smooth\"")
+        sys.exit("terrain.interpolation = \"monotone\" is not supported by this script; run the scene with \"smooth\"")
     smooth = smooth == "Catmull-Rom"
 
     def along(nodes, v):
-        """Index of the first of the nodes about v, and the weights of four."""
+        """Index of the node below v, and the weights of four nodes."""
         n, u = len(nodes), (v - nodes[0]) / (nodes[1] - nodes[0])
         if not smooth:
             u = min(max(u, 0.0), n - 1.0)
@@ -38,7 +38,7 @@ def surface_of(results):
             return i, [0.0, 1 - t, t, 0.0]
         w = [0.5 * (-t**3 + 2 * t**2 - t), 0.5 * (3 * t**3 - 5 * t**2 + 2), 0.5 * (-3 * t**3 + 4 * t**2 + t),
              0.5 * (t**3 - t**2)]
-        if i == 0:  # beyond either end the last two nodes go on in a line
+        if i == 0:  # linear extrapolation beyond the end nodes
             w = [0.0, w[1] + 2 * w[0], w[2] - w[0], w[3]]
         if i == n - 2:
             w = [w[0], w[1] - w[3], w[2] + 2 * w[3], 0.0]
@@ -64,7 +64,7 @@ def rotation(q):
 
 
 def normal_at(surface, x, y, width):
-    """Normal of the least-squares plane through 5 x 5 heights of a square of this width about (x, y)."""
+    """Normal of the least-squares plane through 5 x 5 heights in a square of this width around (x, y)."""
     steps = numpy.linspace(-0.5 * width, 0.5 * width, 5)
     rows = [(1.0, dx, dy, surface(x + dx, y + dy)) for dx in steps for dy in steps]
     a = numpy.array(rows)
@@ -87,7 +87,7 @@ def sinkage_of(pad, surface, width):
 
 
 def number(folder, section, key):
-    """Of the vehicle file that the resolved scene names."""
+    """Value of a key in the vehicle file of the resolved scene."""
     scene = open(os.path.join(folder, "scene.toml"), encoding="utf-8").read()
     spec = re.search(r'^spec = "(.*)"', scene, re.M).group(1)
     text = open(spec, encoding="utf-8").read()
@@ -121,11 +121,11 @@ def main():
                     continue
                 place = float(numpy.dot(pose[:3], ahead))
                 if not min(wheels) - 1e-9 <= place <= max(wheels) + 1e-9:
-                    print("step %d: %s shoe %d has a sinkage off the ground run" % (step, side, shoe))
+                    print("step %d: %s shoe %d has a sinkage outside the ground contact" % (step, side, shoe))
                     failed = True
                 here = sinkage_of(pose[:3] + rotation(pose[3:]) @ middle, surface, pitch)
                 compared, worst, deepest = compared + 1, max(worst, abs(here - given)), max(deepest, given)
-    print("%d sinkages compared, largest difference %.3g m, deepest %.4g m" % (compared, worst, deepest))
+    print("%d values compared, largest difference %.3g m, maximum sinkage %.4g m" % (compared, worst, deepest))
     sys.exit(1 if failed or not compared or not worst <= tolerance else 0)
 
 

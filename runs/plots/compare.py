@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a comparison: compare.py COMPARE.json FILE.png
 
-A panel a figure, with a bar for each kind of ground or contact method and its 95 % interval, and the wall time for a
+One panel per figure, with a bar and 95 % interval for each kind of ground or contact method, and the wall time per
 simulated second.
 """
 import json
@@ -19,7 +19,7 @@ PANELS = (
     ("drive torque [N m]", "drive torque [kN m]", 1e-3),
     ("motion resistance [N]", "motion resistance [kN]", 1e-3),
     ("drawbar pull [N]", "drawbar pull [kN]", 1e-3),
-    ("pitch mean [deg]", "pitch, nose up [deg]", 1),
+    ("pitch mean [deg]", "pitch (nose up positive) [deg]", 1),
 )
 
 
@@ -55,7 +55,8 @@ def draw(path):
     for axis, (label, factor, means) in zip(axes, panels):
         bars(axis, label, variants, *([None if mean[key] is None else factor * mean[key] for mean in means]
                                      for key in ("mean", "half_width")))
-    bars(axes[len(panels)], "wall time a second [s]", variants, [g["wall_time_per_second"] for g in results["variants"]],
+    bars(axes[len(panels)], "wall time per simulated\nsecond [s]", variants,
+         [g["wall_time_per_second"] for g in results["variants"]],
          [None] * len(variants))
     for axis in axes[len(panels) + 1:]:
         axis.set_visible(False)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of `grouser bench contacts`: contacts.py FIGURES.json FILE.png
 
-Time of a search and contacts a second over the number of contacts, beside Bullet's where there are.
+Time of a search and contacts per second over the number of contacts, with those of Bullet if available.
 """
 import json
 
@@ -35,10 +35,10 @@ def draw(path):
     last = figures["points"][-1]
     ends = [figures["points"][0]["contacts"], last["contacts"]]
     times.loglog(ends, [last["seconds"]["total"] * c / ends[1] for c in ends], ":", color="0.5", label="linear growth")
-    times.set_ylabel(f"time of a search, pairs {figures['pairs']} [s]")
-    rates.set_ylabel("contacts a second [1/s]")
+    times.set_ylabel(f"time of a contact search, pairs {figures['pairs']} [s]")
+    rates.set_ylabel("contacts per second [1/s]")
     for axes in (times, rates):
-        axes.set_xlabel("contacts, each pair once")
+        axes.set_xlabel("number of contacts (each pair once)")
     times.legend(fontsize=8)
     return figure
 

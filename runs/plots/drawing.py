@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What all plots have in common: their style, the tables they read, and the frame of a script that draws one picture."""
+"""Common parts of all plots: style, tables, and the frame of a script that draws one picture."""
 import csv
 import math
 import pathlib
@@ -11,7 +11,7 @@ import packages
 packages.require("numpy", "matplotlib")
 import matplotlib
 from matplotlib import ticker
-from matplotlib.figure import Figure  # for the scripts, which need no import of their own
+from matplotlib.figure import Figure  # re-exported for the scripts
 
 matplotlib.use("Agg")
 matplotlib.rcParams.update({
@@ -26,16 +26,16 @@ matplotlib.rcParams.update({
     "font.size": 10,
 })
 
-EXIT_STATUS = """Exit status: 0 (also where there is nothing to draw), 2 where the words are wrong, 3 where a Python package is missing;
-its last line then says which."""
+EXIT_STATUS = """Exit status: 0 (also if there is nothing to draw); 2: wrong arguments; 3: missing Python package, named
+on the last line."""
 
 
-NOTHING = 1e-30  # in SI units: what is smaller stands for 0
-LEAST_SPAN = 1e-9  # smallest range of an axis over its largest value: smaller ranges are rounding
+NOTHING = 1e-30  # in SI units: smaller values are drawn as 0
+LEAST_SPAN = 1e-9  # range of an axis over its largest value; smaller ranges are rounding
 
 
 class Ticks(ticker.Formatter):
-    """Each number at an axis as a whole: no offset or power of ten that stands apart from it."""
+    """Complete tick labels: no separate offset or power of ten."""
 
     def __call__(self, value, _=None):
         most = max((abs(v) for v in self.locs), default=abs(value))
@@ -50,7 +50,7 @@ class Ticks(ticker.Formatter):
 
 
 def save(figure, path, dpi):
-    """Writes a picture whose linear axes are readable: their numbers whole, and none finer than rounding."""
+    """Writes a picture with readable linear axes: complete tick labels, no ranges below rounding."""
     for axes in figure.axes:
         for axis, limits, widen in ((axes.xaxis, axes.get_xlim, axes.set_xlim), (axes.yaxis, axes.get_ylim, axes.set_ylim)):
             if axis.get_scale() != "linear" or not isinstance(axis.get_major_formatter(), ticker.ScalarFormatter):
@@ -66,7 +66,7 @@ def save(figure, path, dpi):
 
 
 def legend_above(axes, columns=3, size=8):
-    """A legend that covers no curve and names each label once; none without labels."""
+    """A legend above the axes with each label once; none without labels."""
     lines, labels = axes.get_legend_handles_labels()
     once = dict(zip(labels, lines))
     if once:
@@ -74,7 +74,7 @@ def legend_above(axes, columns=3, size=8):
 
 
 def legend_below(figure, axes):
-    """One legend of all panels, below them; none without labels."""
+    """One legend for all panels, below them; none without labels."""
     entries = {}
     for one in axes:
         entries.update(zip(*reversed(one.get_legend_handles_labels())))
@@ -103,24 +103,24 @@ def rows(path):
 
 
 def numbers(path):
-    """The rows of a table that holds nothing but numbers: [{column: number}]."""
+    """The rows of a numeric table: [{column: number}]."""
     return [{key: float(value) for key, value in row.items()} for row in rows(path)]
 
 
 def runs(folder, pattern):
-    """Tables of a study's runs, in the order of their names: [(groups of the name, rows)] where it is `pattern`."""
+    """Tables of a study's runs whose names match `pattern`, sorted: [(groups of the match, rows)]."""
     named = ((re.fullmatch(pattern, file.stem), file) for file in sorted(pathlib.Path(folder).glob("*.csv")))
     return [(match.groups(), numbers(file)) for match, file in named if match]
 
 
 def panels(count):
-    """A figure with so many panels side by side, and these."""
+    """A figure with `count` panels side by side, and the panels."""
     figure = Figure(figsize=(4 * count, 3.4))
     return figure, figure.subplots(1, count, squeeze=False)[0]
 
 
 def words(help_text, right):
-    """The words behind the name of the script, where `right(words)`; ends the program with its help where not."""
+    """The arguments of the script; prints the help and exits unless `right(arguments)`."""
     given = sys.argv[1:]
     asked = any(word in ("-h", "--help") for word in given)
     if asked or not right(given):
@@ -130,7 +130,7 @@ def words(help_text, right):
 
 
 def main(help_text, draw, files=1, dpi=90):
-    """A script that takes the paths of `files` inputs and of the picture: draw(*inputs) gives a figure, or None."""
+    """A script with the arguments INPUT... PICTURE (`files` inputs); draw(*inputs) returns a figure or None."""
     *inputs, picture = words(help_text, lambda given: len(given) == files + 1)
     figure = draw(*inputs)
     if figure is not None:

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Vehicle speed beside what the sprockets ask for, track tension, drive torque."""
+"""Vehicle speed and sprocket speed x pitch radius, track tension, drive torque."""
 import numpy
 
 import drawing
 import series
 
 COLOURS = {"left": "tab:blue", "right": "tab:orange"}
-# Tracks that do the same stay visible both: the right one thin upon the left one.
+# The right track is thin and on top, so that both are visible if they coincide.
 WIDTHS = {"left": 2.4, "right": 1.0}
 
 
@@ -31,7 +31,7 @@ def plot(run):
         if series.finite(joints):
             tension.fill_between(run.time, joints.min(axis=1), joints.max(axis=1), color=colour, alpha=0.2, linewidth=0)
             tension.plot(run.time, numpy.mean(joints, axis=1), color=colour, linewidth=width,
-                         label=f"{side}: mean and range over its pins")
+                         label=f"{side} track: mean and range over its pin joints")
         drive_torque = run.get(f"vehicle/{side}/drive_torque")
         if drive_torque is not None:
             torque.plot(run.time, drive_torque, color=colour, linewidth=width, label=f"{side} sprocket")

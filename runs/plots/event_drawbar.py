@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Drawbar curves of a set of events: event_drawbar.py EVENTS.json FILE.png
 
-Pull, motion resistance, sinkage and drive torque over slip, with 95 % intervals over the seeds; nothing where fewer than
-two slips were run.
+Pull, motion resistance, sinkage and drive torque over slip, with 95 % intervals over the seeds; no picture with fewer
+than two slips.
 """
 import json
 import math

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The last picture of the first run of each level of a set of events: event_pictures.py EVENTS.json FILE.png"""
+"""Final pictures of the first run of each level of a series of events: event_pictures.py EVENTS.json FILE.png"""
 import json
 import pathlib
 

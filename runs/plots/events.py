@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of a set of events: events.py EVENTS.json FILE.png
+"""Plot of a series of events: events.py EVENTS.json FILE.png
 
-One bar of verdicts for each event with levels (go, partly, no-go, over its level, with what geometry and friction say),
-and the figures of all levels with their 95 % intervals over the seeds.
+Verdict of each event and level (go, partly, no-go) with its reason, and the figures of all levels with 95 % intervals
+over the seeds.
 """
 import json
 import math
@@ -24,12 +24,12 @@ def label(row):
 
 
 def limits(axis, rows):
-    """Marks of each level in the order of the events."""
+    """Verdict marks of each level, in the order of the events."""
     for place, row in enumerate(rows):
         axis.barh(place, 1, color=COLOURS.get(word(row), "#bbbbbb"))
         text = axis.text(0.02, place, ": ".join(filter(None, (row["verdict"], row["why"]))), va="center", fontsize=7, color="white",
                          clip_on=True)
-        text.set_in_layout(False)  # messages of runs that failed are longer than any figure is wide
+        text.set_in_layout(False)  # error messages may be wider than the figure
     axis.set_yticks(range(len(rows)), [label(row) for row in rows], fontsize=7)
     axis.set_xticks([])
     axis.set_xlim(0, 1)

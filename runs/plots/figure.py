@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The panels that a scene asks for in [[output.plot]]: columns of the results against time or each other."""
+"""The panels of [[output.plot]]: columns of the results over time or each other."""
 import tomllib
 
 import numpy
@@ -10,7 +10,7 @@ COLUMNS = 2  # panels side by side
 
 
 def column(run, name):
-    """A column by its name in timeseries.csv; its last word may be a component of a vector."""
+    """A column by its name in timeseries.csv; the last part may be a vector component."""
     if name == "time":
         return run.time
     path = name.replace(".", "/")

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The energy ledger, as changes since the first step of the run: what went in, where it is, and what the length of the
-steps has cost."""
+"""The energy ledger: changes since the first step of the run, and the time-integration error."""
 import drawing
 import series
 
 TERMS = (
-    ("drive_work", "work of the drives", "black"),
+    ("drive_work", "drive work", "black"),
     ("kinetic", "kinetic", "tab:blue"),
     ("potential", "potential", "tab:green"),
     ("elastic", "elastic", "tab:orange"),
@@ -22,7 +21,7 @@ def plot(run):
     energy, rest = figure.subplots(2, 1, sharex=True, gridspec_kw={"height_ratios": [2, 1]})
     for values, label, colour in terms:
         energy.plot(run.time, values, color=colour, label=label)
-    energy.set_ylabel("change of energy since the first step [J]")
+    energy.set_ylabel("energy change since the first step [J]")
     drawing.legend_above(energy, 5)
     error = run.get("ledger/integration_error")
     if series.finite(error):

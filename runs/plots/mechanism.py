@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A mechanism: paths of the bodies' centres in the plane in which they spread most, energies, integration error, and how
-well the joints stay closed."""
+"""A mechanism: paths of the centres of mass in the plane of their largest extent, energies, integration error, and
+joint errors."""
 import numpy
 
 import drawing
@@ -10,13 +10,13 @@ MOST_BODIES = 12
 ROUND_OFF = 1e-15  # joint errors below this are rounding [m, rad]
 AXES = "xyz"
 TERMS = (("kinetic", "kinetic", "tab:blue"), ("potential", "potential", "tab:green"), ("elastic", "elastic", "tab:orange"),
-         ("dissipated", "dissipated", "tab:red"), ("drive_work", "work of the drives", "black"))
+         ("dissipated", "dissipated", "tab:red"), ("drive_work", "drive work", "black"))
 
 
 def paths(axis, bodies):
     spread = numpy.max([values.max(axis=0) for values in bodies.values()], axis=0) - numpy.min(
         [values.min(axis=0) for values in bodies.values()], axis=0)
-    flat = int(numpy.argmin(spread[::-1]))  # of two that are equal the later one is left out
+    flat = int(numpy.argmin(spread[::-1]))  # of equal extents the last one is omitted
     across, up = [k for k in range(3) if k != 2 - flat]
     for name, values in list(bodies.items())[:MOST_BODIES]:
         line, = axis.plot(values[:, across], values[:, up], label=name, linewidth=1.0)
@@ -41,16 +41,16 @@ def plot(run):
         values = run.get(f"ledger/{name}")
         if series.finite(values) and numpy.nanmax(numpy.abs(values)) > drawing.NOTHING:
             energy.plot(run.time, values, color=colour, label=label)
-    energy.set_ylabel("change of energy since the start [J]")
+    energy.set_ylabel("energy change since the start [J]")
     drawing.legend_above(energy)
     rest.plot(run.time, run.get("ledger/integration_error"), color="tab:purple")
     rest.set_ylabel("integration error [J]")
-    for name, label in (("position_error", "gap [m, rad]"), ("velocity_error", "opening rate [m/s, rad/s]")):
+    for name, label in (("position_error", "position [m, rad]"), ("velocity_error", "velocity [m/s, rad/s]")):
         values = run.get(f"constraints/{name}")
         if series.finite(values) and (values >= ROUND_OFF).any():
             gap.semilogy(run.time, numpy.where(values >= ROUND_OFF, values, numpy.nan), label=label)
     if gap.get_legend_handles_labels()[0]:
-        gap.set_ylabel("largest joint error since the last row")
+        gap.set_ylabel("maximum joint error\nper output interval")
         drawing.legend_above(gap)
     else:  # closed to the last bit
         gap.remove()

@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python packages that the plots need, from Debian."""
+"""Python packages required by the plots, from Debian."""
 import importlib
 import sys
 
-MISSING = 3  # the exit status that says so; the program then shows the last line as it is
+MISSING = 3  # exit status; the program prints the last line of the script unchanged
 
 
 def require(*names):
-    """Ends the program where one of these packages is missing, and says on its last line what to install."""
+    """Exits if one of these packages is missing; the last line names the package to install."""
     for name in names:
         try:
             importlib.import_module(name)

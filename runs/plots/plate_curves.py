@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a calibration on plates: plate_curves.py CURVES.csv POINTS.csv FILE.png
 
-Pressure over sinkage of every plate: simulated, a thin line a seed, and measured, means with the standard deviation of a
-test.
+Pressure over sinkage of each plate: simulated (one thin line per seed) and measured (mean and standard deviation).
 """
 import drawing
 

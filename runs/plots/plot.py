@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, surface, bed, drive,
-ledger, mechanism, figure. A plot whose quantities the results lack is left out.
+ledger, mechanism, figure. Plots without data in the results are omitted.
 """
 import pathlib
 

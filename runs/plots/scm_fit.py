@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a fit of the soil contact model to virtual tests: scm_fit.py CURVES.csv FILE.png
 
-Pressure over sinkage of each plate and shear stress over displacement of each load, tests thin and the fit thick.
+Pressure over sinkage of each plate and shear stress over displacement of each load: tests thin, fit thick.
 """
 import drawing
 

@@ -6,7 +6,7 @@ SIDES = ("left", "right")
 
 
 class Run:
-    """The time series of one run. `get` gives None for a quantity that the run does not have."""
+    """The time series of a run. `get` returns None for a missing quantity."""
 
     def __init__(self, file):
         self._file = file
@@ -25,20 +25,20 @@ class Run:
         return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
 
     def text(self, name):
-        """A fact of the run; "" where it has none of this name."""
+        """An attribute of the run; "" if missing."""
         value = self._file.attrs.get(name, "")
         return value.decode() if isinstance(value, bytes) else str(value)
 
     def field(self, path):
-        """What is no series: all of it."""
+        """A dataset that is not a series; None if missing."""
         return self._file[path][:] if path in self._file else None
 
     def names(self, group):
-        """Names of what the run holds of a kind: bodies, joints."""
+        """Names in a group, such as bodies or joints."""
         return list(self._file[group]) if group in self._file else []
 
     def shoes(self, name):
-        """{side: [rows, shoes]} of a quantity that has one number a shoe."""
+        """{side: [rows, shoes]} of a quantity with a value per shoe."""
         tracks = {side: self.get(f"vehicle/{side}/{name}") for side in SIDES}
         return {side: values for side, values in tracks.items() if values is not None}
 

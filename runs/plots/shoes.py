@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Heights of four consecutive shoes, and the sinkage of all."""
+"""Heights of four consecutive shoes, and sinkage of all shoes."""
 import numpy
 from matplotlib.lines import Line2D
 
@@ -8,7 +8,7 @@ import series
 
 
 def last_contact(on_ground):
-    """(first row, last row) of the longest stretch of True that ends before the last row; None where there is none."""
+    """(first row, last row) of the longest run of True that ends before the last row; None if there is none."""
     best, begin = None, None
     for row, on in enumerate(on_ground):
         if on and begin is None:
@@ -21,14 +21,14 @@ def last_contact(on_ground):
 
 
 def picked_up(heights, stretch, rows):
-    """True where the shoe rises by more than 0.1 m within the run after it has left the ground run."""
+    """Whether the shoe rises by more than 0.1 m after its ground contact."""
     end = stretch[1]
     return end + 1 < rows and numpy.nanmax(heights[end:]) - heights[end] > 0.1
 
 
 def choose_four(heights, sinkage):
-    """Four consecutive shoes of one track that lie on the ground run and are then picked up by the sprocket: those that
-    lay there longest. Falls back on the shoes that carry the vehicle longest where none has been picked up."""
+    """The four consecutive shoes of a track with the longest ground contact that are then picked up by the sprocket; if
+    none is picked up, those with the longest ground contact."""
     best = None
     for side, values in sinkage.items():
         rows, count = values.shape
@@ -45,7 +45,7 @@ def choose_four(heights, sinkage):
 
 
 def key_of(line_styles):
-    """Handles for a legend that explains widths, in grey, whatever the colours."""
+    """Grey legend handles that explain the line widths."""
     return [Line2D([], [], color="0.3", label=label, **style) for label, style in line_styles]
 
 
@@ -54,7 +54,7 @@ OFF_GROUND = {"linewidth": 0.9, "alpha": 0.5}
 
 
 def say_empty(axis):
-    """Instead of curves."""
+    """Text in place of curves."""
     axis.text(0.5, 0.5, "no shoe in ground contact\nat any output time", ha="center", va="center",
               transform=axis.transAxes)
 
@@ -73,7 +73,7 @@ def heights(run):
     margin = max(0.003, 0.6 * float(numpy.ptp(level)))
     low, high = level.min() - margin, level.max() + margin
     all_heights = pads[side][:, four]
-    # A close-up where the whole way is much higher than what is carried.
+    # A close-up if the total height range is much larger than that in ground contact.
     has_close = float(numpy.nanmax(all_heights) - numpy.nanmin(all_heights)) > 2 * (high - low)
     panels = figure.subplots(1 + has_close, 1, sharex=True, squeeze=False)[:, 0]
     whole = panels[0]
@@ -113,10 +113,10 @@ def sinkage(run):
             say_empty(axis)
             continue
         shoes = axis.plot(run.time, 1000 * values, color="tab:blue", alpha=0.25, linewidth=0.8)
-        shoes[0].set_label("single shoes in ground contact")
+        shoes[0].set_label("each shoe in ground contact")
         mean = numpy.full(len(run.time), numpy.nan)
         mean[some] = numpy.nanmean(values[some], axis=1)
-        axis.plot(run.time, 1000 * mean, color="black", label="their mean")
+        axis.plot(run.time, 1000 * mean, color="black", label="mean of shoes in ground contact")
         for line in axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncol=2, fontsize=8).get_lines():
             line.set_alpha(1)
     axes[0].set_ylabel("sinkage [mm]")

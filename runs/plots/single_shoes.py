@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Single shoes over time: single_shoes.py RESULTS.h5 [CONTROL.h5] SHOES FILE.png   with SHOES such as 10,11,12, of one
-track left:10,11,12
+"""Single shoes over time: single_shoes.py RESULTS.h5 [CONTROL.h5] SHOES FILE.png   SHOES: 10,11,12; for one track
+left:10,11,12
 
-Heights of their pads, and their sinkage, over the time of the run; those of a control run behind them, in grey, moved in
-time so that the sprockets of both begin to turn together.
+Pad heights and sinkage over time; those of a control run in grey behind them, shifted in time so that the sprockets of
+both runs start together.
 """
 import packages
 
@@ -20,7 +20,7 @@ OFF_GROUND = {"linewidth": 0.8, "alpha": 0.5}
 
 
 def drive_begin(run):
-    """[s] the last row before the sprockets turn; 0 where that is not known."""
+    """Time of the last row before the sprockets turn [s]; 0 if unknown."""
     teeth = run.get("vehicle/left/teeth_passed")
     if teeth is None:
         return 0.0
@@ -29,12 +29,12 @@ def drive_begin(run):
 
 
 def surface_under(pads, sinkage):
-    """[m] mean height of the undisturbed surface where shoes have lain."""
+    """Mean height of the undisturbed surface under the shoes [m]."""
     return numpy.nanmean(pads + sinkage) if numpy.isfinite(sinkage).any() else 0.0
 
 
 def draw_control(axes, run, control, side, shoes):
-    """Its ground may lie at another height: its pads are moved by that."""
+    """Height offset between the grounds of both runs, by which the pads of the control run are shifted."""
     time = control.time - drive_begin(control) + drive_begin(run)
     pads, sinkage = control.shoes("pad_height").get(side), control.shoes("sinkage").get(side)
     if sinkage is None:
@@ -74,7 +74,7 @@ def main():
             axes[1].set_xlabel("time [s]")
             axes[1].legend(loc="upper center", bbox_to_anchor=(0.5, -0.18), fontsize=8, ncol=4)
         columns[0][1].invert_yaxis()
-        columns[0][0].set_ylabel("height of the pad [m]")
+        columns[0][0].set_ylabel("pad height [m]")
         columns[0][1].set_ylabel("sinkage [mm]")
         drawing.save(figure, file, dpi=150)
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a soil's tests: soil.py PLATES.csv SHEAR.csv SOIL.json FILE.png
 
-Pressure over sinkage of both plates on logarithmic axes with Bekker's form through them, shear stress over displacement
-of each load with Janosi's form, and shear over normal stress with Mohr and Coulomb's line; what is missing is left out.
+Pressure over sinkage of both plates on logarithmic axes with Bekker's equation, shear stress over displacement of each
+load with the Janosi-Hanamoto equation, and shear over normal stress with the Mohr-Coulomb line; missing tests are
+omitted.
 """
 import json
 import math
@@ -11,7 +12,7 @@ import drawing
 
 
 def draw_plates(axis, table, soil):
-    """A thin line a test while it is loaded, from its own origin, and k z^n of each plate."""
+    """Loading of each test from its own origin (thin lines), and k z^n of each plate."""
     curves = {}
     for row in table:
         sinkage = float(row["sinkage [m]"]) - float(row["origin [m]"])
@@ -36,7 +37,7 @@ def draw_plates(axis, table, soil):
 
 
 def draw_shear(left, right, table, soil):
-    """Curves of each load, and their residual strength."""
+    """Shear curves of each load, and the residual strength."""
     curves = {}
     for row in table:
         curves.setdefault((float(row["load [Pa]"]), row["seed"]), []).append(

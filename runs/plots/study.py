@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a study: study.py MULTIBODY.csv FILE.png
 
-Error against CPU time, one panel a case, one line an integrator; the two precision levels as dashed lines.
+Error over CPU time, one panel per case, one line per integrator; the two precision levels as dashed lines.
 """
 import drawing
 
@@ -10,7 +10,7 @@ LEVELS = (1e-1, 1e-3)
 
 
 def read(path):
-    """{case: {integrator: [(CPU s, error)]}} of the runs that ended."""
+    """{case: {integrator: [(CPU s, error)]}} of the finished runs."""
     cases = {}
     for row in drawing.rows(path):
         lines = cases.setdefault(row["case"], {})

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of features: study_features.py FEATURES.csv FILE.png
+"""Plot of the feature cost study: study_features.py FEATURES.csv FILE.png
 
-What each feature adds to the time of a grain's step, with its interval, and to its memory.
+Added time per grain and step of each feature, with its interval, and added memory per grain.
 """
 import drawing
 
@@ -16,9 +16,9 @@ def draw(path):
     colours = ["0.6" if row["verdict"] else "tab:blue" for row in rows]
     left.barh(places, [100 * float(row["relative [-]"]) for row in rows], color=colours,
               xerr=[100 * float(row["half width [-]"]) for row in rows], capsize=2)
-    left.set_xlabel("time of a grain's step that it adds [%]")
+    left.set_xlabel("added time per grain and step [%]")
     right.barh(places, [float(row["bytes with"]) - float(row["bytes without"]) for row in rows], color=colours)
-    right.set_xlabel("memory that it adds [bytes a grain]")
+    right.set_xlabel("added memory [bytes per grain]")
     left.set_yticks(places, [row["feature"] for row in rows])
     return figure
 

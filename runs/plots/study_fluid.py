@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of the fluid: study_fluid.py FLUID.csv FILE.png
+"""Plot of the fluid study: study_fluid.py FLUID.csv FILE.png
 
-Two panels a case: errors against the spacing, and against the wall time; bars as dashed lines.
+Two panels per case: errors over particle spacing and over wall time; tolerances as dashed lines.
 """
 import drawing
 

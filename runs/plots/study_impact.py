@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of impacts: study_impact.py IMPACT.csv FILE.png
+"""Plot of the impact study: study_impact.py IMPACT.csv FILE.png
 
-Worst error against CPU time of a collision: a row for the plane and for two grains, a column a quantity, a line a law and
-precision; 10, 1 and 0.1 % as dashed lines.
+Maximum error over CPU time per collision: rows for the plane and for two grains, one column per quantity, one line per
+law and precision; 10, 1 and 0.1 % as dashed lines.
 """
 import drawing
 
 QUANTITIES = ("restitution", "duration", "overlap")
-TITLES = {"restitution": "restitution: absolute", "duration": "duration: relative", "overlap": "overlap: relative"}
+TITLES = {"restitution": "restitution, absolute error", "duration": "duration, relative error",
+          "overlap": "overlap, relative error"}
 COLOURS = {"linear free": "tab:blue", "linear clamped": "tab:orange", "Hertz free": "tab:green", "Hertz clamped": "tab:red"}
 
 
@@ -43,8 +44,8 @@ def draw(path):
             for level in (1e-1, 1e-2, 1e-3):
                 axis.axhline(level, color="black", linewidth=0.5, linestyle="--")
     panels[0][0].legend(fontsize=6)
-    figure.supxlabel("CPU time of a collision [us], one core; circles: single, crosses: double precision", fontsize=9)
-    figure.supylabel("worst error over the phase of first touch [-]", fontsize=9)
+    figure.supxlabel("CPU time per collision [us], one core; circles: single, crosses: double precision", fontsize=9)
+    figure.supylabel("maximum error over the phase of first contact [-]", fontsize=9)
     return figure
 
 

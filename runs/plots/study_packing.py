@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of packings: study_packing.py PACKING.csv FILE.png
+"""Plot of the packing study: study_packing.py PACKING.csv FILE.png
 
-Solid fraction and coordination over friction, every sample a point, the known limits as bands and lines.
+Solid fraction and coordination over friction, one point per sample, known limits as bands and lines.
 """
 import drawing
 
@@ -20,8 +20,8 @@ def draw(path):
                color="tab:blue", label="without rattlers")
     right.plot(friction, [row["coordination [-]"] for row in rows], "x", markersize=3, color="tab:gray", label="all grains")
     right.axhline(6, color="tab:green", linewidth=1, label="isostatic, no friction")
-    right.axhline(4, color="black", linestyle=":", linewidth=1, label="friction without bound")
-    right.set_ylabel("contacts a grain [-]")
+    right.axhline(4, color="black", linestyle=":", linewidth=1, label="isostatic, infinite friction")
+    right.set_ylabel("contacts per grain [-]")
     for axis in (left, right):
         axis.set_xlabel("friction [-]")
         axis.legend(fontsize=7)

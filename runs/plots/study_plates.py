@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of plates: study_plates.py PLATES.csv RUNS_FOLDER FILE.png
+"""Plot of the plate sinkage study: study_plates.py PLATES.csv RUNS_FOLDER FILE.png
 
-Force over sinkage, a thin line a run, a colour a case; a panel each for the strips, the old bed, the circular plates,
-and the strips on a fine and a graded bed, where there are any.
+Force over sinkage, one thin line per run, one colour per case; panels for the strips, the old bed, the circular plates,
+and the strips on a fine and a graded bed, if available.
 """
 import drawing
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of precision: study_precision.py TOUCH.csv DRIFT.csv MACROSCOPIC.csv FILE.png
+"""Plot of the precision study: study_precision.py TOUCH.csv DRIFT.csv MACROSCOPIC.csv FILE.png
 
-Disagreements about touch over the configurations; distance between the same grains of two runs; bias of single against double
-precision over its standard error.
+Wrong contact decisions over the configurations; distance between the same grains of two runs; difference of single and
+double precision over its standard error.
 """
 import drawing
 
@@ -19,7 +19,7 @@ def draw(*paths):
         share = [(int(r[f"{name}: missed"]) + int(r[f"{name}: invented"])) / max(1, int(r["candidate pairs"])) for r in touch]
         left.plot(steps, share, label=name)
     left.set_yscale("symlog", linthresh=1e-7)
-    left.set(xlabel="step", ylabel="wrong decisions / candidate pairs [-]", title="touch, against exact integers")
+    left.set(xlabel="step", ylabel="wrong decisions / candidate pairs [-]", title="contact decisions")
 
     for scene, colour in (("gas", "tab:blue"), ("dropped bed", "tab:orange")):
         for pair in dict.fromkeys(r["pair"] for r in drift):
@@ -28,7 +28,7 @@ def draw(*paths):
             middle.semilogy([float(r["time [s]"]) for r in of], [float(r["rms [m]"]) for r in of], color=colour,
                             linestyle=style, linewidth=1, label=f"{scene}, {pair}")
     middle.axhline(0.054, color="black", linewidth=0.6, linestyle="--")
-    middle.set(xlabel="time [s]", ylabel="rms distance [m]", title="same grains of two runs; dashed: a diameter")
+    middle.set(xlabel="time [s]", ylabel="rms distance [m]", title="same grains of two runs; dashed: one diameter")
 
     for quantity in dict.fromkeys(r["quantity"] for r in macro):
         of = [r for r in macro if r["quantity"] == quantity and float(r["standard error of the bias"]) > 0]
@@ -36,7 +36,7 @@ def draw(*paths):
                    [float(r["bias"]) / float(r["standard error of the bias"]) for r in of], marker="o", markersize=3,
                    label=quantity)
     right.axhspan(-2, 2, color="black", alpha=0.06)
-    right.set(xlabel="time [s]", ylabel="bias / standard error [-]", title="single - double, mean of many runs", ylim=(-5, 5))
+    right.set(xlabel="time [s]", ylabel="bias / standard error [-]", title="single - double, run means", ylim=(-5, 5))
     for axis in (left, middle, right):
         axis.title.set_fontsize(9)
         axis.tick_params(labelsize=7)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of preparation: study_preparation.py PREPARATION.csv FILE.png
+"""Plot of the bed preparation study: study_preparation.py PREPARATION.csv FILE.png
 
-Porosity reached over that asked for, with its interval; contacts a grain over it.
+Porosity of the bed over the target porosity, with its interval; contacts per grain over porosity.
 """
 import drawing
 
@@ -16,11 +16,11 @@ def draw(path):
     reached = [float(row["porosity [-]"]) for row in rows]
     left.plot(wanted, wanted, color="0.7", linewidth=0.8)
     left.errorbar(wanted, reached, yerr=[float(row["half width of porosity"]) for row in rows], fmt="o", markersize=3, capsize=2)
-    left.set_xlabel("porosity asked for [-]")
-    left.set_ylabel("porosity reached [-]")
+    left.set_xlabel("target porosity [-]")
+    left.set_ylabel("porosity [-]")
     right.plot(reached, [float(row["coordination [-]"]) for row in rows], "o-", markersize=3)
-    right.set_xlabel("porosity reached [-]")
-    right.set_ylabel("contacts a grain [-]")
+    right.set_xlabel("porosity [-]")
+    right.set_ylabel("contacts per grain [-]")
     return figure
 
 

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of random scenes: study_random_stability.py RANDOM.csv FILE.png
+"""Plot of the stability study with random scenes: study_random_stability.py RANDOM.csv FILE.png
 
-A point a scene: its automatic step, that at the fewest steps a contact, and its limit, over the longest step at which
-it does not blow up (left) and raises no alarm (right), against the restitution of its grains.
+One point per scene: automatic step, automatic step at the minimum number of steps per contact, and step limit, over the
+longest step without blow-up (left) and without alarm (right), versus the smallest restitution.
 """
 import drawing
 
-STEPS = (("auto [s]", "auto", "tab:blue"), ("auto at fewest steps [s]", "auto, fewest steps a contact", "tab:green"),
+STEPS = (("auto [s]", "auto", "tab:blue"), ("auto at fewest steps [s]", "auto, fewest steps per contact", "tab:green"),
          ("limit [s]", "limit", "tab:red"))
 
 
@@ -15,7 +15,7 @@ def draw(path):
     figure = drawing.Figure(figsize=(10, 4.2))
     panels = figure.subplots(1, 2, sharey=True)
     for axis, column, title in zip(panels, ("bounded up to [s]", "silent up to [s]"),
-                                   ("longest step that does not blow up", "longest step without an alarm")):
+                                   ("longest step without blow-up", "longest step without alarm")):
         for step, label, colour in STEPS:
             axis.scatter([float(r["restitution"]) for r in scenes],
                          [float(r[step]) / max(float(r[column]), 1e-300) for r in scenes], s=9, color=colour,
@@ -25,7 +25,7 @@ def draw(path):
         axis.set_yscale("log")
         axis.set_ylim(0.02, 3)
         axis.set_xlabel("smallest restitution [-]", fontsize=9)
-        axis.set_title("over the " + title, fontsize=9)
+        axis.set_title("step / " + title, fontsize=9)
         axis.tick_params(labelsize=7)
     panels[0].legend(fontsize=7)
     return figure

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of shear: study_shear.py SHEAR.csv FILE.png
+"""Plot of the shear box study: study_shear.py SHEAR.csv FILE.png
 
-Shear over normal force and rise of the lid over the displacement, a line a sample, a colour a load.
+Shear force / normal force and rise of the lid over displacement, one line per sample, one colour per load.
 """
 import drawing
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of shear angles: study_shear_angle.py SHEAR_ANGLE.csv RUNS_FOLDER FILE.png
+"""Plot of the friction angle study: study_shear_angle.py SHEAR_ANGLE.csv RUNS_FOLDER FILE.png
 
-Shear over normal stress against the strain, a line a sample, a colour a load; and the porosity of the samples' core.
+Shear stress / normal stress and porosity of the core over strain, one line per sample, one colour per load.
 """
 import drawing
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the study of stable steps: study_stability.py STABILITY.csv LIMITS.csv FILE.png
+"""Plot of the time-step stability study: study_stability.py STABILITY.csv LIMITS.csv FILE.png
 
-A panel a case: damping ratio to the right, step in units of 1 / sqrt(k / m) upwards; each cell stable (blue) or unstable (red),
-with the predicted limit and the bound of calm that the automatic step keeps to drawn on top.
+One panel per case: step in units of 1 / sqrt(k / m) over damping ratio; stable (blue) and unstable (red) runs, with the
+predicted limit and the bound of calm that the automatic step keeps.
 """
 import drawing
 

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plot of the stability maps of a vehicle: study_vehicle_stability.py VEHICLE.csv LIMITS.csv FILE.png
+"""Stability maps of a vehicle: study_vehicle_stability.py VEHICLE.csv LIMITS.csv FILE.png
 
-A panel a map: each point sound (blue), stopped by a guard for a true cause (orange square) or a wrong one (purple diamond),
-silently wrong (red cross), scattering as its neighbouring steps do (green triangle), wrong with a warning of blows (olive
-triangle), or refused before the run (grey x); what is predicted as lines on top. A 0 on a logarithmic axis stands at its
-left end.
+One panel per map. Points: sound (blue), stopped by a guard for the right (orange square) or a wrong cause (purple
+diamond), silently wrong (red cross), scattering like neighbouring steps (green triangle), wrong with a warning about
+impacts (olive triangle), rejected before the run (grey x). Lines: predicted limits. On a logarithmic axis, 0 is drawn
+at the left end.
 """
 import itertools
 import math

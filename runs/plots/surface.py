@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The undisturbed surface that sinkage is measured from, or how far the vehicle has pressed and raised it: a map with the
-way of the vehicle, and a section along it."""
+"""The undisturbed surface, or its change by the vehicle: a map with the path of the vehicle, and a section along x."""
 import numpy
 
 import drawing
@@ -10,8 +9,8 @@ BELOW, SECTION, GAP, ABOVE = 0.9, 1.7, 0.25, 0.4  # up
 
 
 def layout(wide, high):
-    """A figure with a map of so wide and high a place, true to scale, the section below it on the same x axis, and the
-    bar of its colours."""
+    """A figure with a map of `wide` x `high`, true to scale, a section below it with the same x axis, and a colour
+    bar."""
     height = min(9.0, max(0.6, MAP * high / wide))
     width = min(MAP, height * wide / high)
     across, up = LEFT + width + BAR, BELOW + SECTION + GAP + height + ABOVE
@@ -28,7 +27,7 @@ def layout(wide, high):
 
 
 def soil(run):
-    """Deformable soil: a map of its sinkage over the touched area, and a section along its deepest rut."""
+    """Deformable soil: a map of the sinkage of the touched area, and a section along the deepest rut."""
     sinkage, (x0, y0), way = (run.field(name) for name in ("terrain/soil/sinkage", "terrain/soil/origin",
                                                            "vehicle/position/value"))
     spacing = float(run.field("terrain/soil/spacing")[0])
@@ -37,7 +36,7 @@ def soil(run):
     for axes in (plan, bar):
         axes.grid(False)
     mesh = plan.pcolormesh(x, y, 1000 * sinkage, shading="nearest", cmap="YlOrBr", rasterized=True)
-    plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label="middle of the sprockets' axle")
+    plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label="middle of the sprocket axle")
     plan.tick_params(labelbottom=False)
     plan.set_ylabel("y [m]")
     drawing.legend_above(plan)
@@ -69,14 +68,14 @@ def plot(run):
     else:
         most = 1000 * float(numpy.percentile(numpy.abs(shown), 99.5)) + 1e-3
         mesh = plan.pcolormesh(x, y, 1000 * shown, shading="gouraud", cmap="RdBu", vmin=-most, vmax=most, rasterized=True)
-    plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label="middle of the sprockets' axle")
+    plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label="middle of the sprocket axle")
     plan.tick_params(labelbottom=False)
     plan.set_ylabel("y [m]")
     drawing.legend_above(plan)
     figure.colorbar(mesh, cax=bar, label="undisturbed surface [mm]" if final is None else "rise of the surface [mm]")
     row = int(numpy.argmin(numpy.abs(y - way[0, 1])))
     if final is not None:
-        # Through the deepest rut.
+        # Section through the deepest rut.
         row = int(numpy.argmin(shown.mean(axis=1)))
         section.plot(x, 1000 * final[row], color="black", linewidth=1.0, label="at the end")
     section.plot(x, 1000 * field[row], color="tab:brown", label="undisturbed")

@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a sweep: sweep.py SUMMARY.csv|INTERVALS.csv FILE.png
 
-Sinkage, slip, torque and tension over the first swept key, one line for each combination of the others; from intervals
-with bars, half of the 95 % interval over the seeds to either side.
+Sinkage, slip, torque and tension over the first swept key, one line per combination of the others; with INTERVALS.csv
+error bars (half of the 95 % interval over the seeds to either side).
 """
 import math
 
 import drawing
 
-# (axis label, factor, columns with their line style and name, which stand above the panel where there are two)
+# (axis label, factor, columns with line style and name; names are in the title of panels with two columns)
 PANELS = (
     ("sinkage [mm]", 1000, (("sinkage mean [m]", "-", "mean"), ("sinkage max [m]", "--", "deepest shoe"))),
     ("slip [-]", 1, (("slip [-]", "-", ""),)),
@@ -16,7 +16,7 @@ PANELS = (
     ("track tension [N]", 1, (("tension mean [N]", "-", "mean"), ("tension peak [N]", "--", "peak"))),
 )
 NOTE = "Means over the steady part"
-OF_OTHER_FIGURES = "direction of motion changes: "  # prefix of a reason that concerns no panel here
+OF_OTHER_FIGURES = "direction of motion changes: "  # prefix of a reason that applies to none of these panels
 
 
 def number(text):
@@ -27,8 +27,8 @@ def number(text):
 
 
 def points(path):
-    """Swept keys, [(values of the keys, {figure: (mean, half width, whether it is inconclusive)})], and whether means are
-    over seeds. A half width that is not known is NaN."""
+    """Swept keys, [(values of the keys, {figure: (mean, half width, whether inconclusive)})], and whether these are
+    means over seeds. Unknown half widths are NaN."""
     table = drawing.rows(path)
     names = list(table[0])
     found = {}
@@ -60,7 +60,7 @@ def curves(keys, rows):
 
 
 def note(rows, seeds):
-    """What the picture shows, and how what is not sure stands in it."""
+    """Caption: the values shown, and the marks of inconclusive ones."""
     shown = [figures[column] for _, figures in rows for _, _, columns in PANELS for column, _, _ in columns if column in figures]
     text = NOTE + (" of each run" if not seeds else ", with 95 % intervals over the seeds"
                    if any(math.isfinite(half) for _, half, _ in shown) else ", without intervals: one seed each")
@@ -74,7 +74,7 @@ def draw(path):
     keys, rows = keys or ["all runs"], [(values or ("",), figures) for values, figures in rows]
     words = list(dict.fromkeys(values[0] for values, _ in rows))
     numeric = all(number(word) is not None for word in words)
-    place = {word: number(word) if numeric else index for index, word in enumerate(words)}  # words stand side by side
+    place = {word: number(word) if numeric else index for index, word in enumerate(words)}  # text: evenly spaced
     figure = drawing.Figure(figsize=(8.0, 6.5))
     panels = figure.subplots(2, 2, sharex=True).flatten()
     for axis, (label, factor, columns) in zip(panels, PANELS):

@@ -35,17 +35,32 @@ std::array<std::uint8_t, 3> toSrgb(const Colour& colour) {
 
 Colour groundColour() { return srgb(168, 152, 128); }
 
+namespace {
+
+/// Colour at `value`, 0 to 1, of a map of evenly spaced points; clamped.
+template <std::size_t Points> Colour mapped(const int (&map)[Points][3], float value) {
+  constexpr int kLast = static_cast<int>(Points) - 1;
+  const float x = kLast * std::clamp(value, 0.0f, 1.0f);
+  const int i = std::min(kLast - 1, static_cast<int>(x));
+  const float t = x - static_cast<float>(i);
+  const auto mixed = [&](int c) {
+    return static_cast<int>(std::lround((1 - t) * float(map[i][c]) + t * float(map[i + 1][c])));
+  };
+  return srgb(mixed(0), mixed(1), mixed(2));
+}
+
+} // namespace
+
 Colour heightColour(float value) {
   // Ten points of the viridis map (van der Walt and Smith, 2015; public domain).
   static constexpr int kMap[10][3] = {{68, 1, 84},    {72, 40, 120},  {62, 74, 137},  {49, 104, 142}, {38, 130, 142},
                                       {31, 158, 137}, {53, 183, 121}, {110, 206, 88}, {181, 222, 43}, {253, 231, 37}};
-  const float x = 9 * std::clamp(value, 0.0f, 1.0f);
-  const int i = std::min(8, static_cast<int>(x));
-  const float t = x - static_cast<float>(i);
-  const auto mixed = [&](int c) {
-    return static_cast<int>(std::lround((1 - t) * float(kMap[i][c]) + t * float(kMap[i + 1][c])));
-  };
-  return srgb(mixed(0), mixed(1), mixed(2));
+  return mapped(kMap, value);
+}
+
+Colour soilColour(float value) {
+  static constexpr int kMap[4][3] = {{58, 42, 30}, {104, 80, 58}, {160, 132, 98}, {216, 194, 154}};
+  return mapped(kMap, value);
 }
 
 } // namespace grouser::render

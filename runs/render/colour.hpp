@@ -21,5 +21,7 @@ Colour groundColour();
 
 /// A perceptually even colour map from dark violet over green to yellow; `value` 0 to 1, clamped.
 Colour heightColour(float value);
+/// Colours of soil, from dark (0: deep) to light brown (1: the surface), clamped.
+Colour soilColour(float value);
 
 } // namespace grouser::render

@@ -41,26 +41,26 @@ std::string contents(const fs::path& path) {
 
 void checkFilm(const fs::path& film) {
   if (std::find(kEndings.begin(), kEndings.end(), film.extension().string()) == kEndings.end())
-    throw base::InputError(fmt::format("--film {}: its name must end with .mp4, .mkv or .mov", film.string()));
+    throw base::InputError(fmt::format("--film {}: the file name must end in .mp4, .mkv or .mov", film.string()));
   std::error_code error;
   if (const fs::path folder = fs::absolute(film).parent_path(); !fs::is_directory(folder, error))
-    throw base::InputError(fmt::format("--film {}: there is no folder {}", film.string(), folder.string()));
+    throw base::InputError(fmt::format("--film {}: folder {} does not exist", film.string(), folder.string()));
   checkFilmProgram(fmt::format("--film {}", film.string()));
 }
 
 void checkFilmProgram(const std::string& word) {
   if (!isOnPath("ffmpeg"))
-    throw base::InputError(fmt::format("{}: a film needs the program ffmpeg, which is not installed; install the "
-                                       "package ffmpeg, or leave {} out for pictures alone",
+    throw base::InputError(fmt::format("{}: a film requires ffmpeg, which is not installed; install the "
+                                       "package ffmpeg, or remove {}",
                                        word, word.substr(0, word.find(' '))));
 }
 
 void makeFilm(const std::vector<fs::path>& pictures, double framesPerSecond, const fs::path& film) {
-  // Its last ending tells ffmpeg the format.
+  // ffmpeg derives the format from the last extension.
   const fs::path part = film.parent_path() / fmt::format(".{}.part{}", film.stem().string(), film.extension().string());
   const fs::path log = film.parent_path() / fmt::format(".{}.log", film.stem().string());
   const std::string rate = fmt::format("{:.6g}", framesPerSecond);
-  // The picture type that every player knows halves the colours' resolution: sizes must be even, or a row is added.
+  // The widely supported yuv420p requires even sizes: a row or column is added if necessary.
   const std::vector<std::string> words = {
       "ffmpeg",  "-y",        "-loglevel",  "error",      "-f",   "image2pipe", "-framerate",
       rate,      "-c:v",      "png",        "-i",         "-",    "-vf",        "pad=ceil(iw/2)*2:ceil(ih/2)*2",
@@ -75,8 +75,7 @@ void makeFilm(const std::vector<fs::path>& pictures, double framesPerSecond, con
   fs::remove(log, error);
   if (end.status != 0) {
     fs::remove(part, error);
-    throw support::NotWritten(
-        fmt::format("{}: ffmpeg could not make the film: {}", film.string(), why.empty() ? end.text() : why));
+    throw support::NotWritten(fmt::format("{}: ffmpeg failed: {}", film.string(), why.empty() ? end.text() : why));
   }
   fs::rename(part, film);
 }

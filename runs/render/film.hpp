@@ -7,16 +7,16 @@
 
 namespace grouser::render {
 
-/// Throws base::InputError where no film could be made into this file: its name is not that of a film, its folder is
-/// not there, or the program ffmpeg is not installed.
+/// Throws base::InputError if the file name is not that of a film, the folder does not exist, or ffmpeg is not
+/// installed.
 void checkFilm(const std::filesystem::path& film);
 
-/// The latter alone; the message begins with `word`, an option and perhaps its value.
+/// Checks for ffmpeg only; the message begins with `word`, an option with its value.
 void checkFilmProgram(const std::string& word);
 
-/// Makes PNG pictures of the same size, in this order, into a film (H.264; MP4, MKV or MOV by the file's name) by the
-/// program ffmpeg. The file is put in place by renaming when it is whole. Throws support::NotWritten with ffmpeg's
-/// words, base::DeviceError where the machine has no process for it.
+/// Makes a film (H.264; MP4, MKV or MOV by the file name) of PNG pictures of equal size, in this order, with ffmpeg.
+/// The complete file is renamed into place. Throws support::NotWritten with the message of ffmpeg, base::DeviceError if
+/// the machine is out of processes.
 void makeFilm(const std::vector<std::filesystem::path>& pictures, double framesPerSecond,
               const std::filesystem::path& film);
 

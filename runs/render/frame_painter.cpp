@@ -14,10 +14,10 @@ using base::Vec3d;
 
 namespace {
 
-constexpr std::size_t kSamples = 8; ///< frames that colours and camera are taken from
-constexpr double kSteepest = 89.99; ///< elevation [deg]: straight from above there would be no upwards
+constexpr std::size_t kSamples = 8; ///< sampled frames for colour range and camera
+constexpr double kSteepest = 89.99; ///< maximum elevation [deg]; at 90 the up direction is undefined
 
-/// Frames evenly over the file, first and last among them.
+/// Evenly spaced frames, including the first and the last.
 std::vector<output::StoredFrame> samplesOf(const output::FramesReader& reader) {
   const std::size_t count = std::min(kSamples, reader.count());
   std::vector<output::StoredFrame> samples;
@@ -26,7 +26,7 @@ std::vector<output::StoredFrame> samplesOf(const output::FramesReader& reader) {
   return samples;
 }
 
-/// Mixes a picture of the ground alone into one of all.
+/// Blends a picture of the ground into the complete picture.
 void blend(Image& all, const Image& ground) {
   constexpr int kVehiclePercent = 30;
   for (std::size_t k = 0; k < all.rgb.size(); ++k)
@@ -42,7 +42,7 @@ FramePainter::FramePainter(const output::FramesReader& reader, const PaintOption
   const std::vector<output::StoredFrame> samples = samplesOf(reader);
   ground_ = GroundColours(options.ground, samples, options.range);
   if (ground_.hasRange() && std::none_of(samples.begin(), samples.end(), [](const auto& f) { return bool(f.soil); }))
-    throw base::InputError(fmt::format("{}: holds no deformable soil (terrain.kind = \"scm\"); give --color depth, "
+    throw base::InputError(fmt::format("{}: no deformable soil (terrain.kind = \"scm\"); use --color depth, "
                                        "speed, subdomain, role or white",
                                        reader.path().string()));
   colours_ = std::make_unique<GrainColours>(options.quantity, samples.front(), samples, options.range);
@@ -50,7 +50,7 @@ FramePainter::FramePainter(const output::FramesReader& reader, const PaintOption
   const auto hasBorders = [](const Borders& b) { return !b[0].empty() || !b[1].empty() || !b[2].empty(); };
   if (needsBorders && !hasBorders(options.borders) &&
       std::none_of(samples.begin(), samples.end(), [&](const output::StoredFrame& f) { return hasBorders(f.borders); }))
-    throw base::InputError(fmt::format("{}: was written by a run of one subdomain; give --borders AXIS=PLACES, e.g. "
+    throw base::InputError(fmt::format("{}: written by a run with one subdomain; set --borders AXIS=POSITIONS, e.g. "
                                        "x=0.5, or another --color",
                                        reader.path().string()));
   placeCamera(samples);
@@ -87,8 +87,7 @@ void FramePainter::placeCamera(const std::vector<output::StoredFrame>& samples) 
   const double elevation = std::clamp(view.elevation.value_or(usual), -kSteepest, kSteepest);
   if (isClose) {
     if (!reader_.hasVehicle())
-      throw base::InputError(
-          fmt::format("{}: holds no vehicle to look at; give --look-at all", reader_.path().string()));
+      throw base::InputError(fmt::format("{}: no vehicle; use --look-at all", reader_.path().string()));
     camera_ = cameraOnParts(samples.front().partVertices, azimuth, elevation, aspect);
     if (hasRuts) camera_.eye = camera_.target + (camera_.eye - camera_.target) * kRutDistance;
     hullAtCamera_ = hull(samples.front());

@@ -14,20 +14,19 @@ namespace grouser::render {
 
 enum class LookAt {
   Vehicle, ///< moves with its hull
-  All,     ///< all grains, ground and parts of all frames, but a few strays
+  All,     ///< grains, ground and parts of all frames, except a few strays
   Point
 };
 
-/// From where, at what, how large.
+/// Camera and size of the picture.
 struct FrameView {
   LookAt lookAt = LookAt::All;
   base::Vec3d point; ///< of LookAt::Point [m]
   /// Azimuth of the camera about z, from +x [deg]; by default in front of the vehicle, on deformable soil behind it.
   std::optional<double> azimuth;
-  /// Of the camera above the horizon [deg]; empty: low for a vehicle or a mechanism, higher for a bed or what lies
-  /// flat.
+  /// Elevation of the camera [deg]; empty: low for a vehicle or a mechanism, higher for a bed or flat parts.
   std::optional<double> elevation;
-  std::optional<double> distance; ///< from what is looked at [m]; empty: so that it fills the picture
+  std::optional<double> distance; ///< from the target [m]; empty: fills the picture
   int width = 1600, height = 900;
 };
 
@@ -36,15 +35,15 @@ struct PaintOptions {
   GrainQuantity quantity = GrainQuantity::Depth;
   GroundQuantity ground = GroundQuantity::Soil; ///< other than Soil: the vehicle is transparent
   std::optional<ValueRange> range;
-  Borders borders; ///< where the file has none
+  Borders borders; ///< for files without borders
   bool labels = true;
 };
 
-/// Paints frames of a file, all with the same colours and from the same place, or one that moves with the vehicle.
-/// What a picture shows depends on the file and the options alone, not on which frames are painted or by whom.
+/// Paints frames of a file, all with the same colours and the same camera, fixed or following the vehicle. A picture
+/// depends only on the file and the options, not on the set of painted frames or the process.
 class FramePainter {
 public:
-  /// Throws base::InputError where the file cannot show what is asked for.
+  /// Throws base::InputError if the file lacks the data for these options.
   FramePainter(const output::FramesReader& reader, const PaintOptions& options);
 
   Image paint(std::size_t index) const;
@@ -61,8 +60,8 @@ private:
   std::unique_ptr<GrainColours> colours_;
   GroundColours ground_;
   std::unique_ptr<Font> font_;
-  Camera camera_;                           ///< at the file's first frame
-  std::optional<base::Vec3d> hullAtCamera_; ///< [m] where the camera follows
+  Camera camera_;                           ///< for the first frame
+  std::optional<base::Vec3d> hullAtCamera_; ///< [m] if the camera follows the vehicle
 };
 
 } // namespace grouser::render

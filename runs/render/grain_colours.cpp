@@ -21,14 +21,14 @@ const std::vector<std::pair<std::string, GrainQuantity>> kQuantities = {{"depth"
                                                                         {"role", GrainQuantity::Role},
                                                                         {"white", GrainQuantity::White}};
 constexpr float kEmpty = -std::numeric_limits<float>::infinity();
-constexpr std::size_t kValuesTaken = 200000; ///< of each sample, for the range
+constexpr std::size_t kValuesTaken = 200000; ///< of each sampled frame, for the range
 
-// The source paper's colours of two subdomains and of what lies between them.
+// Colours of two subdomains and of spanning grains in the source paper.
 Colour evenColour() { return srgb(240, 240, 238); }
 Colour oddColour() { return srgb(72, 74, 78); }
 Colour spanningColour() { return srgb(206, 34, 30); }
 
-/// Colours that are told apart without effort, also by the colour-blind (Wong, Nature Methods 8, 2011).
+/// Colours distinguishable for the colour-blind (Wong, Nature Methods 8, 2011).
 Colour subdomainColour(int subdomain) {
   static constexpr int kMap[8][3] = {{0, 114, 178},  {230, 159, 0}, {0, 158, 115},  {204, 121, 167},
                                      {86, 180, 233}, {213, 94, 0},  {240, 228, 66}, {120, 120, 120}};
@@ -54,7 +54,7 @@ GrainQuantity grainQuantity(const std::string& word) {
     names.push_back(name);
   }
   names.insert(names.end(), {"sinkage", "pressure", "shear"});
-  throw base::InputError(fmt::format("--color {}: is none of depth, speed, subdomain, role, white, sinkage, pressure, "
+  throw base::InputError(fmt::format("--color {}: must be depth, speed, subdomain, role, white, sinkage, pressure or "
                                      "shear; did you mean {}?",
                                      word, base::nearestWord(word, names)));
 }
@@ -64,21 +64,21 @@ Borders bordersOf(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     const auto fail = [&](const std::string& why) {
       throw base::InputError(
-          fmt::format("--borders {}: {}; give an axis and places on it in metres, e.g. x=0.5 or y=-1,1", word, why));
+          fmt::format("--borders {}: {}; give an axis and positions in metres, e.g. x=0.5 or y=-1,1", word, why));
     };
-    if (word.size() < 3 || word[1] != '=' || word[0] < 'x' || word[0] > 'z') fail("is not AXIS=PLACES");
+    if (word.size() < 3 || word[1] != '=' || word[0] < 'x' || word[0] > 'z') fail("not of the form AXIS=POSITIONS");
     std::vector<double>& places = borders[static_cast<std::size_t>(word[0] - 'x')];
     for (std::size_t begin = 2; begin <= word.size();) {
       const std::size_t end = std::min(word.find(',', begin), word.size());
       double place = 0;
       const auto [stop, error] = std::from_chars(word.data() + begin, word.data() + end, place);
       if (error != std::errc{} || stop != word.data() + end || !std::isfinite(place))
-        fail(fmt::format("\"{}\" is no number", word.substr(begin, end - begin)));
+        fail(fmt::format("\"{}\" is not a number", word.substr(begin, end - begin)));
       places.push_back(place);
       begin = end + 1;
     }
     std::sort(places.begin(), places.end());
-    if (std::adjacent_find(places.begin(), places.end()) != places.end()) fail("a place stands there twice");
+    if (std::adjacent_find(places.begin(), places.end()) != places.end()) fail("duplicate position");
   }
   return borders;
 }
@@ -108,7 +108,7 @@ BedTop::BedTop(const output::StoredFrame& frame) {
     yMin = std::min(yMin, p.y), yMax = std::max(yMax, p.y);
   }
   const float radius = *std::max_element(frame.radii.begin(), frame.radii.end());
-  // A stray far away must not make the grid huge.
+  // A distant stray must not make the grid huge.
   const double most = 4.0 * static_cast<double>(frame.positions.size()) + 64, dx = xMax - xMin, dy = yMax - yMin;
   edge_ = std::max(4.0 * double{radius}, 1e-9);
   while ((dx / edge_ + 1) * (dy / edge_ + 1) > most) edge_ *= 2;
@@ -123,7 +123,7 @@ BedTop::BedTop(const output::StoredFrame& frame) {
     float& top = at(static_cast<int>((p.x - xMin_) / edge_), static_cast<int>((p.y - yMin_) / edge_));
     top = std::max(top, p.z + frame.radii[i]);
   }
-  // From the filled cells into the empty ones, nearest first.
+  // From filled to empty cells, nearest first.
   std::vector<std::pair<int, int>> front;
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column)
@@ -147,7 +147,7 @@ double BedTop::height(double x, double y) const {
 
 GrainColours::GrainColours(GrainQuantity quantity, const output::StoredFrame& first,
                            const std::vector<output::StoredFrame>& samples, std::optional<ValueRange> range)
-    : quantity_(quantity) {
+    : quantity_(quantity), fluid_(first.fluid) {
   if (quantity == GrainQuantity::Depth) top_ = BedTop(first);
   if (range) range_ = *range;
   if (range || !hasRange()) return;
@@ -161,7 +161,7 @@ GrainColours::GrainColours(GrainQuantity quantity, const output::StoredFrame& fi
   const std::size_t cut = values.size() / 100;
   range_ = {values[cut], values[values.size() - 1 - cut]};
   if (quantity == GrainQuantity::Speed) range_.low = 0;
-  const double least = quantity == GrainQuantity::Depth ? 1e-6 : 1e-3; // of a range [m, m/s]
+  const double least = quantity == GrainQuantity::Depth ? 1e-6 : 1e-3; // minimum range [m, m/s]
   if (range_.high - range_.low < least) range_.high = range_.low + least;
 }
 
@@ -188,9 +188,10 @@ std::string GrainColours::title() const {
 }
 
 Colour GrainColours::scaleColour(double place) const {
-  // What lies deep is dark, what is fast is light.
+  // Deep grains are dark, fast grains light.
   const double p = quantity_ == GrainQuantity::Depth ? 1 - place : place;
-  return heightColour(static_cast<float>(p));
+  const bool soil = quantity_ == GrainQuantity::Depth && !fluid_;
+  return soil ? soilColour(static_cast<float>(p)) : heightColour(static_cast<float>(p));
 }
 
 std::vector<std::pair<Colour, std::string>> GrainColours::legend(const Borders& borders) const {

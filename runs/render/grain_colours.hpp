@@ -11,36 +11,36 @@
 
 namespace grouser::render {
 
-/// What the colour of a grain says.
+/// Meaning of the colour of a grain.
 enum class GrainQuantity {
-  Depth,     ///< of its centre below the surface of the bed in the file's first frame [m]
+  Depth,     ///< depth of its centre below the bed surface of the first frame [m]
   Speed,     ///< [m/s]
-  Subdomain, ///< in which its centre lies
-  Role,      ///< in a subdomain of even or odd place, or spanning: the sphere itself crosses a border
-  White      ///< nothing
+  Subdomain, ///< subdomain of its centre
+  Role,      ///< in an even or odd subdomain, or spanning (the sphere crosses a border)
+  White      ///< none
 };
 
-/// Of "depth", "speed", "subdomain", "role", "white"; throws base::InputError for any other word.
+/// Parses "depth", "speed", "subdomain", "role", "white"; throws base::InputError for other words.
 GrainQuantity grainQuantity(const std::string& word);
 
-/// Where the borders between subdomains cross each axis [m], ascending; all empty: one subdomain.
+/// Positions of the borders between subdomains on each axis [m], ascending; all empty: one subdomain.
 using Borders = std::array<std::vector<double>, 3>;
 
-/// Of "x=0.5" or "x=-1,0,1"; each word adds to its axis. Throws base::InputError.
+/// Parses "x=0.5" or "x=-1,0,1"; each word adds to its axis. Throws base::InputError.
 Borders bordersOf(const std::vector<std::string>& words);
 
-/// Place in the lattice of subdomains of the one that holds a point: a point on a border is in the upper one.
+/// Lattice indices of the subdomain of a point; points on a border belong to the upper one.
 std::array<int, 3> subdomainAt(const Borders& borders, const base::Vec3f& p_W);
-/// Whether a sphere crosses a border; touching it from outside is not crossing.
+/// Whether a sphere crosses a border (touching does not count).
 bool spans(const Borders& borders, const base::Vec3f& p_W, float radius);
 
-/// The top of the bed over x and y, as the grains of one frame make it: the highest grain's top in square cells of four
-/// radii, those without grains filled from their neighbours.
+/// The surface of the bed from the grains of one frame: the highest grain top in square cells of four radii; empty
+/// cells are filled from their neighbours.
 class BedTop {
 public:
   BedTop() = default;
   explicit BedTop(const output::StoredFrame& frame);
-  /// [m]; 0 where there are no grains at all.
+  /// Height [m]; 0 without grains.
   double height(double x, double y) const;
 
 private:
@@ -53,10 +53,10 @@ struct ValueRange {
   double low = 0, high = 1;
 };
 
-/// Colours grains; the same for all frames of a film.
+/// Colours of grains, the same for all frames.
 class GrainColours {
 public:
-  /// `range` of depth or speed; without it, all but the lowest and highest hundredth of the values in `samples`.
+  /// `range` of depth or speed; default: from `samples` without the lowest and highest hundredth.
   GrainColours(GrainQuantity quantity, const output::StoredFrame& first,
                const std::vector<output::StoredFrame>& samples, std::optional<ValueRange> range);
 
@@ -65,17 +65,18 @@ public:
   const ValueRange& range() const { return range_; }
   /// "depth [m]"
   std::string title() const;
-  /// The colour at a place of the range, 0 to 1.
+  /// The colour at a position of the range, 0 to 1.
   Colour scaleColour(double place) const;
-  /// Colours with the words that they stand for; empty where there is a range, or nothing to say.
+  /// Legend of discrete colours; empty for ranges and White.
   std::vector<std::pair<Colour, std::string>> legend(const Borders& borders) const;
-  /// One colour a grain.
+  /// One colour per grain.
   std::vector<Colour> of(const output::StoredFrame& frame, const Borders& borders) const;
 
 private:
   double value(const output::StoredFrame& frame, std::size_t grain) const;
 
   GrainQuantity quantity_;
+  bool fluid_ = false;
   BedTop top_;
   ValueRange range_;
 };

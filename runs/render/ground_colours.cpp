@@ -12,7 +12,7 @@ struct Shown {
   const char* word;
   GroundQuantity quantity;
   const char* title;
-  double scale;      ///< unit of the title over the SI unit
+  double scale;      ///< displayed value / SI value
   double leastRange; ///< [m or Pa]
 };
 constexpr Shown kShown[] = {{"sinkage", GroundQuantity::Sinkage, "sinkage [mm]", 1e3, 1e-6},
@@ -64,7 +64,7 @@ ValueRange GroundColours::shownRange() const {
 std::string GroundColours::title() const { return shownOf(quantity_).title; }
 
 Colour GroundColours::scaleColour(double place, const Colour& soil) const {
-  constexpr double kFade = 0.08; // soil without a load keeps its own colour
+  constexpr double kFade = 0.08; // unloaded soil keeps its own colour
   return mixed(soil, heightColour(static_cast<float>(place)), place / kFade);
 }
 

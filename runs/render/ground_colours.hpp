@@ -13,28 +13,28 @@ namespace grouser::render {
 
 /// Meaning of the colour of deformable soil.
 enum class GroundQuantity {
-  Soil,     ///< none: soil, darker where it was pressed
+  Soil,     ///< soil colour, darker where compressed
   Sinkage,  ///< of the surface below the undisturbed one [m]
   Pressure, ///< [Pa]
   Shear     ///< magnitude of the shear stress [Pa]
 };
 
-/// The quantity called "sinkage", "pressure" or "shear"; empty for any other word.
+/// Parses "sinkage", "pressure" or "shear"; empty for other words.
 std::optional<GroundQuantity> groundQuantity(const std::string& word);
 
-/// Colours of deformable soil; the same for all frames of a film.
+/// Colours of deformable soil, the same for all frames.
 class GroundColours {
 public:
   explicit GroundColours(GroundQuantity quantity = GroundQuantity::Soil) : quantity_(quantity) {}
-  /// Colours over `range`; without it from 0, or the minimum below that, to the maximum in `samples`.
+  /// Colours over `range`; default: from 0 (or the negative minimum) to the maximum of `samples`.
   GroundColours(GroundQuantity quantity, const std::vector<output::StoredFrame>& samples,
                 std::optional<ValueRange> range);
 
   bool hasRange() const { return quantity_ != GroundQuantity::Soil; }
-  /// Values at the ends of the colours, in the unit of title().
+  /// Values at the ends of the colour scale, in the unit of title().
   ValueRange shownRange() const;
   std::string title() const; ///< "pressure [kPa]"
-  /// The colour at a place of the range, 0 to 1, of soil of this colour.
+  /// The colour at a position of the range, 0 to 1, for soil of this colour.
   Colour scaleColour(double place, const Colour& soil = groundColour()) const;
   RenderMesh mesh(const output::SoilSurface& soil) const;
 

@@ -14,7 +14,7 @@
 namespace grouser::render {
 
 void writePng(const Image& image, const std::filesystem::path& path) {
-  // The library's own writing of files does not notice a full disk.
+  // The library's file functions do not report a full disk.
   std::ofstream file(path, std::ios::binary);
   const auto take = [](void* to, void* bytes, int count) {
     static_cast<std::ofstream*>(to)->write(static_cast<const char*>(bytes), count);
@@ -23,7 +23,7 @@ void writePng(const Image& image, const std::filesystem::path& path) {
   file.close();
   if (made && file) return;
   std::error_code error;
-  if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error); // no part of a picture
+  if (std::filesystem::is_regular_file(path, error)) std::filesystem::remove(path, error); // no partial picture
   throw support::notWritten(path);
 }
 

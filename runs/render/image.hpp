@@ -15,7 +15,7 @@ struct Image {
   const std::uint8_t* at(int x, int y) const { return &rgb[3 * (static_cast<std::size_t>(y) * width + x)]; }
 };
 
-/// Throws support::NotWritten where the file cannot be written.
+/// Throws support::NotWritten if the file cannot be written.
 void writePng(const Image& image, const std::filesystem::path& path);
 
 } // namespace grouser::render

@@ -20,8 +20,8 @@ namespace {
 
 constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr std::uint8_t kInk = 30;       ///< of letters and lines
-constexpr double kPanelOpacity = 0.72;  ///< of the white behind letters
-constexpr double kTextShare = 1.0 / 38; ///< height of letters over the picture's
+constexpr double kPanelOpacity = 0.72;  ///< of the white background of text
+constexpr double kTextShare = 1.0 / 38; ///< text height / picture height
 constexpr double kSmallestText = 9;     ///< [pixels]
 
 double textSize(const Image& image) { return std::max(kSmallestText, image.height * kTextShare); }
@@ -33,7 +33,7 @@ void blend(Image& image, int x, int y, const std::uint8_t (&colour)[3], double s
   for (int c = 0; c < 3; ++c) p[c] = static_cast<std::uint8_t>(std::lround(p[c] * (1 - share) + colour[c] * share));
 }
 
-/// A white veil with round corners over [left, right) x [top, bottom).
+/// A translucent white panel with round corners over [left, right) x [top, bottom).
 void panel(Image& image, double left, double top, double right, double bottom, double corner) {
   for (int y = static_cast<int>(top); y < static_cast<int>(bottom); ++y)
     for (int x = static_cast<int>(left); x < static_cast<int>(right); ++x) {
@@ -66,8 +66,8 @@ Font::Font() : data_(std::make_unique<Data>()) {
   std::ifstream file(kFontFile, std::ios::binary);
   data_->bytes.assign(std::istreambuf_iterator<char>(file), {});
   if (data_->bytes.empty() || !stbtt_InitFont(&data_->info, data_->bytes.data(), 0))
-    throw base::InputError(fmt::format("the letters of the labels are missing: {}; install fonts-dejavu-core, or leave "
-                                       "the labels out with --no-labels",
+    throw base::InputError(fmt::format("the font of the labels is missing: {}; install fonts-dejavu-core, or use "
+                                       "--no-labels",
                                        kFontFile));
 }
 

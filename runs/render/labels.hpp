@@ -9,21 +9,21 @@
 #include <utility>
 #include <vector>
 
-/// Words and colour scales on a finished picture. Sizes follow the picture's height.
+/// Text and colour scales on a finished picture. Sizes are proportional to the height of the picture.
 namespace grouser::render {
 
-/// DejaVu Sans, as Debian's fonts-dejavu-core installs it.
+/// DejaVu Sans from Debian's fonts-dejavu-core.
 class Font {
 public:
-  /// Throws base::InputError with the remedy where the font is not there.
+  /// Throws base::InputError with the remedy if the font is missing.
   Font();
   ~Font();
   Font(const Font&) = delete;
   Font& operator=(const Font&) = delete;
 
-  /// Of a line of text [pixels].
+  /// Width of a line of text [pixels].
   double width(const std::string& text, double size) const;
-  /// Draws dark text of `size` [pixels] from `x` on, with its base line at `y`. Only ASCII.
+  /// Draws dark ASCII text of `size` [pixels] starting at `x`, with its base line at `y`.
   void draw(Image& image, double x, double y, double size, const std::string& text) const;
 
 private:
@@ -34,19 +34,19 @@ private:
 /// A line of text in the upper left corner.
 void drawCaption(Image& image, const Font& font, const std::string& text);
 
-/// A vertical colour scale at the right, with round numbers at its ticks. `colours` run evenly from the bottom to the
-/// top, where the values are `bottom` and `top`; either may be the higher one.
+/// A vertical colour scale at the right with round tick labels. `colours` from bottom to top, at the values `bottom`
+/// and `top`; either may be the higher one.
 void drawScale(Image& image, const Font& font, const std::string& title, double bottom, double top,
                const std::vector<Colour>& colours);
 
-/// A bar of a round length in the lower left corner, about a sixth of the picture wide. `perMetre`: pixels.
+/// A scale bar of round length in the lower left corner, about a sixth of the picture wide. `perMetre`: pixels.
 void drawLength(Image& image, const Font& font, double perMetre);
 
-/// Colours and what they stand for, in the upper right corner.
+/// Legend of colours in the upper right corner.
 void drawLegend(Image& image, const Font& font, const std::string& title,
                 const std::vector<std::pair<Colour, std::string>>& entries);
 
-/// Round numbers in [low, high], about `count` of them, ascending.
+/// About `count` round numbers in [low, high], ascending.
 std::vector<double> ticks(double low, double high, int count);
 
 } // namespace grouser::render

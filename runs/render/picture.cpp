@@ -17,11 +17,10 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kVehicleTight = 0.8; ///< share of its bounding ball that is seen filled
-constexpr double kWholeBed =
-    1.5; ///< multiple of the distance to a vehicle beyond which the picture shows the whole bed
-constexpr double kBackground = 6; ///< times as large as all else: a floor without an end, no camera shows it whole
-constexpr double kFlat = 0.2;     ///< height over radius of parts that lie flat [-]
+constexpr double kVehicleTight = 0.8; ///< visible fraction of the bounding ball
+constexpr double kWholeBed = 1.5;     ///< ratio of distances up to which the picture shows the whole bed
+constexpr double kBackground = 6;     ///< size ratio above which a surface is background and ignored by the camera
+constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
 constexpr double kAspect = 16.0 / 9;
 constexpr int kScaleColours = 256;
 
@@ -54,8 +53,13 @@ Colour partColour(output::PartKind kind) {
 
 namespace {
 
-/// The lowest height of the colours, and how far they run: over all but the lowest and highest hundredth, so that a
-/// thrown grain does not wash out the rest.
+/// Colour of grains or fluid particles at a position of the range of heights, 0 to 1.
+Colour grainColour(const output::Frame& frame, float place) {
+  return frame.fluid ? heightColour(place) : soilColour(place);
+}
+
+/// Lowest height and range of the colours, without the lowest and highest hundredth, so that single thrown grains do
+/// not matter.
 std::pair<float, float> heightScale(const output::Frame& frame) {
   std::vector<float> heights;
   for (const base::Vec3f& p : frame.positions) heights.push_back(p.z);
@@ -99,7 +103,7 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 
 namespace {
 
-/// With the corners of those surfaces that are no background: from the smallest on.
+/// Includes the corners of surfaces that are not background, starting from the smallest.
 std::vector<Ball> withSurfaces(std::vector<Ball> seen, std::vector<std::vector<Vec3d>> surfaces) {
   const auto radiusOf = [](const std::vector<Vec3d>& corners) {
     Box box;
@@ -132,11 +136,11 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
     const auto [low, range] = heightScale(frame);
     for (std::size_t i = 0; i < frame.positions.size(); ++i) {
       const base::Vec3f& p = frame.positions[i];
-      scene.spheres.push_back({p, frame.radii[i], heightColour((p.z - low) / range)});
+      scene.spheres.push_back({p, frame.radii[i], grainColour(frame, (p.z - low) / range)});
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    // A rigid surface is drawn from the side of the grains alone.
+    // Rigid surfaces are visible from the side of the grains only.
     const bool surface = parts[i].kind == output::PartKind::surface;
     scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface, {}});
     std::vector<Vec3d> corners;
@@ -157,7 +161,7 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
     const double elevation = frame.soil ? kRutElevation : liesFlat(vehicle) ? kFlatElevation : kVehicleElevation;
     camera = cameraOnParts(vehicle, frame.soil ? kRutAzimuth : kAzimuth, elevation, kAspect);
     if (frame.soil) camera.eye = camera.target + (camera.eye - camera.target) * kRutDistance;
-    // A bed little larger than the vehicle is seen whole; of a larger one no corner comes into view.
+    // A bed slightly larger than the vehicle is shown whole; a larger one fills the picture.
     if (!seen.empty()) {
       for (const base::Vec3f& v : vehicle) seen.push_back({v.as<double>(), 0});
       const Camera whole = cameraAround(seen, kAzimuth, elevation, kAspect);
@@ -182,13 +186,13 @@ Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>
       const auto [low, range] = heightScale(frame);
       std::vector<Colour> colours;
       for (int i = 0; i < kScaleColours; ++i)
-        colours.push_back(heightColour(static_cast<float>(i) / static_cast<float>(kScaleColours - 1)));
+        colours.push_back(grainColour(frame, static_cast<float>(i) / static_cast<float>(kScaleColours - 1)));
       drawScale(image, font, frame.fluid ? "fluid: z [m]" : "grains: z [m]", double{low}, double{low + range}, colours);
     }
     const double distance = norm(camera.eye - camera.target);
     drawLength(image, font, image.height / (2 * distance * base::tan(0.5 * camera.fieldOfView * base::kPi / 180)));
   } catch (const base::InputError&) {
-    // Without the letters' file there are no labels: a run does not fail for them.
+    // Without the font there are no labels; a run does not fail for them.
   }
   return image;
 }

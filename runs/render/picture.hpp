@@ -7,29 +7,27 @@
 
 namespace grouser::render {
 
-/// Elevation of the camera above a vehicle, above a bed alone, and above parts that lie flat [deg].
+/// Elevation of the camera for a vehicle, for a bed without vehicle, and for flat parts [deg].
 inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevation = 60;
 inline constexpr double kAzimuth = -55; ///< of the camera about z [deg]
-/// The same above a vehicle on deformable soil, from behind, so that its ruts are seen; and how much farther away.
+/// The same for a vehicle on deformable soil, from behind to show the ruts; and the factor on the distance.
 inline constexpr double kRutElevation = 24, kRutAzimuth = -140, kRutDistance = 1.3;
 
 Colour partColour(output::PartKind kind);
 
-/// The grains that a picture of the bed shows: all, but for strays. Strays lie farther from the middle 98 % of the
-/// grains, axis by axis, than these are wide; of less than 100 grains none.
+/// The grains of a picture of the bed, without strays: grains whose distance from the middle 98 % of the grains on any
+/// axis exceeds the width of these; none with less than 100 grains.
 std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii);
 
 /// Whether parts spread in the horizontal plane only, as a mechanism that moves in x and y does.
 bool liesFlat(const std::vector<base::Vec3f>& vertices);
 
-/// A camera whose picture the parts fill; their farthest corners may lie outside.
+/// A camera filled by the parts; their farthest corners may be outside.
 Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect);
 
-/// A frame as one looks at it: grains coloured by height, parts by kind, the vehicle filling the picture, or where
-/// there is none all grains but a few strays; seen from the front right above. Height of the picture: nine sixteenths
-/// of its width. With `labels` its time, the scale of the grains' heights, and a bar of a round length as it is seen at
-/// the distance of what the camera looks at. Pictures narrower than kNarrowestLabelled have none of it, nor where the
-/// font is missing.
+/// Picture of a frame: grains coloured by height, parts by kind, filled by the vehicle or else by all grains except
+/// strays; seen from the front right above. Aspect ratio 16:9. `labels`: time, height scale of the grains, and a scale
+/// bar at the distance of the camera's target; none in pictures narrower than kNarrowestLabelled or without the font.
 Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
                 const base::TriangleMesh& ground, int width, bool labels = true);
 inline constexpr int kNarrowestLabelled = 480; // [pixels]

@@ -18,15 +18,15 @@ using detail::View;
 
 namespace {
 
-constexpr int kSubpixels = 2; ///< a pixel, each way
+constexpr int kSubpixels = 2; ///< per pixel and axis
 constexpr int kShadowPixels = 2048;
 constexpr int kOcclusionTaps = 16;
-constexpr float kNear = 0.002f; ///< nearest depth seen, of the distance to what the camera looks at
-constexpr double kMargin = 1.1; ///< room about what a camera is placed around
+constexpr float kNear = 0.002f;                          ///< near plane / distance of the target
+constexpr double kMargin = 1.1;                          ///< margin around the visible objects
 constexpr double kSunAzimuth = -100, kSunElevation = 50; ///< [deg]
 const Colour kSun{1.00f, 0.95f, 0.86f}, kSky{0.52f, 0.62f, 0.75f}, kEarth{0.30f, 0.27f, 0.24f};
-constexpr float kUnknown = -1;                                     ///< openness where it was not looked at
-constexpr float kNothing = std::numeric_limits<float>::infinity(); ///< depth where nothing is
+constexpr float kUnknown = -1;                                     ///< openness of pixels without a sample
+constexpr float kNothing = std::numeric_limits<float>::infinity(); ///< depth of empty pixels
 const Colour kHorizon{0.90f, 0.92f, 0.94f}, kZenith{0.55f, 0.68f, 0.82f};
 
 Vec3d direction(double azimuth, double elevation) {
@@ -47,8 +47,7 @@ Ball around(const RenderScene& scene) {
   return {(low + high) * 0.5, 0.5 * norm(high - low) * 1.001};
 }
 
-/// The scene as the sun sees it: as much of it as holds what the camera sees, so that shadows are as sharp as they can
-/// be.
+/// Shadow map: the scene from the sun, restricted to the part visible to the camera for maximum resolution.
 Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& facets, const Ball& ball,
                  const Surfaces& seen) {
   View v = detail::viewTowards(ball.centre + direction(kSunAzimuth, kSunElevation) * (2 * ball.radius), ball.centre,
@@ -66,7 +65,7 @@ Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& fac
   if (low.x <= high.x) {
     const Vec3f middle = (low + high) * 0.5f;
     v.eye += v.right * middle.x + v.up * middle.y;
-    // Room for the texels that a point's shadow looks at beside its own.
+    // Margin for the neighbouring texels of a shadow lookup.
     v.halfHeight = std::min(v.halfHeight, 0.51f * std::max(high.x - low.x, high.y - low.y) + 1e-6f);
   }
   Surfaces s(v);
@@ -74,7 +73,7 @@ Surfaces sunView(const RenderScene& scene, const std::vector<detail::Facet>& fac
   return s;
 }
 
-/// Share of the sun that reaches a point: nine looks at the sun's picture.
+/// Fraction of sunlight at a point: nine samples of the shadow map.
 float sunlit(const Surfaces& sun, const Vec3f& p_W, const Vec3f& normal) {
   const View& v = sun.view;
   const float texel = 2 * v.halfHeight / float(kShadowPixels);
@@ -90,7 +89,7 @@ float sunlit(const Surfaces& sun, const Vec3f& p_W, const Vec3f& normal) {
   return static_cast<float>(seen) / 9;
 }
 
-/// Offsets of the taps on the unit disc: a spiral, turned by one of 16 angles in a 4 x 4 pattern of pixels.
+/// Sample offsets on the unit disc: a spiral, rotated by one of 16 angles in a 4 x 4 pattern of pixels.
 std::array<std::array<float, 2>, kOcclusionTaps> spiral(int turn) {
   std::array<std::array<float, 2>, kOcclusionTaps> taps;
   for (int k = 0; k < kOcclusionTaps; ++k) {
@@ -101,11 +100,11 @@ std::array<std::array<float, 2>, kOcclusionTaps> spiral(int turn) {
   return taps;
 }
 
-/// Of |x| below 8192; much cheaper than lround.
+/// Rounds |x| < 8192; much cheaper than lround.
 int nearestInt(float x) { return static_cast<int>(x + 8192.5f) - 8192; }
 
-/// How open each pixel's surroundings are, 0 to 1, from the depth buffer: neighbours within `reach` [m] that stand
-/// above the tangent plane close it. Looked at for every second pixel, as on a chessboard; kUnknown elsewhere.
+/// Openness of each pixel (ambient occlusion), 0 to 1, from the depth buffer: reduced by neighbours within `reach` [m]
+/// above the tangent plane. Every second pixel in a chessboard pattern; kUnknown elsewhere.
 std::vector<float> openness(const Surfaces& s, float reach) {
   std::array<std::array<std::array<float, 2>, kOcclusionTaps>, 16> patterns;
   for (int turn = 0; turn < 16; ++turn) patterns[static_cast<std::size_t>(turn)] = spiral(turn * 7 % 16);
@@ -132,7 +131,7 @@ std::vector<float> openness(const Surfaces& s, float reach) {
   return open;
 }
 
-/// Mean over the 4 x 4 pattern, among pixels of like depth.
+/// Mean over the 4 x 4 pattern, pixels of similar depth only.
 float smoothed(const Surfaces& s, const std::vector<float>& open, int column, int row, float reach) {
   const float depth = s.depth[s.index(column, row)];
   float sum = 0, count = 0;
@@ -165,7 +164,7 @@ Colour background(int row, int height) {
   return kZenith * (1 - t) + kHorizon * t;
 }
 
-/// Distance over which a surface darkens its neighbours: a few grains, or a fraction of what the picture shows.
+/// Range of ambient occlusion: a few grains, or a fraction of the visible size.
 float occlusionReach(const RenderScene& scene, const Ball& ball) {
   float grain = 0;
   for (const RenderSphere& s : scene.spheres) grain = std::max(grain, s.radius);

@@ -7,8 +7,8 @@
 
 #include <vector>
 
-/// Pictures without a GPU, a display or a library: spheres and meshes into a depth buffer, then light, shadow and
-/// ambient occlusion. For looking at a result, not for measuring it.
+/// Software renderer without GPU, display or library: spheres and meshes in a depth buffer, then light, shadow and
+/// ambient occlusion. For viewing, not for measurements.
 namespace grouser::render {
 
 struct Camera {
@@ -16,8 +16,8 @@ struct Camera {
   double fieldOfView = 35;                        ///< vertical [deg]
 };
 
-/// A camera that sees the sphere about `centre` of `radius` whole, from `azimuth` [deg] about z (0 is +x) and
-/// `elevation` [deg] above the horizon.
+/// A camera that shows the whole sphere, from `azimuth` [deg] about z (0 is +x) and `elevation` [deg] above the
+/// horizon.
 Camera cameraTowards(const base::Vec3d& centre, double radius, double azimuth, double elevation, double aspect);
 
 struct Ball {
@@ -25,11 +25,11 @@ struct Ball {
   double radius{};    ///< [m]
 };
 
-/// The nearest camera that looks at the middle of `balls` and sees each of them whole, with a margin. `balls` must not
-/// be empty.
+/// The nearest camera that targets the middle of `balls` and shows all of them with a margin. `balls` must not be
+/// empty.
 Camera cameraAround(const std::vector<Ball>& balls, double azimuth, double elevation, double aspect);
 
-/// The scene as seen by the camera, four samples a pixel.
+/// The scene as seen by the camera, four samples per pixel.
 Image render(const RenderScene& scene, const Camera& camera, int width, int height);
 
 } // namespace grouser::render

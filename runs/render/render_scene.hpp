@@ -7,7 +7,7 @@
 
 #include <vector>
 
-/// What a picture is painted of.
+/// Objects of a picture.
 namespace grouser::render {
 
 struct RenderSphere {
@@ -20,8 +20,8 @@ struct RenderMesh {
   base::TriangleMesh mesh;
   base::Pose pose; ///< X_WB
   Colour colour;
-  bool oneSided = false;                  ///< not seen from behind: a container's near wall does not hide what is in it
-  std::vector<Colour> vertexColours = {}; ///< of each vertex, in place of `colour`; empty: one colour
+  bool oneSided = false; ///< invisible from behind: the near wall of a container does not hide its contents
+  std::vector<Colour> vertexColours = {}; ///< per vertex, instead of `colour`; empty: one colour
 };
 
 struct RenderScene {

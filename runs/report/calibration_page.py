@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of a calibration: what was wanted and what was reached, every trial, the soil that was found, and all that
-was measured of it."""
+"""The report of a calibration: targets and results, all trials, the calibrated soil and its tests."""
 import math
 
 import grouser
@@ -11,13 +10,15 @@ import soil_page
 import sweep_page
 from page import esc, facts, folded, number, table, with_bar
 
-#: What trials measure: (name, what stands above its column).
+#: Quantities measured by trials: (name, column heading).
 MEASURED = (("phi", "phi"), ("c", "c"), ("K", "K"), ("pressure", "pressure of the small plate"),
             ("misfit", "misfit"), ("repose", "repose"), ("porosity", "porosity of the beds"), ("depth", "depth of the beds"))
-MEANING = {**soil_page.MEANING, "misfit": "root mean square of the residuals, in standard deviations of a measured test",
-           "repose": "angle of repose of a bed that is tilted", "k": "k_c / b + k_phi", "b": "breadth that k is meant at",
-           "pressure": "of the small plate at the sinkage that n and k, or k_c and k_phi, give at the track's mean pressure"}
-VERDICTS = {"reached": "reached", "not reached": "not reached: the nearest that was", "not sought": "not sought, follows"}
+MEANING = {**soil_page.MEANING,
+           "misfit": "root mean square of the residuals, in standard deviations of the measured tests",
+           "repose": "angle of repose of a tilted bed", "k": "k_c / b + k_phi", "b": "plate width of k",
+           "pressure": "pressure of the small plate at the target sinkage, from n and k (or k_c and k_phi) at the mean "
+                       "track pressure"}
+VERDICTS = {"reached": "reached", "not reached": "not reached; closest value", "not sought": "not sought, result only"}
 
 
 def bar_of(estimate):
@@ -25,7 +26,7 @@ def bar_of(estimate):
 
 
 def wanted_of(found):
-    """{name of what trials measure: (wanted, tolerance or None)}"""
+    """{measured quantity: (target, tolerance or None)}"""
     wanted = {one["quantity"]: (one["wanted"], one["tolerance"]) for one in found.json["targets"]}
     if pressure := found.json.get("pressure"):
         wanted["pressure"] = (pressure["wanted"], pressure["tolerance"])
@@ -33,17 +34,17 @@ def wanted_of(found):
 
 
 def aim(wanted, tolerance, name):
-    """What is wanted, to all its digits, and within what."""
+    """Target in full precision, with its tolerance."""
     within = f" \u00b1 {number(tolerance, '', f'{name} wanted bar')}" if math.isfinite(tolerance) else ""
     return f'<span class="nowrap">{number(wanted, "", f"{name} wanted")}{within}</span>'
 
 
 def doubt(outcome):
-    """What the bar says of a verdict that goes by the value alone."""
+    """Reservation about a verdict, which considers the value only, not its error bar."""
     bar = outcome.reached.half_width
     if outcome.verdict != "reached" or bar <= outcome.tolerance:
         return ""
-    return "; the bar is wider than the tolerance" if math.isfinite(bar) else "; of one seed, without a bar"
+    return "; the error bar exceeds the tolerance" if math.isfinite(bar) else "; one seed, no error bar"
 
 
 def targets(found):
@@ -51,37 +52,38 @@ def targets(found):
         rows = [[esc(o.what), aim(o.wanted, o.tolerance, o.what),
                  with_bar(o.reached.value, bar_of(o.reached), "", f"{o.what} reached"), esc(o.reached.unit),
                  f"<strong>{esc(VERDICTS.get(o.verdict, o.verdict))}</strong>{doubt(o)}"] for o in found.outcomes]
-        return table(["target", "wanted \u00b1 tolerance", "reached \u00b1 bar", "unit", "verdict"], rows,
-                     "Bar: half of the 95 % interval over the tests. Reached: the value lies within the tolerance. "
-                     "The large plate is held back: the search never sees it.", numeric=(1, 2))
+        return table(["quantity", "target \u00b1 tolerance", "result \u00b1 error bar", "unit", "verdict"], rows,
+                     "Error bar: half of the 95 % interval over the tests. Reached: the value is within the "
+                     "tolerance. The large plate is validation only, not part of the search.", numeric=(1, 2))
     aims = [*found.json["targets"]]
     if pressure := found.json.get("pressure"):
         aims.append({"quantity": "pressure", **pressure})
     rows = [[f"<em>{esc(one['quantity'])}</em>", esc(MEANING.get(one["quantity"], "")),
              aim(one["wanted"], math.nan if one["tolerance"] is None else one["tolerance"], one["quantity"]), esc(one["unit"])] for one in aims]
-    return table(["target", "what it is", "wanted \u00b1 tolerance", "unit"], rows,
-                 "What has no tolerance is compared only, or says where the pressure is wanted.", numeric=(2,))
+    return table(["quantity", "definition", "target \u00b1 tolerance", "unit"], rows,
+                 "Quantities without tolerance are compared only, or define the sinkage of the pressure target.",
+                 numeric=(2,))
 
 
 def state(found):
-    """What a reader has to know of a search that has not ended."""
+    """Warning about an unfinished search."""
     if found.status == "finished":
         return ""
     missing = found.json.get("missing")
-    why = f"time was up: {counted(missing['tests'], 'test')} of {esc(missing['trial'])} {'is' if missing['tests'] == 1 else 'are'} missing" if missing else \
-        "it is still going on, or was stopped"
-    return f'<p class="bad">This search has not ended ({why}). <code>--resume</code> goes on with it.</p>'
+    why = f"out of time, {counted(missing['tests'], 'test')} of {esc(missing['trial'])} missing" if missing else \
+        "still running, or stopped"
+    return f'<p class="bad">WARNING: this search is not finished ({why}); <code>--resume</code> continues it.</p>'
 
 
 def varied(found):
-    """Keys of the material that trials differ in, and the others."""
+    """Material keys that differ between trials, and those that do not."""
     keys = list(dict.fromkeys(key for trial in found for key in trial.parameters))
     values = {key: {trial.parameters.get(key) for trial in found} for key in keys}
     return [key for key in keys if len(values[key]) > 1], [key for key in keys if len(values[key]) == 1]
 
 
 def parameter(value, unit="", name=""):
-    """`unit`: with a number only."""
+    """HTML of a parameter; `unit` applies to numbers only."""
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     return number(value, unit, name) if is_number else esc("" if value is None else str(value))
 
@@ -98,23 +100,23 @@ def trials_table(found, program):
     headings = ["trial", *(f"{key.replace('_', ' ')} [{units[key]}]" for key in changed),
                 *(f"{words} [{unit_of[name]}]" for name, words in there)]
     sinkages = {round(trial.measured["sinkage"].value, 9) for trial in found if "sinkage" in trial.measured}
-    words = "In the order in which they were made; \u00b1 half of the 95 % interval over the seeds."
+    words = "In chronological order; \u00b1 half of the 95 % interval over the seeds."
     if len(sinkages) == 1:
-        words += f" The small plate's pressure is that at a sinkage of {number(sinkages.pop(), 'mm', 'sinkage')}."
+        words += f" Pressure of the small plate at a sinkage of {number(sinkages.pop(), 'mm', 'sinkage')}."
     told = facts([(key.replace("_", " "), parameter(found.trials[0].parameters[key], units[key], f"all {key}"))
                   for key in same])
     return table(headings, rows, words, numeric=range(1, len(headings))) + \
-        (folded("What all trials have in common", told) if same else "")
+        (folded("Parameters common to all trials", told) if same else "")
 
 
 def over_trials(found, value):
-    """(numbers of the trials, what `value` has of them), of those that have one."""
+    """(trial numbers, `value` of each), for trials that have one."""
     points = [(k + 1, value(trial)) for k, trial in enumerate(found)]
     return zip(*[(k, v) for k, v in points if v is not None]) if any(v is not None for _, v in points) else ((), ())
 
 
 def search_plots(made, found, program):
-    """How the search went: what was measured and what was changed, over the number of the trial."""
+    """Measured and changed quantities over the number of the trial."""
     inner, wanted, count = [], wanted_of(found), len(found)
     across = [0.5, count + 0.5]
     for name, words in MEASURED:
@@ -126,7 +128,7 @@ def search_plots(made, found, program):
         if name in wanted:
             aim, tolerance = wanted[name]
             curves.append(("wanted", across, [aim] * 2, [tolerance or 0.0] * 2))
-            told += " Band: the tolerance." if tolerance else " It is compared only, not sought."
+            told += " Band: tolerance." if tolerance else " Compared only, not a target."
         title = f"{name}: {MEANING[name]}" if name == words else words[:1].upper() + words[1:]
         inner.append(made.plot(title, "trial [-]", f"{words} [{values[0].unit}]", curves, told, marks=["measured"],
                                whole=True))
@@ -137,13 +139,14 @@ def search_plots(made, found, program):
             name = key.replace("_", " ")
             inner.append(made.plot(name[:1].upper() + name[1:], "trial [-]",
                                    f"{name} [{sweep_page.unit_of(f'material.{key}', program)}]",
-                                   [(name, list(numbers), list(values))], "What was tried.", marks=True, whole=True))
+                                   [(name, list(numbers), list(values))], "Values of the trials.", marks=True,
+                                   whole=True))
     return f'<p>{count} trials: {", ".join(f"{k + 1} is <code>{esc(t.name)}</code>" for k, t in enumerate(found))}.</p>' \
            f'<div class="plots">{"".join(inner)}</div>' if inner else ""
 
 
 def measured_plates(made, found):
-    """Pressure over sinkage of every plate with what was found: a curve a bed, and the measured tests."""
+    """Pressure over sinkage of each plate on the calibrated soil, one curve per bed, with the measured tests."""
     final = found.folder / "final"
     if found.status != "finished" or not (final / "curves.csv").is_file():
         return ""
@@ -160,7 +163,7 @@ def measured_plates(made, found):
         drawn = [(f"bed {seed}", *map(list, zip(*line))) for seed, line in lines.items()]
         drawn.append(("measured", list(means), [m for m, _ in means.values()], [d for _, d in means.values()]))
         plots.append(made.plot(f"Plate of {1e3 * float(diameter):g} mm", "sinkage [mm]", "pressure [kPa]", drawn,
-                               "Measured: mean of the tests, bars of one standard deviation of a test.", marks=["measured"],
+                               "Measured: mean of the tests, bars: one standard deviation.", marks=["measured"],
                                whole=True))
     return f'<div class="plots">{"".join(plots)}</div>'
 
@@ -170,30 +173,30 @@ def soil_file(found):
     if file is None or not file.is_file():
         return ""
     text = file.read_text(encoding="utf-8")
-    return f"<p><code>{esc(file.name)}</code>: a scene beside it takes it as <code>soil = \"{esc(file.name)}\"</code> of one " \
-           f"of its <code>[material.NAME]</code> (docs/soils.md).</p><pre>{esc(text)}</pre>"
+    return f"<p><code>{esc(file.name)}</code>: to use it in a scene in the same folder, set <code>soil = " \
+           f"\"{esc(file.name)}\"</code> in <code>[material.NAME]</code> (docs/soils.md).</p><pre>{esc(text)}</pre>"
 
 
 def page(folder, options):
     found = grouser.open_calibration(folder)
     if not len(found):
-        raise grouser.FileError(f"{folder}: no trial of this calibration has ended yet; --resume goes on with it")
+        raise grouser.FileError(f"{folder}: no trial of this calibration has finished; --resume continues it")
     made = pages.Page(f"{found.name} (calibration)", "calibration of a soil", folder)
-    care = '<p class="bad">Coarse: made with <code>--quick</code>.</p>' if found.coarse else ""
-    made.section("targets", "Wanted and reached", state(found) + care + targets(found))
+    care = '<p class="bad">WARNING: coarse settings (<code>--quick</code>).</p>' if found.coarse else ""
+    made.section("targets", "Targets and results", state(found) + care + targets(found))
     if len(found):
         made.section("trials", "Trials", trials_table(found, options.program))
-        made.section("search", "How the search went", search_plots(made, found, options.program))
+        made.section("search", "Search history", search_plots(made, found, options.program))
     if plates := measured_plates(made, found):
         made.section("plates", "Measured plates", plates)
-    made.section("soil", "The soil that was found", soil_file(found))
+    made.section("soil", "Calibrated soil", soil_file(found))
     j = found.json
     provenance = [("command", f"<code>{esc(j.get('command', ''))}</code>"),
                   ("targets", f"<code>{esc(j.get('targets_file', ''))}</code>")]
     if found.status == "finished":
         soil_page.add_tests(made, found.soil(), provenance)
     else:
-        made.section("provenance", "Where it comes from", facts([
+        made.section("provenance", "Provenance", facts([
             *provenance, ("soil", esc(found.name)), ("grain radius", number(found.grain_radius, "m", "grain_radius_m")),
             ("care", esc(j.get("care", ""))),
             ("program", f"grouser {esc(j.get('version', ''))}, commit <code>{esc(j.get('commit', ''))}</code>"),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of a check: figures with their bars, what makes them, series with bands, what each case cost."""
+"""The report of a check: figures with error bars, their causes, series with bands, cost of each case."""
 import math
 
 import numpy
@@ -12,7 +12,8 @@ import run_page
 from grouser.series import counted
 from page import esc, facts, figure_with_bar, folded, number, table, term, with_bar
 
-MOST_FIGURES = 24  # headline figures first; more are folded
+MOST_FIGURES = 24  # headline figures first; the rest is folded
+VERDICTS = {"not shown": "inconclusive"}  # of check.json, on the page
 
 
 def known(half):
@@ -22,16 +23,16 @@ def known(half):
 def axis_words(error):
     order = f", order {error.order:.1f}" if math.isfinite(error.order) else ""
     return (f'{with_bar(error.change.value, known(error.change.half_width), "", f"{error.change.name} {error.axis}")}<br>'
-            f'<em>{esc(error.verdict)}</em>{order}')
+            f'<em>{esc(VERDICTS.get(error.verdict, error.verdict))}</em>{order}')
 
 
 def headlines(check):
-    """Names of the figures that the program tells first."""
+    """Names of the headline figures."""
     return {grouser.series.split_unit(f["name"])[0] for f in check.json["figures"] if f.get("headline", True)}
 
 
-def told(check):
-    """Those, or all where there are none."""
+def main_figures(check):
+    """The headline figures, or all if there are none."""
     return [figure for figure in check if figure.name in headlines(check)] or list(check)
 
 
@@ -44,9 +45,10 @@ def figures(check):
         esc(figure.bar.unit), f"\u00b1 {number(known(figure.by_seeds.half_width), '', figure.name + ' seeds', 2)}",
         str(figure.seeds), *(axis_words(figure.errors[a]) if a in figure.errors else "not run" for a in axes)])
         for figure in check]
-    headings = ["figure", "value and 95 % bar", "unit", "by seeds", "seeds", *(a.replace("_", " ") for a in axes)]
-    words = (f"The bar is of all that was run. Behind it what each axis changes, with half of its 95 % interval, and "
-             f"whether that is within {number(check.json.get('bar_percent'))} % of the value.")
+    headings = ["figure", "value and 95 % error bar", "unit", "bar of the seeds", "seeds",
+                *(a.replace("_", " ") for a in axes)]
+    words = (f"The error bar combines seeds and all axes run. Further columns: change by each axis, \u00b1 half of its "
+             f"95 % interval, and whether that is within {number(check.json.get('bar_percent'))} % of the value.")
     words += definitions.note({figure.name: [figure.bar.value] for figure in check})
     first = [row for is_headline, row in rows if is_headline][:MOST_FIGURES]
     rest = [row for _, row in rows if row not in first]
@@ -56,22 +58,22 @@ def figures(check):
 
 
 def goals(check):
-    """Bars that --of asked for, and the largest part of each."""
+    """Error bars requested by --of, and the largest part of each."""
     rows = []
     for one in check.json.get("of", []):
         name, unit = grouser.series.split_unit(one["figure"])
         largest = max(one["parts"], key=lambda part: math.inf if part["bar"] is None else part["bar"], default=None)
         rows.append([term(name), number(one["bar"], digits=3), number(one["wanted"], digits=3), esc(unit), esc(one["state"]),
                      esc(largest["part"].replace("_", " ")) if largest else "", number(largest["bar"], digits=3) if largest else ""])
-    words = f"Bars wanted: {number(check.json.get('bar_percent'))} % of the value."
-    return table(["figure", "bar", "bar wanted", "unit", "state", "largest part", "its bar"], rows, words,
+    words = f"Target error bar: {number(check.json.get('bar_percent'))} % of the value."
+    return table(["figure", "error bar", "target", "unit", "state", "largest part", "bar of that part"], rows, words,
                  numeric=(1, 2, 6)) if rows else ""
 
 
 def shares(made, check):
-    """Bars in percent of the values, by cause."""
+    """Error bars in percent of the values, by cause."""
     told_errors = {grouser.series.split_unit(one["name"])[0]: one["errors"] for one in check.json["figures"]}
-    found = [f for f in told(check) if f.bar.value and math.isfinite(f.bar.value)][:MOST_FIGURES]
+    found = [f for f in main_figures(check) if f.bar.value and math.isfinite(f.bar.value)][:MOST_FIGURES]
     if not found:
         return ""
     def percent(figure, half):
@@ -80,18 +82,18 @@ def shares(made, check):
     for figure in found:
         parts = [("seeds", percent(figure, figure.by_seeds.half_width))]
         parts += [(e["axis"], percent(figure, grouser.series.number(e.get("bar")))) for e in told_errors[figure.name]
-                  if e["axis"] != "precision" or not check.json.get("seeds_matter")]  # seeds show as much as it does
+                  if e["axis"] != "precision" or not check.json.get("seeds_matter")]  # the seeds include its effect
         parts = [(name, value) for name, value in parts if math.isfinite(value)]
         if not parts:
             continue
         name, most = max(parts, key=lambda part: part[1])
         total = percent(figure, figure.bar.half_width)
         rows.append([term(figure.name), number(total, digits=3), f"{esc(name.replace('_', ' '))} ({number(most, digits=3)} %)"])
-    return table(["figure", "bar [% of the value]", "largest part of it"], rows, numeric=(1,))
+    return table(["figure", "error bar [% of the value]", "largest part"], rows, numeric=(1,))
 
 
 def bands(made, check):
-    """The series with bars that matter: those of a vehicle and the ledger first."""
+    """Main series with error bands: vehicle and ledger first."""
     if not (check.folder / "series.csv").is_file() or not check.series:
         return ""
     wanted = ("vehicle.position.x", "vehicle.position.z", "vehicle.velocity.x", "vehicle.left.speed",
@@ -113,7 +115,7 @@ def bands(made, check):
         more, cut = run_page.within([(name, ends, s)], low - reach, high + reach)
         inner.append(made.plot(name, "time [s]", f"{name.rpartition('.')[2].replace('_', ' ')} [{s.unit}]",
                                [(name, s.time[rows], s.value[rows], half[rows])],
-                               f"Band: seeds and step together, as far as they were run, 95 %.{cut}{note}", **more))
+                               f"Band: 95 %, seeds and step as far as they were run.{cut}{note}", **more))
     return f'<div class="plots">{"".join(inner)}</div>'
 
 
@@ -127,13 +129,14 @@ def costs(made, check):
         rows.append([esc(case["name"].replace("_", " ")), esc(case["what"]), esc(case["status"]),
                      number(c.get("wall_s"), "", f"{case['name']} wall"), number(c.get("cpu_s"), "", f"{case['name']} cpu"),
                      number(c.get("steps")), esc("; ".join(case["overrides"])), esc(case.get("message", ""))])
-    inner = cheapest(check) + table(["case", "what", "status", "wall time [s]", "CPU time [s]", "steps", "keys changed", "message"], rows,
-                  "Medians of one run of each case.", numeric=(3, 4, 5))
+    inner = cheapest(check) + table(
+        ["case", "description", "status", "wall time [s]", "CPU time [s]", "steps", "changed keys", "message"], rows,
+        "Median per run of each case.", numeric=(3, 4, 5))
     return inner + error_over_time(made, check, cost)
 
 
 def cheapest(check):
-    """The settings that would bring each figure's bar down to 10, 5 and 1 %, and the wall time of all their runs."""
+    """Cheapest settings for error bars of 10, 5 and 1 %, and the total wall time of their runs."""
     file = check.folder / "costs.json"
     told = grouser.files.read_json(file, "costs of a check").get("cheapest", [])
     percents = list(dict.fromkeys(key for row in told for key in row if key != "figure"))
@@ -142,21 +145,21 @@ def cheapest(check):
     def cell(row, percent):
         one = row.get(percent)
         if not one:
-            return "no setting that was run"
+            return "none of those run"
         seeds = f", {counted(one['seeds'], 'seed')}" if check.json.get("seeds_matter") else ""
         name = f"{row['figure']} {percent}"
         return f"{esc(one['case'].replace('_', ' '))}{seeds}: {number(one['wall_s'], 's', name, 3)}"
     rows = [[esc(grouser.series.split_unit(row["figure"])[0]), *(cell(row, percent) for percent in percents)]
             for row in told]
-    return table(["figure", *(f"bar of {percent}" for percent in percents)], rows,
-                 "Cheapest settings for a bar of so much of the value, and the wall time of all their runs.")
+    return table(["figure", *(f"error bar {percent}" for percent in percents)], rows,
+                 "Cheapest settings for each error bar (percent of the value), and the total wall time of their runs.")
 
 
 def error_over_time(made, check, cost):
-    """Error bar of the step over the wall time, a curve a figure."""
-    drawn, names = [], {figure.name for figure in told(check)}
+    """Error bar of the time step over wall time, one curve per figure."""
+    drawn, names = [], {figure.name for figure in main_figures(check)}
     for one in check.json["figures"]:
-        if grouser.series.split_unit(one["name"])[0] not in names:  # such as what is the same but for rounding
+        if grouser.series.split_unit(one["name"])[0] not in names:  # such as figures that differ only by rounding
             continue
         value = one["value"]
         points = sorted((cost[name]["wall_s"], 100 * abs(bar / value)) for name, bar in
@@ -164,12 +167,12 @@ def error_over_time(made, check, cost):
                         if bar and value and cost.get(name, {}).get("wall_s"))
         if len(points) > 1 and len(drawn) < 7:
             drawn.append((grouser.series.split_unit(one["name"])[0], *map(list, zip(*points))))
-    return made.plot("Error over run time", "wall time of a run [s]", "error bar of the step [% of the value]", drawn,
-                     "A point for each step that was run.", log="xy", marks=True) if drawn else ""
+    return made.plot("Error over run time", "wall time of a run [s]", "error bar of the time step [% of the value]",
+                     drawn, "One point per time step.", log="xy", marks=True) if drawn else ""
 
 
 def runs_of(check, case):
-    """Folders of the runs of a case that have ended."""
+    """Folders of the finished runs of a case."""
     plain = check.folder / case["name"]  # without seeds
     return [plain if plain.is_dir() and not seeded.is_dir() else seeded for run in case["runs"]
             if run.get("status", "finished") in ("finished", "incomplete")
@@ -190,7 +193,7 @@ def provenance(check):
                               f"<code>{esc(program.get('commit', ''))}</code>"),
                   ("machine", esc(machine_of(check))),
                   ("seeds", ", ".join(map(str, seeds))), ("origin", f"<code>{esc(j.get('origin', ''))}</code>"),
-                  ("same bits with another skin", esc(str(j.get("skin", "")))),
+                  ("same bits with a different skin", esc(str(j.get("skin", "")))),
                   ("not run", "; ".join(f"{esc(axis.replace('_', ' '))}: {esc(why)}"
                                         for axis, why in check.not_run.items()))])
 
@@ -201,12 +204,12 @@ def page(folder, options):
     made = pages.Page(f"{check.folder.resolve().name} (check)", "check", folder)
     if check.json.get("inconclusive"):
         made.warnings.append(f"<p>WARNING: all figures are inconclusive: {esc(check.json['inconclusive'])}</p>")
-    made.section("figures", "Figures and their bars", goals(check) + figures(check))
-    made.section("shares", "What makes the bars", shares(made, check))
-    made.section("plots", "Series with their bars", bands(made, check))
-    made.section("costs", "What it cost", costs(made, check))
+    made.section("figures", "Figures with error bars", goals(check) + figures(check))
+    made.section("shares", "Causes of the error bars", shares(made, check))
+    made.section("plots", "Series with error bands", bands(made, check))
+    made.section("costs", "Cost", costs(made, check))
     folders, faults = sweep_page.first_whole([runs_of(check, case) for case in check.json["cases"]])
     damage.warn(made, faults)
-    sweep_page.add_runs(made, folders, options, "The first run of each case.")
-    made.section("provenance", "Where it comes from", provenance(check))
+    sweep_page.add_runs(made, folders, options, "First run of each case.")
+    made.section("provenance", "Provenance", provenance(check))
     return made

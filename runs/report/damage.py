@@ -1,20 +1,20 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs whose files are missing or damaged: which, and why."""
+"""Runs with missing or damaged files."""
 import grouser
 from page import esc
 
 NEEDED = ("results.h5", "manifest.json", "scene.toml")
-MOST_TOLD = 10
+MOST_LISTED = 10
 
 
 def open_whole(folder):
-    """The run of a folder. FileError where one of its files is missing or cannot be read."""
+    """The run in a folder. FileError if one of its files is missing or unreadable."""
     if not folder.is_dir():
-        raise grouser.FileError(f"{folder}: the folder is missing; run it again, or take it from a copy")
+        raise grouser.FileError(f"{folder}: the folder is missing; run it again or restore it from a copy")
     missing = [name for name in NEEDED if not (folder / name).is_file()]
     if missing:
-        raise grouser.FileError(f"{folder}: without {' and '.join(missing)} it is no readable run; run it again, or take "
-                                "what is missing from a copy")
+        raise grouser.FileError(f"{folder}: {' and '.join(missing)} missing; run it again or restore the files from a "
+                                "copy")
     try:
         (folder / "scene.toml").read_text(encoding="utf-8")
     except ValueError as error:
@@ -37,34 +37,34 @@ def open_whole(folder):
 
 
 def damaged(file):
-    return grouser.FileError(f"{file}: cannot be read in whole: it is damaged; run it again, or take it from a copy")
+    return grouser.FileError(f"{file}: damaged or incomplete; run it again or restore the file from a copy")
 
 
 def without_frames(run):
-    """Why a run has no frames; empty where it has some."""
+    """Why a run has no frames; "" if it has some."""
     if run.frames is not None and len(run.frames):
         return ""
     if not run.scene.get("output", {}).get("frames", True):
-        return "the scene asks for no frames (output.frames = false)"
-    what = "holds no frame" if run.frames is not None else "is missing"
-    return f"frames.h5 {what}, though the scene asks for frames (output.frames = true)"
+        return "the scene writes no frames (output.frames = false)"
+    what = "has no frames" if run.frames is not None else "is missing"
+    return f"frames.h5 {what} although the scene writes frames (output.frames = true)"
 
 
 def fault_of(folder):
-    """What of a run that has finished is missing or damaged; empty where nothing is."""
+    """Message about missing or damaged files of a finished run; "" if there are none."""
     try:
         with open_whole(folder) as run:
             why = without_frames(run)
-            return why if "though" in why and run.status in ("finished", "incomplete") else ""
+            return why if "although" in why and run.status in ("finished", "incomplete") else ""
     except grouser.FileError as error:
         return " ".join(str(error).replace(f"{folder}/", "").replace(f"{folder}: ", "").split())
 
 
 def warn(made, faults, words=""):
-    """Puts {run: fault} on top of the page, and `words` of what that does to it."""
+    """Lists {run: fault} at the top of the page, followed by `words` about the consequences."""
     if not faults:
         return
-    told = [f"<li><code>{esc(name)}</code>: {esc(fault)}</li>" for name, fault in list(faults.items())[:MOST_TOLD]]
-    more = f"<p>And {len(faults) - MOST_TOLD} more.</p>" if len(faults) > MOST_TOLD else ""
+    told = [f"<li><code>{esc(name)}</code>: {esc(fault)}</li>" for name, fault in list(faults.items())[:MOST_LISTED]]
+    more = f"<p>And {len(faults) - MOST_LISTED} more.</p>" if len(faults) > MOST_LISTED else ""
     count = f"{len(faults)} runs have" if len(faults) > 1 else "1 run has"
     made.warnings.append(f"<p>{count} missing or damaged files.{words}</p><ul>{''.join(told)}</ul>{more}")

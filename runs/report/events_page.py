@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of mobility events: what was passed at which level, limits beside what is expected, figures over the
-level."""
+"""The report of mobility events: verdicts by level, limits next to expected ones, figures over the level."""
 import math
 
 import damage
@@ -20,7 +19,7 @@ def known(value):
 
 
 def causes(row):
-    """What each run came to and why, a line a run; of files that do not tell it, of the row as a whole."""
+    """Verdict and reason of each run, one line per run; of the whole row in files without verdicts of single runs."""
     more = [f"{row[what]} {what}" for what in ("failed", "incomplete", "pending") if row.get(what)]
     if not row.get("each"):
         return esc("; ".join([row["why"], *more] if row["why"] else more))
@@ -39,8 +38,8 @@ def seed_of(run):
 def verdicts(rows):
     lines = [[esc(row["title"]), level_of(row), esc(row["level_is"]), f"<strong>{esc(row['verdict'])}</strong>",
               causes(row)] for row in rows]
-    return table(["event", "level", "level is", "verdict", "runs, and why"], lines,
-                 "Go 2/3: two of three runs, which differ in the seed of their bed, pass. Partly: some do, some do not.",
+    return table(["event", "level", "meaning of the level", "verdict", "runs and reasons"], lines,
+                 "Go 2/3: two of three runs pass (they differ by the seed of the bed). Partly: some pass, some fail.",
                  numeric=(1,))
 
 
@@ -48,13 +47,14 @@ def limits(found, titles):
     lines = [[esc(titles.get(limit["event"], limit["event"])), esc(limit["level_is"]), number(limit["go"]),
               number(limit["no_go"]), esc(limit["reference"] or ""),
               "" if limit["agrees"] is None else "agrees" if limit["agrees"] else "does not agree"] for limit in found]
-    return table(["event", "level is", "hardest go", "easiest no-go", "by geometry and friction", "runs and that"], lines,
-                 "The hardest level that all runs pass, none that is easier failed by any, and the easiest that some run "
-                 "fails; none: no such level among those that were run.", numeric=(2, 3)) if lines else ""
+    return table(["event", "meaning of the level", "hardest go", "easiest no-go", "expected (geometry, friction)",
+                  "agreement"], lines,
+                 "Hardest go: all runs pass at this and all easier levels. Easiest no-go: at least one run fails. "
+                 "None: no such level was run.", numeric=(2, 3)) if lines else ""
 
 
 def by_event(rows):
-    """[(title, what the level is, rows by level)], in the order of the file."""
+    """[(title, meaning of the level, rows by level)], in the order of the file."""
     found = {}
     for row in rows:
         found.setdefault((row["event"], row["title"], row["level_is"]), []).append(row)
@@ -63,7 +63,7 @@ def by_event(rows):
 
 
 def figures(rows, drawn):
-    """A table an event: figures down, levels across."""
+    """One table per event: rows are figures, columns are levels."""
     inner = []
     for title, level, of in by_event(rows):
         names = list(dict.fromkeys(figure["name"] for row in of for figure in row["figures"]))
@@ -83,9 +83,9 @@ def figures(rows, drawn):
         across = [f"{row['level']:g}" if row["level"] is not None else "measured" for row in of]
         seeds = sorted({figure["runs"] for row in of for figure in row["figures"]})
         told = f"Levels: {esc(level)}. " if level else ""
-        what = "interval in which 95 % of further draws of the constants lie, from" if drawn else "95 % interval over"
+        what = "interval of 95 % of further draws of the constants, from" if drawn else "95 % interval over"
         told += f"\u00b1 half of the {what} {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
-            "One run each: no bars."
+            "One run each: no error bars."
         told += definitions.note({grouser.series.split_unit(figure["name"])[0]: [known(figure["mean"])]
                                   for row in of for figure in row["figures"]})
         inner.append(f"<h3>{esc(title)}</h3>" + table(["figure", "unit", *across], lines, told,
@@ -94,7 +94,7 @@ def figures(rows, drawn):
 
 
 def plots(made, rows):
-    """Each figure over the level, of the events that have several levels."""
+    """Each figure over the level, for events with several levels."""
     curves = {}
     for row in rows:
         for figure in row["figures"]:
@@ -105,9 +105,9 @@ def plots(made, rows):
     for (_, title, level, name), points in curves.items():
         if len(points) > 1:
             levels, means, halves = (list(column) for column in zip(*sorted(points)))
-            told = "Mean over the runs of a level; bar: its 95 % interval, where there are several."
+            told = "Mean over the runs of a level; bar: 95 % interval (if several runs)."
             if not any(map(math.isfinite, halves)):
-                told = "A point for each level; no bars: one run each."
+                told = "One point per level; no error bars: one run each."
             columns = [levels, means, [half if math.isfinite(half) else math.nan for half in halves]]
             across = level if "[" in level else f"{level} [-]"
             plain = grouser.series.split_unit(name)[0]
@@ -118,7 +118,7 @@ def plots(made, rows):
 
 
 def runs_of(folder, row):
-    """Folders of the runs of a level that came to a verdict; of files that do not tell them, of the one in its picture."""
+    """Folders of the runs of a level with a verdict; in files without these, the folder of the picture."""
     told = [run["run"] for run in row.get("each", []) if run["verdict"] != "failed"]
     return [folder / name for name in told or [row.get("picture", "").rpartition("/")[0]] if name]
 
@@ -128,26 +128,26 @@ def page(folder, options):
     made = pages.Page(f"{folder.resolve().name} (events)", "series of mobility events", folder)
     rows = [row for _, _, of in by_event(events["rows"]) for row in of]
     if not any(row["runs"] or row.get("failed") or row.get("incomplete") for row in rows):
-        raise grouser.FileError(f"{folder}: none of the runs of these events has ended yet; --resume of grouser events "
-                                "goes on with them")
-    left_out = "".join(f"<p>Left out: {esc(event)}: {esc(why)}</p>" for event, why in events.get("left_out", {}).items())
-    coarse = '<p class="bad">Coarse: made with <code>--quick</code>.</p>' if events.get("quick") else ""
+        raise grouser.FileError(f"{folder}: none of the runs of these events has finished; grouser events --resume "
+                                "continues them")
+    left_out = "".join(f"<p>Omitted: {esc(event)}: {esc(why)}</p>" for event, why in events.get("left_out", {}).items())
+    coarse = '<p class="bad">WARNING: coarse settings (<code>--quick</code>).</p>' if events.get("quick") else ""
     made.section("figures", "Go or no-go", coarse + verdicts(rows) + left_out)
     made.section("limits", "Limits", limits(events.get("limits", []), {row["event"]: row["title"] for row in rows}))
     made.section("pictures", "Pictures", "".join(  # one below the other: they are wide
-        pages.picture(folder / name, words) for name, words in (("pictures.png", "Every event"),
+        pages.picture(folder / name, words) for name, words in (("pictures.png", "All events"),
                                                                 ("events.png", "Figures over the levels"),
                                                                 ("drawbar.png", "Drawbar pull over slip"))))
     made.section("numbers", "Figures", figures(rows, bool(events.get("draws"))))
     made.section("plots", "Plots", plots(made, rows))
     folders, faults = sweep_page.first_whole([runs_of(folder, row) for row in rows])
     damage.warn(made, faults)
-    sweep_page.add_runs(made, folders, options, "The first run of each level.")
-    made.section("provenance", "Where it comes from", facts([
+    sweep_page.add_runs(made, folders, options, "First run of each level.")
+    made.section("provenance", "Provenance", facts([
         ("command", f"<code>{esc(events.get('command', ''))}</code>"), ("vehicle", esc(events.get("vehicle", ""))),
         ("soil", esc(events.get("soil", ""))), ("seeds", esc(str(events.get("seeds", "")))), ("draws", esc(str(events.get("draws", 0)))),
         ("speed", number(events.get("speed_m_s"), "m/s", "speed_m_s")),
         *((what, number(events[key], "m", key)) for what, key in (("grain radius", "grain_radius_m"),
-                                                                  ("depth of beds", "bed_depth_m")) if events.get(key)),
+                                                                  ("bed depth", "bed_depth_m")) if events.get(key)),
         ("commit", f"<code>{esc(events.get('commit', ''))}</code>"), ("machine", esc(events.get("machine", "")))]))
     return made

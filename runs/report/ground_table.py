@@ -18,16 +18,18 @@ def section(folder):
     variants = [g["variant"] for g in compared["variants"]]
     rows = [row for row in compared["rows"] if not row["figure"].startswith(UNSHOWN)
             and any(mean["mean"] is not None for mean in row["means"])]
-    told = facts([(g["variant"], f"{g['ended']} of {counted(g['runs'], 'run')}, {number(g['wall_time_s'], 's')} a run, "
-                                f"{number(g['wall_time_per_second'], 's')} for a simulated second")
+    told = facts([(g["variant"], f"{g['ended']} of {counted(g['runs'], 'run')} finished, "
+                                f"{number(g['wall_time_s'], 's')} per run, "
+                                f"{number(g['wall_time_per_second'], 's')} per simulated second")
                   for g in compared["variants"] if g["wall_time_s"] is not None])
     means = table(["figure", *variants], [[esc(row["figure"]), *(cell(mean["mean"], mean["half_width"]) for mean in row["means"])]
                                          for row in rows],
-                  "Means over the steady part; \u00b1 half of the 95 % interval over the seeds, where there are some.", numeric=range(1, 1 + len(variants)))
+                  "Means over the steady part, \u00b1 half of the 95 % interval over the seeds (if several).",
+                  numeric=range(1, 1 + len(variants)))
     pairs = [[esc(row["figure"]), f"{esc(d['to'])} \u2212 {esc(d['from'])}", cell(d["change"], d["half_width"]), esc(d["verdict"])]
              for row in rows for d in row["differences"]]
-    words = (f"Equal: the whole 95 % interval lies within {compared['bar_percent']:g} % of the larger mean; differs: outside; "
-             "inconclusive: neither.")
+    words = (f"Equal: the 95 % interval lies within {compared['bar_percent']:g} % of the larger mean; differs: "
+             "outside; inconclusive: otherwise.")
     return told + means + folded("Differences", table(["figure", "variants", "difference", "verdict"], pairs, words, numeric=(2,)),
                                  opened=True)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frame of a report: sections, tables, plots, and the one file that holds them with all they need."""
+"""The frame of a report: sections, tables, plots, and the self-contained HTML file."""
 import base64
 import html
 import json
@@ -14,13 +14,13 @@ import grouser
 
 HERE = Path(__file__).resolve().parent
 DEBIAN = Path("/usr/share/javascript")
-#: Libraries of the page, of Debian: (files, package).
+#: JavaScript libraries, from Debian: (files, package).
 PLOTS = (("dygraphs/dygraph.min.js",), "libjs-dygraphs")
 STYLE = ("dygraphs/dygraph.min.css", "libjs-dygraphs")
 SPACE = (("three/three.min.js", "three/examples/js/controls/OrbitControls.js"), "libjs-three")
 MOST_ROWS = 2000  # of a curve
-NOTHING = 1e-30  # in SI units: what is smaller stands for 0
-MOST_LINES = 20  # of a table that stands as a whole; longer ones are scrolled in a box
+NOTHING = 1e-30  # in SI units: smaller values are treated as 0
+MOST_LINES = 20  # of a table shown in full; longer ones scroll
 
 
 def esc(text):
@@ -28,7 +28,7 @@ def esc(text):
 
 
 def packed(values):
-    """An array as the page takes it: its kind, its shape, and its bytes, deflated and as base64."""
+    """An array for the page: type, shape, and bytes (deflate, base64)."""
     values = numpy.ascontiguousarray(values)
     kind = {"float64": "f8", "float32": "f4", "uint32": "u4", "uint16": "u2", "uint8": "u1"}[str(values.dtype)]
     little = values.astype(values.dtype.newbyteorder("<"), copy=False)
@@ -37,7 +37,7 @@ def packed(values):
 
 
 def shown(value, digits=5):
-    """A number for the eye; the whole of it stands beside it in an attribute."""
+    """A number, rounded for display."""
     if value is None or math.isnan(value):
         return "none"
     if math.isinf(value):
@@ -45,7 +45,7 @@ def shown(value, digits=5):
     if abs(value) < NOTHING:
         return "0"
     text = f"{value:.{digits}g}"
-    if "e" in text and 1e-4 <= abs(value) < 1e6:  # digits that were not asked for are noughts
+    if "e" in text and 1e-4 <= abs(value) < 1e6:  # digits beyond those requested are zeros
         text = f"{float(text):.0f}"
     if "e" not in text:
         return text.replace("-", "\u2212")
@@ -54,29 +54,29 @@ def shown(value, digits=5):
 
 
 def superscript(text):
-    """10^-4 as HTML has it."""
+    """10^-4 in HTML."""
     before, mark, exponent = text.partition("^")
     return f"{before}<sup>{exponent}</sup>" if mark else text
 
 
 def exact(value):
-    """The shortest text that reads back as the same number."""
+    """The shortest text that round-trips to the same number."""
     return "" if value is None else repr(float(value))
 
 
 def number(value, unit="", name="", digits=5):
-    """A number in HTML: rounded for the eye, whole in `value`; `name` for whoever looks for it."""
+    """A number in HTML: rounded text, full precision in the attribute `value`; `name`: attribute data-name."""
     named = f' data-name="{esc(name)}"' if name else ""
     unit_text = f"\u00a0{esc(unit)}" if unit and unit != "-" else ""
     return f'<data value="{exact(value)}"{named}>{superscript(shown(value, digits))}</data>{unit_text}'
 
 
 def with_bar(value, half, unit="", name=""):
-    """A number with its error bar, to the digits that the bar leaves."""
+    """A number with its error bar, rounded to the digits of the bar."""
     if half is None or value is None or not math.isfinite(half) or not math.isfinite(value):
         return number(value, unit, name)
     value_text, half_text, power = (str(part).replace("-", "\u2212") for part in grouser.series.estimate_text(value, half))
-    if not half_text:  # the runs agree but for rounding
+    if not half_text:  # the runs agree except for rounding
         mark = f' data-name="{esc(name)} bar"' if name else ""
         return f'{number(value, unit, name, 6)} <data value="{exact(half)}"{mark}>(exact)</data>'
     before, behind = ("", "") if power == "0" else ("(", f") \u00d7 10<sup>{power}</sup>")
@@ -88,7 +88,7 @@ def with_bar(value, half, unit="", name=""):
 
 
 def term(name, about=""):
-    """The name of a figure, with what it is where one points at it: by the table of definitions, else `about`."""
+    """The name of a figure with its definition as a tooltip: from the table of definitions, else `about`."""
     words = definitions.definition(name) or about
     text = esc(definitions.label(name))
     return f'<span class="term" title="{esc(words)}">{text}</span>' if words else text
@@ -98,15 +98,15 @@ INCONCLUSIVE = ' <span class="bad">inconclusive</span>'
 
 
 def figure_with_bar(value, half, unit="", name="", inconclusive=False):
-    """The same, marked where it is inconclusive, as where the bar is larger than the value: then not even its sign is
-    sure. What is 0 in all runs is sure."""
+    """with_bar(), marked if inconclusive or if the bar exceeds the value, so that the sign is not certain. Values that
+    are 0 in all runs are certain."""
     wide = None not in (value, half) and math.isfinite(half) and half > abs(value)
     known = value is not None and not value == half == 0
     return with_bar(value, half, unit, name) + (INCONCLUSIVE if wide or inconclusive and known else "")
 
 
 def table(headings, rows, caption="", numeric=()):
-    """Rows of HTML; `numeric`: the columns that hold numbers."""
+    """An HTML table; `numeric`: columns with numbers."""
     def cells(tag, scope, row):
         return "".join(f'<{tag}{scope}{" class=n" if k in numeric else ""}>{cell}</{tag}>' for k, cell in enumerate(row))
     head = f"<thead><tr>{cells('th', ' scope=col', map(esc, headings))}</tr></thead>"
@@ -117,12 +117,12 @@ def table(headings, rows, caption="", numeric=()):
 
 
 def run_name(name):
-    """A run's name as code, which may be broken behind its commas alone."""
+    """A run's name as code, with line breaks only after commas."""
     return f'<code class="name">{esc(name).replace(",", ",<wbr>")}</code>'
 
 
 def facts(rows):
-    """Words and what stands for them: [(word, HTML)]; those without are left out."""
+    """A definition list: [(word, HTML)]; entries with empty HTML are omitted."""
     return "<dl>" + "".join(f"<dt>{esc(word)}</dt><dd>{text}</dd>" for word, text in rows if text) + "</dl>"
 
 
@@ -131,12 +131,12 @@ def folded(title, inner, opened=False):
 
 
 def picture(file, words):
-    """A PNG in the page, or nothing where there is none; of a damaged one words that say so."""
+    """A PNG in the page; "" if the file is missing, a warning if it is damaged."""
     if not file.is_file():
         return ""
     picture_ = file.read_bytes()
     if not picture_.startswith(b"\x89PNG\r\n\x1a\n") or picture_[-8:-4] != b"IEND":
-        return f'<p class="bad">{esc(file.name)} is damaged: it is no whole PNG picture.</p>'
+        return f'<p class="bad">{esc(file.name)} is damaged: not a complete PNG file.</p>'
     data = base64.b64encode(picture_).decode()
     return (f'<figure><img src="data:image/png;base64,{data}" alt="{esc(words)}"><figcaption>{esc(words)} '
             f'({esc(file.name)})</figcaption></figure>')
@@ -151,7 +151,7 @@ class Page:
     def __init__(self, title, kind, folder):
         self.title, self.kind, self.folder = title, kind, Path(folder)
         self.sections = []  # (id, title, HTML)
-        self.warnings = []  # HTML that stands before all
+        self.warnings = []  # HTML at the top of the page
         self.data = {"plots": [], "arrays": {}}
         self.libraries = []
 
@@ -168,15 +168,14 @@ class Page:
         return name
 
     def bytes(self):
-        """What the arrays take in the page so far."""
+        """Bytes of all arrays in the page so far."""
         return sum(len(array["data"]) for array in self.data["arrays"].values())
 
     def plot(self, title, x, y, curves, caption="", **more):
-        """HTML of an interactive plot. `x`, `y`: what stands at the axes, with units. `curves`: [(label, x, y)], or
-        with half widths of bars [(label, x, y, half)], or with both ends [(label, x, y, low, high)]. `more`: `about` (what
-        it shows, where one points at the title), `points`
-        (no lines), `marks` (True, or the labels of curves whose points are marked, with upright bars), `whole` (x counts
-        something), `log` ("x", "y", "xy")."""
+        """HTML of an interactive plot. `x`, `y`: axis labels with units. `curves`: [(label, x, y)], with half widths of
+        bars [(label, x, y, half)], or with both ends [(label, x, y, low, high)]. `more`: `about` (tooltip of the
+        title), `points` (no lines), `marks` (True, or labels of the curves with point marks and vertical bars),
+        `whole` (integer x), `log` ("x", "y", "xy")."""
         self.need(PLOTS)
         index = len(self.data["plots"])
         about = more.pop("about", "")
@@ -219,13 +218,13 @@ class Page:
 
     @staticmethod
     def script(text):
-        """As it may stand in a page: nothing in it ends the script, and no browser looks for its source map."""
+        """Text of a script for inlining: without closing tags and source map references."""
         lines = (line for line in text.split("\n") if not line.startswith("//# sourceMappingURL"))
         return "\n".join(lines).replace("</script", "<\\/script").replace("<!--", "<\\!--")
 
 
 def library_text(file, package):
-    """FileNotFoundError that names what to install where it is missing."""
+    """Text of a library. FileNotFoundError names the package to install."""
     if not file.is_file():
         raise FileNotFoundError(2, f"is missing; install {package}", str(file))
     return file.read_text(encoding="utf-8")
@@ -235,13 +234,13 @@ def licences(named):
     holders = {"libjs-three": "three.js: Copyright 2010-2019 three.js authors",
                "libjs-dygraphs": "dygraphs: Copyright 2006-2023 Dan Vanderkam, Google Inc. and contributors"}
     if not named:
-        return "This page contains no library."
+        return "This page contains no libraries."
     text = " ".join((HERE / "mit.txt").read_text(encoding="utf-8").split("\n", 1)[1].split("\n"))
     return "; ".join(holders[name] for name in named) + ". " + text.strip()
 
 
 def thinned(count, most=MOST_ROWS):
-    """Which of `count` rows a curve shows, and what to say of it."""
+    """The rows of `count` that a curve shows, and a note about it."""
     every = max(1, math.ceil(count / most))
     rows = numpy.arange(0, count, every)
     if count and rows[-1] != count - 1:

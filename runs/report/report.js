@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Unpacks the numbers of the page, draws its plots by dygraphs, and gives them keys.
+// Unpacks the arrays of the page, draws the plots with dygraphs, and handles their keys.
 "use strict";
 
 const report = { arrays: {}, plots: [], space: null, ready: false };
@@ -9,7 +9,7 @@ report.palette = {
   light: ["#0072b2", "#c44e00", "#007a58", "#a8457d", "#7a6000", "#1a1a1a", "#3b6fd8"],
   dark: ["#56b4e9", "#f09a3e", "#2bc79a", "#e78fc0", "#f0e442", "#ffffff", "#9db8ff"],
 };
-// One fewer than there are colours: so many curves look different.
+// One fewer than the colours, so that more combinations of colour and dash differ.
 report.dashes = [null, [7, 3], [2, 2], [9, 3, 2, 3], [12, 4], [5, 2, 2, 2, 2, 2]];
 
 report.isDark = function () {
@@ -17,7 +17,7 @@ report.isDark = function () {
   return chosen ? chosen === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
 };
 
-/** A typed array of `{kind, shape, data}`: bytes, deflated, as base64. */
+/** A typed array from `{kind, shape, data}` (deflate, base64). */
 report.unpack = async function (packed) {
   const bytes = Uint8Array.from(atob(packed.data), (c) => c.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
@@ -33,7 +33,7 @@ report.shown = function (value) {
   return Number(value.toPrecision(5)).toString().replace(/-/g, "\u2212");
 };
 
-/** Rows of all curves as dygraphs takes them: [x, y...], or [x, [low, y, high]...] where there are bars. */
+/** Rows of all curves for dygraphs: [x, y...], or [x, [low, y, high]...] with bars. */
 report.rows = function (curves) {
   const bars = curves.some((c) => c.columns.length > 2);
   const rows = new Map();
@@ -50,7 +50,7 @@ report.rows = function (curves) {
   return { bars, rows: [...rows.values()].sort((a, b) => a[0] - b[0]) };
 };
 
-/** At an axis whose largest number is `most`: no more digits than the ticks need, all written alike. */
+/** Tick label of an axis with maximum `most`: digits as needed by the ticks, uniform format. */
 function tick(value, most) {
   const size = most || Math.abs(value), rounded = Number(value.toPrecision(6));
   const isPlain = rounded === 0 || (size < 1e6 && size >= 1e-3);
@@ -58,12 +58,12 @@ function tick(value, most) {
   return text.replace(/-/g, "\u2212");
 }
 
-/** The greatest magnitude of some numbers. */
+/** Largest magnitude. */
 function greatest(values) {
   return values.reduce((most, v) => (Number.isFinite(v) ? Math.max(most, Math.abs(v)) : most), 0);
 }
 
-/** At an axis that counts: nothing between whole numbers. */
+/** Tick label of an axis with integers. */
 function wholeTick(value) {
   return Number.isInteger(value) ? tick(value) : "";
 }
@@ -89,7 +89,7 @@ function sample(colour, dash, points, marked) {
   return svg;
 }
 
-/** Points that stand each for itself, with upright bars where they have some. */
+/** Separate points, with vertical bars if they have any. */
 function drawMarked(e) {
   const pen = e.drawingContext;
   pen.save();
@@ -121,7 +121,7 @@ class Plot {
     this.draw();
   }
 
-  /** Whether a curve's points stand each for itself: they are drawn, with upright bars. */
+  /** Whether a curve has separate point marks with vertical bars. */
   isMarked(label) {
     return this.entry.marks === true || (this.entry.marks || []).includes(label);
   }
@@ -136,7 +136,7 @@ class Plot {
     const style = getComputedStyle(document.documentElement);
     const line = style.getPropertyValue("--grid").trim();
     const series = {};
-    // Curves of one name look alike; dygraphs wants every name once.
+    // Curves with the same name look the same; dygraphs requires unique names.
     this.names = [...new Set(this.curves.map((c) => c.label))];
     this.looks = this.names.map((_, k) => (
       { colour: colours[k % colours.length], marked: this.isMarked(this.names[k]),
@@ -168,7 +168,7 @@ class Plot {
     this.tell(-1);
   }
 
-  /** The legend, with the values of a row where one is chosen. */
+  /** The legend, with the values of the selected row, if any. */
   tell(row) {
     const at = row >= 0 && row < this.count ? this.table[row] : null;
     this.legend.replaceChildren();
@@ -221,7 +221,7 @@ class Plot {
   }
 }
 
-/** A plot of any column of the run, chosen from a list. */
+/** A plot of a column of the run, selected from a list. */
 function explorer(list) {
   const choice = document.getElementById("any-series");
   if (!choice) return;
@@ -249,7 +249,7 @@ async function begin() {
   await Promise.all(Object.entries(data.arrays).map(async ([name, packed]) => {
     report.arrays[name] = await report.unpack(packed);
   }));
-  // No digits of rounding: 0.59 for 0.5900000000000001.
+  // Without rounding digits: 0.59 for 0.5900000000000001.
   for (const number of document.querySelectorAll("main data"))
     number.title = number.value === "" || Number.isNaN(Number(number.value)) ? number.value : String(Number(Number(number.value).toPrecision(15)));
   report.plots = data.plots.map((entry, index) => new Plot(entry, index));

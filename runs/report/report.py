@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""One page for a browser of all that a run, a sweep, a check or a soil's tests have left in a folder:
+"""Report page (HTML) of a folder with the results of a run, a sweep, a check, events, a calibration or a soil test:
 
     report.py FOLDER PAGE.html [--figures FILE.json] [--frames N] [--grains N] [--film FILE] [--program FILE]
 
-`grouser report` calls it, and gives in FILE.json what it computes itself of a run (runs/campaigns/sweeps/run_figures), and its
-own file. Exit status: 0; 2 where the folder holds no results or damaged ones, or an option is wrong; 3 where a package
-is missing, 4 where the page cannot be written, 130 where it is interrupted; the last line then says what.
+Called by `grouser report`, with the figures of a run (runs/campaigns/sweeps/run_figures) in FILE.json and the path of
+the program. Exit status: 0; 2: no results, damaged results or a wrong option; 3: missing package; 4: the page cannot be
+written; 130: interrupted. The last line states the reason.
 """
 import argparse
 import contextlib
@@ -17,7 +17,7 @@ import sys
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-# The Python package: of the checkout, beside the installed program, or where Debian's Python has it.
+# The Python package: in the checkout, next to the installed program, or in Debian's dist-packages.
 sys.path[1:1] = [str(HERE.parent / "plots"), str(HERE.parents[1] / "python"),
                  str(HERE.parents[1].parent.parent / "lib/python3/dist-packages")]
 sys.dont_write_bytecode = True
@@ -25,28 +25,27 @@ import packages
 
 WRONG, NOT_WRITTEN, INTERRUPTED = 2, 4, 130
 KINDS = (("check.json", "check"), ("events.json", "series of events"), ("calibration.json", "calibration"),
-         ("soil.json", "soil's tests"), ("summary.csv", "sweep"), ("results.h5", "run"))
+         ("soil.json", "soil test"), ("summary.csv", "sweep"), ("results.h5", "run"))
 
 
 def kind_of(folder):
-    """What a folder holds, by the file that says so; nothing where there is none of them."""
+    """Kind of results in a folder, by its main file; None if there is none."""
     return next((kind for file, kind in KINDS if (folder / file).is_file()), None)
 
 
 def instead(folder):
-    """What to say of a folder without results: which of those in it have some, or what makes them."""
+    """Advice for a folder without results: subfolders that have some, or the expected files."""
     try:
         there = sorted(inner for inner in folder.iterdir() if inner.is_dir() and kind_of(inner))
     except OSError as error:
         return f"it cannot be read: {error.strerror}"
     if (folder / "manifest.json").is_file():
-        return "it is the folder of a run without its results.h5; run it again, or take that file from a copy"
+        return "results.h5 of this run is missing; run it again or restore the file from a copy"
     if there:
         more = f" and {len(there) - 3} more" if len(there) > 3 else ""
-        return (f"these in it do: {', '.join(str(inner) for inner in there[:3])}{more} (sweeps, checks, events and soils "
-                "have a page of their own when their tables are written)")
-    return ("a folder of a run, a sweep, a check, events, a calibration or a soil's tests has one of "
-            f"{', '.join(file for file, _ in KINDS)}")
+        return (f"use a subfolder: {', '.join(str(inner) for inner in there[:3])}{more} (sweeps, checks, events and "
+                "soil tests get their own page once their tables are written)")
+    return f"expected one of {', '.join(file for file, _ in KINDS)}"
 
 
 def contents(folder, kind, options):
@@ -56,7 +55,7 @@ def contents(folder, kind, options):
     import run_page
     import soil_page
     import sweep_page
-    write = {"check": check_page.page, "soil's tests": soil_page.page, "sweep": sweep_page.page, "run": run_page.page,
+    write = {"check": check_page.page, "soil test": soil_page.page, "sweep": sweep_page.page, "run": run_page.page,
              "series of events": events_page.page, "calibration": calibration_page.page}
     return write[kind](folder, options)
 
@@ -67,10 +66,10 @@ def end(status, message):
 
 
 def put(text, file):
-    """Writes the page under another name and renames it: whoever opens it finds it whole."""
+    """Writes the page to a temporary file and renames it, so that no reader sees a partial page."""
     fresh = file.with_name(file.name + ".part")
     try:
-        fresh.write_text(text, encoding="utf-8", errors="replace")  # names of files may be no UTF-8
+        fresh.write_text(text, encoding="utf-8", errors="replace")  # file names may not be UTF-8
         os.replace(fresh, file)
     except OSError as error:
         end(NOT_WRITTEN, f"{file}: cannot be written: {error.strerror}")
@@ -80,13 +79,13 @@ def put(text, file):
 
 
 def check_places(options):
-    """What is asked for that cannot be, before anything is read."""
+    """Checks the options before anything is read."""
     import run_page
     if not options.page.parent.is_dir():
-        end(WRONG, f"--out {options.page}: there is no folder {options.page.parent}; make it, or name a file in another")
+        end(WRONG, f"--out {options.page}: folder {options.page.parent} does not exist; create it or choose another")
     if options.film and not run_page.is_film(options.film):
-        end(WRONG, f"--film {options.film}: is no film that a browser shows; allowed are {', '.join(run_page.FILMS)}, as "
-                   "grouser render --film drive.mp4 makes one")
+        end(WRONG, f"--film {options.film}: not a film for browsers ({', '.join(run_page.FILMS)}); make one with "
+                   "grouser render --film drive.mp4")
 
 
 def main():
@@ -98,7 +97,7 @@ def main():
     parser.add_argument("--program")
     parser.add_argument("--frames", type=int, default=60)
     parser.add_argument("--grains", type=int, default=40000)
-    sys.stdout.reconfigure(errors="surrogateescape")  # names of files as they are
+    sys.stdout.reconfigure(errors="surrogateescape")  # file names that are not UTF-8
     make(parser.parse_args())
 
 
@@ -107,13 +106,13 @@ def make(options):
     try:
         import grouser
     except ImportError:
-        end(packages.MISSING, "the Python package grouser is missing, which the program is installed with; set "
-                              "PYTHONPATH to the folder that it lies in")
+        end(packages.MISSING, "the Python package grouser is missing; it is installed with the program: set "
+                              "PYTHONPATH to its folder")
     check_places(options)
     try:
         kind = kind_of(options.folder)
     except OSError as error:
-        end(WRONG, f"{options.folder}: cannot be read: {error.strerror}; change that, or name another folder")
+        end(WRONG, f"{options.folder}: cannot be read: {error.strerror}; fix this or choose another folder")
     if kind is None:
         end(WRONG, f"{options.folder}: holds no results; {instead(options.folder)}")
     try:
@@ -124,11 +123,11 @@ def make(options):
     except FileNotFoundError as error:
         end(packages.MISSING if "javascript" in str(error.filename) else WRONG, f"{error.filename}: {error.strerror}")
     except KeyError as error:
-        end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version: they lack {error}")
+        end(WRONG, f"{options.folder}: damaged {kind}, or written by another version: {error} is missing")
     except OSError as error:
-        end(WRONG, f"{options.folder}: its files of a {kind} cannot be read: {' '.join(str(error).split())}")
+        end(WRONG, f"{options.folder}: unreadable {kind}: {' '.join(str(error).split())}")
     except (ValueError, RuntimeError, IndexError, TypeError, AttributeError):
-        end(WRONG, f"{options.folder}: its files of a {kind} are damaged, or of another version; make them again")
+        end(WRONG, f"{options.folder}: damaged {kind}, or written by another version; run it again")
     put(text, options.page)
     print(f"report    {options.page}, {options.page.stat().st_size / 1e6:.1f} MB; open it in a browser")
 
@@ -138,7 +137,7 @@ def interrupt(*_):
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, interrupt)  # what the program passes on
+    signal.signal(signal.SIGTERM, interrupt)  # forwarded by the program
     try:
         main()
     except KeyboardInterrupt:

@@ -19,13 +19,13 @@ import space
 from grouser.series import counted
 from page import NOTHING, esc, exact, facts, figure_with_bar, folded, number, run_name, table, term
 
-LARGEST_FILM = 4e6  # bytes that lie in the page; larger ones stay beside it
-MOST_BESIDE = 4  # ledgers that stand beside each other
+LARGEST_FILM = 4e6  # maximum size of embedded films [bytes]; larger ones are only listed
+MOST_BESIDE = 4  # ledgers side by side
 FILMS = {".mp4": "video/mp4", ".webm": "video/webm", ".mov": "video/mp4", ".gif": "image/gif"}
-#: How files of films begin: (place, bytes).
+#: Signatures of film files: (offset, bytes).
 BEGINNINGS = ((4, b"ftyp"), (4, b"moov"), (4, b"mdat"), (4, b"wide"), (0, b"\x1aE\xdf\xa3"), (0, b"GIF8"))
 
-# Plots of what a run has: title, label of y, names of series. SIDE: left and right.
+# Plots of a run: title, label of y, names of series. SIDE: left and right.
 CURVES = (
     ("Speed of the hull at each track", "speed [m/s]", ["vehicle.SIDE.speed"]),
     ("Slip", "slip [-]", ["vehicle.SIDE.slip", "vehicle.SIDE.tooth_slip"]),
@@ -36,17 +36,17 @@ CURVES = (
     ("Attitude of the hull", "angle [rad]", ["vehicle.heading", "vehicle.pitch_angle", "vehicle.roll_angle"]),
     ("Energy ledger", "energy [J]", ["ledger.drive_work", "ledger.kinetic", "ledger.potential", "ledger.elastic",
                                      "ledger.dissipated", "ledger.integration_error"]),
-    ("What is lost, by cause", "energy [J]", ["ledger.dissipated_damping", "ledger.dissipated_friction",
-                                               "ledger.dissipated_rolling", "ledger.dissipated_parts",
-                                               "ledger.dissipated_joints", "ledger.dissipated_yielding",
-                                               "ledger.dissipated_crushing", "ledger.dissipated_micro_slip",
-                                               "ledger.dissipated_soil"]),
+    ("Dissipation by mechanism", "energy [J]", ["ledger.dissipated_damping", "ledger.dissipated_friction",
+                                                "ledger.dissipated_rolling", "ledger.dissipated_parts",
+                                                "ledger.dissipated_joints", "ledger.dissipated_yielding",
+                                                "ledger.dissipated_crushing", "ledger.dissipated_micro_slip",
+                                                "ledger.dissipated_soil"]),
     ("Energies of deformable soil", "energy [J]", ["ledger.soil_elastic_pressure", "ledger.soil_elastic_shear",
                                                    "ledger.soil_compaction", "ledger.soil_shear", "ledger.soil_slip_sinkage",
                                                    "ledger.soil_damping",
                                                    "ledger.soil_edges", "ledger.soil_coupling"]),
-    ("What the length of the steps costs", "energy [J]", ["ledger.integration_error", "ledger.residual"]),
-    ("Pairs of grains in touch", "contacts [-]", ["terrain.contacts"]),
+    ("Time-integration error", "energy [J]", ["ledger.integration_error", "ledger.residual"]),
+    ("Grain-grain contacts", "contacts [-]", ["terrain.contacts"]),
     ("Largest overlap", "overlap [grain radii]", ["terrain.max_overlap", "terrain.part_overlap"]),
     ("Squeezed contacts", "contacts [-]", ["terrain.squeezed", "terrain.squeezed_at_boundaries",
                                           "terrain.squeezed_by_parts"]),
@@ -55,15 +55,15 @@ LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissip
           "dissipated_micro_slip", "dissipated_rolling", "dissipated_yielding", "dissipated_crushing", "dissipated_parts", "dissipated_joints",
           "integration_error", "residual", "turnover")
 ENDINGS = {unit: unit for unit in ("s", "m", "J", "kg")}  # of names in manifest.json, and their units
-#: What is said of a run by its status, unless it is finished.
-ENDED = {"running": "This run is still going on, or was killed: what is told here is what it had written by then.",
-         "incomplete": "WARNING: this run is incomplete:", "failed": "This run has failed.",
-         "stopped": "This run was stopped before its end; --resume goes on with it."}
-#: Of quantities with a number a shoe: title, label of y, name, whether of shoes in ground contact alone.
+#: First words of the warning about a run that has not finished, by status.
+ENDED = {"running": "WARNING: this run is still running or was killed; the page shows what it has written so far.",
+         "incomplete": "WARNING: this run is incomplete:", "failed": "WARNING: this run failed:",
+         "stopped": "WARNING: this run was stopped before its end; --resume continues it."}
+#: Quantities with a value per shoe: title, label of y, name, whether only shoes in ground contact count.
 SPREADS = (("Sinkage of the shoes in ground contact", "sinkage [m]", "sinkage", True),
            ("Track tension", "tension [N]", "tension", False),
            ("Ground pressure of the shoes in ground contact", "pressure [Pa]", "ground_pressure", True))
-IN_CONTACT = "shoe in ground contact: on the ground run, between first and last road wheel, and carrying load"
+IN_CONTACT = "shoe in ground contact: between the first and last road wheel, and carrying load"
 
 
 def sides(names):
@@ -71,7 +71,7 @@ def sides(names):
 
 
 def columns_of(run, name):
-    """[(label, values)] of a series that has a number, or a vector, a row; none of one with a number a shoe."""
+    """[(label, values, series)] of a series with a number or vector per row; [] for one with a value per shoe."""
     series = run[name]
     if series.value.ndim == 1:
         return [(name, series.value, series)]
@@ -85,32 +85,32 @@ def short(name):
 
 
 def meanings(columns):
-    """What the curves are: "speed: of the hull at this track; ..."."""
+    """Definitions of the curves: "speed: of the hull at this track; ..."."""
     told = {}
     for _, _, series in columns:
-        # Results list its parts below it.
-        help_ = re.sub("sum of the (eight|nine causes) below", "all that is lost", series.help)
+        # The help refers to the rows below it in the results.
+        help_ = re.sub(r"sum of the (eight|nine|\w+ \w+) below", "total dissipation", series.help)
         told.setdefault(re.sub(r"^(left|right) ", "", short(series.name)), help_)
     return "; ".join(f"{what}: {help_}" for what, help_ in told.items())
 
 
 def within(columns, low, high):
-    """The range of an axis that leaves out what lies far beyond [low, high], and what to say of it."""
+    """Axis range without values far beyond [low, high], and a note about it."""
     values = numpy.concatenate([values[numpy.isfinite(values)] for _, values, _ in columns])
     if values.min() >= low and values.max() <= high:
         return {}, ""
     return {"range": [max(low, values.min()), min(high, values.max())]}, \
-        f" Drawn from {low:g} to {high:g}; it runs from {values.min():.3g} to {values.max():.3g}."
+        f" Drawn from {low:g} to {high:g}; values range from {values.min():.3g} to {values.max():.3g}."
 
 
 def tracks_of(run, name):
-    """{side: series} of a quantity with a number a shoe, of the tracks that the run has."""
+    """{side: series} of a quantity with a value per shoe, for the tracks of the run."""
     return {side: run[f"vehicle.{side}.{name}"] for side in ("left", "right") if f"vehicle.{side}.{name}" in run}
 
 
 def spread(values, of):
-    """Mean, least and largest of each row, over the shoes that have a number and are `of` it [rows, shoes] (None: all);
-    NaN where there is none."""
+    """Mean, minimum and maximum of each row, over the shoes with a value that are `of` it [rows, shoes] (None: all);
+    NaN if there are none."""
     counts = numpy.isfinite(values) if of is None else numpy.isfinite(values) & of
     there = counts.any(axis=1)
     mean = numpy.where(counts, values, 0.0).sum(axis=1) / numpy.maximum(1, counts.sum(axis=1))
@@ -120,7 +120,7 @@ def spread(values, of):
 
 
 def curves(made, run):
-    """The plots of what the run has."""
+    """The plots of the run's series."""
     rows, note = pages.thinned(len(run.time))
     time = run.time[rows]
     figures = []
@@ -141,7 +141,7 @@ def curves(made, run):
             drawn.append((side, time, *(values[rows] for values in spread(
                 series.value, run[f"vehicle.{side}.on_ground"].value > 0.5 if in_contact else None))))
         if any(numpy.isfinite(curve[2]).any() for curve in drawn):
-            of = "shoes in ground contact" if in_contact else "pins"
+            of = "shoes in ground contact" if in_contact else "pin joints"
             below = name == "sinkage" and any((curve[2] < 0).any() for curve in drawn)
             figures.append(made.plot(title, "time [s]", axis, drawn, f"{series.help}; line: mean over the {of} of a "
                                      f"track, band: their range.{' ' + definitions.ABOVE_SURFACE if below else ''}{note}",
@@ -156,12 +156,12 @@ def curves(made, run):
 
 
 def any_series(made, run):
-    """A plot of whichever column is chosen, and a table of all of them."""
+    """A plot of a selectable column, and a table of all columns."""
     rows, note = pages.thinned(len(run.time))
     if len(run.time) < 2:
         return ""
     columns = [column for name in run.names() for column in columns_of(run, name)]
-    listed, lines, start = [], [], None  # start: the first that changes, of the vehicle if there is one
+    listed, lines, start = [], [], None  # start: the first that changes, preferably of the vehicle
     for k, (name, values, series) in enumerate(columns):
         array = made.array(f"series.{name}", numpy.asarray(values, dtype=float)[rows])
         listed.append({"name": name, "array": array, "axis": f"{short(name)} [{series.unit}]", "help": series.help})
@@ -179,27 +179,27 @@ def any_series(made, run):
     shown = listed[start or 0]
     figure = made.plot("Any series", "time [s]", shown["axis"], [
         (shown["name"], run.time[rows], numpy.asarray(columns[start or 0][1], dtype=float)[rows])],
-        "Of all columns of timeseries.csv." + note)
+        "Any column of timeseries.csv." + note)
     made.data["explorer"] = {"plot": len(made.data["plots"]) - 1, "time": time, "series": listed}
     chosen = (f'<div class="controls"><label>Series <select id="any-series">{"".join(options)}</select></label>'
               f'<span id="any-help">{esc(shown["help"])}</span></div>{figure}')
-    return chosen + folded("All series in numbers", table(
-        ["series", "unit", "first", "last", "least", "mean", "largest", "what it is"], lines,
-        "Over all rows of results.h5; of vectors each component.", numeric=range(2, 7)))
+    return chosen + folded("Statistics of all series", table(
+        ["series", "unit", "first", "last", "minimum", "mean", "maximum", "definition"], lines,
+        "Over all rows of results.h5; vectors by component.", numeric=range(2, 7)))
 
 
-def part_told(run, since):
-    """Over which part of the run its figures are taken, which begins at `since` [s]; None: there is none such."""
+def part_caption(run, since):
+    """Caption: the part of the run that the figures cover. since: its start [s]; None: no steady part."""
     end = run.manifest.get("simulated_time_s", run.time[-1] if len(run.time) else 0.0)
     planned = run.scene.get("run", {}).get("duration", end)
     if since is None:
-        words = "Of the end of the run, and of all of it: it has no steady part to take means over."
+        words = "Values at the end and over the whole run: this run has no steady part."
     elif since >= end:
-        words = f"Of the end of the run, and of all of it: it has not come to the steady part, which would begin at " \
+        words = f"Values at the end and over the whole run: it ended before the steady part, which would start at " \
                 f"{number(since, 's', 'steady from')}."
     else:
-        words = (f"Means and extremes from {number(since, 's', 'steady from')} on, as the summary of a sweep has them; "
-                 "works, errors and what is \u201cat the end\u201d are of the end.")
+        words = (f"Means and extremes since {number(since, 's', 'steady from')}, as in the summary of a sweep; work, "
+                 "errors and values \u201cat the end\u201d are those of the last row.")
     by, step = run.manifest.get("ended_by"), end / max(1, run.manifest.get("steps", 1))
     if by or end < planned - 1.001 * step:  # the last step may end before the duration of the scene
         words += f" The run ended at {number(end, 's', 'end')}, before the {number(planned, 's', 'duration')} of its scene"
@@ -208,12 +208,12 @@ def part_told(run, since):
 
 
 def why_ended(manifest):
-    """What a run that has failed or was stopped says of it, in words."""
+    """The reason why a run failed, was stopped or is incomplete."""
     return str(manifest.get({"failed": "error", "stopped": "stopped", "incomplete": "incomplete"}.get(manifest.get("status")), ""))
 
 
 def figures(run, options):
-    """Figures of the steady part, with the bars of the last check of this scene where there is one."""
+    """Figures of the steady part, with the error bars of the last check of this scene if there is one."""
     told = options.figures
     check = told.get("check") or {}
     barred = {figure["name"]: figure for figure in check.get("check", {}).get("figures", [])}
@@ -221,7 +221,7 @@ def figures(run, options):
     for figure in told.get("figures", []):
         name, value = figure["name"], figure["value"]
         plain, unit = grouser.series.split_unit(name)
-        if plain == "steady from":  # which is said above the figures
+        if plain == "steady from":  # it is in the caption
             continue
         checked = barred.get(name)
         bar = "none"
@@ -234,15 +234,15 @@ def figures(run, options):
             rows.append([term(plain), number(value, "", plain), esc(unit), *([bar] if check else [])])
     if not rows:
         return f'<p>{esc(told["note"])}</p>' if told.get("note") else ""
-    words = part_told(run, told.get("steady_from")) + definitions.note(values)
+    words = part_caption(run, told.get("steady_from")) + definitions.note(values)
     if doubt := told.get("inconclusive"):
         reason = "see the warning at the top" if doubt == run.manifest.get("incomplete") else doubt
         words = f'<strong class="bad">Inconclusive: {esc(reason)}.</strong> {words}'
     if check:
-        words += (f" Error bars: of the last check of this scene, in <code>{esc(check['folder'])}</code>, commit "
-                  f"<code>{esc(check['check']['program']['commit'])}</code>, over its own seeds.")
+        words += (f" Error bars: last check of this scene, in <code>{esc(check['folder'])}</code>, commit "
+                  f"<code>{esc(check['check']['program']['commit'])}</code>, over the seeds of that check.")
     else:
-        words += " This scene has not been checked: <code>grouser check</code> finds error bars."
+        words += " No error bars yet: run <code>grouser check</code> on this scene."
     headings = ["figure", "this run", "unit", *(["checked value and its 95 % bar"] if check else [])]
     return table(headings, rows, words, numeric=(1,))
 
@@ -253,15 +253,14 @@ def constants(run):
         if q.value.shape == () and q.value.dtype.kind in "fiu" and not name.startswith("terrain.soil."):
             rows.append([f"<code>{esc(name)}</code>", number(float(q), "", name), esc(q.unit), esc(q.help)])
     begun = run.manifest.get("resumed_from_step")
-    of = "of the run" if begun is None else f"of its last part, resumed from step {begun}"
+    of = "the whole run" if begun is None else f"since the resume at step {begun}"
     rows += [[f"<code>{esc(key)}</code>", number(float(value), "", key), ENDINGS.get(key.rpartition("_")[2], ""),
               f"{esc(of)}; from manifest.json"] for key, value in run.manifest.get("figures", {}).items()]
-    return table(["what", "value", "unit", ""], rows, numeric=(1,)) if rows else ""
+    return table(["constant", "value", "unit", "definition"], rows, numeric=(1,)) if rows else ""
 
 
 def ledger(runs):
-    """The energy ledger at the end of a run, or of several: beside each other, many of them below each other. Does it
-    close?"""
+    """The energy ledger at the end of one or several runs: side by side, or one row per run if there are many."""
     runs = [run for run in runs if len(run.time)]
     ends = [{name: run[name] for name in run.names("ledger.") if run[name].value.ndim == 1} for run in runs]
     names = list(dict.fromkeys(name for end in ends for name in end))
@@ -274,8 +273,8 @@ def ledger(runs):
         of = f"{run.folder.name} " if len(runs) > 1 else ""
         return number(float(end[name].value[-1]), "", f"{of}{name} at the end") if name in end else ""
 
-    words = ("Changes since the first step of the run, at its end. Kinetic, potential, elastic and dissipated energy with "
-             "the integration error make the work of the drives, to the residual.")
+    words = ("Changes from the first step to the end of the run. Drive work = kinetic + potential + elastic + "
+             "dissipated energy + integration error + residual.")
     series = {name: next(end[name] for end in ends if name in end) for name in names}
     if len(runs) > MOST_BESIDE:
         rows = [[run_name(run.folder.name), *(cell(run, end, name) for name in names)]
@@ -285,7 +284,7 @@ def ledger(runs):
     rows = [[term(short(name), series[name].help), *(cell(run, end, name) for run, end in zip(runs, ends)), esc(series[name].unit),
              esc(series[name].help)] for name in names]
     headings = [run.folder.name for run in runs] if len(runs) > 1 else ["at the end"]
-    return table(["term", *headings, "unit", "what it is"], rows, words, numeric=range(1, 1 + len(runs)))
+    return table(["term", *headings, "unit", "definition"], rows, words, numeric=range(1, 1 + len(runs)))
 
 
 def switches(manifest):
@@ -297,8 +296,8 @@ def switches(manifest):
         if what:
             rows.append([f'<span class="{word}">{word}</span>' if word else "", esc(what), esc(why)])
     if not rows:
-        return "<p>The version that ran this did not record it; <code>grouser plan</code> tells it of a scene.</p>"
-    return table(["", "feature", "why, or how"], rows, "A feature that is off is not built, not allocated and not run.")
+        return "<p>Not recorded by the version of this run; <code>grouser plan</code> lists features of a scene.</p>"
+    return table(["", "feature", "reason or method"], rows, "Features that are off use neither memory nor time.")
 
 
 def provenance(run):
@@ -329,14 +328,14 @@ def provenance(run):
 
 
 def wall_time(manifest):
-    """Of all steps: a run that went on has measured that of its last part."""
+    """Wall time of all steps, extrapolated for a resumed run, which measures only its last part."""
     if "wall_time_s" not in manifest:
         return ""
     steps, before = manifest.get("steps", 0), manifest.get("figures", {}).get("resumed_at_step", 0)
     if not 0 < before < steps:
         return number(manifest["wall_time_s"], "s", "wall_time_s")
-    return (f'{number(manifest["wall_time_s"] * steps / (steps - before), "s", "wall_time_s")}, by that of the steps since '
-            f"step {before:.0f}, at which it was resumed")
+    return (f'{number(manifest["wall_time_s"] * steps / (steps - before), "s", "wall_time_s")}, extrapolated from the '
+            f"steps since the resume at step {before:.0f}")
 
 
 def number_text(value):
@@ -344,7 +343,7 @@ def number_text(value):
 
 
 def is_film(file):
-    """Whether a browser shows it, by its name and its first bytes."""
+    """Whether a browser can show the file, by its name and first bytes."""
     if file.suffix.lower() not in FILMS or not file.is_file():
         return False
     with open(file, "rb") as opened:
@@ -353,8 +352,7 @@ def is_film(file):
 
 
 def films(folders, options, most=LARGEST_FILM):
-    """The films that lie in the folders, or the one that was named: in the page as long as they are small, and where
-    the others lie."""
+    """The films in the folders, or the one named: embedded up to `most` bytes, the others listed by name."""
     files = [options.film] if options.film else [f for folder in folders for f in sorted(folder.iterdir())
                                                  if is_film(f)]
     shown, beside, taken = [], [], 0
@@ -370,8 +368,7 @@ def films(folders, options, most=LARGEST_FILM):
             f'<video controls {source} aria-label="{words}"></video>'
         shown.append(f"<figure>{inner}<figcaption>{esc(file.name)}</figcaption></figure>")
     if beside:
-        shown.append(f"<p>Too large to be in this page, beside it: {', '.join(beside)}; <code>--film</code> puts one "
-                     "in.</p>")
+        shown.append(f"<p>Too large to embed: {', '.join(beside)}; <code>--film FILE</code> embeds one.</p>")
     return "".join(shown)
 
 
@@ -383,23 +380,23 @@ def page(folder, options):
     if warnings := run.manifest.get("bed_warnings"):
         made.warnings.append(f"<p>WARNING: {esc(warnings)}</p>")
     made.section("figures", "Figures", figures(run, options) + folded("Constants of the run", constants(run)))
-    made.section("space", "In space", space.section(made, [run], options))
+    made.section("space", "3-D view", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([
-        films([run.folder], options), pages.picture(run.folder / "picture.png", "The end of the run"),
-        pages.picture(run.folder / "surface.png", "The ground's surface, with the path of the vehicle")]))
-    made.section("fields", "Fields of the soil", soil_fields.section(run))
+        films([run.folder], options), pages.picture(run.folder / "picture.png", "End of the run"),
+        pages.picture(run.folder / "surface.png", "Surface of the ground and path of the vehicle")]))
+    made.section("fields", "Soil fields", soil_fields.section(run))
     made.section("deformable", "Deformable soil", soil_ground.section(made, run))
     made.section("plots", "Plots", curves(made, run))
     made.section("ledger", "Energy ledger", ledger([run]))
     made.section("series", "All series", any_series(made, run))
-    made.section("switches", "What was on and off", switches(run.manifest))
-    made.section("scene", "Scene", scene(run, "The resolved scene"))
-    made.section("provenance", "Where it comes from", provenance(run))
+    made.section("switches", "Active features", switches(run.manifest))
+    made.section("scene", "Scene", scene(run, "Resolved scene"))
+    made.section("provenance", "Provenance", provenance(run))
     return made
 
 
 def scene(run, title):
-    """The scene of a run, from scene.toml, or where that is none any more from results.h5."""
+    """The scene of a run, from scene.toml, or from results.h5 if that is damaged."""
     text, words = (run.folder / "scene.toml").read_text(encoding="utf-8"), ""
     try:
         whole = bool(tomllib.loads(text))
@@ -408,5 +405,5 @@ def scene(run, title):
     if not whole:
         with h5py.File(run.file, "r", locking=False) as results:
             text = grouser.run.text_of(results.attrs["scene"])
-        words = '<p class="bad">scene.toml is damaged: it holds no scene. This one is from results.h5.</p>'
-    return words + folded(f"{title}: every key with its value", f"<pre>{esc(text)}</pre>")
+        words = '<p class="bad">scene.toml is damaged; this is the copy in results.h5.</p>'
+    return words + folded(f"{title}: all keys with their values", f"<pre>{esc(text)}</pre>")

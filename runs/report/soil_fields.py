@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of the soil's fields: a vertical section of the last frame."""
+"""Pictures of the soil fields: a vertical section of the last frame."""
 import numpy
 
 from page import esc, number
@@ -7,11 +7,11 @@ from page import esc, number
 WIDTH, HEIGHT = 760.0, 260.0  # [px] of a section at most
 #: Colours from low to high: viridis, at equal steps.
 RAMP = numpy.array([[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]], dtype=float)
-#: Title, unit, field and what of its value [..., cells] is drawn.
+#: Title, unit, field, definition, and the scalar drawn from its value [..., cells].
 SECTIONS = (
-    ("Mean stress in the soil", "Pa", "stress", "pressure, a third of the trace, positive in compression",
+    ("Mean stress in the soil", "Pa", "stress", "pressure (a third of the trace), positive in compression",
      lambda value: -numpy.trace(value, axis1=-2, axis2=-1) / 3),
-    ("Porosity of the soil", "-", "porosity", "pores over volume, in cells with grains", lambda value: value),
+    ("Porosity of the soil", "-", "porosity", "pore volume / total volume in cells with grains", lambda value: value),
     ("Speed of the soil", "m/s", "velocity", "magnitude of the mean velocity",
      lambda value: numpy.linalg.norm(value, axis=-1)),
 )
@@ -25,7 +25,7 @@ def colour(share):
 
 
 def drawn(title, values, spacing, unit, words):
-    """[z, across] as coloured cells with a scale below; NaN stays empty."""
+    """[z, across] as coloured cells with a scale below; NaN is left blank."""
     there = values[numpy.isfinite(values)]
     if not there.size:
         return ""
@@ -48,7 +48,7 @@ def drawn(title, values, spacing, unit, words):
 
 
 def section(run):
-    """The vertical section through the middle of the box of cells; nothing where the run has no fields."""
+    """Vertical section through the middle of the cells; "" if the run has no fields."""
     if run.frames is None:
         return ""
     last = next((frame for frame in reversed(list(run.frames)) if frame.has_fields), None)

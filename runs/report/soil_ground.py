@@ -22,8 +22,8 @@ def png(colours):
 
 
 class Soil:
-    """Maps of deformable soil at the end of a run; along and across are those of the vehicle's heading, from the middle
-    of its sprockets' axle."""
+    """Maps of deformable soil at the end of a run; along and across the heading, from the middle of the sprocket
+    axle."""
 
     def __init__(self, run):
         def of(name):
@@ -61,12 +61,12 @@ def constants(run):
     rows = [[f"<code>{esc(name.rpartition('.')[2])}</code>", number(float(q.value), "", name), esc(q.unit), esc(q.help)]
             for name, q in run.constants.items()
             if name.startswith("terrain.soil.") and q.value.shape == ()]
-    return table(["constant", "value", "unit", "what it is"], rows, "Constants of the soil contact model in this run.",
+    return table(["constant", "value", "unit", "definition"], rows, "Constants of the soil contact model in this run.",
                  numeric=(1,))
 
 
 def rut_map(soil):
-    """The sinkage as a picture, true to scale, x to the right."""
+    """Map of the sinkage, true to scale, x to the right."""
     step = max(1, math.ceil(max(soil.maps["sinkage"].shape) / MOST_PIXELS))
     sinkage = soil.maps["sinkage"][::-step, ::step]
     low, high = min(0.0, float(sinkage.min())), max(float(sinkage.max()), 1e-6)
@@ -84,7 +84,7 @@ def rut_map(soil):
 
 
 def road_wheels(run, side):
-    """Places of the road wheels of a track in the last frame, along the heading; none without frames."""
+    """Positions of the road wheels of a track along the heading in the last frame; [] without frames."""
     if run.frames is None or not len(run.frames):
         return []
     last = run.frames[-1]
@@ -95,14 +95,14 @@ def road_wheels(run, side):
 
 
 def peaks(along, pressure, wheels):
-    """The maximum of the pressure around each road wheel, up to the middle between it and the next."""
+    """Maximum pressure around each road wheel, up to halfway to its neighbours."""
     edges = [-math.inf, *((a + b) / 2 for a, b in zip(wheels, wheels[1:])), math.inf]
     found = [pressure[(along >= low) & (along < high)] for low, high in zip(edges, edges[1:])]
     return [float(values.max()) for values in found if len(values)]
 
 
 def pressures(made, run, soil):
-    """Pressure under the tracks at the end as a plot, and as a table with the mean maximum pressure."""
+    """Pressure under the tracks at the end: a plot, and a table with the mean maximum pressure."""
     curves, rows = [], []
     for side in ("left", "right"):
         nodes = soil.loaded(side)
@@ -118,20 +118,20 @@ def pressures(made, run, soil):
         rows[-1].append(number(sum(found) / len(found), "", f"{side} mean maximum pressure") if found else "none")
     if not curves:
         return "", ""
-    words = ("Pressure on the soil at the end of the run, mean over the width of a track, from the middle of the sprockets' "
-             "axle, forward positive; without damping.")
-    caption = ("Mean maximum pressure: mean over the road wheels of the maximum around each of them"
-               f"{'' if run.frames else '; it needs output.frames = true'}.")
+    words = ("Pressure on the soil at the end of the run, mean over the width of a track, without damping. Distance "
+             "from the middle of the sprocket axle, forward positive.")
+    caption = ("Mean maximum pressure: mean over the road wheels of the maximum under each"
+               f"{'' if run.frames else '; requires output.frames = true'}.")
     return made.plot("Pressure under the tracks", "distance along the vehicle [m]", "pressure [Pa]", curves, words,
                      about=words), table(
-        ["track", "normal force [N]", "pressed area [m2]", "mean pressure [Pa]", "maximum [Pa]",
+        ["track", "normal force [N]", "contact area [m2]", "mean pressure [Pa]", "maximum [Pa]",
          "mean maximum pressure [Pa]"], rows, caption, numeric=range(1, 6))
 
 
 def profiles(made, soil):
     figures = []
     if soil.section is not None:
-        words = "mean over the last 0.5 m of the rut behind the tracks, across the heading; left positive"
+        words = "mean over the last 0.5 m of the rut behind the tracks, across the heading, left positive"
         figures.append(made.plot("Rut across", "offset from the middle of the vehicle [m]", "height [m]",
                                  [("surface", soil.section[0], -soil.section[1])], f"{words}.", about=words))
     curves = []
@@ -141,7 +141,7 @@ def profiles(made, soil):
             along, mean = soil.profile("sinkage", nodes)
             curves.append((side, along, -mean))
     if curves:
-        words = "mean over the pressed width of each track, along the heading at the end, from the middle of the sprockets' axle"
+        words = "mean over the contact width of each track, along the heading from the middle of the sprocket axle"
         figures.append(made.plot("Rut along", "distance along the vehicle [m]", "height [m]", curves, f"{words}.", about=words))
     return "".join(figures)
 
@@ -151,12 +151,12 @@ def energies(run):
     rows = [[term(name.removeprefix("ledger.").replace("_", " "), run[name].help),
              number(float(run[name].value[-1]), "", f"soil energy {name.removeprefix('ledger.')}"), "J", esc(run[name].help)]
             for name in names if len(run.time)]
-    return table(["energy", "at the end", "unit", "what it is"], rows, "Energies of the soil: elastic ones at the end, "
-                 "dissipated ones since the start.", numeric=(1,)) if rows else ""
+    return table(["energy", "at the end", "unit", "definition"], rows, "Elastic energies of the soil at the end, "
+                 "dissipation since the start.", numeric=(1,)) if rows else ""
 
 
 def section(made, run):
-    """HTML of the section; empty for a run without deformable soil."""
+    """HTML of the section; "" for a run without deformable soil."""
     if "terrain.soil.n" not in run.constants:
         return ""
     inner = folded("Constants in use", constants(run), opened=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of a soil's virtual tests: constants with their intervals beside published ones, and the curves."""
+"""The report of virtual soil tests: constants with intervals next to published ones, and the curves."""
 import json
 import math
 
@@ -9,7 +9,7 @@ import grouser
 import page as pages
 from page import esc, facts, folded, number, table, with_bar
 
-MEANING = {"n": "exponent of Bekker's form", "k_phi": "frictional modulus of deformation",
+MEANING = {"n": "exponent of Bekker's equation", "k_phi": "frictional modulus of deformation",
            "k_c": "cohesive modulus of deformation", "c": "cohesion", "phi": "angle of internal friction",
            "K": "shear deformation modulus of Janosi and Hanamoto"}
 
@@ -26,12 +26,12 @@ def constants(soil):
         rows.append([f"<em>{esc(name)}</em>", esc(MEANING.get(name, "")),
                      with_bar(c.measured.value, known(c.measured.half_width), "", name), esc(c.measured.unit), span,
                      esc(f"inconclusive: {c.inconclusive}" if c.inconclusive else c.verdict), sources])
-    return table(["constant", "what it is", "measured", "unit", "published", "verdict", "sources"], rows,
+    return table(["constant", "definition", "measured", "unit", "published", "verdict", "sources"], rows,
                  "\u00b1 half of the 95 % interval over the tests.", numeric=(2,))
 
 
 def plate_plots(made, soil):
-    """Pressure over sinkage: loading, on plain and on logarithmic axes."""
+    """Pressure over sinkage during loading, on linear and logarithmic axes."""
     curves = [c for c in soil.plates() if (c.phase == 0).any()]
     if not curves:
         return []
@@ -55,7 +55,7 @@ def plate_plots(made, soil):
         form = (f"k z^n, {name}", z, 1000 * k * z**n.measured.value)
         drawn.append(form)
         logarithmic.append(form)
-    words = "Loading of every test, a line for each seed, and Bekker's form with the fitted constants."
+    words = "Loading in all tests, one line per seed, and Bekker's equation with the fitted constants."
     return [made.plot("Plates", "sinkage [m]", "pressure [Pa]", drawn, words),
             made.plot("Plates, logarithmic", "sinkage [m]", "pressure [Pa]", logarithmic, words, log="xy")]
 
@@ -69,7 +69,7 @@ def shear_plots(made, soil):
     normal = [float(c.normal_stress[h].mean()) for c, h in zip(curves, half)]
     shear = [float(c.shear_stress[h].mean()) for c, h in zip(curves, half)]
     strength = [("mean of the second half of each test", normal, shear)]
-    inner = [made.plot("Shear", "displacement [m]", "shear stress [Pa]", drawn, "Every layer that was sheared, a line for each seed."),
+    inner = [made.plot("Shear", "displacement [m]", "shear stress [Pa]", drawn, "All shear tests, one line per seed."),
              made.plot("Strength", "normal stress [Pa]", "shear stress [Pa]", strength, line_words(soil), points=True)]
     return inner
 
@@ -78,14 +78,14 @@ def line_words(soil):
     c, phi = soil.constants.get("c"), soil.constants.get("phi")
     if c is None or phi is None or not math.isfinite(phi.measured.value):
         return ""
-    return (f"Mohr and Coulomb's line through them: c = {c.measured.value:.3g} {c.measured.unit}, "
+    return (f"Mohr-Coulomb line: c = {c.measured.value:.3g} {c.measured.unit}, "
             f"phi = {phi.measured.value:.3g} {phi.measured.unit}.")
 
 
 def present(plot, made, soil):
     try:
         return plot(made, soil)
-    except grouser.FileError:  # that test was not asked for
+    except grouser.FileError:  # without this test
         return []
 
 
@@ -93,27 +93,28 @@ def details(soil):
     rows = []
     for test in soil.json.get("tests", []):
         p = test["porosity"]
-        # What a kind of test does not record is 0 in the file.
+        # Quantities that a test does not record are 0 in the file.
         rows.append([esc(test["name"]), str(test["tests"]),
                      with_bar(p["value"], p["half_width"], "", test["name"] + " porosity"),
                      *(number(test[what]) if test[what] else "" for what in ("grains", "steps", "seconds"))])
     return table(["test", "tests", "porosity", "grains", "steps", "wall time [s]"], rows,
-                 "Means of one test.", numeric=range(1, 6)) if rows else ""
+                 "Means per test.", numeric=range(1, 6)) if rows else ""
 
 
-#: What is measured beside the constants, by its key in soil.json.
-BESIDE = {"k": "modulus of the plate", "k_n": "exponent of that modulus",
-          "k_at_published_n": "modulus of the plate, at the published n", "n_alone": "exponent of this plate alone",
+#: Further measured quantities, by key of soil.json.
+BESIDE = {"k": "modulus of the plate", "k_n": "exponent that belongs to this modulus",
+          "k_at_published_n": "modulus of the plate with the published n",
+          "n_alone": "exponent fitted to this plate only",
           "goodness": "goodness of fit", "origin": "depth of the fit's origin below the mean surface",
-          "line_begins_at": "of the greatest pressure, where the line for the bedding begins",
-          "n_from_first_contact": "exponent of this plate without that line, from the first contact",
-          "k_u": "stiffness of unloading", "k_reloading": "stiffness of loading again",
-          "unloaded_from": "pressure it was unloaded from", "peak_phi": "phi at the peak", "peak_c": "c at the peak",
+          "line_begins_at": "start of the line fitted for the bedding, fraction of the maximum pressure",
+          "n_from_first_contact": "exponent of this plate from the first contact, without the bedding correction",
+          "k_u": "unloading stiffness", "k_reloading": "reloading stiffness",
+          "unloaded_from": "pressure before unloading", "peak_phi": "phi at the peak", "peak_c": "c at the peak",
           "peak_over_residual": "peak over residual strength", "janosi_misfit": "misfit of 1 - exp(-j / K)"}
 
 
 def beside(soil):
-    """All else that was measured, with its bars."""
+    """Further measured quantities, with error bars."""
     j, rows = soil.json, []
 
     def add(of, what, one, name):
@@ -128,29 +129,29 @@ def beside(soil):
         if isinstance(one, dict):
             add("shear", BESIDE.get(key, key), one, f"shear {key}")
     if j.get("tests_with_shorter_steps"):
-        rows.append(["tests", "ended unsoundly, and were done again with shorter steps",
+        rows.append(["tests", "repeated with shorter time steps after an unsound result",
                      esc(", ".join(j["tests_with_shorter_steps"])), ""])
     if isinstance(j.get("track_sinkage"), dict):
-        add("track", "sinkage by Bekker's form at 47.5 kPa under 0.28 m", j["track_sinkage"], "track sinkage")
-    return folded("What was measured beside them", table(
-        ["of", "what", "measured", "unit"], rows, "\u00b1 half of the 95 % interval over the tests, where there are "
-        "several.", numeric=(2,)), opened=True) if rows else ""
+        add("track", "sinkage by Bekker's equation at 47.5 kPa, width 0.28 m", j["track_sinkage"], "track sinkage")
+    return folded("Further measurements", table(
+        ["test", "quantity", "measured", "unit"], rows, "\u00b1 half of the 95 % interval over the tests (if "
+        "several).", numeric=(2,)), opened=True) if rows else ""
 
 
 def add_tests(made, soil, provenance=()):
-    """Sections of all that was measured of a soil; `provenance`: what stands before that of its tests."""
+    """Adds the sections of a soil's tests; `provenance`: facts listed before those of the tests."""
     folder, j = soil.folder, soil.json
     care = '<p class="bad">Coarse: measured with <code>--quick</code>.</p>' if soil.coarse else ""
     made.section("figures", "Constants", care + constants(soil) + beside(soil))
     inner = present(plate_plots, made, soil) + present(shear_plots, made, soil)
     made.section("plots", "Plots", f'<div class="plots">{"".join(inner)}</div>' if inner else "")
     made.section("tests", "Tests", details(soil))
-    made.section("scene", "What was tested", folded("Grains, law and tests, as they were", "<pre>" + esc(json.dumps(
+    made.section("scene", "Test set-up", folded("Grains, contact law and tests", "<pre>" + esc(json.dumps(
         {key: value for key, value in j.items() if key in ("recipe", "shear", "plates", "track_sinkage")}, indent=2)) +
         "</pre>"))
     seeds = sorted({c.seed for c in [*(soil.plates() if (folder / "plates.csv").is_file() else []),
                                      *(soil.shear() if (folder / "shear.csv").is_file() else [])]})
-    made.section("provenance", "Where it comes from", facts([
+    made.section("provenance", "Provenance", facts([
         *provenance, ("soil", esc(soil.name)), ("grain radius", number(soil.grain_radius, "m", "grain_radius_m")),
         ("care", esc(j["care"])), ("seeds", ", ".join(map(str, seeds))),
         ("program", f"grouser {esc(j.get('version', ''))}, commit <code>{esc(j.get('commit', ''))}</code>"),
@@ -159,6 +160,6 @@ def add_tests(made, soil, provenance=()):
 
 def page(folder, options):
     soil = grouser.open_soil(folder)
-    made = pages.Page(f"{soil.name} (soil)", "soil's tests", folder)
+    made = pages.Page(f"{soil.name} (soil)", "soil test", folder)
     add_tests(made, soil)
     return made

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Grains and parts of a run over time, as the 3-D view takes them: fewer frames and grains where there are many,
-places as 16-bit numbers, shapes of parts once."""
+"""Grains and parts of a run over time for the 3-D view: a selection of frames and grains if there are many, positions
+as 16-bit integers, each shape once."""
 from types import SimpleNamespace
 
 import numpy
@@ -10,9 +10,9 @@ import grouser
 import page as pages
 from grouser.series import counted
 
-PLACES = 12e6  # places of grains in all frames of a run together, at most: they are the bulk of a page
-LARGEST = 10e6  # bytes of a page that another run in space may make; 15 MB are what a mail takes
-CODES = 65535  # of a coordinate: the last one stands for grains that are not there
+PLACES = 12e6  # maximum number of grain positions, all frames of a run together: most of the page's size
+LARGEST = 10e6  # bytes of a page up to which another run is added; e-mail accepts 15 MB
+CODES = 65535  # codes of a coordinate; the last one marks absent grains
 
 
 def chosen_frames(count, most):
@@ -20,7 +20,7 @@ def chosen_frames(count, most):
 
 
 def at_surface(position, radius):
-    """[n] Whether each grain is near the top of its column of two diameters' width, or at a side of the bed."""
+    """[n] Whether each grain is near the top of its column (two diameters wide) or at a side of the bed."""
     width = 4 * float(numpy.median(radius))
     low, high = position.min(axis=0), position.max(axis=0)
     cell = numpy.floor((position[:, :2] - low[:2]) / width).astype(int)
@@ -32,13 +32,13 @@ def at_surface(position, radius):
 
 
 def chosen_grains(first, last, most):
-    """The ids that are drawn: those at the surface in the first frame and all that came later, then those that moved
-    most."""
+    """Ids of the grains to draw: those at the surface in the first frame and all that enter later, then those that
+    moved most."""
     ids = numpy.union1d(first.id, last.id)
     if len(ids) <= most:
         return ids
     score = numpy.zeros(len(ids))
-    score[~numpy.isin(ids, first.id)] = 2  # that came later
+    score[~numpy.isin(ids, first.id)] = 2  # entered later
     both, in_first, in_last = numpy.intersect1d(first.id, last.id, return_indices=True)
     moved = numpy.linalg.norm(last.position[in_last] - first.position[in_first], axis=1)
     score[numpy.searchsorted(ids, both)] = moved / (moved.max() or 1)
@@ -48,7 +48,7 @@ def chosen_grains(first, last, most):
 
 
 def whole_grains(frame):
-    """Those of a frame whose place, radius and speed are numbers, and how many others are lost."""
+    """Grains of a frame with finite position, radius and speed, and the number of the others."""
     if not len(frame):
         return SimpleNamespace(id=numpy.empty(0, int), position=numpy.empty((0, 3)), radius=numpy.empty(0),
                                speed=numpy.empty(0), lost=0)
@@ -58,8 +58,8 @@ def whole_grains(frame):
 
 
 def grains_of(made, frames, picked, most, most_places):
-    """Places, speeds and radii of the grains in the frames picked, how many there are and are left of them, and the
-    most in a frame that cannot be drawn; nothing where there are none."""
+    """Positions, speeds and radii of the grains in the selected frames; total and selected number; largest number of
+    invalid grains in a frame. None if there are no grains."""
     first, last = whole_grains(frames[picked[0]]), whole_grains(frames[picked[-1]])
     total, lost = len(numpy.union1d(first.id, last.id)), 0
     if total == 0:
@@ -80,7 +80,7 @@ def grains_of(made, frames, picked, most, most_places):
 
 
 def shapes_of(frames):
-    """The meshes of the parts, each once: [(vertices in the frame of its parts, triangles, [parts])]."""
+    """Distinct meshes of the parts: [(vertices in the body frame, triangles, [parts])]."""
     if not frames.parts:
         return []
     mesh, poses = frames[0].parts, frames[0].poses
@@ -103,8 +103,8 @@ def shapes_of(frames):
 
 
 def is_before_grains(corners, places):
-    """Whether a part with these corners would hide grains at these places: it has a tenth of them within its box, as
-    drums and containers have, or it is a wall, thin along x or y and half as long and as high as all of them."""
+    """Whether a part with these corners would hide the grains: a tenth of them lie in its bounding box (drum,
+    container), or it is a wall, thin along x or y and half as long and as high as the bed."""
     low, high = corners.min(axis=0), corners.max(axis=0)
     if numpy.mean(((places > low) & (places < high)).all(axis=1)) > 0.1:
         return True
@@ -114,14 +114,14 @@ def is_before_grains(corners, places):
 
 
 def is_steep(mesh):
-    """Of each triangle, whether it is one of a wall."""
+    """Whether each triangle belongs to a wall."""
     a, b, c = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
     normal = numpy.cross(b - a, c - a)
     return numpy.abs(normal[:, 2]) < 0.3 * numpy.linalg.norm(normal, axis=1)
 
 
 def hiding_parts(frames, places):
-    """Numbers of the parts that stand before the grains."""
+    """Indices of the parts that would hide the grains."""
     if places is None:
         return set()
     mesh, seen = frames[0].parts, places[numpy.isfinite(places).all(axis=1)]
@@ -130,7 +130,7 @@ def hiding_parts(frames, places):
 
 
 def box_of(places, corners, ground):
-    """Corners of all that is drawn."""
+    """Bounding box of grains, parts and ground."""
     clouds = [cloud.reshape(-1, 3) for cloud in (places, corners, ground) if cloud is not None and cloud.size]
     points = numpy.concatenate(clouds)
     points = points[numpy.isfinite(points).all(axis=1)]
@@ -162,7 +162,7 @@ def add_grains(made, name, drawn, middle, data):
 
 
 class AtEnd:
-    """The grains of a run's checkpoint, as the one frame of a run that has written none."""
+    """Grains of the checkpoint as the only frame of a run without frames."""
     parts, ground, poses = [], None, None
 
     def __init__(self, run):
@@ -182,8 +182,7 @@ class AtEnd:
 
 
 def frames_of(run):
-    """What there is of a run to be seen in space, in how many frames, and what to say of it; (None, 0, "") where there
-    is nothing."""
+    """Source of the 3-D view of a run, number of its frames, and a description; (None, 0, "") if there is none."""
     if run.frames is not None and len(run.frames):
         return run.frames, len(run.frames), f"of {counted(len(run.frames), 'frame')}"
     try:
@@ -192,11 +191,11 @@ def frames_of(run):
         return None, 0, ""
     if not len(still) or not len(still.time):
         return None, 0, ""
-    return still, 1, f"frame, of the checkpoint: {damage.without_frames(run)}; no parts are seen"
+    return still, 1, f"frame, from the checkpoint: {damage.without_frames(run)}; parts not shown"
 
 
 def data_of(made, run, place, options, places):
-    """What the page needs to draw a run in space, put into it; None where there is nothing to draw."""
+    """Adds the data of a run's 3-D view to the page; None if there is nothing to draw."""
     frames, count, words = frames_of(run)
     if frames is None:
         return None
@@ -209,7 +208,7 @@ def data_of(made, run, place, options, places):
         return None
     corners = None if poses is None else numpy.concatenate([frames[k].parts.vertices for k in (picked[0], picked[-1])])
     low, high = box_of(None if drawn is None else drawn["places"], corners, None if ground is None else ground.vertices)
-    reach = 0.0 if drawn is None else float(drawn["radius"].max())  # of grains their places alone are in the box
+    reach = 0.0 if drawn is None else float(drawn["radius"].max())  # the box contains only the centres of grains
     low, high = low - reach, high + reach
     middle = 0.5 * (low + high)
     name = f"space{place}"
@@ -239,17 +238,16 @@ def data_of(made, run, place, options, places):
 def words_of(shown, frames, count, total, lost):
     words = f"{shown} {frames}"
     if total:
-        left_out = "" if count == total else ": those at the surface and the sides first, then those that moved most"
-        words += f"; {count} of {total} grains{left_out}; places to 1/65534 of the bed's extent"
+        left_out = "" if count == total else " (those at the surface and sides first, then those that moved most)"
+        words += f"; {count} of {total} grains{left_out}; positions to 1/65534 of the bed's extent"
     if lost:
-        words += f"; up to {lost} grains of a frame are left out: their places, radii or speeds are no numbers"
+        words += f"; up to {lost} grains of a frame omitted: position, radius or speed is not finite"
     return words + "."
 
 
 def section(made, runs, options):
-    """HTML of the view of one run, or of one after the other of several, with its data put into the page: as many as
-    leave it a handy file. Where none has anything to be seen, why; empty where no view is asked for. FileError in the
-    page of a run whose frames are damaged."""
+    """HTML of the 3-D view of one or several runs, whose data it adds to the page up to a size limit. A reason if no
+    run can be shown; "" if --frames is 0. FileError on the page of a run with damaged frames."""
     if options.frames == 0:
         return ""
     spaces, largest, left = [], 0, 0
@@ -264,14 +262,14 @@ def section(made, runs, options):
             fault = damage.damaged(run.folder / "frames.h5")
             if made.kind == "run":
                 raise fault from error
-            damage.warn(made, {run.folder.name: str(fault)}, " It is left out of the view in space.")
+            damage.warn(made, {run.folder.name: str(fault)}, " It is not in the 3-D view.")
             continue
         if data:
             spaces.append(data)
             largest = max(largest, made.bytes() - before)
     if not spaces:
         why = damage.without_frames(runs[0])
-        return f"<p>Nothing is to be seen in space: {pages.esc(why)}.</p>" if why else ""
+        return f"<p>No 3-D view: {pages.esc(why)}.</p>" if why else ""
     made.need(pages.SPACE)
     made.data["spaces"] = spaces
     return frame_html(spaces, left, any("grains" in s for s in spaces), any("chassis" in s["names"] for s in spaces))
@@ -279,7 +277,7 @@ def section(made, runs, options):
 
 def frame_html(spaces, left, grains, vehicle):
     moves = any("grains" in s and "moved" in s["grains"]["ranges"] for s in spaces)
-    moved = '<option value="moved">way from the first frame [m]</option>' if moves else ""
+    moved = '<option value="moved">displacement since the first frame [m]</option>' if moves else ""
     colours = f"""<label>Colour of grains <select id="space-colour">{moved}
 <option value="speed">speed [m/s]</option><option value="height"{"" if moves else " selected"}>height z [m]</option></select></label>
 <span class="scale"><span id="space-low"></span><canvas id="space-scale" width="192" height="16" role="img"
@@ -288,18 +286,18 @@ def frame_html(spaces, left, grains, vehicle):
     several = ""
     if len(spaces) > 1:
         names = "".join(f"<option>{pages.esc(s['name'])}</option>" for s in spaces)
-        more = f" {left} more would make this page too large." if left else ""
+        more = f" {left} more omitted to limit the size of the page." if left else ""
         several = (f'<div class="controls"><label>Run <select id="space-run">{names}</select></label>'
-                   f'<span>{counted(len(spaces), "run")} can be chosen.{more}</span></div>')
+                   f'<span>{counted(len(spaces), "run")} to choose from.{more}</span></div>')
     return f"""<figure>{several}<div class="space" id="space"><canvas id="space-canvas" tabindex="0" role="application"
- aria-label="Grains and parts in space" aria-describedby="space-keys"></canvas>
+ aria-label="3-D view of grains and parts" aria-describedby="space-keys"></canvas>
 <div class="label" id="space-time" aria-live="off"></div></div>
-<div class="controls"><button id="space-back" aria-label="one frame back">&#9664;&#xfe0e;</button>
-<button id="space-play">Play</button><button id="space-on" aria-label="one frame on">&#9654;&#xfe0e;</button>
+<div class="controls"><button id="space-back" aria-label="previous frame">&#9664;&#xfe0e;</button>
+<button id="space-play">Play</button><button id="space-on" aria-label="next frame">&#9654;&#xfe0e;</button>
 <input type="range" id="space-frame" min="0" max="0" value="0" aria-label="frame">
 <button id="space-home">Reset view</button>{follow}</div>
 <div class="controls">{colours}</div>
-<figcaption><span id="space-words"></span> The white bar is the scale. <span id="space-keys" class="keys">Drag turns,
-wheel zooms, right button shifts. With the picture in focus: <kbd>Space</kbd> plays and pauses, <kbd>,</kbd>
-<kbd>.</kbd> step, <kbd>Home</kbd> <kbd>End</kbd> first and last frame, arrows turn, <kbd>+</kbd> <kbd>&minus;</kbd>
-zoom, <kbd>0</kbd> resets.</span></figcaption></figure>"""
+<figcaption><span id="space-words"></span> The white bar is the scale. <span id="space-keys" class="keys">Drag: rotate,
+wheel: zoom, right button: pan. Keys, with the view in focus: <kbd>Space</kbd> play and pause, <kbd>,</kbd>
+<kbd>.</kbd> step, <kbd>Home</kbd> <kbd>End</kbd> first and last frame, arrows rotate, <kbd>+</kbd> <kbd>&minus;</kbd>
+zoom, <kbd>0</kbd> reset.</span></figcaption></figure>"""

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The report of a sweep, or of anything else whose tables are a sweep's: figures over what was varied, means with
-intervals over seeds, every run."""
+"""The report of a sweep, or of other folders with the tables of a sweep: figures over the varied keys, means with
+intervals over seeds, all runs."""
 import contextlib
 import itertools
 import math
@@ -20,17 +20,17 @@ from grouser.series import counted
 from page import esc, facts, figure_with_bar, folded, number, run_name, table, term
 
 MOST_CURVES = 7
-MOST_SPACES = 16  # runs that can be chosen in space
+MOST_SPACES = 16  # runs in the list of the 3-D view
 MOST_LEDGERS = 100
 MOST_FILMS = 6e6  # bytes
 
 
 def text_of(keys):
-    return ", ".join(f"{name} = {value}" for name, value in zip(short_keys(keys), keys.values())) or "as the scene says"
+    return ", ".join(f"{name} = {value}" for name, value in zip(short_keys(keys), keys.values())) or "unchanged scene"
 
 
 def short_keys(keys):
-    """Their last words, and as many before these as keep them apart: "sand.friction" and "rock.friction"."""
+    """Shortest distinct endings of the keys: "sand.friction" and "rock.friction"."""
     words = [key.split(".") for key in keys]
 
     def end(of, count):
@@ -42,13 +42,13 @@ def short_keys(keys):
 
 
 def follows(sweep, name):
-    """Whether a figure only follows from what was varied: seeds make no difference to it, but for rounding."""
+    """Whether a figure depends only on the varied keys: seeds change it by no more than rounding."""
     means = [m.mean for m in sweep.means.get(name, []) if math.isfinite(m.mean.half_width)]
     return bool(means) and all(m.half_width <= 1e-9 * abs(m.value) for m in means)
 
 
 def lively(sweep):
-    """Figures that are there and that change; last those that only follow from what was varied."""
+    """Figures with values that change; last those that depend only on the varied keys."""
     found = []
     for name in sweep.units:
         values = sweep[name].value
@@ -59,7 +59,7 @@ def lively(sweep):
 
 
 def varied(sweep):
-    """The key whose values the plots go over: the first with several numbers, but for the seed."""
+    """The key on the x axis of the plots: the first one with several numeric values, except the seed."""
     for key in sweep.keys:
         values = sweep.values(key)
         if key != "run.seed" and values.dtype.kind == "f" and len(set(values)) > 1:
@@ -68,7 +68,7 @@ def varied(sweep):
 
 
 def unit_of(key, program):
-    """The unit of a scene's key, by the program's own tables; "-" where it has none, or cannot be asked."""
+    """The unit of a scene key from the program's tables; "-" if it has none or the program does not answer."""
     words = key.split(".")
     section, asked = (words[1], ["--vehicle"]) if words[0] == "spec" else (words[0], [])
     try:
@@ -90,8 +90,8 @@ def without(keys, *left_out):
 
 
 def across_of(sweep, program):
-    """What the plots go over: what stands at the axis, the place of a run's keys on it, the curve they belong to, and
-    words. The first key with several numbers, else the combinations by number; nothing of a single one."""
+    """x axis of the plots: label, functions from a run's keys to position and curve, and a note. The first key with
+    several numeric values, else the number of the combination; None for a single combination."""
     key = varied(sweep)
     if key is not None:
         return (f"{key} [{unit_of(key, program)}]", lambda keys: float(keys[key]),
@@ -103,8 +103,8 @@ def across_of(sweep, program):
 
 
 def curves_of(sweep, name, place, curve):
-    """{curve: points by place} of a figure: means over the seeds with their bars, or a point for each run; and how many
-    are left out, since too little was driven. Means whose bars are wider than they are large are drawn with these."""
+    """{curve: sorted points} of a figure: means over the seeds with error bars, or one point per run; and the number of
+    points omitted because too little was driven."""
     groups, left_out = {}, 0
     for mean in sweep.means.get(name, []):
         half = mean.mean.half_width
@@ -126,7 +126,8 @@ def plots(made, sweep, program):
     if across is None:
         return ""
     axis, place, curve, words = across
-    told = "Mean over the seeds; bar: its 95 % interval." if sweep.means else "A point for each run; no bars: one run each."
+    told = "Mean over the seeds; bar: 95 % interval." if sweep.means else \
+        "One point per run; no error bars: one run each."
     inner, hidden = [], []
     for name in lively(sweep):
         groups, left_out = curves_of(sweep, name, place, curve)
@@ -136,13 +137,13 @@ def plots(made, sweep, program):
             hidden.append(esc(definitions.label(name)))
         if drawn:
             alone = sum(math.isnan(half) for _, _, _, *halves in drawn for half in (halves[0] if halves else ()))
-            more = f" No bar where one seed alone has ended: {alone} of the points." if alone else ""
-            more += f" {len(groups) - MOST_CURVES} more combinations stand in the table." if len(groups) > MOST_CURVES else ""
-            more += f" Left out, since inconclusive: {counted(left_out, 'point')}." if left_out else ""
+            more = f" No error bar for {counted(alone, 'point')} with only one finished seed." if alone else ""
+            more += f" {len(groups) - MOST_CURVES} more combinations in the table." if len(groups) > MOST_CURVES else ""
+            more += f" Omitted as inconclusive: {counted(left_out, 'point')}." if left_out else ""
             label = definitions.label(name)
             inner.append(made.plot(label[:1].upper() + label[1:], axis, f"{label} [{sweep.units[name]}]", drawn,
                                    told + words + more, marks=True, whole=bool(words), about=definitions.definition(name)))
-    note = f"<p>Not drawn, since all of it is inconclusive: {', '.join(hidden)}.</p>" if hidden else ""
+    note = f"<p>Not drawn, all values inconclusive: {', '.join(hidden)}.</p>" if hidden else ""
     return note + (f'<div class="plots">{"".join(inner)}</div>' if inner else "")
 
 
@@ -158,7 +159,7 @@ def means_table(sweep):
     words = "Means over the seeds, \u00b1 half of the 95 % interval."
     words += definitions.note({name: [m.mean.value for m in sweep.means[name]] for name in names})
     if max(m.seeds for m in sweep.means[names[0]]) == 2:
-        words += " Of two seeds that is 12.7 standard errors: three or more tell more."
+        words += " With two seeds this is 12.7 standard errors; use three or more."
     if len(combinations) <= 6:
         rows = [[term(n), esc(sweep.units[n]), *(figure_with_bar(m.mean.value, half(m.mean), "", f"{n} {text_of(m.keys)}",
                                                                          bool(m.inconclusive))
@@ -175,7 +176,7 @@ def means_table(sweep):
 
 
 def runs_table(sweep, faults):
-    """`faults`: {run: what is wrong with its files}."""
+    """`faults`: {run: fault of its files}."""
     def message(run):
         fault = faults.get(run.name)
         doubt = f"Inconclusive: {run.inconclusive}" if run.inconclusive and run.inconclusive != run.message else ""
@@ -195,11 +196,11 @@ def runs_table(sweep, faults):
     headings = ["run", *sweep.keys, "status", *(["message"] if has_words else []),
                 *(f"{n} [{sweep.units[n]}]" for n in names), "state hash"]
     note = definitions.note({name: [run.figures[name] for run in sweep.runs] for name in names})
-    return table(headings, rows, f"Every run, as summary.csv has it.{note}", numeric=range(first, first + len(names)))
+    return table(headings, rows, f"All runs, as in summary.csv.{note}", numeric=range(first, first + len(names)))
 
 
 def opened(folders):
-    """The runs of folders that hold some which can be read."""
+    """The readable runs in the folders."""
     for folder in folders:
         try:
             yield damage.open_whole(folder)
@@ -208,36 +209,36 @@ def opened(folders):
 
 
 def faults_of(folders):
-    """{run: what is wrong with its files}, of those of which something is."""
+    """{run: fault of its files} for runs with missing or damaged files."""
     return {folder.name: fault for folder in folders if (fault := damage.fault_of(folder))}
 
 
 def first_whole(groups):
-    """Of groups of folders of runs, the first of each that is whole, or its first; and what is wrong with any of them."""
+    """From each group of run folders the first undamaged one, or else the first; and the faults of all folders."""
     faults = faults_of([folder for group in groups for folder in group])
     return [next((folder for folder in group if folder.name not in faults), group[0]) for group in groups if group], faults
 
 
 def add_runs(made, folders, options, words):
-    """Of runs that are there: films, the view in space of one after the other, their ledgers; of the first what was on
-    and off, its scene, its machine. `folders`: whose runs are told; `words`: which these are."""
+    """Adds films, 3-D view and ledgers of the runs, and active features, scene and provenance of the first one.
+    `folders`: those of the runs; `words`: describes the selection."""
     with contextlib.ExitStack() as stack:
         runs = [stack.enter_context(run) for run in itertools.islice(opened(folders), MOST_LEDGERS)]
         made.section("films", "Films", films(folders, options))
         if not runs:
             return
         view = space.section(made, runs[:MOST_SPACES], options)
-        made.section("space", "In space", f"<p>{esc(words)}</p>{view}" if view else "")
+        made.section("space", "3-D view", f"<p>{esc(words)}</p>{view}" if view else "")
         made.section("ledger", "Energy ledgers", run_page.ledger(runs))
         name = esc(runs[0].folder.name)
-        made.section("switches", "What was on and off",
-                     f"<p>In the run <code>{name}</code>.</p>{run_page.switches(runs[0].manifest)}")
-        made.section("scene", "Scene", run_page.scene(runs[0], f"The resolved scene of {runs[0].folder.name}"))
-        made.section("first", "The first run", run_page.provenance(runs[0]))
+        made.section("switches", "Active features",
+                     f"<p>Run <code>{name}</code>.</p>{run_page.switches(runs[0].manifest)}")
+        made.section("scene", "Scene", run_page.scene(runs[0], f"Resolved scene of {runs[0].folder.name}"))
+        made.section("first", "First run", run_page.provenance(runs[0]))
 
 
 def films(folders, options):
-    """Those of the runs: in their folders, or beside them with their names."""
+    """Films in the folders of the runs or next to them."""
     if options.film:
         return run_page.films([], options)
     return run_page.films(list(dict.fromkeys([*(f.parent for f in folders), *(f for f in folders if f.is_dir())])),
@@ -245,7 +246,7 @@ def films(folders, options):
 
 
 def first_seeds(sweep, faults):
-    """Folders of the runs that have finished and are whole, of each combination the first one."""
+    """Folder of the first finished and undamaged run of each combination."""
     found = {}
     for run in sweep.runs:
         if run.status in ("finished", "incomplete"):
@@ -260,8 +261,8 @@ def page(folder, options):
     made = pages.Page(f"{sweep.folder.resolve().name} (sweep)", "sweep", folder)
     ended = [run.status for run in sweep.runs]
     if all(status in ("pending", "running") for status in ended):
-        raise grouser.FileError(f"{folder}: none of the {counted(len(ended), 'run')} of this sweep has ended yet; the same call of "
-                                "grouser sweep goes on with it")
+        raise grouser.FileError(f"{folder}: none of the {counted(len(ended), 'run')} of this sweep has finished; run "
+                                "the same grouser sweep command again to continue it")
     bad = [run for run in sweep.runs if run.status not in ("finished", "pending")]
     told = facts([("varied", ", ".join(f"<code>{esc(k)}</code>: {esc(', '.join(dict.fromkeys(r.keys[k] for r in sweep.runs)))}"
                                        for k in sweep.keys)),
@@ -269,12 +270,12 @@ def page(folder, options):
     if bad:
         told += "".join(f'<p class="bad">{esc(run.name)}: {esc(run.status)}. {esc(run.message)}</p>' for run in bad)
     faults = faults_of([run.folder for run in sweep.runs if run.status in ("finished", "incomplete")])
-    damage.warn(made, faults, " Their figures are those that summary.csv has kept; what cannot be read is not in the view "
-                "in space and the ledgers.")
-    made.section("figures", "Figures", told + means_table(sweep) + folded("Every run", runs_table(sweep, faults),
+    damage.warn(made, faults, " Figures are those of summary.csv; unreadable runs are missing in the 3-D view and the "
+                "ledgers.")
+    made.section("figures", "Figures", told + means_table(sweep) + folded("All runs", runs_table(sweep, faults),
                                                                            opened=not sweep.means or bool(faults)))
     if grounds := ground_table.section(folder):
         made.section("grounds", "Comparison", grounds)
     made.section("plots", "Plots", plots(made, sweep, options.program))
-    add_runs(made, first_seeds(sweep, faults), options, "The first run of each combination.")
+    add_runs(made, first_seeds(sweep, faults), options, "First run of each combination.")
     return made

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The 3-D view of grains and parts over time, by three.js: spheres as points that the shader makes round.
+// The 3-D view of grains and parts over time, with three.js: spheres are points shaded as spheres.
 "use strict";
 
-const kAbsent = 65535; // of a coordinate: the grain is not in that frame
+const kAbsent = 65535; // code of a coordinate: the grain is not in that frame
 const kColours = [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.15]];
 
 function colourOf(share, out, at) {
@@ -11,7 +11,7 @@ function colourOf(share, out, at) {
   for (let c = 0; c < 3; ++c) out[at + c] = kColours[k][c] * (1 - t) + kColours[k + 1][c] * t;
 }
 
-/** Of the material of what stands before the grains, or not. */
+/** Material options of a part, transparent if it would hide the grains. */
 function clearness(clear) {
   return { transparent: !!clear, depthWrite: !clear, opacity: clear ? 0.2 : 1 };
 }
@@ -45,7 +45,7 @@ void main() {
   gl_FragColor = vec4(vTint * light, 1.0);
 }`;
 
-/** A run in space. Several share the canvas, its renderer and the controls below it; report.space is the one shown. */
+/** The 3-D view of a run. All share the canvas, its renderer and the controls; report.space is the visible one. */
 class Space {
   constructor(data, renderer) {
     this.data = data;
@@ -73,7 +73,7 @@ class Space {
     this.home();
   }
 
-  /** Takes canvas and controls. */
+  /** Activates this view on canvas and controls. */
   enter() {
     this.controls.enabled = true;
     this.slider.max = this.time.length - 1;
@@ -90,7 +90,7 @@ class Space {
   addGrains(g) {
     const codes = report.arrays[g.places];
     const [frames, , count] = codes.shape;
-    // Frames are stored as what has changed since the one before.
+    // Frames are stored as differences from the previous one.
     for (let i = 3 * count; i < codes.length; ++i) codes[i] += codes[i - 3 * count];
     this.grains = { codes, count, frames, speed: report.arrays[g.speed], ...g };
     this.grains.speed = report.arrays[g.speed];
@@ -140,7 +140,7 @@ class Space {
     }
   }
 
-  /** A bar of a round length along x, before the box of all there is. */
+  /** A scale bar of a round length along x, in front of the bounding box. */
   addScale(box) {
     const [low, high] = box, wide = high[0] - low[0];
     const length = [1, 2, 5].map((d) => d * 10 ** Math.floor(Math.log10(wide / 3))).filter((l) => l <= wide / 2).pop()
@@ -169,7 +169,7 @@ class Space {
     const [low, high] = this.data.box;
     const size = Math.hypot(...high.map((h, k) => h - low[k])) || 1;
     this.controls.target.set(...high.map((h, k) => 0.5 * (h + low[k])));
-    this.controls.target.z -= 0.08 * size; // so that the scale before the box is seen
+    this.controls.target.z -= 0.08 * size; // so that the scale bar is visible
     const away = new THREE.Vector3(-0.45, -1, 0.55).normalize().multiplyScalar(1.2 * size);
     this.camera.position.copy(this.controls.target).add(away);
     this.camera.near = size / 500;
@@ -181,7 +181,7 @@ class Space {
     this.follow();
   }
 
-  /** Whether the whole box and the label of the scale are in the picture. */
+  /** Whether the bounding box and the label of the scale bar are visible. */
   isInView() {
     if (this.canvas.clientHeight) this.camera.aspect = this.canvas.clientWidth / this.canvas.clientHeight;
     this.camera.updateMatrixWorld();
@@ -256,7 +256,7 @@ class Space {
     this.play.textContent = "Play";
   }
 
-  /** Coordinate `k` of grain `i` in a frame [m], from the middle of the box; NaN where it is not there. */
+  /** Coordinate `k` of grain `i` in a frame [m], from the middle of the box; NaN if the grain is absent. */
   coordinate(frame, k, i) {
     const g = this.grains, code = g.codes[(3 * frame + k) * g.count + i];
     return code === kAbsent ? NaN : g.low[k] + code * g.unit[k];
@@ -291,7 +291,8 @@ class Space {
       pen.fillRect(x, 0, 1, strip.height);
     }
     document.getElementById("space-low").textContent = report.shown(low) + " " + unit;
-    document.getElementById("space-high").textContent = report.shown(high) + " " + unit + (what === "height" ? "" : " and more");
+    document.getElementById("space-high").textContent =
+      report.shown(high) + " " + unit + (what === "height" ? "" : " or more");
   }
 
   follow() {
@@ -336,7 +337,7 @@ class Space {
   }
 }
 
-/** What is pressed and chosen goes to the run that is shown. */
+/** Connects the controls to the visible view. */
 function connectSpace(canvas, choose) {
   const get = (id) => document.getElementById("space-" + id), on = (id, kind, does) => {
     if (get(id)) get(id).addEventListener(kind, does);
@@ -353,12 +354,12 @@ function connectSpace(canvas, choose) {
   new ResizeObserver(() => report.space.render()).observe(canvas);
 }
 
-/** The view of the runs in `list`, the first of them shown; false where the browser cannot. */
+/** Opens the views of the runs in `list` and shows the first; false if the browser lacks WebGL. */
 report.openSpaces = function (list) {
   const trial = document.createElement("canvas");
   const context = trial.getContext("webgl");
   if (!context || !context.getExtension("EXT_frag_depth")) {
-    document.getElementById("space").textContent = "This browser draws no 3-D pictures (WebGL).";
+    document.getElementById("space").textContent = "The 3-D view requires WebGL (EXT_frag_depth).";
     return false;
   }
   context.getExtension("WEBGL_lose_context")?.loseContext();

@@ -15,10 +15,10 @@ inline terrain::RadiusDistribution bedRadii(const Terrain& t) {
   return {*t.radiusDistribution, *t.grainRadius, t.radiusSpread.value_or(0), t.sieveSize, t.sievePassing};
 }
 
-/// The key that gives the radii of a bed, which messages name.
+/// The key of a bed's radii, for messages.
 inline const char* radiiKey(const Terrain& t) { return t.sieveSize.empty() ? "grain_radius" : "sieve_size"; }
 
-/// What that key says, as text: "terrain.grain_radius = 0.025 m", or "the sieves of terrain.sieve_size, to 0.05 m".
+/// Its value as text: "terrain.grain_radius = 0.025 m", or "the sieves of terrain.sieve_size, to 0.05 m".
 inline std::string radiiText(const Terrain& t) {
   return t.sieveSize.empty() ? fmt::format("terrain.grain_radius = {:g} m", *t.grainRadius)
                              : fmt::format("the sieves of terrain.sieve_size, to {:g} m", t.sieveSize.back());

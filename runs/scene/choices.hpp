@@ -13,11 +13,10 @@
 #include "vehicle/driver.hpp"
 #include "vehicle/hitch.hpp"
 
-/// What a scene file chooses from a list of words. An enum of the solvers serves here as it is; the words stand here
-/// alone.
+/// Enums of scene files and their words. Enums of the solvers are used directly; their words are defined only here.
 namespace grouser::scene {
 
-/// Of [[grains]]: where the centres come from.
+/// Source of the centres of [[grains]].
 enum class FillForm { lattice, random, file };
 
 /// Contact method of grains, [run].
@@ -26,7 +25,7 @@ enum class ContactMethod {
   complementarity ///< impulses of all contacts, solved for simultaneously
 };
 
-/// Of [terrain].
+/// Ground of [terrain].
 enum class TerrainKind {
   granular,
   rigid,
@@ -36,10 +35,10 @@ enum class TerrainKind {
 /// [scm]: source of the constants that the section omits.
 enum class SoilConstantsFrom { published, measured };
 
-/// Of a granular [terrain]: how its grains are laid before they settle.
+/// Initial arrangement of the grains of a granular [terrain].
 enum class Arrangement { random, lattice };
 
-/// Of [vehicle]: whether the chassis moves, runs on rails, or is held as on a bench.
+/// Mount of the chassis of [vehicle].
 enum class ChassisMount {
   free,
   fixed,
@@ -47,25 +46,25 @@ enum class ChassisMount {
   level   ///< it moves along and rises
 };
 
-/// Of [vehicle].
+/// Tracks of [vehicle].
 enum class Tracks {
   both,
   single ///< in the middle of the hull, as on a test rig
 };
 
-/// Of [vehicle]: the parts that soil meets.
+/// Parts of [vehicle] with soil contact.
 enum class SoilContact {
   all,  ///< every part but the hull
   shoes ///< nothing of the inner running gear: no wheel, sprocket, idler or roller
 };
 
-/// Of the world.
+/// Axes of the world.
 enum class Axis { x, y, z };
 
 /// Surface of a body.
 enum class ShapeKind { sphere, box, cylinder, capsule, cone, mesh };
 
-/// Of a surface beside a bed that settles first: whether the bed is laid around it, or settles without it.
+/// Placement of a surface in a scene whose bed settles: the bed is laid around it, or settles without it.
 enum class PlacedWhen { before, afterSettling };
 
 } // namespace grouser::scene
@@ -177,7 +176,7 @@ template <> struct EnumWords<multibody::JointType> {
                                          {E::kCylindrical, "cylindrical"}, {E::kFixed, "fixed"},
                                          {E::kDistance, "distance"}};
 };
-/// kOnly has no word: it is what a section means that names no axis.
+/// kOnly has no word: it stands for a section that names no axis.
 template <> struct EnumWords<multibody::JointAxis> {
   using E = multibody::JointAxis;
   static constexpr EnumWord<E> list[] = {{E::kAngle, "angle"}, {E::kSlide, "slide"}};

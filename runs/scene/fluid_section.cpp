@@ -20,31 +20,31 @@ base::Table<Fluid> fluidTable() {
                    "Weakly compressible fluid of particles (SPH) in a tank with solid walls, around the planes, "
                    "boxes, cylinders and meshes of the scene, its rigid terrain and its bodies with shapes");
   t.add("spacing", &S::spacing, "m", "initial distance of particles").required().atLeast(1e-5).atMost(10);
-  t.add("dimensions", &S::dimensions, "", "3, or 2: the plane y = 0, in which masses and forces count per metre")
+  t.add("dimensions", &S::dimensions, "", "3, or 2: the plane y = 0, with masses and forces per metre")
       .atLeast(2)
       .atMost(3);
   t.add("tank_low", &S::tankLow, "m",
         "lower corner of the inner faces of the tank; default: the terrain's borders, from its lowest point")
       .atLeast(-kFarthest)
       .atMost(kFarthest);
-  t.add("tank_high", &S::tankHigh, "m", "upper corner of these; required with tank_low")
+  t.add("tank_high", &S::tankHigh, "m", "upper corner of the inner faces; required with tank_low")
       .atLeast(-kFarthest)
       .atMost(kFarthest);
-  t.add("lid", &S::lid, "", "closes the tank at the top, which is open otherwise");
+  t.add("lid", &S::lid, "", "whether the tank is closed at the top");
   t.add("level", &S::level, "m", "z up to which the tank is filled with fluid at rest")
       .atLeast(-kFarthest)
       .atMost(kFarthest);
-  t.add("density", &S::density, "kg/m3", "at zero pressure").atLeast(1).atMost(1e5);
-  t.add("viscosity", &S::viscosity, "Pa s", "dynamic; above 0 the fluid does not slip along walls (operator of Morris)")
+  t.add("density", &S::density, "kg/m3", "density at zero pressure").atLeast(1).atMost(1e5);
+  t.add("viscosity", &S::viscosity, "Pa s", "dynamic viscosity; above 0: no slip along walls (operator of Morris)")
       .atLeast(0)
       .atMost(1e6);
   t.add("sound_speed", &S::soundSpeed, "m/s",
-        "numerical, 10 times the flow or more; default: 10 max(expected_speed, sqrt(greatest pressure at rest / "
-        "density))")
+        "numerical speed of sound, at least 10 times that of the flow; default: 10 max(expected_speed, sqrt(maximum "
+        "pressure at rest / density))")
       .above(0)
       .atMost(1e4);
   t.add("expected_speed", &S::expectedSpeed, "m/s",
-        "greatest of the flow; default: sqrt(2 g depth), or that of a [[fluid.box]] where it is faster")
+        "maximum flow speed; default: sqrt(2 g depth), or the speed of a [[fluid.box]] if larger")
       .above(0)
       .atMost(1e3);
   t.add("smoothing", &S::smoothing, "-", "smoothing length over spacing").atLeast(1.2).atMost(2);
@@ -63,17 +63,17 @@ base::Table<FluidBox> fluidBoxTable() {
   base::Table<S> t("[fluid.box]", "Fluid that fills a box at the start, hydrostatic below its top");
   t.add("low", &S::low, "m", "lower corner").required().atLeast(-kFarthest).atMost(kFarthest);
   t.add("high", &S::high, "m", "upper corner").required().atLeast(-kFarthest).atMost(kFarthest);
-  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e3).atMost(1e3);
+  t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e3).atMost(1e3);
   return t;
 }
 
 base::Table<FluidProbe> fluidProbeTable() {
   using S = FluidProbe;
-  base::Table<S> t("[fluid.probe]", "Place where pressure or level of the fluid is recorded in every row");
-  t.add("name", &S::name, "", "of its column").required();
+  base::Table<S> t("[fluid.probe]", "Point where pressure or level of the fluid is recorded in every row");
+  t.add("name", &S::name, "", "name of its column").required();
   t.add("kind", &S::kind, "",
         "pressure at the position, or level on a vertical wire from there: its z plus the wetted length");
-  t.add("position", &S::position, "m", "of the probe; of a level the foot of its wire, on the ground")
+  t.add("position", &S::position, "m", "position of the probe; for a level the foot of its wire, on the ground")
       .required()
       .atLeast(-kFarthest)
       .atMost(kFarthest);
@@ -84,29 +84,29 @@ base::Table<FluidProbe> fluidProbeTable() {
 void checkNeighbours(const Section& section, const Scene& scene) {
   const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
   if (grains || (scene.terrain && scene.terrain->granular()))
-    section.fail("", "stands beside grains, whose drag and buoyancy in a fluid are not modelled; remove the grains "
-                     "(terrain.kind = \"rigid\"), or [fluid]");
+    section.fail("", "is incompatible with grains, whose drag and buoyancy in a fluid are not modelled; remove the "
+                     "grains (terrain.kind = \"rigid\"), or [fluid]");
   if (scene.deformable())
-    section.fail("", "stands beside deformable soil, which water does not change in this program; set terrain.kind = "
-                     "\"rigid\", or remove [fluid]");
+    section.fail("", "is incompatible with deformable soil, since the effect of water on it is not modelled; set "
+                     "terrain.kind = \"rigid\", or remove [fluid]");
   const auto moving = [&](const char* list, const auto& surfaces) {
     for (std::size_t k = 0; k < surfaces.size(); ++k)
       if (surfaces[k].moves())
-        scene.fail(list, k, "", "moves by itself, which [fluid] does not follow; make it a [[body]] with a [[drive]]");
+        scene.fail(list, k, "", "moves, but [fluid] does not support moving surfaces; use a [[body]] with a [[drive]]");
   };
   moving("plane", scene.planes), moving("box", scene.boxes);
   moving("cylinder", scene.cylinders), moving("mesh", scene.meshes);
   for (std::size_t k = 0; k < scene.cylinders.size(); ++k)
     if (scene.cylinders[k].hollow)
-      scene.fail("cylinder", k, "hollow", "has no thickness, through which fluid would act; use a closed [[mesh]]");
+      scene.fail("cylinder", k, "hollow", "has zero thickness, which [fluid] does not support; use a closed [[mesh]]");
 }
 
-/// low < high, and as many spacings between them as the kernel needs.
+/// Throws InputError unless the corners are at least `least` [m] apart.
 void checkCorners(const Section& section, const char* high, const base::Vec3d& from, const base::Vec3d& to,
                   double least, bool plane) {
   for (int a = 0; a < 3; ++a)
     if (!(plane && a == 1) && !(to[a] - from[a] >= least))
-      section.fail(high, fmt::format("[m] lies {:.4g} m above the lower corner along {}, less than {:g} m; raise it",
+      section.fail(high, fmt::format("[m] is {:.4g} m above the lower corner along {}, less than {:g} m; raise it",
                                      to[a] - from[a], "xyz"[a], least));
 }
 
@@ -115,15 +115,15 @@ void checkTank(const Section& section, const Fluid& fluid, const Scene& scene) {
     section.fail(fluid.tankLow ? "tank_low" : "tank_high",
                  fmt::format("[m] requires tank_{}; give both corners", fluid.tankLow ? "high" : "low"));
   if (!fluid.tankLow && !scene.terrain)
-    section.fail("", "has no walls to hold it; give tank_low and tank_high, or a rigid [terrain]");
+    section.fail("", "has no tank; give tank_low and tank_high, or a rigid [terrain]");
   if (fluid.dimensions == 2 && (scene.terrain || scene.vehicle))
     section.fail("dimensions",
-                 fmt::format("= 2 is for a tank without {}; use 3", scene.terrain ? "terrain" : "vehicle"));
+                 fmt::format("= 2 is incompatible with {}; use 3", scene.terrain ? "terrain" : "vehicle"));
   if (fluid.tankLow)
     checkCorners(section, "tank_high", *fluid.tankLow, *fluid.tankHigh, 4 * fluid.spacing, fluid.dimensions == 2);
   if (fluid.level && fluid.tankLow && !(*fluid.level > fluid.tankLow->z && *fluid.level <= fluid.tankHigh->z))
-    section.fail("level", fmt::format("[m] lies outside the tank, which reaches from z = {:g} to {:g} m; correct it",
-                                      fluid.tankLow->z, fluid.tankHigh->z));
+    section.fail("level", fmt::format("[m] is outside the tank, z in [{:g}, {:g}] m; correct it", fluid.tankLow->z,
+                                      fluid.tankHigh->z));
 }
 
 void checkBox(const Section& section, const FluidBox& box, const Fluid& fluid) {
@@ -133,23 +133,23 @@ void checkBox(const Section& section, const FluidBox& box, const Fluid& fluid) {
   for (int a = 0; a < 3; ++a)
     if (!(plane && a == 1) && (box.low[a] < (*fluid.tankLow)[a] || box.high[a] > (*fluid.tankHigh)[a]))
       section.fail(box.low[a] < (*fluid.tankLow)[a] ? "low" : "high",
-                   fmt::format("[m] lies outside the tank along {}, from {:g} to {:g} m; correct it", "xyz"[a],
+                   fmt::format("[m] is outside the tank along {}, [{:g}, {:g}] m; correct it", "xyz"[a],
                                (*fluid.tankLow)[a], (*fluid.tankHigh)[a]));
 }
 
 void checkProbe(const Section& section, const FluidProbe& probe, const Fluid& fluid) {
   const auto usual = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
   if (probe.name.empty() || !std::all_of(probe.name.begin(), probe.name.end(), usual))
-    section.fail("name", "names a column: use letters, digits, _ and -");
+    section.fail("name", "names a column; use only letters, digits, _ and -");
   for (const FluidProbe& other : fluid.probes)
-    if (other.name == probe.name) section.fail("name", "is that of another probe; choose another");
+    if (other.name == probe.name) section.fail("name", "is the name of another probe; choose another");
 }
 
 void checkFluid(const Section& section, Fluid& fluid, const Scene& scene) {
   checkNeighbours(section, scene);
   checkTank(section, fluid, scene);
   if (fluid.soundSpeed && fluid.expectedSpeed)
-    section.fail("expected_speed", "[m/s] has no effect beside sound_speed; remove one of them");
+    section.fail("expected_speed", "[m/s] has no effect with sound_speed; remove one of them");
   for (const Section& box : section.list("box")) {
     fluid.boxes.push_back(box.read(fluidBoxTable()));
     checkBox(box, fluid.boxes.back(), fluid);
@@ -160,7 +160,7 @@ void checkFluid(const Section& section, Fluid& fluid, const Scene& scene) {
     fluid.probes.push_back(probe);
   }
   if (!fluid.level && fluid.boxes.empty())
-    section.fail("level", "is missing, and there is no [[fluid.box]]: there is no fluid; add one of them");
+    section.fail("level", "is missing, and there is no [[fluid.box]], so the scene has no fluid; add one of them");
 }
 
 } // namespace

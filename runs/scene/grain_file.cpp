@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains from a text file: a grain a line, between blanks, tabs, commas or semicolons.
+// Grains from a text file: one grain per line, separated by blanks, tabs, commas or semicolons.
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 
@@ -24,7 +24,7 @@ struct Column {
   const char *name, *unit;
   double least, most;
 };
-constexpr double kFar = std::numeric_limits<double>::max(); // places have limits of their own, by the grains' radii
+constexpr double kFar = std::numeric_limits<double>::max(); // positions have separate limits, from the grains' radii
 constexpr std::array<Column, 10> kColumns{{{"x", "m", -kFar, kFar},
                                            {"y", "m", -kFar, kFar},
                                            {"z", "m", -kFar, kFar},
@@ -36,7 +36,7 @@ constexpr std::array<Column, 10> kColumns{{{"x", "m", -kFar, kFar},
                                            {"wy", "rad/s", -1e6, 1e6},
                                            {"wz", "rad/s", -1e6, 1e6}}};
 constexpr std::size_t kRadius = 3;
-constexpr const char* kLines = "x, y, z, r [m], alone, with vx, vy, vz [m/s], or with these and wx, wy, wz [rad/s]";
+constexpr const char* kLines = "x, y, z, r [m], optionally with vx, vy, vz [m/s], then wx, wy, wz [rad/s]";
 
 bool isComplete(std::size_t columns) { return columns == 4 || columns == 7 || columns == 10; }
 
@@ -45,7 +45,7 @@ struct TextField {
   std::size_t at; ///< index of its first character
 };
 
-/// One line of the file; throws its faults with their place.
+/// One line of the file; errors name its position.
 struct TextLine {
   const std::string& file;
   int number;
@@ -71,12 +71,13 @@ std::vector<TextField> fieldsOf(const TextLine& line) {
   std::vector<TextField> fields;
   const std::size_t comma = text.find(','), semicolon = text.find(';');
   const auto empty = [&](std::size_t at) {
-    line.fail(at, fmt::format("column {} is empty; write its number, e.g. 0, or leave out this separator",
-                              fields.size() + 1));
+    line.fail(at,
+              fmt::format("column {} is empty; add its number, e.g. 0, or remove this separator", fields.size() + 1));
   };
   if (comma != std::string_view::npos && semicolon != std::string_view::npos)
-    line.fail(std::max(comma, semicolon), "commas and semicolons in one line; separate numbers by one of them, and "
-                                          "write decimals with a point, as 1.5");
+    line.fail(
+        std::max(comma, semicolon),
+        "line mixes commas and semicolons; use one of them as separator, and write decimals with a point, such as 1.5");
   const std::size_t first = std::min(comma, semicolon);
   if (first != std::string_view::npos) {
     const char separator = text[first];
@@ -99,7 +100,7 @@ std::vector<TextField> fieldsOf(const TextLine& line) {
   return fields;
 }
 
-/// Whether a first line is names of columns, perhaps in quotes: no number begins like them.
+/// Returns true if the first line names columns (with or without quotes).
 bool isHeader(const std::vector<TextField>& fields) {
   std::string_view word = fields[0].text;
   if (word.size() > 1 && word[0] == '"') word.remove_prefix(1);
@@ -136,12 +137,12 @@ std::size_t readHeader(const TextLine& line, const std::vector<TextField>& field
     if (open == std::string::npos) continue;
     const std::string unit = text.substr(open + 1, text.find_first_of("])", open) - open - 1);
     if (unit != wanted.unit)
-      line.fail(fields[k].at,
-                fmt::format("column {} of the header is in [{:.40}], expected [{}]; convert its numbers, they "
-                            "are read as {} in {}",
-                            column, unit, wanted.unit, wanted.name, wanted.unit));
+      line.fail(
+          fields[k].at,
+          fmt::format("column {} of the header has unit [{:.40}], expected [{}]; convert its numbers to {} in [{}]",
+                      column, unit, wanted.unit, wanted.name, wanted.unit));
   }
-  if (!isComplete(column)) line.fail(0, fmt::format("the header names {} columns; give {}", column, kLines));
+  if (!isComplete(column)) line.fail(0, fmt::format("the header has {} columns; expected {}", column, kLines));
   return column;
 }
 
@@ -155,10 +156,10 @@ double readNumber(const TextLine& line, const TextField& field, std::size_t colu
   const auto fail = [&](const std::string& message) {
     line.fail(field.at, fmt::format("column {}, {} = {:.40} [{}] {}", column + 1, c.name, text, c.unit, message));
   };
-  if (text[0] == '"') fail("stands in quotes; remove them");
+  if (text[0] == '"') fail("is in quotes; remove them");
   if (error == std::errc::result_out_of_range) fail("is outside the range of double precision; correct it");
   if (error != std::errc() || end != to)
-    fail("is not a number; write decimals with a point, as 1.5e-3, and separate numbers by commas or blanks");
+    fail("is not a number; write decimals with a point, such as 1.5e-3, and separate numbers by commas or blanks");
   if (!std::isfinite(value)) fail("is not finite; correct it");
   if (column == kRadius ? !(value > c.least && value <= c.most) : !(value >= c.least && value <= c.most))
     fail(fmt::format("is outside {}{:g}, {:g}]; correct it", column == kRadius ? '(' : '[', c.least, c.most));
@@ -167,16 +168,16 @@ double readNumber(const TextLine& line, const TextField& field, std::size_t colu
 
 std::string textOf(const std::string& file) {
   std::error_code error;
-  // A device may have no end, and a pipe nobody who writes into it.
+  // Reading a device or pipe may never end.
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    throw base::InputError(fmt::format("{}: is not a regular file; name a text file with a grain a line", file));
+    throw base::InputError(fmt::format("{}: not a regular file; name a text file with one grain per line", file));
   std::ifstream in(file, std::ios::binary);
   if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3); // UTF-8's byte order mark, as in TOML files
   if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
     throw base::InputError(
-        fmt::format("{}: is not plain text (UTF-16, compressed or binary); save it as UTF-8 or ASCII text", file));
+        fmt::format("{}: not plain text (UTF-16, compressed or binary); save it as UTF-8 or ASCII text", file));
   return text;
 }
 
@@ -199,15 +200,14 @@ std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill)
       continue;
     }
     if (fields.size() != header.value_or(fields.size()))
-      line.fail(0,
-                fmt::format("{} numbers, but the header names {} columns; correct the line", fields.size(), *header));
+      line.fail(0, fmt::format("{} numbers, but the header has {} columns; correct the line", fields.size(), *header));
     std::array<double, kColumns.size()> values{};
     for (std::size_t k = 0; k < std::min(fields.size(), values.size()); ++k) values[k] = readNumber(line, fields[k], k);
-    if (!isComplete(fields.size())) line.fail(0, fmt::format("{} numbers; a line has {}", fields.size(), kLines));
+    if (!isComplete(fields.size())) line.fail(0, fmt::format("{} numbers; expected {}", fields.size(), kLines));
     if (!width) width = fields.size();
     if (fields.size() != *width)
-      line.fail(0,
-                fmt::format("{} numbers, but the lines before have {}; give all lines as many", fields.size(), *width));
+      line.fail(0, fmt::format("{} numbers, but earlier lines have {}; use the same number in all lines", fields.size(),
+                               *width));
     const auto vectorAt = [&](std::size_t at) { return base::Vec3d{values[at], values[at + 1], values[at + 2]}; };
     grains.push_back({vectorAt(0),
                       fields.size() >= 7 ? vectorAt(4) : fill.velocity,
@@ -216,7 +216,7 @@ std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill)
                       fill.material,
                       {}});
   }
-  if (grains.empty()) throw base::InputError(fmt::format("{}: holds no grain; give lines of {}", file, kLines));
+  if (grains.empty()) throw base::InputError(fmt::format("{}: contains no grains; add lines with {}", file, kLines));
   return grains;
 }
 

@@ -16,42 +16,48 @@ using base::Table;
 Table<Grain> grainTable() {
   using S = Grain;
   Table<S> t("[grain]", "A single grain, for small scenes");
-  t.add("position", &S::position, "m", "of the centre").required();
-  t.add("velocity", &S::velocity, "m/s", "at the start").atLeast(-1e4).atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "angular velocity at the start").atLeast(-1e6).atMost(1e6);
-  t.add("radius", &S::radius, "m", "of the sphere").above(0).atMost(1e3).required();
+  t.add("position", &S::position, "m", "position of the centre").required();
+  t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "initial angular velocity").atLeast(-1e6).atMost(1e6);
+  t.add("radius", &S::radius, "m", "radius of the sphere").above(0).atMost(1e3).required();
   t.add("material", &S::material, "", "name of its material").required();
   t.add("above_bed", &S::aboveBed, "m",
-        "height of its lowest point over the highest grain under it once the bed has settled; instead of position's z")
+        "height of its lowest point above the highest grain under it once the bed has settled; replaces the z of "
+        "position")
       .atLeast(0)
       .atMost(1e4);
-  t.add("fixed", &S::fixed, "", "it never moves: a piece of rough ground");
+  t.add("fixed", &S::fixed, "", "whether it never moves, as part of rough ground");
   return t;
 }
 
 Table<GrainFill> fillTable() {
   using S = GrainFill;
-  Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of places and radii");
-  t.add("form", &S::form, "", "lattice and random fill a box, file reads a grain a line");
-  t.add("low", &S::low, "m", "corner of the box that holds the grains whole; not of a file");
-  t.add("high", &S::high, "m", "the opposite corner");
-  t.add("radius", &S::radius, "m", "of each, or of the smallest where radius_to is given; not of a file")
+  Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of positions and radii");
+  t.add("form", &S::form, "", "lattice or random in a box, or file with one grain per line");
+  t.add("low", &S::low, "m", "lower corner of the box that contains the grains completely; not with a file");
+  t.add("high", &S::high, "m", "upper corner of that box");
+  t.add("radius", &S::radius, "m", "radius of each grain, or of the smallest if radius_to is given; not with a file")
       .above(0)
       .atMost(1e3);
-  t.add("radius_to", &S::radiusTo, "m", "of the largest: radii are uniform between").above(0).atMost(1e3);
-  t.add("spacing", &S::spacing, "-", "of a lattice, in largest radii").atLeast(2).atMost(100);
-  t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a share of its free gap").atLeast(0).atMost(1);
-  t.add("number", &S::number, "-", "of grains of a random fill").atLeast(1).atMost(1e8);
+  t.add("radius_to", &S::radiusTo, "m", "radius of the largest grain; radii are distributed uniformly between")
+      .above(0)
+      .atMost(1e3);
+  t.add("spacing", &S::spacing, "-", "lattice spacing in largest radii").atLeast(2).atMost(100);
+  t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a fraction of its free gap").atLeast(0).atMost(1);
+  t.add("number", &S::number, "-", "number of grains of a random fill").atLeast(1).atMost(1e8);
   t.add("file", &S::file, "",
-        "text with a grain a line: x, y, z, r [m], which vx, vy, vz [m/s], and wx, wy, wz [rad/s] behind those, may "
-        "follow, and a header with these names above; looked for in the scene's folder, the working folder, the assets "
-        "folder");
-  t.add("velocity", &S::velocity, "m/s", "at the start, where a file's line gives none").atLeast(-1e4).atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "at the start, where a file's line gives none").atLeast(-1e6).atMost(1e6);
+        "text file with one grain per line: x, y, z, r [m], optionally vx, vy, vz [m/s], then wx, wy, wz [rad/s], and "
+        "optionally a header with these names; searched in the scene's folder, the working folder, the assets folder");
+  t.add("velocity", &S::velocity, "m/s", "initial velocity; for a file, of lines without one")
+      .atLeast(-1e4)
+      .atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "initial angular velocity; for a file, of lines without one")
+      .atLeast(-1e6)
+      .atMost(1e6);
   t.add("material", &S::material, "", "name of their material").required();
   t.add("above_bed", &S::aboveBed, "m",
-        "height of the lowest point of them all over the highest grain under them once the bed has settled: they are "
-        "lifted or lowered together")
+        "height of their lowest point above the highest grain under them once the bed has settled; all are lifted or "
+        "lowered together")
       .atLeast(0)
       .atMost(1e4);
   return t;
@@ -59,17 +65,17 @@ Table<GrainFill> fillTable() {
 
 Table<Source> sourceTable() {
   using S = Source;
-  Table<S> t("[source]", "Grains that enter while the run goes, at random places in a box");
-  t.add("low", &S::low, "m", "corner of the box in which their centres start").required();
-  t.add("high", &S::high, "m", "the opposite corner").required();
-  t.add("velocity", &S::velocity, "m/s", "at which they enter").atLeast(-1e4).atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "at which they enter").atLeast(-1e6).atMost(1e6);
-  t.add("radius", &S::radius, "m", "of each").above(0).atMost(10).required();
+  Table<S> t("[source]", "Grains that enter during the run at random positions in a box");
+  t.add("low", &S::low, "m", "lower corner of the box in which their centres start").required();
+  t.add("high", &S::high, "m", "upper corner of that box").required();
+  t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "initial angular velocity").atLeast(-1e6).atMost(1e6);
+  t.add("radius", &S::radius, "m", "radius of each grain").above(0).atMost(10).required();
   t.add("material", &S::material, "", "name of its material").required();
-  t.add("number", &S::number, "-", "of grains that enter together").atLeast(1).atMost(1e6);
-  t.add("every", &S::every, "s", "time between those").above(0).required();
-  t.add("start", &S::start, "s", "time of the first").atLeast(0);
-  t.add("total", &S::total, "-", "of grains in all").atLeast(1).atMost(1e8).required();
+  t.add("number", &S::number, "-", "number of grains that enter together").atLeast(1).atMost(1e6);
+  t.add("every", &S::every, "s", "time between entries").above(0).required();
+  t.add("start", &S::start, "s", "time of the first entry").atLeast(0);
+  t.add("total", &S::total, "-", "total number of grains").atLeast(1).atMost(1e8).required();
   return t;
 }
 
@@ -78,15 +84,16 @@ void checkFill(const Section& section, GrainFill& b, const Scene& scene) {
   const bool file = b.form == FillForm::file;
   for (const char* key : {"low", "high", "radius"})
     if (file == section.has(key))
-      section.fail(key, file ? "has no meaning for form = \"file\"; remove it"
-                             : fmt::format("[m] is missing, which form = \"{}\" needs; add it", base::wordOf(b.form)));
-  if (file && b.radiusTo) section.fail("radius_to", "has no meaning for form = \"file\"; remove it");
+      section.fail(key,
+                   file ? "does not apply to form = \"file\"; remove it"
+                        : fmt::format("[m] is missing, but form = \"{}\" requires it; add it", base::wordOf(b.form)));
+  if (file && b.radiusTo) section.fail("radius_to", "does not apply to form = \"file\"; remove it");
   if ((b.form == FillForm::random) != section.has("number"))
-    section.fail("number", b.form == FillForm::random ? "is missing, which form = \"random\" needs; add it"
-                                                      : "belongs to form = \"random\"; remove it");
+    section.fail("number", b.form == FillForm::random ? "is missing, but form = \"random\" requires it; add it"
+                                                      : "applies to form = \"random\" only; remove it");
   if (file != section.has("file"))
-    section.fail("file",
-                 file ? "is missing, which form = \"file\" needs; add it" : "belongs to form = \"file\"; remove it");
+    section.fail("file", file ? "is missing, but form = \"file\" requires it; add it"
+                              : "applies to form = \"file\" only; remove it");
   if (b.radiusTo && *b.radiusTo < *b.radius) section.fail("radius_to", "[m] is below radius; raise it");
   for (int a = 0; !file && a < 3; ++a)
     if ((*b.high)[a] - (*b.low)[a] < 2 * b.largestRadius() * (1 - 1e-9))
@@ -101,7 +108,7 @@ void checkFill(const Section& section, GrainFill& b, const Scene& scene) {
 void checkGrain(const Section& section, Grain& g, const Scene& scene) {
   requireMaterial(scene, section, "material", g.material);
   if (!g.fixed) return;
-  const char* const remedy = "is of a grain that never moves; remove it, or fixed = true";
+  const char* const remedy = "has no effect on a fixed grain; remove it, or fixed = true";
   if (norm2(g.velocity) > 0) section.fail("velocity", std::string("[m/s] ") + remedy);
   if (norm2(g.spin) > 0) section.fail("spin", std::string("[rad/s] ") + remedy);
 }
@@ -109,9 +116,9 @@ void checkGrain(const Section& section, Grain& g, const Scene& scene) {
 void checkSource(const Section& section, Source& s, const Scene& scene) {
   requireMaterial(scene, section, "material", s.material);
   for (int a = 0; a < 3; ++a)
-    if (s.high[a] < s.low[a]) section.fail("high", "[m] lies below low; give the lower corner as low");
+    if (s.high[a] < s.low[a]) section.fail("high", "[m] is below low; swap the corners");
   if (s.start > scene.run.duration)
-    section.fail("start", fmt::format("[s] is after the end of the run, run.duration = {:g} s: no grain would ever "
+    section.fail("start", fmt::format("[s] is after the end of the run, run.duration = {:g} s, so no grain would "
                                       "enter; lower it, raise run.duration, or remove the source",
                                       scene.run.duration));
 }

@@ -14,40 +14,41 @@ using vehicle::HitchKind;
 
 Table<Hitch> hitchTable() {
   using S = Hitch;
-  Table<S> t("hitch", "What pulls at the hull, level, from the begin of the drive on; the pull is recorded");
+  Table<S> t("hitch", "Horizontal load on the hull from the start of the drive; the pull is recorded");
   t.add("kind", &S::kind, "",
-        "a constant force; one that grows; a sled that slides with friction; or a carriage that holds the hull at the "
-        "tracks' speed less a given slip: its pull is the drawbar pull");
+        "force: constant; ramp: growing force; sled: towed sled with friction; speed: carriage that imposes a given "
+        "slip, whose pull is the drawbar pull");
   t.add("position", &S::position, "m",
-        "of the hitch in the vehicle frame: from the middle of the sprockets' axle line forward, left, up; \"auto\": "
-        "the middle between the rearmost axles of sprocket or idler")
+        "position of the hitch in the vehicle frame (forward, left, up from the middle of the sprockets' axle line); "
+        "\"auto\": the middle of the rearmost axle line of sprockets or idlers")
       .atLeast(-100)
       .atMost(100)
       .orWord("auto");
-  t.add("start", &S::start, "s", "after the begin of the drive, when it takes hold").atLeast(0).atMost(1e5);
-  t.add("ramp", &S::ramp, "s", "over which a constant force comes on, or a carriage takes up its own speed")
+  t.add("start", &S::start, "s", "time after the start of the drive at which the load begins").atLeast(0).atMost(1e5);
+  t.add("ramp", &S::ramp, "s", "duration of the ramp of a constant force, or of the speed of a carriage")
       .atLeast(0)
       .atMost(1e3);
-  t.add("force", &S::force, "N", "backwards on the hull positive; of a ramp at its begin, 0 where not given")
+  t.add("force", &S::force, "N", "force on the hull, positive backwards; of a ramp the initial force, default: 0")
       .atLeast(-1e8)
       .atMost(1e8);
-  t.add("rate", &S::rate, "N/s", "at which the force of a ramp grows").atLeast(-1e8).atMost(1e8);
-  t.add("mass", &S::mass, "kg", "of the sled").above(0).atMost(1e7);
-  t.add("friction", &S::friction, "-", "of the sled on its ground").atLeast(0).atMost(10);
-  t.add("length", &S::length, "m", "of the sled's rope, which is taut as it takes hold; 3 where not given")
+  t.add("rate", &S::rate, "N/s", "rate of the force of a ramp").atLeast(-1e8).atMost(1e8);
+  t.add("mass", &S::mass, "kg", "mass of the sled").above(0).atMost(1e7);
+  t.add("friction", &S::friction, "-", "friction coefficient between sled and ground").atLeast(0).atMost(10);
+  t.add("length", &S::length, "m", "length of the sled's rope, which is initially taut; default: 3")
       .above(0)
       .atMost(1e3);
   t.add("slip", &S::slip, "-",
-        "of the tracks that a carriage imposes: hull speed = (1 - slip) x sprocket speed x pitch radius; below 0 it "
+        "track slip that a carriage imposes: hull speed = (1 - slip) x sprocket speed x pitch radius; negative: it "
         "pushes")
       .atLeast(-10)
       .atMost(10);
   t.add("stiffness", &S::stiffness, "N/m",
-        "of the sled's rope or the carriage's bar; \"auto\": hull (and sled) would swing on it at 10 Hz")
+        "stiffness of the sled's rope or the carriage's bar; \"auto\": natural frequency of 10 Hz with the hull (and "
+        "sled)")
       .above(0)
       .atMost(1e12)
       .orWord("auto");
-  t.add("damping_ratio", &S::dampingRatio, "-", "of that swing").atLeast(0).atMost(2);
+  t.add("damping_ratio", &S::dampingRatio, "-", "damping ratio of that oscillation").atLeast(0).atMost(2);
   return t;
 }
 
@@ -59,9 +60,9 @@ struct OwnKey {
 };
 
 void checkHitch(const Section& section, Hitch& h, const Scene& scene) {
-  if (!scene.vehicle) section.fail("", "needs a vehicle; add a section [vehicle], or remove this one");
+  if (!scene.vehicle) section.fail("", "requires a vehicle; add a section [vehicle], or remove this one");
   if (scene.vehicle->chassis == ChassisMount::fixed)
-    section.fail("", "pulls at nothing where the hull is held; set vehicle.chassis = \"free\", or remove it");
+    section.fail("", "has no effect on a fixed hull; set vehicle.chassis = \"free\", or remove it");
   const bool grows = h.kind == HitchKind::ramp;
   const HitchKind pulls = grows ? HitchKind::ramp : HitchKind::force;
   const OwnKey keys[] = {{"force", "N", h.force.has_value(), pulls, !grows},
@@ -74,11 +75,11 @@ void checkHitch(const Section& section, Hitch& h, const Scene& scene) {
                           h.kind == HitchKind::sled ? HitchKind::sled : HitchKind::speed, false}};
   for (const OwnKey& k : keys) {
     if (k.given && k.kind != h.kind)
-      section.fail(k.key, fmt::format("[{}] has no meaning for hitch.kind = \"{}\"; remove it, or set kind = \"{}\"",
+      section.fail(k.key, fmt::format("[{}] has no effect with hitch.kind = \"{}\"; remove it, or set kind = \"{}\"",
                                       k.unit, base::wordOf(h.kind), base::wordOf(k.kind)));
     if (!k.given && k.needed && k.kind == h.kind)
-      section.fail(k.key,
-                   fmt::format("[{}] is missing, and hitch.kind = \"{}\" needs it", k.unit, base::wordOf(h.kind)));
+      section.fail(k.key, fmt::format("[{}] is missing, but hitch.kind = \"{}\" requires it; add it", k.unit,
+                                      base::wordOf(h.kind)));
   }
   if (h.kind == HitchKind::sled && !h.length) h.length = Hitch::kLength;
 }

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-/// What a scene file says of a mechanism: plain structs, one a section. Keys, units, ranges and meanings stand in
-/// mechanism_sections.cpp.
+/// Mechanism sections of a scene file as plain structs. mechanism_sections.cpp defines keys, units and ranges.
 namespace grouser::scene {
 
 /// [[body.shape]]: a surface by which a body touches grains.
@@ -91,7 +90,7 @@ struct BushingSection {
   bool operator==(const BushingSection&) const = default;
 };
 
-/// [[drive]]: the sum of what is given.
+/// [[drive]]: the sum of the given terms.
 struct DriveSection {
   std::string name, joint;
   std::optional<multibody::JointAxis> actsOn; ///< empty: the only one
@@ -129,7 +128,7 @@ struct MechanismSections {
   std::vector<DriveSection> drives;
   std::vector<CouplingSection> couplings;
   bool empty() const { return bodies.empty(); }
-  /// Whether a body has a shape, by which it touches grains.
+  /// Returns true if any body has a contact shape.
   bool touches() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) { return !b.shapes.empty(); });
   }
@@ -140,15 +139,15 @@ struct MechanismSections {
                          [](const ShapeSection& s) { return s.kind == ShapeKind::mesh; });
     });
   }
-  /// Nor anything that would need a body.
-  bool nothing() const {
+  /// Returns true without any section of a mechanism.
+  bool hasNoParts() const {
     return bodies.empty() && joints.empty() && springs.empty() && bushings.empty() && drives.empty() &&
            couplings.empty();
   }
   bool operator==(const MechanismSections&) const = default;
 };
 
-/// Hands each kind, with its key in a file, to `f`, in an order in which each refers to former ones only.
+/// Calls `f` for each kind with its key in a file, in an order in which each refers to earlier ones only.
 template <class Sections, class F> void forEachKind(Sections& s, F f) {
   f("body", s.bodies), f("joint", s.joints), f("spring", s.springs), f("bushing", s.bushings);
   f("drive", s.drives), f("coupling", s.couplings);

@@ -20,17 +20,16 @@ LoadedMesh loadMesh(const base::Section& section, const std::string& file, doubl
   try {
     triangles = spheredecomp::importMesh(file, &loaded.note);
   } catch (const base::InputError& error) {
-    section.fail("file", fmt::format("is of no use: {}", error.what()));
+    section.fail("file", fmt::format("cannot be used: {}", error.what()));
   }
   for (base::Vec3d& v : triangles.vertices) v *= scale;
   const auto [low, high] = spheredecomp::bounds(triangles);
   const base::Vec3d size = high - low;
   const double longest = std::max({size.x, size.y, size.z}), byDefault = norm(size) / MeshSection::kRadiiInDiagonal;
   if (!sphereRadius && !(byDefault >= spheredecomp::kSmallestRadius && byDefault <= spheredecomp::kLargestRadius))
-    section.fail("scale",
-                 fmt::format("[m] makes the mesh {:.4g} m long, and its spheres {:.3g} m, outside [{:g}, {:g}];"
-                             " correct it: it is the length of one unit of the file",
-                             longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
+    section.fail("scale", fmt::format("[m] makes the mesh {:.4g} m long and its spheres {:.3g} m, outside [{:g}, "
+                                      "{:g}]; correct it (length of one unit of the file)",
+                                      longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
   loaded.sphereRadius = sphereRadius.value_or(byDefault);
   if (loaded.sphereRadius > 0.5 * longest)
     section.fail("sphere_radius",
@@ -38,10 +37,9 @@ LoadedMesh loadMesh(const base::Section& section, const std::string& file, doubl
                              base::roundedDown(0.5 * longest, 4)));
   if (const double points = spheredecomp::latticePoints(triangles, loaded.sphereRadius);
       !(points <= spheredecomp::kMostLatticePoints))
-    section.fail("sphere_radius",
-                 fmt::format("[m] cuts the mesh of {:.4g} x {:.4g} x {:.4g} m by {:.2g} lattice points, "
-                             "more than {:.0e}; raise it, or correct scale",
-                             size.x, size.y, size.z, points, spheredecomp::kMostLatticePoints));
+    section.fail("sphere_radius", fmt::format("[m] for a mesh of {:.4g} x {:.4g} x {:.4g} m requires {:.2g} lattice "
+                                              "points, more than {:.0e}; raise it, or correct scale",
+                                              size.x, size.y, size.z, points, spheredecomp::kMostLatticePoints));
   if (centred) {
     loaded.middle = (low + high) * 0.5;
     for (base::Vec3d& v : triangles.vertices) v -= loaded.middle;

@@ -16,84 +16,81 @@ using base::Table;
 
 Table<Output> outputTable() {
   using S = Output;
-  Table<S> t("output", "What a run leaves; intervals stand in [run]");
-  t.add("folder", &S::folder, "", "of the results, from where grouser is called; out/NAME where not given");
-  t.add("record", &S::record, "", "names of what of a mechanism goes into the time series; all where empty");
+  Table<S> t("output", "Files that a run writes; their intervals are keys of [run]");
+  t.add("folder", &S::folder, "", "folder of the results, relative to the working folder; default: out/NAME");
+  t.add("record", &S::record, "", "names of the bodies, joints, springs and drives in the time series; default: all");
   t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
-  t.add("contact_forces", &S::contactForces, "", "resultant of the contact forces on each grain, in those frames");
-  t.add("shoe_forces", &S::shoeForces, "",
-        "force of the ground on each shoe of a vehicle, and its shear, in results.h5");
+  t.add("contact_forces", &S::contactForces, "", "resultant contact force on each grain, in the frames");
+  t.add("shoe_forces", &S::shoeForces, "", "ground force and shear force on each shoe of a vehicle, in results.h5");
   t.add("gear_contacts", &S::gearContacts, "",
-        "which parts of a vehicle its grains touch, and the stones in its running gear, in every row: costs a look at "
-        "all of these contacts");
+        "contacts of grains with each part of a vehicle, and stones in its running gear, in every row; costs a pass "
+        "over all these contacts");
   t.add("final_surface", &S::finalSurface, "",
-        "of the bed at the end of a run with a vehicle, in results.h5: its ruts");
+        "surface of the bed (ruts) at the end of a run with a vehicle, in results.h5");
   t.add("grains_csv", &S::grainsCsv, "",
         "grains.csv with every grain at every output time; \"auto\": up to 1000 grains and 1e6 lines")
       .orWord("auto");
   t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
-  t.add("picture_width", &S::pictureWidth, "px", "width of that picture").atLeast(64).atMost(8192);
-  t.add(
-       "fields_cell", &S::fieldsCell, "m",
-       "stress, strain rate, porosity, velocity and coordination of the soil in cells of this edge, in every frame; no "
-       "fields where not given")
+  t.add("picture_width", &S::pictureWidth, "px", "width of the picture").atLeast(64).atMost(8192);
+  t.add("fields_cell", &S::fieldsCell, "m",
+        "edge of the cells of the soil fields (stress, strain rate, porosity, velocity, coordination number) in every "
+        "frame; default: no fields")
       .above(0);
   t.add("fields_low", &S::fieldsLow, "m",
-        "lower corner of the box that those cells fill; around the grains at the "
-        "start, one cell higher, where not given");
-  t.add("fields_high", &S::fieldsHigh, "m", "its upper corner");
-  t.add("plots", &S::plots, "", "plots of the time series, by Python and matplotlib");
+        "lower corner of the box that the cells fill; default: around the grains at the start, one cell higher");
+  t.add("fields_high", &S::fieldsHigh, "m", "upper corner of that box");
+  t.add("plots", &S::plots, "", "plots of the time series (requires Python with matplotlib)");
   return t;
 }
 
 Table<PlotSection> plotTable() {
   using S = PlotSection;
   Table<S> t("[output.plot]", "A panel of figure.png: columns of the results against time or another column");
-  t.add("x", &S::x, "", "column across, as timeseries.csv names it, e.g. \"bodies.cone.position.z\"");
-  t.add("y", &S::y, "", "columns upwards").required();
-  t.add("sum", &S::sum, "", "draw the sum of these as one curve");
-  t.add("labels", &S::labels, "", "of the curves in the legend");
-  t.add("title", &S::title, "", "above the panel");
-  t.add("x_label", &S::xLabel, "", "quantity and unit at the axis");
-  t.add("y_label", &S::yLabel, "", "quantity and unit at the axis").required();
-  t.add("x_scale", &S::xScale, "-", "factor of x, or a change of its unit");
-  t.add("x_offset", &S::xOffset, "as the axis", "added to x times its factor");
-  t.add("x_from_start", &S::xFromStart, "", "subtract the first value of x before");
-  t.add("x_range", &S::xRange, "as the axis", "limits; as the values need where not given");
-  t.add("y_scale", &S::yScale, "-", "factor of y, or a change of its unit");
-  t.add("y_offset", &S::yOffset, "as the axis", "added to y times its factor");
-  t.add("y_from_start", &S::yFromStart, "", "subtract the first value of each y before");
-  t.add("y_range", &S::yRange, "as the axis", "limits; as the values need where not given");
-  t.add("levels", &S::levels, "as the axis", "heights of dashed lines to compare with");
-  t.add("level_labels", &S::levelLabels, "", "of these in the legend");
+  t.add("x", &S::x, "", "column of the horizontal axis, as named in timeseries.csv, e.g. \"bodies.cone.position.z\"");
+  t.add("y", &S::y, "", "columns of the vertical axis").required();
+  t.add("sum", &S::sum, "", "draw the sum of the y columns as one curve");
+  t.add("labels", &S::labels, "", "legend labels of the curves");
+  t.add("title", &S::title, "", "title above the panel");
+  t.add("x_label", &S::xLabel, "", "axis label: quantity and unit");
+  t.add("y_label", &S::yLabel, "", "axis label: quantity and unit").required();
+  t.add("x_scale", &S::xScale, "-", "factor of x, e.g. for a change of unit");
+  t.add("x_offset", &S::xOffset, "as the axis", "offset added to x_scale times x");
+  t.add("x_from_start", &S::xFromStart, "", "subtract the first value of x before scaling");
+  t.add("x_range", &S::xRange, "as the axis", "axis limits; default: the range of the values");
+  t.add("y_scale", &S::yScale, "-", "factor of y, e.g. for a change of unit");
+  t.add("y_offset", &S::yOffset, "as the axis", "offset added to y_scale times y");
+  t.add("y_from_start", &S::yFromStart, "", "subtract the first value of each y before scaling");
+  t.add("y_range", &S::yRange, "as the axis", "axis limits; default: the range of the values");
+  t.add("levels", &S::levels, "as the axis", "heights of dashed reference lines");
+  t.add("level_labels", &S::levelLabels, "", "legend labels of the reference lines");
   return t.leaveOutEmpty();
 }
 
 Table<Parallel> parallelTable() {
   using S = Parallel;
-  Table<S> t("parallel", "Runs on several ranks (mpirun -np N); the answer is the same for any number of them");
+  Table<S> t("parallel", "Runs on several ranks (mpirun -np N); results do not depend on their number");
   t.add("subdomains", &S::subdomains, "-",
-        "lattice of subdomains along x, y and z, whose product is the number of ranks; 0 leaves an axis free")
+        "number of subdomains along x, y and z, whose product is the number of ranks; 0: chosen")
       .atLeast(0)
       .atMost(64)
       .orWord("auto");
-  t.add("cuts_x", &S::cutsX, "m", "where the planes between subdomains stand at first, across x; chosen where empty");
-  t.add("cuts_y", &S::cutsY, "m", "the same across y");
-  t.add("cuts_z", &S::cutsZ, "m", "the same across z");
-  t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the mean");
+  t.add("cuts_x", &S::cutsX, "m", "initial positions along x of the planes between subdomains; default: chosen");
+  t.add("cuts_y", &S::cutsY, "m", "initial positions along y of the planes between subdomains");
+  t.add("cuts_z", &S::cutsZ, "m", "initial positions along z of the planes between subdomains");
+  t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the average");
   t.add("peer_memory", &S::peerMemory, "",
-        "GPUs of one machine read each other's memory instead of sending messages: where they can, never, or not "
-        "without (then ranks on CPUs share memory too)");
+        "whether GPUs of one machine read each other's memory instead of sending messages: if possible, never, or "
+        "required (then ranks on CPUs share memory too)");
   return t;
 }
 
-/// A path that no file system takes would only turn out when results are written.
+/// Rejects paths that no file system accepts before the run starts.
 void checkFolder(const Section& output, const std::string& folder) {
   if (std::any_of(folder.begin(), folder.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
-    output.fail("folder", "has a control character in it; leave it out");
+    output.fail("folder", "contains a control character; remove it");
 }
 
-/// What is to be recorded must be there.
+/// Throws InputError for names that the mechanism does not have.
 void checkRecord(const Section& section, const Output& output, const Scene& scene) {
   std::vector<std::string> known;
   forEachKind(scene.mechanism, [&](const char*, const auto& sections) {
@@ -101,9 +98,10 @@ void checkRecord(const Section& section, const Output& output, const Scene& scen
   });
   for (const std::string& name : output.record)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      section.fail("record", known.empty() ? "names parts of a mechanism, but there is none; remove it"
-                                           : fmt::format("names nothing \"{}\" of the mechanism; did you mean \"{}\"?",
-                                                         name, base::nearestWord(name, known)));
+      section.fail("record", known.empty()
+                                 ? "names parts of a mechanism, but the scene has none; remove it"
+                                 : fmt::format("names \"{}\", which the mechanism does not have; did you mean \"{}\"?",
+                                               name, base::nearestWord(name, known)));
 }
 
 void checkFields(const Section& section, const Output& output) {
@@ -114,9 +112,9 @@ void checkFields(const Section& section, const Output& output) {
     section.fail("fields_low", "has no effect without fields_cell; remove it");
   for (int a = 0; output.fieldsLow && a < 3; ++a)
     if (!((*output.fieldsHigh)[a] > (*output.fieldsLow)[a]))
-      section.fail("fields_high", fmt::format("[m] does not lie above fields_low along {}; raise it", "xyz"[a]));
+      section.fail("fields_high", fmt::format("[m] is not above fields_low along {}; raise it", "xyz"[a]));
   if (output.fieldsCell && !output.frames)
-    section.fail("fields_cell", "writes into frames.h5, which frames = false switches off; remove one of them");
+    section.fail("fields_cell", "requires frames.h5, which frames = false disables; remove one of them");
 }
 
 void checkOutput(const Section& section, Output& output, const Scene& scene) {
@@ -134,7 +132,7 @@ void checkPlot(const Section& section, PlotSection& plot, const Scene&) {
     section.fail("level_labels",
                  fmt::format("must have one entry for each of {} levels; correct the list", plot.levels.size()));
   for (const auto& [key, range] : {std::pair{"x_range", plot.xRange}, std::pair{"y_range", plot.yRange}})
-    if (range && !((*range)[0] < (*range)[1])) section.fail(key, "must be the lower limit, then the upper; swap them");
+    if (range && !((*range)[0] < (*range)[1])) section.fail(key, "must be [min, max]; swap the limits");
 }
 
 /// [output] with its [[output.plot]]s.
@@ -162,14 +160,15 @@ void checkParallel(const Section& section, Parallel& parallel, const Scene&) {
   for (int a = 0; a < 3; ++a)
     for (std::size_t k = 1; k < cuts[a]->size(); ++k)
       if (!((*cuts[a])[k] > (*cuts[a])[k - 1]))
-        section.fail(std::string("cuts_") + "xyz"[a], "[m] does not increase; sort it, each plane once");
+        section.fail(std::string("cuts_") + "xyz"[a], "[m] must increase; sort the planes and remove duplicates");
   const auto& n = parallel.subdomains;
   for (int a = 0; n && a < 3; ++a) {
-    if ((*n)[a] != std::floor((*n)[a])) section.fail("subdomains", "[-] are whole numbers, e.g. [2, 2, 1]; round them");
+    if ((*n)[a] != std::floor((*n)[a]))
+      section.fail("subdomains", "[-] must be whole numbers, e.g. [2, 2, 1]; round them");
     const auto slabs = static_cast<double>(cuts[a]->size() + 1);
     if (slabs > 1 && (*n)[a] != 0 && (*n)[a] != slabs)
       section.fail(std::string("cuts_") + "xyz"[a],
-                   fmt::format("[m] makes {} subdomains along {}, but subdomains says {}; make them agree", slabs,
+                   fmt::format("[m] makes {} subdomains along {}, but subdomains has {}; make them agree", slabs,
                                "xyz"[a], (*n)[a]));
   }
 }

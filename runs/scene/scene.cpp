@@ -35,7 +35,7 @@ const Material& Scene::material(const std::string& name) const {
   for (const Material& m : materials)
     if (m.name == name) return m;
   throw base::InputError(
-      fmt::format("{}: \"{}\" is no material of this scene; add a section [material.{}]", file.string(), name, name));
+      fmt::format("{}: the scene has no material \"{}\"; add a section [material.{}]", file.string(), name, name));
 }
 
 const ContactPair* Scene::contact(const std::string& a, const std::string& b) const {

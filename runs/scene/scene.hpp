@@ -24,14 +24,13 @@ namespace grouser::base {
 class Document;
 } // namespace grouser::base
 
-/// What one scene file says: plain structs, one a section. What is absent from the file is absent here and is not
-/// built. Units, ranges and meanings of all keys stand once, in the tables of *_section(s).cpp; `grouser fields` prints
-/// them.
+/// A scene file as plain structs, one per section. Sections absent from the file are absent here. The tables of
+/// *_section(s).cpp define units, ranges and help of all keys; `grouser fields` prints them.
 namespace grouser::scene {
 
 struct Soil; // soil.hpp
 
-/// Steps of the shortest contact; what they buy measures `grouser study impact`.
+/// Steps of the shortest contact; `grouser study impact` measures their effect.
 inline constexpr double kStepsPerContact = 20, kFewestStepsPerContact = 6;
 
 /// [run]
@@ -48,13 +47,13 @@ struct RunSettings {
   double checkpointInterval = 1.0; ///< [s]; 0: only at the end
   std::int64_t seed = 1;
   support::DeviceChoice device = support::DeviceChoice::automatic;
-  /// Of the grains' forces.
+  /// Precision of the grains' forces.
   terrain::Precision precision = terrain::Precision::single;
   double impactSpeed = 1.0; ///< [m/s] that the step of hertz materials and of complementarity is chosen for
   ContactMethod contact = ContactMethod::penalty; ///< method for contacts of grains
   std::optional<double> residual;                 ///< [m/s] tolerance of complementarity contacts; empty: 0.01 g dt
   int threads = 0;                                ///< 0: all
-  /// Of mechanisms; the next two belong to rattle.
+  /// Integrator of mechanisms; the next two apply to rattle.
   multibody::Integrator integrator = multibody::Integrator::kRattle;
   int integratorOrder = 2; ///< 2, 4, 6, 8
   multibody::Springs springs = multibody::Springs::kImplicit;
@@ -63,7 +62,7 @@ struct RunSettings {
   std::optional<double> maxOverlap; ///< [-] of a grain's radius; beyond it the run stops; empty: as GrainModel has it
   std::array<bool, 2> periodic{false, false};            ///< x, y
   std::optional<std::array<double, 2>> domainX, domainY; ///< [m] where these stand; empty: at the terrain's borders
-  /// [-] of a grain's radius, at most where it is set into the scene, and under its own weight.
+  /// Maximum overlap of a grain when it enters the scene, and under its own weight [grain radius].
   double entryOverlap() const { return maxOverlap.value_or(terrain::GrainModel{}.maxEntryOverlap); }
   bool operator==(const RunSettings&) const = default;
 };
@@ -78,7 +77,7 @@ struct Complementarity {
   bool operator==(const Complementarity&) const = default;
 };
 
-/// [material.NAME]; after loading with all values that its law needs.
+/// [material.NAME]; after loading with all values of its law.
 struct Material : contact::MaterialProperties {
   std::string name;
   std::string soil;                  ///< absolute path of the soil's file after loading; empty: of no soil
@@ -87,7 +86,7 @@ struct Material : contact::MaterialProperties {
   bool operator==(const Material&) const = default;
 };
 
-/// [contact."first|second"]: what a pair of materials has otherwise than the mixing rule gives.
+/// [contact."first|second"]: parameters of a pair that replace those of the mixing rule.
 struct ContactPair : contact::PairProperties {
   std::string first, second;
   bool operator==(const ContactPair&) const = default;
@@ -121,11 +120,11 @@ struct GrainFill {
   double largestRadius() const;
   bool operator==(const GrainFill&) const = default;
 };
-/// Grains of a text file with lines "x, y, z, r" [m], "x, y, z, r, vx, vy, vz" [m/s], or with "wx, wy, wz" [rad/s]
-/// behind these: what a line does not give is the section's. Throws InputError with the line that is none of these.
+/// Grains of a text file with lines "x, y, z, r" [m], "x, y, z, r, vx, vy, vz" [m/s], or also "wx, wy, wz" [rad/s]; the
+/// section has the defaults. Throws InputError with the number of an invalid line.
 std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill);
 
-/// [[source]]: grains that enter while the run goes.
+/// [[source]]: grains that enter during the run.
 struct Source {
   base::Vec3d low, high;      ///< corners of the box that their centres start in [m]
   base::Vec3d velocity, spin; ///< [m/s], [rad/s]
@@ -150,13 +149,13 @@ struct Terrain {
   Arrangement arrangement = Arrangement::random;
   std::optional<double> grainRadius; ///< [m] has a value after loading, of a granular bed
   std::optional<double> depth;       ///< [m]
-  // Of a random arrangement.
+  // Keys of a random arrangement.
   std::optional<terrain::RadiusLaw> radiusDistribution;        ///< has a value after loading
   std::optional<double> radiusSpread;                          ///< [-] has one where the distribution has a spread
   std::vector<double> sieveSize, sievePassing;                 ///< [m], [-]
   std::optional<double> porosity;                              ///< [-] to prepare; empty: as it is poured
   std::optional<double> fineDepth, coarsening, coarsestRadius; ///< [m], [-], [m] of a graded bed
-  // Of a lattice.
+  // Keys of a lattice.
   std::optional<int> layers;
   std::optional<double> spacing, jitter; ///< [-] in grain radii; of the free gap
   std::optional<double> packing;         ///< [-] solid fraction expected once settled
@@ -263,18 +262,18 @@ struct Driver {
   double restTimeLimit = 5;         ///< [s] after the weight's ramp
   bool operator==(const Driver&) const = default;
 
-  /// Of the drive at the earliest [s]: as given, or when tension and weight are on.
+  /// Earliest start of the drive [s]: as given, or at the end of the tension and weight ramps.
   double driveBegins() const { return driveStart.value_or(tensionRamp + weightRamp); }
   double rampOfDrive() const { return table || torqueTable ? driveRamp.value_or(0) : rampOfChange(); } ///< [s]
   double rampOfChange() const { return driveRamp.value_or(0.3); } ///< from former speeds, where a branch has others [s]
-  /// Whatever form the speeds were given in, as one table.
+  /// The speeds as one table, in whatever form they were given.
   SpeedTable speeds() const;
   TorqueTable torques() const;
-  /// Whether the way of the vehicle does not follow from speeds that are given.
+  /// Returns true if the path of the vehicle does not follow from given speeds.
   bool isFree() const { return course || drive == vehicle::SprocketDrive::torque; }
 };
 
-/// [hitch]: what pulls at the hull, from the begin of the drive on. What belongs to another kind has no value.
+/// [hitch]: horizontal load on the hull from the start of the drive. Keys of other kinds have no value.
 struct Hitch {
   vehicle::HitchKind kind = vehicle::HitchKind::force;
   std::optional<base::Vec3d> position; ///< [m] in the vehicle frame; empty: the rear axle of the track, in the middle
@@ -289,7 +288,7 @@ struct Hitch {
   static constexpr double kLength = 3; ///< [m], where not given
 };
 
-/// [stop]: what ends a run of a vehicle before run.duration.
+/// [stop]: conditions that end a run of a vehicle before run.duration.
 struct Stop {
   std::optional<double> distance; ///< [m] from where it was set down
   std::optional<double> edge;     ///< [m] between a shoe and the end of the terrain
@@ -297,8 +296,8 @@ struct Stop {
   bool operator==(const Stop&) const = default;
 };
 
-/// [[output.plot]]: a panel of figure.png. What is drawn is scale * (value - start) + offset, where start is the first
-/// value if from_start asks for it, else 0.
+/// [[output.plot]]: a panel of figure.png, drawn as scale * (value - start) + offset, where start is the first value
+/// with from_start, else 0.
 struct PlotSection {
   std::string x = "time";
   std::vector<std::string> y, labels;
@@ -330,7 +329,7 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
-/// [parallel]: how a run on several ranks divides its grains among them. No bit of the answer depends on it.
+/// [parallel]: division of grains among ranks. Results do not depend on it, bit by bit.
 struct Parallel {
   std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
   std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen
@@ -339,7 +338,7 @@ struct Parallel {
   bool operator==(const Parallel&) const = default;
 };
 
-/// One scene file with overrides applied and everything checked that can be checked without building it.
+/// A scene file with overrides applied, checked as far as possible without building it.
 struct Scene {
   std::filesystem::path file;
   std::vector<std::string> overrides;
@@ -367,8 +366,8 @@ struct Scene {
   Parallel parallel;
   std::shared_ptr<const base::Document> document; ///< the file itself; null for a scene that a program has made
 
-  /// Throws InputError "file:line: section.key = value message" for what only turns out after loading, as loading does
-  /// for the rest; `key` may be empty. The second form is for an entry of [[list]].
+  /// Throws InputError "file:line: section.key = value message" for errors found after loading, in the form of loading
+  /// errors; `key` may be empty. The second form is for an entry of [[list]].
   [[noreturn]] void fail(const std::string& section, const std::string& key, const std::string& message) const;
   [[noreturn]] void fail(const std::string& list, std::size_t number, const std::string& key,
                          const std::string& message) const;

@@ -20,7 +20,7 @@ using detail::SectionList;
 
 namespace {
 
-/// All of a scene file, in the order in which it is read, written and described.
+/// All sections of a scene file, in the order of reading, writing and help.
 SectionList allSections() {
   SectionList all;
   for (SectionList (*const subject)() :
@@ -66,8 +66,7 @@ Scene readScene(const std::filesystem::path& file, const std::vector<std::string
   if (!std::filesystem::exists(file, error))
     if (const std::string hint = support::nearestFileHint(file, {support::shareFolder() / "runs" / "scenes"});
         !hint.empty())
-      throw base::InputError(
-          fmt::format("{}: cannot be read, since there is no such file; {}Check the path", file.string(), hint));
+      throw base::InputError(fmt::format("{}: no such file; {}Check the path", file.string(), hint));
   return sceneOf(base::Document::load(file, overrides), file, overrides);
 }
 
@@ -80,11 +79,10 @@ std::string unsettledWarning(const Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit > 0) return "";
   const Terrain& t = *scene.terrain;
   if (t.lattice() || !(t.porosity || scene.vehicle)) return "";
-  return fmt::format(
-      "terrain.settle_time_limit = 0 leaves the bed as it is laid, a loose column of grains that falls as "
-      "the run begins{}{}: give it a time in which to settle, e.g. {:g}",
-      t.porosity ? fmt::format(", and not of terrain.porosity = {:g}", *t.porosity) : "",
-      scene.vehicle ? ", under the vehicle" : "", Terrain{}.settleTimeLimit);
+  return fmt::format("terrain.settle_time_limit = 0: the bed does not settle and falls as a loose column of grains "
+                     "when the run starts{}{}; set a settling time, e.g. {:g}",
+                     t.porosity ? fmt::format(", without terrain.porosity = {:g}", *t.porosity) : "",
+                     scene.vehicle ? ", under the vehicle" : "", Terrain{}.settleTimeLimit);
 }
 
 void printNotes(const Scene& scene) {
@@ -102,9 +100,7 @@ std::string resolvedToml(const Scene& scene) {
 }
 
 std::string fieldHelp() {
-  std::string text =
-      "## Keys of a scene file\n\nEvery file begins with `version = 1`. Only `[run]` is required; a section "
-      "that is absent is not built.\n";
+  std::string text = "## Keys of a scene file\n\nEvery file begins with `version = 1`. Only `[run]` is required.\n";
   for (const SectionEntry& entry : allSections()) text.append("\n").append(entry.describe());
   return text;
 }

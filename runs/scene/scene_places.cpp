@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where in its file a loaded scene says what.
+// File positions of a loaded scene's sections and keys.
 #include "base/table.hpp"
 #include "runs/scene/scene.hpp"
 

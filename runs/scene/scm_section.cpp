@@ -33,7 +33,7 @@ base::Table<Scm> scmTable() {
       .atLeast(1)
       .atMost(1e3);
   t.add("damping", &S::damping, "Pa s/m",
-        "pressure per speed of compression, and R of the shear stress R K ds/dt (1 % of the strength at most)")
+        "pressure per compression speed, and R of the shear stress R K ds/dt (at most 1 % of the strength)")
       .atLeast(0)
       .atMost(1e7);
   t.add("slip_sinkage", &S::slipSinkage, "-",
@@ -50,19 +50,20 @@ base::Table<Scm> scmTable() {
         "share of the volume of a rut that becomes loose soil beside it; the rest is compaction")
       .atLeast(0)
       .atMost(1);
-  t.add("repose_angle", &S::reposeAngle, "deg", "of loose soil; default: published for the soil, or phi")
+  t.add("repose_angle", &S::reposeAngle, "deg",
+        "angle of repose of loose soil; default: published for the soil, or phi")
       .above(0)
       .atMost(60);
   t.add("bulk_density", &S::bulkDensity, "kg/m3",
-        "for the passive pressure on grousers and sides; default: published for the soil, or that of its grains and "
-        "porosity, or 1600")
+        "bulk density for the passive pressure on grousers and sides; default: published for the soil, or from its "
+        "grains and porosity, or 1600")
       .above(0)
       .atMost(1e4);
   t.add("node_spacing", &S::nodeSpacing, "m",
         "grid spacing; default: a quarter of a shoe's length, or an eighth of the smallest body")
       .above(0)
       .atMost(1);
-  t.add("largest_sinkage", &S::deepest, "m", "end of the table of z^n").above(0).atMost(10);
+  t.add("largest_sinkage", &S::deepest, "m", "maximum sinkage of the table of z^n").above(0).atMost(10);
   return t;
 }
 
@@ -71,8 +72,8 @@ void checkScm(const base::Section& section, Scm& scm, const Scene& scene) {
     section.fail("", "has no effect without terrain.kind = \"scm\"; set that, or remove the section");
   if (scm.constantsDraw > 0 && scm.n && scm.kc && scm.kphi && scm.cohesion && scm.frictionAngle &&
       scm.shearDisplacement)
-    section.fail("constants_draw", "has nothing to draw: the section has all of n, k_c, k_phi, c, phi and K; remove "
-                                   "those to be drawn, or set constants_draw = 0");
+    section.fail("constants_draw", "has no effect, since the section sets all of n, k_c, k_phi, c, phi and K; remove "
+                                   "those to sample, or set constants_draw = 0");
 }
 
 } // namespace

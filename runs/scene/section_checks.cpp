@@ -20,8 +20,8 @@ void requireMaterial(const Scene& scene, const Section& section, const std::stri
   const std::string quoted = key.empty() ? fmt::format(" (\"{}\")", name) : "";
   const auto soils = knownSoils(scene.file);
   if (name.find('/') != std::string::npos || name.ends_with(".toml"))
-    section.fail(key, fmt::format("names no material of this scene{}; a soil's file is named by soil = \"{}\" in a "
-                                  "section [material.NAME], and here stands NAME",
+    section.fail(key, fmt::format("names no material of this scene{}; put the soil's file as soil = \"{}\" into a "
+                                  "section [material.NAME], and use NAME here",
                                   quoted, name));
   std::vector<std::string> known = names;
   for (const auto& [soil, file] : soils) known.push_back(soil);
@@ -48,7 +48,7 @@ void resolveFile(const Scene& scene, const Section& section, const std::string& 
     std::vector<std::filesystem::path> folders;
     for (const auto& p : tried) folders.push_back(p.parent_path());
     const std::string hint = tried.empty() ? "" : support::nearestFileHint(tried.front(), folders);
-    section.fail(key, fmt::format("does not exist; {}correct the path (looked for {})", hint, places));
+    section.fail(key, fmt::format("does not exist; {}correct the path (searched {})", hint, places));
   }
   name = found.string();
 }
@@ -61,34 +61,33 @@ void checkMeshes(const Section& root, const Scene& scene) {
     const bool grains = (scene.terrain && scene.terrain->granular()) || !scene.grains.empty() || !scene.fills.empty() ||
                         !scene.sources.empty();
     if (scene.vehicle && grains)
-      sections[k].fail("", "stands beside [vehicle] and grains, which meet the one or the other; use boxes and "
-                           "cylinders, or rigid ground without grains");
+      sections[k].fail(
+          "", "is incompatible with [vehicle] on grains; use boxes and cylinders, or rigid ground without grains");
     if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 &&
         scene.meshes[k].placed == PlacedWhen::before)
-      sections[k].fail("placed",
-                       "is \"before\" where the bed settles first, which meshes have no part in; use boxes and "
-                       "cylinders, leave placed out, or set terrain.settle_time_limit = 0");
+      sections[k].fail("placed", "is \"before\", but settling beds do not support meshes; use boxes and cylinders, "
+                                 "remove placed, or set terrain.settle_time_limit = 0");
     if (scene.meshes[k].material != scene.meshes.front().material)
-      sections[k].fail("material", fmt::format("differs from that of the first mesh, \"{}\"; all meshes have one",
-                                               scene.meshes.front().material));
+      sections[k].fail("material",
+                       fmt::format("differs from that of the first mesh, \"{}\"; use one material for all meshes",
+                                   scene.meshes.front().material));
   }
 }
 
-/// What is put on a bed needs one, and a lowest point.
+/// Checks of placed and above_bed.
 void checkPlaced(const Section& root, const Scene& scene) {
   const bool bed = scene.terrain && scene.terrain->granular();
   const auto needsBed = [&](const Section& section, const char* key) {
     if (!bed && section.has(key))
-      section.fail(key, "has no meaning without a bed of grains; add a granular [terrain], or remove it");
+      section.fail(key, "has no effect without a bed of grains; add a granular [terrain], or remove it");
   };
   const auto check = [&](const char* list, const auto& surfaces) {
     const std::vector<Section> sections = root.list(list);
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       needsBed(sections[k], "placed"), needsBed(sections[k], "above_bed");
       if (surfaces[k].aboveBed && surfaces[k].placed == PlacedWhen::before)
-        sections[k].fail("above_bed",
-                         "[m] is known only once the bed has settled, but placed = \"before\" asks for the "
-                         "surface while it settles; remove one of the two");
+        sections[k].fail("above_bed", "[m] is mutually exclusive with placed = \"before\", since the height is known "
+                                      "only once the bed has settled; remove one");
     }
   };
   check("plane", scene.planes), check("box", scene.boxes);
@@ -96,15 +95,15 @@ void checkPlaced(const Section& root, const Scene& scene) {
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
     const base::Vec3d& n = scene.planes[k].normal;
     if (scene.planes[k].aboveBed && !(n.z < 0 && std::max(std::fabs(n.x), std::fabs(n.y)) <= 1e-9 * -n.z))
-      root.list("plane")[k].fail("above_bed", "[m] is the height of a lowest point, which only a level lid has; set "
-                                              "normal = [0, 0, -1], or give point without above_bed");
+      root.list("plane")[k].fail("above_bed",
+                                 "[m] requires a level lid; set normal = [0, 0, -1], or give point without above_bed");
   }
   const std::vector<Section> grains = root.list("grain"), fills = root.list("grains");
   for (const Section& section : grains) needsBed(section, "above_bed");
   for (const Section& section : fills) needsBed(section, "above_bed");
 }
 
-/// Where periodic boundaries stand must be known, and what stands between them must be able to do without sides.
+/// Checks positions of the periodic boundaries, and that the scene supports them.
 void checkPeriodic(const Section& section, const Scene& scene) {
   const RunSettings& run = scene.run;
   const std::optional<std::array<double, 2>>* domains[] = {&run.domainX, &run.domainY};
@@ -112,58 +111,58 @@ void checkPeriodic(const Section& section, const Scene& scene) {
     const auto& domain = *domains[a];
     const std::string key = std::string("domain_") + "xy"[a];
     if (domain && !run.periodic[a])
-      section.fail(key, fmt::format("[m] has no meaning without periodic boundaries along {}; remove it, or set "
-                                    "run.periodic there",
-                                    "xy"[a]));
-    if (domain && scene.terrain)
-      section.fail(key, "[m] stands beside [terrain], whose borders are the periodic boundaries; remove it");
-    if (domain && !((*domain)[1] > (*domain)[0])) section.fail(key, "[m] does not increase; give the lower side first");
-    if (run.periodic[a] && !domain && !scene.terrain)
       section.fail(
-          "periodic",
-          fmt::format("asks for boundaries along {} that stand nowhere; give run.{} = [from, to] [m]", "xy"[a], key));
+          key,
+          fmt::format("[m] has no effect without periodic boundaries along {}; remove it, or set run.periodic there",
+                      "xy"[a]));
+    if (domain && scene.terrain)
+      section.fail(key, "[m] is incompatible with [terrain], whose borders are the periodic boundaries; remove it");
+    if (domain && !((*domain)[1] > (*domain)[0]))
+      section.fail(key, "[m] must be [min, max]; give the lower side first");
+    if (run.periodic[a] && !domain && !scene.terrain)
+      section.fail("periodic", fmt::format("requires positions of the boundaries along {}; set run.{} = [from, to] [m]",
+                                           "xy"[a], key));
   }
   if (!run.periodic[0] && !run.periodic[1]) return;
-  if (scene.vehicle) section.fail("periodic", "is not possible beside a [vehicle]; set it to [false, false]");
+  if (scene.vehicle) section.fail("periodic", "is incompatible with [vehicle]; set it to [false, false]");
   if (scene.mechanism.touches())
     section.fail("periodic",
                  "is not supported with [[body.shape]], which has no periodic images; set it to [false, false]");
   if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() &&
       !(scene.terrain && scene.terrain->granular()))
-    section.fail("periodic", "is for grains, of which this scene has none; remove it");
+    section.fail("periodic", "has no effect without grains; remove it");
 }
 
-/// What stands at one of two periodic boundaries must stand at the other, too.
+/// A plane must be identical at both periodic boundaries.
 void checkPlanesAcross(const std::vector<Section>& sections, const Scene& scene) {
   for (std::size_t k = 0; k < scene.planes.size(); ++k)
     for (int a = 0; a < 2; ++a)
       if (scene.run.periodic[static_cast<std::size_t>(a)] &&
           std::fabs(scene.planes[k].normal[a]) > 1e-9 * norm(scene.planes[k].normal))
-        sections[k].fail("normal",
-                         fmt::format("[-] leans along {}, where boundaries are periodic and a plane must look "
-                                     "alike at both; set that entry to 0, or run.periodic to false there",
-                                     "xy"[a]));
+        sections[k].fail("normal", fmt::format("[-] is inclined along {}, where boundaries are periodic; set that "
+                                               "entry to 0, or run.periodic to false there",
+                                               "xy"[a]));
 }
 
 void checkSettling(const Section& run, const Scene& scene) {
   if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 && !(scene.run.gravity.z < 0))
-    run.fail("gravity", "[m/s2] does not bring the bed to rest on its floor; give z below 0, or set "
-                        "terrain.settle_time_limit = 0");
+    run.fail("gravity",
+             "[m/s2] must point down for the bed to settle; set z below 0, or terrain.settle_time_limit = 0");
 }
 
 void checkSomethingMoves(const Scene& scene) {
   if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
-      scene.mechanism.nothing() && !scene.fluid)
-    throw base::InputError(fmt::format("{}: there is nothing to simulate; add [terrain], [vehicle], [fluid], "
-                                       "[[grain]], [[grains]], [[source]] or [[body]]",
-                                       scene.file.string()));
+      scene.mechanism.hasNoParts() && !scene.fluid)
+    throw base::InputError(fmt::format(
+        "{}: nothing to simulate; add [terrain], [vehicle], [fluid], [[grain]], [[grains]], [[source]] or [[body]]",
+        scene.file.string()));
 }
 
 } // namespace
 
 namespace {
 
-/// A material that stands in no line of the scene, but only in an override, is a mistyped name: nothing is made of it.
+/// A material that only an override names is a mistyped name.
 void checkMaterialsOfOverrides(const Section& root, const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& [name, section] : root.named("material"))
@@ -171,12 +170,12 @@ void checkMaterialsOfOverrides(const Section& root, const Scene& scene) {
   for (const auto& [name, section] : root.named("material"))
     if (section.origin() == "--set")
       section.fail("", names.empty()
-                           ? fmt::format("is no material of {}, which has none", scene.file.string())
-                           : fmt::format("is no material of {}; did you mean {}? (it has: {})", scene.file.string(),
-                                         base::nearestWord(name, names), fmt::join(names, ", ")));
+                           ? fmt::format("is not a material of {}, which has none", scene.file.string())
+                           : fmt::format("is not a material of {}; did you mean {}? (materials: {})",
+                                         scene.file.string(), base::nearestWord(name, names), fmt::join(names, ", ")));
 }
 
-/// Surfaces without a name are called by their list and number.
+/// Rejects names equal to the default name (list and number) of another surface.
 void checkNamesOfSurfaces(const Section& root, const Scene& scene) {
   std::vector<std::string> called;
   const auto call = [&](const char* list, const auto& surfaces) {
@@ -188,7 +187,7 @@ void checkNamesOfSurfaces(const Section& root, const Scene& scene) {
   const auto judge = [&](const char* list, const auto& surfaces) {
     for (std::size_t k = 0; k < surfaces.size(); ++k)
       if (surfaces[k].name && std::find(called.begin(), called.end(), *surfaces[k].name) != called.end())
-        root.list(list)[k].fail("name", "is what a surface without a name is called in the results; choose another");
+        root.list(list)[k].fail("name", "is the default name of another surface in the results; choose another");
   };
   judge("plane", scene.planes), judge("box", scene.boxes);
   judge("cylinder", scene.cylinders), judge("mesh", scene.meshes);

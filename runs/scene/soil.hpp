@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-/// Soils by name: files that say which contact parameters stand for a soil at one size of its grains, what has been
-/// published of the soil, and what virtual tests of these parameters have measured. docs/soils.md describes them.
+/// Soils by name: files with contact parameters of a soil at one grain size, its published constants, and the constants
+/// measured by virtual tests of these parameters. docs/soils.md describes them.
 namespace grouser::scene {
 
 /// Constants of a soil: p = (k_c / b + k_phi) z^n under a plate of width b, tau = (c + p tan phi) (1 - exp(-j / K)).
@@ -31,7 +31,7 @@ enum class SoilQuantity {
   reposeAngle,
   unloadingModulus
 };
-/// In SI, as a file must say it: "N/m^(n+1)", "Pa", "deg".
+/// SI unit as in a file: "N/m^(n+1)", "Pa", "deg".
 std::string unitOf(SoilQuantity quantity);
 
 /// [soil]
@@ -40,7 +40,7 @@ struct SoilHead {
   bool calibrated = false; ///< whether a bevameter run stands behind [material]
 };
 
-/// [bed]: the grains that [material] is meant for.
+/// [bed]: grain size for which [material] holds.
 struct SoilGrains {
   double radius = 0;                       ///< [m] in the middle of their distribution
   double radiusSpread = Terrain::kSpread;  ///< [-] uniform by number
@@ -88,31 +88,31 @@ struct Soil {
 /// Reads a soil's file. Throws base::InputError with file, line, key, value, range and remedy.
 Soil readSoil(const std::filesystem::path& file);
 
-/// The file of the soil that a scene calls `word`: a name stands for soils/NAME.toml, a word with a slash or .toml for
-/// that path; both are looked for in the scene's folder, the current one and assets/. Empty where there is none, with
-/// the places that were looked at.
+/// Path of the soil file that a scene calls `word`: a name stands for soils/NAME.toml, a word with a slash or .toml is
+/// a path; both are searched in the scene's folder, the current one and assets/. Empty if there is none; `tried`: the
+/// searched paths.
 std::filesystem::path findSoil(const std::string& word, const std::filesystem::path& scene,
                                std::vector<std::filesystem::path>& tried);
 
-/// The files of all soils that a scene can take by name, by that name.
+/// Files of all soils that a scene can use by name.
 std::map<std::string, std::filesystem::path> knownSoils(const std::filesystem::path& scene);
 
 /// "did you mean \"lete_sand\"? (soils: ...)", for a name that is none of them.
 std::string soilHint(const std::string& word, const std::filesystem::path& scene);
 
-/// What a scene has of soils: one for each material that is a soil, in the order of the materials.
+/// Soils of a scene: one for each material that is a soil, in the order of the materials.
 std::vector<support::SoilUse> soilUses(const Scene& scene);
 /// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times its own, cohesion [J/m2] 3; uncalibrated".
 std::string soilLine(const support::SoilUse& use);
 
-/// What users of the scene's soils should know, a line each.
+/// Notes on the scene's soils, a line each.
 std::vector<std::string> soilNotes(const Scene& scene);
 
-/// Whether material `name` is a soil whose `key` comes from the soil's file, so that it goes with the radius of the
-/// scene's grains by itself.
+/// Returns true if material `name` is a soil and `key` comes from the soil's file, so that it scales with the radius of
+/// the scene's grains.
 bool goesWithGrains(const Scene& scene, const std::string& name, const std::string& key);
 
-/// With which power of the grains' radius a key of a soil's [material] goes.
+/// Power of the grains' radius with which a key of a soil's [material] scales.
 int radiusPowerOf(const std::string& key);
 
 /// All keys of a soil's file with unit, default, range and meaning, as Markdown.

@@ -72,7 +72,7 @@ std::optional<double> referenceSinkage(const std::vector<ContactConstant>& const
 /// Standard deviation of the logarithm of a quantity with this deviation of its value.
 double logDeviation(double deviation) { return std::sqrt(base::log(1 + deviation * deviation)); }
 
-/// Radius whose measurements have most of the constants; of several the smallest.
+/// Grain radius with the most measured constants; the smallest of several.
 double measuredRadius(const Soil& soil) {
   std::map<double, int> constants;
   for (const ReachedConstant& r : soil.reached)
@@ -172,10 +172,10 @@ double modulusCorrelation(const std::vector<ContactConstant>& constants) {
 }
 
 std::string jointDistributionText(const std::vector<ContactConstant>& constants) {
-  return fmt::format("samples (scm.constants_draw): the pressure at the sinkage under {:g} kPa deviates by {:g} % "
-                     "(assumed), so that ln k and n correlate by {:.2f}; c and tan phi correlate by {:g} (assumed)",
-                     1e-3 * kReferencePressure, 100 * kPressureDeviation, modulusCorrelation(constants),
-                     kStrengthCorrelation);
+  return fmt::format(
+      "samples (scm.constants_draw): at the sinkage under {:g} kPa the standard deviation of pressure is {:g} % "
+      "(assumed), so the correlation of ln k and n is {:.2f}; that of c and tan phi is {:g} (assumed)",
+      1e-3 * kReferencePressure, 100 * kPressureDeviation, modulusCorrelation(constants), kStrengthCorrelation);
 }
 
 } // namespace grouser::scene

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reads the files of soils, and finds them by name.
+// Reads soil files and finds them by name.
 #include "runs/scene/soil.hpp"
 
 #include "base/nearest_key.hpp"
@@ -28,28 +28,28 @@ constexpr double kWidest = 1e15; // of a constant in SI
 
 Table<SoilHead> headTable() {
   using S = SoilHead;
-  Table<S> t("soil", "What the soil is");
-  t.add("title", &S::title, "", "in a few words").required();
-  t.add("description", &S::description, "", "what stands for it, and what that cannot do").required();
+  Table<S> t("soil", "Title and description of the soil");
+  t.add("title", &S::title, "", "short title").required();
+  t.add("description", &S::description, "", "model of the soil and its limits").required();
   t.add("calibrated", &S::calibrated, "",
-        "whether [material] has been found by measuring what it gives, which [[reached]] then says; a run on a soil "
-        "that is not says so");
+        "whether [material] was calibrated by virtual tests, whose results are in [[reached]]; runs on an uncalibrated "
+        "soil print a note");
   return t;
 }
 
 Table<SoilGrains> grainsTable() {
   using S = SoilGrains;
-  Table<S> t("bed", "The grains that [material] is meant for, and how they lie");
-  t.add("grain_radius", &S::radius, "m", "in the middle of the distribution, at which [material] holds")
+  Table<S> t("bed", "Grain size for which [material] holds, and arrangement of the bed");
+  t.add("grain_radius", &S::radius, "m", "median radius of the distribution for which [material] holds")
       .above(0)
       .atMost(10)
       .required();
-  t.add("radius_spread", &S::radiusSpread, "-", "half the width of the uniform distribution over grain_radius")
+  t.add("radius_spread", &S::radiusSpread, "-", "half the width of the uniform distribution / grain_radius")
       .above(0)
       .atMost(0.9);
-  t.add("porosity", &S::porosity, "-", "of a bed at random; as poured where not given").atLeast(0.2).atMost(0.7);
+  t.add("porosity", &S::porosity, "-", "porosity of a random bed; default: as poured").atLeast(0.2).atMost(0.7);
   t.add("calibrated_radii", &S::calibratedRadii, "m",
-        "least and greatest grain_radius at which it has been measured; its own where not given")
+        "minimum and maximum grain_radius of the measurements; default: grain_radius")
       .above(0)
       .atMost(10);
   return t;
@@ -57,48 +57,47 @@ Table<SoilGrains> grainsTable() {
 
 Table<PublishedConstant> publishedTable() {
   using S = PublishedConstant;
-  Table<S> t("[published]", "A constant of the soil that has been published; as many as there are");
+  Table<S> t("[published]", "A published constant of the soil; repeat for each constant");
   t.add("quantity", &S::quantity, "",
         "p = (k_c / b + k_phi) z^n under a plate of width b; tau = (c + p tan phi) (1 - exp(-j / K))")
       .required();
-  t.add("value", &S::value, "", "in unit").atLeast(-kWidest).atMost(kWidest).required();
-  t.add("unit", &S::unit, "", "N/m^(n+1), N/m^(n+2), Pa, deg, m, kg/m3, -: as the quantity has it").required();
-  t.add("source", &S::source, "", "author, year, and where it stands").required();
-  t.add("low", &S::low, "", "least of several sources").atLeast(-kWidest).atMost(kWidest);
-  t.add("high", &S::high, "", "greatest of several sources").atLeast(-kWidest).atMost(kWidest);
+  t.add("value", &S::value, "", "value in unit").atLeast(-kWidest).atMost(kWidest).required();
+  t.add("unit", &S::unit, "", "unit of the quantity: N/m^(n+1), N/m^(n+2), Pa, deg, m, kg/m3 or -").required();
+  t.add("source", &S::source, "", "author, year and location in the publication").required();
+  t.add("low", &S::low, "", "minimum of several sources").atLeast(-kWidest).atMost(kWidest);
+  t.add("high", &S::high, "", "maximum of several sources").atLeast(-kWidest).atMost(kWidest);
   return t;
 }
 
 Table<ReachedConstant> reachedTable() {
   using S = ReachedConstant;
-  Table<S> t("[reached]", "A constant that [material] was measured to give; as many as there are");
-  t.add("quantity", &S::quantity, "", "as of [[published]]").required();
-  t.add("value", &S::value, "", "in unit").atLeast(-kWidest).atMost(kWidest).required();
-  t.add("half_width", &S::halfWidth, "", "of its 95 % interval").atLeast(0).atMost(kWidest).required();
-  t.add("unit", &S::unit, "", "as of [[published]]").required();
-  t.add("grain_radius", &S::grainRadius, "m", "at which it was measured").above(0).atMost(10).required();
-  t.add("command", &S::command, "", "that measured it").required();
+  Table<S> t("[reached]", "A constant measured with [material]; repeat for each constant");
+  t.add("quantity", &S::quantity, "", "as in [[published]]").required();
+  t.add("value", &S::value, "", "value in unit").atLeast(-kWidest).atMost(kWidest).required();
+  t.add("half_width", &S::halfWidth, "", "half width of its 95 % interval").atLeast(0).atMost(kWidest).required();
+  t.add("unit", &S::unit, "", "as in [[published]]").required();
+  t.add("grain_radius", &S::grainRadius, "m", "grain radius of the measurement").above(0).atMost(10).required();
+  t.add("command", &S::command, "", "command that measured it").required();
   return t;
 }
 
 template <class Constant> void checkUnit(const Section& section, const Constant& c) {
   if (c.unit != unitOf(c.quantity))
-    section.fail("unit", fmt::format("is not that of quantity = \"{}\"; give the value in {} and unit = \"{}\"",
+    section.fail("unit", fmt::format("does not match quantity = \"{}\"; give the value in {} and unit = \"{}\"",
                                      base::wordOf(c.quantity), unitOf(c.quantity), unitOf(c.quantity)));
 }
 
 void checkPublished(const Section& section, const PublishedConstant& c) {
   checkUnit(section, c);
-  if (c.low && *c.low > c.value) section.fail("low", "is above value; give the least of the sources");
-  if (c.high && *c.high < c.value) section.fail("high", "is below value; give the greatest of the sources");
+  if (c.low && *c.low > c.value) section.fail("low", "is above value; give the minimum of the sources");
+  if (c.high && *c.high < c.value) section.fail("high", "is below value; give the maximum of the sources");
 }
 
-/// What [material] of a soil's file may hold: all but what says which soil a scene's material is of.
+/// Reads [material] of a soil file, which may have all keys of a material but soil, soil_hash and grain_radius.
 Material readMaterial(const Section& section) {
   for (const char* key : {"soil", "soil_hash", "grain_radius"})
     if (section.has(key))
-      section.fail(key,
-                   "belongs to a scene, whose material is a soil; remove it: a soil's file has [bed] grain_radius");
+      section.fail(key, "is a key of scene files only; remove it (a soil file has grain_radius in [bed])");
   Material m = section.read(detail::materialTable());
   detail::completeMaterial(section, m);
   return m;
@@ -157,11 +156,9 @@ Soil readSoil(const fs::path& file) {
   const Section bed = root.section("bed");
   if (!bed.has("calibrated_radii")) soil.grains.calibratedRadii = {soil.grains.radius, soil.grains.radius};
   const auto [least, greatest] = soil.grains.calibratedRadii;
-  if (least > greatest) bed.fail("calibrated_radii", "[m] descends; give the least first");
+  if (least > greatest) bed.fail("calibrated_radii", "[m] must be [min, max]; swap the radii");
   if (soil.grains.radius < least || soil.grains.radius > greatest)
-    bed.fail("calibrated_radii", fmt::format("[m] does not hold grain_radius = {:g}, at which [material] is meant to "
-                                             "hold; widen it",
-                                             soil.grains.radius));
+    bed.fail("calibrated_radii", fmt::format("[m] does not include grain_radius = {:g}; widen it", soil.grains.radius));
   for (const Section& section : root.list("published")) {
     soil.published.push_back(section.read(publishedTable()));
     checkPublished(section, soil.published.back());
@@ -171,8 +168,8 @@ Soil readSoil(const fs::path& file) {
     checkUnit(section, soil.reached.back());
   }
   if (soil.head.calibrated && soil.reached.empty())
-    root.section("soil").fail("calibrated", "has nothing behind it: no [[reached]] says what was measured; add that, "
-                                            "or set it to false");
+    root.section("soil").fail("calibrated",
+                              "is true, but the file has no measured constants; add [[reached]], or set it to false");
   return soil;
 }
 
@@ -195,15 +192,13 @@ std::map<std::string, fs::path> knownSoils(const fs::path& scene) {
 std::string soilHint(const std::string& word, const fs::path& scene) {
   std::vector<std::string> names;
   for (const auto& [name, file] : knownSoils(scene)) names.push_back(name);
-  if (names.empty()) return "there are none in soils/ beside the scene or in assets/soils";
+  if (names.empty()) return "there are no soils in soils/ of the scene's folder or in assets/soils";
   return fmt::format("did you mean \"{}\"? (soils: {})", base::nearestWord(word, names), fmt::join(names, ", "));
 }
 
 std::string soilFieldHelp() {
-  return "## Keys of a soil's file\n\nEvery file begins with `version = 1`. Its `[material]` has the keys of a scene's "
-         "`[material.NAME]`, but for\n`soil`, `soil_hash` and `grain_radius`. What the file is for: "
-         "[soils.md](soils.md)."
-         "\n\n" +
+  return "## Keys of a soil file\n\nEvery file begins with `version = 1`. Its `[material]` has the keys of a scene's "
+         "`[material.NAME]` except\n`soil`, `soil_hash` and `grain_radius`. See [soils.md](soils.md).\n\n" +
          base::describe(headTable()) + "\n" + base::describe(grainsTable()) + "\n" + base::describe(publishedTable()) +
          "\n" + base::describe(reachedTable());
 }

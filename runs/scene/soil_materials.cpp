@@ -17,12 +17,12 @@ using base::Section;
 
 namespace {
 
-/// A material's name, and where it stands.
+/// A material's name and its place in the file.
 struct Mention {
   std::string name, origin;
 };
 
-/// Every place of a scene where a material's name stands, in the file's order of kinds.
+/// All names of materials in a scene, in the file's order of kinds.
 std::vector<Mention> mentionedMaterials(const Section& root) {
   std::vector<Mention> all;
   const auto addKey = [&](const Node& section, const char* key) {
@@ -45,7 +45,7 @@ std::vector<Mention> mentionedMaterials(const Section& root) {
   return all;
 }
 
-/// The keys of a material that mean the same in every law.
+/// Returns true for keys of a material that apply to every law.
 bool isOfAnyLaw(const std::string& key) {
   constexpr const char* kAny[] = {"density",  "restitution",      "attraction",
                                   "friction", "rolling_friction", "rolling_damping_ratio",
@@ -56,7 +56,7 @@ bool isOfAnyLaw(const std::string& key) {
 /// "grains of 14 mm".
 std::string millimetres(double radius) { return fmt::format("{:.4g} mm", 1000 * radius); }
 
-/// The radius of the grains that are of a material; a bed's goes before all others. Throws where there is no one.
+/// Radius of a material's grains, first of all that of a bed [m]. Throws InputError if they have no common radius.
 double radiusOfGrains(const Scene& scene, const Material& m) {
   const auto& t = scene.terrain;
   if (t && t->granular() && t->material == m.name) return *t->grainRadius;
@@ -72,11 +72,10 @@ double radiusOfGrains(const Scene& scene, const Material& m) {
   for (const Source& s : scene.sources)
     if (s.material == m.name) radii.push_back(s.radius);
   const std::string remedy = fmt::format(
-      "which the soil's stiffness and cohesion go with; add grain_radius = {:g} to [material.{}], beside "
-      "soil = \"{}\"",
+      "but the soil's stiffness and cohesion depend on it; add grain_radius = {:g} to [material.{}] with soil = \"{}\"",
       radii.empty() ? scene.soils.at(m.name)->grains.radius : radii.front(), m.name, scene.soils.at(m.name)->name);
   if (radii.empty())
-    scene.failMaterial(m.name, "grain_radius", "[m] is missing: no grains are of this soil, " + remedy);
+    scene.failMaterial(m.name, "grain_radius", "[m] is missing: the scene has no grains of this soil, " + remedy);
   const auto [least, greatest] = std::minmax_element(radii.begin(), radii.end());
   if (*greatest - *least > 1e-9 * *greatest)
     scene.failMaterial(m.name, "grain_radius",
@@ -121,7 +120,7 @@ const Soil* soilOf(const Section& section, const std::string& name, Scene& scene
     std::string places;
     for (const fs::path& p : tried) places += (places.empty() ? "" : ", ") + p.string();
     section.fail("soil", fmt::format("names no soil; {}{}", soilHint(*word, scene.file),
-                                     places.empty() ? "" : fmt::format("; looked for {}", places)));
+                                     places.empty() ? "" : fmt::format("; searched {}", places)));
   }
   auto& kept = scene.soils[name];
   kept = std::make_shared<const Soil>(readSoil(file));

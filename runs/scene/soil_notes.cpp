@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene has of soils, for results and messages.
+// Soils of a scene, for results and messages.
 #include "runs/scene/soil.hpp"
 
 #include "base/math.hpp"
@@ -23,7 +23,7 @@ std::string calibratedSizes(const Soil& soil) {
   return least < greatest ? fmt::format("{} to {}", millimetres(least), millimetres(greatest)) : millimetres(least);
 }
 
-/// Whether a material has other values than its soil, scaled to its grains.
+/// Returns true if a material has other values than its soil, scaled to its grains.
 bool isChanged(const Material& m, const Soil& soil) {
   constexpr double kRounding = 1e-9;
   const base::Table<Material> table = detail::materialTable();
@@ -38,44 +38,40 @@ bool isChanged(const Material& m, const Soil& soil) {
   return false;
 }
 
-/// Whether what the scene has of a soil is what has been measured: at its size, with its values.
+/// Returns true if the material has the size and values of the soil's calibration.
 bool isCalibrated(const Material& m, const Soil& soil) {
   return soil.head.calibrated && isCalibratedSize(soil.grains.calibratedRadii, *m.grainRadius) && !isChanged(m, soil);
 }
 
-/// Notes on the grains of the material's own radius.
+/// Note if the bed's grains differ from the radius of the material.
 void noteGrains(const Scene& scene, const Material& m, std::vector<std::string>& notes) {
   const double radius = *m.grainRadius;
   const auto& t = scene.terrain;
   if (t && t->granular() && t->material == m.name && std::fabs(*t->grainRadius - radius) > 1e-9 * radius)
-    notes.push_back(
-        fmt::format("material.{}: is scaled to grains of {}, as its grain_radius says, and the bed's are of "
-                    "{}",
-                    m.name, millimetres(radius), millimetres(*t->grainRadius)));
+    notes.push_back(fmt::format("material.{}: scaled to grains of {} (grain_radius), but the bed's grains have {}",
+                                m.name, millimetres(radius), millimetres(*t->grainRadius)));
 }
 
-/// Of values that were written for another state of the soil's file.
+/// Note if the soil file has changed since the scene was written.
 void noteChange(const Scene& scene, const Material& m, const Soil& soil, std::vector<std::string>& notes) {
   for (const auto& [name, section] : scene.document->root().named("material")) {
     const base::Node* hash = name == m.name ? section.node().find("soil_hash") : nullptr;
     const auto* text = hash ? std::get_if<std::string>(&hash->value) : nullptr;
     if (text && *text != soil.hash)
-      notes.push_back(
-          fmt::format("{}: material.{}.soil_hash = \"{}\" is not that of {}, {}: the soil has changed since, "
-                      "and what the scene says of it itself has not",
-                      hash->origin, m.name, *text, soil.file.string(), soil.hash));
+      notes.push_back(fmt::format("{}: material.{}.soil_hash = \"{}\" differs from that of {}, {}: the soil file has "
+                                  "changed; check the values in the scene",
+                                  hash->origin, m.name, *text, soil.file.string(), soil.hash));
   }
 }
 
-/// Of a bed that would be prepared to the soil's porosity, were it deeper.
+/// Note if a bed is too shallow for the soil's porosity.
 void notePorosity(const Scene& scene, std::vector<std::string>& notes) {
   const auto& t = scene.terrain;
   if (!t || !t->granular() || t->lattice() || t->porosity || t->settleTimeLimit == 0) return;
   const auto soil = scene.soils.find(t->material);
   if (soil != scene.soils.end() && soil->second->grains.porosity)
     notes.push_back(
-        fmt::format("terrain: the bed is too shallow to be prepared to the porosity of the soil {}, {:g}: it "
-                    "lies as it is poured",
+        fmt::format("terrain: the bed is too shallow to reach the porosity of the soil {}, {:g}; it remains as poured",
                     soil->second->name, *soil->second->grains.porosity));
 }
 
@@ -104,7 +100,7 @@ std::vector<support::SoilUse> soilUses(const Scene& scene) {
 std::string soilLine(const support::SoilUse& use) {
   std::string values;
   for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);
-  return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} times its own{}; {}", use.material,
+  return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} times the soil's{}; {}", use.material,
                      use.material == use.soil ? "" : fmt::format(" is {}", use.soil), use.file, use.hash,
                      millimetres(use.grainRadius), use.scale, values,
                      use.calibrated                                 ? "calibrated"
@@ -118,12 +114,11 @@ std::vector<std::string> soilWarnings(const Scene& scene) {
     if (m.soil.empty()) continue;
     const Soil& soil = *scene.soils.at(m.name);
     if (!soil.head.calibrated || isCalibratedSize(soil.grains.calibratedRadii, *m.grainRadius)) continue;
-    warnings.push_back(
-        fmt::format("material.{}: the soil {} is calibrated for grains of {}, not of {}, {:.3g} times its own: its "
-                    "parameters are scaled, not calibrated at this size; measure what they give by grouser soil {} "
-                    "--grain-radius {:g}",
-                    m.name, soil.name, calibratedSizes(soil), millimetres(*m.grainRadius),
-                    *m.grainRadius / soil.grains.radius, soil.name, *m.grainRadius));
+    warnings.push_back(fmt::format(
+        "material.{}: the soil {} is calibrated for grains of {}, not {} ({:.3g} times the soil's); parameters are "
+        "scaled, not calibrated at this size; measure them: grouser soil {} --grain-radius {:g}",
+        m.name, soil.name, calibratedSizes(soil), millimetres(*m.grainRadius), *m.grainRadius / soil.grains.radius,
+        soil.name, *m.grainRadius));
   }
   return warnings;
 }
@@ -134,17 +129,16 @@ std::vector<std::string> soilNotes(const Scene& scene) {
   for (const Material& m : scene.materials) {
     if (m.soil.empty()) {
       if (known.contains(m.name))
-        notes.push_back(fmt::format("material.{}: is the scene's own, not the soil of that name; with soil = \"{}\" in "
-                                    "it it would be that one",
-                                    m.name, m.name));
+        notes.push_back(fmt::format(
+            "material.{}: defined by the scene, not by the soil of that name; to use the soil, add soil = \"{}\"",
+            m.name, m.name));
       continue;
     }
     const Soil& soil = *scene.soils.at(m.name);
     if (!soil.head.calibrated)
-      notes.push_back(
-          fmt::format("material.{}: the soil {} is uncalibrated: nobody has measured yet which constants its "
-                      "contact parameters give ({})",
-                      m.name, soil.name, m.soil));
+      notes.push_back(fmt::format("material.{}: the soil {} is uncalibrated, no soil constants have been measured with "
+                                  "its contact parameters ({})",
+                                  m.name, soil.name, m.soil));
     noteGrains(scene, m, notes);
     noteChange(scene, m, soil, notes);
   }

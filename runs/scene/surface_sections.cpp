@@ -21,70 +21,73 @@ namespace {
 using base::Section;
 using base::Table;
 
-/// What all rigid surfaces have alike.
+/// Keys common to all rigid surfaces.
 template <class S> void addSurface(Table<S>& t) {
   using base::Vec3d;
   using Number = std::optional<double>;
   using Vector = std::optional<Vec3d>;
   t.template add<std::string>("material", &S::material, "", "name of its material").required();
   t.template add<std::optional<std::string>>("name", &S::name, "",
-                                             "in results.h5 and timeseries.csv; kind and number where not given");
-  t.template add<Vector>("velocity", &S::velocity, "m/s", "at which it is moved").atLeast(-1e4).atMost(1e4);
-  t.template add<Vector>("spin", &S::spin, "rad/s", "angular velocity at which it is turned, in the world")
+                                             "name in results.h5 and timeseries.csv; default: kind and number");
+  t.template add<Vector>("velocity", &S::velocity, "m/s", "prescribed velocity").atLeast(-1e4).atMost(1e4);
+  t.template add<Vector>("spin", &S::spin, "rad/s", "prescribed angular velocity in the world frame")
       .atLeast(-1e5)
       .atMost(1e5);
   t.template add<Vector>("pivot", &S::pivot, "m",
-                         "that it is turned about, which velocity moves along; its own centre where not given");
-  t.template add<Vector>("amplitude", &S::amplitude, "m", "of an oscillation, along this vector");
-  t.template add<Number>("frequency", &S::frequency, "Hz", "of that oscillation").above(0).atMost(1e5);
-  t.template add<Number>("phase", &S::phase, "deg", "of that sine at the start; -90 begins from rest")
+                         "centre of rotation, which moves with velocity; default: the surface's centre");
+  t.template add<Vector>("amplitude", &S::amplitude, "m", "amplitude of an oscillation along this vector");
+  t.template add<Number>("frequency", &S::frequency, "Hz", "frequency of the oscillation").above(0).atMost(1e5);
+  t.template add<Number>("phase", &S::phase, "deg", "phase of the sine at the start; -90 starts from rest")
       .atLeast(-360)
       .atMost(360);
-  t.template add<Number>("start", &S::start, "s", "when velocity, spin and oscillation begin").atLeast(0).atMost(1e5);
-  t.template add<Number>("until", &S::until, "s", "when they end").above(0).atMost(1e5);
+  t.template add<Number>("start", &S::start, "s", "start time of velocity, spin and oscillation")
+      .atLeast(0)
+      .atMost(1e5);
+  t.template add<Number>("until", &S::until, "s", "end time of velocity, spin and oscillation").above(0).atMost(1e5);
   t.template add<std::optional<Axis>>(
       "free", &S::free, "",
-      "axis along which load, grains and weight move it, from the start; what velocity, spin and "
-      "amplitude say moves it besides: a wheel under load, a plate pulled or turned");
-  t.template add<Number>("mass", &S::mass, "kg", "of a free surface; required there").above(0).atMost(1e12);
-  t.template add<Number>("load", &S::load, "N", "on a free surface along its axis; negative presses down where z is up")
+      "axis along which load, grains and weight move the surface from the start, in addition to velocity, spin and "
+      "amplitude: a wheel under load, a plate pulled or turned");
+  t.template add<Number>("mass", &S::mass, "kg", "mass of a free surface; required with free").above(0).atMost(1e12);
+  t.template add<Number>("load", &S::load, "N",
+                         "force on a free surface along its axis; along z, negative presses down")
       .atLeast(-1e12)
       .atMost(1e12);
-  t.template add<Number>("load_ramp", &S::loadRamp, "s", "over which the load comes on; at once where not given")
+  t.template add<Number>("load_ramp", &S::loadRamp, "s", "duration of the load's ramp from 0; default: 0")
       .atLeast(0)
       .atMost(1e5);
   t.template add<std::optional<PlacedWhen>>(
       "placed", &S::placed, "",
-      "beside a bed that settles: before, and the bed is laid around it, or after_settling, on a bed that has settled "
-      "without it; where not given, surfaces at rest before, meshes and what moves after");
+      "in a scene whose bed settles: before, so that the bed is laid around the surface, or after_settling, on the "
+      "settled bed; default: before for surfaces at rest, after_settling for meshes and moving surfaces");
   t.template add<Number>("above_bed", &S::aboveBed, "m",
-                         "height of its lowest point over the highest grain under it once the bed has settled; instead "
-                         "of the z that the section gives")
+                         "height of its lowest point above the highest grain under it once the bed has settled; "
+                         "replaces the z of the section")
       .atLeast(0)
       .atMost(1e4);
 }
 
-/// How a surface that has axes of its own stands at the start; `from`: whose axes it is turned from.
+/// Initial orientation of a surface; `from`: the reference axes.
 template <class S> void addTurn(Table<S>& t, const std::string& from) {
-  t.add("axis", &S::axis, "-", "about which it is turned from the " + from + " axes, with angle");
-  t.add("angle", &S::angle, "deg", "of that turn, right-handed").atLeast(-3600).atMost(3600);
+  t.add("axis", &S::axis, "-", "rotation axis of the initial orientation, from the " + from + " axes; requires angle");
+  t.add("angle", &S::angle, "deg", "angle of that rotation, right-handed").atLeast(-3600).atMost(3600);
   t.add("orientation", &S::orientation, "-", "unit quaternion w, x, y, z, instead of axis and angle");
 }
 
 Table<Plane> planeTable() {
   using S = Plane;
-  Table<S> t("[plane]", "A rigid plane; the solid lies behind its normal. Fixed, or moved as boxes are");
-  t.add("point", &S::point, "m", "any point of the plane; loads are taken about it");
-  t.add("normal", &S::normal, "-", "out of the solid; of any length but zero");
+  Table<S> t("[plane]", "A rigid plane, fixed or moving; the solid lies behind its normal");
+  t.add("point", &S::point, "m", "any point of the plane; reference point of its loads");
+  t.add("normal", &S::normal, "-", "outward normal of the solid; any length but zero");
   addSurface(t);
   return t;
 }
 
 Table<BoxSection> boxTable() {
   using S = BoxSection;
-  Table<S> t("[box]", "A solid rigid box that grains touch, fixed or moved");
-  t.add("position", &S::position, "m", "of its centre").required();
-  t.add("size", &S::size, "m", "its edges along x, y, z before it is turned").above(0).atMost(1e5).required();
+  Table<S> t("[box]", "A solid rigid box for contact with grains, fixed or moving");
+  t.add("position", &S::position, "m", "position of its centre").required();
+  t.add("size", &S::size, "m", "edge lengths along x, y, z before rotation").above(0).atMost(1e5).required();
   addTurn(t, "world's");
   addSurface(t);
   return t;
@@ -92,36 +95,38 @@ Table<BoxSection> boxTable() {
 
 Table<CylinderSection> cylinderTable() {
   using S = CylinderSection;
-  Table<S> t("[cylinder]", "A rigid cylinder that grains touch, fixed or moved: a solid rod with flat ends, or hollow");
-  t.add("position", &S::position, "m", "of its centre").required();
-  t.add("axis", &S::axis, "-", "its direction; of any length but zero");
-  t.add("radius", &S::radius, "m", "of its wall").above(0).atMost(1e5).required();
-  t.add("length", &S::length, "m", "along its axis").above(0).atMost(1e5).required();
-  t.add("hollow", &S::hollow, "", "a drum or pipe without thickness, felt from inside and outside, open at both ends");
+  Table<S> t("[cylinder]",
+             "A rigid cylinder for contact with grains, fixed or moving: a solid rod with flat ends, or hollow");
+  t.add("position", &S::position, "m", "position of its centre").required();
+  t.add("axis", &S::axis, "-", "direction of its axis; any length but zero");
+  t.add("radius", &S::radius, "m", "radius of its wall").above(0).atMost(1e5).required();
+  t.add("length", &S::length, "m", "length along its axis").above(0).atMost(1e5).required();
+  t.add("hollow", &S::hollow, "",
+        "a drum or pipe of zero thickness with contact inside and outside, open at both ends");
   addSurface(t);
   return t;
 }
 
 Table<MeshSection> meshTable() {
   using S = MeshSection;
-  Table<S> t("[mesh]", "A rigid body from a file that grains touch, fixed or moved, cut into spheres");
+  Table<S> t("[mesh]", "A rigid body from a mesh file for contact with grains, fixed or moving, converted to spheres");
   t.add("file", &S::file, "",
-        "OBJ, STL, PLY...: closed, outward; looked for in the scene's folder, the working folder, the assets folder")
+        "closed mesh with outward normals (OBJ, STL, PLY...); searched in the scene's folder, the working folder, the "
+        "assets folder")
       .required();
-  t.add("scale", &S::scale, "m", "of one unit of the file").above(0).atMost(1e6);
-  t.add("position", &S::position, "m", "of the file's origin, about which loads are taken");
+  t.add("scale", &S::scale, "m", "length of one unit of the file").above(0).atMost(1e6);
+  t.add("position", &S::position, "m", "position of the file's origin, the reference point of loads");
   addTurn(t, "file's");
   t.add("sphere_radius", &S::sphereRadius, "m",
         fmt::format(
-            "of the spheres it is cut into, which round its edges; where not given {} of its diagonal, or finer where "
-            "these would stand out of it by more than a fiftieth of the smallest grain's radius, or of a quarter "
-            "of a vehicle's pitch",
+            "radius of its spheres, which round its edges; default: {} of its diagonal, or finer where spheres would "
+            "protrude by more than a fiftieth of the smallest grain's radius, or of a quarter of a vehicle's pitch",
             S::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("sphere_refinement", &S::sphereRefinement, "-",
-        "divides the sphere radius, and of an automatic one the permitted protrusion too; grouser check doubles it for "
-        "its finer case")
+        "divisor of the sphere radius, and of the permitted protrusion if that radius is automatic; grouser check "
+        "doubles it in its finer case")
       .atLeast(1)
       .atMost(16);
   addSurface(t);
@@ -129,31 +134,30 @@ Table<MeshSection> meshTable() {
 }
 
 void checkOscillation(const Section& section, const SurfaceSection& s) {
-  if (s.amplitude && !s.frequency) section.fail("frequency", "[Hz] is missing beside amplitude; add it");
+  if (s.amplitude && !s.frequency) section.fail("frequency", "[Hz] is missing, but amplitude requires it; add it");
   for (const char* key : {"frequency", "phase"})
-    if (!s.amplitude && section.has(key)) section.fail(key, "has no meaning without amplitude; add that, or remove it");
+    if (!s.amplitude && section.has(key)) section.fail(key, "has no effect without amplitude; add that, or remove it");
 }
 
 void checkFree(const Section& section, const SurfaceSection& s) {
   if (!s.free) {
     for (const char* key : {"mass", "load", "load_ramp"})
       if (section.has(key))
-        section.fail(key, "belongs to a surface that forces move; add free = \"z\" (or x, y), or remove it");
+        section.fail(key, "applies to free surfaces only; add free = \"z\" (or x, y), or remove it");
     return;
   }
-  if (!s.mass) section.fail("mass", "[kg] is missing, which a free surface needs; add it");
-  if (s.loadRamp && !s.load) section.fail("load_ramp", "[s] has no meaning without load; add that, or remove it");
+  if (!s.mass) section.fail("mass", "[kg] is missing, but a free surface requires it; add it");
+  if (s.loadRamp && !s.load) section.fail("load_ramp", "[s] has no effect without load; add that, or remove it");
   const int axis = static_cast<int>(*s.free);
   const auto prescribed = [&](const char* key, const std::optional<base::Vec3d>& v) {
     if (v && (*v)[axis] != 0)
-      section.fail(key, fmt::format("moves the surface along {}, where free leaves it to the forces; set that entry to "
-                                    "0, or remove free",
+      section.fail(key, fmt::format("prescribes motion along {}, the axis of free; set that entry to 0, or remove free",
                                     base::wordOf(*s.free)));
   };
   prescribed("velocity", s.velocity), prescribed("amplitude", s.amplitude);
 }
 
-/// Whether a surface that has been read bears that name.
+/// Returns true if an earlier surface has that name.
 bool isTaken(const std::string& name, const Scene& scene) {
   const auto among = [&](const auto& surfaces) {
     return std::any_of(surfaces.begin(), surfaces.end(), [&](const SurfaceSection& s) { return s.name == name; });
@@ -161,22 +165,23 @@ bool isTaken(const std::string& name, const Scene& scene) {
   return among(scene.planes) || among(scene.boxes) || among(scene.cylinders) || among(scene.meshes);
 }
 
-/// What all surfaces have alike.
+/// Checks common to all surfaces.
 void checkSurface(const Section& section, const SurfaceSection& s, const Scene& scene) {
   checkOscillation(section, s);
   checkFree(section, s);
-  if (s.pivot && !s.spin) section.fail("pivot", "[m] has no meaning without spin; add that, or remove it");
+  if (s.pivot && !s.spin) section.fail("pivot", "[m] has no effect without spin; add that, or remove it");
   const bool driven = s.velocity || s.spin || s.amplitude;
   for (const char* key : {"start", "until"})
     if (section.has(key) && !driven)
-      section.fail(key, "[s] has no meaning for a surface that is not moved; add velocity, spin or amplitude");
+      section.fail(key, "[s] has no effect on a fixed surface; add velocity, spin or amplitude");
   if (s.until && *s.until <= s.start.value_or(0)) section.fail("until", "[s] is not after start; raise it");
   if (!s.name) return;
   if (const std::string fault = support::nameFault(*s.name); !fault.empty()) section.fail("name", fault);
   if (s.name->find_first_of(". ,\"") != std::string::npos)
-    section.fail("name", "must be a word without blanks, dots, commas and quotes, since it names columns of the "
-                         "results; choose another");
-  if (isTaken(*s.name, scene)) section.fail("name", "is that of another surface; choose another");
+    section.fail(
+        "name",
+        "must not contain blanks, dots, commas or quotes, since it names columns of the results; choose another");
+  if (isTaken(*s.name, scene)) section.fail("name", "is the name of another surface; choose another");
 }
 
 template <class S> void checkOrientation(const Section& section, const S& s) {

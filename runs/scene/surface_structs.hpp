@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-/// What a scene file says of rigid surfaces: plain structs, one a section. Keys, units, ranges and meanings stand in
-/// surface_sections.cpp.
+/// Rigid surfaces of a scene file as plain structs, one per section. surface_sections.cpp defines keys, units and
+/// ranges.
 namespace grouser::scene {
 
-/// What every rigid surface may have: a name, and a motion.
+/// Keys common to all rigid surfaces.
 struct SurfaceSection {
   std::optional<std::string> name; ///< in results; empty: kind and number
   std::string material;
@@ -38,7 +38,7 @@ struct SurfaceSection {
 struct Plane : SurfaceSection {
   base::Vec3d point, normal{0, 0, 1};
   bool operator==(const Plane&) const = default;
-  /// Neither moved nor asked for by name, and there from the start: then it is a wall like those of a bed.
+  /// Returns true if it has no motion and no name, and is there from the start, like the walls of a bed.
   bool isWall() const { return !moves() && !name && !aboveBed && placed != PlacedWhen::afterSettling; }
 };
 
@@ -59,18 +59,18 @@ struct CylinderSection : SurfaceSection {
   bool operator==(const CylinderSection&) const = default;
 };
 
-/// What a file held when the scene was loaded, in metres.
+/// Mesh of a file, read when the scene was loaded [m].
 struct LoadedMesh {
   std::shared_ptr<const spheredecomp::MeshQuery> query;
   double sphereRadius{}; ///< as given, or by default [m]
   std::string note;      ///< on how it was read; empty: nothing
   base::Vec3d middle;    ///< centre of the bounding box in the file [m]; set for bodies
-  bool operator==(const LoadedMesh&) const { return true; } // the file's name says it
+  bool operator==(const LoadedMesh&) const { return true; } // the file name is compared
 };
 
 /// [[mesh]]
 struct MeshSection : SurfaceSection {
-  /// Where no sphere radius is given it is the mesh's diagonal over this.
+  /// Default sphere radius: the mesh's diagonal over this.
   static constexpr double kRadiiInDiagonal = 40;
   static constexpr const char* kShareOfDiagonal = "a fortieth";
 

@@ -59,7 +59,7 @@ void Checkpoints::writeRemembered(const coupling::Simulation& simulation, output
   try {
     writer.sync();
   } catch (const support::NotWritten&) {
-    // It is what failed, then. The rows up to here were whole when they were made.
+    // The failure may be that of these files. The rows up to here are complete.
   }
   describe(simulation, goodRows_, goodFrames_);
   checkpoint_.state = std::move(*good_);

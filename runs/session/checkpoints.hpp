@@ -15,7 +15,7 @@
 
 namespace grouser::session {
 
-/// Of a simulation as it is now, without rows and frames.
+/// Checkpoint of the current state, without rows and frames.
 storage::Checkpoint checkpointOf(const coupling::Simulation& simulation, const setup::Provenance& provenance);
 
 /// The checkpoint of a run, written again and again.
@@ -24,14 +24,14 @@ public:
   Checkpoints(const setup::Provenance& provenance, const RunRequest& options);
 
   void write(const coupling::Simulation& simulation, output::RunWriter& writer);
-  /// Keeps the present state in memory, unless the last time is too short ago: should the run fail, it is left as its
-  /// checkpoint. Between rows, so that these are counted with it.
+  /// Keeps the current state in memory for the checkpoint of a failed run, at most once per pause. Called between rows,
+  /// which are counted with it.
   void remember(const coupling::Simulation& simulation, const output::RunWriter& writer);
   /// Writes the last remembered state of a failed run, unless a later one has been written.
   void writeRemembered(const coupling::Simulation& simulation, output::RunWriter& writer);
-  /// "out/hills/checkpoint.h5, step 1000": where the last one is; empty while there is none.
+  /// "out/hills/checkpoint.h5, step 1000": place of the last one; empty while there is none.
   std::string last() const;
-  /// The run goes on from this one, or branches from it.
+  /// Sets the checkpoint that the run resumes or branches from.
   void goOnFrom(const storage::Checkpoint& former, bool branch) {
     checkpoint_.branchedFrom = former.branchedFrom;
     if (branch) return;

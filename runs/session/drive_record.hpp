@@ -10,7 +10,7 @@
 
 namespace grouser::session {
 
-/// How far the rows of a run say that its vehicle drove, for the end of the run.
+/// Distance driven by the vehicle, from the rows of the run.
 class DriveRecord {
 public:
   DriveRecord() = default;

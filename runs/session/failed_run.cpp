@@ -27,7 +27,7 @@ void FailedBed::leave(const terrain::Grains* bed, const std::string& message, ba
   try {
     write(options_.comm().alone() ? bed : nullptr, message, cause);
   } catch (const std::exception&) {
-    // A full disk, say.
+    // For example a full disk.
   }
 }
 
@@ -56,11 +56,11 @@ void leavePlots(const std::filesystem::path& folder, bool ofVehicle) {
   try {
     const std::filesystem::path results = folder / "results.h5";
     if (ofVehicle) output::writeSinkageCsv(results, folder);
-    std::string warning; // of an error's plots nobody is told
+    std::string warning; // not printed after an error
     output::drawPlots(results, folder, output::kAllPlots, warning);
     output::listFiles(folder);
   } catch (const std::exception&) {
-    // Of a run that ended before its first rows, say.
+    // For example a run that ended before its first rows.
   }
 }
 

@@ -10,17 +10,16 @@
 #include <filesystem>
 #include <string>
 
-/// What a run that failed leaves, so that its user can see why. Nothing here throws: the error that ended the run is
-/// the one that is told.
+/// Output of a failed run, for diagnosis. Nothing here throws: the error that ended the run is the one reported.
 namespace grouser::session {
 
-/// Of a bed that met a fault before the run began: a folder whose manifest says so, with the bed as a frame and as a
-/// picture. Several ranks leave the manifest alone, since not all of them need have met the fault.
+/// Output of a bed that failed to settle: a folder with the error in its manifest, and the bed as a frame and a
+/// picture. Several ranks write the manifest only, since the error may be on some of them.
 class FailedBed {
 public:
   FailedBed(const coupling::GroundSetup& ground, const setup::RecordSetup& record, const RunRequest& options,
             const base::Exec& exec);
-  /// `bed`: as it is now; null where it is lost. The first call counts.
+  /// `bed`: its current state; null if lost. Only the first call has an effect.
   void leave(const terrain::Grains* bed, const std::string& message, base::Cause cause);
 
 private:
@@ -34,7 +33,7 @@ private:
   bool left_ = false;
 };
 
-/// Plots of the rows that a run has written, all files of which are closed; the manifest names them.
+/// Plots the rows of a run, whose files are closed, and lists the plots in the manifest.
 void leavePlots(const std::filesystem::path& folder, bool ofVehicle);
 
 } // namespace grouser::session

@@ -9,9 +9,9 @@
 
 namespace grouser::session {
 
-/// The cells of the soil's fields; none where the scene wants none. Their box is that of the scene, else that of the
-/// frames in `former`, a folder that the run goes on with, else the one around all grains now, to periodic boundaries,
-/// and one cell higher for what is heaped up. All ranks call it. Throws InputError where it has too many cells.
+/// Grid of the soil fields; empty if the scene has none. Its box is that of the scene, else that of the frames in
+/// `former`, the folder of a resumed run, else the box around all grains, to periodic boundaries, one cell higher for
+/// heaps. All ranks call it. Throws InputError for too many cells.
 std::optional<terrain::FieldGrid> fieldGridOf(const setup::OutputSetup& output, const terrain::Grains& grains,
                                               const terrain::PeriodicBoundaries& periodic,
                                               const std::optional<std::filesystem::path>& former);

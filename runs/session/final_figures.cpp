@@ -57,6 +57,9 @@ void noteSqueezed(Recorder& recorder, output::Summary& summary) {
 
 void noteFigures(RunSession& run, output::Summary& summary) {
   coupling::Simulation& simulation = run.simulation();
+  const coupling::Ledger ledger = simulation.ledger();
+  summary.figures["energy_converted_J"] = ledger.turnover, summary.figures["energy_residual_J"] = ledger.residual;
+  summary.figures["integration_error_J"] = ledger.integrationError;
   noteBed(simulation, summary);
   if (const auto& grains = simulation.ground().grains; grains && grains->system().impulses)
     noteSolver(grains->system().impulses->totals(), summary);

@@ -13,7 +13,7 @@ namespace grouser::session {
 
 namespace {
 
-/// Where the cuts between subdomains cross the axes [m].
+/// Positions of the subdomain borders on the axes [m].
 std::array<std::vector<double>, 3> bordersOf(const terrain::Grains& grains) {
   std::array<std::vector<double>, 3> borders;
   if (const terrain::GrainDistribution* ranks = grains.system().distribution.get())

@@ -16,7 +16,7 @@ namespace grouser::session {
 base::TriangleMesh groundMesh(const terrain::HeightField& field);
 
 /// Puts the grains of this rank into the frame. `contactForces`: whether frames have them, `known`: whether a step has
-/// been taken that they are of; they are NaN otherwise.
+/// computed them; NaN otherwise.
 void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contactForces, bool known);
 
 /// All particles of a fluid.

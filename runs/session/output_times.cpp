@@ -19,7 +19,7 @@ using support::Stopwatch;
 
 namespace {
 
-/// A folder of this probe alone, for as long as it lasts.
+/// Temporary folder of the probe.
 class Scratch {
 public:
   explicit Scratch(fs::path folder) : folder_(std::move(folder)) {}

@@ -9,14 +9,14 @@
 
 namespace grouser::session {
 
-/// How long a run takes to write, and how much.
+/// Time and size of a run's output.
 struct OutputTimes {
   double begin = 0, row = 0, frame = 0, picture = 0, checkpoint = 0; ///< [s] each
-  double plot = 0; ///< a plot, with the start of Python [s]; 0 where none can be drawn
+  double plot = 0; ///< a plot, including the start of Python [s]; 0 if plots are unavailable
   double frameBytes = 0, checkpointBytes = 0;
 };
-/// Writes rows, frames and a checkpoint of the simulation into `folder`, which is made and removed, and where `plots`
-/// draws one: how long each of them took. The simulation may be stepped by it.
+/// Writes rows, frames and a checkpoint of the simulation into `folder`, which is created and removed, draws a plot if
+/// `plots`, and times each of them. May step the simulation.
 OutputTimes timeOutput(coupling::Simulation& simulation, const setup::RecordSetup& record, const base::Exec& exec,
                        const std::filesystem::path& folder, bool plots);
 

@@ -32,25 +32,22 @@ std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenan
   const storage::BranchChanges changes =
       storage::checkSameScene(*former, *request.resume, provenance, request.names.resume);
   if (changes.any() && !request.branch)
-    throw base::InputError(fmt::format("{}: [{}] differs from that of the run in {}; such a branch of it goes to a "
-                                       "folder of its own, which --out names",
-                                       provenance.file.string(), changes.driver ? "driver" : "hitch",
-                                       request.folder.string()));
+    throw base::InputError(
+        fmt::format("{}: [{}] differs from that of the run in {}; name another folder for the branch with --out",
+                    provenance.file.string(), changes.driver ? "driver" : "hitch", request.folder.string()));
   if (former->commit != support::buildInfo().commit && request.comm().first())
-    support::tell(
-        "grouser: warning: {} was written by commit {}, this is {}; the bits are the same only if the physics "
-        "are\n",
-        request.resume->string(), former->commit, support::buildInfo().commit);
+    support::tell("WARNING: {} was written by commit {}, this program is {}; results are bitwise identical only if "
+                  "both have the same physics\n",
+                  request.resume->string(), former->commit, support::buildInfo().commit);
   return former;
 }
 
 void requireSameStep(const storage::Checkpoint& former, double timeStep, const setup::Provenance& provenance,
                      const RunRequest& request) {
   if (former.timeStep != timeStep)
-    throw base::InputError(
-        fmt::format("{}: run.time_step = \"auto\" is {:g} s with these keys, and {} was written with "
-                    "{:g} s; give run.time_step, in the run that wrote it too",
-                    provenance.file.string(), timeStep, request.resume->string(), former.timeStep));
+    throw base::InputError(fmt::format("{}: run.time_step = \"auto\" is {:g} s with these keys, but {} was written "
+                                       "with {:g} s; set run.time_step to a number in both runs",
+                                       provenance.file.string(), timeStep, request.resume->string(), former.timeStep));
 }
 
 std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup setup, const setup::RecordSetup& record,
@@ -74,9 +71,9 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
           support::Stopped::Left::nothing);
     if (!settling)
       settling = std::make_unique<support::Progress>("settling", comm.first(), 0, support::Progress::End::limit);
-    if (time > 0 && !begun) begun.emplace(); // before that it waits for another run
+    if (time > 0 && !begun) begun.emplace(); // before, it waits for another run
     if (begun) kept.settling = begun->seconds();
-    settling->update(time / limit, fmt::format("t {:.2f} s, agitation {:.2g}", time, agitation));
+    settling->update(time / limit, fmt::format("t {:.2f} s, kinetic energy ratio {:.2g}", time, agitation));
   };
   settle.failed = [&](const terrain::Grains& bed, const std::string& message, base::Cause cause) {
     failed.leave(&bed, message, cause);

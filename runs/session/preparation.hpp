@@ -15,13 +15,13 @@
 /// From a compiled scene to a simulation that can be stepped: settled, or resumed.
 namespace grouser::session {
 
-/// Where earlier runs may have left what this one needs; null: nothing is kept.
+/// Caches of settled beds and sphere sets; empty: not used.
 struct Caches {
   std::optional<storage::BedCache> beds;
   std::optional<storage::SphereCache> spheres;
-  double settling = 0; ///< wall time that the bed of this run took, where none was kept [s]
+  double settling = 0; ///< wall time of settling; 0 for a cached bed [s]
 };
-/// The user's, where the request allows it. `beds`: whether the scene's bed may be kept (terrain.cache).
+/// The user's caches, if the request allows them. `beds`: whether the scene's bed may be kept (terrain.cache).
 Caches cachesOf(bool beds, const RunRequest& request);
 
 /// Reads the checkpoint of a run to be resumed and compares the scenes; null for a run from the start.
@@ -31,8 +31,8 @@ std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenan
 void requireSameStep(const storage::Checkpoint& former, double timeStep, const setup::Provenance& provenance,
                      const RunRequest& request);
 
-/// At the checkpoint, or at the start: then the bed is settled first, with progress on stderr. What stops it there is
-/// left in the folder as FailedBed does. Throws Stopped, SimulationError, InputError.
+/// Simulation at the checkpoint, or at the start after settling the bed, with progress on stderr. An error of settling
+/// leaves a FailedBed. Throws Stopped, SimulationError, InputError.
 std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup setup, const setup::RecordSetup& record,
                                                      const base::Exec& exec, const storage::Checkpoint* former,
                                                      const RunRequest& request, Caches& kept);

@@ -47,7 +47,7 @@ std::vector<output::FramePart> frameParts(const coupling::VehicleRig& rig) {
   return parts;
 }
 
-/// What sinkage is measured from; empty without terrain.
+/// Reference surface of sinkage; empty without terrain.
 std::optional<output::UndisturbedSurface> undisturbedSurface(const coupling::LaidGround& ground) {
   output::UndisturbedSurface s;
   const auto lay = [&s](const terrain::Rectangle& area, int columns, int rows, const std::vector<double>& heights) {
@@ -85,16 +85,16 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   const std::int64_t step = former->state.steps;
   w.metadata["resumed_from_step"] = std::to_string(step);
   w.former = output::FormerOutput{};
-  // One rank reads and rewrites them; it tells the others what it keeps.
+  // One rank reads and rewrites them, and broadcasts what it keeps.
   if (w.comm.first()) {
     try {
       output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
-      // The contact forces of the last frame are known no more: where no step is left to take, it stays.
+      // The last frame stays if no step is left, since its contact forces are lost.
       if (w.frames) kept.frames = output::keptFrames(options.folder, step, former->frames, step == total);
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
-      support::tell("grouser: warning: {}\n", error.what());
+      support::tell("WARNING: {}\n", error.what());
     }
   }
   w.former->frames = w.comm.gatherValue(w.former->frames).front();
@@ -173,7 +173,7 @@ void Recorder::begin(const RunRequest& options, const storage::Checkpoint* forme
     grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
 }
 
-/// Those that are not drawn as the grains' surfaces.
+/// Obstacles that are not drawn as surfaces of the grains.
 std::vector<coupling::Obstacle> Recorder::drawnObstacles() const {
   return simulation_.ground().grains ? std::vector<coupling::Obstacle>{} : simulation_.setup().ground.obstacles;
 }
@@ -190,7 +190,7 @@ void Recorder::finalSurface() {
   if (!record_.output.finalSurface || !simulation_.vehicle() || !simulation_.actingGround()) return;
   const std::vector<double> heights = simulation_.actingGround()->surfaceNow();
   const auto undisturbed = undisturbedSurface(simulation_.ground());
-  // On several ranks all find the same; radii of what is left must not have changed the nodes.
+  // All ranks find the same. Removed grains must not have changed the nodes.
   if (undisturbed && !heights.empty() && heights.size() == undisturbed->height.size())
     writer_.finalSurface(heights, undisturbed->x.size());
   if (const auto fields = simulation_.actingGround()->fieldsNow()) {
@@ -205,7 +205,7 @@ void Recorder::frame() {
   if (record_.output.frames) writer_.frame(frameWithFields());
 }
 
-/// Fields come last: they may sort the grains anew, and then forces of the last step are known no more.
+/// Fields come last: they may sort the grains, which loses the forces of the last step.
 output::Frame Recorder::frameWithFields() {
   output::Frame frame = currentFrame();
   if (fieldGrid_) frame.fields = std::make_shared<terrain::SoilFields>(fieldsOf(simulation_, *fieldGrid_));
@@ -223,7 +223,7 @@ void Recorder::lastFrame() {
 output::Frame Recorder::currentFrame() const {
   output::Frame frame;
   frame.step = simulation_.steps(), frame.time = simulation_.time();
-  // Forces are those of the last step: before the first there are none, nor where grains were taken out after it.
+  // Forces of the last step: unknown before the first, and after grains were removed.
   if (const auto& grains = simulation_.ground().grains)
     addGrains(frame, *grains, record_.output.contactForces,
               simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerMotion());

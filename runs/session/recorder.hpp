@@ -17,7 +17,7 @@
 
 namespace grouser::session {
 
-/// What a run writes: channels, rows and frames of one simulation. On several ranks all of them have one.
+/// Writer of channels, rows and frames of one simulation; one on each rank.
 class Recorder {
 public:
   /// `former`: the checkpoint that the run goes on from, or null; `total`: the step at which it ends.
@@ -27,10 +27,10 @@ public:
 
   void row();
   void frame();
-  /// Of a run that has met a fault in the present step, unless there is one of that step. Grains alone may have gone
-  /// some steps beyond those that the simulation counts.
+  /// Frame of a run that failed in the current step, unless that step has one. Grains without bodies may be some steps
+  /// ahead of the simulation's count.
   void lastFrame();
-  /// The ground's surface as it lies at the end, where a vehicle has changed it.
+  /// Final surface of the ground, if a vehicle has changed it.
   void finalSurface();
   /// picture.png of the present state.
   void picture(int width);
@@ -54,7 +54,7 @@ private:
   output::RunWriter writer_;
   SqueezedRecord squeezed_;
   DriveRecord drive_;
-  std::int64_t framedAt_ = -1; ///< step of the last frame that is known: of this run, or the end of the former one
+  std::int64_t framedAt_ = -1; ///< step of the last frame, of this run or of the resumed one
   std::optional<output::GrainsCsv> grainsCsv_;
   std::optional<terrain::FieldGrid> fieldGrid_; ///< grid of the fields in the frames; empty without fields
 };

@@ -12,12 +12,12 @@
 
 namespace grouser::session {
 
-/// A run that is to be repeated without whoever set its inputs: what its folder says of it.
+/// Recorded inputs and end of a run that is to be repeated, from its folder.
 struct RecordedRun {
   std::filesystem::path folder;
   std::vector<coupling::Input> inputs; ///< in the order of their steps
-  std::int64_t steps = 0;              ///< that it took
-  std::string stateHash;               ///< at its end; empty where it was not taken
+  std::int64_t steps = 0;              ///< number of steps taken
+  std::string stateHash;               ///< final hash; empty if not recorded
   std::string scene;                   ///< resolved scene as TOML
 };
 /// Reads results.h5 of a run's folder. Throws base::InputError where there is none.
@@ -28,8 +28,7 @@ class Replay {
 public:
   Replay() = default;
   explicit Replay(std::vector<coupling::Input> inputs) : inputs_(std::move(inputs)) {}
-  /// Those that are due before the next step. Returns how many steps may be taken until the next one is, at most
-  /// `most`.
+  /// Sets the inputs due before the next step. Returns the number of steps until the next input, at most `most`.
   std::int64_t apply(coupling::Simulation& simulation, std::int64_t most);
 
 private:

@@ -16,7 +16,7 @@ namespace grouser::session {
 
 namespace {
 
-/// Throws InputError where a plot draws a column that the rows lack.
+/// Throws InputError if a plot names a column that the rows lack.
 void requirePlotted(const std::vector<output::Channel>& channels, const std::vector<setup::PlottedColumn>& plots) {
   std::vector<std::string> known = {"time"};
   for (const output::Channel& c : channels) {
@@ -27,8 +27,8 @@ void requirePlotted(const std::vector<output::Channel>& channels, const std::vec
   }
   for (const setup::PlottedColumn& p : plots)
     if (std::find(known.begin(), known.end(), p.column) == known.end())
-      throw base::InputError(fmt::format("{} names no column of the results, \"{}\"; did you mean \"{}\"?", p.place,
-                                         p.column, base::nearestWord(p.column, known)));
+      throw base::InputError(fmt::format("{} names a column that the results lack, \"{}\"; did you mean \"{}\"?",
+                                         p.place, p.column, base::nearestWord(p.column, known)));
 }
 
 /// Bodies of the vehicle or, without one, of the mechanism.
@@ -55,7 +55,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
     add(output::terrainColumns(), [&s = simulation](const Now& now) {
       const terrain::Grains& bed = *s.ground().grains;
       return output::TerrainReading{now.ledger, bed.model().radius, s.takenOut().grains, bed.system().rebuilds,
-                                    s.pressedMost()};
+                                    s.deepestPartOverlap()};
     });
   addSurfaces();
   if (coupling::FluidDomain* fluid = coupling::fluidOf(simulation))

@@ -10,7 +10,7 @@
 
 namespace grouser::session {
 
-/// The columns of a run's rows, in their order, and the values of a row. What a simulation does not have has no column.
+/// Ordered columns of a run's rows, and the values of a row. Only features of the simulation have columns.
 class RowColumns {
 public:
   /// `simulation` outlives it.
@@ -21,7 +21,7 @@ public:
   output::Row row() const;
 
 private:
-  /// What several groups of columns read, measured once a row.
+  /// Data for several groups of columns, measured once a row.
   struct Now {
     vehicle::Observation vehicle; ///< where there is one
     coupling::Ledger ledger;

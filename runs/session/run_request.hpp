@@ -11,21 +11,22 @@
 
 namespace grouser::session {
 
-/// What is asked of a run, beside its scene.
+/// Options of a run, beside its scene.
 struct RunRequest {
   std::filesystem::path folder;                ///< of the results
   bool force = false;                          ///< overwrite what is there
-  output::OptionNames names;                   ///< of these three in messages
-  std::optional<std::filesystem::path> resume; ///< go on from this checkpoint, in the folder it lies in
-  std::optional<std::filesystem::path> replay; ///< set what was set in the run of this folder
-  bool branch = false;                ///< that checkpoint is of another run: this one begins in a folder of its own
-  bool untilRest = false;             ///< stop before the first step of the drive
-  bool hash = false;                  ///< take the state hash at the end
-  std::optional<std::int64_t> steps;  ///< stop after so many steps instead of the scene's duration
-  std::string commandLine;            ///< for the manifest
-  std::string switches;               ///< for the manifest: switchesText() of the scene
-  bool cache = true;                  ///< take beds and parts' spheres from earlier runs, and keep them
-  const base::Ranks* ranks = nullptr; ///< that run the scene together; null: this program alone
+  output::OptionNames names;                   ///< names of --out, --force and --resume in messages
+  std::optional<std::filesystem::path> resume; ///< resume from this checkpoint, in its folder
+  std::optional<std::filesystem::path> replay; ///< repeat the inputs of the run in this folder
+  bool branch = false;                         ///< start a new run from that checkpoint, in another folder
+  bool untilRest = false;                      ///< stop before the first step of the drive
+  bool hash = false;                           ///< take the state hash at the end
+  std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
+  bool verbose = false;                        ///< print ledger, momentum, and run time at the end
+  std::string commandLine;                     ///< for the manifest
+  std::string switches;                        ///< for the manifest: switchesText() of the scene
+  bool cache = true;                           ///< use the cache of settled beds and sphere sets
+  const base::Ranks* ranks = nullptr;          ///< that run the scene together; null: this program alone
 
   base::Comm comm() const { return ranks ? ranks->comm() : base::Comm(); }
 };

@@ -43,7 +43,7 @@ bool RunSession::goesOn() const {
   return simulation_.steps() < total_ && !(rig && !rig->ended().empty()) && !(untilRest_ && isAtRest());
 }
 
-/// At most so many: a driver that waits is asked again at the next look at the vehicle.
+/// Upper bound: a waiting driver is checked again at the next check of the vehicle.
 std::int64_t RunSession::stepsToDrive() const {
   constexpr double kRounding = 1e-6; // of a step
   const std::optional<double> start = simulation_.vehicle()->driveStart();
@@ -88,20 +88,20 @@ void RunSession::noteSteps(std::int64_t tried) {
 }
 
 void RunSession::end() {
-  simulation_.checkEnergy(); // the end may fall between two looks
+  simulation_.checkEnergy(); // the end may fall between two checks
   replay_.apply(simulation_, 0);
   writeInputs(); // inputs that were set after the last step belong to the state
-  // Before the last row: a run that goes on from here does not have it.
+  // Before the last row, which a run resumed from here does not have.
   checkpoints_.write(simulation_, writer());
-  // The end is always written, whether or not the intervals meet it.
+  // The end is always written, even between the intervals.
   if (simulation_.steps() % rowEvery_ != 0) recorder_.row();
   if (simulation_.steps() % frameEvery_ != 0) recorder_.frame();
   recorder_.finalSurface();
 }
 
-/// Where the run has met a fault: the state before it as a checkpoint, and all as it is now as frame and picture.
+/// After a fault: writes the state before it as a checkpoint, and the current state as frame and picture.
 void RunSession::leaveState() {
-  if (!simulation_.comm().alone()) return; // not all ranks need have met it
+  if (!simulation_.comm().alone()) return; // the fault may be on some ranks only
   try {
     checkpoints_.writeRemembered(simulation_, writer());
     recorder_.lastFrame();
@@ -111,8 +111,7 @@ void RunSession::leaveState() {
   }
 }
 
-/// Where a file could not be written, or the device failed: the last good state, which the host has, if there is room
-/// for that.
+/// After a failure of a file or the device: writes the last good state, which the host has, if there is room for it.
 void RunSession::leaveCheckpoint() {
   if (!simulation_.comm().alone()) return;
   try {

@@ -14,8 +14,8 @@
 
 namespace grouser::session {
 
-/// A simulation and the folder that its run fills: rows, frames and checkpoints as their times come, and how it ended.
-/// On several ranks all have one and call the same.
+/// A simulation and its results folder: rows, frames and checkpoints at their times, and the end of the run. All ranks
+/// have one and make the same calls.
 class RunSession {
 public:
   /// `simulation` and `record` outlive it. `former`: the checkpoint that the run goes on or branches from, or null;
@@ -27,15 +27,14 @@ public:
   void replay(std::vector<coupling::Input> inputs) { replay_ = Replay(std::move(inputs)); }
   /// The first row and frame of a run that does not go on from a checkpoint.
   void begin();
-  /// Whether steps are left: neither the end nor what [stop] names has come, nor the begin of the drive where the
-  /// request ends there.
+  /// Whether steps are left before the end, a condition of [stop], or the start of the drive if the request ends there.
   bool goesOn() const;
-  /// Whether the next step is the first of the drive, or behind it.
+  /// Whether the next step is the first of the drive, or a later one.
   bool isAtRest() const { return simulation_.vehicle() && stepsToDrive() == 0; }
   /// At least one step, at most `most`, none beyond the next row, frame or checkpoint, and writes what is due then.
   /// Throws Stopped where a signal has come, with a checkpoint left.
   void advance(std::int64_t most);
-  /// Judges the energy, and writes the last checkpoint, row, frame and surface.
+  /// Checks the energy, and writes the last checkpoint, row, frame and surface.
   void end();
 
   /// Marks the run as stopped; replaces end().
@@ -44,9 +43,8 @@ public:
     writer().stop(reason);
   }
 
-  /// Calls `write`; what ends the run early by an exception is left in the folder: the state before a fault as a
-  /// checkpoint, all as it is now as frame and picture, the message in the manifest. Throws it on, with the
-  /// checkpoint's name in its message.
+  /// Calls `write`. An exception leaves in the folder the state before the fault as a checkpoint, the current state as
+  /// frame and picture, and the message in the manifest. Rethrows with the checkpoint's name in the message.
   template <class Write> void record(const Write& write);
 
   coupling::Simulation& simulation() { return simulation_; }
@@ -63,7 +61,7 @@ private:
   void leaveCheckpoint();
   std::string withCheckpoint(const std::string& message) const;
   std::string atStep(const std::string& message) const;
-  /// Ends the run by this error, which names the checkpoint that is left.
+  /// Ends the run with this error, which names the last checkpoint.
   template <class Error, class... With> [[noreturn]] void abandon(const std::string& what, With... with) {
     const std::string message = withCheckpoint(what);
     noteSteps(1);

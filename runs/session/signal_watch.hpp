@@ -10,8 +10,8 @@
 
 namespace grouser::session {
 
-/// A signal that any rank has received. All must agree on the step at which they stop, so all are asked together: as
-/// often as answers within a fifth of a second take, since launchers that pass an interrupt on kill after one second.
+/// Signals received by any rank. All ranks must stop at the same step, so they exchange signals, often enough to
+/// respond within 0.2 s, since launchers that forward an interrupt kill after one second.
 class SignalWatch {
 public:
   explicit SignalWatch(const base::Comm& comm) : comm_(comm) {}

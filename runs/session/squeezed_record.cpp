@@ -38,11 +38,10 @@ std::string SqueezedRecord::deepest() const {
 
 std::string SqueezedRecord::text() const {
   if (pairs + atBoundaries + byParts == 0 && share == 0) return {};
-  std::string line =
-      fmt::format("squeezed  beyond 0.2 radii, at most in a row: {:g} pairs of grains, {:g} contacts with "
-                  "planes, floor and surfaces, {:g} with parts\n",
-                  pairs, atBoundaries, byParts);
-  if (share > 0) line += fmt::format("          deepest in a part: {}\n", deepest());
+  std::string line = fmt::format("overlaps  > 0.2 radius (maximum at any output): {:g} between grains, {:g} with "
+                                 "planes, floor and surfaces, {:g} with parts\n",
+                                 pairs, atBoundaries, byParts);
+  if (share > 0) line += fmt::format("          largest overlap with a part: {}\n", deepest());
   return line;
 }
 

@@ -9,24 +9,24 @@
 
 namespace grouser::session {
 
-/// What the rows of a run say of squeezed grains, for the end of the run.
+/// Maximum overlaps of grains, from the rows of a run.
 class SqueezedRecord {
 public:
   SqueezedRecord() = default;
-  /// `parts`: names of those that rows count.
+  /// `parts`: names by the index that rows use.
   SqueezedRecord(const std::vector<output::Channel>& channels, std::vector<std::string> parts);
   void add(const output::Row& row);
 
-  /// Deeper than a fifth of a radius, in the row that has most of them: pairs of grains; contacts with planes, floor
-  /// and surfaces; with parts.
+  /// Maximum numbers of overlaps above 0.2 radius in a row: between grains; with planes, floor and surfaces; with
+  /// parts.
   double pairs = 0, atBoundaries = 0, byParts = 0;
-  /// The deepest overlap with a part, in radii; 0 where none has touched any.
+  /// Largest overlap with a part, in radii; 0 without contact.
   double share = 0, time = 0;
   std::string by; ///< that part
 
-  /// Lines for the user; empty where nothing was squeezed and no part has touched a grain.
+  /// Lines to print; empty without such overlaps and without contacts of parts.
   std::string text() const;
-  /// "0.31 radii by right road wheel 2 at 1.24 s"; empty where no part has touched a grain.
+  /// "0.31 radii by right road wheel 2 at 1.24 s"; empty without contacts of parts.
   std::string deepest() const;
 
 private:

@@ -5,19 +5,18 @@
 
 #include <string>
 
-/// Beds that settle before anything is put on them.
+/// Beds that settle before anything is placed on them.
 namespace grouser::setup {
 
-/// Whether grains, meshes or surfaces of the scene are put on its bed once that has settled.
+/// Returns true if grains, meshes or surfaces are placed on the settled bed.
 bool isPutOnBed(const scene::Scene& scene);
 
-/// The scene as if it ended with its bed: terrain, what stands in it from the start, and nothing that comes later. Its
-/// bed settles with the bits of a scene that has no more than this, whatever is put on it afterwards, and with the time
-/// step of that scene.
+/// The scene reduced to its bed: terrain and surfaces in it from the start, without anything placed later. The bed
+/// settles bit by bit as in a scene with only these, and with the time step of that scene.
 scene::Scene sceneOfBed(scene::Scene scene);
 
-/// bedOrigin() of the bed that a run of this scene settles and keeps; empty where it settles none, or keeps none.
-/// Throws InputError where its height-map cannot be read.
+/// bedOrigin() of the bed that a run of this scene settles and stores; empty if it settles or stores none. Throws
+/// InputError if its height-map cannot be read.
 std::string originOfBed(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -21,7 +21,7 @@ template <class Read> auto ofHeightmap(const scene::Scene& scene, const Read& re
   try {
     return read();
   } catch (const base::InputError& error) {
-    scene.fail("terrain", "heightmap", fmt::format("is of no use: {}", error.what()));
+    scene.fail("terrain", "heightmap", fmt::format("cannot be used: {}", error.what()));
   }
 }
 
@@ -57,7 +57,7 @@ SteepPlace steepestInCell(const terrain::HeightFieldView& surface, int i, int j)
   return worst;
 }
 
-/// How much pixels differ in height within `reach` of a cell [m].
+/// Difference between highest and lowest pixel within `reach` of a cell [m].
 double riseAbout(const terrain::HeightFieldView& surface, int i, int j, double reach) {
   const int across = static_cast<int>(std::min<double>(reach / surface.dx, surface.columns)),
             along = static_cast<int>(std::min<double>(reach / surface.dy, surface.rows));
@@ -103,18 +103,18 @@ TerrainRemarks terrainRemarks(const scene::Scene& scene) {
   const std::string name = fmt::format("terrain.heightmap = {}", scene.terrain->heightmap);
   TerrainRemarks remarks;
   if (map.colour)
-    remarks.notes.push_back(name + " is a picture in colour: heights follow its luminance, 0.2126 red + 0.7152 green + "
-                                   "0.0722 blue; save it in grey if that is not meant");
+    remarks.notes.push_back(name + " is a colour image; heights are its luminance, 0.2126 red + 0.7152 green + 0.0722 "
+                                   "blue; save it as greyscale to avoid this");
   if (map.transparent)
-    remarks.notes.push_back(name + " has transparent pixels: heights follow their colour, alpha is ignored; save the "
-                                   "picture without an alpha channel");
+    remarks.notes.push_back(name + " has transparent pixels; heights are from their colour and alpha is ignored; save "
+                                   "it without an alpha channel");
   if (!scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return remarks;
   if (const std::optional<SteepPlace> edge = steepestEdge(surfaceOf(scene, map), bedOptions(scene).smallestRadius()))
-    remarks.warnings.push_back(fmt::format(
-        "the floor below the bed follows {}, which rises by {:.3g} m a metre ({:.0f} degrees) at ({:.4g}, {:.4g}) m: "
-        "grains can be pressed through such an edge while the bed settles; set terrain.floor = \"flat\", or spread "
-        "the edge over more pixels",
-        name, edge->slope, base::atan2(edge->slope, 1.0) * 180 / base::kPi, edge->x, edge->y));
+    remarks.warnings.push_back(
+        fmt::format("the floor below the bed follows {}, whose slope is {:.3g} m/m ({:.0f} degrees) at ({:.4g}, "
+                    "{:.4g}) m; grains can be pressed through such an edge during settling; set terrain.floor = "
+                    "\"flat\", or spread the edge over more pixels",
+                    name, edge->slope, base::atan2(edge->slope, 1.0) * 180 / base::kPi, edge->x, edge->y));
   return remarks;
 }
 

@@ -11,10 +11,10 @@
 
 namespace grouser::setup {
 
-/// The ground's surface as the height-map says. Throws InputError where that cannot be read.
+/// The ground's surface from the height-map. Throws InputError if that cannot be read.
 terrain::HeightField readSurface(const scene::Scene& scene);
 
-/// The rigid floor that grains touch, at any height: the ground, or below a bed its shape or a plane, for which the
+/// The rigid floor under grains, at any height: the ground, or below a bed its shape or a plane, for which the
 /// height-map is not read. Empty without terrain.
 std::optional<terrain::HeightField> floorShape(const scene::Scene& scene);
 
@@ -25,7 +25,7 @@ struct TerrainRemarks {
 };
 TerrainRemarks terrainRemarks(const scene::Scene& scene);
 
-/// How the scene's bed is laid.
+/// Options of the scene's bed.
 terrain::BedOptions bedOptions(const scene::Scene& scene);
 
 } // namespace grouser::setup

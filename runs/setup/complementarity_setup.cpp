@@ -30,21 +30,20 @@ void checkComplementarity(const scene::Scene& scene) {
     if (rigid && m.cohesion > 0)
       scene.failMaterial(
           m.name, "cohesion",
-          "[J/m2] acts where surfaces overlap, and rigid contacts do not; use complementarity.compliance "
-          "= \"law\"");
+          "[J/m2] requires overlap, which rigid contacts do not have; set complementarity.compliance = \"law\"");
   for (const scene::ContactPair& p : scene.contacts)
     if (rigid && p.cohesion.value_or(0) > 0)
-      fail(fmt::format("has rigid contacts, and contact.\"{}|{}\" has cohesion, which acts where surfaces overlap; use "
+      fail(fmt::format("has rigid contacts, but contact.\"{}|{}\" has cohesion, which requires overlap; set "
                        "complementarity.compliance = \"law\"",
                        p.first, p.second));
   if (scene.output.fieldsCell)
-    scene.fail("output", "fields_cell",
-               "[m] is measured from the springs of penalty contacts; remove it, or use "
-               "run.contact = \"penalty\"");
+    scene.fail(
+        "output", "fields_cell",
+        "[m] requires penalty contacts, whose springs give the stresses; remove it, or set run.contact = \"penalty\"");
   if (!scene.run.residual && norm(scene.run.gravity) == 0)
     scene.fail("run", "residual",
-               "[m/s] \"auto\" is a hundredth of what gravity adds to a speed in a step, and run.gravity is zero; give "
-               "the residual");
+               "[m/s] has no \"auto\" value with run.gravity = 0 (0.01 of the speed that gravity adds in a step); set "
+               "a value");
 }
 
 bool hasComplementarity(const scene::Scene& scene) {

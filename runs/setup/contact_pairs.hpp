@@ -11,7 +11,7 @@
 
 namespace grouser::setup {
 
-/// Something that grains can touch.
+/// A contact partner of grains.
 struct ContactPartner {
   /// Planes that move or have a name are surfaces, as are boxes, cylinders and meshes.
   enum class Kind { grains, bedWalls, plane, surface, floor, vehicle, body };
@@ -19,15 +19,15 @@ struct ContactPartner {
   std::string material;             ///< empty: the grain's own, of a vehicle without one
   std::string name;                 ///< "the floor", "box drum"; of grains their material
   std::size_t number = 0;           ///< plane, body: index in the scene; surface: index into `surfaces`
-  std::optional<double> friction{}; ///< otherwise than the materials have it [-]
+  std::optional<double> friction{}; ///< replaces that of the materials [-]
 
   const std::string& materialAgainst(const std::string& grain) const { return material.empty() ? grain : material; }
   /// Share of a grain's own mass and radius that counts in a contact with it [-]: half among equal grains.
   double share() const { return kind == Kind::grains ? 0.5 : 1; }
 };
 
-/// The kinds of grains of a scene and all that they can touch: each kind can touch each partner. Every list of laws,
-/// contacts and materials that meet goes through it.
+/// The kinds of grains of a scene and all partners that they can touch. All lists of laws, contacts and materials in
+/// contact are based on it.
 struct ContactPairs {
   GrainKinds kinds;
   std::vector<SceneSurface> surfaces;
@@ -36,7 +36,7 @@ struct ContactPairs {
   std::vector<ContactPartner> partners;
 
   explicit ContactPairs(const scene::Scene& scene);
-  /// Whether it is a plane, moving or not.
+  /// Returns true for a plane, moving or not.
   bool isPlane(const ContactPartner& partner) const;
 };
 

@@ -13,7 +13,7 @@ using base::Vec3d;
 
 namespace {
 
-/// Corners of a box that holds where grains start, the planes' points, cylinders, and some room.
+/// Corners of a box around initial grains, the planes' points and cylinders, with a margin.
 std::pair<Vec3d, Vec3d> room(const scene::Scene& scene) {
   std::vector<Vec3d> points;
   double margin = 0;

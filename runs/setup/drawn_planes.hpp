@@ -11,12 +11,12 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// The planes of a scene, which have no end, and the room in which pictures show them.
+/// The planes of a scene, which are unbounded, and the box in which pictures show them.
 struct DrawnPlanes {
   struct Plane {
     base::Vec3d normal; ///< unit
     double offset{};    ///< normal . x on it [m]
-    bool wall{};        ///< neither moved nor asked for by name
+    bool wall{};        ///< without motion and name
   };
   std::vector<Plane> planes; ///< in the order of the file
   base::Vec3d low, high;     ///< [m]

@@ -21,7 +21,7 @@ bool anyIsNot0(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return v != 0; });
 }
 
-/// How much farther than the hull the outer track of a circle goes [-].
+/// Distance of the outer track over that of the hull on a circle [-].
 double outerTrack(const scene::Driver& driver, const vehicle::VehicleSpec& spec) {
   if (!driver.course || !driver.course->radius) return 1;
   return 1 + spec.trackOffset / std::fabs(*driver.course->radius);

@@ -10,14 +10,15 @@ namespace grouser::setup {
 /// Teeth that a track must pass before means over them count: torque, speed and slip ripple with each tooth [-].
 inline constexpr double kFewestTeeth = 2;
 
-/// Below this a vehicle has not driven: its ramp has just begun [-].
+/// Below this a vehicle counts as not driven: its ramp has just begun [-].
 inline constexpr double kLeastTeeth = 0.01;
 
-/// Whether the driver turns the sprockets. A vehicle that is only set down, or drawn by its hitch, need not drive.
+/// Returns true if the driver turns the sprockets. A vehicle that only settles, or is towed by its hitch, need not
+/// drive.
 bool asksToDrive(const scene::Scene& scene);
 
-/// Teeth that pass the faster sprocket by the end of the run [-] if it starts as early as it can; infinite where
-/// torques decide. `steady`: those behind the ramp of the drive alone.
+/// Teeth that pass the faster sprocket by the end of the run [-] with the earliest start; infinite with torques.
+/// `steady`: only those after the drive ramp.
 double teethAsked(const scene::Scene& scene, bool steady = false);
 
 /// The setting that lets a vehicle drive farther, as the end of a message.

@@ -19,7 +19,7 @@ void checkFields(const scene::Scene& scene, const coupling::GroundSetup& ground)
     fail(fmt::format("[m] is smaller than the largest grain, whose diameter is {:.4g} m; use three diameters or more",
                      diameter));
   if (!o.fieldsLow && !grains.bed && grains.start.empty())
-    fail("has no box: the scene has no grains at the start; set fields_low and fields_high");
+    fail("has no box, since the scene has no grains at the start; set fields_low and fields_high");
   if (!o.fieldsLow) return;
   const auto cellsOf = [&](double edge) {
     const auto n = terrain::fieldGrid(*o.fieldsLow, *o.fieldsHigh, edge, {}).cells;

@@ -21,7 +21,7 @@ using contact::SurfaceShape;
 
 namespace {
 
-/// Middles of n equal parts of [-half, half], about a spacing each.
+/// Midpoints of n equal parts of [-half, half], about a spacing each.
 std::vector<double> partsOf(double half, double spacing) {
   const auto n = std::max(1, static_cast<int>(std::lround(2 * half / spacing)));
   std::vector<double> middles;
@@ -171,8 +171,9 @@ StartingBodies::StartingBodies(const scene::Scene& scene) {
   const std::vector<multibody::Body>& all = mechanism.model.bodies();
   for (std::size_t b = ofVehicle_; b < all.size(); ++b) {
     if (b < mechanism.hitched.size() && mechanism.hitched[b])
-      scene.fail("body", b - ofVehicle_, "",
-                 "hangs on the vehicle, which [fluid] does not follow yet; remove its joints and springs, or [fluid]");
+      scene.fail(
+          "body", b - ofVehicle_, "",
+          "is connected to the vehicle, which [fluid] does not support; remove its joints and springs, or [fluid]");
     bodies_.push_back(all[b]), columns_.push_back("bodies/" + all[b].name);
   }
   for (const coupling::BodyShape& s : mechanism.shapes) add(s);
@@ -265,11 +266,11 @@ std::vector<coupling::BodyInFluid> StartingBodies::inFluid(const scene::Scene& s
       const bool plane = model.dimensions == 2;
       const int across = plane ? axisAcross(s, placed.pose) : -1;
       if (plane && across < 0)
-        fail("is no box with faces across the plane of fluid.dimensions = 2, nor a cylinder along y; use these, or "
-             "dimensions = 3");
+        fail("must be a box with faces parallel to the plane of fluid.dimensions = 2, or a cylinder along y; use "
+             "these, or dimensions = 3");
       if (!ofParts.add(s, model, across) || (b >= ofVehicle_ && 2 * coupling::halfThickness(s) < model.spacing))
-        fail(fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m: no marker of the fluid lies within; "
-                         "make it thicker, or the spacing smaller",
+        fail(fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m, so it contains no markers; increase its "
+                         "thickness, or reduce the spacing",
                          2 * coupling::halfThickness(s), model.spacing));
     }
     if (shapes.empty()) continue;

@@ -35,8 +35,7 @@ double depthOf(const scene::Scene& scene) {
   const double bottom = scene.fluid->tankLow ? scene.fluid->tankLow->z : readSurface(scene).bounds().lowest;
   const double depth = topOf(*scene.fluid) - bottom;
   if (!(depth > 0))
-    scene.fail("fluid", "level",
-               fmt::format("[m] lies below the lowest point of the terrain, {:g} m; raise it", bottom));
+    scene.fail("fluid", "level", fmt::format("[m] is below the lowest point of the terrain, {:g} m; raise it", bottom));
   return depth;
 }
 
@@ -65,7 +64,7 @@ bool within(const Vec3d& p, const Vec3d& low, const Vec3d& high, bool plane) {
   return true;
 }
 
-/// Particles below the level, then of each box, where neither solids nor bodies nor former ones are.
+/// Particles below the level, then of each box, outside solids, bodies and earlier particles.
 std::vector<fluid::FluidParticle> particlesOf(const scene::Scene& scene, const fluid::FluidModel& model,
                                               const FluidTank& tank, const fluid::Distance& free) {
   const scene::Fluid& fluid = *scene.fluid;
@@ -87,8 +86,8 @@ std::vector<fluid::FluidParticle> particlesOf(const scene::Scene& scene, const f
   return all;
 }
 
-/// Moves a place nearer to a body than half a spacing out to that, along the slope of the distance: the lattice fills
-/// the space beside a body as a whole, and its first particles would else touch markers.
+/// Moves a position closer to a body than half a spacing out to that distance, along the gradient of the distance: the
+/// lattice fills all space around a body, and its first particles would otherwise touch markers.
 void keepOff(const StartingBodies& bodies, const fluid::FluidModel& model, Vec3d& place) {
   const double near = 0.5 * model.spacing, probe = 0.01 * model.spacing;
   const auto distance = [&](const Vec3d& p) { return bodies.fromBodies(p, model.spacing); };
@@ -158,8 +157,8 @@ fluid::FluidModel fluidModel(const scene::Scene& scene) {
   const double least = kLeast * std::max(std::sqrt(fall), fastest);
   if (m.soundSpeed < least || !(m.soundSpeed > 0))
     scene.fail("fluid", fluid.soundSpeed ? "sound_speed" : "expected_speed",
-               fmt::format("[m/s] makes sound travel at {:.4g} m/s, too slow for this depth and speed; the least is "
-                           "{} m/s, better {} m/s",
+               fmt::format("[m/s] gives a sound speed of {:.4g} m/s, too low for this depth and speed; use at least {} "
+                           "m/s, preferably {} m/s",
                            m.soundSpeed, base::roundedUp(least, 3), base::roundedUp(2.5 * least, 2)));
   return m;
 }
@@ -181,7 +180,7 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   setup.bodies = bodies.inFluid(scene, m), setup.chassis = bodies.chassis();
   setup.stepsPerStep = std::max(1, static_cast<int>(longestStep(m, setup.bodies) / timeStep + 1e-9));
   m.timeStep = setup.stepsPerStep * timeStep;
-  // Between the parts of a vehicle there is no room to move particles off: what touches is left out.
+  // Between the parts of a vehicle there is no room to move particles; those that touch are omitted.
   const fluid::Distance free = [&](const Vec3d& p) {
     const double d = solid(p), dx = m.spacing;
     if (d < 0 || bodies.empty()) return d;
@@ -194,9 +193,9 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
     setup.fluid.particles = fluid::awayFrom(std::move(setup.fluid.particles), markersAtStart(bodies, setup.bodies),
                                             kLeastDistance * m.spacing);
   if (setup.fluid.particles.empty())
-    scene.fail("fluid", "",
-               "holds no particle: its level and boxes lie in solids or are thinner than the spacing; "
-               "correct them");
+    scene.fail(
+        "fluid", "",
+        "has no particles, since its level and boxes lie in solids or are thinner than the spacing; correct them");
   for (const scene::FluidProbe& p : scene.fluid->probes)
     setup.probes.push_back({p.name, p.kind == scene::FluidProbeKind::level, p.position});
   setup.top = tank.high.z;

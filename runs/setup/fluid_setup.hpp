@@ -17,8 +17,8 @@ struct FluidTank {
   base::Vec3d low, high;
 };
 
-/// Model of the fluid of a scene with [fluid], with the sound speed that it says or that follows from depth and speed;
-/// without a time step. Throws InputError for a sound speed that is too low.
+/// Model of the fluid of a scene with [fluid], with the given sound speed or that from depth and speed; without a time
+/// step. Throws InputError for a sound speed that is too low.
 fluid::FluidModel fluidModel(const scene::Scene& scene);
 
 /// Limits of its time step [s].
@@ -26,8 +26,8 @@ fluid::StepLimits fluidStepLimits(const scene::Scene& scene);
 
 FluidTank fluidTank(const scene::Scene& scene);
 
-/// Particles, markers of walls and bodies, and probes; empty without [fluid]. Throws InputError where nothing is
-/// filled, or a body is thinner than the spacing.
+/// Particles, markers of walls and bodies, and probes; empty without [fluid]. Throws InputError if there are no
+/// particles, or a body is thinner than the spacing.
 std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, double timeStep);
 
 } // namespace grouser::setup

@@ -32,11 +32,10 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
     const double wanted = contact::restitutionOf(law, grain, grain),
                  made = contact::restitutionOf(law, grain, grain * mass / (grain + mass));
     if (wanted - made < 0.005) return;
-    notes.push_back(
-        fmt::format("{} has a mass of {:g} kg, and the heaviest grain has {:.3g} kg: a grain rebounds from it "
-                    "with a restitution of {:.3f} instead of {:.3f}, since damping follows from the grain's "
-                    "mass alone; use a mass of at least {} kg",
-                    what, mass, grain, made, wanted, base::roundedUp(kHeavy * grain, 3)));
+    notes.push_back(fmt::format(
+        "{} has a mass of {:g} kg, and the heaviest grain {:.3g} kg: the restitution of their impact is {:.3f} instead "
+        "of {:.3f}, since damping depends on the grain's mass only; use a mass of at least {} kg",
+        what, mass, grain, made, wanted, base::roundedUp(kHeavy * grain, 3)));
   };
   for (const SceneSurface& s : pairs.surfaces)
     if (s.free) look(fmt::format("{} \"{}\" is free and", s.list(), s.name), s.section.material, s.free->mass);
@@ -55,7 +54,8 @@ std::string bodyContactsNote(const scene::Scene& scene) {
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   add(std::any_of(surfaces.begin(), surfaces.end(), moves), "planes, boxes, cylinders and meshes that move");
   add(scene.terrain && scene.terrain->granular(), "the walls and floor of the terrain");
-  return others.empty() ? "" : fmt::format("bodies pass through {}; a driven [[body]] touches bodies", others);
+  return others.empty() ? ""
+                        : fmt::format("bodies pass through {}; for contact with bodies use a driven [[body]]", others);
 }
 
 } // namespace grouser::setup

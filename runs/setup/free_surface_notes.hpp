@@ -8,8 +8,8 @@
 
 namespace grouser::setup {
 
-/// Free surfaces and bodies so light that grains rebound from them with less than the restitution that the scene asks
-/// for: damping follows from the grain's mass alone. How much less, and the mass that remedies it.
+/// Notes on free surfaces and bodies so light that grains rebound from them with less than the given restitution, since
+/// damping depends on the grain's mass only: the actual restitution, and the required mass.
 std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene);
 
 /// Lists what bodies with shapes pass through; empty where there is nothing else.

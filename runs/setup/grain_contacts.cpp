@@ -25,26 +25,25 @@ std::string nameOf(const ContactPairs& pairs, const std::string& grain, const Co
   return pairs.isPlane(p) ? "grain on a plane of '" + p.material + "'" : "grain on " + p.name;
 }
 
-/// Of a Hertz contact in an elastic impact [m].
+/// Maximum overlap of a Hertz contact in an elastic impact [m].
 double depthOf(const GrainContact& c, double speed) {
   return contact::hertzImpact(0.75 * c.law.stiffness, c.effectiveRadius, c.effectiveMass, speed).deepest;
 }
-/// The same under a force [N]: F = stiffness sqrt(R) overlap^(3/2).
+/// Overlap under a force [N]: F = stiffness sqrt(R) overlap^(3/2).
 double depthUnder(double force, const GrainContact& c) {
   return base::pow(force / (c.law.stiffness * std::sqrt(c.effectiveRadius)), 2.0 / 3);
 }
-/// How much less deep an impact is with its dashpot c_n = 2 beta sqrt(k_n m), k_n = (3/2) stiffness a [-].
+/// Maximum overlap with its dashpot over that without [-]: c_n = 2 beta sqrt(k_n m), k_n = (3/2) stiffness a.
 double depthShare(const contact::ContactLaw& law) {
   return contact::hertzDepthShare(0.5 * law.rootDamping / std::sqrt(1.5 * law.stiffness));
 }
 
 } // namespace
 
-std::vector<GrainContact> grainContacts(const scene::Scene& scene, const ContactPairs& pairs, Of which) {
+std::vector<GrainContact> grainContacts(const scene::Scene& scene, const ContactPairs& pairs, GrainSize size) {
   std::vector<GrainContact> contacts;
   const double speed = scene.run.impactSpeed;
-  // What lies on the lowest grains of a heap that is as high as wide, over their mass [N/kg]; chains bear twice as
-  // much.
+  // Load on the lowest grains of a heap as high as wide, over their mass [N/kg]; force chains bear twice as much.
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
                                  [](const scene::Material& m) { return m.hertzian(); });
   const double heap =
@@ -52,13 +51,13 @@ std::vector<GrainContact> grainContacts(const scene::Scene& scene, const Contact
   const double weighing = 2 * heap * norm(scene.run.gravity);
   for (const GrainKinds::Kind& kind : pairs.kinds.kinds) {
     const std::string& material = kind.material;
-    const double radius = which == Of::smallest ? kind.smallest : kind.largest;
+    const double radius = size == GrainSize::smallest ? kind.smallest : kind.largest;
     const double mass = base::sphereMass(scene.material(material).density, radius);
     for (const ContactPartner& p : pairs.partners) {
       if (p.kind == ContactPartner::Kind::bedWalls) continue; // as stiff as the floor
       const std::string &other = p.materialAgainst(material), name = nameOf(pairs, material, p);
       const bool amongGrains = p.kind == ContactPartner::Kind::grains;
-      // The same as against a former partner, under another name.
+      // The same as against an earlier partner, under another name.
       const auto same = std::find_if(contacts.begin(), contacts.end(), [&](const GrainContact& c) {
         return c.material == material && c.other == other && c.amongGrains == amongGrains;
       });

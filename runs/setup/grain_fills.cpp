@@ -32,7 +32,7 @@ scene::Grain grainAt(const scene::GrainFill& b, const Vec3d& position, double ra
   return {position, b.velocity, b.spin, radius, b.material};
 }
 
-/// How far a grain of a lattice may stand from its place along each axis [m]: two never touch at the start.
+/// Maximum shift of a lattice grain along each axis [m]: grains never touch at the start.
 double latticeShift(const scene::GrainFill& b) { return 0.5 * b.jitter * (b.spacing - 2) * b.largestRadius(); }
 
 /// Places of a lattice along each axis: shifted grains too stay whole inside the box.
@@ -91,8 +91,11 @@ void addRandom(const scene::Scene& scene, const scene::GrainFill& b, std::uint64
     const double radius = drawRadius(b, dice);
     for (int attempt = 0;; ++attempt) {
       if (attempt == kTries)
-        scene.fail("grains", block, "number",
-                   fmt::format("is too many: only {} find room in the box; enlarge it (low, high), or lower this", k));
+        scene.fail(
+            "grains", block, "number",
+            fmt::format(
+                "is too large: the box has room for only {} grains; enlarge the box (low, high), or lower the number",
+                k));
       Vec3d place;
       for (int a = 0; a < 3; ++a) place[a] = (*b.low)[a] + radius + dice() * ((*b.high)[a] - (*b.low)[a] - 2 * radius);
       if (!isFree(place, radius)) continue;

@@ -9,10 +9,10 @@
 
 namespace grouser::setup {
 
-/// What grains a scene has: those of [[grain]] and [[grains]], the bed's, and those that sources bring.
+/// Grains of a scene: [[grain]], [[grains]], bed and sources.
 struct GrainKinds {
   double largest = 0, smallest = 0;  ///< radii [m]; 0 without grains
-  std::vector<std::string> material; ///< those that occur, in the order of the file
+  std::vector<std::string> material; ///< materials of grains, in the order of the file
   struct Kind {
     std::string material;
     double smallest, largest; ///< radii of that material [m]
@@ -26,13 +26,13 @@ struct GrainKinds {
   int indexOf(const std::string& name) const;
 };
 GrainKinds grainKinds(const scene::Scene& scene);
-/// Whether grains crush against parts of a vehicle or meshes.
+/// Returns true if grains crush against parts of a vehicle or meshes.
 bool crushes(const scene::Scene& scene, const GrainKinds& kinds);
 
-/// The single grains and those of blocks, in the order of the file: their place is their id. Reads the files that
-/// blocks name. Throws InputError: no room for all, a broken line.
+/// Grains of [[grain]] and [[grains]] in the order of the file, which is that of their ids. Throws InputError if there
+/// is no room for all.
 std::vector<scene::Grain> placedGrains(const scene::Scene& scene);
-/// How many those are, without placing them.
+/// Number of those, without placing them.
 std::int64_t placedCount(const scene::Scene& scene);
 std::int64_t placedCount(const scene::GrainFill& block);
 

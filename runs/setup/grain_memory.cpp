@@ -13,7 +13,7 @@ namespace grouser::setup {
 
 namespace {
 
-/// As the grains of the scene will have them. Where walls and floor are does not matter.
+/// Traits of the scene's grains. They do not depend on the positions of walls and floor.
 struct Traits {
   unsigned features; ///< of the laws, grains and boundaries
   terrain::GrainLayout layout;
@@ -36,8 +36,7 @@ double fieldBytes(const terrain::GrainLayout& layout) {
   return static_cast<double>(terrain::GrainFields(layout).bytesPerGrain());
 }
 
-/// Of the grains of a bed those that lie at its floor or its walls: a layer of one diameter at each. All, where nothing
-/// is known of their places.
+/// Share of the grains of a bed at its floor or its walls: a layer of one diameter at each. 1 without a bed.
 double shareAtBoundaries(const scene::Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular()) return 1;
   const scene::Terrain& t = *scene.terrain;
@@ -48,7 +47,7 @@ double shareAtBoundaries(const scene::Scene& scene) {
   return std::min(1.0, 2 * *t.grainRadius * layers);
 }
 
-/// Of a grain that may touch a boundary: its place, what they do to it in a step, and springs.
+/// Bytes of a grain that may touch a boundary: index, load, and springs.
 double bytesAtBoundaries(const Traits& traits) {
   const auto springs =
       static_cast<double>(traits.layout.boundaries * traits.layout.historyWidth() + 3 * traits.layout.places);
@@ -69,8 +68,7 @@ KernelTraits kernelTraits(const scene::Scene& scene, const ContactPairs& pairs) 
 }
 
 GrainMemory grainMemory(const scene::Scene& scene) {
-  // Neighbours listed of a grain in a settled bed, at the skin that scenes begin with, and what lists leave free; and
-  // those of them that touch.
+  // Listed neighbours of a grain in a settled bed at the default skin, with spare slots; and those of them that touch.
   constexpr double kPlaces = 8, kContacts = 4;
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
   const Traits traits = traitsOf(scene, ContactPairs(scene), floorShape(scene));
@@ -85,8 +83,8 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   // Count, start, mask and id of a row.
   m.lists = 3 * kWord + kMask + kPlaces * kWord * (layout.radii ? 2 : 1); // the slot, and the sum of radii
   m.history = kPlaces * history;
-  // Contacts that are set aside, with a start, the order of the grains, one cell of the grid and on a GPU what lies
-  // where in it; less the memory that is given back meanwhile.
+  // Saved contacts with a start, the order of the grains, one cell of the grid and on a GPU its contents; less the
+  // memory that is freed meanwhile.
   const double rebuild = kContacts * (kWord + history) + 4 * kWord;
   m.rebuild = std::max(0.0, rebuild - static_cast<double>(terrain::GrainFields(layout).bytesMadeAnew()));
   return m;

@@ -39,12 +39,12 @@ Surroundings surroundingsOf(const scene::Scene& scene, const ContactPairs& pairs
 
 namespace {
 
-/// Something rigid that grains have a law with.
+/// A rigid contact partner of grains.
 struct Boundary {
   const std::string& material;
-  std::optional<double> friction; ///< otherwise than the materials say [-]
+  std::optional<double> friction; ///< replaces that of the materials [-]
 };
-/// Walls, floor and surfaces but meshes, in the order in which grains know them.
+/// Walls, floor and surfaces except meshes, in the order of the grains' boundaries.
 std::vector<Boundary> boundariesOf(const Surroundings& around) {
   std::vector<Boundary> all;
   for (const Surroundings::Wall& w : around.walls) all.push_back({w.material, w.friction});
@@ -83,7 +83,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
       (scene.terrain && scene.terrain->granular() && scene.terrain->floorGrains) ||
       std::any_of(scene.grains.begin(), scene.grains.end(), [](const scene::Grain& g) { return g.fixed; });
 
-  // Of one mass, damping is a constant; of many it follows from each contact's.
+  // With one mass, damping is a constant; with several it depends on each contact's mass.
   const auto mass = [&](double share) { return kinds.many() ? std::nullopt : std::optional(share * model.mass); };
   model.law = pairLaw(scene, first, first, mass(0.5));
   const std::vector<Boundary> all = boundariesOf(surroundings);

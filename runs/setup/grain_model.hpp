@@ -11,14 +11,14 @@
 
 namespace grouser::setup {
 
-/// What grains meet besides each other: walls and floor, and surfaces.
+/// Rigid contact partners of grains: walls, floor and surfaces.
 struct Surroundings {
   struct Wall {
     base::Vec3d normal;
     double offset;
     std::string material;
     std::string name{};               ///< in messages: "plane 0"
-    std::optional<double> friction{}; ///< otherwise than the materials say [-]
+    std::optional<double> friction{}; ///< replaces that of the materials [-]
   };
   std::vector<Wall> walls;
   std::optional<terrain::HeightField> floor;
@@ -26,8 +26,8 @@ struct Surroundings {
   std::vector<SceneSurface> surfaces{};
 };
 
-/// Walls and floor of the terrain, planes and surfaces, in the order in which grains know them. `bedWalls`: where those
-/// of a bed stand.
+/// Walls and floor of the terrain, planes and surfaces, in the order of the grains' boundaries. `bedWalls`: positions
+/// of the walls of a bed.
 Surroundings surroundingsOf(const scene::Scene& scene, const ContactPairs& pairs,
                             const std::optional<terrain::HeightField>& floor, const terrain::Rectangle& bedWalls);
 

@@ -21,7 +21,7 @@ namespace {
 
 using base::Vec3d;
 
-/// Radii and places as the sections give them.
+/// Checks radii and positions of the sections.
 class SpaceCheck {
 public:
   SpaceCheck(const scene::Scene& scene, const GrainKinds& kinds)
@@ -47,12 +47,12 @@ public:
     const auto [x, y] = scene_.terrain->size;
     if (!(x < limit_ && 0.5 * y < limit_))
       scene_.fail("terrain", "size",
-                  fmt::format("[m] reaches farther than {:.6g} m from the origin, the range of places of grains of "
-                              "{}; use larger grains or a smaller terrain",
+                  fmt::format("[m] extends beyond {:.6g} m from the origin, the position range for grains of {}; use "
+                              "larger grains or a smaller terrain",
                               limit_, scene::radiiText(*scene_.terrain)));
   }
 
-  /// A grain must not touch two images of another: three cells of the search fit in between.
+  /// A grain must not touch two images of another: three cells of the search must fit between periodic boundaries.
   void sides() const {
     const terrain::PeriodicBoundaries sides = periodicBoundaries(scene_);
     const double least = 3 * (2 * kinds_.largest + scene_.run.skin * kinds_.smallest);
@@ -65,9 +65,8 @@ public:
       };
       if (!(std::fabs(from) < limit_ && std::fabs(to) < limit_)) fail(tooFar());
       if (to - from < least)
-        fail(fmt::format(" sets periodic boundaries along {} that are too near: a grain could touch two images of "
-                         "another; set them at least {} m apart, three times a diameter with run.skin, or use "
-                         "smaller grains",
+        fail(fmt::format(" sets periodic boundaries along {} that are too close, so a grain could touch two images of "
+                         "another; set them at least {} m apart (three diameters plus run.skin), or use smaller grains",
                          "xy"[a], base::roundedUp(least, 6)));
     }
   }
@@ -79,15 +78,16 @@ public:
       walls = (scene_.run.periodic[0] ? 0u : 2u) + (scene_.run.periodic[1] ? 0u : 2u);
     const std::size_t floor = floorPlaces(kMost - std::min(kMost, walls + surfaces()));
     std::string others;
-    if (floor > 0) others = ", floor and walls of the terrain among them";
-    if (floor > 1) others += fmt::format(" (the floor as {}, since it has hollows tighter than the grains)", floor);
+    if (floor > 0) others = ", including floor and walls of the terrain";
+    if (floor > 1)
+      others += fmt::format(" (the floor counts as {}, since its hollows are narrower than the grains)", floor);
     std::size_t count = floor + walls;
     const auto add = [&](const char* list, std::size_t sections) {
       count += sections;
       if (count > kMost)
         scene_.fail(list, sections - 1, "",
-                    fmt::format("is one of {} or more planes, boxes and cylinders{}; grains can meet at most {}: leave "
-                                "some out, or join several in one [[mesh]]{}",
+                    fmt::format("is one of {} or more planes, boxes and cylinders{}; grains support at most {}; remove "
+                                "some, or combine several in one [[mesh]]{}",
                                 count, others, kMost,
                                 floor > 1 && scene_.terrain->granular() ? ", or set terrain.floor = \"flat\"" : ""));
     };
@@ -100,7 +100,7 @@ public:
     for (std::size_t k = 0; k < scene_.fills.size(); ++k) {
       const scene::GrainFill& b = scene_.fills[k];
       if (b.form != scene::FillForm::lattice) continue;
-      double grains = 1; // in a whole number they might not fit
+      double grains = 1; // may exceed an integer
       for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;
       if (grains > kMostGrains)
         scene_.fail("grains", k, "radius",
@@ -112,7 +112,7 @@ public:
 
 private:
   std::size_t surfaces() const { return scene_.planes.size() + scene_.boxes.size() + scene_.cylinders.size(); }
-  /// Contacts that a grain may have with the floor. Its height-map is read only where there is no `room` for the most.
+  /// Contacts that a grain may have with the floor. Reads its height-map only if there is no `room` for the maximum.
   std::size_t floorPlaces(std::size_t room) const {
     if (!scene_.terrain || room >= terrain::Feet::kMost) return scene_.terrain ? 1 : 0;
     terrain::Boundaries around;
@@ -122,24 +122,23 @@ private:
   void radius(const char* list, std::size_t k, const char* key, double smallest) const {
     constexpr double kSmallest = 1e-12; // [m]; no unit of places resolves a hundred-millionth of much less
     if (smallest < kSmallest)
-      scene_.fail(
-          list, k, key,
-          fmt::format("[m] gives a grain of {:g} m, smaller than {:g} m; give it in metres", smallest, kSmallest));
+      scene_.fail(list, k, key,
+                  fmt::format("[m] gives a grain radius of {:g} m, smaller than {:g} m; give it in metres", smallest,
+                              kSmallest));
     constexpr double kLeast = 1e-3; // of the largest [-]; see terrain::Grains
     if (smallest < kLeast * kinds_.largest)
-      scene_.fail(
-          list, k, key,
-          fmt::format("[m] gives a grain of {:g} m, less than a thousandth of the scene's largest, {:g} m; raise "
-                      "it, or lower that",
-                      smallest, kinds_.largest));
+      scene_.fail(list, k, key,
+                  fmt::format("[m] gives a grain radius of {:g} m, less than 0.001 of the largest, {:g} m; raise it, "
+                              "or lower the largest",
+                              smallest, kinds_.largest));
   }
   void place(const char* list, std::size_t k, const char* key, const Vec3d& p) const {
     if (!(std::fabs(p.x) < limit_ && std::fabs(p.y) < limit_ && std::fabs(p.z) < limit_))
       scene_.fail(list, k, key, "[m]" + tooFar());
   }
   std::string tooFar() const {
-    return fmt::format(" is farther than {:.6g} m from the origin, the range of places of grains of radius {:g} m;"
-                       " move the scene nearer to the origin, or use larger grains",
+    return fmt::format(" is farther than {:.6g} m from the origin, the position range for grains of radius {:g} m; "
+                       "move the scene closer to the origin, or use larger grains",
                        limit_, kinds_.largest);
   }
 

@@ -5,9 +5,9 @@
 
 namespace grouser::setup {
 
-/// The scene must fit into what grains are made of: integer positions, whose range and resolution follow from the
-/// largest grain, and lists of at most 32 boundaries. Throws InputError with the place of what does not; the grains
-/// themselves check the same, but know of no file.
+/// Checks that the scene fits the limits of grains: integer positions, whose range and resolution follow from the
+/// largest grain, and at most 32 boundaries. Throws InputError with the place; the grains check the same, but without
+/// the place in the file.
 void checkGrainSpace(const scene::Scene& scene, const GrainKinds& kinds);
 
 } // namespace grouser::setup

@@ -60,12 +60,12 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, coupling:
   return plan;
 }
 
-/// A piece of the bed as a scene of its own, level, under gravity straight down, without all that is not bed. `layers`:
-/// of a lattice; `depth` [m]: of a random bed.
+/// A level piece of the bed as a separate scene, with vertical gravity and without anything but the bed. `layers`: of a
+/// lattice; `depth` [m]: of a random bed.
 scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, const std::array<double, 2>& size) {
   scene::Scene piece = scene;
   piece.run.periodic = {true, true};
-  piece.run.gravity = {0, 0, -norm(scene.run.gravity)}; // where it leans, nothing would hold the piece back
+  piece.run.gravity = {0, 0, -norm(scene.run.gravity)}; // nothing would hold a piece under inclined gravity
   piece.grains.clear(), piece.fills.clear(), piece.sources.clear();
   piece.planes.clear(), piece.boxes.clear(), piece.cylinders.clear(), piece.meshes.clear();
   removeVehicle(piece), piece.mechanism = {}, piece.parallel = {};
@@ -83,7 +83,7 @@ scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, con
   return piece;
 }
 
-/// The message of a fault that only shows later.
+/// The message of an error that is only found later.
 template <class Fail> std::string messageOf(const Fail& fail) {
   try {
     fail();
@@ -100,8 +100,8 @@ coupling::TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightFi
   const terrain::HeightFieldBounds floor = plan.floor.bounds(), top = surface.bounds();
   if (floor.highest - floor.lowest > 1e-6 * radius)
     scene.fail("terrain", "tile",
-               fmt::format("[m] needs a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} to "
-                           "{:g} m; set terrain.floor = \"flat\", or leave the tile out",
+               fmt::format("[m] requires a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} "
+                           "to {:g} m; set terrain.floor = \"flat\", or remove tile",
                            base::wordOf(t.floor), floor.lowest, floor.highest));
   coupling::TileSetup tile;
   tile.periodic = scene.run.periodic, tile.terrainSize = t.size;
@@ -125,13 +125,12 @@ coupling::TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightFi
       groundSetup(pieceScene(scene, plan.layers, depth, tile.size), timeStep));
   tile.inTheWay = messageOf([&] {
     scene.fail("terrain", "tile",
-               "[m] copies a settled bed, which a box, cylinder or plane of the scene reaches into; move that, or "
-               "remove tile");
+               "[m] is incompatible with a box, cylinder or plane inside the bed; move that surface, or remove tile");
   });
   return tile;
 }
 
-/// A small level bed of the same grains between periodic boundaries, wide enough for its porosity to be that of any.
+/// A small level bed of the same grains between periodic boundaries, wide enough for a representative porosity.
 coupling::PreparationSetup preparationSetup(const scene::Scene& scene, const terrain::BedOptions& options,
                                             double timeStep) {
   constexpr double kWidth = 14, kDepth = 14, kWidthOfLargest = 7; // [diameters]
@@ -144,8 +143,8 @@ coupling::PreparationSetup preparationSetup(const scene::Scene& scene, const ter
   sample.terrain->porosity.reset();
   if (scene.material(t.material).friction <= 0)
     scene.fail("terrain", "porosity",
-               "[-] is reached by friction while the bed settles, but its material has none and packs as densely as it "
-               "can; remove it, or give the material friction");
+               "[-] is prepared by friction during settling, but the material of the bed has friction = 0; remove it, "
+               "or set friction of the material");
   return {*t.porosity, std::make_shared<const coupling::GroundSetup>(groundSetup(sample, timeStep)),
           messageOf([&] { scene.fail("terrain", "porosity", "[-]"); }),
           t.cache ? fmt::format("porosity {:a}\n{}", *t.porosity, bedOrigin(sample, timeStep)) : ""};
@@ -165,7 +164,7 @@ coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, 
   bed.material = kinds.indexOf(t.material);
   bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio, t.lattice()};
   bed.cache = t.cache;
-  if (isPutOnBed(scene)) return bed; // whose ground alone says the rest
+  if (isPutOnBed(scene)) return bed; // its bed has the rest
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
   if (t.tile) bed.tile = tileSetup(scene, surface, plan, timeStep);
   if (random) bed.densest = terrain::randomClosePacking(random->radii) + kCrystal;
@@ -173,7 +172,7 @@ coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, 
   return bed;
 }
 
-/// The laws between each material of the grains and the parts that they meet: the vehicle's, meshes or bodies.
+/// The laws between each material of the grains and the parts that they touch: the vehicle's, meshes or bodies.
 contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds& kinds, double grainMass) {
   contact::GrainPartMaterials all;
   const std::optional<VehicleSurface> ofSoil = vehicleSurface(scene);
@@ -183,7 +182,7 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   else if (parts.empty() && !scene.meshes.empty())
     parts = {scene.meshes.front().material};
   if (parts.empty()) return all;
-  // Of one mass, damping is a constant; of many it follows from each contact's.
+  // With one mass, damping is a constant; with several it depends on each contact's mass.
   const std::optional<double> mass = kinds.many() ? std::nullopt : std::optional(grainMass);
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const std::string& soil : kinds.material) {
@@ -199,7 +198,7 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   return all;
 }
 
-/// The grains of [[grain]] and [[grains]], a section each.
+/// The grains of [[grain]] and [[grains]] by section.
 std::vector<coupling::PlacedGrains> grainsOnBed(const scene::Scene& scene, const std::vector<terrain::GrainSpec>& all) {
   std::vector<coupling::PlacedGrains> placed;
   auto next = all.begin();
@@ -213,21 +212,20 @@ std::vector<coupling::PlacedGrains> grainsOnBed(const scene::Scene& scene, const
   return placed;
 }
 
-/// What stands beside each other in a scene.
-void checkCompany(const scene::Scene& scene) {
+/// Checks for incompatible sections.
+void checkCompatibility(const scene::Scene& scene) {
   const bool placed = !scene.grains.empty() || !scene.fills.empty(), bed = scene.terrain && scene.terrain->granular();
   if ((placed || !scene.sources.empty()) && scene.terrain && !bed && scene.vehicle)
-    scene.fail(
-        "vehicle", "",
-        "stands beside [[grain]], [[grains]] or [[source]] on rigid [terrain], which is not possible so far; use "
-        "a granular terrain, or leave the grains out");
+    scene.fail("vehicle", "",
+               "on rigid [terrain] is incompatible with [[grain]], [[grains]] and [[source]]; use a granular terrain, "
+               "or remove the grains");
 }
 
 } // namespace
 
 void checkGround(const scene::Scene& scene, double timeStep) {
   constexpr std::int64_t kQuick = 100'000; // grains, in about 0.2 s
-  checkCompany(scene);
+  checkCompatibility(scene);
   checkVehicleSurroundings(scene);
   const ContactPairs pairs(scene);
   checkSpeeds(scene, pairs, timeStep);
@@ -241,7 +239,7 @@ void checkGround(const scene::Scene& scene, double timeStep) {
 }
 
 coupling::GroundSetup groundSetup(const scene::Scene& scene, double timeStep, int ranks, SizeChecks sizes) {
-  checkCompany(scene);
+  checkCompatibility(scene);
   checkVehicleSurroundings(scene);
   const ContactPairs pairs(scene);
   const GrainKinds& kinds = pairs.kinds;

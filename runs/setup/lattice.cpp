@@ -15,7 +15,7 @@ namespace grouser::setup {
 
 namespace {
 
-constexpr const char* kRemedy = "change it, or start another number of ranks with mpirun -np";
+constexpr const char* kRemedy = "change it, or the number of ranks (mpirun -np)";
 
 bool fits(int ranks, const std::array<int, 3>& wanted) {
   try {
@@ -44,7 +44,7 @@ contact::PartitionOptions partitionOptions(const scene::Scene& scene, const base
   partition.rebalance = scene.parallel.rebalance;
   partition.peers = scene.parallel.peerMemory;
   partition.cuts = {scene.parallel.cutsX, scene.parallel.cutsY, scene.parallel.cutsZ};
-  // A plane beyond all places that an element can have is as good at their end, which whole units reach.
+  // A plane beyond the range of positions is moved to its limit.
   for (std::vector<double>& planes : partition.cuts)
     for (double& place : planes) place = std::clamp(place, -scale.limit(), scale.limit());
   partition.subdomains = wantedSubdomains(scene);
@@ -57,17 +57,15 @@ void checkLattice(const scene::Scene& scene, int ranks) {
   const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
   for (std::size_t a = 0; a < 3; ++a)
     if (!cuts[a]->empty())
-      scene.fail(
-          "parallel", std::string("cuts_") + "xyz"[a],
-          fmt::format("[m] makes {} subdomains along {}, and the scene asks for [{}, {}, {}] (0: any number up to "
-                      "{}), of which {} ranks make no lattice, one each; {}",
-                      wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], contact::kMostSubdomainsAnAxis, ranks,
-                      kRemedy));
+      scene.fail("parallel", std::string("cuts_") + "xyz"[a],
+                 fmt::format("[m] makes {} subdomains along {}, but the lattice [{}, {}, {}] of the scene (0: any "
+                             "number up to {}) does not fit {} ranks, one subdomain each; {}",
+                             wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], contact::kMostSubdomainsAnAxis,
+                             ranks, kRemedy));
   if (scene.parallel.subdomains)
-    scene.fail("parallel", "subdomains",
-               fmt::format("does not make {} subdomains, one for each rank; {}", ranks, kRemedy));
-  throw base::InputError(fmt::format("{}: {} ranks make no lattice with at most {} subdomains along each axis; start "
-                                     "another number with mpirun -np",
+    scene.fail("parallel", "subdomains", fmt::format("does not give {} subdomains, one per rank; {}", ranks, kRemedy));
+  throw base::InputError(fmt::format("{}: {} ranks do not form a lattice with at most {} subdomains along each axis; "
+                                     "use another number of ranks (mpirun -np)",
                                      scene.file.string(), ranks, contact::kMostSubdomainsAnAxis));
 }
 

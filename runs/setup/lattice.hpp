@@ -8,13 +8,13 @@
 
 namespace grouser::setup {
 
-/// Subdomains along x, y and z that the scene asks for, by their numbers or by planes between them; 0: any number.
+/// Subdomains along x, y and z that the scene sets, by numbers or by planes between them; 0: any number.
 std::array<int, 3> wantedSubdomains(const scene::Scene& scene);
 
-/// Options of [parallel], without communicator. `scale`: positions of the elements that are divided.
+/// Options of [parallel], without communicator. `scale`: positions of the distributed elements.
 contact::PartitionOptions partitionOptions(const scene::Scene& scene, const base::PositionScale& scale);
 
-/// Throws base::InputError, with the line of the key, where so many ranks make no lattice that the scene asks for.
+/// Throws base::InputError, with the line of the key, if the scene's lattice does not fit the number of ranks.
 void checkLattice(const scene::Scene& scene, int ranks);
 
 } // namespace grouser::setup

@@ -19,16 +19,14 @@ contact::ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA,
     if (error.reason == contact::MixingError::Reason::lawsDiffer)
       scene.failMaterial(
           at.name, error.key,
-          fmt::format("does not go with law = \"{}\" of material.{}, which it meets: surfaces that touch "
-                      "must both be hertz or eepa, or both linear, eepa_linear or luding, and no "
-                      "eepa_linear meets luding; give both one of the two",
+          fmt::format("is incompatible with law = \"{}\" of material.{}, which it touches; use hertz or eepa for both, "
+                      "or linear, eepa_linear or luding for both (eepa_linear and luding are incompatible)",
                       base::wordOf(other.law), other.name));
     if (error.reason == contact::MixingError::Reason::dampingBesideRestitution)
-      scene.failMaterial(
-          at.name, error.key,
-          fmt::format("[1/s] cannot be compared with the restitution of material.{} among grains of many "
-                      "masses; give both the same way, or [contact.\"{}|{}\"] for the pair",
-                      other.name, a.name, b.name));
+      scene.failMaterial(at.name, error.key,
+                         fmt::format("[1/s] cannot be mixed with the restitution of material.{} for grains of "
+                                     "different masses; give both materials the same key, or set [contact.\"{}|{}\"]",
+                                     other.name, a.name, b.name));
     scene.failMaterial(at.name, error.key, "[Pa] is missing; add it, e.g. young = 7e7");
   }
 }

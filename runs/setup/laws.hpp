@@ -12,8 +12,8 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// The law between two materials of a scene: contact::mixedLaw() with what [contact."a|b"] says. Throws InputError at
-/// the key where the two have none. Restitutions must be possible: see restitution_check.hpp.
+/// The law between two materials of a scene: contact::mixedLaw() with [contact."a|b"]. Throws InputError at the key if
+/// the materials are incompatible. Restitutions must have passed restitution_check.hpp.
 contact::ContactLaw pairLaw(const scene::Scene& scene, const std::string& a, const std::string& b,
                             std::optional<double> effectiveMass);
 

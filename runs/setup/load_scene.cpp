@@ -21,7 +21,7 @@ using base::Section;
 
 namespace {
 
-/// Throws the fault of a part with that part's place in the file, if the file has the part.
+/// Throws the error of a part with its place in the file, if the file has the part.
 void failAtPart(const Section& root, const multibody::PartError& error) {
   const multibody::PartName& part = error.part();
   for (const Section& section : root.list(part.kind)) {
@@ -31,8 +31,7 @@ void failAtPart(const Section& root, const multibody::PartError& error) {
   }
 }
 
-/// Has the solver check the mechanism as a whole: joints that do not close, drives that contradict each other through a
-/// loop.
+/// Checks the mechanism as a whole: joints that do not close, drives that contradict each other through a loop.
 void checkWhole(const Section& root, const multibody::Model& model, const scene::Scene& scene) {
   try {
     const multibody::Solver solver(model, solverOptions(scene.run));
@@ -61,7 +60,7 @@ void checkMechanism(const Section& root, const scene::Scene& scene) {
   });
   if (scene.mechanism.empty()) {
     for (const char* key : {"joint", "spring", "bushing", "drive", "coupling"})
-      for (const Section& section : root.list(key)) section.fail("", "has no body to act on; add a [[body]]");
+      for (const Section& section : root.list(key)) section.fail("", "requires a body; add a [[body]]");
     return;
   }
   const std::vector<Section> joints = root.list("joint");
@@ -71,33 +70,31 @@ void checkMechanism(const Section& root, const scene::Scene& scene) {
   if (vehicle) hitchedBodies(scene, builder.model(), *vehicle);
 }
 
-/// Grains feel all surfaces, vehicles those that rest.
-void requireFelt(const Section& section, const scene::Scene& scene, const SceneSurface& s) {
+/// Throws InputError for a surface without effect: vehicles and bodies touch only surfaces at rest.
+void rejectUnusedSurface(const Section& section, const scene::Scene& scene, const SceneSurface& s) {
   const bool others = scene.vehicle || scene.mechanism.touches() || scene.fluid;
   if (others && !s.moves) return;
   if (others)
-    section.fail("",
-                 "moves in a scene without grains, and vehicle and bodies touch surfaces at rest only; let it rest, "
-                 "or remove it");
+    section.fail("", "moves, but vehicle and bodies touch surfaces at rest only; remove its motion, or the surface");
   section.fail("", s.kind == coupling::SurfaceKind::plane
-                       ? "moves or has a name in a scene without grains, where nothing feels it; leave that out"
-                       : "stands in a scene without grains, and nothing else touches it; remove it");
+                       ? "moves or has a name, which has no effect without grains; remove motion and name"
+                       : "has no effect without grains; remove it");
 }
 
-/// What surfaces are to grains, vehicles and each other.
+/// Checks that surfaces have an effect, unique names, and room for grains.
 void checkSurfaces(const Section& root, const ContactPairs& pairs, const scene::Scene& scene) {
   const GrainKinds& kinds = pairs.kinds;
   std::map<std::string, std::string> places; // of names
   for (const SceneSurface& s : pairs.surfaces) {
     const Section section = root.list(s.list())[s.number];
-    if (!kinds.any()) requireFelt(section, scene, s);
+    if (!kinds.any()) rejectUnusedSurface(section, scene, s);
     const auto [other, fresh] = places.emplace(s.name, section.path());
-    if (!fresh) section.fail("name", fmt::format("\"{}\" is that of {} too; choose another", s.name, other->second));
+    if (!fresh)
+      section.fail("name", fmt::format("\"{}\" is also the name of {}; choose another", s.name, other->second));
     if (s.geometry.shape == terrain::SurfaceShape::tube && kinds.any() && s.geometry.half.x <= kinds.largest)
-      section.fail("radius",
-                   fmt::format("[m] is not above that of the largest grain, {:g} m; a hollow cylinder must be "
-                               "wider than what is in it: raise it, or set hollow = false",
-                               kinds.largest));
+      section.fail("radius", fmt::format("[m] is not above the radius of the largest grain, {:g} m, which a hollow "
+                                         "cylinder must contain; raise it, or set hollow = false",
+                                         kinds.largest));
   }
 }
 

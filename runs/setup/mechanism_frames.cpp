@@ -16,13 +16,14 @@ using multibody::JointType;
 
 namespace {
 
-/// Frames given twice, once a body, must meet this well at the start [m, rad].
+/// Tolerance of joint frames given in both bodies, at the start [m, rad].
 constexpr double kStartGap = 1e-6;
 std::string text(const Vec3d& v) { return fmt::format("({:.7g}, {:.7g}, {:.7g})", v.x, v.y, v.z); }
 
 /// Direction given for a key, not zero.
 Vec3d direction(const char* key, const std::optional<Vec3d>& v) {
-  if (!v) throw support::SectionFault(key, "[-] is missing, which this type of joint needs; add it, e.g. [0, 0, 1]");
+  if (!v)
+    throw support::SectionFault(key, "[-] is missing, but this type of joint requires it; add it, e.g. [0, 0, 1]");
   if (norm2(*v) == 0) throw support::SectionFault(key, "[-] is zero; give a direction, e.g. [0, 0, 1]");
   return normalized(*v);
 }
@@ -31,7 +32,7 @@ bool hasAxis(JointType type) {
   return type != JointType::kSpherical && type != JointType::kFixed && type != JointType::kDistance;
 }
 
-/// Both frames from what is said in the world.
+/// Both frames from point and axis in the world.
 JointFrames placedInWorld(const scene::JointSection& j) {
   for (const auto& [key, given] : {std::pair{"point_a", j.pointA.has_value()},
                                    {"point_b", j.pointB.has_value()},
@@ -39,34 +40,35 @@ JointFrames placedInWorld(const scene::JointSection& j) {
                                    {"axis_b", j.axisB.has_value()}})
     if (given)
       throw support::SectionFault(
-          key, "stands beside point; give point and axis in the world, or the four keys in the bodies");
+          key, "is mutually exclusive with point; give point and axis in the world, or the four keys in the bodies");
   if (!hasAxis(j.type)) return {{*j.point, {}}, {*j.point, {}}};
   const Vec3d z = direction("axis", j.axis);
   Pose X = multibody::frameWithZ(*j.point, z);
   if (j.type == JointType::kUniversal) {
     const Vec3d x = direction("second_axis", j.secondAxis);
     if (std::fabs(dot(x, z)) > kStartGap)
-      throw support::SectionFault("second_axis", fmt::format("[-] is {:.6g} rad off the right angle to axis; make them "
-                                                             "perpendicular at the start",
-                                                             std::fabs(dot(x, z))));
+      throw support::SectionFault(
+          "second_axis",
+          fmt::format("[-] is {:.6g} rad from perpendicular to axis; make them perpendicular at the start",
+                      std::fabs(dot(x, z))));
     X = multibody::frameWithZX(*j.point, z, x);
   }
   return {X, X};
 }
 
-/// Both frames from what is said in the bodies; they must meet.
+/// Both frames from points and axes in the bodies, which must coincide.
 JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (!j.pointA)
-    throw support::SectionFault("point_a", "[m] is missing beside point_b; give both, or point in the world");
+    throw support::SectionFault("point_a", "[m] is missing, but point_b requires it; give both, or point in the world");
   if (!j.pointB)
-    throw support::SectionFault("point_b", "[m] is missing beside point_a; give both, or point in the world");
+    throw support::SectionFault("point_b", "[m] is missing, but point_a requires it; give both, or point in the world");
   const Vec3d p_A = X_WA.toWorld(*j.pointA), p_B = X_WB.toWorld(*j.pointB);
   const auto apart = [&](const Vec3d& gap, const char* where) {
     if (!(norm(gap) <= kStartGap))
-      throw support::SectionFault("point_b",
-                                  fmt::format("[m] is at {} in the world at the start, {:.4g} m{} away from point_a "
-                                              "at {}; allowed are {:g} m: correct the points or the bodies' places",
-                                              text(p_B), norm(gap), where, text(p_A), kStartGap));
+      throw support::SectionFault(
+          "point_b", fmt::format("[m] is at {} in the world at the start, {:.4g} m{} from point_a at {}; the tolerance "
+                                 "is {:g} m; correct the points or the positions of the bodies",
+                                 text(p_B), norm(gap), where, text(p_A), kStartGap));
   };
   if (!hasAxis(j.type)) {
     apart(p_B - p_A, "");
@@ -77,36 +79,35 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
   if (j.type == JointType::kUniversal) {
     apart(p_B - p_A, "");
     if (std::fabs(dot(z, b)) > kStartGap)
-      throw support::SectionFault("axis_b",
-                                  fmt::format("[-] is {:.6g} rad off the right angle to axis_a at the start; make "
-                                              "them perpendicular",
-                                              std::fabs(dot(z, b))));
+      throw support::SectionFault(
+          "axis_b", fmt::format("[-] is {:.6g} rad from perpendicular to axis_a at the start; make them perpendicular",
+                                std::fabs(dot(z, b))));
     const Pose X = multibody::frameWithZX(p_A, z, b);
     return {X, X};
   }
   if (!(norm(cross(z, b)) <= kStartGap && dot(z, b) > 0))
     throw support::SectionFault("axis_b",
-                                fmt::format("[-] points along {} in the world at the start, axis_a along {}: {:.4g} "
-                                            "apart; turn a body or an axis so that they are parallel",
+                                fmt::format("[-] points along {} in the world at the start, axis_a along {}, a "
+                                            "difference of {:.4g}; rotate a body or an axis so that they are parallel",
                                             text(b), text(z), norm(b - z)));
   const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
   const double slide = slides ? dot(p_B - p_A, z) : 0;
-  apart(p_B - p_A - slide * z, slides ? " beside the axis" : "");
+  apart(p_B - p_A - slide * z, slides ? " perpendicular to the axis" : "");
   const Pose X = multibody::frameWithZ(p_A, z);
   return {X, {p_A + slide * z, X.orientation}};
 }
 
-/// Of a distance joint: two points, and no directions.
+/// Frames of a distance joint: two points without directions.
 JointFrames placedAtEnds(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (j.point)
     throw support::SectionFault("point",
-                                "[m] has no meaning for a distance joint; give point_a and point_b in the bodies");
+                                "[m] does not apply to a distance joint; give point_a and point_b in the bodies");
   const JointFrames ends{{X_WA.toWorld(j.pointA.value_or(Vec3d{})), X_WA.orientation},
                          {X_WB.toWorld(j.pointB.value_or(Vec3d{})), X_WB.orientation}};
   if (!(norm(ends.B.position - ends.A.position) > 0))
-    throw support::SectionFault("point_b",
-                                "[m] is at the same place as point_a at the start, so that the joint has no length; "
-                                "move one, or use a spherical joint");
+    throw support::SectionFault(
+        "point_b",
+        "[m] coincides with point_a at the start, so the joint has no length; move one, or use a spherical joint");
   return ends;
 }
 
@@ -114,10 +115,11 @@ JointFrames placedAtEnds(const scene::JointSection& j, const Pose& X_WA, const P
 
 JointFrames placeJoint(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (j.secondAxis && j.type != JointType::kUniversal)
-    throw support::SectionFault("second_axis", "has a meaning for a universal joint only; remove it");
+    throw support::SectionFault("second_axis", "applies to universal joints only; remove it");
   if (j.type == JointType::kDistance) return placedAtEnds(j, X_WA, X_WB);
   if (!j.point && !j.pointA && !j.pointB)
-    throw support::SectionFault("point", "[m] is missing; add where the joint is at the start, or point_a and point_b");
+    throw support::SectionFault("point",
+                                "[m] is missing; add the initial position of the joint, or point_a and point_b");
   return j.point ? placedInWorld(j) : placedInBodies(j, X_WA, X_WB);
 }
 

@@ -6,12 +6,12 @@
 
 namespace grouser::setup {
 
-/// Where the two frames of a joint stand in the world at the start: that of its first and that of its second body.
+/// Initial frames of a joint in the world, of its first and of its second body.
 struct JointFrames {
   base::Pose A, B;
 };
 
-/// From what a section says in the world, or in the bodies; then the two must meet. Throws SectionFault.
+/// Frames from keys in the world, or from keys in the bodies, which must coincide. Throws SectionFault.
 JointFrames placeJoint(const scene::JointSection& joint, const base::Pose& X_WA, const base::Pose& X_WB);
 
 } // namespace grouser::setup

@@ -35,11 +35,10 @@ SolidMoments shapesMoments(const scene::BodySection& b) {
   for (std::size_t k = 0; k < b.shapes.size(); ++k)
     if (const auto& query = b.shapes[k].loaded.query; query && shellsOverlap(*query))
       throw support::SectionFault(
-          "",
-          fmt::format("cannot derive mass or inertia from the mesh of shape.{}, whose shells overlap or nest: their "
-                      "common volume counts twice; merge the shells, reverse the inner shell of a hollow mesh, or set "
-                      "mass and inertia",
-                      k));
+          "", fmt::format("cannot derive mass or inertia from the mesh of shape.{}, whose shells overlap or nest, so "
+                          "that their common volume counts twice; merge the shells, reverse the inner shell of a "
+                          "hollow mesh, or set mass and inertia",
+                          k));
   const SolidMoments m = momentsOf(b);
   double size = 0;
   for (const scene::ShapeSection& s : b.shapes)
@@ -73,36 +72,35 @@ Mat3d inertiaOf(const scene::BodySection& b, const SolidMoments& moments, double
   return Mat3d::diagonal({m * (e.y * e.y + e.z * e.z), m * (e.x * e.x + e.z * e.z), m * (e.x * e.x + e.y * e.y)});
 }
 
-/// Everything that a drive says over time, added up.
+/// Sum of all terms of a drive over time.
 multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   multibody::TimeLaw law;
   law.polynomial = d.polynomial;
   if (d.value) law.polynomial = {*d.value};
   if (d.value && !d.polynomial.empty())
-    throw support::SectionFault("polynomial", "stands beside value, which is its first entry; remove one of the two");
+    throw support::SectionFault("polynomial", "is mutually exclusive with value, its first entry; remove one");
   if (d.amplitude != 0) {
-    if (!(d.frequency > 0)) throw support::SectionFault("frequency", "[Hz] must be above 0 beside amplitude; add it");
+    if (!(d.frequency > 0)) throw support::SectionFault("frequency", "[Hz] must be above 0 with amplitude; add it");
     law.harmonics.push_back({d.amplitude, 2 * base::kPi * d.frequency, d.phase * (base::kPi / 180)});
   }
   if (d.values.size() != d.time.size())
-    throw support::SectionFault(
-        "values", fmt::format("has another length than time, which has {}; make them alike", d.time.size()));
-  if (d.time.size() == 1) throw support::SectionFault("time", "[s] has one entry; give two at least, or value");
+    throw support::SectionFault("values",
+                                fmt::format("must have as many entries as time, {}; correct the lists", d.time.size()));
+  if (d.time.size() == 1) throw support::SectionFault("time", "[s] has one entry; give at least two, or value");
   const bool jumps = d.imposes != multibody::DriveKind::kPosition;
   if (const std::size_t i = multibody::firstOutOfOrder(d.time, jumps); i > 0)
     throw support::SectionFault("time",
                                 fmt::format("[s] does not increase at entry {}; sort it{}", i,
                                             !jumps && d.time[i] == d.time[i - 1] ? ": a position cannot jump" : ""));
-  // A kink in a position would be a blow.
+  // A kink in a position would be an impact.
   (d.imposes == multibody::DriveKind::kPosition ? law.table : law.ramps) = {d.time, d.values};
   if (law.empty())
-    throw support::SectionFault("", "says nothing; give value, polynomial, amplitude or time with values");
+    throw support::SectionFault("", "has no value; give value, polynomial, amplitude or time with values");
   return law;
 }
 
-/// Adds to the model. What it refuses becomes a fault of the section: of the key at fault where that is one of `keys`,
-/// which the section and the model's struct share.
-template <class Add> int handed(const std::vector<std::string>& keys, Add add) {
+/// Adds to the model. An error of the model becomes a fault of the section, at its key if that is one of `keys`.
+template <class Add> int addChecked(const std::vector<std::string>& keys, Add add) {
   try {
     return add();
   } catch (const multibody::PartError& error) {
@@ -113,10 +111,9 @@ template <class Add> int handed(const std::vector<std::string>& keys, Add add) {
 }
 
 void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits, double stiffness, double damping) {
-  if (!(limits[0] < limits[1]))
-    throw support::SectionFault("limits", "[rad or m] must be the lower, then the upper; swap them");
+  if (!(limits[0] < limits[1])) throw support::SectionFault("limits", "[rad or m] must be [min, max]; swap them");
   if (!(stiffness > 0))
-    throw support::SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 beside limits; add it");
+    throw support::SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 with limits; add it");
   spring.lowerLimit = limits[0], spring.upperLimit = limits[1];
   spring.stopStiffness = stiffness, spring.stopDamping = damping;
 }
@@ -129,13 +126,12 @@ MechanismBuilder::MechanismBuilder(const vehicle::Assembly& vehicle) : model_(ve
 }
 
 void MechanismBuilder::checkName(const std::string& kind, const std::string& name) {
-  if (name == "world") throw support::SectionFault("name", "is the name of the ground; choose another");
+  if (name == "world") throw support::SectionFault("name", "is reserved for the ground; choose another");
   if (const std::string fault = support::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
   if (name.find_first_of(".\",") != std::string::npos)
-    throw support::SectionFault(
-        "name", "has one of the characters . , \" in it, which results use between names; leave it out");
+    throw support::SectionFault("name", "must not contain . , or \", which separate names in results; remove them");
   if (!names_.insert(kind + " " + name).second)
-    throw support::SectionFault("name", fmt::format("is the name of another {} too; make the names differ", kind));
+    throw support::SectionFault("name", fmt::format("is also the name of another {}; choose another", kind));
 }
 
 int MechanismBuilder::body(const std::string& key, const std::string& name) const {
@@ -157,7 +153,7 @@ int MechanismBuilder::joint(const std::string& key, const std::string& name) con
   if (const auto found = joints_.find(name); found != joints_.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [joint, index] : joints_) known.push_back(joint);
-  throw support::SectionFault(key, known.empty() ? "names no joint, for there is none; add a [[joint]]"
+  throw support::SectionFault(key, known.empty() ? "requires a joint; add a [[joint]]"
                                                  : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
                                                                base::nearestWord(name, known)));
 }
@@ -168,13 +164,12 @@ JointAxis MechanismBuilder::axis(int index, const std::string& key, std::optiona
   const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
   if (!turns && !slides)
     throw support::SectionFault(
-        "", fmt::format("acts on the axis of joint \"{}\", which has none; use a revolute, prismatic or "
-                        "cylindrical joint",
+        "", fmt::format("requires an axis, but joint \"{}\" has none; use a revolute, prismatic or cylindrical joint",
                         j.name));
   if (!named) {
     if (turns && slides)
       throw support::SectionFault(
-          key, fmt::format("is missing, for joint \"{}\" has two axes; add {} = \"angle\" or \"slide\"", j.name, key));
+          key, fmt::format("is missing, but joint \"{}\" has two axes; add {} = \"angle\" or \"slide\"", j.name, key));
     return turns ? JointAxis::kAngle : JointAxis::kSlide;
   }
   if (*named == JointAxis::kAngle ? !turns : !slides)
@@ -199,11 +194,10 @@ void MechanismBuilder::add(const scene::BodySection& b) {
     const SolidMoments moments = fromShapes ? shapesMoments(b) : SolidMoments{};
     body.mass = b.mass ? *b.mass : *b.density * moments.volume;
     if (b.point && !b.inertia.empty())
-      throw support::SectionFault("inertia",
-                                  "[kg m2] stands beside point = true; a point has none: remove one of the two");
+      throw support::SectionFault("inertia", "[kg m2] is mutually exclusive with point = true; remove one");
     if (!b.point) body.inertia_B = inertiaOf(b, moments, body.mass);
   }
-  bodies_[b.name] = handed({"inertia", "mass", "velocity", "point"}, [&] { return model_.addBody(body); });
+  bodies_[b.name] = addChecked({"inertia", "mass", "velocity", "point"}, [&] { return model_.addBody(body); });
 }
 
 void MechanismBuilder::add(const scene::JointSection& j) {
@@ -221,27 +215,26 @@ void MechanismBuilder::add(const scene::JointSection& j) {
     joint.frame_A.position = j.pointA.value_or(Vec3d{}), joint.frame_B.position = j.pointB.value_or(Vec3d{});
     const double apart = norm(placed.B.position - placed.A.position);
     if (j.length && !(std::fabs(apart - *j.length) <= 1e-6 * *j.length))
-      throw support::SectionFault("length",
-                                  fmt::format("[m] is not met at the start, where the points are {:.9g} m apart; "
-                                              "correct it or the bodies' places, or leave it out",
-                                              apart));
+      throw support::SectionFault("length", fmt::format("[m] differs from the initial distance of the points, {:.9g} "
+                                                        "m; correct it or the positions of the bodies, or remove it",
+                                                        apart));
   }
-  const int index = handed({"damping", "slide_damping", "length"}, [&] { return model_.addJoint(joint); });
+  const int index = addChecked({"damping", "slide_damping", "length"}, [&] { return model_.addJoint(joint); });
   joints_[j.name] = index;
   if (!j.limits) return;
   multibody::AxisSpring stops;
   stops.name = j.name + " stops", stops.joint = index;
   stops.axis = j.type == JointType::kCylindrical ? JointAxis::kAngle : axis(index, "limits", {});
   setStops(stops, *j.limits, j.stopStiffness, j.stopDamping);
-  handed({"limits"}, [&] { return model_.addAxisSpring(stops); });
+  addChecked({"limits"}, [&] { return model_.addAxisSpring(stops); });
 }
 
 void MechanismBuilder::add(const scene::SpringSection& s) {
   checkName("spring", s.name);
   if (s.bodies.empty() == s.joint.empty())
-    throw support::SectionFault(s.joint.empty() ? "" : "joint",
-                                s.joint.empty() ? "has neither bodies nor joint; say where it acts"
-                                                : "stands beside bodies; a spring acts on one of the two");
+    throw support::SectionFault(s.joint.empty() ? "" : "joint", s.joint.empty()
+                                                                    ? "has neither bodies nor joint; add one of them"
+                                                                    : "is mutually exclusive with bodies; remove one");
   if (s.joint.empty())
     addBetweenPoints(s);
   else
@@ -251,17 +244,17 @@ void MechanismBuilder::add(const scene::SpringSection& s) {
 void MechanismBuilder::addOnAxis(const scene::SpringSection& s) {
   if (s.pointA || s.pointB)
     throw support::SectionFault(s.pointA ? "point_a" : "point_b",
-                                "[m] has no meaning on the axis of a joint; remove it");
+                                "[m] does not apply to a spring on the axis of a joint; remove it");
   multibody::AxisSpring spring;
   spring.name = s.name, spring.joint = joint("joint", s.joint), spring.axis = axis(spring.joint, "acts_on", s.actsOn);
   spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
   spring.freePosition = s.freePosition.value_or(0);
   if (s.limits) setStops(spring, *s.limits, s.stopStiffness, s.stopDamping);
-  handed({"stiffness", "damping", "preload"}, [&] { return model_.addAxisSpring(spring); });
+  addChecked({"stiffness", "damping", "preload"}, [&] { return model_.addAxisSpring(spring); });
 }
 
 void MechanismBuilder::addBetweenPoints(const scene::SpringSection& s) {
-  if (s.limits) throw support::SectionFault("limits", "have a meaning on the axis of a joint only; remove them");
+  if (s.limits) throw support::SectionFault("limits", "apply to springs on the axis of a joint only; remove them");
   multibody::PointSpring spring;
   spring.name = s.name;
   std::tie(spring.bodyA, spring.bodyB) = twoBodies(s.bodies);
@@ -269,13 +262,12 @@ void MechanismBuilder::addBetweenPoints(const scene::SpringSection& s) {
   spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
   const double length = norm(pose(spring.bodyB).toWorld(spring.point_B) - pose(spring.bodyA).toWorld(spring.point_A));
   if (s.freePosition && *s.freePosition < 0)
-    throw support::SectionFault("free_position", "[m] is a length here and must be at least 0; correct it");
+    throw support::SectionFault("free_position", "[m] is a length and must be at least 0; correct it");
   if (!(length > 0))
-    throw support::SectionFault("point_b",
-                                "[m] is at the same place as point_a at the start, so that the spring has no "
-                                "direction; move one of them");
+    throw support::SectionFault(
+        "point_b", "[m] coincides with point_a at the start, so the spring has no direction; move one of them");
   spring.restLength = s.freePosition.value_or(length);
-  handed({"stiffness", "damping", "preload"}, [&] { return model_.addPointSpring(spring); });
+  addChecked({"stiffness", "damping", "preload"}, [&] { return model_.addPointSpring(spring); });
 }
 
 void MechanismBuilder::add(const scene::BushingSection& b) {
@@ -292,7 +284,7 @@ void MechanismBuilder::add(const scene::BushingSection& b) {
   bushing.frame_B = multibody::compose(multibody::inverse(pose(bushing.bodyB)), X);
   bushing.stiffness = b.stiffness, bushing.damping = b.damping;
   bushing.rotationStiffness = b.rotationStiffness, bushing.rotationDamping = b.rotationDamping;
-  handed({"stiffness", "damping"}, [&] { return model_.addBushing(bushing); });
+  addChecked({"stiffness", "damping"}, [&] { return model_.addBushing(bushing); });
 }
 
 void MechanismBuilder::add(const scene::DriveSection& d) {
@@ -304,11 +296,9 @@ void MechanismBuilder::add(const scene::DriveSection& d) {
   for (const multibody::Drive& other : model_.drives())
     if (other.joint == drive.joint && other.axis == drive.axis && other.kind != multibody::DriveKind::kForce &&
         drive.kind != multibody::DriveKind::kForce)
-      throw support::SectionFault("joint",
-                                  fmt::format("is driven by \"{}\" already, and two drives contradict each other; "
-                                              "remove one",
-                                              other.name));
-  handed({"joint", "speed"}, [&] { return model_.addDrive(drive); });
+      throw support::SectionFault(
+          "joint", fmt::format("is already driven by \"{}\", and two drives conflict; remove one", other.name));
+  addChecked({"joint", "speed"}, [&] { return model_.addDrive(drive); });
 }
 
 void MechanismBuilder::add(const scene::CouplingSection& c) {
@@ -316,7 +306,7 @@ void MechanismBuilder::add(const scene::CouplingSection& c) {
   if (c.joints.size() != 2) throw support::SectionFault("joints", "must name two joints; correct the list");
   if (!c.actsOn.empty() && c.actsOn.size() != 2)
     throw support::SectionFault("acts_on",
-                                "must have two entries, \"angle\" or \"slide\", one a joint; correct the list");
+                                "must have two entries, \"angle\" or \"slide\", one per joint; correct the list");
   multibody::Coupling coupling;
   coupling.name = c.name, coupling.ratio = c.ratio;
   coupling.joint1 = joint("joints", c.joints[0]), coupling.joint2 = joint("joints", c.joints[1]);
@@ -324,9 +314,9 @@ void MechanismBuilder::add(const scene::CouplingSection& c) {
   coupling.axis1 = axis(coupling.joint1, "acts_on", named(0));
   coupling.axis2 = axis(coupling.joint2, "acts_on", named(1));
   if (c.ratio == 0)
-    throw support::SectionFault("ratio", "must not be 0; give the motion of the second axis over the first's");
+    throw support::SectionFault("ratio", "must not be 0; set it to motion of the second axis / motion of the first");
   if (c.offset) coupling.offset = *c.offset;
-  handed({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
+  addChecked({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
 }
 
 multibody::Model buildModel(const scene::MechanismSections& sections, const vehicle::Assembly* vehicle) {

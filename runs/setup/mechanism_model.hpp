@@ -16,10 +16,10 @@ namespace grouser::vehicle {
 struct Assembly;
 }
 
-/// From the sections of a scene file to the model that multibody/ solves.
+/// Builds the multibody model from the sections of a scene file.
 namespace grouser::setup {
 
-/// Adds section after section and checks each against what has been added so far. Throws SectionFault.
+/// Adds sections and checks each against the earlier ones. Throws SectionFault.
 class MechanismBuilder {
 public:
   MechanismBuilder() = default;
@@ -39,7 +39,7 @@ private:
   int body(const std::string& key, const std::string& name) const;
   int joint(const std::string& key, const std::string& name) const;
   std::pair<int, int> twoBodies(const std::vector<std::string>& names) const;
-  /// The axis of a joint that is meant, by name or as its only one.
+  /// The axis of a joint, by name or as its only one.
   multibody::JointAxis axis(int index, const std::string& key, std::optional<multibody::JointAxis> named) const;
   base::Pose pose(int index) const;
   void checkName(const std::string& kind, const std::string& name);
@@ -51,11 +51,11 @@ private:
   std::set<std::string> names_; ///< "body rod"
 };
 
-/// `vehicle`: with whose parts the model begins; null without.
+/// `vehicle`: the model begins with its parts; may be null.
 multibody::Model buildModel(const scene::MechanismSections& sections, const vehicle::Assembly* vehicle = nullptr);
 
-/// Throws SectionFault, for key "" of joint `index`, where the velocities of its two bodies at the start do not go
-/// together with it. Velocities must agree to 1e-5 of their size.
+/// Throws SectionFault, for key "" of joint `index`, where the initial velocities of its two bodies violate the joint
+/// by more than 1e-5 of their size.
 void checkStartVelocity(const multibody::Model& model, int index);
 
 } // namespace grouser::setup

@@ -23,14 +23,14 @@ namespace grouser::setup {
 
 namespace {
 
-/// Steps of a period or turn that "auto" gives [-], and the longest step it gives [s].
+/// Steps per period or turn with "auto" [-], and its largest step [s].
 constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
-/// The same of swings on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves room for
-/// forty times the tension of the start [-].
+/// The same for oscillations on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves
+/// room for forty times the initial tension [-].
 constexpr double kStepsPerTensionSwing = 20;
-/// The same of the half swing that a bounce off an end stop lasts, as of a contact of grains [-].
+/// The same for a bounce off an end stop (half an oscillation), as for a contact of grains [-].
 constexpr double kStepsPerBounce = 20;
-/// Steps from which on it is worth saying that a spring alone asks for so many [-].
+/// Number of steps above which a note names the spring that requires them [-].
 constexpr double kManySteps = 1e6;
 /// Steps are printed and typed with some digits: 20 steps to a millionth are 20 [-].
 constexpr double kDigits = 1e-6;
@@ -46,14 +46,14 @@ struct Start {
   double shortestSwing(std::string* spring) {
     return 2 * base::kPi / solver.stabilityLimit() * solver.stableStep(state, loads, spring);
   }
-  /// How long a bounce off an end stop lasts at least [s].
+  /// Shortest duration of a bounce off an end stop [s].
   double shortestBounce() { return base::kPi / solver.stopRate(state, loads); }
   /// Longest step for which the dampers brake without a change of sign [s]; infinite where any step does.
   double longestDamped(std::string* damper = nullptr) {
     if (setup.solver.integrator != multibody::Integrator::kRattle) return std::numeric_limits<double>::infinity();
     return 2 / solver.dampingRate(state, loads, damper);
   }
-  /// The same of bodies that hang on taut joints and springs.
+  /// Shortest oscillation period of bodies on taut joints and springs [s].
   double shortestTensionSwing() { return 2 * base::kPi / solver.geometricStiffnessRate(state, loads); }
 
   const coupling::MechanismSetup setup;
@@ -62,18 +62,18 @@ struct Start {
   multibody::Solver solver;
 };
 
-/// The step that "auto" stands for, and what it would be but for springs and dampers [s].
+/// The step of "auto", and that without springs and dampers [s].
 struct AutomaticStep {
   double step = 0, withoutSprings = 0, withoutDampers = 0;
   double swing = 0;           ///< shortest of the springs [s]
-  double decay = 0;           ///< what the strongest damper brakes dies away in this [s]
+  double decay = 0;           ///< time constant of the strongest damper [s]
   std::string spring, damper; ///< "spring 'bar'"
 };
 
 AutomaticStep automaticStep(const scene::Scene& scene) {
   Start start(scene);
   double shortest = kStepsPerPeriod * kLongestStep;
-  // Of all of these kStepsPerPeriod steps are taken, or as many as the scene wants.
+  // Each gets kStepsPerPeriod steps, or as many as the scene requires.
   const double ofTurns = std::min(1.0, kStepsPerPeriod / scene.run.stepsPerPeriod);
   for (const multibody::Twist& V : start.state.twist)
     shortest = std::min(shortest, ofTurns * 2 * base::kPi / norm(V.w));
@@ -87,7 +87,7 @@ AutomaticStep automaticStep(const scene::Scene& scene) {
   const double row = scene.run.outputInterval;
   const auto shareOfRow = [row](double time) { return row / std::ceil(kStepsPerPeriod * row / time); };
   automatic.decay = 0.5 * start.longestDamped(&automatic.damper);
-  // Dampers: half the limit, as of grains.
+  // Dampers: half the limit, as for grains.
   const double decays = kStepsPerPeriod * automatic.decay;
   automatic.withoutSprings = shareOfRow(std::min(shortest, decays));
   automatic.withoutDampers = shareOfRow(std::min(shortest, automatic.swing));
@@ -95,8 +95,8 @@ AutomaticStep automaticStep(const scene::Scene& scene) {
   return automatic;
 }
 
-/// The largest share of the output interval of which frames and the end of the run are whole numbers too [s]; a
-/// thousandth of it where none is.
+/// The largest fraction of the output interval of which frame interval and duration are multiples [s]; a thousandth of
+/// it if there is none.
 double outputStep(const scene::RunSettings& run) {
   const auto fits = [](double time, double step) {
     const double steps = time / step;
@@ -116,38 +116,37 @@ void checkTurns(const scene::Scene& scene, const multibody::Model& model, const 
   for (std::size_t b = 0; b < state.twist.size(); ++b)
     if (const double rate = norm(state.twist[b].w); rate * step > most * 1.000001)
       scene.fail("run", "time_step",
-                 fmt::format("[s] turns body \"{}\" by {:.4g} rad a step at the start, above the {:.4g} rad of "
-                             "run.steps_per_period = {:g} steps a turn: choose {} s or less, or \"auto\"",
+                 fmt::format("[s] rotates body \"{}\" by {:.4g} rad per step at the start, more than {:.4g} rad "
+                             "(run.steps_per_period = {:g} steps per turn); set {} s or less, or \"auto\"",
                              model.bodies()[b].name, rate * step, most, scene.run.stepsPerPeriod,
                              base::roundedDown(most / rate, 4)));
 }
 
-/// Throws InputError where a bounce off an end stop, half a swing, has too few steps.
+/// Throws InputError where a bounce off an end stop, half an oscillation, has too few steps.
 void checkStops(const scene::Scene& scene, Start& start, double step) {
   std::string stop;
   const double rate = start.solver.stopRate(start.state, start.loads, &stop);
   const double bounce = base::kPi / rate, wanted = 0.5 * scene.run.stepsPerPeriod;
   if (rate == 0 || bounce / step >= wanted * (1 - kDigits)) return;
-  scene.fail("run", "time_step",
-             fmt::format("[s] is too long for the end stops of {}: a bounce off them, half a swing, lasts {:.4g} s, "
-                         "which is {:.3g} steps and not {:g}, half of run.steps_per_period; choose {} s or less "
-                         "(\"auto\": {} s), softer stops (stop_stiffness), run.tolerance instead of time_step, or "
-                         "lower run.steps_per_period if you mean it",
-                         stop, bounce, bounce / step, wanted, base::roundedDown(bounce / wanted, 4),
-                         base::roundedDown(automaticStep(scene).step, 4)));
+  scene.fail(
+      "run", "time_step",
+      fmt::format("[s] is too long for the end stops of {}: a bounce (half an oscillation) lasts {:.4g} s, {:.3g} "
+                  "steps instead of {:g}, half of run.steps_per_period; set {} s or less (\"auto\": {} s), use softer "
+                  "stops (stop_stiffness) or run.tolerance instead of time_step, or lower run.steps_per_period",
+                  stop, bounce, bounce / step, wanted, base::roundedDown(bounce / wanted, 4),
+                  base::roundedDown(automaticStep(scene).step, 4)));
 }
 
-/// Throws InputError where a damper would turn a velocity round in every step instead of braking it.
+/// Throws InputError where a damper would reverse a velocity in every step instead of braking it.
 void checkDampers(const scene::Scene& scene, Start& start, double step) {
   if (scene.run.integratorOrder > 2) return; // the solver refuses these, at shorter steps
   std::string damper;
   const double most = start.longestDamped(&damper);
   if (step <= most * (1 + kDigits)) return;
   scene.fail("run", "time_step",
-             fmt::format("[s] is too long for the damper of {}: what it brakes dies away in {:.3g} s, and with rattle "
-                         "it would change its direction in every step beyond {} s instead; choose that or less "
-                         "(\"auto\": {} s), a weaker damper, or run.integrator = \"symplectic_euler\", which takes "
-                         "dampers implicitly",
+             fmt::format("[s] is too long for the damper of {}: its time constant is {:.3g} s, and with rattle "
+                         "velocities change sign in every step longer than {} s; set that or less (\"auto\": {} s), a "
+                         "weaker damper, or run.integrator = \"symplectic_euler\", which integrates dampers implicitly",
                          damper, 0.5 * most, base::roundedDown(most, 4),
                          base::roundedDown(automaticStep(scene).step, 4)));
 }
@@ -161,7 +160,7 @@ multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   options.springs = run.springs;
   options.positionTolerance = run.constraintTolerance.value_or(0);
   options.exactGyroscopics = true;
-  // Scenes say velocities with a few digits; loading has made sure that they are meant to fit.
+  // Scenes give velocities with a few digits; loading has checked that they fit.
   options.startVelocities = multibody::StartVelocities::kAccept;
   return options;
 }
@@ -264,37 +263,37 @@ double mechanismTimeStep(const scene::Scene& scene) {
   try {
     trial.solver.step(trial.state, trial.loads, step);
   } catch (const base::InputError& error) {
-    scene.fail("run", "time_step", fmt::format("[s] is not possible: {}", error.what()));
-  } catch (const base::SimulationError&) { // the run will say where
+    scene.fail("run", "time_step", fmt::format("[s] cannot be used: {}", error.what()));
+  } catch (const base::SimulationError&) { // the run reports it
   }
   return step;
 }
 
 namespace {
 
-/// Of a step that is given: whose swing it does not resolve, for nothing refuses that.
+/// Note on a spring whose oscillation a given step does not resolve, which is no error.
 std::string unresolvedSpring(const scene::Scene& scene) {
   Start start(scene);
   std::string spring;
   const double swing = start.shortestSwing(&spring), steps = swing / *scene.run.timeStep;
   if (steps >= scene.run.stepsPerPeriod * (1 - kDigits)) return "";
   const bool euler = scene.run.integrator == multibody::Integrator::kSymplecticEuler;
-  return fmt::format("{}: {} swings in {:.3g} s, {:.3g} steps of run.time_step = {:g} s: {}; for the swing itself "
-                     "choose {} s or less",
+  return fmt::format("{}: {} has a period of {:.3g} s, {:.3g} steps of run.time_step = {:g} s; {}; to resolve the "
+                     "oscillation, set {} s or less",
                      scene.file.string(), spring, swing, steps, *scene.run.timeStep,
-                     euler ? "symplectic_euler is stable there, and damps that swing"
+                     euler ? "symplectic_euler is stable but damps it"
                      : scene.run.springs == multibody::Springs::kImplicit
-                         ? "implicit springs are stable there, and show that swing too slow"
-                         : "explicit springs are stable there, and show that swing too quick",
+                         ? "implicit springs are stable but oscillate too slowly"
+                         : "explicit springs are stable but oscillate too fast",
                      base::roundedDown(swing / scene.run.stepsPerPeriod, 4));
 }
 
-/// Of "auto" where a damper alone asks for very many steps.
+/// Note on a damper that makes "auto" choose very many steps.
 std::string damperNote(const scene::Scene& scene, const AutomaticStep& a) {
-  return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because what the damper of {} brakes "
-                     "dies away in {:.3g} s; run.integrator = \"symplectic_euler\" takes dampers implicitly, and is "
-                     "stable at run.time_step = {:.4g}",
-                     scene.file.string(), a.step, scene.run.duration / a.step, a.damper, a.decay, a.withoutDampers);
+  return fmt::format(
+      "{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because the damper of {} has a time constant of {:.3g} "
+      "s; run.integrator = \"symplectic_euler\" integrates dampers implicitly and is stable at run.time_step = {:.4g}",
+      scene.file.string(), a.step, scene.run.duration / a.step, a.damper, a.decay, a.withoutDampers);
 }
 
 } // namespace
@@ -309,18 +308,18 @@ std::string springStepNote(const scene::Scene& scene) {
   if (a.withoutSprings < 2 * a.step) return "";
   std::string remedy;
   if (scene.run.integrator == multibody::Integrator::kSymplecticEuler)
-    remedy = fmt::format("symplectic_euler takes springs implicitly: run.time_step = {:.4g} is as stable, and damps "
-                         "that swing",
+    remedy = fmt::format("symplectic_euler integrates springs implicitly: run.time_step = {:.4g} is also stable but "
+                         "damps this oscillation",
                          a.withoutSprings);
   else if (scene.run.springs == multibody::Springs::kImplicit)
-    remedy = fmt::format("run.springs = \"implicit\" is stable at any step: with run.time_step = {:.4g} all but that "
-                         "swing is resolved, and the spring is a stiff link",
+    remedy = fmt::format("run.springs = \"implicit\" is stable at any step: run.time_step = {:.4g} resolves everything "
+                         "but this oscillation, with the spring as a stiff link",
                          a.withoutSprings);
   else
-    remedy = fmt::format("run.springs = \"implicit\" allows run.time_step = {:.4g}, with which all but that swing is "
-                         "resolved, and the spring is a stiff link",
+    remedy = fmt::format("run.springs = \"implicit\" allows run.time_step = {:.4g}, which resolves everything but this "
+                         "oscillation, with the spring as a stiff link",
                          a.withoutSprings);
-  return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because {} swings in {:.3g} s; {}",
+  return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because {} has a period of {:.3g} s; {}",
                      scene.file.string(), a.step, steps, a.spring, a.swing, remedy);
 }
 
@@ -331,8 +330,8 @@ std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep
   const double most =
       start.solver.stabilityLimit() / start.solver.geometricStiffnessRate(start.state, start.loads, &part);
   if (timeStep < most) return "";
-  return fmt::format("{}: run.time_step = {:g} s: at the start {} bears so much that swings across it grow with steps "
-                     "above {:.2g} s, after the least push; choose a shorter step, or \"auto\"",
+  return fmt::format("{}: run.time_step = {:g} s: at the start the load on {} limits stable steps to {:.2g} s; set a "
+                     "shorter step, or \"auto\"",
                      scene.file.string(), timeStep, part, most);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether the velocities at the start go together with the joints.
+// Checks that the initial velocities satisfy the joints.
 #include "runs/setup/mechanism_model.hpp"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ using multibody::JointType;
 
 namespace {
 
-/// Velocities at the start may miss a joint by this share of their size [-]: that of numbers typed with six digits.
+/// Relative tolerance of initial velocities at a joint [-]: numbers typed with six digits.
 constexpr double kStartRate = 1e-5;
 
 struct Motion {
@@ -44,7 +44,7 @@ void checkStartVelocity(const multibody::Model& model, int index) {
   const base::Mat3d R_A = X_WA.orientation.matrix(), R_B = X_WB.orientation.matrix();
   const Vec3d z = R_A * Vec3d{0, 0, 1}, x = R_B * Vec3d{1, 0, 0};
 
-  // What the joint holds: a part of the velocity of B's point against A, and a part of the turning of B against A.
+  // Constrained parts of the velocity of B's point relative to A, and of the angular velocity of B relative to A.
   Vec3d slip = B.at(p) - A.at(p), turn = B.w - A.w;
   switch (joint.type) {
   case JointType::kRevolute:
@@ -80,14 +80,13 @@ void checkStartVelocity(const multibody::Model& model, int index) {
   };
   if (norm(slip) > kStartRate * speed)
     throw support::SectionFault(
-        "", fmt::format("(\"{}\") holds {} together at {} m, where they start with velocities {} and {} "
-                        "m/s; change velocity or spin of one so that {} m/s between them vanishes",
+        "", fmt::format("(\"{}\") connects {} at {} m, where their initial velocities are {} and {} m/s; change "
+                        "velocity or spin of one so that the difference {} m/s vanishes",
                         joint.name, bodies(), shortText(p), shortText(A.at(p)), shortText(B.at(p)), shortText(slip)));
   if (norm(turn) > kStartRate * spin)
-    throw support::SectionFault(
-        "", fmt::format("(\"{}\") holds {}, which start with spins {} and {} rad/s; change one so that {} "
-                        "rad/s between them vanishes",
-                        joint.name, bodies(), shortText(A.w), shortText(B.w), shortText(turn)));
+    throw support::SectionFault("", fmt::format("(\"{}\") connects {}, whose initial spins are {} and {} rad/s; change "
+                                                "one so that the difference {} rad/s vanishes",
+                                                joint.name, bodies(), shortText(A.w), shortText(B.w), shortText(turn)));
 }
 
 } // namespace grouser::setup

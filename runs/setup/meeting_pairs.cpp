@@ -19,24 +19,24 @@ namespace grouser::setup {
 
 namespace {
 
-/// Where only one of the two has something, the mixing rule makes nothing of it.
+/// Sentences on parameters of one material that the mixing rule sets to 0.
 std::vector<std::string> switchedOff(const scene::Material& a, const scene::Material& b,
                                      const contact::ContactLaw& law) {
   std::vector<std::string> sentences;
   const auto say = [&](const char* key, const char* rule, double ofA, double ofB, double acts) {
     if (acts > 0 || (ofA > 0) == (ofB > 0)) return;
     const scene::Material &has = ofA > 0 ? a : b, &lacks = ofA > 0 ? b : a;
-    sentences.push_back(fmt::format("{} = {:g} of material.{} does nothing against {}, which has 0: {} acts; give "
-                                    "material.{} one too, or set it in [contact.\"{}|{}\"]",
+    sentences.push_back(fmt::format("{} = {:g} of material.{} has no effect against {}, which has 0 (mixing rule: {}); "
+                                    "set it for material.{} too, or in [contact.\"{}|{}\"]",
                                     key, std::max(ofA, ofB), has.name, lacks.name, rule, lacks.name, a.name, b.name));
   };
-  say("friction", "the smaller", a.friction, b.friction, law.friction);
-  say("rolling_friction", "the smaller", a.rollingFriction, b.rollingFriction, law.rollingFriction);
-  say("cohesion", "the geometric mean", a.cohesion, b.cohesion, law.coheres() ? 1 : 0);
+  say("friction", "minimum", a.friction, b.friction, law.friction);
+  say("rolling_friction", "minimum", a.rollingFriction, b.rollingFriction, law.rollingFriction);
+  say("cohesion", "geometric mean", a.cohesion, b.cohesion, law.coheres() ? 1 : 0);
   return sentences;
 }
 
-/// Grains of a kind against a partner of this material, a row for each three of names.
+/// Pairs of a kind of grains and a partner material, one per combination of names.
 class MeetingPairs {
 public:
   explicit MeetingPairs(const scene::Scene& scene) : scene_(scene) {}

@@ -14,7 +14,7 @@ namespace grouser::setup {
 
 namespace {
 
-/// Walls are planes without a name of their own, which surfacesOf() leaves out.
+/// Walls are planes without a name, which surfacesOf() omits.
 std::vector<SceneSurface> wallsOf(const scene::Scene& scene) {
   std::vector<SceneSurface> walls;
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {

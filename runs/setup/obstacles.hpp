@@ -11,15 +11,14 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Planes, boxes, cylinders and meshes of a scene that nothing moves.
+/// Planes, boxes, cylinders and meshes of a scene at rest.
 std::vector<coupling::SurfaceSetup> surfacesAtRest(const scene::Scene& scene);
 
-/// Those as parts of the vehicle and bodies meet them; empty without a vehicle, bodies with shapes or a fluid.
-/// Friction is that of vehicle.material and the surface's where the scene gives the vehicle one, else friction_ground
-/// of its file.
+/// These surfaces as obstacles of vehicle, bodies and fluid; empty without a vehicle, bodies with shapes or a fluid.
+/// Friction is that of vehicle.material and the surface's material if given, else friction_ground of the vehicle file.
 std::vector<coupling::Obstacle> obstaclesOf(const scene::Scene& scene);
 
-/// Whether the hull of the scene's vehicle touches anything.
+/// Returns true if the hull of the scene's vehicle has contacts.
 bool hullTouches(const scene::Scene& scene);
 
 } // namespace grouser::setup

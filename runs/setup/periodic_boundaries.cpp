@@ -31,10 +31,9 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
     const double from = (*sides[a])[0], to = (*sides[a])[1];
     const int axis = static_cast<int>(a);
     const auto outside = [&](double low, double high) {
-      return fmt::format(
-          "[m] reaches from {} = {:g} to {:g} m, outside the periodic boundaries {:g} and {:g} m; move it between "
-          "them, or move run.domain_{}",
-          "xy"[a], low, high, from, to, "xy"[a]);
+      return fmt::format("[m] extends from {} = {:g} to {:g} m, outside the periodic boundaries {:g} and {:g} m; move "
+                         "it between them, or change run.domain_{}",
+                         "xy"[a], low, high, from, to, "xy"[a]);
     };
     for (std::size_t i = 0; i < grains.size(); ++i) {
       const double at = grains[i].position[axis];
@@ -47,7 +46,7 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
     }
     for (std::size_t k = 0; k < scene.sources.size(); ++k) {
       const double low = scene.sources[k].low[axis], high = scene.sources[k].high[axis];
-      // It may fill the period: its numbers never reach the upper side itself.
+      // It may fill the period: random positions never reach the upper boundary.
       if (!(low >= from && (high < to || (low < high && high <= to))))
         scene.fail("source", k, low < from ? "low" : "high", outside(low, high));
     }
@@ -78,8 +77,8 @@ void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& sur
         };
         if (std::fabs(height(across) - height(0)) <= tolerance) continue;
         scene.fail("run", "periodic",
-                   fmt::format("joins the sides along {}, but terrain.heightmap = {} is not level in that direction; "
-                               "use a level height-map, or set it to [{}]",
+                   fmt::format("connects the borders along {}, but terrain.heightmap = {} is not level in that "
+                               "direction; use a level height-map, or set it to [{}]",
                                "xy"[axis], scene.terrain->heightmap, axis == 0 ? "false, ..." : "..., false"));
       }
   }

@@ -12,18 +12,17 @@ namespace grouser::setup {
 
 struct ContactPairs;
 
-/// Where the sides stand that `run.periodic` joins [m]: at the borders of the terrain, or where run.domain_x and
-/// run.domain_y say. InputError: a height-map that does not fit together across them.
+/// Positions of the periodic boundaries [m]: the borders of the terrain, or run.domain_x and run.domain_y.
 terrain::PeriodicBoundaries periodicBoundaries(const scene::Scene& scene);
 
-/// Grains and sources must lie between the sides. Throws InputError that names the first that does not.
+/// Throws InputError for the first grain or source that is not between the periodic boundaries.
 void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains);
 
-/// Boxes, cylinders and meshes have no images, so none may begin where grains would feel one: see
+/// Boxes, cylinders and meshes have no images, so none may start where grains would touch one: see
 /// coupling::faultAtBoundaries(). Throws InputError.
 void checkSurfacesBetweenSides(const scene::Scene& scene, const ContactPairs& pairs);
 
-/// `surface` must be as high at one periodic boundary as at the other, all along: level in that direction.
+/// Throws InputError unless `surface` is level along the periodic directions.
 void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& surface);
 
 } // namespace grouser::setup

@@ -25,12 +25,12 @@ namespace grouser::setup {
 
 namespace {
 
-constexpr double kBorder = 0.02; // [m] kept free by the default place
+constexpr double kBorder = 0.02; // [m] margin of the default position
 
 /// Extent of the vehicle about its origin at a heading [m].
 terrain::Rectangle footprint(const vehicle::VehicleSpec& spec, double heading) {
   const vehicle::Wrap wrap = vehicle::wrapTrack(spec);
-  // A shoe reaches half a pitch and its grousers beyond its middle, whichever way it is turned.
+  // A shoe extends half a pitch and its grousers beyond its middle in any orientation.
   const double reach = 0.5 * spec.shoe.pitch + spec.shoe.grouserHeight - spec.shoe.padBottom;
   double rear = 1e300, front = -1e300;
   for (int i = 0; i < spec.shoe.count; ++i) {
@@ -48,7 +48,7 @@ terrain::Rectangle footprint(const vehicle::VehicleSpec& spec, double heading) {
   return r;
 }
 
-/// Coordinate of the origin along one axis: the rear at the border the vehicle looks away from, else centred.
+/// Coordinate of the origin along one axis: the rear at the border, facing inwards, else centred.
 double along(double direction, double low, double high, double areaLow, double areaHigh) {
   if (direction > 0.5) return areaLow - low + kBorder;
   if (direction < -0.5) return areaHigh - high - kBorder;
@@ -83,9 +83,9 @@ coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::Vehic
   if (p.x + f.xMin < area->xMin || p.x + f.xMax > area->xMax || p.y + f.yMin < area->yMin || p.y + f.yMax > area->yMax)
     scene.fail(
         "vehicle", "position",
-        fmt::format("[m] puts the vehicle at ({:.3f}, {:.3f}) m with vehicle.heading = {:g} [deg], where it would "
-                    "cover [{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; the terrain is [{:.2f}, {:.2f}] x [{:.2f}, "
-                    "{:.2f}] m, and it needs {:.2f} x {:.2f} m: move it or enlarge terrain.size",
+        fmt::format("[m] places the vehicle at ({:.3f}, {:.3f}) m with vehicle.heading = {:g} [deg], where it covers "
+                    "[{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m, but the terrain is [{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; "
+                    "move it, or enlarge terrain.size (the vehicle requires {:.2f} x {:.2f} m)",
                     p.x, p.y, scene.vehicle->heading, p.x + f.xMin, p.x + f.xMax, p.y + f.yMin, p.y + f.yMax,
                     area->xMin, area->xMax, area->yMin, area->yMax, f.width(), f.length()));
   return p;
@@ -94,9 +94,8 @@ coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::Vehic
 void checkParts(const scene::Scene& scene) {
   if (scene.vehicle->chassis == scene::ChassisMount::free && scene.terrain && norm(scene.run.gravity) > 0 &&
       scene.run.gravity.z >= 0)
-    scene.fail(
-        "run", "gravity",
-        "[m/s2] does not pull the vehicle to the ground; give it a z below 0, or set vehicle.chassis = \"fixed\"");
+    scene.fail("run", "gravity",
+               "[m/s2] must point down for a free vehicle; set z below 0, or vehicle.chassis = \"fixed\"");
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   const double radius = scene.vehicle->sphereRadius.value_or(0); // an automatic one fits each part
   const auto read = [&](const char* section, const std::string& name) {
@@ -128,7 +127,7 @@ void checkParts(const scene::Scene& scene) {
                              base::roundedDown(0.5 * longest, 4), name));
     if (const double points = spheredecomp::latticePoints(mesh, radius); !(points <= spheredecomp::kMostLatticePoints))
       scene.fail("vehicle", "sphere_radius",
-                 fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", name, points,
+                 fmt::format("[m] for {} requires {:.2g} lattice points, more than {:.0e}; raise it", name, points,
                              spheredecomp::kMostLatticePoints));
   }
   if (const std::optional<double> coarse = scene.vehicle->hullSphereRadius) {
@@ -141,7 +140,7 @@ void checkParts(const scene::Scene& scene) {
     if (const double points = spheredecomp::latticePoints(meshes.chassis, *coarse);
         !(points <= spheredecomp::kMostLatticePoints))
       scene.fail("vehicle", "hull_sphere_radius",
-                 fmt::format("[m] cuts {} by {:.2g} lattice points, more than {:.0e}; raise it", spec.chassis.mesh,
+                 fmt::format("[m] for {} requires {:.2g} lattice points, more than {:.0e}; raise it", spec.chassis.mesh,
                              points, spheredecomp::kMostLatticePoints));
   }
   for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})

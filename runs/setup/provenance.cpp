@@ -22,15 +22,16 @@ using support::hashOfFile;
 
 namespace {
 
-/// Whether grains are of this material, or what they touch but the vehicle: those have a say in the layout.
+/// Returns true if grains or their partners other than the vehicle and bodies have this material: these affect the
+/// layout.
 bool isOfBed(const ContactPairs& pairs, const std::string& material) {
   return std::any_of(pairs.partners.begin(), pairs.partners.end(), [&](const ContactPartner& p) {
     return p.material == material && p.kind != ContactPartner::Kind::vehicle && p.kind != ContactPartner::Kind::body;
   });
 }
 
-/// Surfaces rest while a bed settles: it knows where they stand and of what they are, not how they will move and what
-/// they are called. A plane that is felt as a surface stays one.
+/// Surfaces rest while a bed settles: it depends on their positions and materials, not on later motion and names. A
+/// plane that counts as a surface remains one.
 void bringToRest(scene::SurfaceSection& s, bool named) {
   const std::string material = s.material;
   s = {};
@@ -44,12 +45,12 @@ void bringToRest(scene::SurfaceSection& s, bool named) {
 scene::RunSettings settingsOfBed(const scene::RunSettings& run) {
   scene::RunSettings bed;
   bed.gravity = run.gravity, bed.seed = run.seed, bed.precision = run.precision;
-  bed.maxOverlap = run.maxOverlap; // a bed that another limit let pass would be refused
+  bed.maxOverlap = run.maxOverlap; // a bed that passed another limit would fail
   bed.periodic = run.periodic, bed.domainX = run.domainX, bed.domainY = run.domainY;
   return bed;
 }
 
-/// Grains that enter later have a say in the layout by size and material, not by when and where they enter.
+/// Grains that enter later affect the layout by size and material, not by time and position.
 std::vector<scene::Source> sourcesOfBed(const std::vector<scene::Source>& sources) {
   std::vector<scene::Source> bed;
   for (const scene::Source& s : sources) {
@@ -60,8 +61,8 @@ std::vector<scene::Source> sourcesOfBed(const std::vector<scene::Source>& source
   return bed;
 }
 
-/// The scene without what the bed knows nothing of. What is not taken out here counts: a new key of a scene can make
-/// two beds of one, but never one of two (but for those of [run], see above).
+/// The scene without anything that cannot affect the bed. Anything not removed here counts: a new key of a scene can
+/// make two beds of one, but never one of two (except keys of [run], see above).
 scene::Scene bedAlone(scene::Scene scene) {
   scene.run = settingsOfBed(scene.run);
   const ContactPairs pairs(scene);
@@ -119,7 +120,7 @@ std::string inputsOf(const scene::Scene& scene) {
 std::string bedOrigin(const scene::Scene& scene, double timeStep) {
   scene::Scene bed = bedAlone(scene);
   const std::string inputs = inputsOf(bed);
-  bed.terrain->heightmap.clear(); // by its bytes, not by its name
+  bed.terrain->heightmap.clear(); // its bytes count, not its name
   return fmt::format("program {}\ntime step {:a}\n{}{}", support::programHash(), timeStep, inputs,
                      scene::resolvedToml(bed));
 }

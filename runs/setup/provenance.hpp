@@ -13,7 +13,7 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Where a setup comes from: for results, checkpoints and messages.
+/// Origin of a setup, for results, checkpoints and messages.
 struct Provenance {
   std::filesystem::path file; ///< of the scene
   std::vector<std::string> overrides;
@@ -23,13 +23,12 @@ struct Provenance {
 };
 Provenance provenanceOf(const scene::Scene& scene);
 
-/// A line for each file that the scene names: its key and a hash of its bytes. Throws InputError where one cannot be
-/// read.
+/// A line for each file that the scene names: its key and a hash of its bytes. Throws InputError if one cannot be read.
 std::string inputsOf(const scene::Scene& scene);
 
-/// Everything that makes the bits of a settled bed, as text: the parts of the scene that have a share in it with all
-/// their values, the bytes of the height-map, the time step, and the running program. The program is known by a hash
-/// of its file, since neither a version nor a commit tells of changes that are not committed, or of a compiler.
+/// Everything that determines the bits of a settled bed, as text: the parts of the scene that affect it with all their
+/// values, the bytes of the height-map, the time step, and the running program. The program is identified by a hash of
+/// its file, since version and commit do not include uncommitted changes and the compiler.
 std::string bedOrigin(const scene::Scene& scene, double timeStep);
 
 } // namespace grouser::setup

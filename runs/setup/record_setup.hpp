@@ -10,7 +10,7 @@
 
 namespace grouser::setup {
 
-/// How long a run lasts, and when it writes.
+/// Duration of a run, and its output intervals.
 struct RunSetup {
   double duration{};           ///< [s] after the bed has settled
   double outputInterval{};     ///< between rows [s]
@@ -24,7 +24,7 @@ struct PlottedColumn {
   std::string place;  ///< its key in messages: "scene.toml:14: output.plot.0.x"
 };
 
-/// What a run writes.
+/// Output of a run.
 struct OutputSetup {
   std::vector<std::string> record;   ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
   bool frames{}, contactForces{};    ///< contact forces of each grain in the frames
@@ -38,7 +38,7 @@ struct OutputSetup {
   std::vector<PlottedColumn> plots;
 };
 
-/// What a scene says of its run beside the simulation itself.
+/// Settings of a run besides those of the simulation.
 struct RecordSetup {
   Provenance provenance;
   RunSetup run;

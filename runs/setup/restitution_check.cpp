@@ -37,9 +37,8 @@ void checkPair(const scene::Scene& scene, const std::string& nameA, const std::s
   const scene::Material& least = b.restitution.value_or(1) < a.restitution.value_or(1) ? b : a;
   if ((given ? *pair->restitution : least.restitution.value_or(1)) >= kLeastRestitution) return;
   const std::string message =
-      fmt::format("[-] is not possible without attraction: surfaces whose dashpot may not pull part with some speed, "
-                  "however strong it is; the least is {:g}, which takes steps of {} s or less; raise it, give {} "
-                  "attraction = true, with which 0 is critical damping, or set run.contact = \"complementarity\"",
+      fmt::format("[-] is below the minimum without attraction, {:g}, which requires steps of {} s or less; raise it, "
+                  "set attraction = true in {} (0 is then critical damping), or set run.contact = \"complementarity\"",
                   kLeastRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
                   &a == &b ? "material." + a.name : fmt::format("material.{} and material.{}", a.name, b.name));
   if (given && scene.document)

@@ -9,7 +9,7 @@
 
 namespace grouser::setup {
 
-/// A surface with the section that it stands in.
+/// A surface with its section.
 struct SceneSurface : coupling::SurfaceSetup {
   scene::SurfaceSection section;
 

@@ -56,7 +56,7 @@ double ScmConstants::value(const std::optional<double>& given, SoilQuantity quan
   const std::string why = soil_
                               ? fmt::format("the soil {} has no {} {}", soil_->name, base::wordOf(scm_.constants), word)
                               : fmt::format("there is no soil file {}", scene_.terrain->material);
-  scene_.fail("terrain", "kind", fmt::format("needs scm.{} [{}]: {}; give it in [scm]", word, unitOf(quantity), why));
+  scene_.fail("terrain", "kind", fmt::format("requires scm.{} [{}]: {}; add it to [scm]", word, unitOf(quantity), why));
 }
 
 std::string ScmConstants::text() const {
@@ -70,7 +70,7 @@ std::string ScmConstants::text() const {
     const std::string value = scm_.constantsDraw > 0 ? fmt::format("{:<11.5g} ", used_[i].value) : "";
     const std::string interval =
         givenIn(scm_, c.quantity)
-            ? fmt::format(" {} of the scene", unitOf(c.quantity))
+            ? fmt::format(" {} (given in the scene)", unitOf(c.quantity))
             : fmt::format(" +- {:.2g} {}{}", c.halfWidth(), unitOf(c.quantity), c.isAssumed ? " (assumed)" : "");
     text += fmt::format("  {:<6} {}{:.5g}{}\n", base::wordOf(c.quantity), value, c.value, interval);
   }

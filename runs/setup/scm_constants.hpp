@@ -9,8 +9,8 @@
 
 namespace grouser::setup {
 
-/// Constants of [scm], or of the soil file: nominal ones, or the sample that constants_draw names. A constant of the
-/// scene is never drawn.
+/// Constants of [scm], or of the soil file: nominal ones, or the sample of constants_draw. Constants given in the scene
+/// are not sampled.
 class ScmConstants {
 public:
   explicit ScmConstants(const scene::Scene& scene);
@@ -21,7 +21,7 @@ public:
   std::optional<double> published(scene::SoilQuantity quantity) const;
   /// `given`: the key of [scm]. Throws base::InputError if neither the scene nor the soil file has the constant.
   double value(const std::optional<double>& given, scene::SoilQuantity quantity) const;
-  /// Those that the scene or the soil file has: values in use, nominal values, intervals, a line each.
+  /// Constants of the scene or the soil file: values in use, nominal values, intervals, a line each.
   std::string text() const;
 
 private:

@@ -19,7 +19,7 @@ namespace {
 
 /// [scm] bulk_density, or that of the soil [kg/m3].
 double bulkDensity(const ScmConstants& constants) {
-  constexpr double kUsual = 1600, kPorosity = 0.4; // where nothing is known of the soil, or of its porosity
+  constexpr double kUsual = 1600, kPorosity = 0.4; // without a soil file, or its porosity
   if (constants.section().bulkDensity) return *constants.section().bulkDensity;
   if (const auto published = constants.published(SoilQuantity::bulkDensity)) return *published;
   const scene::Soil* soil = constants.soil();
@@ -99,8 +99,9 @@ std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
     if (s.nodeSpacing && *s.nodeSpacing > 2 * shoe.halfLength)
       scene.fail(
           "scm", "node_spacing",
-          fmt::format("[m] is more than the length of a shoe, {:g} m; give at most that, and half of it for figures",
-                      2 * shoe.halfLength));
+          fmt::format(
+              "[m] is more than the length of a shoe, {:g} m; set at most that, and at most half of it for results",
+              2 * shoe.halfLength));
   }
   setup.spacing = s.nodeSpacing.value_or(spacing);
   return setup;

@@ -6,8 +6,8 @@
 
 namespace grouser::setup {
 
-/// Compiles a scene for a simulation on `ranks` ranks. `sizes`: passed where the scene has passed checkFillSizes() and
-/// checkBedSize(). Throws InputError with the place of what is not possible.
+/// Compiles a scene for a simulation on `ranks` ranks. `sizes`: passed if the scene has passed checkFillSizes() and
+/// checkBedSize(). Throws InputError with the place of the error.
 coupling::SimulationSetup simulationSetup(const scene::Scene& scene, int ranks = 1, SizeChecks sizes = SizeChecks::due);
 
 } // namespace grouser::setup

@@ -30,7 +30,7 @@ void checkFillSizes(const scene::Scene& scene) {
     if (grains * bytes > memoryOfMachine())
       scene.fail(
           "grains", k, scene.fills[k].form == scene::FillForm::random ? "number" : "radius",
-          fmt::format("{} makes {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use fewer or larger grains",
+          fmt::format("{} makes {:.3g} grains, {:.3g} GiB, but this machine has {:.3g} GiB; use fewer or larger grains",
                       scene.fills[k].form == scene::FillForm::random ? "[-]" : "[m]", grains, grains * bytes / kGiB,
                       memoryOfMachine() / kGiB));
   }
@@ -45,12 +45,12 @@ void checkBedSize(const scene::Scene& scene) {
   double solid = t.size[0] * t.size[1] * t.depth.value_or(0) * (1 - t.porosity.value_or(scene::Terrain::kPoured));
   if (t.layers)
     solid = t.size[0] * t.size[1] * *t.layers * volume / (*t.spacing * *t.grainRadius * *t.spacing * *t.grainRadius);
-  const double grains = t.coarsening ? 0 : solid / volume; // of a graded bed its plan knows, which costs nothing
+  const double grains = t.coarsening ? 0 : solid / volume; // for a graded bed the bed plan checks
   const double memory = memoryOfMachine();
   if (grains * bytes > memory || grains > 4e9)
     scene.fail("terrain", scene::radiiKey(t),
-               fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB; this machine has {:.3g} GiB: use larger grains, "
-                           "a thinner bed or a smaller terrain.size",
+               fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB, but this machine has {:.3g} GiB; use larger "
+                           "grains, a thinner bed or a smaller terrain.size",
                            grains, grains * bytes / kGiB, memory / kGiB));
 }
 

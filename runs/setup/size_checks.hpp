@@ -5,10 +5,10 @@
 
 namespace grouser::setup {
 
-/// Throws InputError at the key that makes them, before any memory is taken, when the grains of a [[grains]] cannot fit
-/// into the memory that this machine has.
+/// Throws InputError at the key, before any memory is allocated, if the grains of a [[grains]] do not fit into the
+/// memory of this machine.
 void checkFillSizes(const scene::Scene& scene);
-/// The same of a bed.
+/// The same for a bed.
 void checkBedSize(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -30,7 +30,7 @@ coupling::Sources sourcesOf(const scene::Scene& scene, const GrainKinds& kinds, 
 }
 
 void checkSources(const scene::Scene& scene, const GrainKinds& kinds) {
-  constexpr double kAllAtOnce = 1e300; // a time step [s] in which all begin
+  constexpr double kAllAtOnce = 1e300; // a time step [s] that starts all sources
   sourcesOf(scene, kinds, kAllAtOnce).enteringAt(0);
 }
 

@@ -11,10 +11,10 @@ namespace grouser::setup {
 
 struct GrainKinds;
 
-/// Those of a scene, with their times in steps.
+/// Sources of a scene, with their times in steps.
 coupling::Sources sourcesOf(const scene::Scene& scene, const GrainKinds& kinds, double timeStep);
 
-/// Throws base::InputError naming the source whose grains do not fit into its box beside each other.
+/// Throws base::InputError at the source whose grains do not fit into its box without overlap.
 void checkSources(const scene::Scene& scene, const GrainKinds& kinds);
 
 } // namespace grouser::setup

@@ -21,7 +21,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr std::size_t kMostChecked = 1'000'000; // of the grains that sources will set
+constexpr std::size_t kMostChecked = 1'000'000; // of the grains of sources
 
 /// Cells of one largest diameter along one axis, in a ring between periodic boundaries.
 struct CellsAlong {
@@ -42,10 +42,10 @@ struct CellsAlong {
 /// "at (1, 2, 3) m".
 std::string at(const Vec3d& p) { return fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
 
-/// Who sets balls into a scene: [[grain]], [[grains]], [[source]].
+/// Section that places a grain: [[grain]], [[grains]], [[source]].
 enum class Setter { grain, grains, source };
 
-/// A ball that somebody sets into the scene, and who.
+/// A grain to be placed, and its section.
 struct Ball {
   Vec3d position;
   double radius;
@@ -56,7 +56,7 @@ struct Ball {
   bool fixed{};         ///< a piece of ground: it may lie in walls, in the floor and in others of its kind
 };
 
-/// Sets balls into the scene one after the other, each where nothing may be yet.
+/// Places grains one after the other and checks each for overlaps.
 class Placing {
 public:
   Placing(const scene::Scene& scene, const Surroundings& around, double largest)
@@ -66,7 +66,7 @@ public:
     if (around.floor) floor_ = terrain::SearchedHeightField(base::Exec{}, *around.floor, largest_);
   }
 
-  /// Throws when the ball overlaps what is rigid, or another that was placed and not forgotten.
+  /// Throws InputError when the grain overlaps a rigid surface, or an earlier grain that was not forgotten.
   void place(const Ball& ball) {
     for (const Surroundings::Wall& wall : around_.walls)
       if (const double depth = ball.radius - dot(wall.normal, ball.position) + wall.offset;
@@ -85,7 +85,7 @@ public:
     }
     placeAmongBalls(ball);
   }
-  /// Later ones know nothing of where those placed so far have gone.
+  /// Forgets the grains placed so far, since they have moved when later ones enter.
   void forgetBalls() { balls_.clear(), cells_.clear(); }
 
 private:
@@ -112,7 +112,7 @@ private:
             ball.radius + other.radius - norm(terrain::toNearestImage(periodic_, ball.position - other.position));
         if (isTooDeep(depth, std::min(ball.radius, other.radius)))
           refuse(ball, depth,
-                 (other.setter == Setter::source ? fmt::format("one of source.{} ", other.number)
+                 (other.setter == Setter::source ? fmt::format("a grain of source.{} ", other.number)
                                                  : fmt::format("grain {} ", other.id)) +
                      at(other.position));
       }
@@ -131,9 +131,9 @@ private:
       scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
     if (ball.setter == Setter::grains)
       scene_.fail("grains", ball.number, "",
-                  fmt::format("sets grain {} {}, which {}; move the block", ball.id, at(ball.position), how));
+                  fmt::format("places grain {} {}, which {}; move the block", ball.id, at(ball.position), how));
     scene_.fail("source", ball.number, "low",
-                fmt::format("[m] to high sets a grain {} at {:g} s, which {}; move low and high{}", at(ball.position),
+                fmt::format("[m] and high place a grain {} at {:g} s, which {}; move low and high{}", at(ball.position),
                             ball.time, how, ball.time > 0 ? ", or change start and every" : ""));
   }
 
@@ -147,8 +147,8 @@ private:
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// [[grain]] and [[grains]], in the order of their ids; those whose height is known only once a bed has settled are
-/// looked at there.
+/// [[grain]] and [[grains]], in the order of their ids, without those with above_bed, which are checked once the bed
+/// has settled.
 void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& grains, Placing& placing) {
   std::size_t id = 0;
   for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)

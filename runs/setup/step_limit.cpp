@@ -34,10 +34,10 @@ using base::Vec3d;
 
 namespace {
 
-/// The longest step that run.time_step takes [s].
+/// The maximum of run.time_step [s].
 constexpr double kLongestOfAll = 0.1;
 
-/// Up to where no contact gives energy.
+/// Limit up to which no contact creates energy.
 ///
 /// Springs: twelve neighbours are 8 k / m together (Gershgorin). An impact may take half of its own limit: beyond, one
 /// that ends between two steps returns more than it brought; of two grains (2 k / m) that is 8 k / m too, of their slip
@@ -60,11 +60,11 @@ void considerEnergy(StepLimit& limit, const GrainContact& c) {
     dashpots += share * 10 * std::min(c.coefficients.tangentialDamping, c.law.friction * c.law.friction * d) / c.mass;
   }
   dashpots += share * 10 * std::min(c.rollingDamping, arm * arm * d) / inertia;
-  // Of a Hertz contact all springs go with the root of its depth, all dashpots with the root of that.
+  // All springs of a Hertz contact scale with the root of its overlap, all dashpots with the root of that.
   consider(limit, c.softer * springs, std::sqrt(c.softer) * dashpots, c.name);
 }
 
-/// Up to where every mode decays that contacts make together which do not slide.
+/// Limit up to which all modes of non-sliding contacts decay.
 void considerModes(StepLimit& limit, const GrainContact& c) {
   // Springs that stick let spheres turn alike at 10/3 k_t / m for each contact: eight of those, for a bed with friction
   // has four or five. Hertz contacts are not all as deep at once as the one of that impact: four. Between two bodies
@@ -80,7 +80,7 @@ void considerModes(StepLimit& limit, const GrainContact& c) {
   considerCalm(limit, rolling * c.rollingStiffness, rolling * c.rollingDamping);
 }
 
-/// How many grains may lie on a surface at once: a dense layer on its largest face or on `face` [m2]; all on a plane.
+/// Maximum number of grains on a surface: a dense layer on its largest face or on `face` [m2]; all on a plane.
 double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g, double radius, double face = 0) {
   const Vec3d h = g.shape == contact::SurfaceShape::plane ? Vec3d{} : halfExtent(g);
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
@@ -90,7 +90,7 @@ double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g
   return std::clamp(std::max(area, face) / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
 }
 
-/// A surface that forces move, on springs of all grains that it may touch.
+/// Limit for free surfaces, on the springs of all grains that they may touch.
 void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs) {
   for (const SceneSurface& s : pairs.surfaces) {
     if (!s.section.free) continue;
@@ -245,18 +245,17 @@ double shortestOf(const std::vector<GrainContact>& contacts) {
   return std::isfinite(shortest) ? shortest : 0;
 }
 
-/// How far a grain sinks under its own weight [m]: linear F = k overlap, hertz F = K sqrt(R) overlap^(3/2).
-double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRadius) {
+/// Overlap of a grain under its own weight [m]: linear F = k overlap, hertz F = K sqrt(R) overlap^(3/2).
+double overlapUnderWeight(const contact::ContactLaw& law, double weight, double effectiveRadius) {
   if (!law.hertz) return weight / law.stiffness;
   return base::pow(weight / (law.stiffness * std::sqrt(effectiveRadius)), 2.0 / 3);
 }
 
-/// Throws at the key that says how stiff two materials are against each other; `times`: how much more it would have to
-/// be.
+/// Throws InputError at the key of the stiffness between two materials; `times`: factor by which to raise it.
 [[noreturn]] void failStiffness(const scene::Scene& scene, const scene::Material& a, const scene::Material& b,
                                 double times, const std::string& message) {
   const auto wanted = [&](double stiffness) {
-    return fmt::format("{}; raise it to {} at least, or choose smaller grains", message,
+    return fmt::format("{}; raise it to {} or more, or use smaller grains", message,
                        base::roundedUp(times * stiffness, 3));
   };
   if (a.hertzian()) {
@@ -271,19 +270,18 @@ double sinksBy(const contact::ContactLaw& law, double weight, double effectiveRa
   scene.failMaterial(soft.name, "stiffness", "[N/m] " + wanted(*soft.stiffness));
 }
 
-/// Throws where a grain at rest sinks deeper than a run may bear: contacts so soft hold nothing up, last longer than
-/// runs do, and their energies have no scale in common with those of gravity.
+/// Throws InputError where the overlap of a grain at rest exceeds the limit of the run.
 void checkSoftness(const scene::Scene& scene, const ContactPairs& pairs) {
   const double gravity = norm(scene.run.gravity), most = scene.run.entryOverlap();
   if (gravity == 0) return;
-  for (const GrainContact& c : grainContacts(scene, pairs, Of::largest)) {
-    const double sinks = sinksBy(c.law, c.mass * gravity, c.effectiveRadius) / c.radius;
+  for (const GrainContact& c : grainContacts(scene, pairs, GrainSize::largest)) {
+    const double sinks = overlapUnderWeight(c.law, c.mass * gravity, c.effectiveRadius) / c.radius;
     if (sinks <= most) continue;
     // A hundredth more than what is needed, so that the number holds as it is printed.
     const double times = 1.01 * (c.law.hertz ? std::sqrt(sinks / most) : 1) * sinks / most;
     failStiffness(scene, scene.material(c.material), scene.material(c.other), times,
-                  fmt::format("is so soft that a grain of radius {:g} m sinks in by {:.3g} radii under its own weight "
-                              "({}); run.max_overlap allows {:g}",
+                  fmt::format("is too low: the overlap of a grain of radius {:g} m under its own weight is {:.3g} "
+                              "radii ({}), but run.max_overlap allows {:g}",
                               c.radius, sinks, c.name, most));
   }
 }
@@ -296,7 +294,7 @@ void checkFluidStep(const scene::Scene& scene) {
                       : limits.least() == limits.force ? "gravity"
                                                        : "its viscosity";
   scene.fail("run", "time_step",
-             fmt::format("[s] is above {} s, where the fluid is no longer stable for {}; choose {} s or less, or a "
+             fmt::format("[s] is above {} s, where the fluid becomes unstable because of {}; set {} s or less, or a "
                          "larger fluid.spacing",
                          base::roundedDown(2 * limits.least(), 3), cause, base::roundedDown(limits.least(), 3)));
 }
@@ -309,10 +307,10 @@ void checkGivenStep(const scene::Scene& scene, const StepLimit& limit, double au
   if (*scene.run.timeStep > limit.step) {
     const std::string most = base::roundedDown(limit.step, 3);
     scene.fail("run", "time_step",
-               fmt::format("[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; choose "
-                           "{} s or less (\"auto\": {} s), or {}{}",
+               fmt::format("[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; set {} s "
+                           "or less (\"auto\": {} s), or {}{}",
                            most, limit.what, most, base::roundedDown(automatic, 3), limit.remedy,
-                           hertz ? fmt::format("; hertz contacts are taken at run.impact_speed = {:g} m/s",
+                           hertz ? fmt::format("; hertz contacts are evaluated at run.impact_speed = {:g} m/s",
                                                scene.run.impactSpeed)
                                  : ""));
   }
@@ -350,7 +348,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   const std::vector<GrainContact> contacts = grainContacts(scene, pairs);
   const StepLimit limit = stepLimit(scene, pairs, contacts);
   const double contact = shortestOf(contacts);
-  // Where a contact is to have more or fewer steps than usual, so has all that grains do, down to the limits.
+  // A different number of steps per contact scales all other bounds of grains, down to the limits.
   const double coarser = scene::kStepsPerContact / scene.run.stepsPerContact;
   const bool fluidAlone = scene.fluid && !scene.vehicle && scene.mechanism.empty();
   double automatic = contact > 0 ? contact / scene.run.stepsPerContact : fluidAlone ? kLongestOfAll : kVehicleTimeStep;
@@ -362,7 +360,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
   if (!scene.mechanism.empty() && !scene.vehicle) automatic = std::min(automatic, mechanismTimeStep(scene));
   if (scene.fluid) automatic = std::min(automatic, fluidStepLimits(scene).least());
-  // What may be given is what is chosen: soft contacts ask for no more.
+  // The limits of run.time_step also hold for "auto".
   automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
   checkGivenStep(scene, limit, automatic);
@@ -371,11 +369,11 @@ double chooseTimeStep(const scene::Scene& scene) {
 
 namespace {
 
-/// What is said to be allowed is a round number where its factors are.
+/// Keeps allowed values round numbers where their factors are.
 constexpr double kRounding = 1 + 1e-12;
 
-/// How far a point of a surface can be from what it turns about, but for the part of it that turning brings upon itself
-/// [m]. A plane has no end: what is far out there does not count.
+/// Largest distance of a point of a surface from its rotation axis, without parts that rotation maps onto themselves
+/// [m]; 0 for planes, which are unbounded.
 double leverOf(const SceneSurface& s) {
   const Vec3d& h = s.geometry.half;
   const Vec3d turning = base::normalized(*s.section.spin);
@@ -405,8 +403,8 @@ void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, doubl
     const double speed = norm(body.velocity) + norm(body.spin) * (norm(s.pose_B.position) + norm(halfExtent(s.shape)));
     if (speed > most)
       scene.fail("body", section, "velocity",
-                 fmt::format("[m/s] and spin move a shape by up to {:.4g} m in a step of {:.3g} s, more than {:.4g} m, "
-                             "half the radius of the smallest grain or a quarter of the thinnest shape, so it could "
+                 fmt::format("[m/s] and spin move a shape by up to {:.4g} m in a step of {:.3g} s, more than {:.4g} m "
+                             "(half the radius of the smallest grain or a quarter of the thinnest shape), so it could "
                              "pass through; lower them, or set run.time_step to {} s or less",
                              speed * timeStep, timeStep, 0.5 * smallest, base::roundedDown(0.5 * smallest / speed, 4)));
   }
@@ -431,8 +429,8 @@ void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, do
                  : s.section.velocity ? "velocity"
                                       : "amplitude",
                  fmt::format("moves {} at up to {:.4g} m/s, more than {} the smallest grain's radius in a step of "
-                             "{:.3g} s: it could pass through a grain unfelt; keep it below {} m/s (velocity, spin, "
-                             "amplitude, frequency), or lower run.time_step",
+                             "{:.3g} s, so it could pass through a grain without contact; keep it below {} m/s "
+                             "(velocity, spin, amplitude, frequency), or lower run.time_step",
                              s.name, shifts + turns, implicit ? "0.4 of" : "half", timeStep,
                              base::roundedDown(most, 4)));
   }

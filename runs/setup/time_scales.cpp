@@ -41,8 +41,8 @@ void addTable(std::vector<TimeScale>& scales, const std::vector<double>& times, 
     if (const double gap = times[i] - times[i - 1]; gap > 0 && gap < smallest) smallest = gap, at = i;
   if (at == 0) return;
   scales.push_back({smallest, false,
-                    fmt::format("the {:.4g} s from {:.9g} to {:.9g} s", smallest, times[at - 1], times[at]), "s",
-                    fail});
+                    fmt::format("the interval of {:.4g} s from {:.9g} to {:.9g} s", smallest, times[at - 1], times[at]),
+                    "s", fail});
 }
 
 void addPeriod(std::vector<TimeScale>& scales, double time, const char* what, const char* unit, const Fail& fail) {
@@ -53,14 +53,14 @@ void addRamp(std::vector<TimeScale>& scales, double time, const Fail& fail) {
   if (time > 0) scales.push_back({time, false, fmt::format("the ramp of {:.4g} s", time), "s", fail});
 }
 
-/// Whether turning changes where a surface is: a rod that turns about its own axis stays where it is, and so does a
-/// plane about its normal.
+/// Returns true if rotation changes the place of a surface: not for a rod about its own axis, nor for a plane about its
+/// normal.
 bool turnMoves(const SceneSurface& s) {
   const Vec3d& spin = *s.section.spin;
   const Vec3d axis = rotate(s.start.orientation, {0, 0, 1});
   const bool round = s.geometry.shape != terrain::SurfaceShape::box && !s.mesh;
   const Vec3d arm = s.section.pivot ? s.start.position - *s.section.pivot : Vec3d{};
-  // What numbers typed with nine digits leave.
+  // Rounding of numbers typed with nine digits.
   constexpr double kAligned = 1e-9;
   const bool aligned = norm(cross(spin, axis)) <= kAligned * norm(spin);
   const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
@@ -90,7 +90,7 @@ void addDrives(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   }
 }
 
-/// Of a course: the turn of the smallest wheel at its speed.
+/// Turn of the smallest wheel at the speed of a course.
 void addCourseTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   const double speed = std::fabs(scene.driver.course->speed);
   if (speed == 0) return;
@@ -102,7 +102,7 @@ void addCourseTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
             });
 }
 
-/// The quickest turn that the driver asks for, of the sprockets or of the smallest wheel that rolls in the track.
+/// Fastest rotation prescribed by the driver, of the sprockets or of the smallest wheel in the track.
 void addTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (scene.driver.course) return addCourseTurns(scales, scene);
   const scene::SpeedTable table = scene.driver.speeds();
@@ -148,8 +148,8 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   addTable(scales, d.table->time, scene.run.duration - d.driveBegins(), atTable);
 }
 
-/// Swings of the vehicle's own springs and stops, of the parts alone that they hold: what hangs on them makes them
-/// slower. The solver takes them implicitly, which is stable at any step and damps what is not resolved.
+/// Oscillations of the vehicle's springs and stops with their own parts only; attached masses make them slower. The
+/// solver integrates them implicitly: stable at any step, damped where not resolved.
 void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (!scene.vehicle) return;
   const vehicle::SpecSource file = scene.vehicle->source();
@@ -157,16 +157,16 @@ void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   const auto add = [&](const char* section, const char* key, const char* unit, double stiffness, double inertia) {
     if (!(stiffness > 0)) return;
     const double period = 2 * base::kPi * std::sqrt(inertia / stiffness);
-    scales.push_back({period, true, fmt::format("a swing of {:.4g} s", period), unit,
+    scales.push_back({period, true, fmt::format("an oscillation of {:.4g} s", period), unit,
                       [file, section, key](const std::string& message) {
                         vehicle::refuse(file, {section, key, message});
                       }});
   };
-  // About the pivot: the arm, and the wheel at its end, which turns freely on its axle.
+  // About the pivot: the arm, and the mass of the wheel at its end.
   const double arm = s.arm.inertia.y + s.arm.mass * 0.25 * s.arm.length * s.arm.length +
                      s.roadWheel.mass * s.arm.length * s.arm.length;
   if (s.arm.suspension == vehicle::Suspension::sprung) add("arm", "stiffness", "N m/rad", s.arm.stiffness, arm);
-  // The governor on what turns with the sprocket, as long as no tooth bears on the track.
+  // The governor on the inertia of engine and sprocket, without contact of teeth and track.
   if (s.engine && scene.driver.drive == vehicle::SprocketDrive::engine)
     add("engine", "droop", "rad/s", vehicle::governorSlope(*s.engine) * vehicle::governorSlope(*s.engine),
         (s.engine->inertia + s.sprocket.inertia.y) * (s.engine->inertia + s.sprocket.inertia.y));
@@ -174,7 +174,7 @@ void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   add("idler", "stop_stiffness", "N/m", s.idler.stopStiffness, s.idler.carrierMass + s.idler.mass);
 }
 
-/// The swing of the hull on its hitch, which is explicit.
+/// Oscillation of the hull on its hitch, which is explicit.
 void addHitch(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (!scene.vehicle || !scene.hitch) return;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
@@ -182,7 +182,7 @@ void addHitch(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (scene.driver.driveBegins() + h.start < scene.run.duration && h.kind != vehicle::HitchKind::ramp)
     addRamp(scales, h.ramp, failsIn(scene, "hitch", "ramp"));
   if (const double stiffness = hitchStiffness(h, spec); stiffness > 0)
-    addPeriod(scales, 2 * base::kPi * std::sqrt(hitchedMass(h, spec) / stiffness), "swing", "N/m",
+    addPeriod(scales, 2 * base::kPi * std::sqrt(hitchedMass(h, spec) / stiffness), "period", "N/m",
               failsIn(scene, "hitch", "stiffness"));
 }
 
@@ -217,12 +217,11 @@ void checkTimeScales(const scene::Scene& scene, double timeStep) {
   for (const TimeScale& s : timeScales(scene)) {
     const double steps = s.time / timeStep;
     if (steps >= wanted * (1 - kDigits)) continue;
-    s.fail(fmt::format(
-        "[{}] is under-resolved: steps of {:.4g} s are {:.3g} {} {}, fewer than run.steps_per_period = {:g}, "
-        "and show another course than the one that is meant; set run.time_step to {} s or less (\"auto\" "
-        "does){}, or lower run.steps_per_period if you mean it",
-        s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted, base::roundedDown(s.time / wanted, 4),
-        s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
+    s.fail(fmt::format("[{}] is under-resolved: steps of {:.4g} s are {:.3g} {} {}, fewer than run.steps_per_period = "
+                       "{:g}; set run.time_step to {} s or less (\"auto\" does){}, or lower run.steps_per_period",
+                       s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted,
+                       base::roundedDown(s.time / wanted, 4),
+                       s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
   }
 }
 

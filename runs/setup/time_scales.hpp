@@ -9,15 +9,14 @@
 
 namespace grouser::setup {
 
-/// Something that a scene prescribes over time: a run samples it once a step, and sees another motion or force where
-/// steps are too few (100 N m at 1001 Hz are a constant torque at steps of 1 / 1001 s). Also a swing of a vehicle's
-/// springs.
+/// Time scale of a prescribed quantity: a run samples it once per step and aliases it with too few steps (100 N m at
+/// 1001 Hz are a constant torque at steps of 1 / 1001 s). Also an oscillation of a vehicle's springs.
 struct TimeScale {
   double time = 0;       ///< a period or turn, or the gap between two times of a table or ramp [s]
-  bool repeats = false;  ///< a period, turn or swing
+  bool repeats = false;  ///< a period, turn or oscillation
   std::string what;      ///< "a turn of 0.02 s"
   const char* unit = ""; ///< of the key
-  /// Throws InputError at the key that says it, with this message.
+  /// Throws InputError at the key, with this message.
   std::function<void(const std::string& message)> fail;
 };
 
@@ -33,11 +32,11 @@ double greatestTrackSpeed(const scene::Scene& scene);
 /// The longest step with run.steps_per_period steps in each of them [s]; infinite where there is none.
 double resolvingStep(const std::vector<TimeScale>& scales, double stepsPerPeriod);
 
-/// Throws InputError where one has fewer than run.steps_per_period steps of `timeStep`: place, steps found, and the
-/// step that would do.
+/// Throws InputError where one has fewer than run.steps_per_period steps of `timeStep`: place, number of steps, and the
+/// largest allowed step.
 void checkTimeScales(const scene::Scene& scene, double timeStep);
 
-/// The radians that a body or surface may turn in a step: a full turn in run.steps_per_period steps.
+/// Maximum rotation of a body or surface in a step [rad]: a full turn in run.steps_per_period steps.
 double largestTurn(const scene::RunSettings& run);
 
 } // namespace grouser::setup

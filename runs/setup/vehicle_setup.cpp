@@ -14,7 +14,7 @@ namespace grouser::setup {
 
 namespace {
 
-/// Of a hull [m]: it is large, and what it rests on is.
+/// Sphere radius of a hull [m].
 constexpr double kHullSphereRadius = 0.02;
 
 vehicle::CourseOptions courseOptions(const scene::Course& c, const vehicle::VehicleSpec& spec) {
@@ -31,7 +31,7 @@ vehicle::CourseOptions courseOptions(const scene::Course& c, const vehicle::Vehi
 vehicle::DriverOptions driverOptions(const scene::Driver& d, const vehicle::VehicleSpec& spec) {
   vehicle::DriverOptions options;
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
-  // The sum of ramps that were typed may be a bit above the start that was.
+  // Rounding may put the sum of the ramps above the given start.
   options.driveStart = std::max(d.driveBegins(), d.tensionRamp + d.weightRamp);
   options.driveRamp = d.rampOfDrive(), options.changeRamp = d.rampOfChange();
   if (!d.driveStart) options.rest = vehicle::RestBounds{d.restSpeed, d.restLoad, d.restTimeLimit};
@@ -79,16 +79,14 @@ coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
   coupling::VehicleSetup setup;
   setup.spec = vehicleSpec(scene);
   if (scene.driver.drive == vehicle::SprocketDrive::engine && !setup.spec.engine)
-    scene.fail(
-        "driver", "drive",
-        "wants engines, and the vehicle file has none; give it a section [engine] (grouser fields --vehicle), or "
-        "set \"speed\" or \"torque\"");
+    scene.fail("driver", "drive",
+               "requires a section [engine] in the vehicle file (grouser fields --vehicle); add it, or set \"speed\" "
+               "or \"torque\"");
   const bool shapesAsked = v.gearContactModel == vehicle::GearContactModel::shapes;
   if (shapesAsked && !setup.spec.shapes)
     scene.fail(
         "vehicle", "gear_contact_model",
-        "requires a section [shapes] in the vehicle file, which has none (grouser fields --vehicle); add it, or set "
-        "\"samples\"");
+        "requires a section [shapes] in the vehicle file (grouser fields --vehicle); add it, or set \"samples\"");
   setup.shapes = setup.spec.shapes && v.gearContactModel != vehicle::GearContactModel::samples;
   setup.place = placeVehicle(scene, setup.spec);
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
@@ -106,7 +104,7 @@ coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.stop = {scene.stop.distance, scene.stop.edge, scene.stop.immobile};
   setup.driver = driverOptions(scene.driver, setup.spec);
   if (scene.hitch) setup.hitch = hitchOptions(*scene.hitch, setup.spec);
-  // What hangs or weighs nothing presses on no ground.
+  // A vehicle that is fixed or weightless has no ground force.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();
   return setup;
 }

@@ -10,16 +10,16 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Of a hitch's rope or bar [N/m]: as given, or such that hull (and sled) would swing on it at 10 Hz. 0 without either.
+/// Stiffness of a hitch's rope or bar [N/m]: as given, or for a natural frequency of 10 Hz with hull (and sled). 0
+/// without either.
 double hitchStiffness(const scene::Hitch& hitch, const vehicle::VehicleSpec& spec);
-/// What swings on it [kg]: the hull, or hull and sled against each other.
+/// Oscillating mass of the hitch [kg]: the hull, or the reduced mass of hull and sled.
 double hitchedMass(const scene::Hitch& hitch, const vehicle::VehicleSpec& spec);
 
-/// Reads the spec. Throws InputError where that, or where the vehicle stands, is not possible.
+/// Reads the spec. Throws InputError if that fails or the vehicle's position is invalid.
 coupling::VehicleSetup vehicleSetup(const scene::Scene& scene);
 
-/// Takes the vehicle out of the scene, with all that only a vehicle has: driver, hitch, stop, its columns of the
-/// output.
+/// Removes the vehicle from the scene, with driver, hitch, stop, and its output columns.
 void removeVehicle(scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -15,10 +15,10 @@ namespace grouser::setup {
 
 namespace {
 
-/// The idler on the tangential springs of all shoes that half a turn of the track presses to it: they turn it all
-/// alike, half of them shift it either way, and each has a shoe of its own. A strand at the pull T presses a shoe by T
-/// pitch / radius, so deep as in considerPressedShoe(). Where friction holds, the mode trembles beyond its limit by as
-/// much as Coulomb's limit allows.
+/// The idler on the tangential springs of all shoes on half of its circumference: all of them turn it, half of them
+/// shift it either way, and each has its own shoe. A strand with tension T presses a shoe by T pitch / radius, with the
+/// overlap of considerPressedShoe(). Where friction sticks, the mode vibrates beyond its limit as far as Coulomb's
+/// limit allows.
 void considerIdler(StepLimit& limit, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
   if (c.frictionInside <= 0) return;
@@ -42,12 +42,12 @@ bool meetsSoilOnly(const scene::Scene& scene) {
 /// The foundation between parts: shoes on rigid ground, and wheels on shoes.
 void considerParts(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
-  // A shoe that lies on its whole pad: the stiffest that the foundation can be. No wheel presses a whole pad.
+  // A shoe on its whole pad: the maximum stiffness of the foundation. No wheel presses a whole pad.
   const double pad = c.foundationModulus * 4 * s.shoe.halfLength * s.shoe.padHalfWidth / s.shoe.mass;
   if (!meetsSoilOnly(scene))
     considerBoth(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
                  "lower contact.foundation_modulus in vehicle.spec");
-  // A wheel that lies in the plate by a millimetre, far more than the weight presses it in.
+  // A wheel with an overlap of 1 mm with the plate, far more than its weight causes.
   constexpr double kDeep = 1e-3; // [m]
   const auto wheel = [&](const char* name, double mass, double radius) {
     const double area = 4 * s.shoe.padHalfWidth * std::sqrt(2 * radius * kDeep);
@@ -61,15 +61,15 @@ void considerParts(StepLimit& limit, const scene::Scene& scene, const vehicle::V
   considerIdler(limit, s);
 }
 
-/// Whether shoes can come to lie on what is rigid.
+/// Returns true if shoes can touch rigid surfaces.
 bool hasRigidGround(const scene::Scene& scene) {
   return (scene.terrain && !scene.terrain->granular()) || !obstaclesOf(scene).empty();
 }
 
-/// A shoe between rigid ground and the wheel that it bears. The highest mode of both springs together is no higher than
-/// that of the ground's, its whole pad against shift and turn, and that of the wheel's on the shoe's end added up
-/// (Weyl). The wheel lies as deep as its share of the weight presses it, F = 4/3 modulus width sqrt(2 R) depth^(3/2).
-/// Where `grouser study stability --scene vehicle` finds vehicles unsound is docs/evidence/vehicle_stability.md.
+/// A shoe between rigid ground and a wheel. The highest mode of both springs is at most the sum of that of the ground
+/// (whole pad, translation and rotation) and that of the wheel on the shoe's end (Weyl). The wheel's overlap follows
+/// from its share of the weight, F = 4/3 modulus width sqrt(2 R) depth^(3/2). docs/evidence/vehicle_stability.md
+/// records the limits that `grouser study stability --scene vehicle` finds.
 void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
   if (!hasRigidGround(scene)) return;
   const vehicle::ContactSpec& c = s.contact;

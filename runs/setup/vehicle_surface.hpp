@@ -8,7 +8,7 @@
 
 namespace grouser::setup {
 
-/// What parts of a vehicle have that are of no material of their own, but of whatever they touch.
+/// Contact parameters of vehicle parts without a material, which take the material of what they touch.
 struct VehicleSurface {
   double friction{}; ///< [-] friction_ground of the vehicle file
   double adhesion{}; ///< [-] vehicle.adhesion: of the pull that a wall of the soil's own material has on its grains

@@ -21,27 +21,27 @@ using base::Vec3d;
 
 namespace {
 
-/// A surface is looked for at points this far from each other [m], as balls that leave no gap between them.
+/// Spacing of the points at which a surface is searched [m].
 constexpr double kCell = 0.1;
-/// Above the ground [m]: what is lower is no obstacle to a vehicle that stands on that ground.
+/// Height above the ground [m] below which a surface is no obstacle.
 constexpr double kFree = 0.05;
-/// Farther than this nothing is looked for where there is no terrain [m].
+/// Maximum search distance without terrain [m].
 constexpr double kFarthest = 100;
 
-/// What a vehicle covers, or may cover, seen along its heading from its place.
+/// Region that a vehicle covers, or may cover, along its heading from its position.
 struct Corridor {
   double rear, front, half; ///< [m]
   double height;            ///< over the ground [m]
 };
 
-/// Where a vehicle comes to the end of the terrain.
+/// Point at which a vehicle reaches the end of the terrain.
 struct Edge {
-  double way;  ///< that is left to it at the start [m]
-  double time; ///< at which it is there [s]
+  double way;  ///< distance from the start [m]
+  double time; ///< arrival [s]
   bool ahead;  ///< else behind
 };
 
-/// What moves acts on grains alone.
+/// Surfaces that move, which act on grains only.
 std::vector<SceneSurface> movingSurfaces(const scene::Scene& scene) {
   std::vector<SceneSurface> moving;
   for (const SceneSurface& s : surfacesOf(scene))
@@ -75,7 +75,7 @@ public:
       if (table.left[i] != table.right[i]) return true;
     return false;
   }
-  /// How far it can come in the whole run, without slip [m].
+  /// Maximum travel in the whole run, without slip [m].
   double farthest() const {
     const scene::SpeedTable table = scene_.driver.speeds();
     double fastest = 0;
@@ -86,11 +86,11 @@ public:
     if (scene_.driver.course)
       speed = std::fabs(scene_.driver.course->speed);
     else if (scene_.driver.isFree())
-      speed = 1e6; // of what torques drive nobody knows how fast it goes
+      speed = 1e6; // the speed with given torques is unknown
     const double way = speed * std::max(0.0, scene_.run.duration - scene_.driver.driveBegins());
     return std::min(way, ground_ ? ground_->area().width() + ground_->area().length() : kFarthest);
   }
-  /// When it leaves the terrain, driven straight, without slip and ramp; empty where it does not.
+  /// Point at which it leaves the terrain, driven straight, without slip and ramp; empty if it does not.
   std::optional<Edge> edge() const {
     const auto area = terrainArea(scene_);
     const scene::SpeedTable table = scene_.driver.speeds();
@@ -108,7 +108,7 @@ public:
     }
     return {};
   }
-  /// Straight ahead and back.
+  /// Region that it may cover driving straight ahead and back.
   Corridor way() const {
     const scene::SpeedTable table = scene_.driver.speeds();
     bool ahead = false, back = false;
@@ -122,11 +122,11 @@ public:
     return c;
   }
 
-  /// Whether the surface reaches into the corridor, where it is at the start.
+  /// Returns true if the surface, at its initial position, reaches into the corridor.
   bool meets(const SceneSurface& s, const Corridor& c) const {
     const base::Pose pose = placeOf(s);
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
-    // Of a plane the corners tell; of all else balls about a lattice of points.
+    // Planes are checked at the corners, other surfaces by balls on a lattice.
     const double cell = plane ? 1e300 : kCell, radius = plane ? 0 : 0.87 * kCell;
     const double reach = plane ? 1e300 : sizeOf(s) + radius + c.height;
     const int nx = cellsOf(c.front - c.rear, cell), ny = cellsOf(2 * c.half, cell), nz = cellsOf(c.height, cell);
@@ -145,7 +145,7 @@ public:
   }
 
 private:
-  /// Of the sprockets, `time` [s] after the drive has begun.
+  /// Sprocket speed at `time` [s] after the start of the drive.
   static double speedAt(const scene::SpeedTable& table, double time) {
     const auto after =
         static_cast<std::size_t>(std::upper_bound(table.time.begin(), table.time.end(), time) - table.time.begin());
@@ -154,7 +154,8 @@ private:
     const double from = table.time[after - 1], share = (time - from) / (table.time[after] - from);
     return table.left[after - 1] + share * (table.left[after] - table.left[after - 1]);
   }
-  /// From what reaches `reach` [m] beyond the vehicle's place to the end of the terrain, along the heading or back [m].
+  /// Distance from a point `reach` [m] beyond the vehicle's position to the end of the terrain, along the heading or
+  /// back [m].
   double wayTo(const terrain::Rectangle& area, double reach, double sign) const {
     const double c = sign * base::cos(place_.heading), s = sign * base::sin(place_.heading);
     const auto along = [](double from, double slope, double low, double high) {
@@ -162,7 +163,7 @@ private:
     };
     return std::min(along(place_.x, c, area.xMin, area.xMax), along(place_.y, s, area.yMin, area.yMax)) - reach;
   }
-  /// At the start; what is put on the bed stands about so high over its surface.
+  /// Initial pose; surfaces with above_bed are at about that height above the bed's surface.
   base::Pose placeOf(const SceneSurface& s) const {
     base::Pose pose = s.start;
     if (!s.aboveBed || !ground_) return pose;
@@ -185,7 +186,7 @@ private:
     const double c = base::cos(place_.heading), s = base::sin(place_.heading);
     return {place_.x + c * ahead - s * left, place_.y + s * ahead + c * left, 0};
   }
-  /// Where the terrain ends, the run ends by itself.
+  /// Points beyond the terrain do not matter, since the run ends there.
   bool onTerrain(const Vec3d& p) const {
     const auto area = terrainArea(scene_);
     return !area || (p.x >= area->xMin && p.x <= area->xMax && p.y >= area->yMin && p.y <= area->yMax);
@@ -204,10 +205,9 @@ void checkVehicleSurroundings(const scene::Scene& scene) {
   if (!scene.vehicle) return;
   const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
   if (!scene.terrain && !grains && scene.vehicle->chassis != scene::ChassisMount::fixed)
-    scene.fail(
-        "vehicle", "chassis",
-        "is \"free\" over planes alone, on which no vehicle is set down; add [terrain] with kind = \"rigid\", or "
-        "set chassis = \"fixed\"");
+    scene.fail("vehicle", "chassis",
+               "is \"free\" without [terrain]; planes cannot carry a vehicle; add [terrain] with kind = \"rigid\", or "
+               "set chassis = \"fixed\"");
   const std::vector<SceneSurface> all = movingSurfaces(scene);
   if (all.empty()) return;
   const Course course(scene);
@@ -217,15 +217,15 @@ void checkVehicleSurroundings(const scene::Scene& scene) {
     const std::string key = s.kind == coupling::SurfaceKind::plane ? "point" : "position";
     scene.fail(
         s.list(), s.number, key,
-        fmt::format("[m]: {} \"{}\" moves and stands {}; surfaces that move act on grains alone, and the vehicle "
-                    "would pass through it: {}",
-                    s.list(), s.name,
-                    atStart ? "where the vehicle is set down"
-                            : fmt::format("in the way of the vehicle, which can drive {:.1f} m in run.duration",
-                                          course.farthest()),
-                    atStart ? "let it rest, move it or vehicle.position, or remove it"
-                            : "let it rest, move it aside, turn vehicle.heading, shorten run.duration, or "
-                              "remove it"));
+        fmt::format(
+            "[m]: {} \"{}\" moves and is {}, but moving surfaces act on grains only, so the vehicle would pass through "
+            "it; {}",
+            s.list(), s.name,
+            atStart ? "at the vehicle's initial position"
+                    : fmt::format("in the path of the vehicle, which can drive {:.1f} m in run.duration",
+                                  course.farthest()),
+            atStart ? "remove its motion, move it or vehicle.position, or remove it"
+                    : "remove its motion, move it aside, change vehicle.heading, shorten run.duration, or remove it"));
   }
 }
 
@@ -234,20 +234,20 @@ std::vector<std::string> vehicleWarnings(const scene::Scene& scene) {
   if (!scene.vehicle) return warnings;
   if (scene.driver.table && scene.driver.rampOfDrive() == 0 &&
       (scene.driver.table->left.front() != 0 || scene.driver.table->right.front() != 0))
-    warnings.push_back(
-        fmt::format("driver.table begins at {:g} and {:g} rad/s: the sprockets turn so fast from one step to "
-                    "the next; let the table begin at 0, or set driver.drive_ramp",
-                    scene.driver.table->left.front(), scene.driver.table->right.front()));
+    warnings.push_back(fmt::format("driver.table starts at {:g} and {:g} rad/s, which the sprockets reach in one step; "
+                                   "start the table at 0, or set driver.drive_ramp",
+                                   scene.driver.table->left.front(), scene.driver.table->right.front()));
   const std::optional<Edge> edge = scene.stop.edge ? std::nullopt : Course(scene).edge();
   if (edge && !(scene.stop.distance && *scene.stop.distance <= edge->way))
-    warnings.push_back(fmt::format("the terrain ends {:.2f} m {} the vehicle, which without slip is there at {:.3g} s; "
-                                   "the run ends where a shoe leaves it: enlarge terrain.size, shorten "
-                                   "run.duration ({:g} s), or give stop.distance or stop.edge",
-                                   edge->way, edge->ahead ? "ahead of" : "behind", edge->time, scene.run.duration));
+    warnings.push_back(
+        fmt::format("the terrain ends {:.2f} m {} the vehicle, which reaches its edge at {:.3g} s without slip, and "
+                    "the run ends with an error when a shoe leaves the terrain; enlarge terrain.size, shorten "
+                    "run.duration ({:g} s), or set stop.distance or stop.edge",
+                    edge->way, edge->ahead ? "ahead of" : "behind", edge->time, scene.run.duration));
   for (const SceneSurface& s : movingSurfaces(scene))
-    warnings.push_back(fmt::format("{} \"{}\" moves and acts on grains alone: where the vehicle meets it, it passes "
-                                   "through without a force",
-                                   s.list(), s.name));
+    warnings.push_back(
+        fmt::format("{} \"{}\" moves and acts on grains only; the vehicle passes through it without contact force",
+                    s.list(), s.name));
   return warnings;
 }
 
@@ -264,7 +264,7 @@ std::vector<std::string> meshNotes(const scene::Scene& scene) {
   for (const std::string& mesh : {spec.chassis.mesh, spec.shoe.mesh, spec.sprocket.mesh, spec.roadWheel.mesh,
                                   spec.roller.mesh, spec.idler.mesh}) {
     const std::filesystem::path file = std::filesystem::path(spec.meshFolder) / mesh;
-    if (!std::filesystem::is_regular_file(file)) continue; // rollers that there are none of
+    if (!std::filesystem::is_regular_file(file)) continue; // a vehicle without rollers
     std::string note;
     spheredecomp::importMesh(file.string(), &note);
     add(note);

@@ -8,17 +8,16 @@
 
 namespace grouser::setup {
 
-/// Surfaces that move act on grains alone: a vehicle would pass through them. Throws InputError where one of them
-/// stands where the vehicle is set down, or in the way that it can drive straight ahead or back, and where a vehicle
-/// free to fall has neither terrain nor grains below. Called for plan and run. Surfaces at rest are met: see
-/// obstacles.hpp.
+/// Moving surfaces act on grains only, so a vehicle would pass through them. Throws InputError where one of them is at
+/// the vehicle's initial position or in its path straight ahead or back, and where a vehicle free to fall has neither
+/// terrain nor grains below. Called for plan and run. For surfaces at rest see obstacles.hpp.
 void checkVehicleSurroundings(const scene::Scene& scene);
 
-/// What a user should know of a vehicle's scene before it runs, a sentence each: surfaces that move and that it would
-/// pass through, an end of the terrain that it comes to before the run's, speeds that begin with a jump.
+/// Warnings on a vehicle's scene before it runs, a sentence each: moving surfaces that it would pass through, an end of
+/// the terrain that it reaches during the run, speeds that start with a jump.
 std::vector<std::string> vehicleWarnings(const scene::Scene& scene);
 
-/// Meshes of the scene and of its vehicle that were not read as they stand in their files.
+/// Notes on meshes of the scene and its vehicle that were changed on reading.
 std::vector<std::string> meshNotes(const scene::Scene& scene);
 
 } // namespace grouser::setup

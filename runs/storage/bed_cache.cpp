@@ -28,7 +28,7 @@ constexpr double kBytesPerGrain = 400;                 // of a file, at most, bu
 constexpr auto kLook = std::chrono::milliseconds(200); // between two looks at another run's lock
 
 void warn(const base::Comm& comm, const std::string& message) {
-  if (comm.first()) support::tell("grouser: warning: {}; going on without it\n", message);
+  if (comm.first()) support::tell("WARNING: {}; continuing without it\n", message);
 }
 
 /// The first rank's answer, on all.
@@ -52,7 +52,7 @@ std::optional<coupling::SettleReport> BedCache::find(const std::string& origin) 
     if (open.text("/", "scene") != origin) return {};
     return readSettled(open);
   } catch (const std::exception&) {
-    return {}; // a run says what is wrong with it
+    return {}; // a run reports its error
   }
 }
 
@@ -65,7 +65,7 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
 
   const auto taken = [&] {
     std::optional<coupling::SettledGround> kept = reuse(file, setup, exec, comm);
-    if (kept) summary_ = fmt::format("taken from {}, in {:.2f} s", file.string(), seconds());
+    if (kept) summary_ = fmt::format("read from {} in {:.2f} s", file.string(), seconds());
     return kept;
   };
   if (std::optional<coupling::SettledGround> kept = taken()) return std::move(*kept);
@@ -73,8 +73,8 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
   const fs::path& folder = files_.folder();
   const bool usable =
       agreed(comm, comm.first() && files_.writable()) && !support::rankNotSeeing(folder, comm).has_value();
-  if (!usable) warn(comm, fmt::format("{}: settled beds cannot be kept in this folder", folder.string()));
-  // When several runs need one bed, the first settles it, with its tile and all trials of the preparation.
+  if (!usable) warn(comm, fmt::format("{}: settled beds cannot be cached in this folder", folder.string()));
+  // Of several runs that need one bed, the first settles it, with its tile and all trials of the preparation.
   support::FileLock lock;
   if (usable) {
     const fs::path name = support::KeptFiles::lockOf(file);
@@ -85,20 +85,20 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
     }
     if (std::optional<coupling::SettledGround> kept = taken()) return std::move(*kept);
   }
-  // Ranks that differ in whether they find one would differ in how often they speak to each other.
+  // Ranks that differ in finding one would differ in their communication.
   const KeptFrictions frictions(files_);
   const KeptFrictions* const found = comm.alone() ? &frictions : nullptr;
   coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress, found), {}};
   const terrain::Grains& grains = *settled.ground.grains;
   const bool fits = files_.fits(kBytesPerGrain * static_cast<double>(grains.count()));
-  if (!fits) lock.release(); // others would wait for nothing
+  if (!fits) lock.release(); // others need not wait
   settled.report = coupling::settle(*setup.grains->bed, settled.ground, progress, found);
   const double settledIn = seconds();
   const bool kept = usable && fits && keep(file, made, grains, settled.report, comm);
   summary_ = fmt::format("settled in {:.2f} s; {}", settledIn,
-                         kept    ? "kept in " + file.string()
-                         : !fits ? "not kept, since it is larger than what GROUSER_CACHE_GIB allows"
-                                 : "not kept");
+                         kept    ? "cached in " + file.string()
+                         : !fits ? "not cached: larger than GROUSER_CACHE_GIB"
+                                 : "not cached");
   return settled;
 }
 
@@ -127,7 +127,7 @@ std::optional<coupling::SettledGround> BedCache::reuse(const fs::path& file, con
     if (!allOf(comm, good)) return {};
     bed = readState(*open, comm);
     if (bed.scene != setup.grains->bed->origin || !bed.state.grains)
-      damage = fmt::format("{}: holds another bed than its name says", file.string());
+      damage = fmt::format("{}: contents do not match the file name", file.string());
   }
   if (!damage.empty()) {
     warn(comm, damage);

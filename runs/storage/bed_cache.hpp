@@ -11,11 +11,11 @@
 #include <optional>
 #include <string>
 
-/// Settled beds, kept from run to run: settling often takes longer than the drive, and a sweep over the vehicle settles
-/// the same bed again and again. A run that begins on a kept bed gives the same bits as one that settled it.
+/// Cache of settled beds: settling often takes longer than the drive, and runs of a sweep share beds. A run on a cached
+/// bed is bitwise identical to one that settled it.
 namespace grouser::storage {
 
-/// A folder of settled beds, and where the last one came from.
+/// A folder of settled beds, and the origin of the last one.
 class BedCache final : public coupling::SettledBeds {
 public:
   /// `limit` [bytes] of the folder.
@@ -23,21 +23,20 @@ public:
       : BedCache(support::KeptFiles(folder, limit)) {}
   explicit BedCache(support::KeptFiles files) : files_(std::move(files)) {}
 
-  /// Where the user keeps such files; see KeptFiles::ofUser().
+  /// The user's cache; see KeptFiles::ofUser().
   static std::optional<BedCache> ofUser(const base::Comm& comm = {});
 
-  /// The ground with its bed at rest: the kept bed of this scene, for which nothing is laid, tried or settled; where
-  /// there is none, lets it settle as coupling::settledGround() does and keeps the result. While another run settles
-  /// the same bed it is waited for. What is wrong with the folder or with a file in it is a warning, never the end of
-  /// the run. On several ranks all of them call it; the folder must be seen by all, or nothing is reused. Throws what
-  /// `progress` throws, and SimulationError as coupling::settle() does.
+  /// The ground with its settled bed: the cached one of this scene, or else one that is settled as by
+  /// coupling::settledGround() and cached. Waits while another run settles the same bed. Errors of the folder or its
+  /// files are warnings and do not end the run. On several ranks all of them call it; the folder must be seen by all,
+  /// or nothing is reused. Throws what `progress` throws, and SimulationError as coupling::settle() does.
   coupling::SettledGround settle(const coupling::GroundSetup& setup, const base::Exec& exec,
                                  const coupling::SettleProgress& progress, const base::Comm& comm) override;
 
-  /// How the bed of this origin (coupling::BedSetup) settled, where it is kept; empty where it is not, or is damaged.
+  /// Settling data of the cached bed of this origin (coupling::BedSetup); empty if it is missing or damaged.
   std::optional<coupling::SettleReport> find(const std::string& origin) const;
 
-  /// One line: where the bed came from and how long that took. Empty before settle().
+  /// One line: origin of the bed and time taken. Empty before settle().
   const std::string& summary() const { return summary_; }
 
 private:

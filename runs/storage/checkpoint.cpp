@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kVersion = 15; // checkpoint file layout
 
-/// How a record lies in a dataset: [n, width] numbers.
+/// Layout of a record in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
 template <> struct Layout<base::Position> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::Remainders> { using Number = std::uint32_t; };
@@ -56,8 +56,8 @@ template <class Archive, class State> void exchangeContacts(Archive& archive, co
   each("/impulse_on_parts", s.impulseOnParts), each("/angular_on_parts", s.angularOnParts);
 }
 
-/// The one list of what is stored, and under which name; the grains' columns say theirs. `archive` writes or reads. On
-/// several ranks all have the same of everything but grains and contacts, of which each has its block of rows.
+/// The list of stored data and their names; the grains' columns have their own. `archive` writes or reads. On several
+/// ranks all data are equal, except grains and contacts, of which each rank has its block of rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/ledger_at_start", s.ledgerAtStart);
@@ -158,7 +158,7 @@ template <class T> std::vector<T> recordsOf(const std::vector<typename Layout<T>
   return records;
 }
 
-/// How many rows all ranks have of each dataset that they share.
+/// Total rows of each dataset that the ranks share.
 class RowCounter {
 public:
   explicit RowCounter(const base::Comm& comm) : comm_(comm) {}
@@ -176,7 +176,7 @@ private:
   base::Comm comm_;
 };
 
-/// Writes what all ranks have alike, and makes the datasets of what they share.
+/// Writes data common to all ranks, and creates the datasets that they share.
 class Writer {
 public:
   Writer(support::Hdf5File& file, const RowCounter& counter) : file_(file), counter_(counter) {}
@@ -259,7 +259,7 @@ private:
     const std::vector<std::uint64_t> shape = file_.shape(name);
     if (shape.size() != 2 || shape[1] != widthOf<T>())
       throw base::InputError(
-          fmt::format("{}: {} has another shape than this program writes", file_.path().string(), name));
+          fmt::format("{}: {} has a different shape from that of this program", file_.path().string(), name));
     return shape[0];
   }
 
@@ -275,7 +275,7 @@ template <class Number> constexpr const char* typeName() {
   if constexpr (std::is_same_v<Number, std::uint32_t>) return "uint32";
 }
 
-/// Names all that may be there.
+/// Lists all fields.
 class Lister {
 public:
   template <class T> bool present(const char*, std::optional<T>& part) {

@@ -13,11 +13,11 @@ namespace grouser::storage {
 
 inline constexpr const char* kCheckpointName = "checkpoint.h5";
 
-/// Kinds of files that hold a state, by which one is not taken for another.
+/// Kinds of state files.
 inline constexpr const char* kCheckpointFile = "checkpoint";
 inline constexpr const char* kBedFile = "settled bed";
 
-/// What the numbers of a file of grains are in, for who reads it without its scene.
+/// Length scales of a grain file, for readers without the scene.
 struct GrainLengths {
   double unit{};   ///< of positions [m]
   double radius{}; ///< of the largest grain [m]; of all where they are alike
@@ -32,10 +32,10 @@ struct BranchPoint {
   std::string text() const; ///< "FILE, step N, state hash H"
 };
 
-/// A stopped run: all that is needed to go on as if it had not been stopped.
+/// State of a stopped run, from which it resumes bitwise identical to an uninterrupted run.
 struct Checkpoint {
   std::string scene;   ///< resolved
-  std::string inputs;  ///< what the files that the scene names held: see setup::inputsOf()
+  std::string inputs;  ///< hashes of the scene's input files: see setup::inputsOf()
   std::string commit;  ///< of the program that wrote it
   double timeStep{};   ///< [s]
   std::int64_t rows{}; ///< written by then
@@ -45,7 +45,7 @@ struct Checkpoint {
   coupling::SimulationState state;
 };
 
-/// Puts the file in place in one go: the former one stays whole if anything fails, or if the program is killed.
+/// Replaces the file atomically: the former one stays intact on failure, or if the program is killed.
 /// Throws support::NotWritten.
 /// On several ranks all of them call it, each with its rows of the grains; all return when the file is in place.
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
@@ -54,18 +54,18 @@ void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkp
 /// On several ranks, whatever their number was when it was written, each gets its rows.
 Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
 
-/// Of it scene, inputs and commit alone. All ranks call it.
+/// Reads scene, inputs and commit only. All ranks call it.
 Checkpoint readOrigin(const std::filesystem::path& path, const base::Comm& comm = {});
 /// All ranks call it, each with its rows.
 BranchPoint branchPoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
 
-/// What these are made of. `kind` is one of those named on top; readState() takes a file that checkStateFile()
-/// has found whole, which one rank does for all.
+/// Parts of these functions. `kind` is one of the kinds above; readState() requires a file that passed
+/// checkStateFile(), which one rank calls for all.
 void writeState(const std::filesystem::path& path, const char* kind, const Checkpoint& checkpoint,
                 const base::Comm& comm);
 void checkStateFile(const std::filesystem::path& path, const char* kind);
 Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm);
-coupling::SettleReport readSettled(const support::Hdf5File& file); ///< of it, how the bed came to rest
+coupling::SettleReport readSettled(const support::Hdf5File& file); ///< settling data of the bed
 
 /// A dataset of such a file: [rows, width] numbers.
 struct StoredField {
@@ -74,7 +74,7 @@ struct StoredField {
   std::string rows;  ///< "1"; "n" of a list; "grains", "contacts"
   std::size_t width; ///< numbers a row
 };
-/// All that a file may hold; what they mean is said in checkpoint_fields.hpp.
+/// All fields of a state file; checkpoint_fields.hpp describes them.
 std::vector<StoredField> storedFields();
 
 } // namespace grouser::storage

@@ -7,8 +7,8 @@
 
 namespace grouser::storage {
 
-/// All that checkpoint.h5 and a kept bed may hold. Throws std::logic_error for a field that nothing is said of, and for
-/// a word on a field that is not stored.
+/// All fields of checkpoint.h5 and cached beds. Throws std::logic_error for a field without a description, and for a
+/// description without a field.
 std::vector<support::FileField> checkpointFields();
 
 } // namespace grouser::storage

@@ -6,8 +6,8 @@
 
 namespace grouser::storage {
 
-/// Frictions that prepare beds of a porosity, a small file for each: beds of one soil need the same one, however large
-/// they are and whatever their seed. A damaged file, or a folder that cannot be written, costs the trials again.
+/// Cache of preparation frictions for beds of given porosity, one small file each: beds of one soil share it, whatever
+/// their size and seed. With a damaged file or a read-only folder the trials are repeated.
 class KeptFrictions final : public coupling::FoundFrictions {
 public:
   explicit KeptFrictions(support::KeptFiles files) : files_(std::move(files)) {}

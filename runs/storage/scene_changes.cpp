@@ -19,7 +19,7 @@ std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
-/// Keys that have no part in how the state came about, or are compared by what the file holds.
+/// Keys that do not affect the state, or whose files are compared by content.
 bool isFree(const std::string& key) {
   constexpr const char* kFree[] = {
       "run.duration",      "run.output_interval", "run.frame_interval", "run.checkpoint_interval",
@@ -94,14 +94,14 @@ BranchChanges checkSameScene(const Checkpoint& checkpoint, const std::filesystem
     if (actsInTheDrive(key))
       (key.starts_with("hitch.") ? branch.hitch : branch.driver) = true;
     else if (!was)
-      refuse(fmt::format("{} = {} does not stand in the scene that {} is of", key, *is, path.string()));
+      refuse(fmt::format("{} = {} is missing in the scene of {}", key, *is, path.string()));
     else if (!is)
-      refuse(fmt::format("{} = {} is missing, with which {} was written", key, *was, path.string()));
+      refuse(fmt::format("{} = {} is missing, but {} was written with it", key, *was, path.string()));
     else
       refuse(fmt::format("{} = {} was {} when {} was written", key, *is, *was, path.string()));
   }
   if (const std::string file = changedFile(checkpoint.inputs, provenance.inputs); !file.empty())
-    refuse(fmt::format("the file of {} is another than the one that {} was written with", file, path.string()));
+    refuse(fmt::format("the file of {} has changed since {} was written", file, path.string()));
   return branch;
 }
 

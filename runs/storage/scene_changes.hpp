@@ -8,35 +8,34 @@
 #include <string>
 #include <vector>
 
-/// In what a scene differs from the one that a state came from, and which of it the state allows.
+/// Differences between a scene and that of a state, and whether the state allows them.
 namespace grouser::storage {
 
-/// A key of a resolved scene that has another value, or stands in one of two scenes alone.
+/// A key of a resolved scene with another value, or in one of two scenes only.
 struct KeyChange {
   std::string key;
-  std::optional<std::string> was, is; ///< as TOML; empty: it is not there
+  std::optional<std::string> was, is; ///< as TOML; empty: missing
 };
 
-/// All but keys that never shape a state: duration and intervals, device, threads, skin, max_overlap, [stop], [output],
-/// [parallel], and names of files, which are compared by their bytes.
+/// All changes except of keys that never affect a state: duration and intervals, device, threads, skin, max_overlap,
+/// [stop], [output], [parallel], and names of files, which are compared by their bytes.
 std::vector<KeyChange> changedKeys(const std::string& was, const std::string& is);
 
-/// Whether a key acts only from the begin of the drive on: speeds, torques, tables, ramp and course of [driver], and
+/// Whether a key acts only from the start of the drive: speeds, torques, tables, ramp and course of [driver], and
 /// [hitch].
 bool actsInTheDrive(const std::string& key);
 
-/// The first file of the scene, by its key, whose bytes differ from those that setup::inputsOf() was taken of; empty:
-/// none.
+/// Key of the first input file whose bytes differ from those of setup::inputsOf(); empty: none.
 std::string changedFile(const std::string& was, const std::string& is);
 
-/// What a branch has otherwise than the run it comes from.
+/// Differences of a branch from its original run.
 struct BranchChanges {
   bool driver = false, hitch = false;
   bool any() const { return driver || hitch; }
 };
 
-/// Throws base::InputError, naming the key, where the scene differs from the checkpoint's in anything that has shaped
-/// the state; `option`: what to leave away then. Returns what differs of that which acts in the drive alone.
+/// Throws base::InputError, naming the key, where the scene differs from the checkpoint's in a key that affects the
+/// state; `option`: the option to omit, for the message. Returns the differences that act only in the drive.
 BranchChanges checkSameScene(const Checkpoint& checkpoint, const std::filesystem::path& path,
                              const setup::Provenance& provenance, const char* option = "--resume");
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/storage/sphere_cache.hpp"
 
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/not_written.hpp"
@@ -24,7 +25,7 @@ constexpr auto kSpheres = support::KeptFiles::Kind::spheres;
 constexpr const char* kSetFile = "kept sphere set";
 constexpr int kSetFileVersion = 2;
 constexpr auto kSpheresLook = std::chrono::milliseconds(20); // between two looks at another program's lock
-constexpr double kPatience = 120;                            // [s], after which one cuts beside the other
+constexpr double kPatience = 120;                            // [s], after which both make the set
 
 // A file behind its seal: length of the origin, the origin, figures, spheres, all as they lie in memory.
 static_assert(std::is_trivially_copyable_v<base::SetSphere> && sizeof(base::SetSphere) == 10 * sizeof(double),
@@ -53,7 +54,7 @@ void SphereCache::write(const fs::path& path, const std::string& origin, const F
 SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::string& origin) {
   const char *at = bytes.data(), *end = at + bytes.size();
   const auto take = [&](void* to, std::size_t count) {
-    if (static_cast<std::size_t>(end - at) < count) throw base::InputError("is cut short");
+    if (static_cast<std::size_t>(end - at) < count) throw base::InputError("is truncated");
     std::memcpy(to, at, count);
     at += count;
   };
@@ -61,14 +62,14 @@ SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::stri
   take(&length, sizeof length);
   if (length != origin.size() || static_cast<std::size_t>(end - at) < length ||
       origin.compare(0, length, at, length) != 0)
-    throw base::InputError("holds another set than its name says");
+    throw base::InputError("contents do not match the file name");
   at += length;
   base::SphereSetFigures figures{};
   take(&figures, sizeof figures);
   Found found;
   take(&found.protrusion, sizeof found.protrusion);
   if (static_cast<std::size_t>(end - at) != figures.spheres * sizeof(base::SetSphere))
-    throw base::InputError("is cut short");
+    throw base::InputError("is truncated");
   base::SphereSet& set = found.set;
   set.spheres.resize(figures.spheres);
   take(set.spheres.data(), figures.spheres * sizeof(base::SetSphere));
@@ -82,7 +83,7 @@ std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
 }
 
 base::SphereSet SphereCache::cut(const coupling::PartCut& part, spheredecomp::Protrusion* protrusion) {
-  // The plain cut, where that is good enough, is one and the same for whatever touches the part.
+  // The plain cut, if accurate enough, is the same for all contacts of the part.
   if (part.limit && part.limit->automatic) {
     coupling::PartCut plain = part;
     plain.limit->automatic = false;
@@ -102,7 +103,7 @@ base::SphereSet SphereCache::cut(const coupling::PartCut& part, spheredecomp::Pr
   support::FileLock lock;
   const bool usable = found || files_.writable();
   if (!found && usable) {
-    // Of several programs that want one set the first cuts it.
+    // Of several programs that need one set, the first makes it.
     while (!lock.take(support::KeptFiles::lockOf(file)) && clock.seconds() < kPatience)
       std::this_thread::sleep_for(kSpheresLook);
     found = find(file, origin);
@@ -132,9 +133,9 @@ std::optional<SphereCache::Found> SphereCache::find(const fs::path& file, const 
   } catch (const std::exception& e) {
     if (!fs::is_regular_file(file, error)) return {}; // deleted just now, by a program that makes room
     const std::string what = e.what();                // of a sealed file it begins with its name
-    support::tell("grouser: warning: {}{}; going on without it\n",
+    support::tell("WARNING: {}{}; continuing without it\n",
                   what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
-    fs::remove(file, error); // told once
+    fs::remove(file, error); // reported once
     return {};
   }
 }
@@ -157,12 +158,13 @@ std::string SphereCache::summary(const base::Comm& comm) const {
   comm.sum(counts, 3), comm.maximum(times, 2); // the ranks work side by side
   const auto [taken, cut, kept] = counts;
   const std::string folder = files_.folder().string();
-  std::string text = taken > 0 ? fmt::format("{} sets taken from {}, in {:.2f} s", taken, folder, times[0]) : "";
+  std::string text =
+      taken > 0 ? fmt::format("{} read from {} in {:.2f} s", base::counted(taken, "sphere set"), folder, times[0]) : "";
   if (cut == 0) return text;
-  const std::string what = text.empty() ? fmt::format("{} sets", cut) : fmt::format("{}; {}", text, cut);
-  text = fmt::format("{} cut in {:.2f} s; ", what, times[1]);
-  if (kept == 0) return text + "not kept";
-  return text + (kept < cut ? fmt::format("{} ", kept) : "") + "kept in " + folder;
+  const std::string what = (text.empty() ? "" : text + "; ") + base::counted(cut, "mesh", "meshes");
+  text = fmt::format("{} converted to spheres in {:.2f} s; ", what, times[1]);
+  if (kept == 0) return text + "not cached";
+  return text + (kept < cut ? fmt::format("{} ", kept) : "") + "cached in " + folder;
 }
 
 } // namespace grouser::storage

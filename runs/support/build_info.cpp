@@ -44,7 +44,7 @@ std::string programHash() {
   static const std::string hash = [] {
     const std::string own = ownFile().string();
     std::ifstream file(own, std::ios::binary);
-    if (!file) throw base::InputError(own + ": the program's own file cannot be read; see that it can");
+    if (!file) throw base::InputError(own + ": the program's own file cannot be read; check its permissions");
     base::StateHash h;
     std::vector<char> chunk(1 << 20);
     while (file.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), file.gcount() > 0) {

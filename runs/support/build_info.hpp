@@ -5,7 +5,7 @@
 
 namespace grouser::support {
 
-/// What this program was built from, and with.
+/// Version, commit, compiler and options of this program.
 struct BuildInfo {
   std::string version;  ///< "0.1.0"
   std::string commit;   ///< short hash, "-dirty" behind it where the sources were changed; "unknown" outside git
@@ -15,8 +15,8 @@ struct BuildInfo {
 };
 BuildInfo buildInfo();
 
-/// Hash of the file of the running program: neither a version nor a commit tells of changes that are not committed, or
-/// of a compiler. Throws InputError where the file cannot be read.
+/// Hash of the file of the running program: a version or commit does not show uncommitted changes or the compiler.
+/// Throws InputError where the file cannot be read.
 std::string programHash();
 
 /// `grouser --version`: one line a fact.

@@ -28,7 +28,7 @@ struct Pipe {
 
 Pipe makePipe() {
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) throw failure("no pipe to another process");
+  if (pipe2(ends, O_CLOEXEC) != 0) throw failure("cannot create a pipe to another process");
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -64,7 +64,7 @@ ChildProcess::ChildProcess(const Program& program) {
     cause.writeEnd.write(std::strerror(errno));
   });
   cause.writeEnd.close();
-  std::string why; // the pipe ends without a word where the program takes the place of the process
+  std::string why; // the pipe stays empty if the program starts
   while (cause.readEnd.read(why)) continue;
   if (!why.empty()) {
     wait();
@@ -92,12 +92,12 @@ ChildProcess::~ChildProcess() {
   while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-/// `act` in the child, which must neither return into what is the parent's, nor throw.
+/// Calls `act` in the child, which must neither return to the parent's code nor throw.
 void ChildProcess::start(int endSignal, const Environment& environment, const std::function<void()>& act) {
   const pid_t parent = getpid();
   process_ = fork();
   endSignal_ = endSignal;
-  if (process_ < 0) throw failure("no process could be started");
+  if (process_ < 0) throw failure("cannot start a process");
   if (process_ > 0) return;
   [&]() noexcept {
     prctl(PR_SET_PDEATHSIG, endSignal);
@@ -131,7 +131,7 @@ std::optional<ProcessEnd> ChildProcess::end(bool wait) {
   if (ended == 0) return {};
   process_ = -1;
   end_ = WIFEXITED(status) ? ProcessEnd{WEXITSTATUS(status), 0} : ProcessEnd{-1, WTERMSIG(status)};
-  if (ended < 0) throw failure("a process was lost");
+  if (ended < 0) throw failure("lost track of a process");
   return end_;
 }
 

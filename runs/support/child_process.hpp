@@ -14,7 +14,7 @@
 
 namespace grouser::support {
 
-/// How a process ended.
+/// Exit of a process.
 struct ProcessEnd {
   int status = -1;          ///< its exit status; -1: a signal ended it
   int signal = 0;           ///< the signal that ended it
@@ -40,16 +40,16 @@ public:
   explicit ChildProcess(const Program& program);
   /// Calls `work` in a copy of this process, which ends when `work` returns; nothing of the parent's is flushed or
   /// destroyed in it. What `work` writes into the descriptor is for read(). SIGINT and SIGHUP are left to the parent.
-  /// To be called before this process has started any threads. Throws base::DeviceError where no process can be
+  /// Call before this process has started any threads. Throws base::DeviceError where no process can be
   /// started.
   explicit ChildProcess(const std::function<void(const Descriptor&)>& work, const Environment& environment = {});
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// To its stdin. False where it reads no more.
+  /// Writes to its stdin. False if it no longer reads.
   bool write(const std::string& bytes) const { return input_.write(bytes); }
-  /// Waits for output and appends it. False when there will be none any more.
+  /// Waits for output and appends it. False at its end.
   bool read(std::string& text);
   int output() const { return output_; } ///< descriptor for poll(); -1 after its end
 

@@ -5,8 +5,7 @@
 
 namespace grouser::support {
 
-/// A cell that any reader of CSV takes whole: quoted where it holds a comma, a quote or a line's end, which becomes a
-/// space.
+/// A CSV cell, quoted if it contains a comma, a quote or a line break, which becomes a space.
 std::string csvCell(const std::string& text);
 /// Nine digits; empty where it is no finite number.
 std::string csvCell(double value);

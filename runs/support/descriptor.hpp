@@ -11,7 +11,7 @@ namespace grouser::support {
 class Descriptor {
 public:
   explicit Descriptor(int number = -1) : number_(number) {}
-  /// Opens a file, with the flags of open(); good() says whether it could be, errno else why not.
+  /// Opens a file, with the flags of open(); good() tells success, errno the error.
   Descriptor(const std::filesystem::path& path, int flags);
   Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   Descriptor& operator=(Descriptor&& other) noexcept;
@@ -20,9 +20,9 @@ public:
   bool good() const { return number_ >= 0; }
   operator int() const { return number_; } ///< for functions of the system; -1: closed
   void close();
-  /// Waits for bytes and appends what has come. False at the end.
+  /// Waits for bytes and appends them. False at the end.
   bool read(std::string& text) const;
-  /// Writes all of it. False where nobody reads it any more, which raises no SIGPIPE.
+  /// Writes all bytes. False if the reader is gone, without SIGPIPE.
   bool write(const std::string& bytes) const;
 
 private:

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kMostGpus = 1 << 20; ///< far more than a machine has, far less than an int holds
 
-/// What kFirstGpu says; 0 where it is not set, or empty.
+/// Value of kFirstGpu; 0 if it is unset or empty.
 int firstGpu() {
   const char* given = std::getenv(kFirstGpu);
   if (!given || !*given) return 0;
@@ -25,8 +25,8 @@ int firstGpu() {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), first);
   if (error != std::errc() || end != text.data() + text.size() || first < 0 || first > kMostGpus)
     throw base::InputError(
-        fmt::format("{} = '{}' is no number of a GPU: from 0 to {}, as CUDA counts those that it sees", kFirstGpu, text,
-                    kMostGpus));
+        fmt::format("{} = '{}' is not a GPU index from 0 to {}, as CUDA counts visible devices; correct or unset it",
+                    kFirstGpu, text, kMostGpus));
   return first;
 }
 
@@ -39,7 +39,7 @@ std::string firstGpuOf(int place) { return std::to_string(firstGpu() + place); }
 DeviceChoice deviceChoice(const std::string& word) {
   if (const auto choice = base::valueOf<DeviceChoice>(word)) return *choice;
   throw base::InputError(
-      fmt::format("--device {}: is none of {}", word, fmt::join(base::wordsOf<DeviceChoice>(), ", ")));
+      fmt::format("--device {}: must be one of {}", word, fmt::join(base::wordsOf<DeviceChoice>(), ", ")));
 }
 
 base::Exec chooseDevice(DeviceChoice device, int threads, const base::Ranks* ranks) {

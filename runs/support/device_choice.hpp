@@ -15,23 +15,23 @@ enum class DeviceChoice {
   cuda
 };
 
-/// Of the word of --device. Throws InputError for one that is none.
+/// Device of a value of --device. Throws InputError for an unknown one.
 DeviceChoice deviceChoice(const std::string& word);
 
 /// Names the GPU of this machine that a process begins with, counted from 0 among those that CUDA sees
 /// (CUDA_VISIBLE_DEVICES, in the order of CUDA_DEVICE_ORDER): a variable of the environment.
 constexpr const char* kFirstGpu = "GROUSER_GPU";
 
-/// The one of `gpus` (> 0) that a rank of this host takes: the first that kFirstGpu names, 0 where it names none, and
-/// so many further on, in turn. Throws InputError where the variable is no such number.
+/// GPU, of `gpus` (> 0), of a rank of this host: (kFirstGpu, or 0 if unset, + `rankOnHost`) modulo `gpus`. Throws
+/// InputError for an invalid value of the variable.
 int gpuOf(int rankOnHost, int gpus);
 
-/// What kFirstGpu is to say in the process at that place, from 0 on, of those that a call has at work at the same time:
-/// they take the GPUs in turn, from this process's own on. Throws as gpuOf().
+/// Value of kFirstGpu for concurrent child process number `place`, counted from 0: children use the GPUs in turn,
+/// starting with that of this process. Throws as gpuOf().
 std::string firstGpuOf(int place);
 
-/// Where to compute; `threads` 0 takes all cores. Ranks of one host take its GPUs in turn and share its cores. Throws
-/// DeviceError where there is no such device.
+/// Device of a run; `threads` 0: all cores. Ranks of one host use its GPUs in turn and share its cores. Throws
+/// DeviceError if the device is missing.
 base::Exec chooseDevice(DeviceChoice device, int threads, const base::Ranks* ranks);
 
 } // namespace grouser::support

@@ -22,7 +22,7 @@ int makeRoom(int file, std::uint64_t bytes) {
   struct stat now {};
   if (fstat(file, &now) != 0) return errno;
   const auto size = static_cast<std::uint64_t>(now.st_size);
-  // The kernel does not hold what is allotted behind the end against this limit.
+  // The kernel does not count space allotted behind the end towards this limit.
   struct rlimit limit {};
   if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && size + bytes > limit.rlim_cur)
     return EFBIG;
@@ -38,7 +38,7 @@ int makeRoom(int file, std::uint64_t bytes) {
 
 void requireRoom(int file, const std::filesystem::path& path, std::uint64_t bytes) {
   if (const int status = makeRoom(file, bytes))
-    throw notWritten(path, fmt::format("there is no room for {} bytes more ({})", bytes, std::strerror(status)));
+    throw notWritten(path, fmt::format("no space for {} more bytes ({})", bytes, std::strerror(status)));
 }
 
 void requireRoom(const std::filesystem::path& path, std::uint64_t bytes) {

@@ -7,11 +7,10 @@
 namespace grouser::support {
 
 /// Makes sure that the file can grow by `bytes`, without making it longer: allots them on the disk behind its end,
-/// where the file system can, and compares with the limit to the size of files (ulimit -f). So a full disk is met
-/// before the first byte of what belongs together is written, and not in the middle. Throws NotWritten with the
-/// file's name.
+/// where the file system can, and compares with the limit to the size of files (ulimit -f). So a full disk is detected
+/// before the first byte of a block is written. Throws NotWritten with the file's name.
 void requireRoom(const std::filesystem::path& path, std::uint64_t bytes);
-/// Of a file that is open for writing, whatever its name is by now; `path` is for the message.
+/// The same for an open file, which may have been renamed; `path` is for the message.
 void requireRoom(int file, const std::filesystem::path& path, std::uint64_t bytes);
 
 } // namespace grouser::support

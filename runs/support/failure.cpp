@@ -22,7 +22,7 @@ Failure failureOf(const std::exception_ptr& error) {
     return {FailureKind::device, e.what()};
   } catch (const std::bad_alloc&) {
     return {FailureKind::device, "out of host memory; use larger or fewer grains, or more ranks on several hosts "
-                                 "(grouser plan says what a scene needs)"};
+                                 "(grouser plan prints the memory of a scene)"};
   } catch (const NotWritten& e) {
     return {FailureKind::notWritten, e.what()};
   } catch (const std::filesystem::filesystem_error& e) {
@@ -67,7 +67,7 @@ int exitCode(FailureKind kind) {
 
 std::string textOf(const Failure& failure, const std::string& commandLine) {
   if (failure.kind != FailureKind::stray) return failure.message;
-  return fmt::format("internal error: {}; this is a fault of the program: report it with the command line: {}",
+  return fmt::format("internal error: {}; this is a bug in grouser: report it with the command line: {}",
                      failure.message, commandLine);
 }
 

@@ -8,7 +8,7 @@ namespace grouser::support {
 
 /// Why a call ends early.
 enum class FailureKind {
-  stray,      ///< an exception that nobody throws on purpose: a fault of the program, or of the system
+  stray,      ///< an unexpected exception: a bug, or a fault of the system
   input,      ///< base::InputError
   simulation, ///< base::SimulationError
   notWritten, ///< NotWritten, or any call of the file system that failed
@@ -20,14 +20,14 @@ struct Failure {
   std::string message;
 };
 
-/// What an exception means to the caller of the program.
+/// Classifies an exception.
 Failure failureOf(const std::exception_ptr& error);
 /// Throws the exception of that kind; a stray one as std::runtime_error.
 [[noreturn]] void rethrow(const Failure& failure);
 
-/// Of the program that ends with it; docs/commands.md lists them.
+/// Exit code of the program for this failure; docs/commands.md lists them.
 int exitCode(FailureKind kind);
-/// What the user reads. `commandLine`: what to report besides, where the program is at fault.
+/// Message for the user. `commandLine`: added to the message for bugs.
 std::string textOf(const Failure& failure, const std::string& commandLine);
 
 } // namespace grouser::support

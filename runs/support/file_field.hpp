@@ -5,7 +5,7 @@
 
 namespace grouser::support {
 
-/// What a file of results may hold, for its description: a dataset, or an attribute behind an @. In paths and shapes
+/// Description of an item of a results file: a dataset, or an attribute behind an @. In paths and shapes
 /// words in capitals stand for names (SIDE, NAME) and for what counts the frames (FRAME).
 struct FileField {
   std::string path;  ///< "vehicle/SIDE/slip/value", "/@version"

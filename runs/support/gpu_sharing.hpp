@@ -20,7 +20,7 @@ namespace grouser::support {
 /// the whole group, such as Ctrl-C, reaches the service too; runs may then end before their last checkpoint.
 class GpuSharing {
 public:
-  /// `wanted`: whether several processes are to use a GPU at the same time.
+  /// `wanted`: whether several processes will use a GPU at the same time.
   explicit GpuSharing(bool wanted);
   ~GpuSharing();
   GpuSharing(const GpuSharing&) = delete;

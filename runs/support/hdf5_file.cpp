@@ -82,7 +82,7 @@ hid_t memoryType(NumberType type) {
   return -1;
 }
 
-/// Link creation that makes the groups on the way.
+/// Link creation with intermediate groups.
 hid_t makeParents() {
   const hid_t list = H5Pcreate(H5P_LINK_CREATE);
   H5Pset_create_intermediate_group(list, 1);
@@ -169,7 +169,7 @@ hid_t openedAs(unsigned access, const std::filesystem::path& path) {
   const hid_t file = H5Fopen(path.c_str(), access, H5P_DEFAULT);
   if (file < 0)
     throw base::InputError(
-        fmt::format("{}: is no HDF5 file, or was cut short; give the results.h5 of a run", path.string()));
+        fmt::format("{}: is not an HDF5 file, or is truncated; give the results.h5 of a run", path.string()));
   return file;
 }
 } // namespace
@@ -373,7 +373,7 @@ void Hdf5File::flush() {
 void requireRoom(const Hdf5File& file, std::uint64_t bytes) {
   const Turn turn;
   void* handle = nullptr; // to the descriptor of the file, which may have another name by now
-  file.check(H5Fget_vfd_handle(file.file_, H5P_DEFAULT, &handle), "say where the file is open");
+  file.check(H5Fget_vfd_handle(file.file_, H5P_DEFAULT, &handle), "get the handle of the file");
   requireRoom(*static_cast<const int*>(handle), file.path_, bytes);
 }
 

@@ -63,7 +63,7 @@ public:
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Groups on the way are made as needed, here and below.
+  /// Intermediate groups are created as needed, here and below.
   void makeGroup(const std::string& group);
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   void attribute(const std::string& object, const std::string& name, double value);
@@ -92,7 +92,7 @@ public:
   friend void requireRoom(const Hdf5File& file, std::uint64_t bytes);
 
   bool has(const std::string& object) const;
-  /// What a group holds, without the way to it; nothing where there is no such group.
+  /// Names in a group, without its path; empty if the group is missing.
   std::vector<std::string> members(const std::string& group) const;
   /// Shape and numbers of a dataset, converted to double. Throws base::InputError where there is none.
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
@@ -139,8 +139,8 @@ private:
   bool shared_ = false;
 };
 
-/// Before `bytes` more are written that belong together. HDF5 leaves a file that nobody can open where its writes fail
-/// in the middle; where this throws NotWritten nothing has changed since flush().
+/// Call before writing a block of `bytes`. HDF5 leaves an unreadable file if a write fails in the middle; if this
+/// throws NotWritten, nothing has changed since flush().
 void requireRoom(const Hdf5File& file, std::uint64_t bytes);
 
 } // namespace grouser::support

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto kAbandoned = std::chrono::hours(24); // a part of a file that no run goes on writing, and locks
+constexpr auto kAbandoned = std::chrono::hours(24); // age of abandoned partial files and locks
 
 struct KindName {
   const char *prefix, *suffix;
@@ -31,7 +31,7 @@ constexpr std::array<KindName, 5> kKindNames{{{"bed-", ".h5"},
                                               {"check-", ".json"},
                                               {"times-", ".json"}}}; // by Kind
 
-/// Empty where nothing is to be kept.
+/// Empty if the cache is off.
 std::string folderOfUser() {
   if (const char* set = std::getenv("GROUSER_CACHE")) return set;
   if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return (fs::path(set) / "grouser").string();
@@ -48,7 +48,7 @@ std::optional<KeptFiles> KeptFiles::ofUser(const base::Comm& comm) {
     const auto [end, error] = std::from_chars(set, set + std::strlen(set), gib);
     if (error != std::errc() || *end || !(gib >= 0 && gib <= 1e6))
       throw base::InputError(
-          fmt::format("GROUSER_CACHE_GIB = {} [GiB] is no number in [0, 1e6]; correct or unset it", set));
+          fmt::format("GROUSER_CACHE_GIB = {} [GiB] is not a number in [0, 1e6]; correct or unset it", set));
     limit = static_cast<std::uint64_t>(gib * 1073741824.0);
   }
   const std::string folder = comm.broadcast(folderOfUser());
@@ -87,7 +87,7 @@ void KeptFiles::noteUse(const fs::path& file) {
   fs::last_write_time(file, fs::file_time_type::clock::now(), error);
 }
 
-/// Of one's own files only; what other programs keep there stays.
+/// Deletes own files only.
 void KeptFiles::deleteOldest(const fs::path& except) const {
   struct Entry {
     fs::file_time_type time;

@@ -23,9 +23,9 @@ public:
   explicit KeptFiles(std::filesystem::path folder, std::uint64_t limit = kDefaultLimit)
       : folder_(std::move(folder)), limit_(limit) {}
 
-  /// As the user's surroundings say: GROUSER_CACHE names the folder, and where it is set but empty nothing is kept;
-  /// otherwise $XDG_CACHE_HOME/grouser, otherwise ~/.cache/grouser. GROUSER_CACHE_GIB limits its size. Throws
-  /// InputError where that is no number. On several ranks the surroundings of the first count.
+  /// Cache from the environment: GROUSER_CACHE names the folder, no cache if it is set but empty; otherwise
+  /// $XDG_CACHE_HOME/grouser, otherwise ~/.cache/grouser. GROUSER_CACHE_GIB limits its size. Throws InputError if that
+  /// is not a number. On several ranks the environment of the first counts.
   static std::optional<KeptFiles> ofUser(const base::Comm& comm = {});
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -36,12 +36,12 @@ public:
   bool fits(double bytes) const { return bytes <= static_cast<double>(limit_); }
   /// Makes the folder where it is missing; false where nothing can be written into it.
   bool writable() const;
-  /// A name beside it that no other program writes at, on this or on another machine that shares the folder.
+  /// A unique name beside the file, also among machines that share the folder.
   static std::filesystem::path freshName(const std::filesystem::path& file);
-  /// Gives what stands whole under a fresh name its own, then deletes the files used longest ago until all keep the
-  /// limit. False where it could not be renamed.
+  /// Renames a complete file from its fresh name, then deletes the least recently used files down to the limit. False
+  /// if renaming failed.
   bool put(const std::filesystem::path& fresh, const std::filesystem::path& file) const;
-  /// From now on it is the one used last.
+  /// Marks the file as the last one used.
   static void noteUse(const std::filesystem::path& file);
 
 private:

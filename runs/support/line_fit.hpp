@@ -14,15 +14,15 @@ struct Estimate {
 /// y = intercept + slope x by least squares, with the covariance of both: s^2 (X^T X)^-1, where s^2 is the sum of the
 /// squared residuals over the degrees of freedom.
 struct LineFit {
-  int points = 0; ///< 0 where there is no line; two give one, and tell nothing of their scatter
+  int points = 0; ///< 0: no line; two points give a line without an error
   double intercept = 0, slope = 0;
   double interceptVariance = 0, slopeVariance = 0, covariance = 0;
 
   bool hasError() const { return points >= 3; }
-  /// By Student's distribution of points - 2 degrees of freedom; for lines that have an error.
+  /// Estimates with Student's distribution of points - 2 degrees of freedom; for lines with an error.
   Estimate slopeEstimate() const;
   Estimate interceptEstimate() const;
-  /// Of the line at `x`.
+  /// Value of the line at `x`.
   Estimate at(double x) const;
   /// The slope as "1.02 +- 0.03", or "-".
   std::string slopeText() const;
@@ -33,7 +33,8 @@ private:
 
 /// Both of one length. Where all x are equal, or there are fewer than two, there is no line.
 LineFit fitLine(std::span<const double> x, std::span<const double> y);
-/// Of the logarithms; points with a number that is not positive are left out. The slope is the exponent of a power law.
+/// Fit of the logarithms; points with a number that is not positive are omitted. The slope is the exponent of a power
+/// law.
 LineFit fitPower(std::span<const double> x, std::span<const double> y);
 
 /// Two-sided 95 % quantile of Student's distribution, `freedom` >= 1.

@@ -16,7 +16,7 @@ void setInstalledShare(const char* folder);
 /// File of this code: a shared module (.so), or "/proc/self/exe" for a program.
 std::filesystem::path ownFile();
 
-/// The folders that a scene's files are looked for in: its own, the current one, assets/.
+/// Search folders of a scene's files: its own, the current one, assets/.
 std::vector<std::filesystem::path> inputFolders(const std::filesystem::path& scene);
 
 /// The file that a scene means by `name`: an absolute path, or relative to one of the folder of `scene`, the current
@@ -25,7 +25,7 @@ std::vector<std::filesystem::path> inputFolders(const std::filesystem::path& sce
 std::filesystem::path findInput(const std::string& name, const std::filesystem::path& scene,
                                 std::vector<std::filesystem::path>& tried);
 
-/// Where `wanted` does not exist: "did you mean FILE? ", the file of the same name, or of the most similar one, in its
+/// Hint for a missing file: "did you mean FILE? ", the file of the same name, or of the most similar one, in its
 /// own folder or in one of `folders`. Empty where none is similar.
 std::string nearestFileHint(const std::filesystem::path& wanted, const std::vector<std::filesystem::path>& folders);
 

@@ -15,14 +15,14 @@ NotWritten notWritten(const fs::path& file, const std::string& what) {
   if (!fs::is_directory(folder, error))
     why = "its folder is gone";
   else if (access(fs::exists(file, error) ? file.c_str() : folder.c_str(), W_OK) != 0)
-    why = "it may not be written any more: look at the rights of file and folder";
+    why = "no write permission; check the permissions of file and folder";
   return NotWritten(fmt::format("{}: {}; {}", file.string(), what, why));
 }
 
 void putInPlace(const fs::path& whole, const fs::path& path) {
   std::error_code error;
   fs::rename(whole, path, error);
-  if (error) throw notWritten(path, fmt::format("could not be put in place ({})", error.message()));
+  if (error) throw notWritten(path, fmt::format("could not be renamed into place ({})", error.message()));
 }
 
 } // namespace grouser::support

@@ -7,13 +7,13 @@
 
 namespace grouser::support {
 
-/// A file could not be written, through no fault of the run's: that may go on from its last checkpoint.
+/// A file could not be written, for example on a full disk. The run can resume from its last checkpoint.
 class NotWritten : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// "out/drive/picture.png: could not be written; is the disk full?", or why else as far as the folder shows it.
+/// "out/drive/picture.png: could not be written; is the disk full?", or another cause found from the folder.
 /// `what`: what failed, such as "could not be written (No space left on device)".
 NotWritten notWritten(const std::filesystem::path& file, const std::string& what = "could not be written");
 

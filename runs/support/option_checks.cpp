@@ -26,7 +26,7 @@ template <class T> std::optional<T> numberIn(std::string_view text) {
   return value;
 }
 
-/// Takes the texts that `isAllowed` holds for; `allowed` says which these are.
+/// Accepts texts for which `isAllowed` is true; `allowed` describes them.
 template <class Test> CLI::Validator check(const std::string& allowed, const std::string& shown, Test isAllowed) {
   return {[=](std::string& text) {
             return isAllowed(text) ? std::string() : fmt::format("{} is not {}", text.empty() ? "\"\"" : text, allowed);
@@ -108,7 +108,7 @@ void refuseOptionsAsValues(CLI::App& app) {
       option->transform(CLI::Validator(
           [&app](const std::string& text) {
             const bool isOption = text.starts_with('-') && app.get_option_no_throw(text.substr(0, text.find('=')));
-            return isOption ? fmt::format("has no value, but the option {} behind it; give one", text) : std::string();
+            return isOption ? fmt::format("has no value: the option {} follows it; give a value", text) : std::string();
           },
           ""));
   for (CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) refuseOptionsAsValues(*sub);
@@ -127,7 +127,7 @@ std::string unknownCommand(const CLI::App& app, int argc, const char* const* arg
       if (names.back() == word) next = sub;
     }
     if (!next)
-      return fmt::format("\"{}{}\" is no command; did you mean \"{}{}\"? See grouser{} --help", path, word, path,
+      return fmt::format("\"{}{}\" is not a command; did you mean \"{}{}\"? See grouser{} --help", path, word, path,
                          base::nearestWord(word, names), path.empty() ? "" : " " + path.substr(0, path.size() - 1));
     path += word + " ";
     level = next;

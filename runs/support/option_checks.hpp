@@ -9,7 +9,7 @@
 #include <limits>
 #include <string>
 
-/// What the words of the command line may be, said in one line: "--steps: -1 is not a whole number of at least 1".
+/// Checks of option values, with one-line messages: "--steps: -1 is not a whole number of at least 1".
 namespace grouser::support {
 
 /// A whole number in [low, high].
@@ -27,7 +27,7 @@ CLI::Validator notNegative(const std::string& what);
 /// A finite number in [low, high].
 CLI::Validator between(double low, double high);
 
-/// Of an option that names a file of a run, for transform(): in the place of a folder the file of this name in it.
+/// For transform() of an option that names a file of a run: replaces a folder by the file of this name in it.
 CLI::Validator orItsFolder(const std::string& file);
 
 /// Checks that the file named by an option can be written, before any work.
@@ -42,19 +42,17 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const 
       ->default_str(std::string(base::wordOf(choice)));
 }
 
-/// Where results go, by the same two names in every command.
+/// The output option, with the same two names in every command.
 CLI::Option* addOut(CLI::App& app, std::string& place, const std::string& help);
 
-/// The message for a first word, or one after a command of commands, that is no command: it names the nearest. Empty
-/// where there is none such.
+/// Error message for an unknown command or subcommand, with the nearest name. Empty if all are known.
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);
 
 /// Hint for the first word that begins with "--" and is no option of its command: "; did you mean --threads?". Empty
 /// without such a word or a similar option.
 std::string nearestOptionHint(const CLI::App& app, int argc, const char* const* argv);
 
-/// Has every option of the commands below `app` refuse the name of another option as its value: that value was
-/// forgotten.
+/// Makes every option of the commands below `app` reject the name of another option as its value: the value is missing.
 void refuseOptionsAsValues(CLI::App& app);
 
 } // namespace grouser::support

@@ -25,7 +25,7 @@ constexpr std::size_t kRoomForNames = 128; ///< characters for names of files in
   throw base::InputError(fmt::format("{}: {}; name another with {}", place.string(), why, option));
 }
 
-/// 0, or why a file of some bytes cannot be written in this folder. Leaves nothing there.
+/// 0, or the errno of writing a small file in this folder. Leaves nothing there.
 int writeFault(const fs::path& folder) {
   std::string made = (folder / ".grouser-XXXXXX").string();
   if (!::mkdtemp(made.data())) return errno;
@@ -41,7 +41,7 @@ int writeFault(const fs::path& folder) {
   return fault;
 }
 
-/// The nearest folder at or above `whole` that exists. Throws where something else stands in the way of `shown`.
+/// The nearest folder at or above `whole` that exists. Throws if a file or broken link blocks `shown`.
 fs::path existingAbove(const fs::path& shown, const fs::path& whole, const std::string& option) {
   std::error_code error;
   const fs::path itself = fs::absolute(shown, error).lexically_normal();
@@ -51,18 +51,15 @@ fs::path existingAbove(const fs::path& shown, const fs::path& whole, const std::
     const std::string what = next == itself || next / "" == itself ? "is" : next.string() + " is";
     error.clear();
     const bool isThere = fs::exists(next, error);
-    if (error) refuse(shown, fmt::format("cannot be made ({})", error.message()), option);
+    if (error) refuse(shown, fmt::format("cannot be created ({})", error.message()), option);
     if (!isThere && fs::is_symlink(fs::symlink_status(next, error)))
       refuse(shown,
-             fmt::format("{} a link to {}, which does not exist: make that folder, or remove the link", what,
+             fmt::format("{} a link to {}, which does not exist: create that folder, or remove the link", what,
                          fs::read_symlink(next, error).string()),
              option);
     if (!isThere) return there;
     if (!fs::is_directory(next, error))
-      refuse(shown,
-             what == "is" ? "is a file, where the results' folder should be"
-                          : what + " a file, where a folder should be",
-             option);
+      refuse(shown, what == "is" ? "is a file, not a folder" : what + " a file, not a folder", option);
     there = next;
   }
   return there;
@@ -77,28 +74,27 @@ void requireFolder(const fs::path& folder, const std::string& option) {
   for (const fs::path& part : whole)
     if (longest > 0 && part.string().size() > static_cast<std::size_t>(longest))
       refuse(folder,
-             fmt::format("a name in it has {} bytes, and the file system allows {}", part.string().size(), longest),
+             fmt::format("a name in it has {} bytes, but the file system allows {}", part.string().size(), longest),
              option);
   if (whole.string().size() + kRoomForNames > PATH_MAX)
     refuse(folder,
-           fmt::format("the path has {} bytes, and with the files in it more than the {} that the system allows",
+           fmt::format("the path has {} bytes, with its files more than the system's limit of {}",
                        whole.string().size(), PATH_MAX),
            option);
   const int fault = writeFault(there);
   if (fault == 0) return;
   const bool isIt = fs::equivalent(there, whole, error);
   refuse(folder,
-         isIt ? fmt::format("nothing may be written in this folder ({})", std::strerror(fault))
-              : fmt::format("cannot be made, since nothing may be written in {} ({})", there.string(),
-                            std::strerror(fault)),
+         isIt ? fmt::format("cannot write in this folder ({})", std::strerror(fault))
+              : fmt::format("cannot be created: cannot write in {} ({})", there.string(), std::strerror(fault)),
          option);
 }
 
 void requireFile(const fs::path& file, const std::string& option) {
   std::error_code error;
-  if (fs::is_directory(file, error)) refuse(file, "is a folder, where a file should be", option);
+  if (fs::is_directory(file, error)) refuse(file, "is a folder, not a file", option);
   if (fs::exists(file, error)) {
-    // A device or a pipe is what its reader makes of it.
+    // Devices and pipes are accepted.
     if (fs::is_regular_file(file, error) && ::access(file.c_str(), W_OK) != 0)
       refuse(file, fmt::format("cannot be written ({})", std::strerror(errno)), option);
     return;
@@ -109,7 +105,7 @@ void requireFile(const fs::path& file, const std::string& option) {
     place = (place.parent_path() / fs::read_symlink(place, error)).lexically_normal();
   const fs::path folder = place.parent_path().lexically_normal();
   if (existingAbove(file, folder, option) != folder)
-    refuse(file, fmt::format("cannot be written, since there is no folder {}: make it", folder.string()), option);
+    refuse(file, fmt::format("cannot be written: the folder {} does not exist; create it", folder.string()), option);
   if (const int fault = writeFault(folder))
     refuse(file, fmt::format("cannot be written ({})", std::strerror(fault)), option);
 }

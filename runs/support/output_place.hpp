@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-/// Whether results can be written, found out before the work that they come from.
+/// Checks, before any work, that results can be written.
 namespace grouser::support {
 
 /// Throws base::InputError with cause and remedy where nothing can be written in `folder`, or where it is not there and

@@ -22,7 +22,7 @@ CallOutcome callProgram(const std::vector<std::string>& words, const Environment
     while (child.output() >= 0) {
       pollfd end{child.output(), POLLIN, 0};
       poll(&end, 1, kBetweenLooks);
-      // Who stops this program by its number means the other one too. From a terminal that has had it already.
+      // A signal to this process is meant for the other too, which has received it if it came from a terminal.
       if (StopSignals::received()) child.terminate();
       if (end.revents != 0) child.read(outcome.output);
     }

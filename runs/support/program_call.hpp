@@ -8,7 +8,7 @@
 
 namespace grouser::support {
 
-/// How another program has ended.
+/// Exit of another program.
 struct CallOutcome {
   bool started = false;
   int status = -1;    ///< exit status; -1: it was not started, or a signal ended it

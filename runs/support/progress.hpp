@@ -16,7 +16,7 @@ public:
   /// Kind of the work's end: its expected place, or a limit that it may not reach.
   enum class End { expected, limit };
 
-  /// `shown`: false keeps it silent, on ranks whose work another one reports. `from`: done before, 0 to 1.
+  /// `shown`: false keeps it silent, on ranks whose work another one reports. `from`: fraction done before, 0 to 1.
   explicit Progress(std::string what, bool shown = true, double from = 0, End end = End::expected);
   ~Progress();
   Progress(const Progress&) = delete;

@@ -6,14 +6,14 @@
 
 namespace grouser::support {
 
-/// What is wrong with a name that a user has given to something and that files of results then bear: a control
-/// character or a slash, which HDF5 takes for a group's border. Empty where nothing is.
+/// Error message for a user's name that results files cannot hold: with a control character, or a slash, which
+/// separates HDF5 groups. Empty for a valid name.
 inline std::string nameFault(const std::string& name) {
-  if (name.empty()) return "is an empty name; choose one";
+  if (name.empty()) return "is an empty name; give a name";
   const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (std::any_of(name.begin(), name.end(), isControl))
-    return "has a control character (line feed, tab, escape...) in its name, which results cannot hold; leave it out";
-  if (name.find('/') != std::string::npos) return "has a / in its name, which separates names in results; leave it out";
+    return "has a control character (line feed, tab, escape...) in its name, which results cannot hold; remove it";
+  if (name.find('/') != std::string::npos) return "has a / in its name, which separates names in results; remove it";
   return "";
 }
 

@@ -8,15 +8,15 @@
 #include <functional>
 #include <string>
 
-/// Files that are either whole or not there: written under another name, sealed with length and checksum, put in place
-/// by renaming. A program killed at any time leaves the former file as it was.
+/// Atomic files: written under another name, sealed with length and checksum, and renamed. A program killed at any time
+/// leaves the former file unchanged.
 namespace grouser::support {
 
 /// Bytes at the start of a file that the seal takes; the writer leaves them free. HDF5 calls this a user block.
 inline constexpr std::size_t kSealBytes = 512;
 
 /// Calls `write` with the name of a file to be made beside `path`, seals what it wrote as `kind` of `version`, and
-/// brings it to the disk before it takes `path`'s place. Throws NotWritten, with `path` as it was, when any of
+/// flushes it to the disk before it takes `path`'s place. Throws NotWritten, with `path` as it was, when any of
 /// it fails. On several ranks all of them write, and one seals; all return when the file is in place.
 void writeSealed(const std::filesystem::path& path, const char* kind, int version,
                  const std::function<void(const std::filesystem::path& part)>& write, const base::Comm& comm = {});
@@ -25,7 +25,7 @@ void writeSealed(const std::filesystem::path& path, const char* kind, int versio
 /// it was written.
 void checkSeal(const std::filesystem::path& path, const char* kind, int version);
 
-/// As checkSeal(); returns what stands behind the seal.
+/// As checkSeal(); returns the contents after the seal.
 std::string readSealed(const std::filesystem::path& path, const char* kind, int version);
 
 /// Waits until what was written to a file is on the disk.

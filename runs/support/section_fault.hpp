@@ -8,7 +8,7 @@
 
 namespace grouser::support {
 
-/// What is wrong with one key of a section; who reads the file adds its place and the key's value.
+/// Error in one key of a section; the reader of the file adds place and value of the key.
 class SectionFault : public base::InputError {
 public:
   SectionFault(std::string key, const std::string& message) : InputError(message), key_(std::move(key)) {}

@@ -8,9 +8,9 @@
 
 namespace grouser::support {
 
-/// A rank that does not see what the first one writes in this folder: the folder lies on a disk of each host's own, or
-/// the ranks were started in different places. None where all do; the first where it cannot write there at all. All
-/// ranks call it and learn the same; it takes seconds where something is amiss. Leaves nothing behind.
+/// First rank that does not see files of rank 0 in this folder: the folder is local to each host, or the ranks were
+/// started in different folders. Empty if all do; rank 0 if it cannot write there. All ranks call it and get the same
+/// result; a failure takes seconds. Leaves no files.
 std::optional<int> rankNotSeeing(const std::filesystem::path& folder, const base::Comm& comm);
 
 } // namespace grouser::support

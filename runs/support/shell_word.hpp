@@ -6,9 +6,9 @@
 
 namespace grouser::support {
 
-/// As a shell takes it for one word: in quotes where it holds more than letters, digits and _@%+=:,./-
+/// One word for a shell: quoted if it has characters other than letters, digits and _@%+=:,./-
 std::string shellWord(const std::string& word);
-/// A command as it can be given to a shell again.
+/// A command line for a shell.
 std::string shellLine(const std::vector<std::string>& words);
 
 } // namespace grouser::support

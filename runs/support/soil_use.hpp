@@ -6,14 +6,14 @@
 
 namespace grouser::support {
 
-/// What a scene's material has of a soil: for results and messages, which know no scene.
+/// Soil of a scene's material, for results and messages.
 struct SoilUse {
   std::string material;
   std::string soil, file, hash;
   bool calibrated = false;
-  double grainRadius = 0;                 ///< [m] that it is scaled to
+  double grainRadius = 0;                 ///< [m] to which the soil is scaled
   double scale = 1;                       ///< [-] over the radius of the soil's file
-  std::map<std::string, double> scaled{}; ///< what goes with the radius, by key and unit: "cohesion [J/m2]"
+  std::map<std::string, double> scaled{}; ///< values scaled with the radius, by key and unit: "cohesion [J/m2]"
 };
 
 } // namespace grouser::support

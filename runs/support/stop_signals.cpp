@@ -26,7 +26,7 @@ StopSignals::StopSignals() {
   action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
   for (std::size_t i = 0; i < std::size(kKept); ++i) {
     sigaction(kKept[i].first, &action, &former[i]);
-    // Whoever started us in the background, or by nohup, may have switched it off: leave it off.
+    // A signal that is ignored at the start (background, nohup) stays ignored.
     if (former[i].sa_handler == SIG_IGN) sigaction(kKept[i].first, &former[i], nullptr);
   }
 }

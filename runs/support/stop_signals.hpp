@@ -6,11 +6,11 @@
 
 namespace grouser::support {
 
-/// A signal has stopped the run, in good order. Exit code 128 + signal, as shells have it: 129, 130 or 143. The program
-/// adds the command that goes on to the message, or begins again.
+/// A signal has stopped the run, with all files complete. Exit code 128 + signal: 129, 130 or 143. The program adds to
+/// the message the command that resumes or repeats the run.
 class Stopped : public std::runtime_error {
 public:
-  /// Whether a call that goes on finds work left.
+  /// Whether the stopped call has left results to continue.
   enum class Left { work, nothing };
   Stopped(int signal, const std::string& message, Left left = Left::work)
       : std::runtime_error(message), signal_(signal), left_(left) {}

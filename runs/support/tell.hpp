@@ -8,8 +8,7 @@
 
 namespace grouser::support {
 
-/// Prints to the standard error what no run may end for: where nobody can read it (closed, a terminal that is gone, a
-/// full disk) it is lost.
+/// Prints to stderr and ignores write errors (closed stream, lost terminal, full disk), which must not end a run.
 template <class... Args> void tell(fmt::format_string<Args...> format, Args&&... args) {
   std::fputs(fmt::format(format, std::forward<Args>(args)...).c_str(), stderr);
 }

@@ -27,7 +27,7 @@ void writeTextFile(const fs::path& path, const std::string& text, const std::str
   if (file) return;
   std::error_code error;
   if (fs::is_regular_file(path, error)) fs::remove(path, error); // and no device, such as /dev/full
-  throw notWritten(path, "could not be written whole");
+  throw notWritten(path, "could not be written completely");
 }
 
 void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_t room) {
@@ -47,7 +47,7 @@ void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_
 }
 
 void overwriteTextFile(const fs::path& path, const std::string& text) {
-  // Not emptied first: that would give its place on the disk away.
+  // Not truncated first, to keep its space on the disk.
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   file << text;
   file.close();

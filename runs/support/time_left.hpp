@@ -6,17 +6,17 @@
 
 namespace grouser::support {
 
-/// Time left of some work, by its rate of late: a machine that becomes busy, or idle again, is noticed within a fifth
-/// of the time spent so far. The mean rate since the start would have the time left count upwards all along.
+/// Remaining time of a task from its recent rate, over a fifth of the time spent so far, so that it follows changes of
+/// the machine's load.
 class TimeLeft {
 public:
   /// `fraction`: done before this call, such as by the run that is resumed.
   explicit TimeLeft(double fraction = 0) : samples_{{0, fraction}} {}
 
-  /// So much of the work is done at `elapsed` since the start [s], which never goes back.
+  /// Fraction of the work done at `elapsed` since the start [s], which never decreases.
   void add(double elapsed, double fraction);
-  /// At `elapsed` [s], [s]. Empty where nothing tells: before the first progress, where it has been overdue, and where
-  /// none has been made for as long as the rate was measured.
+  /// Remaining time at `elapsed` [s], [s]. Empty before the first progress, when it is overdue, and after a pause as
+  /// long as the window of the rate.
   std::optional<double> at(double elapsed) const;
 
 private:

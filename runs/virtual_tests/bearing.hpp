@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Bearing capacity of soil without cohesion under a plate, as foundation engineering has it.
+/// Bearing capacity of cohesionless soil under a plate, by foundation engineering.
 namespace grouser::virtual_tests {
 
 /// Factors of Terzaghi's superposition, q = c N_c + gamma z N_q + gamma B N_gamma / 2.
@@ -15,13 +15,12 @@ BearingFactors bearingFactors(double angle);
 
 enum class PlateShape { strip, circular };
 
-/// What soil without cohesion bears at most [Pa], at sinkage `depth` [m] of a plate `breadth` [m] broad (of a circular
-/// one the diameter), under `unitWeight` [N/m3] = bulk density times gravity. The soil beside the plate counts as
-/// surcharge; its own strength does not. Shape factors of a circle: s_q = 1 + tan phi, s_gamma = 0.6 (Vesic 1973,
-/// after De Beer 1970).
+/// Bearing capacity of cohesionless soil [Pa], at sinkage `depth` [m] of a plate of `breadth` [m] (diameter if
+/// circular), with `unitWeight` [N/m3] = bulk density times gravity. The soil beside the plate counts as surcharge; its
+/// own strength does not. Shape factors of a circle: s_q = 1 + tan phi, s_gamma = 0.6 (Vesic 1973, after De Beer 1970).
 double bearingPressure(PlateShape shape, double angle, double unitWeight, double breadth, double depth);
 
-/// The angle [rad] at which bearingPressure() is `pressure`; within [0, 60 deg].
+/// Angle [rad] at which bearingPressure() is `pressure`, in [0, 60 deg].
 double bearingAngle(PlateShape shape, double pressure, double unitWeight, double breadth, double depth);
 
 } // namespace grouser::virtual_tests

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser soil`: which tests, one after the other or side by side, and what is written of them.
+// `grouser soil`: runs the tests, in sequence or in parallel, and writes the results.
 #include "runs/virtual_tests/bevameter.hpp"
 
 #include "base/counted.hpp"
@@ -28,9 +28,9 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kPorosityNoted = 0.01; // farther off, the user is told
+constexpr double kPorosityNoted = 0.01; // larger deviations cause a warning
 
-/// The device, chosen by the process that computes on it.
+/// The device, chosen by the process that uses it.
 class Device {
 public:
   explicit Device(const jobs::PieceOptions& options, int jobs) : options_(options), threads_(options.threads) {
@@ -47,8 +47,8 @@ private:
   std::optional<base::Exec> exec_;
 };
 
-/// Finds the preparation where no call has done so, and takes it. `part`: of this call, since parts that begin together
-/// all look for it.
+/// Finds the preparation unless it is stored, and applies it. `part`: of this call, as concurrent parts all search for
+/// it.
 void prepare(TestPlan& plan, jobs::Pieces& pieces, Device& device, int jobs, std::string part) {
   if (!plan.soil.porosity) return;
   const std::string name = plan.preparationName();
@@ -58,24 +58,24 @@ void prepare(TestPlan& plan, jobs::Pieces& pieces, Device& device, int jobs, std
     const auto work = [&](std::size_t) {
       const auto folder = pieces.begin(part.empty() ? name : name + "_of_part_" + part);
       const jobs::Table trials = findPreparation(plan, folder, device.exec(), [&](const std::string& what) {
-        progress.update(0, what); // one process works, this one or a child
+        progress.update(0, what); // only one process works, this one or a child
       });
       try {
         pieces.keep(name, trials);
       } catch (const support::NotWritten&) {
-        if (!pieces.has(name)) throw; // else another part was quicker, with the same answer
+        if (!pieces.has(name)) throw; // else another part was faster, with the same result
       }
       std::filesystem::remove_all(folder);
     };
-    // In a process of its own where others shall follow: none may be started after threads have been.
+    // In a child process if others follow: no process may be forked after threads have started.
     jobs::shareWork(jobs > 1 ? 2 : 1, 1, work, [] {});
-    progress.finish("a friction for the porosity is found");
+    progress.finish("friction for the porosity found");
   }
   const std::vector<double> trial = nearestTrial(pieces.read(name).rows, *plan.soil.porosity);
   plan.grains.preparationFriction = trial[0];
   if (std::fabs(trial[1] - *plan.soil.porosity) > kPorosityNoted)
-    support::tell("WARNING: beds have a porosity of {:.4f}, the nearest to the soil's {:g} that these grains come to; "
-                  "change bed.porosity of the soil, or the spread of its radii\n",
+    support::tell("WARNING: the beds have a porosity of {:.4f}, the closest to the soil's {:g} that these grains "
+                  "reach; change bed.porosity or bed.radius_spread of the soil\n",
                   trial[1], *plan.soil.porosity);
   fmt::print("          beds settle with friction {:.4g} to a porosity of {:.4f}\n", trial[0], trial[1]);
 }
@@ -90,16 +90,15 @@ void printHead(const TestPlan& plan) {
              plan.breadth(TestKind::small), plan.breadth(TestKind::large), plan.options.loads.size(),
              base::counted(plan.options.seeds, "seed"), plan.options.largeSeeds);
   if (!s.isCalibrated())
-    fmt::print("          note: the file's numbers are scaled from grains of {:g} mm; it was tested with radii of {:g} "
-               "to {:g} mm\n",
+    fmt::print("          note: parameters scaled from grains of {:g} mm; calibrated for radii of {:g} to {:g} mm\n",
                2e3 * s.fileRadius, 1e3 * s.calibratedFrom, 1e3 * s.calibratedTo);
   std::fflush(stdout);
 }
 
-constexpr auto kAgain = "_shorter_steps"; // of the folder of a test that is done again
+constexpr auto kAgain = "_shorter_steps"; // folder suffix of a repeated test
 
-/// Once more with shorter steps, from the beginning, where it ends unsoundly: one sample of many may have a contact
-/// that trembles. Nothing where there is no time for that; the next call then begins with shorter steps.
+/// Performs a test, and repeats it with shorter steps if it fails, e.g. by an unstable contact in one of many samples.
+/// Empty at the time limit; the next call then starts with shorter steps.
 std::optional<jobs::Table> soundTest(const TestPlan& plan, const PlannedTest& test, jobs::Pieces& pieces,
                                      const base::Exec& exec,
                                      const std::function<void(double, const std::string&)>& tell) {
@@ -130,7 +129,7 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
     if (pieces.due(test.name)) due.push_back(&test);
     all += test.cost;
   }
-  if (jobs > 1 && options.seconds <= 0) longestFirst(due); // in a slice short ones may still fit
+  if (jobs > 1 && options.seconds <= 0) longestFirst(due); // with a time limit short ones may still fit
   support::Progress progress("testing");
   const auto there = [&] {
     double sum = 0;
@@ -138,7 +137,7 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
     return sum / all;
   };
   const double before = there();
-  // Of what this call does, so that the time left is that of what is left.
+  // Relative to the work of this call, for the remaining time.
   const auto share = [&](double now) { return before < 1 ? (now - before) / (1 - before) : 1; };
   const auto work = [&](std::size_t i) {
     const PlannedTest& test = *due[i];
@@ -153,7 +152,7 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
       if (!done) return;
       pieces.keep(test.name, *done);
     } catch (const base::SimulationError& e) {
-      support::replaceTextFile(unsound, e.what()); // the others go on
+      support::replaceTextFile(unsound, e.what()); // the others continue
       return;
     }
     const std::filesystem::path runs = pieces.folder() / "runs";
@@ -162,7 +161,7 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
   };
   // A single test also runs in a child process: no process can be forked after CUDA has started in this one.
   jobs::shareWork(jobs > 1 ? std::clamp(static_cast<int>(due.size()), 2, jobs) : 1, due.size(), work,
-                  [&] { progress.update(share(there()), jobs > 1 ? "several tests at a time" : "a test has ended"); });
+                  [&] { progress.update(share(there()), jobs > 1 ? "several tests in parallel" : "test finished"); });
   int missing = 0;
   for (const PlannedTest& test : plan.tests) missing += !pieces.has(test.name);
   const bool isSheared = std::all_of(plan.tests.begin(), plan.tests.end(), [&](const PlannedTest& test) {
@@ -170,8 +169,8 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
            std::filesystem::exists(noteFile(pieces, test, TestNote::unsound));
   });
   if (isSheared) removePoured(pieces.folder() / "runs");
-  progress.finish(fmt::format("{} of {} tests are there", plan.tests.size() - static_cast<std::size_t>(missing),
-                              plan.tests.size()));
+  progress.finish(
+      fmt::format("{} of {} tests finished", plan.tests.size() - static_cast<std::size_t>(missing), plan.tests.size()));
   return missing;
 }
 
@@ -189,7 +188,7 @@ void soilCommand(const SoilCommand& command) {
   reportSoil(plan, pieces, missing);
   if (command.fitScm) reportScmFit(plan, pieces);
   if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty())
-    throw base::SimulationError("tests are left out of the tables: " + unsoundText(unsound));
+    throw base::SimulationError("the tables are incomplete: " + failedTestsText(unsound));
 }
 
 } // namespace grouser::virtual_tests

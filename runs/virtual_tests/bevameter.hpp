@@ -6,7 +6,7 @@
 
 #include <string>
 
-/// `grouser soil NAME`: a soil's constants measured in a virtual bevameter.
+/// `grouser soil NAME`: measures the constants of a soil in a virtual bevameter.
 namespace grouser::virtual_tests {
 
 struct SoilCommand {
@@ -14,16 +14,15 @@ struct SoilCommand {
   double grainRadius = 0; ///< [m]; 0: the file's
   jobs::StudyPlace place; ///< folder empty: out/soil_NAME; quick: coarse
   jobs::PieceOptions pieces;
-  int jobs = 1; ///< tests at the same time
+  int jobs = 1; ///< concurrent tests
   PlanOptions plan;
   bool fitScm = false; ///< fits the soil contact model to the tests as well
 };
 void soilCommand(const SoilCommand& command);
 
-/// Does the tests of a plan that are not there yet, `jobs` at a time, after the preparation of their beds, which it
-/// puts into the plan. Returns the tests that are missing after that.
-/// A test that ends unsoundly is done again with shorter steps; one that does so then leaves a note, and the others go
-/// on (test_notes.hpp).
+/// Performs the missing tests of a plan, `jobs` at a time, after finding the preparation of their beds, which it adds
+/// to the plan. Returns the number of tests still missing. A failed test is repeated with shorter steps; if it fails
+/// again it leaves a note, and the others continue (test_notes.hpp).
 int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& options, int jobs);
 
 } // namespace grouser::virtual_tests

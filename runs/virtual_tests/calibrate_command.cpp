@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser soil --calibrate`: shear first, then pressure and sinkage, then all constants of what was found; or measured
-// curves of plates (curve_calibration.cpp).
+// `grouser soil --calibrate`: fits shear strength, then pressure and sinkage, then measures all constants; or fits
+// measured curves of plates (curve_calibration.cpp).
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/math.hpp"
@@ -27,11 +27,11 @@ namespace {
 
 using support::Estimate;
 
-constexpr double kAngleSlope = 12;      // [deg] a unit of the way, to begin with
-constexpr double kStiffnessSlope = 0.5; // of ln pressure over ln stiffness, to begin with
-constexpr double kStiffer = 100;        // times the start's stiffness that is tried at most
-constexpr double kDeepest = 0.05;       // [d] that contacts may be squeezed at the greatest pressure
-constexpr double kBeds = 0.75;          // tensile strength over w / r where all contacts of a grain pull (Rumpf 1962)
+constexpr double kAngleSlope = 12;      // initial slope [deg] per unit of the strength path
+constexpr double kStiffnessSlope = 0.5; // initial slope of ln pressure over ln stiffness
+constexpr double kStiffer = 100;        // maximum stiffness over that of the start
+constexpr double kDeepest = 0.05;       // [d] maximum overlap at the greatest pressure
+constexpr double kBeds = 0.75;          // tensile strength over w / r with adhesion at all contacts (Rumpf 1962)
 
 class Calibration {
 public:
@@ -55,21 +55,21 @@ public:
 private:
   void search() {
     seekStrength();
-    // Stiff grains have a little more friction: whether phi and c are still there is looked at once more, and costs
-    // nothing where they are, for the tests at the end are the same.
+    // Stiffness changes friction slightly: check phi and c again, which costs nothing if they hold, as the final tests
+    // are the same.
     if (seekStiffness()) seekStrength();
     finish();
   }
 
-  /// Does the tests of some kinds with the soil as it is, in a folder of their own.
+  /// Performs the wanted tests of the present soil in their own folder.
   TestPlan tested(const std::string& name, const CalibrationTrials::Wanted& wanted, SoilResults& results,
-                  const CalibrationTrials::Look& look = {}) {
+                  const CalibrationTrials::WhenDone& whenDone = {}) {
     PlanOptions options = command_.plan;
     options.coarse = command_.place.quick, options.wide = false;
-    return trials_.tested(soil_, name, options, wanted, results, look);
+    return trials_.tested(soil_, name, options, wanted, results, whenDone);
   }
 
-  /// Friction and rolling friction for phi, cohesion for c, both from each trial.
+  /// Fits friction and rolling friction to phi, and cohesion to c, simultaneously.
   void seekStrength() {
     const auto phi = targets_.wanted.find(Quantity::frictionAngle), c = targets_.wanted.find(Quantity::cohesion);
     const bool seeksPhi = phi != targets_.wanted.end(), seeksC = c != targets_.wanted.end();
@@ -78,7 +78,7 @@ private:
     const StrengthPoint start{wayOf(numberOf(soil_, "rolling_friction", 0)), numberOf(soil_, pullKey(), 0)};
     std::optional<StrengthSearch::Target> angle, cohesion;
     if (seeksPhi) angle = {phi->second, targets_.angleTolerance, kAngleSlope};
-    // Pascals of strength a J/m2 of the pull.
+    // Strength [Pa] per adhesion energy [J/m2].
     const double slope = 1e-3 * kBeds / soil_.grainRadius * base::tan((seeksPhi ? phi->second : 30) * base::kPi / 180);
     if (seeksC) cohesion = {c->second, targets_.cohesionTolerance, slope};
     StrengthSearch search(angle, cohesion, start);
@@ -107,14 +107,14 @@ private:
     if (point.pull > 0 || numberOf(soil_, pullKey(), -1) >= 0) setNumber(soil_, pullKey(), point.pull);
   }
 
-  /// What pulls grains together: the energy of adhesion, or the surface energy where the start names that alone.
+  /// Key of the adhesion: cohesion, or surface_energy if the start has only that.
   std::string pullKey() const {
     const bool isAlone = numberOf(soil_, "surface_energy", -1) >= 0 && numberOf(soil_, "cohesion", -1) < 0;
     return isAlone ? "surface_energy" : "cohesion";
   }
   std::string springKey() const { return soil_.young > 0 ? "young" : "stiffness"; }
 
-  /// The least stiffness whose contacts are not squeezed too far [N/m] or [Pa].
+  /// Minimum stiffness for the overlap limit [N/m] or [Pa].
   double softest() const {
     const double d = 2 * soil_.grainRadius, p = command_.plan.mostPressure;
     if (soil_.young == 0) return p * d / kDeepest;
@@ -123,14 +123,13 @@ private:
     return 2 * (1 - soil_.poisson * soil_.poisson) * 0.75 * p * d * d / (std::sqrt(0.25 * d * overlap) * overlap);
   }
 
-  /// Stiffness for the pressure of the small plate at the sinkage where it is to carry the track's. Whether it is
-  /// another one than before.
+  /// Fits the stiffness to the pressure of the small plate at the target sinkage. Returns true if it changed.
   bool seekStiffness() {
     if (!targets_.wantsSinkage()) return false;
     const double start = numberOf(soil_, springKey(), 0), least = std::min(start, softest());
     double stiffness = start;
     std::vector<Trial> trials;
-    std::map<double, double> stiffnesses; // by the x of their trials
+    std::map<double, double> stiffnesses; // by x of the trials
     const double wanted = base::log(kTrackPressure);
     for (int trial = 1;; ++trial) {
       SoilResults r;
@@ -144,7 +143,7 @@ private:
       record_.plate(name, soil_, pressure, sinkageOf(done, TestKind::small));
       trials.push_back({base::log(stiffness), base::log(pressure.value)});
       stiffnesses[trials.back().x] = stiffness;
-      fmt::print("          {} {:.4g}: {} kPa where {:g} are wanted\n", springKey(), stiffness,
+      fmt::print("          {} {:.4g}: {} kPa, target {:g} kPa\n", springKey(), stiffness,
                  jobs::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
       const std::optional<double> next = nextTrial(trials, wanted, std::log1p(targets_.stiffnessTolerance),
                                                    base::log(least), base::log(kStiffer * start), kStiffnessSlope);
@@ -159,12 +158,12 @@ private:
     return found != start;
   }
 
-  /// Where a plate is to carry the track's pressure [m].
+  /// Target sinkage of a plate at the track's pressure [m].
   double sinkageOf(const TestPlan& plan, TestKind kind) const {
     return targets_.sinkageAt(targets_.breadth.value_or(plan.breadth(kind)));
   }
 
-  /// Mean pressure of a plate where it is to carry the track's [Pa]: a curve that ends before carries what it did then.
+  /// Mean pressure of a plate at the target sinkage [Pa]; final pressure if the curve ends before.
   Estimate pressureThere(const TestPlan& plan, const jobs::Pieces& pieces, TestKind kind) const {
     const double z = sinkageOf(plan, kind);
     const double window = std::max(0.05 * z, 2e-3 * plan.breadth(kind));
@@ -193,7 +192,7 @@ private:
     if (!targets_.wantsSinkage()) return all;
     const double p = 1e-3 * kTrackPressure, within = targets_.stiffnessTolerance * p;
     all.push_back({"pressure, small plate", "kPa", p, within, {1e-3 * small.value, 1e-3 * small.halfWidth}});
-    all.push_back({"held back, large plate", "kPa", p, within, {1e-3 * large.value, 1e-3 * large.halfWidth}});
+    all.push_back({"validation, large plate", "kPa", p, within, {1e-3 * large.value, 1e-3 * large.halfWidth}});
     return all;
   }
 
@@ -229,7 +228,7 @@ private:
   int shearTrials_ = 0;
 };
 
-/// Those of a former call.
+/// Removes the trials of an earlier call.
 void removeTrials(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> trials;
   if (std::filesystem::is_directory(folder))
@@ -252,8 +251,8 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
   text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
   for (const auto& [q, e] : reached.measured) {
     if (const std::string doubt = doubtOf(q, e); !doubt.empty()) {
-      text += fmt::format("\n# {} = {} {} is left out, since it is inconclusive: {}\n", symbolOf(q), jobs::valueText(e),
-                          unitOf(q), doubt);
+      text +=
+          fmt::format("\n# {} = {} {} omitted, inconclusive: {}\n", symbolOf(q), jobs::valueText(e), unitOf(q), doubt);
       continue;
     }
     text +=
@@ -266,7 +265,7 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
 
 void calibrateCommand(const CalibrationCommand& command) {
   if (!command.pieces.part.empty())
-    throw base::InputError("--part does not go with --calibrate, whose trials follow each other; take --jobs");
+    throw base::InputError("--part: incompatible with --calibrate, whose trials run in sequence; use --jobs");
   CalibrationTargets targets = readTargets(command.targets, command.grainRadius);
   const std::filesystem::path folder = command.place.folder.empty()
                                            ? std::filesystem::path("out") / ("calibrate_" + targets.start.name)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Targets, and the search for one number.
+// Targets, and searches for one and two parameters.
 #include "runs/virtual_tests/calibration.hpp"
 
 #include "base/error.hpp"
@@ -14,11 +14,11 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kLeastWay = -1, kMostWay = 2;                                 // of Strength
-constexpr double kMostRolling = 0.5, kMostFriction = 1, kLeastFriction = 0.01; // [-] of the way of Strength
-constexpr double kMiddle = 0.1; // a trial stays so far off the ends of its interval
-constexpr double kSame = 0.1;   // of what the tolerance is worth: nearer than that nothing new is learnt
-constexpr double kSlopes = 5;   // times steeper or flatter than expected that two trials are believed to show
+constexpr double kLeastWay = -1, kMostWay = 2;                                 // range of the path of Strength
+constexpr double kMostRolling = 0.5, kMostFriction = 1, kLeastFriction = 0.01; // [-] ranges of Strength
+constexpr double kMiddle = 0.1; // minimum distance of a trial from the ends of its interval, over its width
+constexpr double kSame = 0.1;   // over the equivalent of the tolerance: closer trials bring no information
+constexpr double kSlopes = 5;   // maximum ratio of measured to expected slope, either way
 constexpr std::size_t kMostTrials = 8;
 
 struct TargetKeys {
@@ -31,17 +31,18 @@ struct ToleranceKeys {
 
 base::Table<TargetKeys> targetTable() {
   using T = TargetKeys;
-  base::Table<T> t("targets", "Constants that the soil is to have");
-  t.add("n", &T::n, "-", "exponent of sinkage").above(0).atMost(5);
+  base::Table<T> t("targets", "Target constants of the soil");
+  t.add("n", &T::n, "-", "sinkage exponent").above(0).atMost(5);
   t.add("k_c", &T::kc, "kN/m^(n+1)", "cohesive modulus; may be negative");
   t.add("k_phi", &T::kphi, "kN/m^(n+2)", "frictional modulus");
-  t.add("k", &T::k, "kN/m^(n+2)", "k_c / b + k_phi at the breadth b, instead of both").above(0);
-  t.add("b", &T::b, "m", "breadth that k is meant at").above(0).atMost(100);
+  t.add("k", &T::k, "kN/m^(n+2)", "k_c / b + k_phi at plate width b, instead of k_c and k_phi").above(0);
+  t.add("b", &T::b, "m", "plate width of k").above(0).atMost(100);
   t.add("c", &T::c, "kPa", "cohesion").atLeast(0).atMost(1000);
   t.add("phi", &T::phi, "deg", "angle of internal friction").above(0).atMost(60);
   t.add("K", &T::shearModulus, "mm", "shear deformation modulus; reported only").above(0);
-  t.add("repose", &T::repose, "deg", "angle of repose; with [plates]").above(0).atMost(60);
-  t.add("bulk_density", &T::bulkDensity, "kg/m3", "from which the density of the solid follows; with [plates]")
+  t.add("repose", &T::repose, "deg", "angle of repose; requires [plates]").above(0).atMost(60);
+  t.add("bulk_density", &T::bulkDensity, "kg/m3",
+        "bulk density, which sets the density of the solid; requires [plates]")
       .above(0)
       .atMost(1e5);
   return t;
@@ -49,11 +50,11 @@ base::Table<TargetKeys> targetTable() {
 
 base::Table<ToleranceKeys> toleranceTable() {
   using T = ToleranceKeys;
-  base::Table<T> t("tolerances", "Within which a target is reached");
-  t.add("phi", &T::phi, "deg", "of phi").above(0);
-  t.add("c", &T::c, "kPa", "of c").above(0);
-  t.add("k", &T::k, "-", "of the pressure at the sinkage wanted, a share").above(0).atMost(1);
-  t.add("repose", &T::repose, "deg", "of the angle of repose: counts as a standard deviation").above(0);
+  base::Table<T> t("tolerances", "Tolerances of the targets");
+  t.add("phi", &T::phi, "deg", "tolerance of phi").above(0);
+  t.add("c", &T::c, "kPa", "tolerance of c").above(0);
+  t.add("k", &T::k, "-", "relative tolerance of the pressure at the target sinkage").above(0).atMost(1);
+  t.add("repose", &T::repose, "deg", "standard deviation of the angle of repose").above(0);
   return t;
 }
 
@@ -71,14 +72,13 @@ void checkBesidePlates(const base::Section& section, const TargetKeys& k, bool h
 }
 
 void checkTogether(const base::Section& section, const TargetKeys& k) {
-  if (k.k.has_value() != k.b.has_value())
-    section.fail(k.k ? "k" : "b", "stands without the other of k and b; add it: k holds for one breadth");
+  if (k.k.has_value() != k.b.has_value()) section.fail(k.k ? "k" : "b", "requires both k and b; add the other");
   if (k.kc.has_value() != k.kphi.has_value())
-    section.fail(k.kc ? "k_c" : "k_phi", "stands without the other of k_c and k_phi; add it, or give k and b");
-  if (k.k && k.kphi) section.fail("k", "stands beside k_c and k_phi; remove the one or the others");
-  if ((k.k || k.kphi) && !k.n) section.fail("n", "is missing, which k, k_c and k_phi need: their units depend on it");
+    section.fail(k.kc ? "k_c" : "k_phi", "requires both k_c and k_phi; add the other, or set k and b");
+  if (k.k && k.kphi) section.fail("k", "is mutually exclusive with k_c and k_phi; remove k and b, or k_c and k_phi");
+  if ((k.k || k.kphi) && !k.n) section.fail("n", "is missing; add it: the units of k, k_c and k_phi depend on it");
   if (!k.phi && !k.c && !k.k && !k.kphi)
-    section.fail("", "asks for nothing that can be sought; give phi, c, k_c and k_phi, or k and b");
+    section.fail("", "has no target to fit; set phi, c, k_c and k_phi, or k and b");
 }
 
 } // namespace
@@ -138,7 +138,7 @@ CalibrationTargets readTargets(const std::filesystem::path& file, double grainRa
 
 namespace {
 
-/// From the trial next to `from`, where there is one; not far from what was expected, for trials scatter.
+/// Slope from `from` to the nearest other trial, limited around the expected one, as trials scatter.
 double slopeNear(const std::vector<Trial>& trials, const Trial& from, double expected) {
   const Trial* next = nullptr;
   for (const Trial& t : trials)
@@ -152,7 +152,7 @@ double slopeNear(const std::vector<Trial>& trials, const Trial& from, double exp
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope) {
   if (trials.empty() || trials.size() >= kMostTrials) return {};
-  const Trial *below = nullptr, *above = nullptr; // the nearest on each side
+  const Trial *below = nullptr, *above = nullptr; // nearest trials on each side
   for (const Trial& t : trials) {
     if (std::fabs(t.y - wanted) <= tolerance) return {};
     if (t.y < wanted && (!below || t.x > below->x)) below = &t;
@@ -164,7 +164,7 @@ std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted,
     const double x = below->x + (above->x - below->x) * std::clamp(share, kMiddle, 1 - kMiddle);
     return above->x - below->x < same ? std::nullopt : std::optional<double>(x);
   }
-  // All on one side, or scatter has turned them round: on from the outermost.
+  // All on one side, or reversed by scatter: continue from the outermost.
   const Trial& from = below ? *below : *above;
   const double x = std::clamp(from.x + (wanted - from.y) / slopeNear(trials, from, slope), low, high);
   if (std::fabs(x - from.x) < same) return {};
@@ -187,8 +187,7 @@ double StrengthSearch::farOff(const Done& trial) const {
   return std::max(std::fabs(trial.off[0]), std::fabs(trial.off[1]));
 }
 
-/// Broyden's correction: the least that makes the slopes say what the last step has done; kept near what is expected,
-/// for trials scatter.
+/// Broyden's update: the smallest change of the slopes that reproduces the last step, limited, as trials scatter.
 void StrengthSearch::learn(const Done& before, const Done& now) {
   constexpr double kMostAcross = 0.8;
   const Two way{now.x[0] - before.x[0], now.x[1] - before.x[1]};
@@ -206,7 +205,7 @@ void StrengthSearch::learn(const Done& before, const Done& now) {
 }
 
 StrengthSearch::Two StrengthSearch::stepFrom(const Done& trial) const {
-  constexpr double kMostOfWay = 0.4, kMostUnits = 10; // at once; of the pull also as much as there is
+  constexpr double kMostOfWay = 0.4, kMostUnits = 10; // per step; for the pull also its present value
   const auto& s = slopes_;
   const double determinant = s[0][0] * s[1][1] - s[0][1] * s[1][0];
   Two step{(trial.off[0] * s[1][1] - trial.off[1] * s[0][1]) / determinant,

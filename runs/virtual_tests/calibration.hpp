@@ -11,23 +11,23 @@
 #include <optional>
 #include <vector>
 
-/// `grouser soil --calibrate`: contact parameters that give a soil wanted constants, at a grain size.
+/// `grouser soil --calibrate`: contact parameters for target constants of a soil, at a grain size.
 namespace grouser::virtual_tests {
 
-/// What a file of targets says. See readTargets().
+/// Contents of a target file. See readTargets().
 struct CalibrationTargets {
   std::map<Quantity, double> wanted;  ///< in unitOf()
   std::optional<double> k, breadth;   ///< [kN/m^(n+2)] at a breadth [m], instead of k_c and k_phi
   double angleTolerance = 1;          ///< [deg]
   double cohesionTolerance = 0.5;     ///< [kPa]
-  double stiffnessTolerance = 0.1;    ///< of the pressure at the sinkage wanted [-]
-  std::optional<CurveTargets> curves; ///< instead of all above
-  TestedSoil start;                   ///< the material that the search begins with
+  double stiffnessTolerance = 0.1;    ///< relative, of the pressure at the target sinkage [-]
+  std::optional<CurveTargets> curves; ///< replaces all of the above
+  TestedSoil start;                   ///< initial material of the search
 
   bool wantsSinkage() const;
-  /// k of Bekker's form for a breadth [kN/m^(n+2)].
+  /// k of Bekker's equation for a breadth [kN/m^(n+2)].
   double kAt(double breadth) const;
-  /// At which a plate of this breadth is to carry the track's pressure [m].
+  /// Target sinkage of a plate of this breadth at the track's pressure [m].
   double sinkageAt(double breadth) const;
 };
 
@@ -36,61 +36,61 @@ struct CalibrationTargets {
 /// bulk_density. Throws base::InputError with file:line and key.
 CalibrationTargets readTargets(const std::filesystem::path& file, double grainRadius);
 
-/// One trial of a search for the x at which y, which rises with x, is wanted.
+/// One trial of a search for x at a target y, which increases with x.
 struct Trial {
   double x = 0, y = 0;
 };
-/// Where to try next, in [low, high]; empty where the nearest trial is within `tolerance` or none can be nearer.
-/// Between trials on both sides by the line through them, kept off their ends; else on from the outermost by the slope
-/// to the trial next to it, at first by `slope`, about which it stays.
+/// Next x to try in [low, high]; empty if the nearest trial is within `tolerance` or cannot be improved. Regula falsi
+/// between trials on both sides; else extrapolation from the outermost trial with the slope to its neighbour, initially
+/// and roughly `slope`.
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope);
-/// The trial whose y is nearest.
+/// The trial whose y is closest to `wanted`.
 Trial nearestTrial(const std::vector<Trial>& trials, double wanted);
 
-/// Friction and rolling friction on the way along which a soil grows stronger: from no friction to that of the start
-/// (-1 to 0), then rolling friction up to 0.5 (0 to 1), then friction up to 1 (1 to 2).
+/// Friction and rolling friction on a path of increasing strength: friction from 0 to that of the start (-1 to 0), then
+/// rolling friction up to 0.5 (0 to 1), then friction up to 1 (1 to 2).
 struct Strength {
   double friction = 0, rollingFriction = 0;
 };
 Strength strengthAt(double way, double startFriction);
-/// Where on it rolling friction is this much.
+/// Position on this path by rolling friction.
 double wayOf(double rollingFriction);
 
-/// Where a trial stands on that way, and the energy that pulls grains together [J/m2].
+/// Position of a trial on this path, and adhesion energy [J/m2].
 struct StrengthPoint {
   double way = 0, pull = 0;
 };
 
-/// The search for an angle and a cohesion at once, since each depends on both numbers: Broyden's method, in units of
-/// what the tolerances are worth by the slopes expected. One of them may be left out.
+/// Simultaneous search for angle and cohesion, which depend on both parameters: Broyden's method, scaled by tolerances
+/// and expected slopes. One target is optional.
 class StrengthSearch {
 public:
   struct Target {
-    double wanted = 0, tolerance = 1, slope = 1; ///< slope: expected, of the angle over the way, of c over the pull
+    double wanted = 0, tolerance = 1, slope = 1; ///< slope: expected, of angle over path, or c over pull
   };
-  /// Throws nothing; without a target its number stays where it starts.
+  /// Without a target its parameter keeps the initial value.
   StrengthSearch(std::optional<Target> angle, std::optional<Target> cohesion, StrengthPoint start);
 
   StrengthPoint at() const { return trials_.empty() ? start_ : next_; }
-  /// What the trial at() has come to [deg], [kPa]. Returns whether another one is worth while, then at the new at().
+  /// Adds the result of the trial at() [deg], [kPa]. Returns whether another trial is worthwhile, at the new at().
   bool tried(double angle, double cohesion);
-  /// The trial that came nearest, by the greater of both distances in tolerances; to the bit, for who compares soils.
+  /// The closest trial, by the larger distance in tolerances; bitwise as tried.
   StrengthPoint nearest() const;
 
 private:
   using Two = std::array<double, 2>;
   struct Done {
     StrengthPoint where;
-    Two x, off; ///< in units: where, and what is missing
+    Two x, off; ///< scaled position, and distance from the targets
   };
   double farOff(const Done& trial) const;
   void learn(const Done& before, const Done& now);
   Two stepFrom(const Done& trial) const;
 
   std::array<std::optional<Target>, 2> targets_;
-  Two unit_{1, 1};                                  ///< of way and pull
-  std::array<Two, 2> slopes_{Two{1, 0}, Two{0, 1}}; ///< of both results over both numbers, in units
+  Two unit_{1, 1};                                  ///< scales of path and pull
+  std::array<Two, 2> slopes_{Two{1, 0}, Two{0, 1}}; ///< scaled slopes of both results over both parameters
   StrengthPoint start_, next_;
   std::vector<Done> trials_;
 };

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A value of a soil's file: a number, or a word without its quotes.
+/// Value of a soil file: a number, or a word without quotes.
 Json valueOf(const std::string& toml) {
   char* end = nullptr;
   const double number = std::strtod(toml.c_str(), &end);
@@ -64,12 +64,12 @@ Json targetsJson(const CalibrationTargets& t) {
 bool TargetOutcome::isReached() const { return tolerance && std::fabs(reached.value - wanted) <= *tolerance; }
 
 std::string outcomesText(const std::vector<TargetOutcome>& outcomes, bool coarse) {
-  std::string text = fmt::format("\n{}targets and what is reached\n", coarse ? "coarse: " : "");
+  std::string text = fmt::format("\n{}targets and results\n", coarse ? "coarse: " : "");
   for (const TargetOutcome& o : outcomes) {
-    text += fmt::format("  {:<22} {:>20} {:<11} wanted {:g}", o.what, jobs::valueText(o.reached), o.unit, o.wanted);
-    text += o.isSought() ? fmt::format(" +- {:g}: {}\n", *o.tolerance,
-                                       o.isReached() ? "reached" : "not reached, this is the nearest")
-                         : std::string(": not sought, it follows\n");
+    text += fmt::format("  {:<22} {:>20} {:<11} target {:g}", o.what, jobs::valueText(o.reached), o.unit, o.wanted);
+    text += o.isSought()
+                ? fmt::format(" +- {:g}: {}\n", *o.tolerance, o.isReached() ? "reached" : "not reached (closest trial)")
+                : std::string(": not fitted\n");
   }
   return text;
 }

@@ -9,45 +9,45 @@
 #include <string>
 #include <vector>
 
-/// What a calibration has tried, as calibration.json: written anew after every trial.
+/// Trials of a calibration as calibration.json, rewritten after every trial.
 namespace grouser::virtual_tests {
 
-/// A quantity that a calibration wants, and what it came to.
+/// A target quantity of a calibration, and its result.
 struct TargetOutcome {
   std::string what; ///< "phi", "pressure, small plate"
   std::string unit;
   double wanted = 0;
-  std::optional<double> tolerance; ///< empty: it is not sought, it follows
+  std::optional<double> tolerance; ///< empty: not fitted
   support::Estimate reached;
 
   bool isSought() const { return tolerance.has_value(); }
-  bool isReached() const; ///< the value, whatever its interval
+  bool isReached() const; ///< by the value, without its interval
 };
 
-/// The table of targets beside what is reached, as calibration.txt has it.
+/// Table of targets and results for calibration.txt.
 std::string outcomesText(const std::vector<TargetOutcome>& outcomes, bool coarse);
 
 class CalibrationRecord {
 public:
-  /// Writes nothing yet.
+  /// Does not write.
   CalibrationRecord(const CalibrationCommand& command, const CalibrationTargets& targets,
                     const std::filesystem::path& folder);
 
-  /// Whether the folder holds what a call with the same targets, care and seeds has left.
+  /// Whether the folder contains the calibration of a call with the same targets, care and seeds.
   bool isOfThisCall() const;
 
-  /// The first trial has begun. Trials of a former call are told again as they are read.
+  /// Call when the first trial starts. Trials of an earlier call are recorded again as they are read.
   void begun();
-  /// A trial of shear that is whole, named as its folder.
+  /// Adds a complete shear trial, named as its folder.
   void shear(const std::string& name, const TestedSoil& soil, const std::map<Quantity, support::Estimate>& measured);
-  /// A trial of the small plate: its mean pressure at the sinkage wanted [Pa], [m].
+  /// Adds a trial of the small plate: mean pressure [Pa] at the target sinkage [m].
   void plate(const std::string& name, const TestedSoil& soil, const support::Estimate& pressure, double sinkage);
-  /// A trial of measured curves.
+  /// Adds a trial of measured curves.
   void curves(const std::string& name, const SoilInBed& bed, const CurveComparison& curves,
               const std::map<Quantity, support::Estimate>& measured, double misfit);
-  /// Time was up in a trial.
+  /// Call at the time limit in a trial.
   void stopped(const std::string& name, int missingTests);
-  /// All tests are there with what was found.
+  /// Call when the tests of the result are complete.
   void ended(const std::vector<TargetOutcome>& outcomes, const std::string& soilFile, const std::string& tests);
 
 private:

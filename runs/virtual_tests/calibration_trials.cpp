@@ -11,7 +11,7 @@
 namespace grouser::virtual_tests {
 
 TestPlan CalibrationTrials::tested(const TestedSoil& soil, const std::string& name, const PlanOptions& options,
-                                   const Wanted& wanted, SoilResults& results, const Look& look) {
+                                   const Wanted& wanted, SoilResults& results, const WhenDone& whenDone) {
   TestPlan plan = planOf(soil, options);
   plan.tests.erase(std::remove_if(plan.tests.begin(), plan.tests.end(), [&](const auto& t) { return !wanted(t); }),
                    plan.tests.end());
@@ -29,12 +29,12 @@ TestPlan CalibrationTrials::tested(const TestedSoil& soil, const std::string& na
   if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
     if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty()) {
       record_.stopped(name, missing);
-      throw base::SimulationError(fmt::format("{} has no result: {}", name, unsoundText(unsound)));
+      throw base::SimulationError(fmt::format("{} has no result: {}", name, failedTestsText(unsound)));
     }
     throw Unfinished{name, missing};
   }
   results = resultsOf(plan, pieces);
-  if (look) look(plan, pieces);
+  if (whenDone) whenDone(plan, pieces);
   done_.push_back({soil.keys, plan.recipe(), pieces});
   return plan;
 }

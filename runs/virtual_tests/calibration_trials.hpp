@@ -22,15 +22,15 @@ struct Unfinished {
 class CalibrationTrials {
 public:
   using Wanted = std::function<bool(const PlannedTest&)>;
-  using Look = std::function<void(const TestPlan&, const jobs::Pieces&)>;
+  using WhenDone = std::function<void(const TestPlan&, const jobs::Pieces&)>;
 
   CalibrationTrials(const CalibrationCommand& command, std::filesystem::path folder, CalibrationRecord& record)
       : command_(command), folder_(std::move(folder)), record_(record) {}
 
   /// Runs the wanted tests of a soil in the folder `name`, and reuses those of an earlier trial of the same soil. Calls
-  /// `look` when all are done. Throws Unfinished, or base::SimulationError if a test fails.
+  /// `whenDone` when all are done. Throws Unfinished, or base::SimulationError if a test fails.
   TestPlan tested(const TestedSoil& soil, const std::string& name, const PlanOptions& options, const Wanted& wanted,
-                  SoilResults& results, const Look& look = {});
+                  SoilResults& results, const WhenDone& whenDone = {});
 
 private:
   void takeOver(const TestedSoil& soil, const TestPlan& plan, jobs::Pieces& pieces) const;

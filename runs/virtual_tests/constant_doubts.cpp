@@ -12,7 +12,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-/// Range of a constant in published soils; it includes the lower end where isClosed.
+/// Range of a constant in published soils; isClosed: includes the lower end.
 struct SoilRange {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool isClosed = false;
@@ -22,13 +22,13 @@ struct SoilRange {
 SoilRange rangeOf(Quantity quantity) {
   switch (quantity) {
   case Quantity::exponent:
-    return {0.1, 2, true, "outside [0.1, 2] that soils have"};
+    return {0.1, 2, true, "outside the range of soils, [0.1, 2]"};
   case Quantity::frictionModulus:
-    return {0, std::numeric_limits<double>::infinity(), false, "not positive: wide plates would carry nothing"};
+    return {0, std::numeric_limits<double>::infinity(), false, "not positive: wide plates would carry no load"};
   case Quantity::shearModulus:
     return {0, std::numeric_limits<double>::infinity(), false, "not positive"};
   case Quantity::frictionAngle:
-    return {0, 60, false, "outside (0, 60] degrees that soils have"};
+    return {0, 60, false, "outside the range of soils, (0, 60] degrees"};
   case Quantity::repose:
     return {0, 90, false, "outside (0, 90) degrees"};
   default:
@@ -47,7 +47,7 @@ std::string doubtOf(Quantity quantity, const support::Estimate& measured) {
     add(range.words);
   if (quantity == Quantity::cohesion && measured.value + measured.halfWidth < 0) add("negative");
   if (!std::isfinite(measured.halfWidth))
-    add("no interval, since it rests on a single test");
+    add("no interval from a single test");
   else if (std::isfinite(range.low) && measured.halfWidth > std::fabs(measured.value))
     add("the interval is wider than the value");
   return why;
@@ -75,7 +75,7 @@ std::string doubtsText(const SoilResults& results, const TestPlan& plan) {
                             isShort    ? "--large-seeds"
                             : ofPlates ? "--seeds and --large-seeds"
                                        : "--seeds",
-                            plan.options.coarse ? ", or leave out --quick" : "");
+                            plan.options.coarse ? ", or remove --quick" : "");
 }
 
 } // namespace grouser::virtual_tests

@@ -15,8 +15,8 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr int kLeastTilted = 4; // beds for the angle of repose, which scatters more than pressures do
-constexpr double kWithin = 2;   // a pressure is reached within so many standard deviations of a measured test
+constexpr int kLeastTilted = 4; // minimum beds for the angle of repose, which scatters more than pressures
+constexpr double kWithin = 2;   // tolerance of a pressure in standard deviations of a measured test
 
 } // namespace
 
@@ -31,13 +31,13 @@ void CurveCalibration::run() {
     goesOn = search.tried(curveResiduals(trial.curves.points, reposeOf(trial), curves_));
     const double misfit = search.trials().back().misfit();
     record_.curves(name, bed_, trial.curves, trial.results.measured, misfit);
-    tell(name, trial, misfit);
+    printTrial(name, trial, misfit);
   }
   setParameters(bed_, curves_, search.trials()[search.nearest()].values);
   finish();
 }
 
-CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const CalibrationTrials::Look& look) {
+CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const CalibrationTrials::WhenDone& whenDone) {
   PlanOptions options = command_.plan;
   options.coarse = command_.place.quick, options.wide = false;
   options.plates = curves_.bed(bed_.depth);
@@ -47,7 +47,7 @@ CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const C
   trials_.tested(bed_.soil, name, options, isOurs, trial.results,
                  [&](const TestPlan& plan, const jobs::Pieces& pieces) {
                    trial.curves = compareCurves(plan, pieces, curves_);
-                   if (look) look(plan, pieces);
+                   if (whenDone) whenDone(plan, pieces);
                  });
   return trial;
 }
@@ -57,13 +57,13 @@ std::optional<double> CurveCalibration::reposeOf(const Trial& trial) const {
   return found == trial.results.measured.end() ? std::nullopt : std::optional(found->second.value);
 }
 
-void CurveCalibration::tell(const std::string& name, const Trial& trial, double misfit) const {
+void CurveCalibration::printTrial(const std::string& name, const Trial& trial, double misfit) const {
   std::string text = fmt::format("          {}:", name);
   for (const SearchRange& range : curves_.ranges)
     text += fmt::format(" {} {:.4g},", range.key, parameterOf(bed_, range.key));
-  text += fmt::format(" bed's porosity {:.4f}", trial.curves.porosity);
+  text += fmt::format(" bed porosity {:.4f}", trial.curves.porosity);
   if (trial.curves.zeroOfSinkage != 0)
-    text += fmt::format(", sinkage from {:.2f} mm above its mean surface", 1e3 * trial.curves.zeroOfSinkage);
+    text += fmt::format(", zero sinkage at {:.2f} mm above the mean surface", 1e3 * trial.curves.zeroOfSinkage);
   if (const auto found = trial.results.measured.find(Quantity::repose); found != trial.results.measured.end())
     text += fmt::format(", repose {} deg", jobs::valueText(found->second));
   fmt::print("{}; misfit {:.2f}\n{}", text, misfit, curvesText(trial.curves.points));

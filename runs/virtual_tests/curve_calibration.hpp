@@ -24,8 +24,8 @@ private:
     SoilResults results;
   };
   /// Evaluates the present soil and depth.
-  Trial tried(const std::string& name, const CalibrationTrials::Look& look = {});
-  void tell(const std::string& name, const Trial& trial, double misfit) const;
+  Trial tried(const std::string& name, const CalibrationTrials::WhenDone& whenDone = {});
+  void printTrial(const std::string& name, const Trial& trial, double misfit) const;
   void finish();
   std::optional<double> reposeOf(const Trial& trial) const;
   std::vector<TargetOutcome> outcomes(const Trial& trial) const;

@@ -19,8 +19,8 @@ namespace grouser::virtual_tests {
 struct CurveTargets {
   std::vector<MeasuredPlate> plates;
   double bin = 0.3, depth = 0.12; ///< [m] side and depth of the bed
-  /// [Pa] simulated plates first bear it at the mean sinkage at which the tests of that plate do, which are zeroed at
-  /// contact: coarse grains stand out of the bed's mean surface, from which sinkage counts if this is 0.
+  /// [Pa] pressure at which simulated sinkage equals the mean measured sinkage of that plate, as tests are zeroed at
+  /// contact and coarse grains protrude from the mean surface; 0: sinkage from the mean surface.
   double contactPressure = 0;
   std::vector<SearchRange> ranges;
   std::size_t mostTrials = 16;
@@ -28,15 +28,15 @@ struct CurveTargets {
   double reposeTolerance = 1;        ///< [deg] counts as a standard deviation
   std::optional<double> bulkDensity; ///< [kg/m3] of the bed; sets the density of the solid
 
-  /// The plates and their bed as a plan has them, with a bed of this depth [m].
+  /// The plates and their bed of this depth [m], for a plan.
   MeasuredPlatesBed bed(double depthOfBed) const;
 };
 
-/// Reads [plates] and [search]; `start` is the soil that the search begins with. Throws base::InputError: file:line and
+/// Reads [plates] and [search]; `start`: initial soil of the search. Throws base::InputError: file:line and
 /// key, range and remedy.
 CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::path& file, const TestedSoil& start);
 
-/// A soil and the depth of the bed that it lies in.
+/// A soil and the depth of its bed.
 struct SoilInBed {
   TestedSoil soil;
   double depth = 0; ///< [m]
@@ -56,7 +56,7 @@ struct CurvePoint {
   double deviations() const;   ///< simulated less measured mean, in standard deviations of a measured test [-]
   std::string name() const;    ///< "60 mm at 5 mm"
 };
-/// The curve of a test of a plate with sinkage as it is compared; empty if it never bears the contact pressure.
+/// Curve of a plate test with the sinkage used for comparison; empty if it never reaches the contact pressure.
 SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, const MeasuredPlate& plate);
 /// The finished tests of plates beside the measured points; means over the plates.
 struct CurveComparison {
@@ -64,8 +64,8 @@ struct CurveComparison {
   double porosity = 0;      ///< of the beds [-]
   double zeroOfSinkage = 0; ///< [m] height above the bed's mean surface from which sinkage counts
 };
-/// Simulated pressures are averaged over 90 to 110 % of the sinkage, at least over 2 mm. A plate that never bears the
-/// contact pressure bears nothing.
+/// Simulated pressures are averaged over 90 to 110 % of the sinkage, at least over 2 mm. A plate that never reaches the
+/// contact pressure has zero pressure.
 CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 
 /// For the search: ln(simulated / measured) of every point over its measured relative deviation, at least

@@ -5,20 +5,20 @@
 
 #include <optional>
 
-/// A circular plate pushed into a bed as a scene's [terrain] makes it, for comparison with a measured test.
+/// A circular plate pushed into the bed of a scene's [terrain], for comparison with a measured test.
 namespace grouser::virtual_tests {
 
 struct MeasuredPlateTest {
   double diameter = 0;            ///< [m] of the plate
   double sinkage = 0;             ///< [m] final sinkage below the mean surface of the bed
   double bin = 0, depth = 0;      ///< [m] side of the square bed between periodic boundaries, and its depth
-  double inertialNumber = 1.8e-3; ///< [-] as PlateTest has it
+  double inertialNumber = 1.8e-3; ///< [-] as in PlateTest
   std::optional<double> porosity; ///< [-] terrain.porosity; without it the bed settles with its own friction
 
   double speed(const Soil& soil) const; ///< [m/s]
 };
 
-/// Columns of a test's table; those from the third on are constant.
+/// Columns of a test's table; constant from the third column.
 inline const std::vector<std::string> kMeasuredPlateColumns = {"sinkage [m]", "pressure [Pa]", "porosity [-]",
                                                                "depth [m]",   "grains",        "settling friction [-]",
                                                                "steps",       "wall time [s]"};

@@ -42,16 +42,14 @@ public:
   explicit Reader(const std::filesystem::path& file) : file_(file), in_(file) {
     if (!in_ || !std::filesystem::is_regular_file(file))
       throw base::InputError(
-          fmt::format("{} cannot be read; correct plates.file, which is looked for beside the file of "
-                      "targets",
-                      file.string()));
+          fmt::format("{} cannot be read; correct plates.file, a path relative to the target file", file.string()));
   }
 
   std::map<int, Test> tests() {
     readHead();
     std::map<int, Test> tests;
     for (std::string line; next(line);) addRow(cellsOf(line), tests);
-    if (tests.empty()) fail("no rows follow the names of the columns; add the measured tests");
+    if (tests.empty()) fail("no rows after the column names; add the measured tests");
     return tests;
   }
 
@@ -93,11 +91,11 @@ private:
 
   void addRow(const std::vector<std::string>& cells, std::map<int, Test>& tests) const {
     const double trial = number(cells, 0), diameter = 1e-3 * number(cells, 1);
-    if (trial != std::floor(trial) || trial < 0 || trial > 1e9) fail("trial is not a whole number of 0 or more");
+    if (trial != std::floor(trial) || trial < 0 || trial > 1e9) fail("trial must be a whole number of 0 or more");
     if (!(diameter > 0 && diameter <= 10)) fail("plate_diameter_mm is outside (0, 10000]");
     Test& test = tests[static_cast<int>(trial)];
     if (!test.sinkage.empty() && test.diameter != diameter)
-      fail(fmt::format("trial {} has plates of {:g} and {:g} mm; give each test a number of its own", trial,
+      fail(fmt::format("trial {} has plates of {:g} and {:g} mm; give each test its own number", trial,
                        1e3 * test.diameter, 1e3 * diameter));
     test.diameter = diameter;
     test.sinkage.push_back(1e-3 * number(cells, 2)), test.pressure.push_back(1e3 * number(cells, 3));
@@ -119,7 +117,7 @@ std::optional<double> valueAt(const std::vector<double>& x, const std::vector<do
   return {};
 }
 
-/// Mean sinkage at which the tests of a plate first bear a pressure.
+/// Mean sinkage at which the tests of a plate first reach a pressure.
 double contactOf(const std::filesystem::path& file, const std::map<int, Test>& tests, double diameter,
                  double pressure) {
   double sum = 0, count = 0;
@@ -130,7 +128,7 @@ double contactOf(const std::filesystem::path& file, const std::map<int, Test>& t
       throw base::InputError(fmt::format(
           "{}: trial {} {} plates.contact_pressure = {:g} Pa; choose one between {:g} and "
           "{:g} Pa",
-          file.string(), number, test.pressure.front() > pressure ? "begins above" : "never bears", pressure,
+          file.string(), number, test.pressure.front() > pressure ? "begins above" : "never reaches", pressure,
           std::max(0.0, test.pressure.front()), *std::max_element(test.pressure.begin(), test.pressure.end())));
     sum += *sinkage, ++count;
   }

@@ -16,30 +16,30 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as `grouser study plates` has compared them
-constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: samples of 16 x 8 d scatter by a tenth
+constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as validated by `grouser study plates`
+constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: samples of 16 x 8 d scatter by 10 %
 constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
-constexpr double kTooth = 1.2, kTip = 0.4; // [d] of the plates' teeth: so high that grains lie between
-constexpr double kLiftFall = 0.5;          // [s] simulated for a lift, for costs only
-constexpr double kYielding = 8;            // times as far as into a bed as stiff as columns of grains, for the same
-constexpr double kPressed = 70;            // [d sqrt(density / stress)] before shearing begins, for the same
+constexpr double kTooth = 1.2, kTip = 0.4;                            // [d] height and tip width of the plate teeth
+constexpr double kLiftFall = 0.5;                                     // [s] simulated per lift, for cost estimates only
+constexpr double kYielding = 8; // sinkage over that of a bed as stiff as columns of grains, for cost estimates only
+constexpr double kPressed = 70; // [d sqrt(density / stress)] before shear starts, for cost estimates only
 
-/// Of two grains pressed together by a force, as if they were elastic [m].
+/// Elastic overlap of two grains under a force [m].
 double overlapUnder(const TestedSoil& soil, double force) {
   if (soil.young == 0) return force / numberOf(soil, "stiffness", 0);
   const double modulus = 0.5 * soil.young / (1 - soil.poisson * soil.poisson), radius = 0.5 * soil.grainRadius;
   return base::pow(0.5625 * force * force / (modulus * modulus * radius), 1.0 / 3);
 }
 
-/// Of a bed whose contacts carry what a column of grains would under the track's pressure [Pa]. Real beds have fewer
-/// contacts and slide besides: it is an upper bound, for a plate to begin with.
+/// Modulus of a bed of grain columns under the track's pressure [Pa]: an upper bound for real beds, for the initial
+/// speed of plates.
 double modulusOfColumns(const TestedSoil& soil) {
   const double d = 2 * soil.grainRadius;
   return kTrackPressure * d / overlapUnder(soil, kTrackPressure * d * d);
 }
 
-/// An impact whose deepest overlap is that of a contact in the chains of a bed under `pressure`: so stiff are its
-/// contacts, and for that their step is chosen. A contact carries about pressure times d^2, in chains twice that.
+/// Impact speed whose maximum overlap is that of a force-chain contact under `pressure`, for the time step. A contact
+/// carries about pressure times d^2, in chains twice that.
 double impactLikePressure(const TestedSoil& soil, double pressure) {
   if (soil.young == 0) return 0;
   const double d = 2 * soil.grainRadius, force = 2 * pressure * d * d, overlap = overlapUnder(soil, force);
@@ -111,7 +111,7 @@ void addTests(TestPlan& plan) {
   addMeasuredPlates(plan);
 }
 
-/// Throws where the grains of the largest bed or sample do not fit into the memory that is free.
+/// Throws if the grains of the largest bed or sample exceed the free memory.
 void checkSizes(const TestPlan& plan) {
   constexpr double kGiB = 1073741824.0;
   constexpr double kBytes = 600;   // memory per grain
@@ -119,7 +119,7 @@ void checkSizes(const TestPlan& plan) {
   const std::optional<double> free = base::freeMemoryOfHost();
   const auto require = [&](double grains, const std::string& what) {
     if (free && grains * kBytes > *free)
-      throw base::InputError(fmt::format("{} {:.3g} grains, about {:.3g} GiB, and {:.3g} GiB are free; take less", what,
+      throw base::InputError(fmt::format("{} {:.3g} grains, about {:.3g} GiB, but {:.3g} GiB are free; reduce it", what,
                                          grains, grains * kBytes / kGiB, *free / kGiB));
   };
   const PlanOptions& o = plan.options;
@@ -140,35 +140,34 @@ void checkSizes(const TestPlan& plan) {
 void checkMeasuredPlates(const MeasuredPlatesBed& p, double coarsest) {
   for (std::size_t k = 0; k < p.diameters.size(); ++k) {
     if (p.bin < 2 * p.diameters[k])
-      throw base::InputError(fmt::format("plates.bin = {:g} m is narrower than two diameters of the plate of {:g} m; "
-                                         "give more",
-                                         p.bin, p.diameters[k]));
-    if (p.depth < p.sinkages[k] + 2 * coarsest)
       throw base::InputError(
-          fmt::format("plates.depth = {:g} m leaves less than two grains below the plate of {:g} m at "
-                      "its sinkage of {:g} m; give more",
-                      p.depth, p.diameters[k], p.sinkages[k]));
+          fmt::format("plates.bin = {:g} m is narrower than two diameters of the plate of {:g} m; raise it", p.bin,
+                      p.diameters[k]));
+    if (p.depth < p.sinkages[k] + 2 * coarsest)
+      throw base::InputError(fmt::format("plates.depth = {:g} m leaves less than two grains below the plate of {:g} m "
+                                         "at its sinkage of {:g} m; raise it",
+                                         p.depth, p.diameters[k], p.sinkages[k]));
   }
 }
 
-/// Between periodic boundaries no grain may touch two images of another.
+/// Throws if a grain could touch two periodic images of another, or a plate the floor.
 void checkBeds(const TestPlan& plan) {
   const double least = 3.5 * (1 + plan.soil.spread), d = 2 * plan.soil.grainRadius;
   const PlanOptions& o = plan.options;
   checkMeasuredPlates(o.plates, d * (1 + plan.soil.spread));
   if (o.thickness < least)
-    throw base::InputError(fmt::format("--thickness {:g} [d] is too little: the largest grains need {:.3g} d between "
-                                       "periodic boundaries",
-                                       o.thickness, least));
+    throw base::InputError(
+        fmt::format("--thickness {:g} [d] is too small: the largest grains need {:.3g} d between periodic boundaries",
+                    o.thickness, least));
   if (o.bin * o.plateGrains < least)
-    throw base::InputError(fmt::format("--plate-grains {:g} [d]: the bin is {:g} d wide, where the largest grains need "
-                                       "{:.3g} d; give more",
-                                       o.plateGrains, o.bin * o.plateGrains, least));
+    throw base::InputError(
+        fmt::format("--plate-grains {:g} [d]: the bin is {:g} d wide, but the largest grains need {:.3g} d; raise it",
+                    o.plateGrains, o.bin * o.plateGrains, least));
   const double most = (o.depth * o.plateGrains - 1 - plan.soil.spread) / o.plateGrains;
   if (plan.small.strip.sinkage > most)
-    throw base::InputError(fmt::format("--plate-grains {:g} [d]: the plate would come within a grain of {:g} m of the "
-                                       "floor; give more",
-                                       o.plateGrains, d));
+    throw base::InputError(
+        fmt::format("--plate-grains {:g} [d]: the plate would come within a grain of {:g} m of the floor; raise it",
+                    o.plateGrains, d));
 }
 
 } // namespace

@@ -21,15 +21,15 @@ namespace grouser::virtual_tests {
 namespace {
 
 constexpr double kRoughFriction = 2;
-constexpr double kPorosity = 0.4;      // expected of a bed, for the number of its grains
-constexpr double kRestOfPlates = 1e-4; // of m g r: a tenth of the energy of a grain that goes along with a plate
-constexpr double kLiftRest = 1e-2;     // the next one falls with some thousand times that
+constexpr double kPorosity = 0.4;      // expected porosity, for the number of grains
+constexpr double kRestOfPlates = 1e-4; // over m g r: a tenth of the energy of a grain moving with a plate
+constexpr double kLiftRest = 1e-2;     // the impact of the next lift has about a thousand times more
 constexpr double kBedPatience = 6;     // [s]
-constexpr double kFall = 1.5;          // [m/s] of grains onto the bed below them, about
-constexpr int kLatticeLayers = 5;      // as the beds of before had
+constexpr double kFall = 1.5;          // [m/s] approximate impact speed of grains
+constexpr int kLatticeLayers = 5;      // as in earlier lattice beds
 constexpr double kLatticeSpacing = 2.02;
 
-/// The soil with grains as large as those at the floor.
+/// The soil with the grain size at the floor.
 Soil coarse(const Soil& soil, double scale) {
   Soil other = soil;
   other.grains.radius *= scale;
@@ -42,7 +42,7 @@ double weightTimesRadius(const Soil& soil, const BedGrains& grains) {
   return sum;
 }
 
-/// A scene of the bed so far, with the soil's preparation friction.
+/// Scene of the present bed, with the soil's preparation friction.
 std::string sceneOf(const Soil& soil, const BedPreparation& bed, const std::string& below, std::int64_t seed) {
   return soil.prepared().scene(1, seed, soil.preparationFriction, {0, 0, -jobs::kGravity},
                                bed.size.run() + fmt::format("impact_speed = {}\n", kFall)) +
@@ -65,7 +65,7 @@ PreparedBed layLattice(const Soil& soil, const BedPreparation& bed, std::int64_t
   return {grainsOf(simulation, bed.size), simulation.steps(), 0};
 }
 
-/// The loose column that the bed is rained from, in lifts: the lowest first.
+/// Lifts of the loose column from which the bed is rained, lowest first.
 std::vector<BedGrains> looseLifts(const Soil& soil, const BedPreparation& bed, const BedGrains& floor,
                                   std::int64_t seed) {
   terrain::RandomBedOptions o;
@@ -89,7 +89,7 @@ std::vector<BedGrains> looseLifts(const Soil& soil, const BedPreparation& bed, c
   return lifts;
 }
 
-/// So far above the bed that none of them touches it.
+/// Raises a lift above the bed.
 void raise(BedGrains& lift, const BedGrains& bed) {
   double top = -1e300, bottom = 1e300;
   for (const BedGrain& g : bed) top = std::max(top, g.position.z + g.radius);
@@ -138,7 +138,7 @@ std::string floorSections(const Soil& soil, const BedPreparation& bed, std::int6
       text += fmt::format("[[grain]]\nposition = [{:.12g}, {:.12g}, {:.12g}]\nradius = {:.9g}\nmaterial = \"grain\"\n"
                           "fixed = true\n",
                           g.position.x, g.position.y, g.position.z, g.radius);
-    // Below them all: it catches a small grain that finds a hole.
+    // Catches small grains that pass the fixed ones.
     text += fmt::format("[[plane]]\npoint = [0, 0, {:.12g}]\nmaterial = \"grain\"\n", -roughFloorDepth(below));
     return text;
   }
@@ -176,7 +176,7 @@ PreparedBed keptBed(const Soil& soil, const BedPreparation& bed, std::int64_t se
     made = prepareBed(soil, bed, seed, folder, exec, tell);
     writeBed(file, made.grains, fmt::format("; steps, seconds: {}, {:.3f}", made.steps, made.seconds));
   }
-  // Read back even where it has just been written: what is pushed then does not depend on where it came from.
+  // Read back even if just written, so that results do not depend on the origin of the bed.
   std::ifstream in(file);
   std::string head;
   std::getline(in, head);

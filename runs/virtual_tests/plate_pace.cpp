@@ -9,16 +9,16 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kFaster = 1.5;     // at most, at once: what is sped up sends waves of its own
-constexpr double kAboutRight = 0.2; // of a speed
-constexpr double kSoftest = 1e-6;   // of the first modulus
-constexpr double kThereAndBack = 2; // depths
+constexpr double kFaster = 1.5;     // maximum increase per adjustment, as acceleration causes waves
+constexpr double kAboutRight = 0.2; // relative tolerance of the speed
+constexpr double kSoftest = 1e-6;   // minimum modulus over the first one
+constexpr double kThereAndBack = 2; // path of the waves in depths
 
 double meanOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// From the mean of one half of the rows to that of the other.
+/// Slope between the means of both halves of the rows.
 double slopeOver(std::span<const double> sinkage, std::span<const double> pressure) {
   const std::size_t half = sinkage.size() / 2;
   const double way = std::fabs(meanOf(sinkage.last(half)) - meanOf(sinkage.first(half)));
@@ -40,8 +40,8 @@ double PlatePace::next(double now, double modulus) const {
   return std::fabs(wanted - now) <= kAboutRight * now ? now : wanted;
 }
 
-double shownModulus(std::span<const double> sinkage, std::span<const double> pressure, double breadth,
-                    std::size_t last) {
+double apparentModulus(std::span<const double> sinkage, std::span<const double> pressure, double breadth,
+                       std::size_t last) {
   if (sinkage.size() < 2) return 0;
   const std::size_t n = std::min(last, sinkage.size());
   return breadth * std::max(slopeOver(sinkage, pressure), slopeOver(sinkage.last(n), pressure.last(n)));

@@ -23,18 +23,18 @@ namespace {
 using base::Vec3d;
 using jobs::Table;
 
-constexpr int kRows = 1200;                        // of the loading, if it goes to the greatest sinkage
-constexpr int kFiner = 4;                          // rows of unloading are so many times closer
-constexpr std::size_t kSmooth = 8;                 // rows whose mean says that a pressure is reached
+constexpr int kRows = 1200;                        // of the loading to the greatest sinkage
+constexpr int kFiner = 4;                          // factor of the row density during unloading
+constexpr std::size_t kSmooth = 8;                 // rows averaged to detect a pressure
 constexpr double kUnloaded = 0.02;                 // of the greatest pressure
-constexpr double kBack = 0.1;                      // [breadths] that a plate is lifted at most
-constexpr double kBedShare = 0.5;                  // of a run's time, about
-constexpr std::size_t kShows = 32;                 // latest rows that show the bed's modulus
-constexpr int kHeldRows = 16, kSettledRows = 4;    // of the plate that is held; the last of them
-constexpr double kHeld = 2;                        // times that the bed's waves take to the floor and back
-constexpr double kSlopeFrom = 0.2, kSlopeTo = 0.8; // of the greatest pressure, between which stiffnesses are taken
+constexpr double kBack = 0.1;                      // [breadths] maximum lift of the plate
+constexpr double kBedShare = 0.5;                  // approximate share of the wall time
+constexpr std::size_t kShows = 32;                 // latest rows for the apparent modulus
+constexpr int kHeldRows = 16, kSettledRows = 4;    // rows while the plate is held; the last ones averaged
+constexpr double kHeld = 2;                        // hold time over the travel time of waves to the floor and back
+constexpr double kSlopeFrom = 0.2, kSlopeTo = 0.8; // pressure range for stiffnesses over the greatest pressure
 
-/// A plate with the bed below it, that goes up and down without losing what contacts remember.
+/// A plate on its bed that moves down and up with contact history.
 class Press {
 public:
   Press(const Soil& soil, const PlateSinkage& test, const BedPreparation& preparation, double surface, double bottom,
@@ -55,11 +55,11 @@ public:
   }
 
   struct Row {
-    double sinkage, pressure; ///< [m], [Pa], means over the way
+    double sinkage, pressure; ///< [m], [Pa], means over the row
   };
-  /// Goes on by about `way` [m].
+  /// Moves by about `way` [m].
   Row go(double way) { return wait(way / std::fabs(velocity_)); }
-  /// Goes on for about `time` [s].
+  /// Continues for about `time` [s].
   Row wait(double time) {
     const std::int64_t until =
         simulation_->steps() + std::max<std::int64_t>(1, std::llround(time / simulation_->timeStep()));
@@ -72,7 +72,7 @@ public:
     simulation_->restartMeans();
     return {0.5 * (before + sinkage()), force / area_};
   }
-  /// From here on at so many m/s downwards.
+  /// Sets the downward velocity [m/s].
   void move(double velocity) {
     simulation_->checkEnergy();
     const coupling::SimulationState state = simulation_->save();
@@ -96,7 +96,7 @@ private:
 
   base::Exec exec_;
   double area_, surface_, bottom_, velocity_;
-  double height_ = 0; ///< [m] of the plate's centre at the start
+  double height_ = 0; ///< [m] initial height of the plate's centre
   std::size_t plate_ = 0;
   coupling::SimulationSetup setup_;
   std::unique_ptr<coupling::Simulation> simulation_;
@@ -111,7 +111,7 @@ double recentPressure(const std::vector<std::vector<double>>& rows, double phase
   return count == last ? sum / static_cast<double>(count) : std::nan("");
 }
 
-/// A plate on its way down, held, up and down again, as fast as its bed bears.
+/// Loading, hold, unloading and reloading of a plate at speeds by PlatePace.
 class Course {
 public:
   Course(Press& press, const PlateSinkage& test, const PlatePace& pace, const PlateProgress& tell)
@@ -165,14 +165,14 @@ private:
     if (speed != now) press_.move(std::copysign(speed, press_.velocity()));
   }
 
-  double shown() const { return shownModulus(sinkage_, pressure_, pace_.breadth, kShows); }
+  double shown() const { return apparentModulus(sinkage_, pressure_, pace_.breadth, kShows); }
 
   Press& press_;
   PlatePace pace_;
   const PlateProgress& tell_;
   double most_, deepest_, step_;
   std::vector<std::vector<double>> rows_;
-  std::vector<double> sinkage_, pressure_; ///< of the phase
+  std::vector<double> sinkage_, pressure_; ///< of the present phase
 };
 
 /// Slope of the pressure over the sinkage in one phase, between two shares of `most`.
@@ -219,7 +219,7 @@ jobs::Table pushStrip(const Soil& soil, const PlateSinkage& test, std::int64_t s
   const auto begin = std::chrono::steady_clock::now();
   const double surface = surfaceHeight(bed.grains, preparation.size, d);
   const double bottom = topUnder(soil, test.strip, bed.grains) + 1e-3 * d;
-  // Of the breadth below the surface, where the plate works.
+  // Porosity of one breadth below the surface.
   const double off = PlateTest::kOffEnds * d;
   const double low = std::max(surface - b, off * preparation.coarsest(soil));
   const double solid = solidFraction(bed.grains, preparation.size, low, surface - off);

@@ -16,8 +16,8 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kCoarsest = 2.0 / 7; // of the way between boundaries: the largest grain's diameter
-constexpr double kPushBedShare = 0.3; // of a run's time, about
+constexpr double kCoarsest = 2.0 / 7; // largest grain diameter over the distance of the boundaries
+constexpr double kPushBedShare = 0.3; // approximate share of the wall time
 
 } // namespace
 
@@ -82,7 +82,7 @@ jobs::Table pushPlate(const Soil& given, const PlateTest& test, std::int64_t see
       keptBed(soil, preparation, seed, folder, exec, [&](const std::string& phase) { tell(0, phase); });
   const auto begin = std::chrono::steady_clock::now();
   const double surface = surfaceHeight(bed.grains, size, d), bottom = topUnder(soil, test, bed.grains) + 1e-3 * d;
-  // Of the breadth below the surface, where the plate works.
+  // Porosity of one breadth below the surface.
   const double low = std::max(surface - b, PlateTest::kOffEnds * d * preparation.coarsest(soil));
   const double solid = test.lattice ? solidFraction(bed.grains, size, 0.5 * d, surface - d)
                                     : solidFraction(bed.grains, size, low, surface - PlateTest::kOffEnds * d);

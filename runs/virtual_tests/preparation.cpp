@@ -13,13 +13,13 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kFirstFriction = 0.2; // friction that is tried first
+constexpr double kFirstFriction = 0.2; // first trial
 constexpr std::size_t kMostBeds = 14;
-constexpr double kWider = 4; // by which the search goes on to where it has no bound yet
+constexpr double kWider = 4; // step factor towards an open bound
 constexpr double kTolerance = 0.002, kCoarseTolerance = 0.004;
 constexpr double kBedWidth = 12, kCoarseBedWidth = 8; // [d] of the small bed
 constexpr double kLifts = 2, kCoarseLifts = 1;
-constexpr double kInside = 0.1; // a trial stays so far off the ends of its interval
+constexpr double kInside = 0.1; // minimum distance of a trial from the ends of its interval, over its width
 
 double porosityWith(const TestPlan& plan, double friction, const std::filesystem::path& folder, const base::Exec& exec,
                     const std::function<void(const std::string&)>& tell) {
@@ -39,7 +39,7 @@ double porosityWith(const TestPlan& plan, double friction, const std::filesystem
 double nextFriction(const std::vector<std::vector<double>>& trials, double porosity, double tolerance) {
   if (trials.empty()) return kFirstFriction;
   if (trials.size() >= kMostBeds) return 0;
-  // The densest trial that is too loose, and the loosest that is too dense: porosity rises with friction.
+  // Closest trials on both sides: porosity increases with friction.
   const std::vector<double>*loose = nullptr, *dense = nullptr;
   for (const std::vector<double>& t : trials) {
     if (std::fabs(t[1] - porosity) <= tolerance) return 0;
@@ -49,7 +49,7 @@ double nextFriction(const std::vector<std::vector<double>>& trials, double poros
   if (!loose) return (*dense)[0] >= kMostSettlingFriction ? 0 : std::min(kMostSettlingFriction, kWider * (*dense)[0]);
   if (!dense) return (*loose)[0] <= kLeastSettlingFriction ? 0 : std::max(kLeastSettlingFriction, (*loose)[0] / kWider);
   const double low = base::log((*dense)[0]), high = base::log((*loose)[0]);
-  if (high - low < 0.01) return 0; // a step of the packing lies in between
+  if (high - low < 0.01) return 0; // discontinuity of the packing
   const double share = (porosity - (*dense)[1]) / ((*loose)[1] - (*dense)[1]);
   return base::exp(low + (high - low) * std::clamp(share, kInside, 1 - kInside));
 }

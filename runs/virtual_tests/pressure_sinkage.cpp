@@ -33,10 +33,10 @@ bool counts(const PlateTests& plate, std::size_t curve, std::size_t i) {
 
 int timesOf(const std::vector<int>& counts, std::size_t curve) { return counts.empty() ? 1 : counts[curve]; }
 
-/// The tests of a breadth. Each has a k of its own while n is sought: tests end at one pressure, so that points of firm
-/// and of weak ones lie beside each other, and a line through all of them would be too flat.
+/// The tests of a breadth. Each has its own k in the fit of n: tests end at the same pressure, so that a common line
+/// through stiff and soft ones would be too flat.
 struct Breadth {
-  std::vector<std::pair<Sums, double>> tests; ///< and how often each counts
+  std::vector<std::pair<Sums, double>> tests; ///< with their multiplicities
   double covariance = 0, variance = 0, times = 0;
 
   Breadth(const PlateTests& plate, const std::vector<int>& counted) {
@@ -71,7 +71,7 @@ double goodnessOf(const PlateTests& plate, const std::vector<int>& times, double
   return points > 2 ? 1 - std::sqrt(squares / (points - 2)) / (sum / points) : base::kNaN;
 }
 
-// Of the greatest pressure: where straight lines begin, how far they go, and from one to the next.
+// Range of the starts of straight lines, their length, and increment, over the greatest pressure.
 constexpr double kFirst = 0.02, kLast = 0.6, kSpan = 0.2, kStride = 0.02;
 
 /// p = slope (z - origin) by least squares over points [from, to).
@@ -89,7 +89,7 @@ Straight straightThrough(const SinkageCurve& curve, std::size_t from, std::size_
   return {slope, z / n - p / (n * slope), from};
 }
 
-/// First point that carries as much; the curve's size where none does.
+/// First point with this pressure; the size of the curve if none.
 std::size_t firstWith(const SinkageCurve& curve, double pressure) {
   std::size_t i = 0;
   while (i < curve.pressure.size() && curve.pressure[i] < pressure) ++i;

@@ -5,35 +5,35 @@
 #include <optional>
 #include <vector>
 
-/// Bekker's relation of pressure and sinkage, p = (k_c / b + k_phi) z^n, fitted to plates of two breadths b.
+/// Bekker's pressure-sinkage relation, p = (k_c / b + k_phi) z^n, fitted to plates of two breadths b.
 namespace grouser::virtual_tests {
 
-/// Points of one plate while it is loaded.
+/// Loading curve of one plate.
 struct SinkageCurve {
   std::vector<double> sinkage;  ///< [m]
   std::vector<double> pressure; ///< [Pa], one for each sinkage
 };
 
-/// A curve whose beginning, where a flat plate beds into grains that stand out of a rough surface, is replaced as ASTM
-/// D1883 does where curves begin concave upward: by the steepest straight line through the curve, from where that line
-/// comes to no pressure, which becomes the origin of sinkage. Steepest: of the least squares lines over a fifth of the
-/// greatest pressure that begin between 2 and 60 % of it and no deeper than `room` [m] below where it carries 2 %. An
-/// exponent above 1 is made less by that: 1.27 comes out as 1.11 where the room is a sixth of the whole sinkage.
+/// Curve corrected for bedding of the plate into protruding grains, as ASTM D1883 does for curves that start concave
+/// upward: the start is replaced by the steepest straight line, whose zero becomes the origin of sinkage. Steepest: of
+/// the least-squares lines over a fifth of the greatest pressure that start between 2 and 60 % of it and at most `room`
+/// [m] below the sinkage at 2 %. Exponents above 1 are reduced by that: 1.27 becomes 1.11 if the room is a sixth of the
+/// sinkage.
 struct BeddedCurve {
   SinkageCurve curve;
   double origin = 0; ///< [m] in the measured sinkage
-  double begins = 0; ///< share of the greatest pressure at which the line begins: below it n is 1 by construction
+  double begins = 0; ///< start of the line over the greatest pressure: below it n is 1 by construction
 };
-/// A curve without such a line stays as it is.
+/// A curve without such a line is unchanged.
 BeddedCurve correctedForBedding(const SinkageCurve& measured, double room);
-/// Instead: sinkage counts from where the plate first carries 2 % of the greatest pressure, and nothing is replaced.
+/// Without correction: sinkage from the point at which the plate first carries 2 % of the greatest pressure.
 SinkageCurve fromFirstContact(const SinkageCurve& measured);
-/// The same from the first row with this pressure [Pa], which comes to the sinkage `at` [m]; empty if there is none.
+/// The same from the first row with this pressure [Pa], which gets the sinkage `at` [m]; empty if there is none.
 SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure, double at = 0);
 /// Sinkage of that row [m]; NaN if there is none.
 double contactSinkage(const SinkageCurve& measured, double pressure);
 
-/// A plate's breadth, and all of its tests.
+/// Breadth and tests of a plate.
 struct PlateTests {
   double breadth = 0; ///< [m]
   std::vector<SinkageCurve> curves;
@@ -43,24 +43,24 @@ struct PlateTests {
 double meanPressureBetween(const SinkageCurve& curve, double from, double to);
 
 struct BekkerFit {
-  double n = 0;                     ///< [-] the same for both breadths
+  double n = 0;                     ///< [-] common to both breadths
   double kc = 0, kphi = 0;          ///< [N/m^(n+1)], [N/m^(n+2)]; kc may have either sign
   std::array<double, 2> k{};        ///< [N/m^(n+2)] of each breadth
-  std::array<double, 2> ownN{};     ///< [-] that each breadth alone would give
+  std::array<double, 2> ownN{};     ///< [-] of each breadth alone
   std::array<double, 2> goodness{}; ///< [-] Wong's, 1 - sqrt(sum (p - p_fit)^2 / (N - 2)) / mean p
   double kAt(double breadth) const { return kc / breadth + kphi; } ///< [N/m^(n+2)]
-  double sinkageAt(double pressure, double breadth) const;         ///< [m]; no number where kAt() is not positive
+  double sinkageAt(double pressure, double breadth) const;         ///< [m]; NaN if kAt() is not positive
 };
 
-/// Least squares of ln p = ln k + n ln z with Wong's weights p^2 (Wong 1980): one n for all tests, each with a k of its
-/// own, whose mean is its breadth's; each test of a breadth counts as much as the others, and each breadth as the
-/// other; k_c = (k1 - k2) b1 b2 / (b2 - b1), k_phi = (k2 b2 - k1 b1) / (b2 - b1). Points without sinkage or pressure
-/// are left out. `counts`: how often each curve counts; empty: once. `givenN`: instead of the n that fits best, for
-/// k_c and k_phi of two soils compare at one n only. A fit without two points of a breadth holds no numbers.
+/// Least squares of ln p = ln k + n ln z with Wong's weights p^2 (Wong 1980): a common n of all tests, each with its
+/// own k, whose mean is the k of the breadth; tests of a breadth, and breadths, have equal weight; k_c = (k1 - k2) b1
+/// b2 / (b2 - b1), k_phi = (k2 b2 - k1 b1) / (b2 - b1). Excludes points without sinkage or pressure. `counts`:
+/// multiplicity of each curve; empty: 1. `givenN`: instead of the fitted n, as k_c and k_phi are comparable at equal n
+/// only. NaN without two points of a breadth.
 BekkerFit fitBekker(const std::array<PlateTests, 2>& plates, const std::vector<std::vector<int>>& counts = {},
                     std::optional<double> givenN = {});
 
-/// The same with one plate: n and k of a breadth; [0] is filled, the rest holds no numbers.
+/// The same with one plate: n and k of a breadth in [0]; the rest is NaN.
 BekkerFit fitOnePlate(const PlateTests& plate, const std::vector<int>& counts = {}, std::optional<double> givenN = {});
 
 } // namespace grouser::virtual_tests

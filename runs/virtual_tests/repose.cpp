@@ -16,10 +16,10 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kLift = 12;    // [d] as the plates' beds
-constexpr double kImpact = 0.5; // [m/s] of grains that flow, for the step of Hertz' contacts
+constexpr double kLift = 12;    // [d] as in beds for plates
+constexpr double kImpact = 0.5; // [m/s] impact speed of flowing grains, for the time step of Hertz' contacts
 
-/// A bed whose gravity turns.
+/// A bed with rotating gravity.
 class Slope {
 public:
   Slope(const Soil& soil, const BedPreparation& bed, std::int64_t seed, const std::filesystem::path& folder,
@@ -44,7 +44,7 @@ public:
     setup_.ground.grains->model.gravity = gravity;
     const double before = potential();
     simulation_ = std::make_unique<coupling::Simulation>(setup_, exec_, state);
-    // Gravity has turned without work: what the grains' potential energy jumps by stands in the start of the ledger.
+    // Gravity rotates without work: the jump of potential energy enters the initial ledger.
     coupling::Ledger start;
     start.setCounted(state.ledgerAtStart);
     start.potential += potential() - before;
@@ -62,7 +62,7 @@ private:
   double potential() const { return simulation_->ground().grains->ledger().potential; } ///< [J]
 
   base::Exec exec_;
-  double mass_ = 0; ///< [kg] with the floor's grains, which rest
+  double mass_ = 0; ///< [kg] including fixed floor grains
   coupling::SimulationSetup setup_;
   std::unique_ptr<coupling::Simulation> simulation_;
 };

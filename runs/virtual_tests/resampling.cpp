@@ -11,7 +11,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-/// Of one number over the resamples of a group.
+/// Variance of a number over the resamples of a group.
 struct Spread {
   double sum = 0, squares = 0;
   int count = 0;
@@ -27,7 +27,7 @@ struct Spread {
   }
 };
 
-/// Draws as many tests as there are, with replacement.
+/// Draws `tests` tests with replacement.
 std::vector<int> drawn(int tests, std::uint64_t seed, std::uint64_t group, int resample) {
   constexpr std::uint64_t kPurpose = base::purpose("bevameter.resample");
   std::vector<int> counts(static_cast<std::size_t>(tests));
@@ -53,7 +53,7 @@ std::vector<support::Estimate> intervalsOfTests(const std::vector<int>& groupSiz
     const int n = groupSizes[g];
     single = single || n < 2;
     if (n < 2) continue;
-    // About their own value: far numbers with little scatter would lose it to rounding.
+    // Deviations from the value, to avoid cancellation.
     std::vector<Spread> spreads(values.size());
     TestCounts counts = all;
     for (int r = 0; r < resamples; ++r) {

@@ -14,9 +14,9 @@ namespace {
 using jobs::Table;
 using support::Estimate;
 
-constexpr double kCompareFrom = 0.25; // of the sinkage that two bins have in common: compared from here on
+constexpr double kCompareFrom = 0.25; // start of the comparison over the common sinkage of two bins
 
-/// Runs of one plate as their fits want them.
+/// Corrected curves of one plate for the fits.
 PlateTests plateTests(const TestPlan& plan, const std::vector<jobs::Table>& runs, TestKind kind) {
   PlateTests tests{plan.breadth(kind), {}};
   for (const jobs::Table& run : runs) tests.curves.push_back(beddedCurve(plan, run).curve);
@@ -74,7 +74,7 @@ void addUnloading(SoilResults& r, std::size_t i, const std::vector<jobs::Table>&
   r.addedByMotion[i] = over(added);
 }
 
-/// The small plate on a bin of twice the width against the other, over the sinkages that all of them reach.
+/// Small plate on a bin of twice the width compared with the other, over the common sinkage.
 std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide) {
   if (small.curves.size() < 2 || wide.curves.size() < 2) return {};
   double common = INFINITY;
@@ -116,7 +116,7 @@ void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vecto
   r.kAtGivenN = {e[12], e[13]};
 }
 
-/// One breadth alone, while the other is missing.
+/// Results of one breadth, if the other is missing.
 void addOneBreadth(SoilResults& r, const TestPlan& plan, std::size_t i, const std::vector<jobs::Table>& runs) {
   const PlateTests tests = plateTests(plan, runs, kBreadths[i]);
   const auto statistic = [&](const TestCounts& counts) {
@@ -141,7 +141,7 @@ void addShear(SoilResults& r, const std::vector<std::vector<ShearCurve>>& tests)
   r.peakCohesion = e[3], r.peakAngle = e[4], r.hump = e[5], r.misfit = e[6];
 }
 
-/// How much of the way went into the soil, and did not slide along the teeth.
+/// Share of the plate displacement that sheared the soil instead of sliding along the teeth.
 void addSlip(SoilResults& r, const std::vector<jobs::Table>& runs) {
   r.sheared = 0, r.leastSheared = INFINITY;
   for (const jobs::Table& run : runs) {
@@ -158,11 +158,11 @@ void addRepose(SoilResults& r, const TestPlan& plan, const std::vector<jobs::Tab
     if (std::isfinite(a.repose)) repose.push_back(a.repose);
   }
   r.reposeTests = static_cast<int>(repose.size());
-  if (starts.empty() || repose.empty()) return; // it holds at any tilt
+  if (starts.empty() || repose.empty()) return; // stable at any tilt
   r.stability = jobs::interval95(starts), r.measured[Quantity::repose] = jobs::interval95(repose);
 }
 
-/// What a table of soils is good for: a share of the value, or so much of it.
+/// Tolerance of published constants, relative or absolute.
 double toleranceOf(Quantity quantity, double value) {
   switch (quantity) {
   case Quantity::exponent:
@@ -216,7 +216,7 @@ SoilResults resultsOf(const TestPlan& plan, const jobs::Pieces& pieces) {
   }
   for (const PublishedValue& p : plan.soil.published)
     if (p.quantity == Quantity::exponent && !r.givenN) r.givenN = p.value;
-  if (const auto whole = publishedBekker(plan.soil); !whole.empty()) r.givenN = whole.front().fit.n; // of one source
+  if (const auto whole = publishedBekker(plan.soil); !whole.empty()) r.givenN = whole.front().fit.n; // from one source
   if (r.hasPlates()) addPlates(r, plan, plates);
   for (std::size_t i = 0; i < 2 && !r.hasPlates(); ++i)
     if (r.plates[i] > 0) addOneBreadth(r, plan, i, plates[i]);

@@ -7,20 +7,20 @@
 #include <cstdint>
 #include <string>
 
-/// Samples of grains that the macroscopic studies prepare, from scenes as a user would write them.
+/// Samples of grains for macroscopic studies, from scene files.
 namespace grouser::virtual_tests {
 
-/// Spheres of one size. Stiff enough that overlaps under their own weight stay below a thousandth of a diameter.
+/// Equal spheres. The default stiffness keeps overlaps under their weight below a thousandth of a diameter.
 struct SampleGrains {
   double radius = 0.005;    ///< [m]
   double density = 2500;    ///< [kg/m3]
   double stiffness = 1e5;   ///< [N/m]
-  double young = 0;         ///< [Pa] above 0: Hertz' contacts with this modulus instead of linear ones
+  double young = 0;         ///< [Pa] if above 0: Hertz' contacts with this modulus instead of linear ones
   double restitution = 0.5; ///< [-]
   double friction = 0.5;    ///< [-]
   double rollingFriction = 0;
-  /// Keys of a scene's [material], a line each, but for density and friction: any law that a scene may have, instead of
-  /// the springs, restitution and rolling friction above. Empty: those.
+  /// Keys of a scene's [material], one per line, without density and friction: any contact law, instead of the springs,
+  /// restitution and rolling friction above. Empty: those.
   std::string law;
   double diameter() const { return 2 * radius; }
   double mass() const;
@@ -34,13 +34,13 @@ struct Sample {
   terrain::Grains& grains() const { return *ground.grains; }
 };
 
-/// Builds the grains of a scene; its step is the scene's own.
+/// Builds the grains of a scene with its time step.
 Sample buildSample(const std::string& toml, const base::Exec& exec);
 
 void advanceSample(terrain::Grains& grains, std::int64_t steps);
 
-/// Steps until the mean kinetic energy a grain is below `agitation` of m g d, looked at every 0.02 s, or until `limit`
-/// [s] have passed. Returns the time taken [s]; negative where it did not come to rest. Throws Stopped after a signal.
+/// Steps until the mean kinetic energy per grain is below `agitation` times m g d, checked every 0.02 s, or until
+/// `limit` [s]. Returns the time [s]; negative if not at rest. Throws Stopped after a signal.
 double bringToRest(Sample& sample, double agitation, double limit);
 
 } // namespace grouser::virtual_tests

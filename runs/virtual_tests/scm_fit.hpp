@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-/// `grouser soil NAME --fit-scm`: constants of the soil contact model from virtual tests, and the residual that no
-/// constants remove.
+/// `grouser soil NAME --fit-scm`: constants of the soil contact model from virtual tests, and the model error.
 namespace grouser::virtual_tests {
 
 /// Tests of one plate, or sheared under one load.
@@ -32,18 +31,18 @@ struct ScmFit {
 /// slope was not measured. `origin`: of the sinkage, by correctedForBedding() [m].
 double elasticRatioOf(const jobs::Table& run, double origin, double n);
 
-/// Fit of the soil contact model to the finished tests, which are of both plates and of shear under all loads.
+/// Fits the soil contact model to the finished tests, which include both plates and shear under all loads.
 ScmFit fitScm(const TestPlan& plan, const jobs::Pieces& pieces, const SoilResults& results);
 
 /// Table of constants and residuals.
 std::string scmFitText(const TestPlan& plan, const ScmFit& fit);
 /// Section [scm] of a scene file. Empty if the constants are outside the ranges of its keys; `why` then has the reason.
 std::string scmFitToml(const TestPlan& plan, const ScmFit& fit, std::string& why);
-std::string scmResidualsCsv(const TestPlan& plan, const ScmFit& fit); ///< a row a test
-std::string scmCurvesCsv(const TestPlan& plan, const ScmFit& fit);    ///< a row a point
+std::string scmResidualsCsv(const TestPlan& plan, const ScmFit& fit); ///< one row per test
+std::string scmCurvesCsv(const TestPlan& plan, const ScmFit& fit);    ///< one row per point
 
-/// Prints the fit, and writes scm_fit.toml, scm_fit.txt, scm_residuals.csv, scm_curves.csv and scm_fit.png. Prints that
-/// tests are missing where they are.
+/// Prints the fit, and writes scm_fit.toml, scm_fit.txt, scm_residuals.csv, scm_curves.csv and scm_fit.png. Prints a
+/// note if tests are missing.
 void reportScmFit(const TestPlan& plan, const jobs::Pieces& pieces);
 
 } // namespace grouser::virtual_tests

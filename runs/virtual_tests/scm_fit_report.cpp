@@ -36,18 +36,17 @@ std::string scmFitText(const TestPlan& plan, const ScmFit& fit) {
   for (const auto& [q, e] : fit.constants)
     text += fmt::format("  {:<8} {:>20} {}{}\n", symbolOf(q), jobs::valueText(e), unitOf(q),
                         doubtOf(q, e).empty() ? "" : "  inconclusive");
-  text +=
-      fmt::format("  {:<8} {:>20} elastic_ratio, by unloading the plates\n", "f", jobs::valueText(fit.elasticRatio));
+  text += fmt::format("  {:<8} {:>20} elastic_ratio, from unloading of the plates\n", "f",
+                      jobs::valueText(fit.elasticRatio));
   text += fmt::format("\n  {:<16} {:>5} {:>9} {:>9} {:>12} {:>13}\n", "measured / fit - 1", "tests", "rms", "largest",
                       "model error", "seed scatter");
   for (const FittedGroup& g : fit.groups)
     text += fmt::format("  {:<18} {:>5} {:>9} {:>9} {:>12} {:>13}\n", g.name, g.tests.size(), percent(g.residual.rms),
                         fmt::format("{:+.1f} %", 100 * g.residual.largest), percent(g.residual.model),
                         percent(g.residual.scatter));
-  return text +
-         fmt::format("  model error, which no constants remove: plates {}, shear {} (rms of the mean curves, from "
-                     "{:g} % of the highest stress on)\n",
-                     percent(fit.modelError(true)), percent(fit.modelError(false)), 100 * kCountedFrom);
+  return text + fmt::format("  model error for any constants: plates {}, shear {} (rms of the mean curves above {:g} % "
+                            "of the maximum stress)\n",
+                            percent(fit.modelError(true)), percent(fit.modelError(false)), 100 * kCountedFrom);
 }
 
 std::string scmFitToml(const TestPlan& plan, const ScmFit& fit, std::string& why) {
@@ -70,7 +69,7 @@ std::string scmFitToml(const TestPlan& plan, const ScmFit& fit, std::string& why
   const support::Estimate& f = fit.elasticRatio;
   if (std::isfinite(f.value))
     text += fmt::format("elastic_ratio = {:.4g} # [-] +- {:.2g}{}\n", std::max(1.0, f.value), f.halfWidth,
-                        f.value < 1 ? fmt::format("; measured {:.2g}, the model needs 1", f.value) : "");
+                        f.value < 1 ? fmt::format("; measured {:.2g}, the model requires 1", f.value) : "");
   return text;
 }
 
@@ -97,7 +96,7 @@ std::string scmCurvesCsv(const TestPlan& plan, const ScmFit& fit) {
 void reportScmFit(const TestPlan& plan, const jobs::Pieces& pieces) {
   const SoilResults results = resultsOf(plan, pieces);
   if (!results.hasPlates() || !results.hasShear())
-    return fmt::print("fit       not made: {} missing; the same call again continues\n",
+    return fmt::print("fit       skipped: {} missing; run the same command again to continue\n",
                       results.hasShear() ? "all tests of a plate are" : "shear tests under all loads are");
   const ScmFit fit = fitScm(plan, pieces, results);
   const std::string text = scmFitText(plan, fit);

@@ -10,7 +10,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr int kPlaces = 50; // of the mean curve
+constexpr int kPlaces = 50; // points of the mean curve
 
 std::size_t firstCounted(const FittedCurve& c) {
   const double least = kCountedFrom * *std::max_element(c.measured.begin(), c.measured.end());
@@ -19,14 +19,14 @@ std::size_t firstCounted(const FittedCurve& c) {
   return i;
 }
 
-/// Way of the first point that counts [m].
+/// Displacement of the first point that counts [m].
 double firstWay(const FittedCurve& c) {
   const std::size_t first = firstCounted(c);
   if (first == c.way.size()) return base::kInfinity;
   return c.way[first];
 }
 
-/// Deviation at a way between two points, by linear interpolation.
+/// Deviation at a displacement, by linear interpolation.
 double deviationAt(const FittedCurve& c, double way) {
   const auto above = static_cast<std::size_t>(std::upper_bound(c.way.begin(), c.way.end(), way) - c.way.begin());
   const std::size_t i = std::clamp<std::size_t>(above, 1, c.way.size() - 1);
@@ -34,14 +34,14 @@ double deviationAt(const FittedCurve& c, double way) {
   return (1 - share) * c.deviationAt(i - 1) + share * c.deviationAt(i);
 }
 
-/// Model error and scatter along the way that all tests share.
+/// Model error and scatter over the common range of all tests.
 void addMeanCurve(const std::vector<FittedCurve>& tests, GroupResidual& r) {
   double from = -base::kInfinity, to = base::kInfinity;
   for (const FittedCurve& c : tests) from = std::max(from, firstWay(c)), to = std::min(to, c.way.back());
   r.model = r.scatter = base::kNaN;
   if (!(from < to)) return;
   const auto n = static_cast<double>(tests.size());
-  double ofMean = 0, ofTests = 0; // sums of squares over the places
+  double ofMean = 0, ofTests = 0; // sums of squares over the points
   for (int k = 0; k < kPlaces; ++k) {
     const double way = from + (to - from) * k / (kPlaces - 1);
     double sum = 0, squares = 0;

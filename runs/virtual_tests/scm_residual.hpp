@@ -7,11 +7,11 @@
 /// Deviation of measured stress curves from those of the soil contact model.
 namespace grouser::virtual_tests {
 
-/// A curve counts from the point where the fit reaches this share of the maximum measured stress: relative deviations
-/// are meaningless at stresses near 0.
+/// Deviations count where the fit exceeds this share of the maximum measured stress, as relative deviations are
+/// meaningless near 0.
 inline constexpr double kCountedFrom = 0.1;
 
-/// One test beside the model's curve.
+/// One test and the curve of the model.
 struct FittedCurve {
   std::string test;                     ///< "small_seed1"
   std::vector<double> way;              ///< sinkage or shear displacement [m], rising
@@ -24,16 +24,16 @@ struct TestResidual {
   double largestAt = 0;        ///< way [m]
   int points = 0;
 };
-/// Residual over the points that count (kCountedFrom).
+/// Residual over the points above kCountedFrom.
 TestResidual residualOf(const FittedCurve& curve);
 
-/// Tests that differ in their seed alone.
+/// Residual of tests that differ only in their seed.
 struct GroupResidual {
   double rms = 0, largest = 0; ///< over all tests [-]
   double model = 0;   ///< model error: rms deviation of the mean curve, less the contribution of seed scatter [-]
   double scatter = 0; ///< standard deviation of a test from the mean curve, rms over the way; NaN of one test [-]
 };
-/// The mean curve is taken where all tests have points that count. NaN where there is no such way.
+/// The mean curve covers the range in which all tests have points that count. NaN if there is none.
 GroupResidual residualOf(const std::vector<FittedCurve>& tests);
 
 } // namespace grouser::virtual_tests

@@ -18,16 +18,16 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kPitch = 2;                   // [d] from tooth to tooth
-constexpr double kBack = 2;                    // [d] thickness of the plates behind their teeth
-constexpr double kBeyond = 2;                  // [d] by which plates reach beyond the boundaries, at least
-constexpr double kRounded = 0.25;              // [d] radius of the spheres that a plate's mesh is cut into
-constexpr double kRamp = 30, kPressed = 70;    // [d sqrt(density / stress)] the load comes on, and shearing begins
-constexpr double kPlateMass = 0.25;            // of the sample's
-constexpr auto kEntry = "max_overlap = 0.5\n"; // as between grains, for soft ones that enter pressed
-constexpr double kOffPlates = 2;               // [d] of the core from the plates' tips
+constexpr double kPitch = 2;                // [d] from tooth to tooth
+constexpr double kBack = 2;                 // [d] thickness of the plates behind their teeth
+constexpr double kBeyond = 2;               // [d] minimum extent of plates beyond the boundaries
+constexpr double kRounded = 0.25;           // [d] radius of the spheres of a plate's mesh
+constexpr double kRamp = 30, kPressed = 70; // [d sqrt(density / stress)] duration of the load ramp, and start of shear
+constexpr double kPlateMass = 0.25;         // over that of the sample
+constexpr auto kEntry = "max_overlap = 0.5\n"; // as between grains, for soft grains with initial overlap
+constexpr double kOffPlates = 2;               // [d] distance of the core from the plate tips
 
-/// A plate as OBJ: teeth along x with their tips at z = 0 and the body behind them, below (`up`) or above.
+/// A plate as OBJ: teeth along x with tips at z = 0, body below (`up`) or above.
 std::string toothedPlate(double from, double to, double width, double d, const ShearCell& cell, bool up) {
   const auto teeth = static_cast<int>(std::lround((to - from) / (kPitch * d)));
   std::vector<std::array<double, 2>> profile; // x, z
@@ -67,7 +67,7 @@ std::string plateSection(const std::string& name, double d, double z, const std:
                      name, kRounded * d, z, more);
 }
 
-/// Stresses on both plates, with opposite signs: their mean.
+/// Mean magnitude of the stresses on both plates.
 struct PlateStress {
   double shear = 0, normal = 0, height = 0;
 };
@@ -84,8 +84,8 @@ PlateStress plateStress(const coupling::Simulation& simulation, double area) {
   return s;
 }
 
-/// Meshes of both plates. A tooth is at the same place in every period, so that plates look alike at both boundaries;
-/// the upper one reaches as far back as it is drawn.
+/// Writes the meshes of both plates. Teeth are periodic, so that both boundaries match; the upper plate extends
+/// backwards by its displacement.
 void writePlates(const ShearCell& cell, const BedSize& size, double d, const std::filesystem::path& folder) {
   const double period = kPitch * d, way = cell.strain * 1.5 * size.depth;
   const double behind = period * std::ceil((way + kBeyond * d) / period), end = size.length + period;
@@ -93,14 +93,14 @@ void writePlates(const ShearCell& cell, const BedSize& size, double d, const std
   support::writeTextFile(folder / "upper.obj", toothedPlate(-behind, end, size.width, d, cell, false), "--out");
 }
 
-/// A layer between its plates, before it is sheared.
+/// A layer between its plates, before shear.
 struct Layer {
   BedGrains grains;
-  double upper = 0; ///< height of the upper plate's tips [m]
+  double upper = 0; ///< height of the tips of the upper plate [m]
   double mass = 0;  ///< of the grains [kg]
 };
 
-/// Sections of a scene: both plates, the upper one pressed down, its load rising for `ramp` [s].
+/// Scene sections of both plates; the load on the upper one rises for `ramp` [s].
 std::string plateSections(double d, const Layer& layer, double load, double ramp, const std::string& drawn) {
   return plateSection("lower", d, 0, "") +
          plateSection("upper", d, layer.upper,
@@ -113,8 +113,7 @@ std::string grainsSection(const std::string& file) {
   return fmt::format("[[grains]]\nform = \"file\"\nfile = \"{}\"\nmaterial = \"grain\"\n", file);
 }
 
-/// The upper plate's teeth go in while grains do not stick yet: upon a layer that holds together they would rest, and
-/// it would slide along them as one piece.
+/// Presses the teeth of the upper plate in before grains are cohesive: on a cohesive layer they would rest and slide.
 void pressIn(const Soil& soil, const BedSize& size, double stress, std::int64_t seed,
              const std::filesystem::path& folder, const base::Exec& exec, Layer& layer) {
   const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / stress);
@@ -135,10 +134,9 @@ void pressIn(const Soil& soil, const BedSize& size, double stress, std::int64_t 
   layer.upper = plateStress(simulation, size.length * size.width).height;
 }
 
-/// Way of the grains at the upper plate's tips over that at the lower one's, a second: what the layer itself is
-/// sheared.
+/// Shear velocity of the layer itself: grain velocity at the upper tips minus that at the lower tips [m/s].
 double shearedSpeed(const coupling::Simulation& simulation, double d, double height) {
-  constexpr double kNear = 1; // [d] from the tips inwards
+  constexpr double kNear = 1; // [d] distance from the tips
   const terrain::GrainSnapshot s = simulation.ground().grains->snapshot();
   double below = 0, above = 0, lower = 0, upper = 0;
   for (std::size_t g = 0; g < s.position.size(); ++g) {
@@ -179,9 +177,9 @@ CoreStress coreStress(const terrain::Grains& grains, const BedSize& size, double
       const Vec3d branch = period.apart(state.position[other], state.position[g]).as<double>() * scale.unit;
       if (const double middle = z - 0.5 * branch.z; middle < low || middle > high) continue;
       const double distance = norm(branch), overlap = radius(g) + radius(other) - distance;
-      Vec3d force = branch * (law.stiffness * overlap / distance); // on g
+      Vec3d force = branch * (law.stiffness * overlap / distance); // force on g
       if (!state.contactShear.empty()) force -= state.contactShear[c].as<double>() * law.tangentialStiffness;
-      // Each contact is met from both sides.
+      // Each contact is visited from both sides.
       s.xx += 0.5 * force.x * branch.x, s.zz += 0.5 * force.z * branch.z;
       s.xz += 0.5 * force.x * branch.z, s.zx += 0.5 * force.z * branch.x;
     }
@@ -198,7 +196,7 @@ jobs::Table shearCell(const Soil& soil, const ShearCell& cell, double stress, st
   const BedSize size{cell.length * d, cell.width * d, cell.depth * d};
   writePlates(cell, size, d, folder);
   Layer layer;
-  // The mesh is not in the scene that is poured, but what it is made of.
+  // Parameters of the mesh, as the scene text identifies the poured sample.
   const std::string below =
       plateSection("lower", d, 0, "") + fmt::format("# teeth {:.17g} {:.17g}\n", cell.tooth, cell.tip);
   layer.grains = pourBed(soil, size, below, seed, folder, exec, kept);
@@ -215,7 +213,7 @@ jobs::Table shearCell(const Soil& soil, const ShearCell& cell, double stress, st
   const double unit = d * std::sqrt(soil.grains.density / stress); // [s]
   const double rate = cell.inertialNumber / unit, start = kPressed * unit;
   const double duration = start + cell.strain / rate, area = size.length * size.width;
-  // Of the height that the sample will have about; the strain is taken of the true one.
+  // Approximate height of the sample; strain uses the actual one.
   const double height = cell.pressesIn ? layer.upper : top - 0.5 * d, drawn = rate * height;
   const std::string run = size.run() + (cell.pressesIn ? kEntry : "");
   const std::string text = soil.scene(duration, seed, soil.grains.friction, {0, 0, 0}, run) +

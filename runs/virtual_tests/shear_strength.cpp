@@ -11,8 +11,8 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr int kTrials = 60;                      // of the search for K: its bracket shrinks to 3e-13
-constexpr double kNarrowest = 1e-4, kWidest = 3; // of the longest way: where K is looked for
+constexpr int kTrials = 60;                      // search for K: the bracket shrinks to 3e-13
+constexpr double kNarrowest = 1e-4, kWidest = 3; // range of K over the largest displacement
 
 double meanOf(const std::vector<double>& values, std::size_t from, std::size_t to) {
   double sum = 0;
@@ -28,7 +28,7 @@ struct Line {
   }
   void solve(double& cohesion, double& angle) const {
     const double spread = xx - x * x / n;
-    const bool isOne = !(spread > 0.01 * xx); // one load only, but for scatter
+    const bool isOne = !(spread > 0.01 * xx); // a single load, except for scatter
     const double slope = isOne ? xy / xx : (xy - x * y / n) / spread;
     cohesion = isOne ? 0 : (y - slope * x) / n;
     angle = std::atan(slope) * 180 / base::kPi;
@@ -41,7 +41,7 @@ struct Normalised {
   double residual, times;
 };
 
-/// Mean square of what Janosi's form leaves.
+/// Mean square residual of Janosi's equation.
 double misfitOf(const std::vector<Normalised>& curves, double shearModulus) {
   double squares = 0, points = 0;
   for (const Normalised& c : curves)
@@ -53,7 +53,7 @@ double misfitOf(const std::vector<Normalised>& curves, double shearModulus) {
   return squares / points;
 }
 
-/// Golden section over ln K: one minimum, for the curves rise.
+/// Golden-section search over ln K, with a single minimum as the curves rise.
 double bestModulus(const std::vector<Normalised>& curves) {
   double way = 0;
   for (const Normalised& c : curves) way = std::max(way, c.curve->displacement.back());
@@ -97,7 +97,7 @@ ShearFit fitShear(const std::vector<std::vector<ShearCurve>>& tests, const std::
     if (times == 0) continue;
     for (const ShearCurve& curve : tests[t]) {
       const CurveStrength s = strengthOf(curve);
-      // Strengths scatter in proportion to the load: a weak sample under little load says most about c.
+      // Strengths scatter in proportion to the load.
       residual.add(s.residualNormal, s.residualShear, times / (s.residualNormal * s.residualNormal));
       peak.add(s.peakNormal, s.peakShear, times / (s.peakNormal * s.peakNormal));
       curves.push_back({&curve, s.residualShear, times});

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-/// Mohr and Coulomb's strength, tau = c + sigma tan phi, and Janosi and Hanamoto's way to it, 1 - exp(-j / K).
+/// Mohr-Coulomb strength, tau = c + sigma tan phi, and its mobilisation by Janosi and Hanamoto, 1 - exp(-j / K).
 namespace grouser::virtual_tests {
 
 /// One sample sheared under one load.
@@ -12,11 +12,13 @@ struct ShearCurve {
   std::vector<double> shear, normal; ///< tau, sigma [Pa], one for each displacement
 };
 
-/// What one curve says: residual stresses are means over the second half of the way, the peak that of the twentieth of
-/// it in which tau over sigma is greatest.
+/// Strength of one curve: residual stresses are means over the second half, the peak that of the 5 % of the
+/// displacement with the greatest tau over sigma.
 struct CurveStrength {
-  double residualShear = 0, residualNormal = 0, peakShear = 0, peakNormal = 0;              ///< [Pa]
-  double hump() const { return peakShear / peakNormal / (residualShear / residualNormal); } ///< [-], about 1: none
+  double residualShear = 0, residualNormal = 0, peakShear = 0, peakNormal = 0; ///< [Pa]
+  double hump() const {
+    return peakShear / peakNormal / (residualShear / residualNormal);
+  } ///< [-] about 1 without peak
 };
 CurveStrength strengthOf(const ShearCurve& curve);
 
@@ -30,8 +32,8 @@ struct ShearFit {
 
 /// Fits all curves together: lines by least squares through residual and peak stresses of all of them, with
 /// weights 1 / sigma^2; K by least squares of tau / tau_residual over all their points. `tests`: [test][load], a test
-/// is a seed under all loads. `counts`: how often each test counts; empty: once. Where all loads are alike the lines go
-/// through the origin.
+/// is a seed under all loads. `counts`: multiplicity of each test; empty: 1. With a single load the lines go through
+/// the origin.
 ShearFit fitShear(const std::vector<std::vector<ShearCurve>>& tests, const std::vector<int>& counts = {});
 
 } // namespace grouser::virtual_tests

@@ -27,14 +27,14 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kFloorScatter = 0.15; // of the heights of a rough floor's grains [mean diameters]
-constexpr double kCloud = 0.22;        // solid fraction of the cloud that a bed is poured from
-constexpr double kPoured = 0.59;       // expected of the bed, for the number of grains only
-constexpr double kAgitation = 1e-5;    // of m g r: a bed at rest
-/// The same of one that has had all its time: a grain or two tremble on. Beds of plates rest with as much.
+constexpr double kFloorScatter = 0.15; // scatter of the heights of rough-floor grains [mean diameters]
+constexpr double kCloud = 0.22;        // solid fraction of the initial cloud
+constexpr double kPoured = 0.59;       // expected solid fraction, for the number of grains only
+constexpr double kAgitation = 1e-5;    // over m g r: limit for rest
+/// Limit at the end of the settling time, as single grains may keep vibrating. As for beds of plates.
 constexpr double kLastAgitation = 1e-4;
-constexpr double kSettlingPatience = 6; // [s] for a bed of 0.25 m; deeper ones take longer as the root of the depth
-constexpr double kLook = 0.02;          // [s] between looks at the agitation
+constexpr double kSettlingPatience = 6; // [s] for a bed of 0.25 m; increases with the root of the depth
+constexpr double kLook = 0.02;          // [s] interval of energy checks
 constexpr std::size_t kCalmLooks = 3;
 
 /// Within [0, length).
@@ -79,9 +79,9 @@ std::string BedSize::run() const {
 
 namespace {
 
-constexpr auto kKeptName = "poured_"; // of a file that pourBed keeps; then the hash of its scene
+constexpr auto kKeptName = "poured_"; // prefix of files of pourBed(), followed by the hash of the scene
 
-/// Nothing where the file is not there, or not whole: another call may take it away just now.
+/// Empty if the file is missing or incomplete: another call may be removing it.
 std::optional<BedGrains> keptSample(const std::filesystem::path& file, std::int64_t number) {
   if (file.empty() || !std::filesystem::exists(file)) return {};
   try {
@@ -97,7 +97,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
                   const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept) {
   const double d = soil.grains.diameter(), r = soil.grains.radius, area = size.length * size.width;
   const auto number = static_cast<std::int64_t>(std::llround(kPoured * area * size.depth / soil.meanVolume()));
-  // The cloud leaves a grain's width open where the boundaries join.
+  // The cloud leaves a grain diameter free at the boundaries.
   const double largest = 2 * r * (1 + soil.spread);
   const double cloud =
       static_cast<double>(number) * soil.meanVolume() / (kCloud * (size.length - largest) * (size.width - largest));
@@ -117,11 +117,11 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
   if (const double left = kAgitation * comeToRest(simulation, kAgitation * unit, limit); !(left <= kLastAgitation))
     failRestless(seed, limit, left);
   if (file.empty()) return grainsOf(simulation, size);
-  // Read back as the next one will. Of calls at the same time each writes its own, and all are the same.
+  // Read back as the next call will. Concurrent calls write identical files.
   const std::filesystem::path own = folder / file.filename();
   writeBed(own, grainsOf(simulation, size));
   BedGrains made = readBed(own);
-  std::error_code error; // without it the next one pours anew
+  std::error_code error; // on failure the next call pours again
   std::filesystem::rename(own, file, error);
   return made;
 }
@@ -138,7 +138,7 @@ double roughFloorDepth(const Soil& soil) { return (1 + soil.spread + kFloorScatt
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed) {
   constexpr std::uint64_t kPurpose = base::purpose("study.rough_floor");
   const double d = soil.grains.diameter();
-  // So many that they stand 0.9 diameters apart: few leave a hole between them that a grain falls through.
+  // Spacing of 0.9 diameters, to avoid holes.
   const auto nx = static_cast<std::int64_t>(std::ceil(size.length / (0.9 * d)));
   const auto ny = static_cast<std::int64_t>(std::ceil(size.width / (0.9 * d)));
   BedGrains floor;
@@ -181,8 +181,8 @@ BedGrains grainsOf(const coupling::Simulation& simulation, const BedSize& size) 
 
 void failRestless(std::int64_t seed, double limit, double energy) {
   throw base::SimulationError(
-      fmt::format("the bed of seed {} did not come to rest within {:.1f} s: its grains move on with {:.2g} of m g r; "
-                  "give it less rolling friction, or more preparation friction or steps a contact",
+      fmt::format("the bed of seed {} did not come to rest within {:.1f} s: mean kinetic energy {:.2g} m g r per "
+                  "grain; reduce rolling friction, or raise preparation friction or steps per contact",
                   seed, limit, energy),
       base::Cause::unsettledBed);
 }

@@ -10,21 +10,21 @@
 #include <string>
 #include <vector>
 
-/// Disordered beds of spheres for virtual soil tests: poured, at rest, and taken from one scene into the next.
+/// Disordered beds of spheres for virtual soil tests: poured, settled, and transferred between scenes.
 namespace grouser::virtual_tests {
 
-/// The spheres of a soil, and how a bed of them is prepared.
+/// The spheres of a soil, and the preparation of a bed.
 struct Soil {
   SampleGrains grains;
-  double spread = 0.25;                    ///< radii are uniform, by number, within this share of the mean
-  double preparationFriction = 0.5;        ///< [-] between grains while they come to rest: the less, the denser
-  std::string preparationLaw;              ///< grains.law while they come to rest; empty: the same
+  double spread = 0.25;                    ///< half width of the uniform radius distribution (by number) over the mean
+  double preparationFriction = 0.5;        ///< [-] during settling: smaller is denser
+  std::string preparationLaw;              ///< grains.law during settling; empty: the same
   double stepsPerContact = 14;             ///< of the shortest contact
-  double impactSpeed = 0;                  ///< [m/s] above 0: that steps of Hertz' contacts are chosen for
+  double impactSpeed = 0;                  ///< [m/s] if above 0: for the time step of Hertz' contacts
   double meanVolume() const;               ///< of a grain [m3]
   Soil prepared() const;                   ///< with friction and law of the preparation
   std::string toml(double friction) const; ///< [material.grain]
-  /// The start of a scene: [run] with these, and the material. Keys of [run] in `run` come first.
+  /// Start of a scene: [run], and the material. `run`: further keys of [run].
   std::string scene(double duration, std::int64_t seed, double friction, const base::Vec3d& gravity,
                     const std::string& run) const;
 };
@@ -35,42 +35,41 @@ struct BedGrain {
 };
 using BedGrains = std::vector<BedGrain>;
 
-/// Between periodic boundaries at 0 and these.
+/// Periodic box from 0 to length and width, with depth.
 struct BedSize {
   double length = 0, width = 0, depth = 0; ///< [m]
   std::string run() const;                 ///< keys of [run]
 };
 
-/// Pours a bed from a cloud upon `below` (sections of a scene that bear it at about z = 0) and lets it come to rest.
-/// `folder`: where `below` looks for its files. `kept`: a folder where what was poured stays for the next call of the
-/// very same scene; empty: none does. Throws SimulationError where it does not come to rest.
+/// Pours a bed from a cloud onto `below` (scene sections with a floor at about z = 0) and settles it. `folder`: files
+/// of `below`. `kept`: folder of poured beds, reused for identical scenes; empty: none. Throws SimulationError if it
+/// does not come to rest.
 BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& below, std::int64_t seed,
                   const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept = {});
-/// Takes away what pourBed has kept there.
+/// Removes the files of pourBed().
 void removePoured(const std::filesystem::path& kept);
 
-/// A rough floor: places of grains that never move, in a layer whose tops reach to about z = 0.
+/// A rough floor: fixed grains in a layer with tops at about z = 0.
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed);
-/// No grain of a rough floor reaches deeper below z = 0 [m].
+/// Maximum depth of rough-floor grains below z = 0 [m].
 double roughFloorDepth(const Soil& soil);
 
-/// Lines of x, y, z, r [m], as [[grains]] of form "file" reads them, behind a line of comment that ends with `more`.
-/// The file is there whole or not at all.
+/// Writes lines of x, y, z, r [m] for [[grains]] of form "file", after a comment line that ends with `more`. Atomic.
 void writeBed(const std::filesystem::path& file, const BedGrains& grains, const std::string& more = "");
-/// Such a file; to its digits what was written. Throws InputError where it cannot be read.
+/// Reads such a file, exact to its digits. Throws InputError if it cannot be read.
 BedGrains readBed(const std::filesystem::path& file);
-/// The grains of a run as they are now, back between their periodic boundaries of `size`.
+/// Present grains of a run, wrapped into the periodic box `size`.
 BedGrains grainsOf(const coupling::Simulation& simulation, const BedSize& size);
 
-/// Steps until the kinetic energy of all grains is below `energy` [J] for a while, or `limit` [s] have passed. Returns
-/// the greatest energy of the last looks over `energy`: below 1 at rest [-].
+/// Steps until the kinetic energy of all grains is below `energy` [J] in three checks, or until `limit` [s]. Returns
+/// the maximum energy of the last checks over `energy` [-]: below 1 at rest.
 double comeToRest(coupling::Simulation& simulation, double energy, double limit);
-/// Of a bed that goes on moving after `limit` [s] with `energy` over m g r [-]: Throws SimulationError.
+/// Throws SimulationError for a bed not at rest after `limit` [s], with `energy` over m g r [-].
 [[noreturn]] void failRestless(std::int64_t seed, double limit, double energy);
 
-/// Volume of the grains between two heights over the volume there [-].
+/// Solid fraction between two heights [-].
 double solidFraction(const BedGrains& grains, const BedSize& size, double low, double high);
-/// Height below which the grains fill the bed: mean of the tops of the highest grain in columns two grains wide [m].
+/// Height of the surface: mean top of the highest grain in columns two grains wide [m].
 double surfaceHeight(const BedGrains& grains, const BedSize& size, double diameter);
 
 } // namespace grouser::virtual_tests

@@ -26,7 +26,7 @@ std::string spanText(const PublishedSpan& span) {
   return fmt::format("{:.4g} to {:.4g}{}", span.low, span.high, span.isTolerance ? " (one source, widened)" : "");
 }
 
-/// A number as JSON has it: null where it is none.
+/// JSON number; null if not finite.
 nlohmann::ordered_json number(double x) {
   return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(nullptr);
 }
@@ -43,7 +43,7 @@ nlohmann::ordered_json publishedJson(const TestedSoil& soil, Quantity quantity) 
   return all;
 }
 
-/// A plate's k with the n that is published, and what is published of a plate of its breadth.
+/// k of a plate with the published n, and the published span for its breadth.
 std::string atGivenNText(const TestPlan& plan, const SoilResults& r, std::size_t i) {
   if (!r.givenN) return {};
   const std::optional<PublishedSpan> span = publishedModulus(plan.soil, plan.breadth(kBreadths[i]));
@@ -57,25 +57,25 @@ std::string row(const std::string& name, const Estimate& e, const std::string& u
 
 bool isPlate(TestKind kind) { return kind == TestKind::small || kind == TestKind::large || kind == TestKind::wide; }
 
-/// A layer that slides along the teeth tells what these hold, not what it bears itself.
+/// A layer that slides along the teeth measures their friction, not its strength.
 std::string slipText(const SoilResults& r) {
   constexpr double kSlides = 0.7;
-  return fmt::format("  sheared within the soil: {:.0f} % of the plates' way, {:.0f} % in the worst test{}\n",
-                     100 * r.sheared, 100 * r.leastSheared,
-                     r.leastSheared < kSlides
-                         ? "; where it slides along the teeth, c and phi are those of the teeth: take larger grains or "
-                           "less pull"
-                         : "");
+  return fmt::format(
+      "  shear within the soil: {:.0f} % of the plate displacement, {:.0f} % in the worst test{}\n", 100 * r.sheared,
+      100 * r.leastSheared,
+      r.leastSheared < kSlides
+          ? "; where soil slides along the teeth, c and phi are those of the teeth: use larger grains or less cohesion"
+          : "");
 }
 
-/// A plate that falls off much when it is held has measured waves and impacts besides the soil.
+/// A large relaxation during the hold means that inertia contributed to the pressure.
 std::string motionText(const Estimate& added) {
   constexpr double kMuch = 0.1;
-  return fmt::format("held, it carries {} % less{}\n", jobs::valueText({100 * added.value, 100 * added.halfWidth}),
-                     added.value > kMuch ? ": what is measured is in part its motion; take less of --plate-waves" : "");
+  return fmt::format("relaxes by {} % when held{}\n", jobs::valueText({100 * added.value, 100 * added.halfWidth}),
+                     added.value > kMuch ? ": plate motion adds to the pressure; reduce --plate-waves" : "");
 }
 
-/// Warns of beds and samples looser than packings of spheres; empty without any.
+/// Warning about beds and samples looser than random packings of spheres; empty if none.
 std::string looseText(const TestPlan& plan, const SoilResults& r) {
   const auto has = [&](const char* key) { return numberOf(plan.soil, key, 0) > 0; };
   const bool coheres = has("cohesion") || has("surface_energy") || has("adhesion_stiffness");
@@ -83,11 +83,10 @@ std::string looseText(const TestPlan& plan, const SoilResults& r) {
   std::string text;
   for (const TestCosts& c : r.costs)
     if (c.porosity > loosest) text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", c.name, c.porosity);
-  return text.empty()
-             ? text
-             : fmt::format("porosity of {}; random packings of such grains are no looser than {:.2f}: beds are "
-                           "too thin, or have not settled",
-                           text, loosest);
+  return text.empty() ? text
+                      : fmt::format("porosity of {} above {:.2f}, the loosest random packing of such grains: beds are "
+                                    "too thin or not settled",
+                                    text, loosest);
 }
 
 std::string pad() { return std::string(43, ' '); }
@@ -101,7 +100,7 @@ nlohmann::ordered_json estimateJson(const Estimate& e, const std::string& unit) 
 std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
   const std::map<Quantity, std::string> doubts = doubtsOf(r);
   std::string text =
-      fmt::format("\n{}soil {}, +- half of the 95 % interval\n  {:<8} {:>20} {:<11} {}\n",
+      fmt::format("\n{}soil {}, +- half width of the 95 % interval\n  {:<8} {:>20} {:<11} {}\n",
                   plan.options.coarse ? "coarse: " : "", plan.soil.name, "", "measured", "", "published");
   for (const Quantity q : kQuantities) {
     const auto measured = r.measured.find(q);
@@ -119,7 +118,7 @@ std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
   }
   if (r.hasPlates()) {
     text += row("z", r.sinkage, "mm",
-                fmt::format("by Bekker's form at {:g} kPa under {:g} m", 1e-3 * kTrackPressure, kTrackBreadth));
+                fmt::format("by Bekker's equation at {:g} kPa, width {:g} m", 1e-3 * kTrackPressure, kTrackBreadth));
     for (const PublishedBekker& p : publishedBekker(plan.soil))
       text += pad() + fmt::format("{:.3g}  {}\n", 1e3 * p.fit.sinkageAt(kTrackPressure, kTrackBreadth), p.source);
   }
@@ -138,10 +137,10 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", jobs::valueText(r.k[i]),
                         jobs::valueText(r.ownN[i]), jobs::valueText(r.goodness[i]));
     text += atGivenNText(plan, r, i);
-    text += fmt::format("origin {} mm below the mean surface, its line from {:.0f} % of the pressure on; n from the "
+    text += fmt::format("origin {} mm below the mean surface, straight line starts at {:.0f} % of the pressure; n from "
                         "first contact {}; ",
                         jobs::valueText(r.bedding[i]), 100 * r.lineBegins[i].value, jobs::valueText(r.nFromContact[i]));
-    text += fmt::format("k_u {} kN/m3 unloaded from {} kPa, {} reloaded; ", jobs::valueText(r.unloading[i]),
+    text += fmt::format("k_u {} kN/m3 unloading from {} kPa, {} reloading; ", jobs::valueText(r.unloading[i]),
                         jobs::valueText(r.unloadedFrom[i]), jobs::valueText(r.reloading[i])) +
             motionText(r.addedByMotion[i]);
   }
@@ -155,8 +154,8 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
                         jobs::valueText(r.peakCohesion), jobs::valueText(r.hump), jobs::valueText(r.misfit)) +
             slipText(r);
   if (r.reposeTests > 0)
-    text += fmt::format("  repose, {}: a bed that is tilted begins to flow at {} deg\n",
-                        base::counted(r.reposeTests, "seed"), jobs::valueText(r.stability));
+    text += fmt::format("  repose, {}: flow starts at a tilt of {} deg\n", base::counted(r.reposeTests, "seed"),
+                        jobs::valueText(r.stability));
   for (const TestCosts& c : r.costs) {
     text += fmt::format("  {:<6} {:>9}, porosity {}", c.name, base::counted(c.tests, "test"),
                         jobs::plusMinus({c.porosity, c.porosityHalfWidth}, 4));
@@ -290,8 +289,8 @@ void reportSoil(const TestPlan& plan, const jobs::Pieces& pieces, int missing) {
   std::string text = constantsTable(plan, results) + detailsTable(plan, results);
   const std::vector<NotedTest> noted = notedTests(plan, pieces, TestNote::shorterSteps);
   if (!noted.empty())
-    text += fmt::format("  with {:g} times as many steps a contact, since these ended unsoundly with the others':{}\n",
-                        kShorterSteps, textOf(noted));
+    text += fmt::format("  with {:g} times as many steps per contact, after a failed first attempt:{}\n", kShorterSteps,
+                        textOf(noted));
   std::fflush(stdout);
   std::string warnings;
   for (const std::string& warning : {doubtsText(results, plan), looseText(plan, results)})

@@ -4,18 +4,18 @@
 #include "runs/virtual_tests/results.hpp"
 #include "runs/virtual_tests/test_notes.hpp"
 
-/// What is printed and written of a soil's tests.
+/// Printed and written reports of the tests of a soil.
 namespace grouser::virtual_tests {
 
-/// The table of constants: measured, published, and whether the one lies in the other.
+/// Table of constants: measured, published, and verdict.
 std::string constantsTable(const TestPlan& plan, const SoilResults& results);
-/// Plates, unloading, curves of shear, costs.
+/// Table of plates, unloading, shear curves and costs.
 std::string detailsTable(const TestPlan& plan, const SoilResults& results);
 
 std::string constantsCsv(const TestPlan& plan, const SoilResults& results);
 std::string platesCsv(const TestPlan& plan, const jobs::Pieces& pieces);
 std::string shearCsv(const TestPlan& plan, const jobs::Pieces& pieces);
-/// Of numbers that are none null.
+/// JSON of an estimate; null for non-finite numbers.
 nlohmann::ordered_json estimateJson(const support::Estimate& estimate, const std::string& unit);
 nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& results, int missing,
                                    const std::vector<NotedTest>& shorterSteps);

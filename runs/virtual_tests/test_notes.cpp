@@ -15,7 +15,7 @@ std::filesystem::path noteFile(const jobs::Pieces& pieces, const PlannedTest& te
 std::vector<NotedTest> notedTests(const TestPlan& plan, const jobs::Pieces& pieces, TestNote kind) {
   std::vector<NotedTest> noted;
   for (const PlannedTest& test : plan.tests) {
-    const bool isDone = kind == TestNote::shorterSteps; // a note of one that is not may be of a call before
+    const bool isDone = kind == TestNote::shorterSteps; // the note of an unfinished test may be from an earlier call
     if (pieces.has(test.name) != isDone) continue;
     if (std::ifstream note(noteFile(pieces, test, kind)); note)
       noted.push_back({test.name, std::string(std::istreambuf_iterator<char>(note), {})});
@@ -29,10 +29,8 @@ std::string textOf(const std::vector<NotedTest>& tests) {
   return text;
 }
 
-std::string unsoundText(const std::vector<NotedTest>& tests) {
-  return "these have ended unsoundly, with shorter steps too (where the step is to blame, take more "
-         "--steps-per-contact, in a folder of its own):" +
-         textOf(tests);
+std::string failedTestsText(const std::vector<NotedTest>& tests) {
+  return "these tests failed, also with shorter steps (try more --steps-per-contact in a new folder):" + textOf(tests);
 }
 
 } // namespace grouser::virtual_tests

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-/// Notes that tests leave beside their tables: why they have ended unsoundly.
+/// Notes of failed tests beside their tables, with the reason.
 namespace grouser::virtual_tests {
 
 enum class TestNote {
-  unsound,     ///< there is no table
-  shorterSteps ///< there is one, done again with shorter steps
+  unsound,     ///< failed, no table
+  shorterSteps ///< repeated with shorter steps
 };
 
 struct NotedTest {
@@ -23,9 +23,9 @@ struct NotedTest {
 std::filesystem::path noteFile(const jobs::Pieces& pieces, const PlannedTest& test, TestNote kind);
 /// In the order of the plan.
 std::vector<NotedTest> notedTests(const TestPlan& plan, const jobs::Pieces& pieces, TestNote kind);
-/// Each on a line of its own, which begins with a line break; empty where there are none.
+/// One line per test, each after a line break; empty without tests.
 std::string textOf(const std::vector<NotedTest>& tests);
-/// What a user is told of tests that have ended unsoundly, and what to do.
-std::string unsoundText(const std::vector<NotedTest>& tests);
+/// Message about failed tests, with remedy.
+std::string failedTestsText(const std::vector<NotedTest>& tests);
 
 } // namespace grouser::virtual_tests

@@ -20,7 +20,7 @@ namespace {
 struct QuantityName {
   Quantity quantity;
   const char *symbol, *unit;
-  double perUnit; ///< of `unit` in the SI unit of soils' files
+  double perUnit; ///< `unit` per SI unit of soil files
 };
 constexpr std::array kNames = {QuantityName{Quantity::exponent, "n", "-", 1},
                                QuantityName{Quantity::cohesionModulus, "k_c", "kN/m^(n+1)", 1e-3},
@@ -41,20 +41,20 @@ struct BedKeys {
 };
 
 base::Table<BedKeys> bedTable() {
-  base::Table<BedKeys> t("bed", "Its grains as they lie");
+  base::Table<BedKeys> t("bed", "Bed of the soil");
   t.add("grain_radius", &BedKeys::grainRadius, "m", "mean radius that [material] is valid at")
       .above(0)
       .atMost(10)
       .required();
-  t.add("radius_spread", &BedKeys::spread, "-", "radii are uniform within this share of the mean")
+  t.add("radius_spread", &BedKeys::spread, "-", "half width of the uniform radius distribution over the mean")
       .atLeast(0)
       .atMost(0.9);
-  t.add("porosity", &BedKeys::porosity, "-", "of the bed").atLeast(0.2).atMost(0.7);
-  t.add("calibrated_radii", &BedKeys::calibrated, "m", "smallest and largest mean radius that were tested").above(0);
+  t.add("porosity", &BedKeys::porosity, "-", "porosity of the bed").atLeast(0.2).atMost(0.7);
+  t.add("calibrated_radii", &BedKeys::calibrated, "m", "smallest and largest calibrated mean radius").above(0);
   return t;
 }
 
-/// What a soil's file says in SI, as the bevameter says it; empty where that measures no such thing.
+/// Converts a constant of a soil file from SI; empty if the bevameter does not measure it.
 std::optional<PublishedValue> publishedValue(const scene::PublishedConstant& c) {
   const std::optional<Quantity> quantity = quantityOf(std::string(base::wordOf(c.quantity)));
   if (!quantity) return {};
@@ -65,7 +65,7 @@ std::optional<PublishedValue> publishedValue(const scene::PublishedConstant& c) 
   return value;
 }
 
-/// How a number of [material] changes with the ratio of radii.
+/// Scales a number of [material] with the ratio of radii.
 double scaled(const std::string& key, double value, double ratio) {
   const int power = scene::radiusPowerOf(key);
   return power > 0 ? value * ratio : power < 0 ? value / ratio : value;
@@ -77,16 +77,16 @@ std::string tomlOf(const std::string& key, const base::Section& section, const b
     return base::toToml(scaled(key, static_cast<double>(*whole), ratio));
   if (const auto* text = std::get_if<std::string>(&node.value)) return base::toToml(*text);
   if (const auto* flag = std::get_if<bool>(&node.value)) return base::toToml(*flag);
-  section.fail(key, "is a list; keys of [material] are numbers, words or switches");
+  section.fail(key, "is a list; keys of [material] are numbers, words or booleans");
 }
 
-/// "soil.toml:14" -> 14; 0 where there is none.
+/// "soil.toml:14" -> 14; 0 if missing.
 std::size_t lineOf(const std::string& origin) {
   const std::size_t colon = origin.rfind(':');
   return colon == std::string::npos ? 0 : std::strtoul(origin.c_str() + colon + 1, nullptr, 10);
 }
 
-/// What a scene says of the material: read as one, each key in its own line of the file, so that errors name it.
+/// Checks the material as part of a scene, with each key in its original line, for error messages.
 scene::Material checkedMaterial(const base::Section& section, const std::string& file) {
   std::vector<std::string> lines{"version = 1"};
   const auto put = [&](std::size_t line, const std::string& text) {
@@ -106,18 +106,18 @@ fs::path fileOf(const std::string& nameOrFile) {
   std::vector<fs::path> tried;
   fs::path file = scene::findSoil(nameOrFile, "", tried);
   if (!file.empty()) return file;
-  throw base::InputError(fmt::format("soil {} is not known; {}; or give a file that ends in .toml", nameOrFile,
+  throw base::InputError(fmt::format("unknown soil {}; {}; or set a file that ends in .toml", nameOrFile,
                                      scene::soilHint(nameOrFile, "")));
 }
 
-/// Keys of a material that has been checked, and what follows from them.
+/// Copies the keys of a checked material, and derived values.
 void takeMaterial(const base::Section& section, const scene::Material& m, TestedSoil& soil) {
   if (m.hertzian()) soil.young = *m.young, soil.poisson = m.poisson.value_or(scene::Material::kPoisson);
   soil.isPlain = m.law == contact::LawKind::linear && m.cohesion == 0;
   const double ratio = soil.grainRadius / soil.fileRadius;
   for (const base::Node::Entry& e : std::get<base::Node::Map>(section.node().value))
     soil.keys.emplace_back(e.key, tomlOf(e.key, section, e.node, ratio));
-  // What is left to its default is written down: a stiffness would not scale.
+  // Stores defaults explicitly, as a default stiffness would not scale.
   if (!m.hertzian() && !section.has("stiffness")) setNumber(soil, "stiffness", ratio * *m.stiffness);
   setNumber(soil, "density", m.density), setNumber(soil, "friction", m.friction);
 }
@@ -172,8 +172,7 @@ TestedSoil readMaterial(const base::Section& root, const std::string& key, const
   soil.fileRadius = bed.grainRadius, soil.grainRadius = grainRadius > 0 ? grainRadius : bed.grainRadius;
   soil.spread = bed.spread, soil.porosity = bed.porosity;
   if (bed.calibrated) soil.calibratedFrom = (*bed.calibrated)[0], soil.calibratedTo = (*bed.calibrated)[1];
-  if (soil.calibratedFrom > soil.calibratedTo)
-    root.section("bed").fail("calibrated_radii", "begins above its end; exchange the two");
+  if (soil.calibratedFrom > soil.calibratedTo) root.section("bed").fail("calibrated_radii", "must be [min, max]");
   const base::Section material = root.section(key);
   takeMaterial(material, checkedMaterial(material, file.string()), soil);
   return soil;

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-/// A soil by name or file as the bevameter takes it: contact parameters, bed, and what is published of the soil.
+/// A soil by name or file for the bevameter: contact parameters, bed, and published constants.
 namespace grouser::virtual_tests {
 
-/// What a bevameter measures.
+/// Constants measured by a bevameter.
 enum class Quantity { exponent, frictionModulus, cohesionModulus, cohesion, frictionAngle, shearModulus, repose };
 inline constexpr Quantity kQuantities[] = {Quantity::exponent, Quantity::cohesionModulus, Quantity::frictionModulus,
                                            Quantity::cohesion, Quantity::frictionAngle,   Quantity::shearModulus,
@@ -21,41 +21,41 @@ inline constexpr Quantity kQuantities[] = {Quantity::exponent, Quantity::cohesio
 std::string symbolOf(Quantity quantity); ///< "n", "k_c", "k_phi", "c", "phi", "K", "repose", as in soil files
 std::string unitOf(Quantity quantity);   ///< "-", "kN/m^(n+1)", "kN/m^(n+2)", "kPa", "deg", "mm", "deg"
 std::optional<Quantity> quantityOf(const std::string& symbol);
-/// A number in unitOf(quantity) as soils' files have it, and its unit there: SI.
+/// Converts a number in unitOf(quantity) to the SI unit of soil files; that unit.
 double inSoilFile(Quantity quantity, double value);
 std::string soilFileUnitOf(Quantity quantity);
 
-/// A number of a source, in unitOf(quantity).
+/// Published value, in unitOf(quantity).
 struct PublishedValue {
   Quantity quantity{};
   double value = 0;
-  std::optional<double> low, high; ///< of the source's own span
+  std::optional<double> low, high; ///< span of the source
   std::string source;
 };
 
 struct TestedSoil {
   std::string name;           ///< "lete_sand"
-  std::filesystem::path file; ///< that it was read from
+  std::filesystem::path file; ///< source file
   std::string title, description;
-  /// Keys of a scene's [material] at `grainRadius` with their values as TOML, in the file's order.
+  /// Keys of a scene's [material] at `grainRadius` with TOML values, in file order.
   std::vector<std::pair<std::string, std::string>> keys;
-  /// Those but for density and friction, a line each.
+  /// The same without density and friction, one per line.
   std::string law;
   std::string lawWithoutPull;                  ///< the same without cohesion and adhesion
   double density = 0;                          ///< [kg/m3] of the solid
   double friction = 0;                         ///< [-]
-  double young = 0;                            ///< [Pa] of Hertz' contacts; 0: of another law
+  double young = 0;                            ///< [Pa] of Hertz' contacts; 0: another law
   double poisson = 0;                          ///< [-] with `young`
   bool isPlain = false;                        ///< linear springs without cohesion
-  double grainRadius = 0;                      ///< [m] mean, that the tests are done with
-  double fileRadius = 0;                       ///< [m] that the file's numbers are valid at
+  double grainRadius = 0;                      ///< [m] mean radius in the tests
+  double fileRadius = 0;                       ///< [m] radius for which the file's numbers are valid
   double spread = 0;                           ///< of the radii [-]
-  std::optional<double> porosity;              ///< [-] of the bed; empty: as it falls with the soil's own friction
-  double calibratedFrom = 0, calibratedTo = 0; ///< [m] radii; both 0 where the file names none
+  std::optional<double> porosity;              ///< [-] of the bed; empty: settled with the soil's own friction
+  double calibratedFrom = 0, calibratedTo = 0; ///< [m] radii; both 0 if the file has none
   std::vector<PublishedValue> published;
 
-  /// Whether the stiffness of contacts grows with their grains as that of a solid does, and adhesion, if there is any,
-  /// as the stress that it stands for: then grains of many sizes are one soil.
+  /// Whether contact stiffness scales with grain size as that of a solid, and adhesion as a stress: then grains of
+  /// different sizes represent the same soil.
   bool isOneAtAllSizes = false;
 
   bool isCalibrated() const {
@@ -63,18 +63,17 @@ struct TestedSoil {
   }
 };
 
-/// Reads a soil by its name, or by a file that ends in .toml, with numbers for grains of `grainRadius` [m] (0: the
-/// file's own): stiffness, cohesion and surface energy grow in proportion to the radius, damping rates fall with it,
-/// all else stays. Throws base::InputError: an unknown name (names the nearest and lists all), file:line and key of
-/// what is wrong.
+/// Reads a soil by name, or from a .toml file, scaled to grains of `grainRadius` [m] (0: that of the file): stiffness,
+/// cohesion and surface energy in proportion to the radius, damping rates inversely, others unchanged. Throws
+/// base::InputError: an unknown name (with the nearest and all names), or file:line and key of an invalid value.
 TestedSoil readTestedSoil(const std::string& nameOrFile, double grainRadius);
 
-/// The number of a key of the material; `otherwise` where it has none.
+/// Number of a material key; `otherwise` if missing.
 double numberOf(const TestedSoil& soil, const std::string& key, double otherwise);
-/// Gives a key of the material another value, or adds it, and what follows from it.
+/// Sets a material key, and updates derived values.
 void setNumber(TestedSoil& soil, const std::string& key, double value);
 
-/// The material of section `key` of a file, and its [bed], as readTestedSoil() takes them.
+/// Reads the material of section `key` of a file, and its [bed], as readTestedSoil().
 TestedSoil readMaterial(const base::Section& root, const std::string& key, const std::filesystem::path& file,
                         double grainRadius);
 

@@ -14,12 +14,11 @@ constexpr int kShrinks = 30;
 constexpr int kDirections = 12;
 constexpr int kFlatSteps = 10;
 
-/// Two pushes that lead back to within this, while one does not, are a cycle [radius].
+/// Two pushes that return to within this distance, while one does not, are a cycle [radius].
 constexpr double kCycle = 0.01;
 
-/// Moves `centre` to a place where a sphere of `radius` lies inside: away from the nearest surface point, again and
-/// again (projection onto the half-spaces in turn). False where that does not settle, as between two faces of a thin
-/// plate.
+/// Moves `centre` until a sphere of `radius` lies inside: repeatedly away from the nearest surface point (successive
+/// projection onto half-spaces). False if that does not converge, as between two faces of a thin plate.
 bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double radius) {
   Vec3d before = centre, beforeThat = centre + normal * radius;
   for (int i = 0; i < kPushes; ++i) {
@@ -68,7 +67,7 @@ SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& 
   };
   if (fits(radius)) return sphere;
 
-  // Too thin for the full sphere: the largest that fits, by halving.
+  // Too thin for the full sphere: find the largest that fits by bisection.
   double low = fit.smallest * radius, high = radius;
   if (fit.touching && fits(std::max(low, touchingRadius(outer, point, normal, radius)))) return sphere;
   if (!fits(low)) {
@@ -97,7 +96,7 @@ double flatRadius(const OuterSurface& outer, const SetSphere& sphere, double lim
     }
     return true;
   };
-  // A small hole may lie within a rim that stays.
+  // A small hole may lie inside a valid rim.
   const bool whole = stays(limit) && (!closely || (stays(0.75 * limit) && stays(0.5 * limit) && stays(0.25 * limit)));
   if (whole) return limit;
   double flat = 0;

@@ -8,18 +8,18 @@ namespace grouser::spheredecomp::detail {
 
 using base::SetSphere;
 
-/// How far a sphere may stand out of the mesh where it is fitted [radius].
+/// Largest protrusion of a fitted sphere [radius].
 inline constexpr double kFitTolerance = 0.005;
 
-/// How far a sphere may shrink, and how its radius is found.
+/// Limits and method of a sphere fit.
 struct Fit {
   double smallest; ///< [radius]
-  bool touching; ///< exactly, as the largest that touches the surface at the point; else by halving, as it fits nearby
+  bool touching;   ///< true: largest sphere that touches the surface at the point; false: largest that fits nearby, by
+                   ///< bisection
 };
 
-/// The sphere that stands for the surface at `point` with outward normal `normal`: `radius` deep under it; next to an
-/// edge, as near to that as it lies inside; where the part is too thin, a smaller one, down to `fit.smallest`. `flat`
-/// and `area` are left 0.
+/// The sphere for the surface at `point` with outward normal `normal`: `radius` deep under it; next to an edge, as near
+/// to that as it lies inside; if the part is too thin, a smaller one, down to `fit.smallest`. `flat` and `area` stay 0.
 SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius, const Fit& fit);
 
 /// Greatest radius of a flat disc for the sphere [m], at most `limit`: at twelve points of its rim the inflated disc

@@ -19,7 +19,7 @@ namespace {
 
 using Fail = std::function<void(const std::string&)>;
 
-/// Whether a word is a number to its end; with a decimal comma too, as the reader takes it.
+/// True if the whole word is a number; a decimal comma is accepted, as by the reader.
 bool isNumber(std::string word, double& value) {
   std::replace(word.begin(), word.end(), ',', '.');
   const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
@@ -27,12 +27,12 @@ bool isNumber(std::string word, double& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// The reader skips a vertex that has another count of numbers, and counts no number that begins with a point.
+/// The reader skips a vertex with another count of numbers, and ignores numbers that begin with a point.
 void checkVertex(std::istream& words, const Fail& fail) {
   std::vector<double> values;
   for (std::string word; words >> word;) {
     values.push_back(0);
-    if (!isNumber(word, values.back())) fail(fmt::format("a vertex has \"{:.40}\" for a number", word));
+    if (!isNumber(word, values.back())) fail(fmt::format("a vertex has \"{:.40}\" instead of a number", word));
     if (word.front() == '.') fail(fmt::format("a vertex has the number \"{0:.40}\"; write 0{0:.40}", word));
   }
   if (values.size() < 3) fail(fmt::format("a vertex has {} of its 3 coordinates", values.size()));
@@ -53,9 +53,9 @@ void checkLine(const std::string& line, const Fail& fail) {
   if (std::string("vVfF").find(kind) == std::string::npos) return;
   if (hasMark) fail(fmt::format("a byte-order mark stands before \"{}\"; save the file without one", kind));
   if (line.front() != kind || kind == 'V' || kind == 'F')
-    fail(fmt::format("the line is indented or in capitals; it must begin with \"{}\"", kind == 'V'   ? 'v'
-                                                                                       : kind == 'F' ? 'f'
-                                                                                                     : kind));
+    fail(fmt::format("the line is indented or in upper case; it must begin with \"{}\"", kind == 'V'   ? 'v'
+                                                                                         : kind == 'F' ? 'f'
+                                                                                                       : kind));
   if (kind == 'v') checkVertex(words, fail);
 }
 
@@ -69,7 +69,7 @@ void checkObj(const std::string& path) {
       throw base::InputError(fmt::format("{}:{}: {}; export the mesh again, or correct the line", path, at, what));
     };
     if (const std::size_t end = line.find('\r'); end < line.size() - 1)
-      fail("the lines end in carriage returns alone; save the file with the line ends of Unix or Windows");
+      fail("lines end in bare carriage returns; save the file with Unix or Windows line endings");
     const auto goesOn = [&line] { return line.ends_with('\\') || line.ends_with("\\\r"); };
     for (std::string next; goesOn() && std::getline(in, next); ++number)
       line = line.substr(0, line.rfind('\\')) + ' ' + next;

@@ -29,7 +29,7 @@ std::pair<Corners, Corners> bisect(const Corners& t, std::size_t k) {
   return {Corners{t[k], middle, apex}, Corners{middle, t[(k + 1) % 3], apex}};
 }
 
-/// Whether two triangles come nearer than about `gap`: no separating axis among both normals, the nine cross products
+/// True if two triangles come nearer than about `gap`: no separating axis among both normals, the nine cross products
 /// of edges and, for triangles in one plane, the normals of the edges within it.
 bool meet(const Corners& a, const Corners& b, double gap) {
   auto separated = [&](const Vec3d& axis) {
@@ -85,7 +85,7 @@ struct Sorter {
     sortPiece(c, t, cutters);
   }
 
-  /// Divides a piece while another triangle cuts it, then keeps it if outside it lies the open air.
+  /// Divides a piece while another triangle cuts it, then keeps it if it is on the outer surface.
   void sortPiece(const Corners& c, std::uint32_t t, const std::vector<std::uint32_t>& cutters) {
     std::vector<std::uint32_t> still;
     for (const std::uint32_t s : cutters)
@@ -98,7 +98,7 @@ struct Sorter {
     }
     const Vec3d middle = centroid(c), step = solid.normal(t) * gap;
     if (solid.winding(middle + step) != 0) return;
-    // Faces that coincide raise the winding number together: each stands for its share.
+    // Coinciding faces raise the winding number together: each counts by its share.
     const int within = std::abs(solid.winding(middle - step));
     if (within == 0) return;
     for (const Vec3d& v : c) {

@@ -7,7 +7,7 @@
 
 namespace grouser::spheredecomp::detail {
 
-/// A point of the outer surface that stands for a small piece of it.
+/// A point of the outer surface that represents a small piece of it.
 struct SurfaceSample {
   Vec3d point;
   Vec3d normal;  ///< outward
@@ -30,7 +30,7 @@ public:
   /// Area of the outer surface [m2]. Faces that coincide count once.
   double area() const { return area_; }
 
-  /// Volume of the union of the shells [m3]; where shells meet, to the resolution of their curves of intersection.
+  /// Volume of the union of the shells [m3]; where shells intersect, to the resolution of the intersection curves.
   double volume() const { return volume_; }
 
   /// Points about `spacing` [m] apart, whose areas add up to area(). The order follows the mesh.

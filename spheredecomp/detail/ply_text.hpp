@@ -5,9 +5,9 @@
 
 namespace grouser::spheredecomp::detail {
 
-/// Refuses what assimp reads wrongly or not at all from a PLY file: a header without its end, on which it never
-/// returns, and vertices of a text file with other numbers than the header lists, for which it takes those of the next
-/// line. Throws base::InputError with file and line.
+/// Rejects content that assimp misreads in a PLY file: a header without its end, on which it never returns, and text
+/// vertices with another count of numbers than in the header, for which it reads from the next line. Throws
+/// base::InputError with file and line.
 void checkPly(const std::string& path);
 
 } // namespace grouser::spheredecomp::detail

@@ -10,7 +10,7 @@
 
 namespace grouser::spheredecomp::detail {
 
-/// Points in cubic cells, to be found again by place. Points of one cell keep the order in which they came.
+/// Points in cubic cells, for spatial search. Points of one cell keep their order of insertion.
 class PointGrid {
 public:
   /// @param cell  edge of a cell [m], > 0
@@ -30,7 +30,7 @@ public:
     return false;
   }
 
-  /// The same for all of them.
+  /// The same for all points.
   template <class Visit> void each(const base::Vec3d& p, double reach, Visit&& visit) const {
     any(p, reach, [&](std::uint32_t id) {
       visit(id);

@@ -9,7 +9,7 @@ namespace {
 
 using base::Vec3d;
 
-/// Ears of a face of more corners are not compared, which would take the cube of their number.
+/// Ears of faces with more corners are not compared: the cost is cubic.
 constexpr std::size_t kMostCompared = 64;
 
 struct Point {
@@ -23,7 +23,7 @@ double turn(const Point& a, const Point& b, const Point& c) {
 }
 double length2(const Point& a, const Point& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
 
-/// Twice the vector area (Newell), which is normal to the face whatever its corners.
+/// Twice the vector area (Newell), normal to the face for any corners.
 Vec3d vectorArea(const std::vector<Vec3d>& corners) {
   Vec3d sum;
   for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -53,7 +53,7 @@ public:
       left_.push_back(k);
       size2 = std::max(size2, length2(points_[0], points_[k]));
     }
-    // Corners that a file's digits put beside a straight side count as on it.
+    // Corners beside a straight side by rounding of the file count as on it.
     flat_ = 1e-7 * std::sqrt(size2);
   }
 
@@ -83,15 +83,14 @@ private:
     return turn(a, b, p) >= -flat_ * std::sqrt(length2(a, b));
   }
 
-  /// Whether the diagonal from a to c, with b cut off, meets no other corner: the triangle holds none, its sides but
-  /// for their ends neither.
+  /// True if the ear at b can be clipped: no other corner lies in the triangle or on its sides, except their ends.
   bool isFree(std::size_t ear) const {
     const std::size_t n = left_.size();
     const Point &a = at(ear + n - 1), &b = at(ear), &c = at(ear + 1);
     for (std::size_t k = 2; k + 1 < n; ++k) {
       const Point& p = at(ear + k);
       if (p == a || p == b || p == c) {
-        // A bridge's end, met twice: no other side may lead from it into the ear.
+        // End of a bridge, which occurs twice: no other side may lead from it into the ear.
         if (leadsInto(ear + k, a, b, c)) return false;
         continue;
       }
@@ -100,7 +99,7 @@ private:
     return true;
   }
   bool leadsInto(std::size_t k, const Point& a, const Point& b, const Point& c) const {
-    // Strictly: not left of any side seen from its other end.
+    // Strictly inside: not left of any side seen from its other end.
     const auto inside = [&](const Point& p) { return !isLeftOf(b, a, p) && !isLeftOf(c, b, p) && !isLeftOf(a, c, p); };
     const Point& from = at(k);
     const auto beginsInside = [&](const Point& end) { // a short step along the side
@@ -109,8 +108,8 @@ private:
     return beginsInside(at(k + left_.size() - 1)) || beginsInside(at(k + 1));
   }
 
-  /// The ear of the greatest least height, of very many corners the first; one without area only where no other is
-  /// left, as on a face whose remaining corners all lie on a line. left_.size() without any.
+  /// The ear with the largest minimum height, or the first one of very large faces; a degenerate one only if no other
+  /// is left, as when the remaining corners lie on a line. left_.size() if there is none.
   std::size_t bestEar() const {
     const std::size_t n = left_.size();
     std::size_t best = n, empty = n;

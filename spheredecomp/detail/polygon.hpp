@@ -15,7 +15,7 @@ namespace grouser::spheredecomp::detail {
 /// is kept. Empty where the outline crosses itself.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<base::Vec3d>& corners);
 
-/// Whether an outline is strictly convex, seen along its normal, by more than float coordinates round.
+/// True if an outline is strictly convex, seen along its normal, beyond float rounding.
 bool isConvex(const std::vector<base::Vec3d>& corners);
 
 } // namespace grouser::spheredecomp::detail

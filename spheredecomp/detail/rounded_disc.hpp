@@ -19,7 +19,7 @@ inline double discDistance(const SetSphere& s, const Vec3d& p) {
   return sqrt(beyond * beyond + along * along) - s.radius;
 }
 
-/// The same for the sphere without its disc.
+/// Distance from p to the sphere without its disc [m].
 inline double ballDistance(const SetSphere& s, const Vec3d& p) { return norm(p - s.centre) - s.radius; }
 
 } // namespace grouser::spheredecomp::detail

@@ -7,9 +7,8 @@
 
 namespace grouser::terrain::detail {
 
-/// BoundaryContacts of equal grains of one material with planes that do not move, under the linear law, side by side:
-/// wall by wall first which grains it touches, then the law, as many at a time as there are lanes. A grain adds up its
-/// walls in their order, as there.
+/// BoundaryContacts of equal grains of one material with planes at rest, under the linear law, in SIMD lanes: wall by
+/// wall first the grains in contact, then the law. A grain sums its walls in their order, as BoundaryContacts does.
 template <int kWidth, unsigned kFeatures> class BoundarySimd {
 public:
   GROUSER_SIMD BoundarySimd(const GrainKernelData& data, const ForceData<float>& forces)
@@ -19,13 +18,14 @@ public:
   GROUSER_SIMD void run(int first, int last) {
     for (int k = first; k < last; k += kGrains) block(k, last - k < kGrains ? last - k : kGrains);
   }
-  GROUSER_SIMD WallBooks books() const {
-    WallBooks books;
+  GROUSER_SIMD WallAccumulator accumulator() const {
+    WallAccumulator accumulator;
     for (int l = 0; l < kLanes; ++l) {
-      books.add(kDamped, damped_[l]), books.add(kRubbed, rubbed_[l]);
-      for (int a = 0; a < 3; ++a) books.add(kWallForce + a, pushed_[a][l]), books.add(kWallTorque + a, twisted_[a][l]);
+      accumulator.add(kDashpotDissipation, damped_[l]), accumulator.add(kSlidingDissipation, rubbed_[l]);
+      for (int a = 0; a < 3; ++a)
+        accumulator.add(kWallForce + a, pushed_[a][l]), accumulator.add(kWallTorque + a, twisted_[a][l]);
     }
-    return books;
+    return accumulator;
   }
 
 private:
@@ -52,7 +52,7 @@ private:
       const int touching = find(b, grains);
       for (int c = 0; c < touching; c += kWidth) touch(b, c, touching - c < kWidth ? touching - c : kWidth);
     }
-    if (kWithLedger) book(grains);
+    if (kWithLedger) account(grains);
     for (int g = 0; g < grains; ++g) {
       if (now_[g] != before_[g]) data_.boundaryContactMask[slot_[g]] = static_cast<std::uint32_t>(now_[g]);
       BoundaryLoad<float>& load = forces_.boundaryLoads[k + g];
@@ -61,7 +61,7 @@ private:
     }
   }
 
-  /// Where the grains are [m].
+  /// Positions of the grains [m].
   GROUSER_SIMD void place(int grains) {
     for (int g = 0; g < grains; g += kLanes) {
       Int row[4];
@@ -92,7 +92,7 @@ private:
     return found;
   }
 
-  /// BoundaryContacts::touchFixed() of `count` of those found from c on.
+  /// BoundaryContacts::touchFixed() of `count` contacts, starting at c.
   GROUSER_SIMD void touch(int b, int c, int count) {
     std::uint32_t slots[kWidth];
     for (int l = 0; l < kWidth; ++l) slots[l] = slot_[grain_[c + l]];
@@ -138,7 +138,7 @@ private:
     const std::int64_t place = std::int64_t{first_} + grain;
     return data_.boundaryHistory + (place * data_.boundaryCount + b) * contact::historyWidth(kFeatures);
   }
-  /// Components of things as rows, in the order of the lanes.
+  /// Stores vector components as rows, in the order of the lanes.
   GROUSER_SIMD static void storeAll(Float4* rows, Float (&in)[4]) {
     base::transpose(in);
     for (int l = 0; l < kWidth; ++l) {
@@ -148,9 +148,9 @@ private:
     }
   }
 
-  /// BoundaryContacts::bookWalls() and bookLosses().
-  GROUSER_SIMD void book(int grains) {
-    const BookScale& scale = data_.bookScale;
+  /// BoundaryContacts::accountWalls() and accountDissipation().
+  GROUSER_SIMD void account(int grains) {
+    const LedgerScale& scale = data_.ledgerScale;
     for (int g = 0; g < grains; g += kLanes) {
       Int lane;
       for (int l = 0; l < kLanes; ++l) lane[l] = l;
@@ -177,14 +177,14 @@ private:
   const GrainKernelData& data_;
   const ForceData<float>& forces_;
   Long damped_{}, rubbed_{}, pushed_[3] = {}, twisted_[3] = {};
-  // Of the block's grains.
+  // Grains of the block.
   int first_ = 0; ///< place of its first grain in the list
   std::uint32_t slot_[kGrains];
   std::int32_t now_[kGrains], before_[kGrains]; ///< walls that they touch, a bit each
   double x_[3][kGrains];
   Float4 force_[kGrains], torque_[kGrains]; ///< fourth numbers: damped, rubbed
   float deepest_[kGrains];
-  // Of those that one wall touches; lanes may write beyond the last.
+  // Grains in contact with one wall; lanes may write beyond the last.
   std::int32_t grain_[kGrains + 16];
   float overlap_[kGrains + 16];
   Float4 spring_[kWidth] = {}, reacted_[kWidth], turned_[kWidth];
@@ -194,16 +194,16 @@ template <int kWidth, unsigned kFeatures>
 GROUSER_SIMD void runWallsOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   BoundarySimd<kWidth, kFeatures> some(d, f);
   some.run(first, last);
-  if (kFeatures & kLedger) addToBooks(d, first, some.books());
+  if (kFeatures & kLedger) addToLedger(d, first, some.accumulator());
 }
 
 template <int kWidth>
 GROUSER_SIMD void runWalls(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   if (d.features & contact::kFriction)
-    d.books ? runWallsOf<kWidth, contact::kFriction | kLedger>(d, f, first, last)
-            : runWallsOf<kWidth, contact::kFriction>(d, f, first, last);
+    d.ledgerSums ? runWallsOf<kWidth, contact::kFriction | kLedger>(d, f, first, last)
+                 : runWallsOf<kWidth, contact::kFriction>(d, f, first, last);
   else
-    d.books ? runWallsOf<kWidth, kLedger>(d, f, first, last) : runWallsOf<kWidth, 0>(d, f, first, last);
+    d.ledgerSums ? runWallsOf<kWidth, kLedger>(d, f, first, last) : runWallsOf<kWidth, 0>(d, f, first, last);
 }
 
 } // namespace grouser::terrain::detail

@@ -22,36 +22,36 @@ namespace grouser::terrain::detail {
 ///   sum      grain by grain: its contacts in the order of the neighbours' ids;
 ///   advance  the step, several grains at a time (AdvanceLanes).
 ///
-/// The law is contact::contactForce() itself. GrainStep and addCompensated() say what else is computed and why; here
-/// the same operations act on the same numbers in the same order, and where those functions branch, both sides are
-/// computed and one is taken. So the bits are theirs. What is rare goes to GrainStep itself.
+/// The law is contact::contactForce() itself. The rest repeats GrainStep and addCompensated() with the same operations
+/// on the same numbers in the same order; where those functions branch, both sides are computed and one is selected. So
+/// the bits are the same. Rare cases go to GrainStep itself.
 ///
-/// kFeatures is one of kSimdKernels, or kGeneral: then features are asked for as it runs, and contacts of several
-/// materials are computed law by law, each time in those lanes that have it.
+/// kFeatures is one of kSimdKernels, or kGeneral: then features are tested at run time, and contacts of several
+/// materials are computed law by law, each time in the lanes with that law.
 ///
-/// This is compiled for processors that may not be there: it calls nothing that is not inlined, lest a copy made for
-/// wide registers serve the whole program.
+/// The code is compiled for processors that may be absent: it calls only inlined functions, so that no copy for wide
+/// registers is linked into the rest of the program.
 template <int kWidth, unsigned kFeatures> class GrainSimd : ContactBlock<kWidth, kFeatures> {
 public:
   GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces)
       : Block(data), forces_(forces), advance_(data, forces) {}
 
-  /// Of the grains that have been advanced.
-  GROUSER_SIMD GrainBooks books() const {
-    GrainBooks books = books_;
-    advance_.books().addTo(books);
-    return books;
+  /// Energy accounting of the advanced grains.
+  GROUSER_SIMD GrainAccumulator accumulator() const {
+    GrainAccumulator accumulator = accumulator_;
+    advance_.accumulator().addTo(accumulator);
+    return accumulator;
   }
 
   GROUSER_SIMD void run(int first, int last) {
-    // A copy that no store can change: what follows from it alone is worked out once, not for each contact.
+    // A copy that no store can alias: values derived from it are computed once, not for each contact.
     const ForceData<float> f = forces_;
     for (int k = first; k < last;) {
       const int from = k;
       grains_ = contacts_ = 0;
       while (k < last && grains_ < kGrains && contacts_ + candidatesOf(k) <= kContacts) find(k++);
-      if (k == from) { // among many small ones it has more neighbours than a block
-        stepAlone(data_, f, k++, books_);
+      if (k == from) { // a large grain among small ones has more neighbours than a block
+        stepAlone(data_, f, k++, accumulator_);
         continue;
       }
       begin_[grains_] = contacts_;
@@ -59,13 +59,13 @@ public:
       if (periodic())
         for (int g = 0; g < grains_; ++g)
           if (atSide_[g]) collectAcross(g);
-      for (int c = contacts_; c % kWidth != 0; ++c) // lanes of the last group that no contact takes
+      for (int c = contacts_; c % kWidth != 0; ++c) // unused lanes of the last group
         apart_[c] = moving_[c] = turning_[c] = theirs_[c] = spring_[c] = angle_[c] = dent_[c] = Float4{};
       for (int c = 0; c < contacts_; c += kWidth)
         for (unsigned left = kAll; left != 0;) left &= ~computeContacts(c, left, f);
       if (hasHistory()) storeSprings();
       for (int g = 0; g < grains_; ++g) sum(g, slotOf(from + g));
-      advance_.run(grains_, books_);
+      advance_.run(grains_, accumulator_);
     }
   }
 
@@ -87,8 +87,8 @@ private:
   static constexpr int kUsual = 6; ///< contacts of a grain
   static constexpr unsigned kAll = (1u << kWidth) - 1;
 
-  /// The rows of each contact: what tells the two grains apart. Where things lie is taken once: for all the compiler
-  /// knows, rows that are stored could change it.
+  /// Collects the rows of each contact. Addresses are loaded once: the compiler must assume that stored rows alias
+  /// them.
   GROUSER_SIMD void collect() {
     const base::Position* const position = data_.position;
     const contact::Motion* const motion = data_.motion;
@@ -130,14 +130,14 @@ private:
       if (has(contact::kPlastic)) spring[dent] = dent_[c][0], spring[dent + 1] = dent_[c][1];
     }
   }
-  /// Of a grain at a periodic boundary.
+  /// collect() for a grain at a periodic boundary.
   GROUSER_SIMD void collectAcross(int g) {
     for (int c = begin_[g]; c < begin_[g + 1]; ++c) store(apart_ + c, Block::apart(grain_[c], other_[c]));
   }
 
   GROUSER_SIMD static Vec firstThree(const Float (&r)[4]) { return {r[0], r[1], r[2]}; }
 
-  /// What the law needs of both grains of each contact.
+  /// Parameters of the law from both grains of each contact.
   struct Pair {
     Long reach2;
     Float reach, mass, share;              ///< effective mass; of what is dissipated, that of grain i
@@ -197,7 +197,7 @@ private:
     base::storeRows(rows, in);
   }
 
-  /// GrainStep::touchNeighbour() of the contacts from c on. Rows of forces and torques replace those of motion, in
+  /// GrainStep::touchNeighbour() of the contacts starting at c. Rows of forces and torques replace those of motion, in
   /// those lanes that have the materials of the first one in `left`; returns these lanes, a bit each.
   GROUSER_SIMD unsigned computeContacts(int c, unsigned left, const ForceData<float>& f) {
     Float rows[4], relative[4], turning[4], theirs[4], spring[4];
@@ -280,7 +280,7 @@ private:
     storeTaken(apart_ + c, torques, taken);
   }
 
-  /// Of the contacts of a grain; fourth numbers as in rows.
+  /// Sum over the contacts of a grain; fourth numbers as in rows.
   struct Sum {
     Float4 force{}, torque{}, most{}, rubbed{}, rolled{}, dented{};
   };
@@ -300,25 +300,25 @@ private:
   }
   /// Copies the state of a grain that never moves.
   GROUSER_SIMD void keep(int i) {
-    if (data_.features & kLoads && data_.loads.range[i] != 0) return letStay(data_, forces_, i, books_);
+    if (data_.features & kLoads && data_.loads.range[i] != 0) return copyFixedGrain(data_, forces_, i, accumulator_);
     data_.nextPosition[i] = data_.position[i], data_.nextMotion[i] = data_.motion[i];
   }
-  /// What acts on one grain.
+  /// Sums the loads on one grain.
   GROUSER_SIMD void sum(int g, int i) {
     if (stays(i)) return advance_.addDone(g, i), keep(i);
-    if (hasFixed() && has(kLedger)) bookHeldContacts(g, i);
+    if (hasFixed() && has(kLedger)) accountFixedContacts(g, i);
     Sum all;
     const int first = begin_[g], n = begin_[g + 1] - first;
-    // Without a branch for the most frequent numbers, which the processor would often foretell wrongly: to add zero
-    // changes no sum that began with one. Masks come from memory, since the compiler turns comparisons into masked
-    // loads, which wait until the rows just stored have left the processor.
+    // Without a branch for the most frequent counts, which would often be mispredicted: adding zero changes no sum that
+    // started at zero. Masks come from memory, since the compiler turns comparisons into masked loads, which wait for
+    // the rows just stored.
     const std::int32_t* const there = there_ + (n < kUsual ? kUsual - n : 0);
 #pragma GCC unroll 6
     for (int k = 0; k < kUsual; ++k) add(first + k, Int4{} + there[k], all);
     for (int k = kUsual; k < n; ++k) add(first + k, ~Int4{}, all);
     Float4 force = all.force, torque = all.torque;
     const float damped = force[3];
-    if (has(contact::kPlastic) && has(kLedger) && all.dented[2] != 0) bookYielded(data_, i, all.dented[2]);
+    if (has(contact::kPlastic) && has(kLedger) && all.dented[2] != 0) accountPlasticWork(data_, i, all.dented[2]);
     const std::uint32_t place = data_.features & kBoundaries ? data_.boundaryOf[i] : 0;
     if (place != 0) {
       const BoundaryLoad<float>& load = forces_.boundaryLoads[place - 1];
@@ -333,7 +333,7 @@ private:
     if (atSide_[g] || pressed || loaded) [[unlikely]]
       addOthers(g, i, pressed ? place : 0, loaded, force, torque);
   }
-  /// What acts in double: surfaces that move and parts.
+  /// Adds loads in double: moving surfaces and parts.
   GROUSER_SIMD void addOthers(int g, int i, std::uint32_t place, bool loaded, const Float4& force,
                               const Float4& torque) {
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
@@ -350,8 +350,8 @@ private:
     advance_.setAlone(g, f4, t4);
   }
 
-  /// Forces by grains that never move.
-  GROUSER_SIMD void bookHeldContacts(int g, int i) {
+  /// Accounts for the forces of fixed grains.
+  GROUSER_SIMD void accountFixedContacts(int g, int i) {
     Float4 force{}, torque{};
     bool any = false;
     for (int c = begin_[g]; c < begin_[g + 1]; ++c)
@@ -360,16 +360,17 @@ private:
         torque += has(contact::kRollingFriction) ? turning_[c] + apart_[c] : turning_[c];
       }
     if (!any) return;
-    bookHeld(data_, forces_, i, {force[0], force[1], force[2]}, {torque[0], torque[1], torque[2]}, books_);
+    accountFixedGrain(data_, forces_, i, {force[0], force[1], force[2]}, {torque[0], torque[1], torque[2]},
+                      accumulator_);
   }
 
   const ForceData<float>& forces_;
-  GrainBooks books_; ///< of what is rare
-  /// kUsual masks from place kUsual - n on: n that are set, then none.
+  GrainAccumulator accumulator_; ///< of rare cases
+  /// kUsual masks starting at kUsual - n: n set, then clear.
   const std::int32_t there_[2 * kUsual] = {-1, -1, -1, -1, -1, -1};
   Advance advance_;
   alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows],
-      dent_[kRows]; ///< plastic state, what yields, what is slipped
+      dent_[kRows]; ///< plastic state, plastic work, micro-slip
 };
 
 namespace {
@@ -380,7 +381,7 @@ template <int kWidth, unsigned kFeatures> __attribute__((noinline, flatten)) voi
 runOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   GrainSimd<kWidth, kFeatures> some(d, f);
   some.run(first, last);
-  if (hasFeature<kFeatures>(d, kLedger)) addToBooks(d, first, some.books());
+  if (hasFeature<kFeatures>(d, kLedger)) addToLedger(d, first, some.accumulator());
 }
 
 } // namespace

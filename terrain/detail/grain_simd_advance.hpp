@@ -6,17 +6,17 @@
 
 namespace grouser::terrain::detail {
 
-/// GrainStep::advance(), kLanes grains side by side, of what contacts gave a block of grains. The same operations on
-/// the same numbers in the same order; grains with which something is out of the ordinary go to GrainStep itself.
+/// GrainStep::advance() for kLanes grains side by side, from the contact forces of a block of grains. The same
+/// operations on the same numbers in the same order; unusual grains go to GrainStep itself.
 template <int kLanes, unsigned kFeatures> class AdvanceLanes {
 public:
   static constexpr int kGrains = 64; ///< of a block
   enum class Way : std::int32_t { lanes, alone, done };
 
   GROUSER_SIMD AdvanceLanes(const GrainKernelData& data, const ForceData<float>& forces)
-      : data_(data), forces_(forces), books_(data) {}
+      : data_(data), forces_(forces), accumulator_(data) {}
 
-  /// Forces in rows of four, as they are summed; their fourth numbers: what is damped, and the deepest overlap.
+  /// Forces in rows of four, as they are summed; their fourth numbers: damping loss, and the deepest overlap.
   GROUSER_SIMD void add(int g, int slot, const Float4& force, const Float4& torque, float rubbed, float rolled,
                         float slipped) {
     const int lane = laneOf(g);
@@ -25,7 +25,7 @@ public:
     if (has(kLedger)) rubbed_[lane] = rubbed, rolled_[lane] = rolled;
     if (slips()) slipped_[lane] = slipped;
   }
-  /// One that is advanced already, or never.
+  /// Adds a grain that is already advanced, or fixed.
   GROUSER_SIMD void addDone(int g, int slot) {
     const int lane = laneOf(g);
     slot_[lane] = static_cast<std::uint32_t>(slot), way_[lane] = static_cast<std::int32_t>(Way::done);
@@ -33,21 +33,21 @@ public:
     if (has(kLedger)) rubbed_[lane] = rolled_[lane] = 0;
     if (slips()) slipped_[lane] = 0;
   }
-  /// Grain g goes to GrainStep, with these instead of what add() was given.
+  /// Passes grain g to GrainStep, with this load instead of that of add().
   GROUSER_SIMD void setAlone(int g, const Double4& force, const Double4& torque) {
     way_[laneOf(g)] = static_cast<std::int32_t>(Way::alone), forceAlone_[g] = force, torqueAlone_[g] = torque;
   }
 
-  /// The first `grains` of the block; `rare`: books of those that go to GrainStep.
-  GROUSER_SIMD void run(int grains, GrainBooks& rare) {
+  /// Advances the first `grains` of the block; `rare`: accumulates those that go to GrainStep.
+  GROUSER_SIMD void run(int grains, GrainAccumulator& rare) {
     for (int g = grains; g % kLanes != 0; ++g) addDone(g, static_cast<int>(slot_[0]));
     for (int g = 0; g < grains; g += kLanes)
       if (const unsigned left = step(g, !data_.active && g + kLanes <= grains); left != 0) [[unlikely]]
         stepAlone(g, left, rare);
   }
 
-  /// Of all grains so far but for those that went to GrainStep.
-  GROUSER_SIMD const LaneBooks<kLanes, kFeatures>& books() const { return books_; }
+  /// Energy accounting of all grains so far except those that went to GrainStep.
+  GROUSER_SIMD const LaneAccumulator<kLanes, kFeatures>& accumulator() const { return accumulator_; }
 
 private:
   static constexpr bool kMaySlip = kFeatures & (contact::kHertz | contact::kGeneral);
@@ -117,7 +117,7 @@ private:
     return faster * (now.sum - faster * 0.5) + now.rounding * now.sum;
   }
 
-  /// What differs from grain to grain where radii do.
+  /// Constants that depend on the radius.
   struct Sizes {
     Double stepPerMass, stepPerInertia, mass, massShare, inertia;
     Float maxOverlap;
@@ -137,7 +137,7 @@ private:
             data_.maxOverlapShare * radius};
   }
 
-  /// Advances kLanes grains from g on, and returns which of them it has left to GrainStep, a bit each.
+  /// Advances kLanes grains starting at g; returns those left to GrainStep, a bit each.
   GROUSER_SIMD unsigned step(int g, bool together) {
     Float v[4], w[4], force[4], torque[4];
     Int kept[4], p[4], q[4], keep[4];
@@ -185,10 +185,10 @@ private:
     const unsigned which = base::laneBits(ordinary);
     if (has(kLedger)) {
       const Double slipped = slips() ? base::toDouble(load<Float>(slipped_ + g)) : Double{};
-      books_.add(work,
-                 {base::toDouble(force[3]), base::toDouble(load<Float>(rubbed_ + g)),
-                  base::toDouble(load<Float>(rolled_ + g)), slipped},
-                 p, size.massShare, ordinary);
+      accumulator_.add(work,
+                       {base::toDouble(force[3]), base::toDouble(load<Float>(rubbed_ + g)),
+                        base::toDouble(load<Float>(rolled_ + g)), slipped},
+                       p, size.massShare, ordinary);
     }
     raiseWhereStale(g, q, which);
     if (!has(kManyRadii)) v[3] = Float{};
@@ -199,7 +199,7 @@ private:
     return kAll & ~which;
   }
 
-  /// The list has ended where one of these grains has gone too far from where it was listed.
+  /// Marks the list as stale if one of these grains is too far from where it was listed.
   GROUSER_SIMD void raiseWhereStale(int g, const Int (&q)[4], unsigned which) const {
     Int was[4];
 #pragma GCC unroll 4
@@ -227,7 +227,7 @@ private:
     }
   }
 
-  GROUSER_SIMD void stepAlone(int g, unsigned which, GrainBooks& rare) const {
+  GROUSER_SIMD void stepAlone(int g, unsigned which, GrainAccumulator& rare) const {
     for (; which != 0; which &= which - 1) {
       const int lane = __builtin_ctz(which), k = g + rowOf(lane), l = g + lane;
       if (way_[l] == static_cast<std::int32_t>(Way::done)) continue;
@@ -243,7 +243,7 @@ private:
 
   const GrainKernelData& data_;
   const ForceData<float>& forces_;
-  LaneBooks<kLanes, kFeatures> books_;
+  LaneAccumulator<kLanes, kFeatures> accumulator_;
   std::uint32_t slot_[kGrains];
   std::int32_t way_[kGrains];
   alignas(32) Float4 force_[kGrains], torque_[kGrains];

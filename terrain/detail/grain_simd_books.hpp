@@ -7,7 +7,7 @@
 namespace grouser::base {
 
 #if defined(__AVX512F__)
-// Conversions of eight, as those of four in simd_rows.hpp. Masked forms: of the others GCC 12 warns.
+// Conversions of eight, as those of four in simd_rows.hpp. Masked forms: GCC 12 warns about the others.
 constexpr __mmask8 kEightLanes = 0xFF;
 using Float8 = Simd<float, 8>;
 using Int8 = Simd<std::int32_t, 8>;
@@ -74,14 +74,14 @@ template <SimdVector V> GROUSER_SIMD Simd<double, base::kWidthOf<V>> exactly(con
   return base::bitsAs<Double>(units + base::bitsAs<V>(shift)) - shift;
 }
 
-/// What grains are booked with, kLanes side by side: GrainStep::book().
-template <int kLanes, unsigned kFeatures> class LaneBooks {
+/// Energy accounting of kLanes grains side by side: GrainStep::account().
+template <int kLanes, unsigned kFeatures> class LaneAccumulator {
 public:
   using Int = Simd<std::int32_t, kLanes>;
   using Long = Simd<std::int64_t, kLanes>;
   using Double = Simd<double, kLanes>;
 
-  GROUSER_SIMD explicit LaneBooks(const GrainKernelData& data) : data_(data) {}
+  GROUSER_SIMD explicit LaneAccumulator(const GrainKernelData& data) : data_(data) {}
 
   /// Dissipation of these grains [J].
   struct LostLanes {
@@ -91,7 +91,7 @@ public:
   GROUSER_SIMD void add(const Double (&work)[3], const LostLanes& lost, const Int (&place)[4], const Double& massShare,
                         const Int& which) {
     const Long mask = base::convert<std::int64_t>(which);
-    const double perEnergy = data_.bookScale.perEnergy;
+    const double perEnergy = data_.ledgerScale.perEnergy;
     const Double all = (work[0] + work[2]) + work[1];
     work_ += wholeOf(all * perEnergy) & mask, turnover_ += wholeOf((all < 0.0 ? -all : all) * perEnergy) & mask;
     damped_ += wholeOf(lost.damped * perEnergy) & mask;
@@ -108,14 +108,15 @@ public:
     }
   }
 
-  /// Of all that was booked.
-  GROUSER_SIMD void addTo(GrainBooks& books) const {
+  /// Adds the sums of all lanes.
+  GROUSER_SIMD void addTo(GrainAccumulator& accumulator) const {
     for (int l = 0; l < kLanes; ++l) {
-      books.of[kWork] += work_[l], books.of[kTurnover] += turnover_[l];
-      books.of[kDamped] += damped_[l], books.of[kRubbed] += rubbed_[l], books.of[kRolled] += rolled_[l];
-      if (has(contact::kHertz)) books.of[kSlipped] += slipped_[l];
-      for (int a = 0; a < 3; ++a) books.of[kMoment + a] += moment_[a][l];
-      books.of[kMass] += mass_[l];
+      accumulator.of[kWork] += work_[l], accumulator.of[kTurnover] += turnover_[l];
+      accumulator.of[kDashpotDissipation] += damped_[l], accumulator.of[kSlidingDissipation] += rubbed_[l],
+          accumulator.of[kRollingDissipation] += rolled_[l];
+      if (has(contact::kHertz)) accumulator.of[kMicroSlipDissipation] += slipped_[l];
+      for (int a = 0; a < 3; ++a) accumulator.of[kMoment + a] += moment_[a][l];
+      accumulator.of[kMass] += mass_[l];
     }
   }
 

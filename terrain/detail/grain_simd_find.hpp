@@ -7,8 +7,7 @@
 
 namespace grouser::terrain::detail {
 
-/// The contacts of a block of grains, found several candidates at a time; and the features that all sweeps of GrainSimd
-/// ask for.
+/// Finds the contacts of a block of grains, several candidates at a time; and the features for all sweeps of GrainSimd.
 template <int kWidth, unsigned kFeatures> class ContactBlock {
 protected:
   static constexpr int kGrains = 64, kContacts = 192; ///< of a block
@@ -28,7 +27,7 @@ protected:
   GROUSER_SIMD std::size_t historyWidth() const { return contact::historyWidth(layout()); }
   GROUSER_SIMD std::size_t dentPlace() const { return contact::plasticPlace(layout()); }
 
-  // Of these a step decides as it runs: they are asked for once a grain or a group of contacts.
+  // Tested at run time, once per grain or group of contacts.
   GROUSER_SIMD bool hasFixed() const { return data_.features & kFixed; }
   GROUSER_SIMD bool periodic() const { return data_.features & kPeriodic; }
   GROUSER_SIMD int slotOf(int k) const { return data_.active ? static_cast<int>(data_.active[k]) : k; }
@@ -43,7 +42,7 @@ protected:
     return data_.neighbours.history + historyWidth() * std::size_t{entry};
   }
 
-  /// Appends the contacts of the k-th grain to the block; one that never moves needs none.
+  /// Appends the contacts of the k-th grain to the block; a fixed grain needs none.
   GROUSER_SIMD void find(int k) {
     const int i = slotOf(k), n = candidatesOf(k);
     begin_[grains_] = contacts_;
@@ -95,7 +94,7 @@ protected:
     contacts_ = c;
     ++grains_;
   }
-  /// Springs of contacts that begin are not stretched yet. Bit k is of place `first` + k.
+  /// Resets the springs of new contacts. Bit k is of place `first` + k.
   GROUSER_SIMD void begin(std::uint64_t before, std::uint64_t now, std::uint32_t first) const {
     if (!hasHistory()) return;
     for (std::uint64_t begun = now & ~before; begun != 0; begun &= begun - 1) {
@@ -120,7 +119,7 @@ protected:
     }
     return touching;
   }
-  /// From i to the nearest image of j.
+  /// Vector from i to the nearest image of j.
   GROUSER_SIMD Int4 apart(std::uint32_t i, std::uint32_t j) const {
     if (!periodic()) return load<Int4>(data_.position + j) - load<Int4>(data_.position + i);
     const base::Vec3l way = data_.period.apart(data_.position[i], data_.position[j]);
@@ -147,7 +146,7 @@ protected:
   int grains_ = 0, contacts_ = 0;
   int begin_[kGrains + 1];
   bool samePlace_[kGrains], atSide_[kGrains];
-  // Of the block's contacts, and as many more as the last lanes may read and write for nothing.
+  // Contacts of the block, with padding that the last lanes may read and write.
   static constexpr int kRows = kContacts + std::max(8, kWidth);
   std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
 };

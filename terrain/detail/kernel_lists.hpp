@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The combinations of features that kernels are compiled for. Kernels are instantiated from these lists
-// (grain_kernels.cu, grain_simd.hpp), and the choice among them looks into the same ones (kernel_choice.cpp).
+// (grain_kernels.cu, grain_simd.hpp) and chosen from them (kernel_choice.cpp).
 #pragma once
 
 #include "terrain/grain_model.hpp"
@@ -38,7 +38,7 @@ template <std::size_t kSize> constexpr bool allDiffer(const std::array<unsigned,
   return true;
 }
 
-/// Scenes have a ledger; benches leave it out.
+/// Scenes have a ledger; benchmarks may omit it.
 inline constexpr unsigned kBed = kFriction | kBoundaries | kLedger;
 
 /// Beds of soil: each of these features, with and without.
@@ -89,8 +89,8 @@ inline constexpr std::array kCohesiveKernels = {kSticky,
                                                 kSticky | kRollingFriction | kFixed,
                                                 kSticky | kRollingFriction | kFixed | kLoads};
 
-/// What `grouser soil` does with them between periodic boundaries: sheared between toothed plates, which are parts;
-/// settling on fixed grains; under a plate, which is a surface.
+/// Tests of `grouser soil` between periodic boundaries: shear between toothed plates (parts); settling on fixed grains;
+/// a plate on the bed (a surface).
 inline constexpr unsigned kSheared = (kSoil & ~kBoundaries) | kPeriodic | kLoads,
                           kSettling = kSoil | kPeriodic | kFixed, kPressed = kSettling | kSurfaces,
                           kSlipping = kRollingFriction | kPlastic;
@@ -112,12 +112,12 @@ inline constexpr std::array kBevameterKernels = {kSheared,
                                                  kPressed | kSlipping,
                                                  kPressed | kSlipping | kCohesion};
 
-/// Of the grains' step. A height-map floor does not matter to it.
+/// Kernels of the grains' step. They do not depend on a height-map floor.
 inline constexpr auto kStepKernels =
     joined(soilKernels(), kPlasticKernels, kCohesiveKernels, kBevameterKernels, kOtherKernels);
 static_assert(allDiffer(kStepKernels));
 
-/// Of walls and floor, by the features that their kernel depends on. The search on a floor needs many registers.
+/// Features that kernels of walls and floor depend on. The search on a floor needs many registers.
 inline constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
                                           kManyMaterials | kSurfaces | kFloor | contact::kGeneral;
 inline constexpr unsigned kSoilWalls = kHertz | kFriction | kRollingFriction | kManyRadii;
@@ -151,15 +151,15 @@ inline constexpr std::array kBoundaryKernels = {0u,
                                                 kSoilWalls | kCohesion | kPlastic | kSurfaces};
 static_assert(allDiffer(kBoundaryKernels));
 
-/// Whether a kernel is compiled for scenes that keep books, and for those that do not. The step's features say so; of
-/// walls and floor beds without books are compiled for the bench.
-constexpr bool withBooks(unsigned set, bool ofStep) { return !ofStep || set & (kLedger | contact::kGeneral); }
-constexpr bool withoutBooks(unsigned set, bool ofStep) {
+/// Whether a kernel is compiled with, and without, a ledger. The step's features determine it; kernels of walls and
+/// floor without a ledger are compiled for the benchmark.
+constexpr bool withLedger(unsigned set, bool ofStep) { return !ofStep || set & (kLedger | contact::kGeneral); }
+constexpr bool withoutLedger(unsigned set, bool ofStep) {
   return set & contact::kGeneral || (ofStep ? !(set & kLedger) : set == kFriction);
 }
 
-/// Of the grains' step in SIMD on a CPU: what is known at compile time. What is among the features asked for in a step
-/// makes no other kernel.
+/// Features of the grains' step in SIMD that are known at compile time. Features tested at run time need no other
+/// kernel.
 inline constexpr unsigned kSimdCompiled =
     kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii | kLedger;
 inline constexpr unsigned kSimdAsked = kBoundaries | kSurfaces | kLoads | kPeriodic | kFixed | kFloor;
@@ -182,7 +182,7 @@ constexpr auto simdKernels() {
 inline constexpr auto kSimdKernels = simdKernels();
 static_assert(allDiffer(kSimdKernels));
 
-/// The one of these that grains of such features take, or kGeneral.
+/// The SIMD kernel for grains of these features, or kGeneral.
 constexpr unsigned simdKernel(unsigned features) {
   const unsigned own = features & kSimdCompiled;
   return (features & ~(kSimdCompiled | kSimdAsked)) == 0 && isListed(kSimdKernels, own) ? own : contact::kGeneral;

@@ -272,7 +272,7 @@ TEST_F(Api, SaysWhatMaySurprise) {
     return std::any_of(warnings.begin(), warnings.end(),
                        [&](const std::string& w) { return w.find(words) != std::string::npos; });
   };
-  EXPECT_TRUE(has("spheres of shoe.obj stand out"));
+  EXPECT_TRUE(has("spheres of shoe.obj protrude"));
 }
 
 TEST_F(Api, AStepWithinAStepIsRefusedAndHarmsNothing) {

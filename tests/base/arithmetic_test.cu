@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What equal bits on all machines rest on: no fused multiply-add, and functions that are the project's own.
+// Requirements of bitwise equal results on all machines: no fused multiply-add, and the project's own functions.
 #include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/for_each.cuh"

@@ -12,7 +12,7 @@
 namespace grouser::base {
 namespace {
 
-/// How many threads were there.
+/// Number of threads.
 struct CountThreads {
   double cost; // [ns] that the loop is told
   std::atomic<int>* most;

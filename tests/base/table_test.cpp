@@ -44,7 +44,7 @@ Table<Wheel> wheelTable() {
   t.add("count", &Wheel::count, "-", "how many").atLeast(1).atMost(20);
   t.add("steered", &Wheel::steered, "", "turns about z");
   t.add("kind", &Wheel::kind, "", "what it does");
-  t.add("centre", &Wheel::centre, "m", "of the axle");
+  t.add("centre", &Wheel::centre, "m", "axle position");
   t.add("range", &Wheel::range, "m", "from, to");
   t.add("angles", &Wheel::angles, "rad", "of the spokes");
   t.add("tags", &Wheel::tags, "", "free words");
@@ -55,7 +55,7 @@ Table<Wheel> wheelTable() {
   return t;
 }
 
-/// What reading `text` says, after `version = 1` on line 1 and [wheel] on line 2; empty where nothing is wrong.
+/// Error message of reading `text`, after `version = 1` on line 1 and [wheel] on line 2; empty if valid.
 std::string complaint(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     const Document doc = Document::parse("version = 1\n[wheel]\n" + text, "w.toml", overrides);
@@ -147,16 +147,16 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"UnknownWordInAList", "brakes = [\"left\", \"rigth\"]",
                "w.toml:3: wheel.brakes = \"rigth\" is none of left, right; did you mean \"right\"? (where it has one)"},
         Broken{"NumberForAWord", "side = 1",
-               "w.toml:3: wheel.side = 1 has the wrong type; give a text in quotes (where it is)"},
+               "w.toml:3: wheel.side = 1 has the wrong type; give a string in quotes (where it is)"},
         Broken{"ShortVector", "centre = [1, 2]",
-               "w.toml:3: wheel.centre = [1, 2] has the wrong type; give three numbers [x, y, z] [m] (of the axle)"},
+               "w.toml:3: wheel.centre = [1, 2] has the wrong type; give three numbers [x, y, z] [m] (axle position)"},
         Broken{"WordWhereAutoIsMeant", "step = \"automatic\"",
                "w.toml:3: wheel.step = \"automatic\" has the wrong type; give a number or \"auto\" [s] (time step)"},
         Broken{"ListWithText", "angles = [1, \"b\"]",
                "w.toml:3: wheel.angles = [1, \"b\"] has the wrong type; give a list of numbers [a, b, ...] [rad] (of "
                "the spokes)"},
         Broken{"Date", "radius = 2020-01-01",
-               "w.toml:3: a date or time has no meaning here; remove it or put it in quotes"}),
+               "w.toml:3: dates and times are not supported; remove it or put it in quotes"}),
     [](const auto& test) { return test.param.name; });
 
 TEST(Table, UnknownKeyNamesTheNearest) {
@@ -228,9 +228,9 @@ TEST(Overrides, AreCheckedLikeTheFile) {
             "--set: wheel.radius = -2 [m] is outside (0, 10]; choose a value in that range (rolling radius)");
   EXPECT_EQ(complaint("", {"wheel.raduis=2"}).find("--set: unknown key wheel.raduis; did you mean radius?"), 0u);
   EXPECT_EQ(complaint("", {"weel.radius=2"}).find("--set: unknown section weel; did you mean wheel?"), 0u);
-  EXPECT_NE(complaint("", {"wheel.radius"}).find("no value is given"), std::string::npos);
+  EXPECT_NE(complaint("", {"wheel.radius"}).find("the value is missing"), std::string::npos);
   EXPECT_NE(complaint("", {"wheel..radius=1"}).find("not of the form"), std::string::npos);
-  EXPECT_NE(complaint("radius = 1", {"wheel.radius.x=1"}).find("is a value, no section"), std::string::npos);
+  EXPECT_NE(complaint("radius = 1", {"wheel.radius.x=1"}).find("is a value, not a section"), std::string::npos);
   // An override cannot smuggle in a second key.
   EXPECT_NE(complaint("", {"wheel.kind=\"road\"\nradius = 3"}), "");
 }
@@ -304,7 +304,7 @@ TEST(FormerKeys, AreReadAndNoted) {
     const Document doc = trackDocument("[track]\n" + former + " = 7\n");
     EXPECT_EQ(doc.root().section("track").read(trackTable()).length, 7) << former;
     EXPECT_EQ(doc.notes(), std::vector{"t.toml:3: track." + former +
-                                       " is called length now; rename it, for the next version knows that name only"});
+                                       " is now called length; rename it (the next version rejects the old name)"});
   }
   EXPECT_TRUE(trackDocument("[track]\nlength = 7\n").notes().empty());
   EXPECT_TRUE(trackDocument("[wheel]\nspan = 7\n").notes().empty()); // another section's own key
@@ -316,7 +316,7 @@ TEST(FormerKeys, AreNotedOnceForAllEntriesOfAList) {
   EXPECT_EQ(tracks[1].read(trackTable()).length, 2);
   EXPECT_EQ(tracks[2].read(trackTable()).length, 3);
   ASSERT_EQ(doc.notes().size(), 1u);
-  EXPECT_EQ(doc.notes().front().find("t.toml:5: track.1.span is called length now"), 0u) << doc.notes().front();
+  EXPECT_EQ(doc.notes().front().find("t.toml:5: track.1.span is now called length"), 0u) << doc.notes().front();
 }
 
 TEST(FormerKeys, AreFoundInNamedAndInnerSections) {
@@ -342,9 +342,9 @@ TEST(FormerKeys, BesideTheirNewNamesAreAnError) {
     }
   };
   EXPECT_EQ(complaintAbout("[track]\nlength = 2\nspan = 4\n", {}),
-            "t.toml:4: track.span is the former name of track.length, which stands at t.toml:3 too; remove span");
+            "t.toml:4: track.span is the former name of track.length, which is also set at t.toml:3; remove span");
   EXPECT_EQ(complaintAbout("[track]\nlength = 2\n", {"track.span=4"}),
-            "--set: track.span is the former name of track.length, which stands at t.toml:3 too; remove span");
+            "--set: track.span is the former name of track.length, which is also set at t.toml:3; remove span");
   EXPECT_NE(complaintAbout("[track]\nspan = 2\nreach = 4\n", {}), ""); // two former names
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What one step of a contact books as lost is the work done on it, less what its springs have gained.
+// Dissipation of a contact in one step is the work done on it minus the energy gain of its springs.
 #include "base/random.hpp"
 #include "contact_fixture.hpp"
 

@@ -19,7 +19,7 @@ using testing::hertz, testing::linear;
 
 template <class T> using Geometry = BasicContactGeometry<T>;
 
-/// Of a number: -0 is not 0. What is no number has one pattern here, since operands may change sides.
+/// Bit pattern of a number: -0 differs from 0. All NaNs have one pattern, since operands may be swapped.
 std::uint64_t bitsOf(double x) {
   return std::bit_cast<std::uint64_t>(x == x ? x : std::numeric_limits<double>::quiet_NaN());
 }

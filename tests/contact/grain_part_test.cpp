@@ -187,7 +187,7 @@ TEST(GrainInCorner, KernelsOfFewFeaturesGiveTheBitsOfTheGeneralOne) {
       EXPECT_EQ(special.loads[k].force, general.loads[k].force);
       EXPECT_EQ(special.loads[k].torque, general.loads[k].torque);
     }
-    EXPECT_NE(special.sums[kRubbedByParts], 0);
+    EXPECT_NE(special.sums[kSlidingLossByParts], 0);
     EXPECT_NE(special.sums[kDampedByParts], 0);
   }
 }
@@ -243,7 +243,7 @@ TEST(GrainOnPlate, WhatIsPressedMostSinceTheLastRowIsKeptWithItsGrain) {
   EXPECT_NEAR(most->share, 0.4, 1e-6) << "float, and positions in units of 4e-10 m";
   EXPECT_EQ(bench.contacts->ledger().squeezed, 1) << "in the last step alone, 0.3";
   const SavedGrainPatches saved = bench.contacts->save();
-  bench.contacts->forgetPressed();
+  bench.contacts->resetDeepestOverlap();
   EXPECT_FALSE(bench.contacts->mostPressed());
   bench.contacts->restore(saved);
   EXPECT_NEAR(bench.contacts->mostPressed()->share, 0.4, 1e-6);

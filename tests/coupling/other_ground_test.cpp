@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A kind of ground that the library does not have, behind the interface that its own kinds have: what
-// CONTRIBUTING.md#adding-a-ground promises to who adds one.
+// A ground model outside the library, behind the interface of the library's own: the steps of
+// CONTRIBUTING.md#adding-a-ground.
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/simulation.hpp"

@@ -45,7 +45,7 @@ bool namesLine(const std::string& message) {
   const std::string head = std::string(kName) + ":";
   if (message.rfind(head, 0) != 0 || message.find('\n') != std::string::npos) return false;
   return std::isdigit(static_cast<unsigned char>(message[head.size()])) ||
-         message.find("there is nothing to simulate") != std::string::npos;
+         message.find("nothing to simulate") != std::string::npos;
 }
 
 /// The message of a refusal; empty where the scene was loaded.

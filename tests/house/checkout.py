@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the files of a checkout for the rules of the house."""
+"""Reads the files of a checkout for the coding rules."""
 import re
 from functools import cached_property
 from pathlib import Path
@@ -7,12 +7,12 @@ from pathlib import Path
 from cpp_outline import without_comments
 
 SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
-SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and what begins with #!
+SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and files that begin with #!
 OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html', '.mp4'}
 TOPS = ['base', 'contact', 'fluid', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle', 'coupling', 'assets', 'api', 'runs',
         'tests', 'docs', 'cmake', 'python']
 GENERATED = {'grouser_commit.hpp'}  # written by the build
-UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')  # no part of the tree
+UNREAD, UNREAD_AT_TOP = re.compile(r'__pycache__|\..*'), re.compile(r'build.*|out')  # not part of the tree
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*(?:include|include_next|import)\b[ \t]*([^\s"<]*)(["<]?)([^">\n]*)', re.M)
 
 
@@ -29,17 +29,17 @@ class House:
 
     @cached_property
     def plain(self):
-        """{file of code: its text without comments and strings}; lines keep their numbers."""
+        """{code file: text without comments and strings}; line numbers are kept."""
         return {path: without_comments(self.text[path]) for path in self.code}
 
     @cached_property
     def endings(self):
-        """All that a file may be called: of a/b/c.hpp also b/c.hpp and c.hpp."""
+        """All endings of paths: for a/b/c.hpp also b/c.hpp and c.hpp."""
         return {'/'.join(Path(path).parts[k:]) for path in self.files for k in range(len(Path(path).parts))}
 
     @cached_property
     def includes(self):
-        """{file: [(line, what it names, the file it is or None)]}, without those that lie outside the house."""
+        """{file: [(line, included name, file or None)]}, without external headers."""
         found = {}
         for path in self.code:
             found[path] = []
@@ -85,13 +85,13 @@ def is_script(path):
 
 
 def room_of(path):
-    """'terrain' of terrain/detail/x.hpp, 'runs/campaigns/sweeps' of runs/campaigns/sweeps/x.hpp,
-    'tests/runs/campaigns/sweeps' of its tests."""
+    """'terrain' for terrain/detail/x.hpp, 'runs/campaigns/sweeps' for runs/campaigns/sweeps/x.hpp,
+    'tests/runs/campaigns/sweeps' for its tests."""
     parts = Path(path).parts[:-1]
     if 'detail' in parts:
         parts = parts[:parts.index('detail')]
     if parts[:1] == ('assets',):
-        parts = parts[:1]  # its folders are programs that make what lies in it
+        parts = parts[:1]  # its folders contain generators
     return '/'.join(parts)
 
 

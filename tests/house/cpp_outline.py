@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Functions and classes of a C++ file, with their lines: what the limits of tests/rooms need, and no more.
+"""Functions and classes of a C++ file with their lines, for the limits of tests/rooms.
 
-Not a compiler: braces are followed, and what stands before one says what it opens. Formatted code without macros that
-hide braces is read rightly; that clang-format accepts a file is checked beside this.
+Not a compiler: follows braces and classifies each by the text before it. Correct for formatted code without macros
+that hide braces; the format is checked separately.
 """
 import re
 from dataclasses import dataclass, field
@@ -19,17 +19,17 @@ class Function:
 class Class:
     name: str
     line: int
-    public: list = field(default_factory=list)  # its public functions, one for each overload; copies and ends apart
+    public: list = field(default_factory=list)  # one per overload, without copy operations and destructors
 
 
-# A digit's separator (1'000) is no quote, hence the look behind.
+# Digit separators (1'000) are not quotes, hence the lookbehind.
 _QUIET = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-fA-F])\'(?:\\.|[^\'\\\n])+\'', re.S)
 _DIRECTIVE = re.compile(r'^[ \t]*#(?:\\\n|[^\n])*', re.M)
 
 
 def without_comments(text, keep_strings=False):
-    """The text with comments, and strings unless kept, blanked out; lines keep their numbers."""
+    """The text with comments, and strings unless kept, blanked out; line numbers are kept."""
     def blank(match):
         word = match.group(0)
         if word[0] != '/':
@@ -39,15 +39,15 @@ def without_comments(text, keep_strings=False):
 
 
 def comments(text):
-    """Matches of the comments of a text."""
+    """Matches of the comments in a text."""
     return [match for match in _QUIET.finditer(text) if match[0][0] == '/']
 
 
 def _without_directives(text):
-    """Preprocessor lines blanked out; of an #else whose braces do not match, the whole branch."""
+    """Blanks out preprocessor lines, and #else branches whose braces do not match."""
     joined = _DIRECTIVE.sub(lambda m: m[0].replace('\\\n', ' ') + '\n' * m[0].count('\\\n'), text)
     lines = joined.split('\n')
-    branches = []  # where the current branch of each open #if began, None for a first branch
+    branches = []  # start of the current branch of each open #if, None for a first branch
     for i, line in enumerate(lines):
         word = re.match(r'[ \t]*#\s*(\w+)', line)
         if not word:
@@ -70,7 +70,7 @@ _OPEN, _CLOSE = {'(': ')', '[': ']', '{': '}'}, ')]}'
 
 
 def _skip(text, at):
-    """Behind the bracket that closes the one at `at`."""
+    """Position after the bracket that closes the one at `at`."""
     depth = 0
     while at < len(text):
         if text[at] in _OPEN:
@@ -99,7 +99,7 @@ _CLASS = re.compile(r'\b(class|struct|union)\s+' + _ATTRIBUTES + r'([\w:]+)?')
 
 
 def _opens(head):
-    """What a brace behind this head opens ('namespace', 'class', 'function', 'lambda' or 'value'), and a name."""
+    """Kind of the brace after this head ('namespace', 'class', 'function', 'lambda' or 'value'), and its name."""
     plain = re.sub(r'\s+', ' ', _without_angles(head)).strip()
     plain = re.sub(r'^template\s*', '', plain)
     if re.match(r'(inline )?namespace\b', plain) or re.fullmatch(r'extern ""', plain):
@@ -117,20 +117,20 @@ def _opens(head):
         return 'value', ''
     name = re.search(r'([~\w:]+)\s*$', plain[:parenthesis])
     call = name[1] if name else '?'
-    # A test's name is what its macro is given: TEST(Suite, Claim).
+    # Tests are named by the arguments of their macro: TEST(Suite, Claim).
     if re.match(r'(TEST|TEST_F|TEST_P|TYPED_TEST)$', call):
         call = re.sub(r'\s+', '', plain[parenthesis + 1:_skip(plain, parenthesis) - 1]).replace(',', '.')
     return 'function', call
 
 
 def _inside_initialisers(head):
-    """Is a brace behind this head the value of a member in a constructor's list, not the body?"""
+    """Whether a brace after this head is a value in a constructor's initialiser list, not the body."""
     return re.search(r'\)\s*(noexcept\s*)?:(?!:)', head) and re.search(r'[\w>]\s*$', head)
 
 
 def outline(text):
-    """(functions, classes) of a file's text. A named lambda outside of functions is one; what stands inside a function
-    is part of it. What a class inherits is not among its functions."""
+    """(functions, classes) of a file's text, including named lambdas outside of functions, without nested or inherited
+    functions."""
     text = _without_directives(without_comments(text))
     functions, classes = [], []
     _walk(text, 0, None, '', functions, classes)
@@ -138,7 +138,7 @@ def outline(text):
 
 
 def _walk(text, at, owner, access, functions, classes):
-    """Reads declarations from `at` up to the brace that closes this scope; returns the place behind it."""
+    """Reads declarations from `at` to the brace that closes this scope; returns the position after it."""
     start = at
     while at < len(text):
         c = text[at]
@@ -172,7 +172,7 @@ def _walk(text, at, owner, access, functions, classes):
                 is_class = re.search(r'\bclass\b', _without_angles(head).split(name)[0])
                 at = _walk(text, at + 1, found, 'private' if is_class else 'public', functions, classes)
             else:
-                end = _skip(text, at)  # of a lambda too
+                end = _skip(text, at)  # for lambdas too
                 functions.append(Function(name, line, text.count('\n', 0, end - 1) + 1 - line + 1))
                 _declared(head, owner, access)
                 at = end
@@ -183,8 +183,7 @@ def _walk(text, at, owner, access, functions, classes):
 
 
 def _declared(head, owner, access):
-    """Counts a declaration of a class's scope if it is a public function that somebody wrote; what overrides is known
-    from the interface."""
+    """Counts a declaration in a class if it is a public, user-written function that does not override another."""
     if owner is None or access != 'public':
         return
     plain = re.sub(r'\s+', ' ', _without_angles(head)).strip()

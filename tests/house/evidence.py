@@ -46,11 +46,11 @@ def evidence(house):
     records = {path: house.text[path] for path in house.documents if path.startswith(FOLDER) and path != INDEX}
     for path, text in records.items():
         if not dates(text):
-            yield f'{path}:1: has no date (YYYY-MM-DD)'
+            yield f'{path}:1: no date (YYYY-MM-DD)'
         if not verdicts(text):
-            yield f'{path}:1: has no paragraph that begins with "Verdict: "'
+            yield f'{path}:1: no paragraph that begins with "Verdict: "'
     if records and house.text.get(INDEX) != index(records):
-        yield f'{INDEX}:1: is not the index of the records; run tests/house/evidence.py > {INDEX}'
+        yield f'{INDEX}:1: out of date; run tests/house/evidence.py > {INDEX}'
 
 
 if __name__ == '__main__':

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the rules ask of the includes as a graph, {node: the nodes that it includes}."""
+"""Include graph algorithms; graph: {node: included nodes}."""
 from collections import deque
 
 
 def chains_from(start, graph):
-    """For every node that `start` reaches in {node: nodes} one of the shortest chains to it: breadth first."""
+    """A shortest chain from `start` to each reachable node of {node: nodes} (breadth-first search)."""
     came = {start: None}
     queue = deque([start])
     while queue:
@@ -20,7 +20,7 @@ def chains_from(start, graph):
 
 
 def circles_of(graph):
-    """For every strongly connected component of {node: nodes} one of its shortest circles, its first node repeated."""
+    """A shortest cycle of each strongly connected component of {node: nodes}, with its first node repeated."""
     for component in components(graph):
         if len(component) > 1 or component[0] in graph.get(component[0], ()):
             inside = set(component)
@@ -63,7 +63,7 @@ def components(graph):
 
 
 def shortest_circle(graph, start, inside):
-    """From start back to it, within a component: breadth first."""
+    """A shortest cycle through `start` within a component (breadth-first search)."""
     came = {}
     queue = deque([start])
     while queue:

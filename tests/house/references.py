@@ -11,10 +11,10 @@ MAX_PROSE_COLUMNS = 120
 
 
 def prose(house):
-    """Documents are wrapped: but for tables, code, and what has no place to break."""
+    """Documents are wrapped, except tables, code and unbreakable text."""
     for path in house.documents:
         for number, line in prose_lines(house.text[path]):
-            # A line of one long word (a link, an address) behind its list mark cannot be shorter.
+            # A line with a single long word (link, address) after its list mark cannot be shorter.
             words = re.sub(r'^[\s>*\-\d.]*', '', line).split()
             if len(line) > MAX_PROSE_COLUMNS and not line.lstrip().startswith('|') and len(words) > 1:
                 yield f'{path}:{number}: {len(line)} columns, at most {MAX_PROSE_COLUMNS}'
@@ -37,7 +37,7 @@ def prose_lines(text):
 
 
 def commits(house):
-    """Commits of measured figures stand in records under docs/evidence/, not in guides."""
+    """Commits of measured figures are in records under docs/evidence/, not in guides."""
     for path in house.documents:
         if path.startswith('docs/evidence/'):
             continue
@@ -47,7 +47,7 @@ def commits(house):
 
 
 def links(house):
-    """Links of documents, paths named as `room/file`, and files of code named in documents and comments are there."""
+    """Links of documents, paths such as `room/file`, and code files named in documents and comments exist."""
     tops = '|'.join(TOPS)
     for path in house.documents:
         for number, line in prose_lines(house.text[path]):
@@ -55,7 +55,7 @@ def links(house):
                 fault = link_fault(house, path, target)
                 if fault:
                     yield f'{path}:{number}: {fault}'
-            # Without a suffix a unit is meant: `base/comm` for base/comm.hpp and base/comm.cpp.
+            # Without suffix: a unit, such as `base/comm` for base/comm.hpp and base/comm.cpp.
             for name in re.findall(rf'`((?:{tops})/[\w./]+)`', line):
                 if not is_there(house.root / name) and not list(house.root.glob(name + '.*')):
                     yield f'{path}:{number}: there is no {name}'
@@ -71,7 +71,7 @@ def links(house):
 
 
 def code_named(text):
-    """Names of files of code in a text; NAME.cpp and *_test.cpp are patterns."""
+    """Names of code files in a text, without patterns such as NAME.cpp and *_test.cpp."""
     for name in re.findall(r'[\w./*<>{}-]*\.(?:hpp|cpp|cuh|cu|py)\b', text):
         if not re.search(r'[*<>{}]|[A-Z]{2}|^\.', name) and not name.startswith('/'):
             yield name
@@ -90,14 +90,14 @@ def link_fault(house, path, target):
 
 
 def headings(text):
-    """Anchors as GitHub makes them of the headings of a document."""
+    """GitHub anchors of the headings of a document."""
     titles = [line for _, line in prose_lines(text) if line.startswith('#')]
     plain = [re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', title.lstrip('#').strip()).lower() for title in titles]
     return {re.sub(r'[^\w\- ]', '', title).replace(' ', '-') for title in plain}
 
 
 def tests_of(house):
-    """{room of tests: names as GoogleTest has them}"""
+    """{room of tests: GoogleTest names}"""
     tests = {}
     for path in house.code:
         if path.startswith('tests/'):
@@ -107,26 +107,25 @@ def tests_of(house):
 
 
 def long_tests(house):
-    """Long tests are there, and so are the quicker ones of their claims: ctest is silent about a name without a test."""
+    """Long tests and the quicker tests of their claims exist (ctest ignores unknown names)."""
     path = house.root / 'tests/long_tests.cmake'
     there = {name for names in tests_of(house).values() for name in names}
     rows = [row.split() for row in re.findall(r'^ +"(\w+\.\w+.*)"', path.read_text() if path.exists() else '', re.M)]
     long = {row[0] for row in rows if not row[-1].isdigit()}
     for row in rows:
         yield from (f'tests/long_tests.cmake: there is no test {name}' for name in row if '.' in name and name not in there)
-        yield from (f'tests/long_tests.cmake: {name} is itself a long one' for name in row[1:] if name in long)
+        yield from (f'tests/long_tests.cmake: {name} is itself a long test' for name in row[1:] if name in long)
 
 
 def mutants(house):
-    """What tests/mutate changes stands in its file, just once, and the tests that should see it are there: else no test
-    is asked about that fault any more."""
+    """Texts changed by tests/mutate occur exactly once in their file, and the tests of each fault exist."""
     tests = tests_of(house)
     for path in (path for path in house.files if re.fullmatch(r'tests/mutation/.+\.toml', path)):
         for number, fault in enumerate(tomllib.loads((house.root / path).read_text()).get('fault', []), 1):
             count = house.text.get(fault['file'], '').count(fault['old'])
             if count != 1:
-                yield f'{path}: fault {number} stands {count} times in {fault["file"]}: {fault["old"]}'
+                yield f'{path}: fault {number} occurs {count} times in {fault["file"]}: {fault["old"]}'
             for room, filters in (test.split(':', 1) for test in fault.get('tests', [])):
                 for wanted in filters.split('-')[0].split(':'):
-                    if not fnmatch.filter(tests.get(room, []), wanted.split('/')[-1]):  # Laws/Scale.* are Scale's
+                    if not fnmatch.filter(tests.get(room, []), wanted.split('/')[-1]):  # Laws/Scale.* are tests of Scale
                         yield f'{path}: fault {number}: there is no test {wanted} in {room}'

@@ -69,7 +69,7 @@ class Mutants(unittest.TestCase):
         for code, count in (('x += 1;\n', 1), ('x += 2;\n', 0), ('x += 1; x += 1;\n', 2)):
             told = faults(mutants, {'base/a.cpp': code, 'tests/mutation/base.toml': table})
             self.assertEqual(len(told), 0 if count == 1 else 1, code)
-        self.assertIn('stands 0 times in base/b.cpp', faults(mutants, {
+        self.assertIn('occurs 0 times in base/b.cpp', faults(mutants, {
             'base/a.cpp': 'x += 1;\n', 'tests/mutation/base.toml': table.replace('base/a', 'base/b')})[0])
 
     def test_the_tests_that_should_see_a_fault_are_there(self):
@@ -93,7 +93,7 @@ class LongTests(unittest.TestCase):
         self.assertEqual(told('Ground.Holds 30 Bed.Rests'), [])
         self.assertEqual(told('Ground.Gives 30 Bed.Rests'), ['tests/long_tests.cmake: there is no test Ground.Gives'])
         self.assertEqual(told('Ground.Holds 30 Bed.Rest'), ['tests/long_tests.cmake: there is no test Bed.Rest'])
-        self.assertEqual(told('Ground.Holds 30 Bed.Sinks'), ['tests/long_tests.cmake: Bed.Sinks is itself a long one'])
+        self.assertEqual(told('Ground.Holds 30 Bed.Sinks'), ['tests/long_tests.cmake: Bed.Sinks is itself a long test'])
 
 
 if __name__ == '__main__':

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The rules of the house that tests/rooms checks. Each takes a House and yields faults as 'place: what is wrong'."""
+"""The coding rules checked by tests/rooms. Each takes a House and yields violations as 'place: message'."""
 import re
 from pathlib import Path
 
@@ -8,8 +8,9 @@ from cpp_outline import outline
 from evidence import evidence
 from include_graph import chains_from, circles_of
 from references import commits, links, long_tests, mutants, prose
+from words import words
 
-# A room, and the rooms beside itself that it may include.
+# Each room and the other rooms that it may include.
 LIBRARIES = {
     'base': set(),
     'contact': {'base'},
@@ -22,35 +23,35 @@ LIBRARIES = {
     'coupling': {'base', 'contact', 'fluid', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle'},
     'assets': {'base'},
 }
-# The rooms of the program stand on the libraries and on the rooms before them, but not on those of the same line.
+# Rooms of the program may include the libraries and the rooms of previous lists, but not those of their own list.
 PROGRAM = [['support'], ['scene'], ['setup'], ['storage'], ['output'], ['render', 'jobs', 'validation/bench'],
            ['session', 'virtual_tests', 'campaigns/sweeps'], ['validation/studies', 'campaigns/forecast'],
            ['campaigns/events'], ['commands']]
-# The public interface, whose headers stand by themselves, and the Python module on it.
+# The public interface, whose headers include nothing else, and the Python module based on it.
 BESIDE = {'api': {'runs/' + room for room in 'support scene setup storage output session'.split()} | set(LIBRARIES),
           'api/include/grouser': set(), 'python/module': set()}
-# What only keeps or draws needs no physics.
+# Rooms without physics.
 NARROW = {
     'runs/support': {'base'},
     'runs/render': {'base', 'runs/support', 'runs/output'},
 }
-# Behind setup stand coupling::SimulationSetup and setup::RecordSetup in a scene's place.
+# Rooms that use coupling::SimulationSetup and setup::RecordSetup instead of the scene.
 BLIND = ['coupling', 'runs/storage', 'runs/output', 'runs/render', 'runs/session']
-# Folders of tests that mirror no room: whole scenes, and what several ranks run.
+# Folders of tests without a room: whole scenes, and tests on several ranks.
 TEST_ROOMS = {'tests/system', 'tests/ranks'}
 MAX_FILE_LINES = 500
 MAX_FUNCTION_LINES = 80
 MAX_PUBLIC_FUNCTIONS = 25
-# Beside the tops a checkout may hold results, but nothing that one would compile or run.
+# Outside the top folders a checkout may contain results, but no code.
 STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp', '.tpp', '.cl', '.hip', '.f90', '.rs'}
 
-# Rooms that have a part in what a state becomes: elementary functions there are those of base/math.hpp.
+# Rooms that compute the state: elementary functions only from base/math.hpp.
 STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'runs/storage']
-# Fused multiply-adds that make correctly rounded results, which a test compares with the operators.
+# Uses fused multiply-adds for correctly rounded results, which a test compares with the operators.
 ROUNDED_CORRECTLY = 'base/moderate.hpp'
 LIBM = ('sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p pow '
         'cbrt hypot erf erfc tgamma lgamma fma sincos exp10 sinpi cospi rsqrt').split()
-# Who may speak to MPI: the ranks, and the file that HDF5 writes from all of them.
+# Files that may call MPI: communication, and parallel HDF5.
 MPI_FILES = re.compile(r'base/comm[^/]*\.\w+|runs/support/hdf5_file\.cpp')
 
 
@@ -68,48 +69,48 @@ def allowed_rooms():
 
 
 def places(house):
-    """Files lie where the rules look, and have a suffix they know: nothing is exempt by its name."""
+    """Files are in known folders and have known suffixes."""
     for path in house.files:
         top, suffix = Path(path).parts[0], Path(path).suffix
         if top in TOPS and top != path:
             if suffix not in SUFFIXES | SCRIPTS | OTHERS and suffix:
-                yield f'{path}: a file of code ends in .hpp, .cpp, .cu or .cuh; others stand in tests/house/rules.py'
+                yield f'{path}: unknown suffix; code ends in .hpp, .cpp, .cu or .cuh (others: tests/house/rules.py)'
         elif suffix in SUFFIXES | SCRIPTS | STRANGE_CODE:
-            yield f'{path}: lies in no room; the rooms stand in tests/house/rules.py'
-        # Tests are found by their folders: one beside them would never be compiled.
+            yield f'{path}: not in a room; rooms are listed in tests/house/rules.py'
+        # Tests are found by their folders: others would never be compiled.
         room = room_of(path)
         if re.fullmatch(r'tests/.+_test\.(cpp|cu)', path) and room not in TEST_ROOMS:
             if room.removeprefix('tests/') not in allowed_rooms():
-                yield f'{path}: mirrors no room; the rooms of tests stand in tests/house/rules.py'
+                yield f'{path}: not a folder of tests; these are listed in tests/house/rules.py'
 
 
 def order(house):
-    """A room includes only what its line in ARCHITECTURE.md names; tests may include every room."""
+    """A room includes only the rooms in its line of ARCHITECTURE.md; tests may include every room."""
     may = allowed_rooms()
     for path, includes in house.includes.items():
         room = room_of(path)
         for line, name, target in includes:
             if target is None:
                 if name not in GENERATED:
-                    yield f'{path}:{line}: there is no file {name}; name it itself, from the top folder'
+                    yield f'{path}:{line}: no file {name}; include it by its path from the top folder'
                 continue
             other = room_of(target)
             if other == room or room.startswith('tests'):
                 continue
             if room not in may:
-                yield f'{path}:{line}: {room or "the top folder"} is no room; the rooms stand in tests/house/rules.py'
+                yield f'{path}:{line}: {room or "the top folder"} is no room; rooms are listed in tests/house/rules.py'
             elif other not in may[room]:
                 yield f'{path}:{line}: {room} may not include {other} ({name})'
 
 
 def chains(house):
-    """What a room may not include no header brings along: neither a library nor what lies behind setup reaches a scene
-    through any chain of includes."""
+    """Forbidden rooms are not included indirectly either: libraries and rooms after setup reach no scene through any
+    chain of includes."""
     may = allowed_rooms()
     rooms = {path: room_of(path) for path in house.code}
     files = {path: sorted({target for _, _, target in includes if target})
              for path, includes in house.includes.items()}
-    reached = {}  # {file: {room that its own may not include: the shortest chain of files to it}}
+    reached = {}  # {file: {forbidden room: shortest chain of files to it}}
     for path in house.code:
         if rooms[path] in may:
             reached[path] = {}
@@ -119,13 +120,13 @@ def chains(house):
                     reached[path].setdefault(other, chain)
     for path, others in reached.items():
         for other, chain in others.items():
-            # One include is a fault of order(); where the next file is at fault itself, this one is none besides.
+            # Direct includes are reported by order(); chains through a file that is reported itself are skipped.
             if len(chain) > 2 and other not in reached.get(chain[1], {}):
                 yield f'{path}: {rooms[path]} may not reach {other}: {" -> ".join(chain)}'
 
 
 def scenes(house):
-    """What lies behind setup names no scene: plain values stand in its place."""
+    """Rooms after setup use plain values, no scene."""
     for path in house.code:
         if room_of(path) in BLIND:
             for match in re.finditer(r'\bscene\s*::', house.plain[path]):
@@ -133,7 +134,7 @@ def scenes(house):
 
 
 def privacy(house):
-    """What lies in ROOM/detail/ is included by ROOM and tests/ROOM alone."""
+    """Files in ROOM/detail/ are included only by ROOM and tests/ROOM."""
     for path, includes in house.includes.items():
         for line, name, target in includes:
             if target and '/detail/' in target:
@@ -143,8 +144,8 @@ def privacy(house):
 
 
 def circles(house):
-    """No file includes itself by way of others; nor does x, where x.hpp, x.cpp, x.cu and x.cuh are one."""
-    between = {}  # (unit, unit): how the first is seen to include the second
+    """No include cycles, also if x.hpp, x.cpp, x.cu and x.cuh count as one unit."""
+    between = {}  # (unit, unit): an include of the second by the first
     files, units = {}, {}
     for path, includes in house.includes.items():
         files[path] = {target for _, _, target in includes if target}
@@ -169,7 +170,7 @@ def unit_of(path):
 
 
 def thrust(house):
-    """Thrust and CUB are compiled in base/*.cu alone: they cost minutes, and the order of their sums is theirs."""
+    """Thrust and CUB only in base/*.cu: they take minutes to compile, and their summation order is unspecified."""
     for path in house.code:
         if not re.fullmatch(r'base/[^/]+\.cu', path):
             for match in re.finditer(r'^[ \t]*#[ \t]*include[ \t]*<((?:thrust|cub)/[^>]+)>', house.text[path], re.M):
@@ -177,7 +178,7 @@ def thrust(house):
 
 
 def mpi(house):
-    """MPI is called in base/comm, and named where HDF5 writes a file of all ranks; nowhere else."""
+    """MPI is used only in base/comm and in the parallel HDF5 file."""
     for path in house.code:
         if not MPI_FILES.fullmatch(path):
             for text, words in ((house.plain[path], r'\bMPI_\w+'), (house.text[path], r'^[ \t]*#.*[<"](mpi\.h)[>"]')):
@@ -186,11 +187,11 @@ def mpi(house):
 
 
 def libm(house):
-    """No function where a state is made whose bits differ between machines: transcendental ones of libm, fused
-    multiply-adds, the processor's approximations."""
+    """Code that computes the state calls no functions whose bits differ between machines: transcendental functions of
+    libm, fused multiply-adds, approximations of the processor."""
     names = '(' + '|'.join(LIBM) + ')([fl]?)'
     call = re.compile(r'(?:(\w*)\s*(::)|(\.|->))?\s*\b' + names + r'\s*(?:<[^<>;(){}]*>\s*)?\(')
-    # Of std:: and :: the mere name is enough: its address may be taken.
+    # With std:: and :: the name is enough: its address may be taken.
     name = re.compile(r'(?:\bstd\s*::|(?<![\w>:\s])\s*::)\s*' + names + r'\b(?!\s*::)')
     builtin = re.compile(r'\b(?:__builtin_|__nv_)' + names + r'\b|\b__' + names + r'(?:_r[nzud])?\s*\(|'
                          r'\b_mm\d*_\w*(?:fn?m(?:add|sub)|rsqrt|rcp)\w*|\b__frcp_\w+|\b__frsqrt_\w+')
@@ -198,21 +199,21 @@ def libm(house):
         if room_of(path) not in STATE_ROOMS or path == ROUNDED_CORRECTLY:
             continue
         text = house.plain[path]
-        found = {}  # line: what stands there
+        found = {}  # line: function
         for match in [*name.finditer(text), *builtin.finditer(text)]:
             word = re.sub(r'\s', '', match[0]).rstrip('(')
             found.setdefault(line_at(text, match.end()), word)
-        if path != 'base/math.hpp':  # which defines and calls its own
+        if path != 'base/math.hpp':  # it defines and calls its own
             for match in call.finditer(text):
                 qualifier, scope, member = match[1], match[2], match[3]
                 if not member and not (scope and qualifier not in ('', 'std')):
                     found.setdefault(line_at(text, match.start(4)), match[4] + match[5])
         for line, word in sorted(found.items()):
-            yield f'{path}:{line}: {word} of libm; take the one of base/math.hpp'
+            yield f'{path}:{line}: {word} of libm; use base/math.hpp'
 
 
 def sums(house):
-    """No sum whose order could vary where a state is made: OpenMP reduces integers, or to a minimum or maximum."""
+    """Code that computes the state has no sums of variable order: OpenMP reduces integers, or to minimum or maximum."""
     for path in house.code:
         if room_of(path) not in STATE_ROOMS:
             continue
@@ -221,7 +222,7 @@ def sums(house):
                                  r'\bstd\s*::\s*(?:transform_)?reduce\b', text, re.M):
             line = line_at(text, match.start())
             if match[1] is None:
-                yield f'{path}:{line}: {match[0]} adds in an order of its own; take a loop, or integers'
+                yield f'{path}:{line}: {match[0]} has an unspecified order; use a loop or integers'
                 continue
             for clause in re.finditer(r'\breduction\s*\(([^:]*):([^)]*)\)', match[1]):
                 kind = clause[1].split(',')[-1].strip()
@@ -229,24 +230,24 @@ def sums(house):
                     continue
                 for name in re.findall(r'\w+', clause[2]):
                     if not is_integer(name, text[:match.start()]):
-                        yield (f'{path}:{line}: reduction({kind}:{name}) in the order of the threads; sum integers '
-                               '(base/fixed_point.hpp), declared as such')
+                        yield (f'{path}:{line}: reduction({kind}:{name}) depends on the order of threads; sum declared '
+                               'integers (base/fixed_point.hpp)')
             if re.search(r'\b(atomic|declare\s+reduction)\b', match[1]):
-                yield f'{path}:{line}: omp{match[1]} in the order of the threads; take base::atomicAdd64'
+                yield f'{path}:{line}: omp{match[1]} depends on the order of threads; use base::atomicAdd64'
 
 
 def is_integer(name, before):
-    """Is the last declaration of `name` in the text before one of an integer, as far as one sees?"""
+    """Whether the last declaration of `name` in the text before is an integer."""
     words = (r'(?:std\s*::\s*)?(?:u?int\d+_t|size_t|ptrdiff_t)|(?:unsigned\s+|signed\s+)?(?:int|long(?:\s+long)?)|'
              r'unsigned')
-    # Others of the same declaration may stand between: `std::int64_t a = 0, b = 0;`
+    # Other names of the same declaration may be in between: `std::int64_t a = 0, b = 0;`
     declared = list(re.finditer(r'\b(' + words + r'|double|float|auto|[A-Z]\w*)\s+(?:[^;(){}]*[\s,])?' + name +
                                 r'\s*(?=[=;,{])', before))
     return bool(declared) and bool(re.fullmatch(words, declared[-1][1]))
 
 
 def kernels(house):
-    """The body that base::forEach runs is a named functor: a lambda is none that nvcc would compile."""
+    """Bodies of base::forEach are named functors, since nvcc does not compile lambdas here."""
     for path in house.code:
         text = house.plain[path]
         lambdas = set(re.findall(r'\b(\w+)\s*=\s*\[', text))
@@ -257,7 +258,7 @@ def kernels(house):
 
 
 def arguments(text, at):
-    """Of the call whose parenthesis opens at `at`."""
+    """Arguments of the call whose parenthesis opens at `at`."""
     depth, begin, given = 0, at + 1, []
     for k in range(at, len(text)):
         if text[k] in '([{':
@@ -273,7 +274,7 @@ def arguments(text, at):
 
 
 def sizes(house):
-    """Files, functions and classes that one can still read. Copying and ending are no functions of a class."""
+    """Sizes of files, functions and classes (without copy operations and destructors)."""
     for path in house.code + house.scripts:
         lines = house.text[path].count('\n')
         if lines > MAX_FILE_LINES:
@@ -291,13 +292,13 @@ def sizes(house):
 
 
 def licence(house):
-    """Every file of code begins with its licence, a script where the system reads #! in the second line."""
+    """Code files begin with the licence line, scripts after #!."""
     for path in house.code + house.scripts:
         lines = house.text[path].split('\n', 2)
         number = 1 if lines[0].startswith('#!') and len(lines) > 1 else 0
         if 'SPDX-License-Identifier: BSD-3-Clause' not in lines[number]:
-            yield f'{path}:{number + 1}: here stands the licence: SPDX-License-Identifier: BSD-3-Clause'
+            yield f'{path}:{number + 1}: expected the licence line: SPDX-License-Identifier: BSD-3-Clause'
 
 
 RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, commits,
-         links, long_tests, mutants, evidence]
+         links, long_tests, mutants, evidence, words]

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Every rule of tests/rooms sees what it is there for, and passes what is right beside it."""
+"""Each rule of tests/rooms finds violations and passes correct code."""
 import sys
 import tempfile
 import unittest
@@ -16,13 +16,12 @@ LICENCE = '// SPDX-License-Identifier: BSD-3-Clause\n'
 
 
 def include(folder, header):
-    """A line that includes a header of a library. Put together here: this file must not hold one that a search for
-    includes would find."""
+    """A line that includes a library header, assembled so that this file does not contain it."""
     return f'#include <{folder}/{header}>\n'
 
 
 def faults(rule, files):
-    """What the rule says of a house of these files: {path: text}; code gets its licence line."""
+    """Violations of a rule in a checkout of these files: {path: text}; adds licence lines."""
     with tempfile.TemporaryDirectory() as folder:
         for path, text in files.items():
             place = Path(folder, path)
@@ -35,7 +34,7 @@ class Places(unittest.TestCase):
     def test_code_lies_in_a_room(self):
         for bad in ('tools/x.cpp', 'tools/deep/x.h', 'x.cpp', 'tools/x.py'):
             told = faults(rules.places, {bad: ''})
-            self.assertEqual(told, [f'{bad}: lies in no room; the rooms stand in tests/house/rules.py'], bad)
+            self.assertEqual(told, [f'{bad}: not in a room; rooms are listed in tests/house/rules.py'], bad)
 
     def test_no_file_escapes_by_its_suffix(self):
         for bad in ('base/x.h', 'base/x.inl', 'terrain/detail/x.ipp', 'runs/setup/x.cc', 'tests/base/x.hxx'):
@@ -57,7 +56,7 @@ class Places(unittest.TestCase):
         for bad in ('tests/runs/x_test.cpp', 'tests/runs/validation/x_test.cpp', 'tests/simulation/x_test.cpp',
                     'tests/runs/sweeps/x_test.cu'):
             told = faults(rules.places, {bad: ''})
-            self.assertEqual(told, [f'{bad}: mirrors no room; the rooms of tests stand in tests/house/rules.py'], bad)
+            self.assertEqual(told, [f'{bad}: not a folder of tests; these are listed in tests/house/rules.py'], bad)
         for good in ('tests/coupling/x_test.cpp', 'tests/runs/validation/studies/x_test.cpp', 'tests/base/x_test.cu',
                      'tests/system/x_test.cpp', 'tests/ranks/x_test.cpp', 'tests/runs/x_fixture.hpp',
                      'tests/terrain/detail/x_test.cpp', 'tests/python/x_test.py'):
@@ -122,7 +121,7 @@ class Order(unittest.TestCase):
     def test_an_include_by_a_macro(self):
         files = {'vehicle/x.cpp': '#define X "terrain/a.hpp"\n#include X\n', 'terrain/a.hpp': ''}
         self.assertEqual(faults(rules.order, files),
-                         ['vehicle/x.cpp:3: there is no file X; name it itself, from the top folder'])
+                         ['vehicle/x.cpp:3: no file X; include it by its path from the top folder'])
 
     def test_what_others_have_made(self):
         self.assertEqual(faults(rules.order, {'base/a.hpp': '#include <fmt/format.h>\n#include <vector>\n'}), [])
@@ -158,7 +157,7 @@ class Order(unittest.TestCase):
 
 
 class Chains(unittest.TestCase):
-    """The same rooms, where others stand between."""
+    """The same rooms with others in between."""
     SETUP = {'runs/scene/scene.hpp': '', 'runs/setup/a.hpp': '#include "runs/scene/scene.hpp"\n'}
 
     def test_no_header_brings_a_scene_along(self):

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What acts along one axis together: several torques, and a stop whose damper acts on the way in only.
+// Combined forces along one axis: several torques, and a stop whose damper acts only on entry.
 #include "benchmarks.hpp"
 
 #include <gtest/gtest.h>

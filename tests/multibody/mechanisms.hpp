@@ -18,7 +18,7 @@ inline Quat aboutY(double angle) { return {base::cos(angle / 2), 0, base::sin(an
 /// Inertia of a small, nearly point-like mass [kg m2].
 inline Mat3d pointInertia(double i = 1e-9) { return Mat3d::diagonal({i, i, i}); }
 
-/// Of a body whose three moments differ [kg m2].
+/// Inertia of a body with three different moments [kg m2].
 inline const Mat3d kWheelInertia = Mat3d::diagonal({0.3, 0.2, 0.25});
 
 inline Body makeBody(const std::string& name, double mass, const Mat3d& inertia, const Pose& pose, const Vec3d& v = {},

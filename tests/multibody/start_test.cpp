@@ -120,13 +120,13 @@ TEST(Start, FramesThatDoNotMeetAreRefused) {
     Model model;
     model.addBody(makeBody("link", 1, kRodInertia, {}));
     model.addJoint({"rod", JointType::kDistance, kWorld, 0, {{0, 0, 1}, {}}, {}, 0, 0, 1.01});
-    expectSolverRefuses(model, {"joint 'rod'", "distance", "open", "0.01"});
+    expectSolverRefuses(model, {"joint 'rod'", "distance", "gap", "0.01"});
   }
   {
     Model model;
     model.addBody(makeBody("link", 1, kRodInertia, {}));
     model.addJoint({"rod", JointType::kDistance, kWorld, 0, {{0, 0, 1}, {}}, {{0, 0, 1}, {}}, 0, 0, 1});
-    expectSolverRefuses(model, {"joint 'rod'", "open"});
+    expectSolverRefuses(model, {"joint 'rod'", "gap"});
     expectRefused(
         [&] {
           model.addJoint({"short", JointType::kDistance, kWorld, 0, {}, {}});
@@ -178,7 +178,7 @@ TEST(Start, PointBodiesAreHeldAtTheirOriginOnly) {
   expectRefused([&] { model.addJointAt("ball", JointType::kSpherical, kWorld, 0, {}); }, {"'bob'", "origin"});
   EXPECT_NO_THROW(model.addJoint({"rod", JointType::kDistance, kWorld, 0, {}, {}}));
   bob.name = "spinning", bob.w_WB = {1, 0, 0};
-  expectRefused([&] { model.addBody(bob); }, {"'spinning'", "turn"});
+  expectRefused([&] { model.addBody(bob); }, {"'spinning'", "rotate"});
 }
 
 TEST(Start, LawsAreChecked) {

@@ -190,7 +190,7 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
   expectMessage([&] { body(1, {{{1, 0.6, 0}, {0.6, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "they are 0.4, 1, 1.6");
   expectMessage([&] { body(1, {{{1, 0.1, 0}, {0, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "symmetric");
   body(1, Mat3d::diagonal({1, 1, 2})); // a flat plate is allowed
-  expectMessage([&] { body(1, kArmInertia); }, "shoe 3", "taken");
+  expectMessage([&] { body(1, kArmInertia); }, "shoe 3", "duplicate");
   Body ground = makeBody("ground", 1, kArmInertia, {});
   ground.fixed = true;
   model.addBody(ground);
@@ -202,11 +202,11 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
   const int ball = model.addJointAt("ball", JointType::kSpherical, 1, 0, {});
   expectMessage([&] { model.addDrive({"motor", ball, 1, true}); }, "motor", "free axis");
   expectMessage([&] { model.addAxisSpring({"torsion", 9, 1, 0, 0, 0}); }, "torsion", "joint index");
-  expectMessage([&] { model.bodyIndex("sho 3"); }, "sho 3", "none");
+  expectMessage([&] { model.bodyIndex("sho 3"); }, "sho 3", "does not exist");
   Model open;
   open.addBody(makeBody("link", 1, kArmInertia, {}));
   open.addJoint({"pin", JointType::kRevolute, kWorld, 0, {{0, 0, 0.01}, {}}, {}, 0});
-  expectMessage([&] { const Solver solver(open); }, "joint 'pin'", "open");
+  expectMessage([&] { const Solver solver(open); }, "joint 'pin'", "gap");
 }
 
 TEST(MultibodyErrors, AStepTooLongForTheMotionIsRefusedWithTheBodysName) {

@@ -183,7 +183,7 @@ TEST(MultibodyStops, BodyRestsOnADampedStopAtItsStaticOverlap) {
 
 TEST(MultibodyStops, WhatAStopTakesIsDissipatedToTheLastOfItsSpring) {
   // While the damper is at its limit it takes what the spring gives: nothing is left in the books of the spring.
-  // Of 1 J; symplectic Euler's own error is 2 omega dt of that (measured 1.3), rattle's of round-off.
+  // Relative to 1 J; symplectic Euler's own error is 2 omega dt of that (measured 1.3), rattle's of round-off.
   for (const auto& [options, error] : {std::pair{rattle(), 1e-12}, {symplecticEuler(), 0.015}}) {
     Mechanism p = bouncingSlider(1e6, 1000);
     setTwist(p.model, p.state, 0, {{0, 0, -1}, {}});

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of faults, and what has been found of each."""
+"""The table of faults and their results."""
 import hashlib
 import json
 import tomllib
@@ -11,22 +11,22 @@ TESTS = Path(__file__).resolve().parent.parent
 
 @dataclass(frozen=True)
 class Fault:
-    """One small change of a source file, and what it would do to a user."""
+    """One small change of a source file, and its effect for a user."""
     name: str    # 'vehicle/3'
     file: str
-    old: str     # stands there just once
+    old: str     # occurs exactly once in the file
     new: str
     user: str
-    tests: tuple  # 'ROOM:GTEST FILTER' of the tests that should see it
+    tests: tuple  # 'ROOM:GTEST FILTER' of tests that should detect it
 
     def room(self):
-        """'sweeps' of runs/campaigns/sweeps/x.cpp: its test program is named so."""
+        """'sweeps' for runs/campaigns/sweeps/x.cpp: name of its test program."""
         folders = self.file.split('/')[:-1]
         return folders[-2 if folders[-1] == 'detail' else -1]
 
     def stages(self):
-        """Programs and filters to ask, in this order, before the whole suite. A room without tests of its own has those
-        of whole scenes."""
+        """Programs and filters to run, in this order, before the whole suite. Rooms without tests use those of whole
+        scenes."""
         own = [tuple(t.split(':', 1)) for t in self.tests]
         has_tests = any(path.parent.name == self.room() for path in TESTS.rglob('*_test.c*'))
         return own + [(self.room() if has_tests else 'system', '*')]
@@ -36,7 +36,7 @@ class Fault:
 
 
 def load_faults(folder):
-    """All faults of folder/*.toml but tests.toml; numbered in each file."""
+    """All faults of folder/*.toml except tests.toml, numbered in each file."""
     faults = []
     for path in sorted(Path(folder).glob('*.toml')):
         if path.name == 'tests.toml':
@@ -50,19 +50,19 @@ def load_faults(folder):
     keys = [f.key() for f in faults]
     for fault in faults:
         if keys.count(fault.key()) > 1:
-            raise SystemExit(f'{fault.name} stands there twice')
+            raise SystemExit(f'{fault.name}: duplicate fault')
     return faults
 
 
 def find(faults, names):
-    """Those of the given rooms or names; all where none is given."""
+    """Faults of the given rooms or names; all if none is given."""
     if not names:
         return faults
     return [f for f in faults if any(f.name == n or f.name.startswith(n + '/') for n in names)]
 
 
 class Results:
-    """What has been found, in a file that a kill leaves whole."""
+    """Results, in a file that is replaced atomically."""
 
     def __init__(self, path, fresh=False):
         self.path = path
@@ -75,19 +75,19 @@ class Results:
         return entry and (entry['verdict'], entry['tests'])
 
     def stands(self, fault, digest):
-        """Whether a fault need not be tried again: what was seen stays so, all else is of these very sources."""
+        """Whether a result is still valid: detected faults always, others only for the same sources."""
         entry = self.found.get(fault.key())
         return bool(entry) and (entry['verdict'] == 'results' or
                                 (entry['digest'] == digest and entry['verdict'] in ('hash', 'none')))
 
     def add(self, fault, verdict, tests, program, digest):
-        """`program`: that in which the tests are."""
+        """`program`: test program of the tests."""
         self.found[fault.key()] = {'name': fault.name, 'verdict': verdict, 'tests': tests, 'program': program,
                                    'digest': digest, 'confirmed': False}
         self.save()
 
     def newly_seeing(self, digest):
-        """Tests that have seen something and were not yet run without any fault, by their program."""
+        """Tests that have detected a fault and were not yet run without faults, by program."""
         seeing = {}
         for e in self.found.values():
             if e['verdict'] == 'results' and not e['confirmed'] and e['digest'] == digest:

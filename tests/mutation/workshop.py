@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A copy of the sources with its own build, in which faults are put and tests run."""
+"""A copy of the sources with its own build, in which faults are inserted and tests run."""
 import hashlib
 import os
 import re
@@ -10,18 +10,18 @@ import tomllib
 from contextlib import contextmanager
 from pathlib import Path
 
-MOST_SECONDS = 600  # of one call of a test program; one that does not end has seen the fault
+MOST_SECONDS = 600  # of one call of a test program; a timeout counts as detection
 FAILED = re.compile(r'^\[  FAILED  \] ([^\s,]+)(?:,.*)? \(\d+ ms\)$', re.M)
 BEGUN = re.compile(r'^\[ RUN      \] (\S+)$', re.M)
 ENDED = re.compile(r'^\[ {2,7}(?:OK|FAILED|SKIPPED) {1,2}\] ([^\s,]+)', re.M)
 
 
 class BuildError(Exception):
-    """What the compiler said."""
+    """A compiler error."""
 
 
 def digest_of(files):
-    """Of names and contents; `files` are pairs of a name and bytes."""
+    """Hash of names and contents; `files`: pairs of name and bytes."""
     whole = hashlib.sha256()
     for name, content in files:
         whole.update(f'{name}\0{len(content)}\0'.encode() + content)
@@ -39,7 +39,7 @@ class Workshop:
         self.built = set()
 
     def copy(self):
-        """Brings the copy to the state of the working tree; returns a digest of the sources."""
+        """Updates the copy from the working tree; returns a digest of the sources."""
         listed = subprocess.run(['git', 'ls-files', '-co', '--exclude-standard', '-z'], cwd=self.tree, check=True,
                                 capture_output=True, text=True).stdout.split('\0')
         names = sorted(n for n in listed if n and (self.tree / n).is_file())
@@ -70,7 +70,7 @@ class Workshop:
 
     @contextmanager
     def with_fault(self, fault):
-        """The fault stands in the copy; yields whether its text was found, just once."""
+        """Context with the fault in the copy; yields whether its text occurs exactly once."""
         path = self.source / fault.file
         sound = path.read_text() if path.exists() else ''
         found = sound.count(fault.old) == 1
@@ -85,7 +85,7 @@ class Workshop:
             self.built.clear()
 
     def rooms(self):
-        """Rooms that have tests, each with a program of its own."""
+        """Rooms with tests; each has its own program."""
         return sorted({file.parent.name for file in (self.tree / 'tests').rglob('*_test.c[pu]*')} - {'ranks'})
 
     def build(self, program):
@@ -101,15 +101,15 @@ class Workshop:
         self.built.add(program)
 
     def run(self, program, pattern, first=True):
-        """Tests of physics and results that are red; `first`: stops at the first."""
+        """Failing tests of physics and results; `first`: stop at the first."""
         return self.call(program, pattern, self.hashes + self.noisy, first)
 
     def run_hashes(self):
-        """Red ones among those that compare a stored hash."""
+        """Failing tests that compare a stored hash."""
         return self.call('all', ':'.join(self.hashes), self.noisy, False)
 
     def red_without_fault(self, program, tests):
-        """Those that are red now that no fault stands in the copy."""
+        """Tests that fail without a fault."""
         self.build(program)
         return [t for t in self.call(program, ':'.join(tests), [], False) if t in tests]
 
@@ -129,7 +129,7 @@ class Workshop:
 
     @staticmethod
     def start(words, shard, shards):
-        """Starts one of several processes that share the tests; returns it and the file of what it says."""
+        """Starts one of several processes that share the tests; returns it and its output file."""
         environment = dict(os.environ, GROUSER_CACHE='', GOMP_SPINCOUNT='5000', GTEST_TOTAL_SHARDS=str(shards),
                            GTEST_SHARD_INDEX=str(shard))
         said = tempfile.TemporaryFile('w+', errors='replace')
@@ -138,7 +138,7 @@ class Workshop:
 
     @staticmethod
     def red_of(process, said):
-        """Tests that failed, with the one that crashed or did not end."""
+        """Failed tests, including one that crashed or timed out."""
         try:
             process.wait(timeout=MOST_SECONDS)
         except subprocess.TimeoutExpired:

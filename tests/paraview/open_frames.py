@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens a run's frames.xdmf in ParaView, compares it with what the run says of itself elsewhere, renders a picture.
+"""Opens frames.xdmf of a run in ParaView, compares it with other output of the run, renders a picture.
 
-pvpython open_frames.py FOLDER PICTURE. Ends with 1 and a message where anything differs.
+pvpython open_frames.py FOLDER PICTURE. Exit code 1 with a message on any difference.
 """
 import csv
 import os
@@ -17,17 +17,17 @@ folder, picture = sys.argv[1], sys.argv[2]
 def check(claim, what):
     if not claim:
         print(f"paraview: {what}", file=sys.stderr, flush=True)
-        os._exit(1)  # ParaView's own end would crash on an open view
+        os._exit(1)  # ParaView's normal exit crashes with an open view
 
 
-# Before anything is read: its OpenGL context cannot be made later.
+# Before reading data: the OpenGL context cannot be created later.
 view = pv.CreateRenderView(ViewSize=[1200, 700], Background=[1, 1, 1], UseColorPaletteForBackground=0)
 view.OrientationAxesVisibility = 0
 reader = pv.XDMFReader(FileNames=[f"{folder}/frames.xdmf"])
 times = list(reader.TimestepValues)
 with open(f"{folder}/timeseries.csv") as file:
     rows = [float(row["time [s]"]) for row in csv.DictReader(file)]
-# The run was started with one interval for rows and frames.
+# The run uses the same interval for rows and frames.
 check(times == rows, f"frames at {times} s, rows at {rows} s")
 
 printed = open(f"{folder}/../run.txt").read()
@@ -43,7 +43,7 @@ def collect(data, name):
         return
     for i in range(data.GetNumberOfBlocks()):
         label = data.GetMetaData(i).Get(data.NAME()) if data.HasMetaData(i) else None
-        # The reader numbers the names of later steps: "grains[1]".
+        # The reader numbers block names of later steps: "grains[1]".
         collect(data.GetBlock(i), re.sub(r"\[\d+\]$", "", label or name))
 
 
@@ -68,12 +68,12 @@ for time in times:
     # 2 x (46 shoes, sprocket, idler, 5 wheels, 3 rollers) and the chassis.
     check(number == 113, f"{number} parts")
     low, high = parts.GetBounds()[4:6]
-    check(0 < high - low < 2, f"the vehicle reaches from {low} to {high} m")
+    check(0 < high - low < 2, f"the vehicle extends from {low} to {high} m")
     cells = blocks["fields"].GetCellData()
     porosity = vtk_to_numpy(cells.GetArray("porosity"))
     check(0.2 < porosity.min() < porosity.max() <= 1, f"porosity {porosity.min()} to {porosity.max()}")
-    check(cells.GetArray("stress").GetNumberOfComponents() in (6, 9), "the stress is no tensor")
-check(speeds[0] == 0 and speeds[-1] > 0.05, f"fastest grains {speeds} m/s: they rest, then fall")
+    check(cells.GetArray("stress").GetNumberOfComponents() in (6, 9), "the stress is not a tensor")
+check(speeds[0] == 0 and speeds[-1] > 0.05, f"maximum grain speeds {speeds} m/s, expected: at rest, then falling")
 
 for name, colour in (("grains", [0.76, 0.62, 0.42]), ("parts", [0.25, 0.3, 0.36])):
     shown = pv.TrivialProducer()
@@ -96,7 +96,7 @@ png.Update()
 pixels = vtk_to_numpy(png.GetOutput().GetPointData().GetScalars())[:, :3].astype(int)
 sand = ((pixels[:, 0] - pixels[:, 2]) > 20).mean()
 steel = ((pixels.max(axis=1) < 120) & ((pixels[:, 2] - pixels[:, 0]) > 4)).mean()
-check(sand > 0.03, f"{100 * sand:.1f} % of the picture are grains")
-check(steel > 0.05, f"{100 * steel:.1f} % of the picture are the vehicle")
-print(f"paraview: {len(times)} frames of {grains_in_run} grains and {number} parts as the run says; "
+check(sand > 0.03, f"{100 * sand:.1f} % of the picture: grains")
+check(steel > 0.05, f"{100 * steel:.1f} % of the picture: the vehicle")
+print(f"paraview: {len(times)} frames of {grains_in_run} grains and {number} parts, as in the run; "
       f"picture with {100 * sand:.0f} % grains, {100 * steel:.0f} % vehicle")

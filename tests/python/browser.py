@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Chromium without a display, driven by its DevTools protocol over a pair of pipes: no library is needed."""
+"""Headless Chromium, controlled by the DevTools protocol over a pair of pipes, without libraries."""
 import json
 import os
 import select
@@ -16,12 +16,12 @@ FLAGS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=
 
 
 def find():
-    """The browser that is installed; None without."""
+    """The installed browser; None if there is none."""
     return next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
 class Browser:
-    """`open(file)`, `value("1 + 1")`, `press("Tab")`, `errors` (what the console was told), `requests` (addresses)."""
+    """`open(file)`, `value("1 + 1")`, `press("Tab")`, `errors` (of the console), `requests` (addresses)."""
 
     def __init__(self):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -55,7 +55,7 @@ class Browser:
         self.close()
 
     def message(self, seconds=60):
-        """The next one; TimeoutError where none comes."""
+        """The next message; TimeoutError without one."""
         end = time.monotonic() + seconds
         while b"\0" not in self.rest:
             if not select.select([self.read], [], [], max(0.0, end - time.monotonic()))[0]:
@@ -96,7 +96,7 @@ class Browser:
             self.note(answer)
 
     def value(self, expression):
-        """What JavaScript makes of it; promises are waited for."""
+        """Value of a JavaScript expression; waits for promises."""
         found = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in found:
             raise RuntimeError(f"{expression}: {found['exceptionDetails']}")
@@ -128,11 +128,11 @@ class Browser:
                   features=[{"name": "prefers-color-scheme", "value": scheme}])
 
     def width(self, width, height=1000):
-        """Of the window, from now on."""
+        """Sets the size of the window."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=False)
 
     def picture(self, file, height=1000):
-        """A PNG of the page, for the eye."""
+        """Writes a PNG of the page, for manual inspection."""
         import base64
         shot = self.call("Page.captureScreenshot", captureBeyondViewport=True,
                          clip={"x": 0, "y": 0, "width": 1300, "height": height, "scale": 1})

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package at files that are damaged, and at those that it has closed."""
+"""The Python package with damaged and closed files."""
 import json
 import unittest
 
@@ -12,7 +12,7 @@ import grouser
 
 class Files(FolderTest):
     def test_damaged_json_is_told_with_its_place(self):
-        """One line: file, line, column, remedy; in Python's words nothing."""
+        """Messages are one line: file, line, column, remedy; no messages of Python."""
         openers = {"check.json": grouser.open_check, "soil.json": grouser.open_soil, "events.json": grouser.open_events,
                    "calibration.json": grouser.open_calibration}
         whole = {"check.json": {"figures": [], "cases": []}, "soil.json": {"soil": "s", "constants": {}},
@@ -28,7 +28,7 @@ class Files(FolderTest):
                     opener(self.folder)
                 message = str(caught.exception)
                 self.assertTrue(message.startswith(f"{self.folder / name}{place}"), message)
-                self.assertIn("make it again, or take it from a copy", message)
+                self.assertIn("run it again or restore the file from a copy", message)
                 self.assertNotIn("\n", message)
                 self.assertNotRegex(message, "Expecting|codec|object|argument|Error|'int'|char ")
             text = json.dumps(whole[name])[:-3]
@@ -43,7 +43,7 @@ class Files(FolderTest):
                 grouser.open_run("cut").status
 
     def test_damaged_tables_are_told(self):
-        """{file: (opener, text, what is said)}"""
+        """{file: (opener, text, message)}"""
         about = "run,k,status,message,wall time [s],steps,simulated time [s],way [m]"
         (self.folder / "check.json").write_text('{"figures": [], "cases": []}')
         def check():
@@ -52,15 +52,15 @@ class Files(FolderTest):
             (self.folder / "summary.csv").write_text(f"{about},state hash\n0,1,finished,,1,1,1,1,x\n")
             return grouser.open_sweep(self.folder).means
         for name, opener, text, words in (
-                ("check.json", lambda: check().not_run, '{"figures": [], "cases": []}', "has no 'not_asked'"),
-                ("series.csv", lambda: check().series, "time [s],a,a both +-\n0,1,2\n", r"has no 'a seeds \+-'"),
+                ("check.json", lambda: check().not_run, '{"figures": [], "cases": []}', "'not_asked' is missing"),
+                ("series.csv", lambda: check().series, "time [s],a,a both +-\n0,1,2\n", r"'a seeds \+-' is missing"),
                 ("series.csv", lambda: check().series, "a,a seeds +-,a step +-,a both +-\n0,1,2,3\n",
-                 r"has no 'time \[s\]'"),
+                 r"'time \[s\]' is missing"),
                 ("summary.csv", lambda: grouser.open_sweep(self.folder), f"{about}\n0,1,finished,,1,1,1,1\n",
-                 "has no 'state hash'"),
-                ("intervals.csv", means, "k,mean\n1,2\n", "has no 'figure'"),
+                 "'state hash' is missing"),
+                ("intervals.csv", means, "k,mean\n1,2\n", "'figure' is missing"),
                 ("intervals.csv", means, "figure,k,seeds,mean,half width,difference to the first,half width of the "
-                                         "difference\nway [m],1,?,2,3,4,5\n", "a field in it is of another kind")):
+                                         "difference\nway [m],1,?,2,3,4,5\n", "a field has the wrong type")):
             (self.folder / name).write_text(text)
             with self.assertRaisesRegex(grouser.FileError, words) as caught:
                 opener()
@@ -70,23 +70,23 @@ class Files(FolderTest):
         run = grouser.Scene(MINIMAL).run("cut")
         run.close()
         for name in ("results.h5", "checkpoint.h5"):
-            with self.assertRaisesRegex(grouser.FileError, f"{name}: holds no frames"):
+            with self.assertRaisesRegex(grouser.FileError, f"{name}: no frames"):
                 grouser.open_frames(self.folder / "cut" / name)
         with h5py.File("cut/checkpoint.h5", "r+") as file:
             del file["grains/position"]
-        with self.assertRaisesRegex(grouser.FileError, "checkpoint.h5: cannot be read as .*: it has no 'position'"):
+        with self.assertRaisesRegex(grouser.FileError, "checkpoint.h5: cannot be read as .*: 'position' is missing"):
             grouser.open_bed("cut")
         with h5py.File("cut/results.h5", "r+") as file:
             del file["series/ledger/kinetic/value" if "series/ledger" in file else "ledger/kinetic/value"].attrs["unit"]
             file.attrs["scene"] = "version = "
         run = grouser.open_run("cut")
-        with self.assertRaisesRegex(grouser.FileError, "results.h5: cannot be read as .*: it has no 'unit'"):
+        with self.assertRaisesRegex(grouser.FileError, "results.h5: cannot be read as .*: 'unit' is missing"):
             run["ledger.kinetic"]
         with self.assertRaisesRegex(grouser.FileError, "results.h5: the scene in it cannot be read: "):
             run.scene
         with h5py.File("cut/frames.h5", "r+") as file:
             del file["000000"].attrs["time"]
-        with self.assertRaisesRegex(grouser.FileError, "frames.h5: cannot be read as .*: it has no 'time'"):
+        with self.assertRaisesRegex(grouser.FileError, "frames.h5: cannot be read as .*: 'time' is missing"):
             run.frames
 
     def test_a_closed_run_is_told_and_holds_no_file(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The worked examples do what they say, and their figures agree with what is known otherwise."""
+"""The examples work, and their figures agree with known results."""
 import csv
 import unittest
 
@@ -158,7 +158,7 @@ class ErrorBars(FolderTest):
 
 
 class Controllers(FolderTest):
-    """Each ends in an error of its own where it misses its goal."""
+    """Each fails with its own error if it misses its goal."""
 
     def test_cruise_control_holds_its_speed_up_the_slope_and_is_replayed(self):
         self.assertAlmostEqual(cruise_control.main(str(self.folder / "held")), cruise_control.GOAL, delta=0.01)

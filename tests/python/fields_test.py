@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Fields of the soil from a run: stress of a pressed box against its walls, shapes, places, XDMF, the report's picture."""
+"""Soil fields of a run: stress of a compressed box against its walls, shapes, positions, XDMF, picture in the
+report."""
 import re
 import unittest
 import xml.etree.ElementTree as xml
@@ -14,7 +15,7 @@ SIDE = 0.062  # [m] inner width of the box
 
 
 def pressed_box():
-    """Rough grains between five smooth walls, below a smooth lid that bears 20 N."""
+    """Rough grains between five smooth walls, below a smooth lid with a load of 20 N."""
     walls = [{"name": name, "normal": normal, "point": position, "material": "smooth"} for name, normal, position in (
         ("floor", [0, 0, 1], [0, 0, 0]), ("left", [1, 0, 0], [0, 0, 0]), ("right", [-1, 0, 0], [SIDE, 0, 0]),
         ("front", [0, 1, 0], [0, 0, 0]), ("back", [0, -1, 0], [0, SIDE, 0]))]
@@ -115,7 +116,7 @@ class FieldsOfTheSoil(FolderTest):
                             ({"fields_cell": 0.02, "fields_low": [0, 0, 0], "fields_high": [9, 9, 9]},
                              "at most 1e.?0?6 are supported; use"),
                             ({"fields_low": [0, 0, 0], "fields_high": [1, 1, 1]}, "no effect without fields_cell"),
-                            ({"fields_cell": 0.02, "frames": False}, "frames = false switches off")):
+                            ({"fields_cell": 0.02, "frames": False}, "frames = false disables")):
             scene = grouser.Scene({**MINIMAL, "output": {**MINIMAL["output"], **keys}})
             with self.assertRaisesRegex(grouser.InputError, words):
                 scene.run(self.folder / "bad")

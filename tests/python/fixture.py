@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A folder that is gone after each test, a small scene, and the package from the checkout."""
+"""A temporary folder per test, a small scene, and the package of the checkout."""
 import os
 import sys
 import tempfile

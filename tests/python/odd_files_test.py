@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Odd and damaged input files: each ends in one clear error (exit code 2), in a note, or in the right answer.
+"""Odd and damaged input files: each leads to one clear error (exit code 2), to a note, or to the right result.
 
-A case is a function that returns the files to write and what is expected of `grouser run scene.toml`."""
+A case is a function that returns the files to write and the expectation on `grouser run scene.toml`."""
 import os
 import struct
 import subprocess
@@ -340,8 +340,8 @@ CASES = {
                                                  Error(["thing.obj:8", "write 0.1"])),
     "mesh of five numbers": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1 0.1 1 0"), Error(["thing.obj:8", "5 num"])),
     "mesh indented": mesh(obj().replace("v 0.1 0.1 0.1", " v 0.1 0.1 0.1"), Error(["thing.obj:8", "indented"])),
-    "mesh upper case": mesh(obj().replace("v 0.1 0.1 0.1", "V 0.1 0.1 0.1"), Error(["thing.obj:8", "capitals"])),
-    "mesh CR": mesh(obj(newline="\r"), Error(["thing.obj:1", "save the file with the line ends"])),
+    "mesh upper case": mesh(obj().replace("v 0.1 0.1 0.1", "V 0.1 0.1 0.1"), Error(["thing.obj:8", "upper case"])),
+    "mesh CR": mesh(obj(newline="\r"), Error(["thing.obj:1", "save the file with Unix"])),
     "mesh in millimetres": mesh(obj(scale=1e5), Error(["scene.toml"]), keys=""),
     "mesh no thickness": mesh("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", Error(["thing.obj"])),
     "mesh of unknown format": mesh("hello", Error(["thing.xyz"]), "thing.xyz"),
@@ -357,7 +357,7 @@ CASES = {
     "grains too few": grains("0,0,0.1\n", Error(["grains.txt:1"])),
     "grains too many": grains("0,0,0.1,0.01" + ",1" * 9 + "\n", Error(["grains.txt:1"])),
     "grains other width": grains("0,0,0.1,0.01\n0.1,0,0.1,0.01,1,2,3\n",
-                                 Error(["grains.txt:2", "7 numbers", "give all lines as many"])),
+                                 Error(["grains.txt:2", "7 numbers", "use the same number in all lines"])),
     "grains in quotes": grains('"0","0","0.1","0.01"\n', Error(["grains.txt:1", "remove them"])),
     "grains header in quotes": grains('"x","y","z","r"\n0,0,0.1,0.01\n', Right()),
     "grains long word": grains("0,0,0.1," + "a" * 500 + "\n", Error(["grains.txt:1", "= " + "a" * 40 + " [m]"])),

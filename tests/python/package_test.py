@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package: scenes as text, calls and their errors, files that are not what they should be."""
+"""The Python package: scenes as text, calls and their errors, wrong files."""
 import json
 import os
 import re
@@ -73,7 +73,7 @@ class Scenes(FolderTest):
         self.assertEqual(scene.document, MINIMAL)
 
     def test_an_unknown_key_is_refused_where_it_is_set(self):
-        scene = grouser.Scene.read(ROOT / "runs/scenes/quickstart.toml")
+        scene = grouser.Scene.read(ROOT / "runs/scenes/ball_pit.toml")
         before = scene.copy()
         for key, near in (("driver.sproket_speed", "driver.sprocket_speed"), ("sprocket_speed", "driver.sprocket_speed"),
                           ("run.duraton", "run.duration"), ("material.soil.fricton", "material.soil.friction"),
@@ -154,7 +154,7 @@ class Calls(FolderTest):
         (self.folder / "latin.toml").write_bytes(b"# \xe4\n")
         (self.folder / "folder.toml").mkdir()
         for name in ("latin", "folder"):
-            with self.assertRaisesRegex(grouser.FileError, f"{name}.toml is there already, and was not written by this"):
+            with self.assertRaisesRegex(grouser.FileError, f"{name}.toml exists and was not written by this"):
                 grouser.Scene(MINIMAL).run(name)
 
     def test_a_refused_call_leaves_the_scene_of_the_results_that_are_there(self):
@@ -327,7 +327,7 @@ class Files(FolderTest):
         for wrong, words in ((lambda: left + force, r"left \[m/s\] \+ pull \[N\]: the units differ"),
                              (lambda: force - 1.0, r"pull \[N\] - 1.0 \[-\]: the units differ"),
                              (lambda: left * force, r"left \[m/s\] \* pull \[N\].*\.value"),
-                             (lambda: left - later, "rows are of other times"),
+                             (lambda: left - later, "rows are of different times"),
                              (lambda: left * numpy.ones((2, 3)), "shape")):
             with self.assertRaisesRegex(ValueError, words):
                 wrong()
@@ -338,7 +338,7 @@ class Files(FolderTest):
         for time, value in ((0.0, 0), (-0.05, 0), (0.16, 2), (0.3, 3), (0.399, 3)):
             self.assertEqual(series.at(time), value)
         for time in (99, -0.2, 0.45, float("nan")):
-            with self.assertRaisesRegex(ValueError, r"way: has no rows at \S+ s; they go from 0 to 0\.3 s"):
+            with self.assertRaisesRegex(ValueError, r"way: has no rows at \S+ s; times are 0 to 0\.3 s"):
                 series.at(time)
         empty = grouser.Series(numpy.zeros(0), "m", "", "way", numpy.zeros(0), numpy.zeros(0))
         with self.assertRaisesRegex(ValueError, "way: has no rows"):
@@ -353,9 +353,9 @@ class Files(FolderTest):
         self.assertEqual([frame.step for frame in frames[::-2]], frames.step[::-2].tolist())
         self.assertEqual(frames[-1].time, frames.time[-1])
         self.assertEqual(frames.at(frames.time[-1] + 0.001).time, frames.time[-1])
-        with self.assertRaisesRegex(ValueError, r"frames\.h5: has no frames at 99 s; they go from 0 to 0\.01 s"):
+        with self.assertRaisesRegex(ValueError, r"frames\.h5: has no frames at 99 s; times are 0 to 0\.01 s"):
             frames.at(99)
-        with self.assertRaisesRegex(IndexError, f"frames.h5: has {len(frames)} frames, 0 to {len(frames) - 1}; there is "
+        with self.assertRaisesRegex(IndexError, f"frames.h5: has {len(frames)} frames, 0 to {len(frames) - 1}; "
                                                 "no frame 99"):
             frames[99]
 
@@ -371,7 +371,7 @@ class Files(FolderTest):
             self.assertEqual(means[1].difference.name, f"{name}, difference to the first")
             self.assertEqual({(mean.seeds, mean.mean.unit) for mean in means}, {(2, sweep.units[name])})
             numpy.testing.assert_array_equal(means[0].mean.value, numpy.mean(sweep[name].value[:2]))
-        with self.assertRaisesRegex(KeyError, "no means of 'height'; there are .*integration error"):
+        with self.assertRaisesRegex(KeyError, "no means of 'height'; means are .*integration error"):
             sweep.means["height"]
         alone = scene.sweep("one_seed", {"material.glass.stiffness": [1e4, 2e4]})
         self.assertEqual(alone.means, {})

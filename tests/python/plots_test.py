@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots as a reader meets them: whole numbers at their axes, legends beside the curves, no panel that is empty or shows
-another panel again."""
+"""Plots: complete tick labels, legends next to the curves, no empty or duplicate panels."""
 import re
 import sys
 import unittest
@@ -36,13 +35,13 @@ SHOES = 24
 
 
 def pads(rise):
-    """[rows, shoes]: they lie on the ground run one after the other, and then rise by so much [m]."""
+    """[rows, shoes]: the shoes have ground contact one after the other, and then rise by this height [m]."""
     left = 0.1 * numpy.arange(SHOES)[None, :] - 0.6 * TIME[:, None]
     return numpy.clip(-left, 0, None) * rise - 0.01, left > 0
 
 
 def written(file, rise=0.5, final=True, **more):
-    """The results of a drive on a bed, as far as plots read them."""
+    """The results of a drive on a bed that plots read."""
     values = {"vehicle/position": numpy.stack([0.3 * TIME, 0 * TIME, 0 * TIME], 1)}
     height, on_ground = pads(rise)
     for side in series.SIDES:
@@ -76,7 +75,7 @@ class Readable(FolderTest):
             return self.drawn(plot(series.Run(file)))
 
     def drawn(self, figure):
-        """As it is written; what no picture may show."""
+        """Draws the figure as saved, and checks for forbidden content."""
         drawing.save(figure, "picture.png", 80)
         FigureCanvasAgg(figure).draw()
         for axes in figure.axes:
@@ -137,7 +136,7 @@ class Readable(FolderTest):
             self.assertEqual(len(over_time), 1)
 
     def test_single_shoes_have_the_time_of_the_table(self):
-        """The sprockets turn from 1 s on: the first shoe of the picture begins at 0 s as sinkage_shoes.csv does."""
+        """The sprockets start at 1 s: the first shoe of the picture starts at 0 s, as in sinkage_shoes.csv."""
         written("results.h5")
         kept = []
         with mock.patch.object(drawing, "save", lambda figure, *_, **__: kept.append(figure)), \
@@ -162,7 +161,7 @@ INTERVALS = """k,figure,seeds,mean,half width,difference to the first,half width
 
 
 class Doubtful(FolderTest):
-    """Figures of runs that hardly drove, or that are incomplete, do not stand beside others as if they were sound."""
+    """Figures of runs that hardly drove or are incomplete are marked."""
 
     def written(self, intervals=""):
         (self.folder / "summary.csv").write_text(SUMMARY)

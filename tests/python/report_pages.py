@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What tests of reports have in common: the command, a small scene, pages opened in Chromium."""
+"""Common parts of report tests: the command, a small scene, pages opened in Chromium."""
 import base64
 import math
 import os
@@ -61,7 +61,7 @@ class PageTest(FolderTest):
         return page
 
     def opened(self, folder, *words):
-        """The page, drawn: without an error, and without asking for anything but itself."""
+        """The rendered page: no errors, no requests except itself."""
         page = self.made(folder, *words)
         self.browser.media()
         self.browser.width(1300)
@@ -78,7 +78,7 @@ class PageTest(FolderTest):
         return self.browser
 
     def fits_narrow_screens(self):
-        """Opened at 320 points, everything unfolded: nothing goes beyond the right edge."""
+        """At a width of 320 points with everything unfolded, nothing exceeds the right edge."""
         self.browser.width(320)
         self.browser.open(self.folder / "page.html")
         self.browser.until("document.documentElement.dataset.ready === 'yes'")
@@ -88,7 +88,7 @@ class PageTest(FolderTest):
         self.assertLessEqual(wide, there)
 
     def plots_are_drawn(self):
-        """Every plot has lines of its curves, names with units at both axes, and a legend."""
+        """Every plot has curves, axis labels with units, and a legend."""
         for k in range(self.browser.value("report.plots.length")):
             place = f"document.getElementById('plot{k}')"
             # dygraphs draws points and lines on the lower of its two canvases.
@@ -104,13 +104,13 @@ class PageTest(FolderTest):
             self.assertTrue(self.browser.value(f"document.getElementById('plot{k}-legend').textContent"), title)
 
     def numbers(self):
-        """{name: number} of all that the page shows."""
+        """{name: number} for all numbers of the page."""
         pairs = self.browser.value("[...document.querySelectorAll('main data[data-name]')]"
                                    ".map(d => [d.dataset.name, d.value])")
         return {name: float(value) if value else math.nan for name, value in pairs}
 
     def colours_in_space(self):
-        """How many colours the 3-D picture has, and a sum over its points."""
+        """Number of colours of the 3-D view, and a checksum of its pixels."""
         return self.browser.value("""(() => { const from = report.space.canvas, c = document.createElement("canvas");
           c.width = from.width; c.height = from.height;
           const pen = c.getContext("2d"); pen.drawImage(from, 0, 0);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of several runs and of soils, opened in Chromium: sweeps, checks, events, soils' tests, calibrations."""
+"""Reports of several runs and of soils, opened in Chromium: sweeps, checks, events, soil tests, calibrations."""
 import csv
 import json
 import math
@@ -42,7 +42,7 @@ class Pages(PageTest):
         self.assertIn("long.mp4", self.browser.value("document.getElementById('films').textContent"))
 
     def test_a_sweep_names_runs_whose_files_are_missing_or_damaged(self):
-        """Each with its cause in its row, and on top; the others are shown, the next seed in a lost one's place."""
+        """Damaged runs are listed with causes in their rows and at the top; the next seed replaces a damaged run."""
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.4,0.6", "--seeds", "2", "--out",
                       "sweep"])
@@ -54,8 +54,8 @@ class Pages(PageTest):
         (runs[2] / "results.h5").write_bytes((runs[2] / "results.h5").read_bytes()[:3000])
         (runs[3] / "manifest.json").write_text('{"status": ')
         (runs[4] / "frames.h5").unlink()
-        causes = ("the folder is missing", "without manifest.json it is no readable run", "results.h5: cannot be read",
-                  "manifest.json:1:12: ", "frames.h5 is missing, though the scene asks for frames", "")
+        causes = ("the folder is missing", "manifest.json missing", "results.h5: damaged",
+                  "manifest.json:1:12: ", "frames.h5 is missing although the scene writes frames", "")
         self.opened("sweep")
         top = self.browser.value("document.querySelector('#content > .bad').textContent")
         self.assertIn("5 runs have missing or damaged files", top)
@@ -75,7 +75,7 @@ class Pages(PageTest):
         within = frames.rindex(b"SNOD")  # where opening does not see it
         (runs[5] / "frames.h5").write_bytes(frames[:within] + b"LOST" + frames[within + 4:])
         self.opened("sweep")
-        self.assertIn(f"{runs[5].name}/frames.h5: cannot be read in whole", self.browser.value(
+        self.assertIn(f"{runs[5].name}/frames.h5: damaged or incomplete", self.browser.value(
             "[...document.querySelectorAll('#content > .bad')].map(e => e.textContent).join(' ')"))
 
     def test_a_check_names_runs_whose_files_are_missing(self):
@@ -89,7 +89,7 @@ class Pages(PageTest):
         lost = self.folder / "check/base,seed=2/results.h5"
         lost.rename("kept")
         top, spaces = opened()
-        self.assertIn("base,seed=2: without results.h5", top)
+        self.assertIn("base,seed=2: results.h5 missing", top)
         self.assertIn("1 run has missing or damaged files", top)
         self.assertEqual(spaces[0], "base,seed=1")
         (self.folder / "kept").rename(lost)
@@ -113,7 +113,7 @@ class Pages(PageTest):
             force = [plot for plot in plots if plot[0] == "Ground force z"]
             self.assertEqual(force, [["Ground force z", 2, places, grouser.open_sweep(name)["ground force z"].value.tolist()]])
             told = self.browser.value("document.querySelector('#plots figcaption').textContent")
-            self.assertIn("no bars: one run each", told)
+            self.assertIn("no error bars: one run each", told)
             if name == "cases":
                 self.assertIn("1: case = slippery; 2: case = rough", told)
 
@@ -135,7 +135,7 @@ class Pages(PageTest):
         self.opened("sweep")
         caption = "[...document.querySelectorAll('#plots figure')].find(f => f.textContent.startsWith('Ground force z'))" \
                   ".querySelector('figcaption').textContent"
-        self.assertNotIn("No bar", self.browser.value(caption))
+        self.assertNotIn("No error bar", self.browser.value(caption))
         table = self.folder / "sweep/intervals.csv"
         with open(table, newline="") as kept:
             rows = list(csv.DictReader(kept))
@@ -146,7 +146,7 @@ class Pages(PageTest):
             writer.writeheader()
             writer.writerows(rows)
         self.opened("sweep")
-        self.assertIn("No bar where one seed alone has ended: 1 of the points.", self.browser.value(caption))
+        self.assertIn("No error bar for 1 point with only one finished seed.", self.browser.value(caption))
         halves = self.browser.value("Array.from(report.plots.find(p => p.entry.title === 'Ground force z').curves[0]"
                                     ".columns[2]).map(Number.isFinite)")
         self.assertEqual(sorted(halves), [False, True])
@@ -160,7 +160,7 @@ class Pages(PageTest):
         self.assertIn("sand.friction = 0.2, rock.friction = 0.4", ", ".join(names))
 
     def test_a_narrow_screen_shows_a_sweep_without_scrolling_sideways(self):
-        """Names break behind commas, long tables stand in a box that is scrolled, their headings stay in sight."""
+        """Names break after commas, long tables scroll, their headings stay visible."""
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.4", "--set",
                       "run.gravity=[0,0,-9.81],[0.5,0,-9.81]", "--seeds", "6", "--out", "sweep"])
@@ -178,7 +178,7 @@ class Pages(PageTest):
                                                   f"{box}.getBoundingClientRect().top"), 0, delta=1.0)
 
     def runs_are_chosen(self, folders):
-        """By keys each run comes into view in turn, with its own frames; and each has its ledger."""
+        """Keys select each run in turn, with its own frames; each has a ledger."""
         page = self.browser
         self.assertEqual(page.value("report.data.spaces.map(s => s.name)"), [folder.name for folder in folders])
         page.value("document.getElementById('space-run').focus()")
@@ -236,7 +236,7 @@ class Pages(PageTest):
             drawn = numpy.array(self.browser.value("Array.from(report.space.positions)")).reshape(-1, 3)
             numpy.testing.assert_allclose(drawn + self.browser.value("report.space.data.middle"), bed.position, atol=1e-5)
             self.same(shown["base,seed=1 ledger.dissipated at the end"], run["ledger.dissipated"].value[-1], "ledger")
-        self.assertIn("of the checkpoint", self.browser.value("document.getElementById('space-words').textContent"))
+        self.assertIn("from the checkpoint", self.browser.value("document.getElementById('space-words').textContent"))
         self.assertGreater(self.colours_in_space()[0], 20)
         self.fits_narrow_screens()
 
@@ -275,7 +275,7 @@ class Pages(PageTest):
         told = json.loads((folder / "events.json").read_text())
         (folder / "events.json").write_text(json.dumps({**told, "grain_radius_m": 0.0, "bed_depth_m": 0.0}))
         self.opened("events")
-        self.assertIn("grade=0.1,seed=1: without results.h5",
+        self.assertIn("grade=0.1,seed=1: results.h5 missing",
                       self.browser.value("document.querySelector('#content > .bad').textContent"))
         self.assertEqual(self.browser.value("report.data.spaces.map(s => s.name)"), ["grade=0.1,seed=2", "grade=0.2"])
         self.assertFalse({"grain_radius_m", "bed_depth_m"} & set(self.numbers()), "of rigid ground")
@@ -283,7 +283,7 @@ class Pages(PageTest):
 
     @staticmethod
     def put_soil(folder):
-        """A folder as `grouser soil` leaves it."""
+        """A folder as written by `grouser soil`."""
         folder.mkdir(parents=True)
         (folder / "soil.json").write_text(
             '{"soil": "sand", "care": "coarse", "grain_radius_m": 0.007, "constants": {"n": {"value": 0.8123456789, '
@@ -306,7 +306,7 @@ class Pages(PageTest):
         self.fits_narrow_screens()
 
     def test_a_calibration(self):
-        """Targets beside what was reached, every trial, the soil file, and all that was measured of that soil."""
+        """Targets and results, all trials, the soil file, and all measurements of that soil."""
         folder = self.folder / "found"
         self.put_soil(folder / "final")
         def value(number, half, unit):
@@ -328,7 +328,7 @@ class Pages(PageTest):
         (folder / "calibration.json").write_text(json.dumps(found))
         self.opened("found")
         text = "document.querySelector('main').textContent"
-        for words in ("7 tests of plate_2 are missing", "--resume", "wanted.toml", "0123abc", "this one"):
+        for words in ("7 tests of plate_2 missing", "--resume", "wanted.toml", "0123abc", "this one"):
             self.assertIn(words, self.browser.value(text))
         found.update(status="finished", soil_file="sand.toml", tests="final", outcomes=[
             {"what": "phi", "wanted": 31.1, "tolerance": 1.0, "reached": value(31.50123, 0.61, "deg"), "verdict": "reached"},
@@ -356,10 +356,10 @@ class Pages(PageTest):
         rows = self.browser.value("[...document.querySelectorAll('#targets tbody tr')].map(r => r.innerText)")
         self.assertTrue(rows[0].endswith("reached"), rows[0])
         self.assertIn("1.25 \u00b1 0.5", rows[1])
-        self.assertTrue(rows[1].endswith("the bar is wider than the tolerance"), rows[1])
+        self.assertTrue(rows[1].endswith("the error bar exceeds the tolerance"), rows[1])
         for words in ('title = "of <sand>"', "grouser soil --calibrate wanted.toml", "not sought", "hertz"):
             self.assertIn(words, text)
-        self.assertNotIn("has not ended", text)
+        self.assertNotIn("is not finished", text)
         plots = self.browser.value("report.plots.map(p => [p.entry.title, p.entry.y, p.curves.map(c => "
                                    "c.columns.map(a => Array.from(a)))])")
         plots = {title: (axis, curves) for title, axis, curves in plots}
@@ -367,7 +367,7 @@ class Pages(PageTest):
                                                       [[0.5, 4.5], [31.1, 31.1], [1, 1]]]))
         self.assertEqual(plots["Young"], ("young [Pa]", [[[1, 2, 3, 4], [8e7, 8e7, 8e7, 3e8]]]))
         self.assertEqual(plots["Pressure of the small plate"][1][0], [[3, 4], [25.5, 49.0], [3.25, 4.5]])
-        self.assertIn("Plates", plots, "those of the soil that was found")
+        self.assertIn("Plates", plots, "tests of the calibrated soil")
         # The bar of the first trial is there to be seen, upright at its place.
         marked = self.browser.value("""(() => { const g = report.plots.find(p => p.entry.title.startsWith("phi")).graph;
           const c = g.hidden_.getContext("2d"), scale = g.hidden_.width / g.hidden_.clientWidth;

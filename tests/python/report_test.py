@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""`grouser report` as a user meets it: pages of runs opened in Chromium, and what is refused."""
+"""`grouser report`: pages of runs opened in Chromium, and rejected input."""
 import json
 import math
 import os
@@ -31,7 +31,7 @@ class Refused(FolderTest):
             self.assertIn(word, done.stderr)
 
     def test_what_is_no_result(self):
-        self.refuses("nosuch", ["nosuch", "is no folder"])
+        self.refuses("nosuch", ["nosuch", "is not a folder"])
         (self.folder / "empty").mkdir()
         self.refuses("empty", ["holds no results", "results.h5"])
         self.assertEqual(list((self.folder / "empty").iterdir()), [])
@@ -39,10 +39,10 @@ class Refused(FolderTest):
         (self.folder / "above/drive/results.h5").write_text("")
         self.refuses("above", ["holds no results", "above/drive"])
         (self.folder / "file").write_text("")
-        self.refuses("file", ["is no folder"])
+        self.refuses("file", ["is not a folder"])
 
     def test_what_has_no_numbers_yet(self):
-        """Nothing has ended: one line says so, and what goes on with it."""
+        """No run has finished: one line with the reason and the command that continues."""
         head = "run,k,status,message,wall time [s],steps,simulated time [s],state hash,commit\n"
         row = {"event": "step", "title": "Up a step", "level": 0.2, "level_is": "height [m]", "verdict": "pending",
                "runs": 0, "go": 0, "failed": 0, "pending": 2, "why": "", "figures": []}
@@ -50,7 +50,7 @@ class Refused(FolderTest):
                  "trials": []}
         for name, text, words in (
                 ("summary.csv", head, ["holds no run"]),
-                ("summary.csv", head + "k=1,1,pending,,,,,,\nk=2,2,running,,,,,,\n", ["none of the 2 runs", "goes on"]),
+                ("summary.csv", head + "k=1,1,pending,,,,,,\nk=2,2,running,,,,,,\n", ["none of the 2 runs", "again"]),
                 ("events.json", json.dumps({"rows": [row]}), ["none of the runs", "--resume"]),
                 ("events.json", json.dumps({"rows": []}), ["none of the runs"]),
                 ("calibration.json", json.dumps(found), ["no trial", "--resume"])):
@@ -75,7 +75,7 @@ class Refused(FolderTest):
         self.assertEqual(report("run").returncode, 0)
         page = self.folder / "run/report.html"
         before = page.read_bytes()
-        self.refuses("run", ["report.html", "is there already", "--force"])
+        self.refuses("run", ["report.html", "already exists", "--force"])
         self.assertEqual(page.read_bytes(), before)
         self.assertEqual(report("run", "--force").returncode, 0)
         (self.folder / "run/film.mp4").write_bytes(FILM)
@@ -85,9 +85,9 @@ class Refused(FolderTest):
         self.assertEqual((self.folder / "other.html").read_text().count("<video"), 1)
         self.assertEqual(page.read_text().count("<video"), 0)
         for file in ("run/scene.toml", "run/notes.mp4", "run/picture.png"):
-            self.refuses("run", [f"--film {file}", "is no film", ".mp4", ".webm", ".gif"], "--film", file, "--force")
+            self.refuses("run", [f"--film {file}", "not a film", ".mp4", ".webm", ".gif"], "--film", file, "--force")
         self.refuses("run", ["nosuch.mp4"], "--film", "nosuch.mp4", "--force")
-        self.refuses("run", ["nodir/x.html", "there is no folder", "make it"], "--out", "nodir/x.html")
+        self.refuses("run", ["nodir/x.html", "folder nodir does not exist", "create it"], "--out", "nodir/x.html")
         self.assertFalse((self.folder / "nodir").exists())
         results = (self.folder / "run/results.h5").read_bytes()
         for size in (len(results) // 2, 2000, 100):
@@ -109,13 +109,13 @@ class Refused(FolderTest):
             nodes = [m.start() for m in re.finditer(b"SNOD", whole)]
             for node in (nodes[0], nodes[-1]):
                 (self.folder / "run" / name).write_bytes(whole[:node] + b"LOST" + whole[node + 4:])
-                self.refuses("run", [f"run/{name}: cannot be read in whole", "run it again"], "--out", "damaged.html")
+                self.refuses("run", [f"run/{name}: damaged or incomplete", "run it again"], "--out", "damaged.html")
             (self.folder / "run" / name).write_bytes(whole)
         (self.folder / "run/scene.toml").write_bytes(b"version = \xff")
-        self.refuses("run", ["run/scene.toml: cannot be read in whole"], "--out", "damaged.html")
+        self.refuses("run", ["run/scene.toml: damaged or incomplete"], "--out", "damaged.html")
         (self.folder / "run/scene.toml").write_text("version = 1")
         (self.folder / "run/manifest.json").write_text('{"status": "finished",\n  "figures" 1}')
-        self.refuses("run", ["manifest.json:2:13: ", "make it again"], "--out", "damaged.html")
+        self.refuses("run", ["manifest.json:2:13: ", "run it again"], "--out", "damaged.html")
         self.assertFalse((self.folder / "damaged.html").exists())
         self.assertEqual(list(self.folder.glob("**/*.part")), [])
 
@@ -135,7 +135,7 @@ class Refused(FolderTest):
         self.assertIn("is missing; install libjs-", done.stdout)
 
     def test_names_that_are_no_text(self):
-        """A folder whose name is no UTF-8 has its page, and its own bytes in what is told."""
+        """A folder whose name is not UTF-8 has its page, and messages contain its bytes."""
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["run", "grains.toml", "--out", "run", "--steps", "40"])
         (self.folder / "run").rename(os.fsdecode(b"r\xffn"))
@@ -267,7 +267,7 @@ class Pages(PageTest):
         self.browser.value("report.space.show(report.space.time.length - 1)")
 
     def keys_work(self, page):
-        """All controls are reached by Tab, show that they are, and do what they should by keys alone."""
+        """All controls are reachable by Tab, show their focus, and work by keys."""
         page.value("document.activeElement.blur(); window.scrollTo(0, 0)")
         reached = []
         for _ in range(60):
@@ -310,7 +310,7 @@ class Pages(PageTest):
         self.assertEqual(page.value("report.plots[0].graph.xAxisRange()"), wide)
 
     def any_series_is_drawn(self, page, folder):
-        """The list of all series, by keys: what is chosen is drawn, with its unit and what it is."""
+        """The list of all series by keys: the selected one is drawn, with unit and definition."""
         page.value("document.getElementById('any-series').focus()")
         page.press("End")
         page.press("Enter")
@@ -358,17 +358,17 @@ class Pages(PageTest):
         seen = "document.getElementById('space-words').textContent"
         grouser.call(["run", "grains.toml", "--set", "output.frames=false", "--out", "none"])
         self.opened("none")
-        self.assertIn("of the checkpoint: the scene asks for no frames (output.frames = false)", self.browser.value(seen))
+        self.assertIn("the checkpoint: the scene writes no frames (output.frames = false)", self.browser.value(seen))
         (self.folder / "none/checkpoint.h5").unlink()
         self.opened("none")
-        self.assertIn("Nothing is to be seen in space: the scene asks for no frames", self.browser.value(words))
+        self.assertIn("No 3-D view: the scene writes no frames", self.browser.value(words))
         grouser.call(["run", "grains.toml", "--out", "lost"])
         (self.folder / "lost/frames.h5").unlink()
         self.opened("lost")
-        self.assertIn("frames.h5 is missing, though the scene asks for frames", self.browser.value(seen))
+        self.assertIn("frames.h5 is missing although the scene writes frames", self.browser.value(seen))
         (self.folder / "lost/checkpoint.h5").unlink()
         self.opened("lost")
-        self.assertIn("frames.h5 is missing, though the scene asks for frames", self.browser.value(words))
+        self.assertIn("frames.h5 is missing although the scene writes frames", self.browser.value(words))
         self.opened("lost", "--frames", "0")
         self.assertFalse(self.browser.value("!!document.getElementById('space')"))
 
@@ -395,11 +395,11 @@ class Pages(PageTest):
                 grains[name][row] = value
         self.opened("run")
         words = self.browser.value("document.getElementById('space-words').textContent")
-        self.assertIn("up to 3 grains of a frame are left out", words)
+        self.assertIn("up to 3 grains of a frame omitted", words)
         self.assertTrue(math.isfinite(self.browser.value("report.space.grains.fastest")))
 
     def test_what_is_damaged_beside_the_results(self):
-        """The scene comes from results.h5, a picture is told instead of drawn; figures of the last part say so."""
+        """The scene comes from results.h5, a damaged picture is reported; figures of the last part are marked."""
         self.run_of_grains("run", "--steps", "40")
         grouser.call(["run", "grains.toml", "--out", "run", "--resume"])
         begun = grouser.open_run("run").manifest["resumed_from_step"]
@@ -411,13 +411,13 @@ class Pages(PageTest):
         rows = self.browser.value("[...document.querySelectorAll('#figures details tbody tr')].map(r => [...r.cells].map("
                                   "c => c.textContent))")
         wall = next(row for row in rows if row[0] == "wall_steps_s")
-        self.assertEqual(wall[2:], ["s", f"of its last part, resumed from step {begun}; from manifest.json"])
+        self.assertEqual(wall[2:], ["s", f"since the resume at step {begun}; from manifest.json"])
         self.assertNotIn("seven below", self.text("#plots"))
         for broken in ("", "version = [1"):
             scene.write_text(broken)
             self.opened("run")
             self.assertEqual(self.text("#scene pre").strip(), whole.strip())
-            self.assertIn("scene.toml is damaged: it holds no scene. This one is from results.h5.", self.text("#scene"))
+            self.assertIn("scene.toml is damaged; this is the copy in results.h5.", self.text("#scene"))
         for broken in (b"", b"no picture", drawn[:-20]):
             picture.write_bytes(broken)
             self.opened("run")
@@ -451,9 +451,9 @@ class Pages(PageTest):
         self.assertAlmostEqual(end, 0.04)
         figures = [{"name": "force [N]", "value": 1.5}, {"name": "steady from [s]", "value": 0.02}]
         early = "The run ended at 0.04\u00a0s, before the 0.1\u00a0s of its scene, by --steps 400."
-        for since, words in ((None, "it has no steady part"), (0.05, "which would begin at 0.05\u00a0s"),
-                             (0.02, "Means and extremes from 0.02\u00a0s on, as the summary of a sweep has them; works, errors and "
-                                    "what is \u201cat the end\u201d are of the end.")):
+        for since, words in ((None, "has no steady part"), (0.05, "which would start at 0.05\u00a0s"),
+                             (0.02, "Means and extremes since 0.02\u00a0s, as in the summary of a sweep; work, errors "
+                                    "and values \u201cat the end\u201d are those of the last row.")):
             (self.folder / "figures.json").write_text(json.dumps({"figures": figures, "steady_from": since}))
             subprocess.run([*SCRIPT, "run", "page.html", "--figures", "figures.json"], check=True, capture_output=True)
             self.browser.open(self.folder / "page.html")
@@ -466,7 +466,7 @@ class Pages(PageTest):
             grouser.call(["run", "grains.toml", "--out", f"whole{step}", "--set", f"run.time_step={step}"])
             self.opened(f"whole{step}")
             caption = self.browser.value("document.querySelector('#figures caption').textContent")
-            self.assertIn("Means and extremes from 0.05\u00a0s on", caption)
+            self.assertIn("Means and extremes since 0.05\u00a0s", caption)
             self.assertNotIn("ended at", caption)
 
     def test_a_narrow_screen_shows_a_run_without_scrolling_sideways(self):

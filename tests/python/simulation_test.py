@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""A simulation in process: stepped, read, steered, replayed; its views, errors and threads."""
+"""In-process simulation: steps, observations, control, replay, views, errors and threads."""
 import os
 import gc
 import pickle
@@ -26,7 +26,7 @@ FALL = {
 
 
 def vehicle_scene() -> grouser.Scene:
-    """Rigid ground, coarse spheres, a drive that begins at 40 ms."""
+    """Rigid ground, coarse spheres, a drive that starts at 40 ms."""
     scene = grouser.Scene.read(ROOT / "tests/scenes/rigid.toml")
     scene["vehicle.sphere_radius"] = 0.03
     scene["driver"] = {"sprocket_speed": 0.0, "tension_ramp": 0.02, "weight_ramp": 0.02, "drive_start": 0.04,
@@ -125,7 +125,7 @@ class Vehicles(FolderTest):
                                 (lambda: sim.set_hitch_force(1), "[hitch]"), (lambda: sim.set_load("chasis", [1, 0, 0]),
                                                                               '"chassis"'),
                                 (lambda: sim.set_sprocket_speed(1e9), "[-100, 100] [rad/s]"),
-                                (lambda: sim.set_sprocket_speed(float("nan")), "nan is no finite number")):
+                                (lambda: sim.set_sprocket_speed(float("nan")), "nan is not finite")):
                 with self.assertRaises(grouser.InputError) as caught:
                     call()
                 self.assertIn(words, str(caught.exception))
@@ -234,9 +234,9 @@ class Process(FolderTest):
 
     def test_arguments_of_another_kind_are_named(self):
         with grouser.Simulation(vehicle_scene(), threads=1) as sim:
-            for call, words in ((lambda: sim.set_load("chassis", [1, 2]), "force: three numbers"),
-                                (lambda: sim.step(1.5), "count: a whole number"),
-                                (lambda: sim.set_sprocket_speed("1"), "left: a number")):
+            for call, words in ((lambda: sim.set_load("chassis", [1, 2]), "force: expected three numbers"),
+                                (lambda: sim.step(1.5), "count: expected an integer"),
+                                (lambda: sim.set_sprocket_speed("1"), "left: expected a number")):
                 self.assertRaisesRegex(TypeError, words, call)
             with self.assertRaises(AttributeError):
                 sim.sprocket_speed = 3

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Complementarity contacts that are solved for across subdomains: velocities are exchanged in each iteration.
+// Complementarity contacts across subdomains: velocities are exchanged in each iteration.
 #include "terrain/grains.hpp"
 #include "tests/ranks/ranks.hpp"
 #include "tests/terrain/impulse_fixture.hpp"

@@ -47,7 +47,7 @@ Tracers startingTracers() {
   return t;
 }
 
-/// Sends what `destination` names and appends what comes.
+/// Sends the tracers with a `destination` and appends the received ones.
 void route(Exchange& exchange, const Tracers& t, const std::vector<std::pair<std::uint32_t, int>>& leaving) {
   base::Array<std::uint64_t> ranks(t.exec, leaving.size());
   base::Array<std::uint32_t> slots(t.exec, leaving.size());
@@ -64,7 +64,7 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
   Tracers t = startingTracers();
 
-  // Every rank hands its last two tracers to the right, with all they carry.
+  // Every rank sends its last two tracers with all fields to the right.
   Exchange migration(t.exec, comm, kOnCpus);
   route(migration, t, {{Tracers::kEach - 1, right}, {Tracers::kEach - 2, right}});
   ASSERT_EQ(migration.importCount(), 2u);
@@ -132,7 +132,7 @@ TEST(Exchange, FollowsElementsThatMoveToOtherSlots) {
   const std::size_t size = t.owned + 1;
   t.resize(size);
   ghosts.setImportSlots(t.owned);
-  // Everything changes places: slot s goes to size - 1 - s.
+  // Reversed order: slot s moves to size - 1 - s.
   base::Array<std::uint32_t> newSlot(t.exec, size);
   std::vector<double> moved(size);
   for (std::size_t s = 0; s < size; ++s) {

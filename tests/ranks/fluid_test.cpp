@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fluid on any number of ranks: the bits, loads, probes and totals of one.
+// Fluid on any number of ranks: bits, loads, probes and totals equal those on one.
 #include "base/error.hpp"
 #include "tests/fluid/water.hpp"
 #include "tests/ranks/ranks.hpp"
@@ -40,7 +40,7 @@ Seen seen(Fluid& fluid) {
   return s;
 }
 
-/// A turning cube is drawn through water whose surface it breaks.
+/// A rotating cube is towed through the water surface.
 std::vector<BodyMotion> drawn(const FluidSetup& s, int step) {
   BodyMotion m = s.bodies[0].start;
   const double t = (step + 1) * s.model.timeStep, turn = 0.3 + 2 * t;
@@ -80,7 +80,7 @@ TEST(FluidOnRanks, ADamBreakMovesFromRankToRank) {
   EXPECT_EQ(resumed.totals().total(), alone.totals().total());
 }
 
-/// A fault on one rank stops all with one message.
+/// An error on one rank stops all with one message.
 TEST(FluidOnRanks, AFaultStopsAllRanks) {
   FluidSetup s = damBreak();
   s.particles.front().velocity = {0, 0, -0.9 * s.model.soundSpeed};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains that slide over a part while they change their rank: the springs between them and the part go with them.
+// Grains that slide over a part while they migrate: their contact springs migrate with them.
 #include "contact/grain_part_contacts.hpp"
 #include "terrain/grains.hpp"
 #include "tests/contact/part_fixture.hpp"
@@ -113,7 +113,7 @@ TEST_P(PartsOnRanks, SavedRightAfterAHandOverNothingIsMissingOrTwice) {
   for (int step = 1; step <= 1500; ++step) {
     alone.step(), shared.step();
     const std::int64_t before = shared.grains.system().rebuilds;
-    shared.grains.ledger(); // a row of results: builds the lists anew where they are stale
+    shared.grains.ledger(); // an output row: rebuilds stale lists
     if (shared.grains.system().rebuilds == before) continue;
     ++handOvers;
     expectSame(*shared.part, *alone.part, step);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One answer on any number of ranks: grains that slide, spin, touch walls and cross borders.
+// Bitwise identical results on any number of ranks: grains that slide, spin, touch walls and cross borders.
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "terrain/bed_tops.hpp"
@@ -59,7 +59,7 @@ TEST(GrainsOnRanks, EqualBitsForEveryLattice) {
     }
 }
 
-/// Right after a step, before a list has been made anew, and behind one.
+/// Right after a step, before a list rebuild, and after one.
 TEST(GrainsOnRanks, FieldsHaveTheBitsOfOneRank) {
   const GrainModel m = gravel();
   Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared()),
@@ -79,9 +79,9 @@ TEST(GrainsOnRanks, FieldsHaveTheBitsOfOneRank) {
   }
 }
 
-/// By itself, because eight ranks on two cores take a minute for all of them.
+/// Separate test, as eight ranks on two cores take a minute for all.
 TEST(GrainsOnRanks, EqualBitsWhereEveryAxisIsDivided) {
-  if (test::comm().size() != 8) GTEST_SKIP() << "asks for 2 x 2 x 2 ranks";
+  if (test::comm().size() != 8) GTEST_SKIP() << "requires 2 x 2 x 2 ranks";
   const GrainModel m = gravel();
   Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({2, 2, 2}));
   advance(grains, kSteps);
@@ -294,7 +294,7 @@ TEST(GrainsOnRanks, EqualBitsWhenResumedFromAnyBlockOfRows) {
   const GrainState saved = first.state(); // this rank's block of ids
   Grains second(base::cpuExec(1), m, box(m), thrownBlock(), shared());
   second.restore(saved);
-  // Nothing is lost on the way, nor what only decides when the next lists are built.
+  // No state is lost, including that for the next list rebuild.
   const GrainState again = second.state();
   EXPECT_EQ(again.words(), saved.words());
   EXPECT_EQ(again.travelled, saved.travelled);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranks that look into each other's memory, on CPUs or, where the environment says GROUSER_TEST_DEVICE=cuda, on GPUs.
+// Ranks that read each other's memory, on CPUs, or on GPUs with GROUSER_TEST_DEVICE=cuda.
 #include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/peer_reduction.hpp"
@@ -48,23 +48,23 @@ TEST(PeersOnCpus, SeeNobodyUnlessAsked) {
 }
 
 TEST(PeersOnCpus, WhoInsistsIsToldWhy) {
-  if (test::comm().alone()) GTEST_SKIP() << "one rank needs nobody's memory";
+  if (test::comm().alone()) GTEST_SKIP() << "one rank has no peers";
   try {
     const base::PeerMemory memory(base::cpuExec(1), test::comm(), PeerUse::always, std::size_t{1} << 46);
     FAIL() << "there is no machine with so much memory: " << memory.allSeeAll();
   } catch (const base::InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("room for it"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("enough shared memory"), std::string::npos) << e.what();
   }
 }
 
-/// What a process shows of itself under /proc/self/fd.
+/// Open files of this process, by /proc/self/fd.
 int openFiles() {
   const std::filesystem::directory_iterator files("/proc/self/fd");
   return static_cast<int>(std::distance(begin(files), end(files)));
 }
 
 TEST_F(Peers, LeaveNeitherNamesNorOpenFiles) {
-  if (!exec.onCpu()) GTEST_SKIP() << "CUDA's memory has no files";
+  if (!exec.onCpu()) GTEST_SKIP() << "CUDA memory has no files";
   const auto names = [] {
     int count = 0;
     for (const auto& entry : std::filesystem::directory_iterator("/dev/shm"))
@@ -102,7 +102,7 @@ TEST_F(Peers, AgreeOnTheLeastAndOnEveryBit) {
   base::PeerReduction agreement(exec, comm, PeerUse::always);
   ASSERT_TRUE(agreement.possible());
   const auto me = static_cast<std::uint64_t>(comm.rank()), all = static_cast<std::uint64_t>(comm.size());
-  // Each run another rank says the least; twenty are given at once, without a host in between.
+  // In each run another rank has the minimum; twenty are launched at once without the host.
   constexpr std::uint64_t kRuns = 20;
   std::vector<std::uint64_t> said;
   for (std::uint64_t k = 0; k < kRuns; ++k) {
@@ -120,12 +120,12 @@ TEST_F(Peers, AgreeOnTheLeastAndOnEveryBit) {
   }
 }
 
-/// What one rank says to another in a run.
+/// Message of one rank to another in a run.
 std::uint32_t said(std::uint32_t run, int from, int to) {
   return 10'000 * run + 100 * static_cast<std::uint32_t>(from) + static_cast<std::uint32_t>(to);
 }
 
-/// Element r goes to rank r; what comes goes to the places behind those, in the order of ranks.
+/// Element r is sent to rank r; received elements follow in rank order.
 void sendToAllOthers(const base::Exec& exec, const base::Comm& comm, contact::Exchange& exchange) {
   std::vector<std::uint64_t> to;
   std::vector<std::uint32_t> from;
@@ -138,7 +138,7 @@ void sendToAllOthers(const base::Exec& exec, const base::Comm& comm, contact::Ex
   exchange.setImportSlots(static_cast<std::size_t>(comm.size()));
 }
 
-/// What this rank says to each, `width` times.
+/// Messages of this rank to each other, `width` times.
 std::vector<std::uint32_t> sayings(const base::Comm& comm, std::uint32_t run, std::size_t width = 1) {
   std::vector<std::uint32_t> all;
   for (int r = 0; r < comm.size(); ++r) all.insert(all.end(), width, said(run, comm.rank(), r));
@@ -155,7 +155,7 @@ void expectHeard(const base::Comm& comm, std::uint32_t run, const std::uint32_t*
   }
 }
 
-/// Run after run, with few or many words: each rank must hear what was said in this run.
+/// Consecutive runs with few or many words: each rank must receive the messages of the same run.
 void exchangeMany(const base::Exec& exec, const base::Comm& comm, PeerUse use) {
   constexpr std::size_t kWide = 200'000; // the fields of later runs make the memory grow
   const auto size = static_cast<std::size_t>(comm.size());
@@ -177,7 +177,7 @@ void exchangeMany(const base::Exec& exec, const base::Comm& comm, PeerUse use) {
 }
 
 TEST_F(Peers, WaitForReadersThatAreLate) {
-  // One rank reads late, again and again: what the others pack next must not reach it.
+  // One rank repeatedly reads late: data that the others pack next must not reach it.
   contact::Exchange exchange(exec, comm, {.peers = PeerUse::always});
   sendToAllOthers(exec, comm, exchange);
   constexpr std::uint32_t kRuns = 30;
@@ -205,7 +205,7 @@ TEST_F(Peers, FetchElementsFromEachOther) { exchangeMany(exec, comm, PeerUse::al
 TEST_F(Peers, OrSendMessages) { exchangeMany(exec, comm, PeerUse::never); }
 
 TEST_F(Peers, StepsTogetherGiveTheBitsOfOneRankOnACpu) {
-  // Sixteen steps at once and single ones in turn; energies are asked for, grains are added, and a saved run goes on.
+  // Alternates sixteen steps at once and single steps; reads energies, adds grains, and resumes a saved run.
   using namespace terrain;
   GrainModel m = testing::gravel();
   m.mostSimdLanes = 1; // lanes take one step at a time

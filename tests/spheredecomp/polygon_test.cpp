@@ -279,7 +279,7 @@ TEST(ImportMesh, VerticesOfFiveDigits_AreWelded) {
     imported(looseBox(0.01, 1e-4), ".obj");
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("vertices at them lie within 0.00057 m of another: merge these"),
+    EXPECT_NE(std::string(error.what()).find("of their vertices lie within 0.00057 m of another: merge these"),
               std::string::npos)
         << error.what();
   }

@@ -251,7 +251,8 @@ TEST(OutputPlot, UnknownColumnsAndContradictionsAreRefusedAtTheirPlace) {
   };
   EXPECT_EQ(refused("y = [\"bodies.b.position.z\"]\ny_label = \"z\"\n"), "");
   says("y = [\"bodies.b.positon.z\"]\ny_label = \"z\"\n", "did you mean \"bodies.b.position.z\"");
-  says("x = \"tim\"\ny = [\"bodies.b.position.z\"]\ny_label = \"z\"\n", "output.plot.0.x names no column");
+  says("x = \"tim\"\ny = [\"bodies.b.position.z\"]\ny_label = \"z\"\n",
+       "output.plot.0.x names a column that the results lack");
   says("y = []\ny_label = \"z\"\n", "output.plot.0.y");
   says("y = [\"bodies.b.position.z\"]\n", "lacks the required key y_label");
   says("y = [\"bodies.b.position.z\"]\ny_label = \"z\"\nlabels = [\"a\", \"b\"]\n", "output.plot.0.labels");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of mechanisms that touch grains: closed forms, books, and what is refused.
+// Bodies of mechanisms that touch grains: closed forms, energy balance, and refused scenes.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/surface_geometry.hpp"

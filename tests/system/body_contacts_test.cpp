@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of mechanisms that touch rigid surfaces and each other: closed forms, accounts, and what is refused.
+// Bodies of mechanisms that touch rigid surfaces and each other: closed forms, energy balance, and refused scenes.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/shape_points.hpp"

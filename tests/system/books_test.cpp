@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The books of runs whose losses, works and momenta are known in closed form, or balance whatever happens.
+// Energy accounting of runs whose losses, works and momenta are known in closed form, or must balance.
 #include "coupling/vehicle_rig.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/simulation_setup.hpp"

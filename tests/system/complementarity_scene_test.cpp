@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whole scenes with complementarity contacts: what forces move, what turns, and beds.
+// Whole scenes with complementarity contacts: force-driven and rotating surfaces, and beds.
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"

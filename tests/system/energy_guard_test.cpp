@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The guard stops what gains or loses energy by its steps, at fixed steps, and nothing else.
+// The guard stops runs whose time integration creates or loses energy, at fixed steps, and no others.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -28,7 +28,7 @@ TEST(EnergyGuard, JudgesBothSignsAgainstWhatWasExchangedSinceTheLastLook) {
   EXPECT_NE(guard.judge(books(5 + 4.1, 1010), 0).find("lost 4.1 J"), std::string::npos);
   EXPECT_EQ(guard.judge(books(5 - 1.9, 1010), 0), "") << "a tenth may be made, and a thousandth of 1010 J";
   EXPECT_NE(guard.judge(books(5 - 2.1, 1010), 0), "");
-  EXPECT_NE(guard.judge(books(5 - 3.6, 1010), 0).find("made 3.6 J"), std::string::npos);
+  EXPECT_NE(guard.judge(books(5 - 3.6, 1010), 0).find("created 3.6 J"), std::string::npos);
   EXPECT_EQ(guard.judge(books(5 - 3.6, 1010), 1e7), "") << "rounding of ten MJ";
 }
 
@@ -72,7 +72,7 @@ TEST(EnergyGuard, WhereDampersGiveWhatTheStepsLoseNothingIsMade) {
   l.dissipated.damping = -0.6;
   EXPECT_EQ(guard.judge(l, 0), "") << "a tenth of a joule is given";
   l.dissipated.damping = -0.9;
-  EXPECT_NE(guard.judge(l, 0).find("dampers have let these make 0.4 J"), std::string::npos) << guard.judge(l, 0);
+  EXPECT_NE(guard.judge(l, 0).find("dampers created 0.4 J"), std::string::npos) << guard.judge(l, 0);
 }
 
 TEST(EnergyGuard, WorkOfDrivesBeforeTheLastLookHidesNothing) {
@@ -111,7 +111,7 @@ TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsIsHeldAgainstWhatIsDissipated) {
   l.integrationError = -130; // a tenth of the other 270 J, and a thousandth of the 103,400 J ever exchanged: 130.4 J
   EXPECT_EQ(guard.judge(l, 0), "");
   l.integrationError = -131;
-  EXPECT_NE(guard.judge(l, 0).find("made 131 J of the 400 J dissipated since the last look"), std::string::npos);
+  EXPECT_NE(guard.judge(l, 0).find("created 131 J of the 400 J dissipated since the last check"), std::string::npos);
   l.dissipated.joints += 20;
   EXPECT_EQ(guard.judge(l, 0), "") << "of 420 J";
   l.dissipated = {};
@@ -156,7 +156,7 @@ TEST(EnergyGuard, ABedThatHoldsMuchMoreThanPartsHaveTakenHidesAHundredthOfIt) {
   EXPECT_EQ(guard.judge(l, 0), "") << "a tenth of the other 0.05 J, and a hundredth of 4.1 J, are 0.0463 J";
   l.integrationError = -0.05;
   guard.look(l);
-  EXPECT_NE(guard.judge(l, 0).find("made 0.05 J of the 0.085 J dissipated since the start"), std::string::npos)
+  EXPECT_NE(guard.judge(l, 0).find("created 0.05 J of the 0.085 J dissipated since the start"), std::string::npos)
       << guard.judge(l, 0);
 }
 
@@ -167,7 +167,7 @@ TEST(EnergyGuard, WhatIsNothingBesideTheWeightOfABedIsNoAlarm) {
   l.dissipated.parts = 0.0398, l.dissipated.joints = 0.0418, l.dissipated.damping = -0.05;
   l.elastic = l.grainElastic = 1;
   guard.look(l);
-  EXPECT_NE(guard.judge(l, 0).find("made 0.0231 J of the 0.0816 J dissipated since the start"), std::string::npos)
+  EXPECT_NE(guard.judge(l, 0).find("created 0.0231 J of the 0.0816 J dissipated since the start"), std::string::npos)
       << guard.judge(l, 0);
   EXPECT_EQ(guard.judge(l, 2800), "");
   for (const bool made : {true, false}) {
@@ -191,7 +191,7 @@ TEST(EnergyGuard, WhatGrainsSeemToGiveDoesNotLessenWhatPartsHaveDissipated) {
   l.turnover += 3, l.integrationError -= 0.05, l.dissipated.parts += 1, l.dissipated.damping -= 0.9;
   EXPECT_EQ(guard.judge(l, 0), "") << "a tenth of the other 0.95 J";
   l.integrationError -= 0.06;
-  EXPECT_NE(guard.judge(l, 0).find("made 0.11 J of the 1 J dissipated since the last look"), std::string::npos)
+  EXPECT_NE(guard.judge(l, 0).find("created 0.11 J of the 1 J dissipated since the last check"), std::string::npos)
       << guard.judge(l, 0);
 }
 
@@ -206,7 +206,7 @@ TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsAddsUp) {
     guard.look(l);
   }
   l.turnover += 1000, l.dissipated.parts += 100, l.integrationError -= 55; // 385 J beside 231.5 J and 109.7 J
-  EXPECT_NE(guard.judge(l, 0).find("made 385 J of the 2.7e+03 J dissipated since the start"), std::string::npos)
+  EXPECT_NE(guard.judge(l, 0).find("created 385 J of the 2.7e+03 J dissipated since the start"), std::string::npos)
       << guard.judge(l, 0);
 }
 

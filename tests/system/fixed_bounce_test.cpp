@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Restitution that a scene asks for, of grains that meet what never moves.
+// Given restitution of grains on fixed surfaces and fixed grains.
 #include "tests/system/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>

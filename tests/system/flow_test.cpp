@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ends a run of a vehicle before its time: a distance, the edge of the ground, immobility.
+// Early ends of a vehicle run: a distance, the edge of the terrain, immobility.
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/system/driven_fixture.hpp"
@@ -57,7 +57,7 @@ TEST(Flow, EndsBeforeTheEdge) {
   Simulation simulation = begin(sceneWith("[stop]\nedge = 0.5\n", "", {"vehicle.position=[2.2,0]"}));
   const std::string end = endOf(simulation, 8000);
   EXPECT_NE(end.find("stop.edge: the "), std::string::npos) << end;
-  EXPECT_NE(end.find("within 0.5 m of the end of the terrain"), std::string::npos) << end;
+  EXPECT_NE(end.find("within 0.5 m of the terrain's edge"), std::string::npos) << end;
   EXPECT_GT(way(simulation) + 1, 2.3) << "it has driven there";
 }
 
@@ -69,7 +69,7 @@ TEST(Flow, GoesOnWhereItWasSetDownNearerToTheEndThanThat) {
 
 TEST(Flow, AnEdgeOfNothingEndsInOrder) {
   Simulation simulation = begin(sceneWith("[stop]\nedge = 0\n", "", {"vehicle.position=[2.85, 0]"}));
-  EXPECT_NE(endOf(simulation, 8000).find("within 0 m of the end"), std::string::npos);
+  EXPECT_NE(endOf(simulation, 8000).find("within 0 m of the terrain's edge"), std::string::npos);
 }
 
 TEST(Flow, EndsWhereTheTracksSpinInVain) {
@@ -91,7 +91,7 @@ TEST(Flow, WhatIsAskedWronglyIsSaid) {
                          Wrong{"[stop]\nimobile = 1\n", "", {"unknown key stop.imobile", "did you mean immobile?"}},
                          Wrong{"[stop]\nedge = 1\n",
                                "chassis = \"fixed\"\n",
-                               {"stop", "for a vehicle that is held", "set vehicle.chassis = \"free\""}}}) {
+                               {"stop", "on a vehicle with a fixed hull", "set vehicle.chassis = \"free\""}}}) {
     try {
       sceneWith(w.text, w.vehicle);
       ADD_FAILURE() << w.text << " is accepted";

@@ -35,7 +35,7 @@ TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
     setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()));
     FAIL() << "the front would hang over the edge";
   } catch (const base::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("it needs 3.4"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("requires 3.4"), std::string::npos) << error.what();
   }
 }
 

@@ -102,7 +102,9 @@ TEST(HitchedBodies, AJointFromTheVehicleToTheWorldIsRefused) {
   const std::string joint =
       "[[joint]]\nname = \"tether\"\ntype = \"spherical\"\nbodies = [\"world\", \"cart\"]\npoint = "
       "[1, 0, 0.5]\n";
-  EXPECT_NE(test::messageOf([&] { setup::parseScene(tow(joint), "tow.toml"); }).find("tie the vehicle to the world"),
+  EXPECT_NE(test::messageOf([&] {
+              setup::parseScene(tow(joint), "tow.toml");
+            }).find("connect the vehicle rigidly to the world"),
             std::string::npos);
   EXPECT_NE(test::messageOf([&] {
               setup::parseScene(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Who presses a grain, what a pull does to swings, and that the bodies of a vehicle are judged in the run.
+// Contacts of a pressed grain, oscillations under tension, and checks of a vehicle's bodies during the run.
 #include "base/error.hpp"
 #include "coupling/pressed_grain.hpp"
 #include "coupling/simulation.hpp"

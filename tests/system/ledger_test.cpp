@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ledger of scenes of grains: it closes to rounding at every step, books the true losses, and what the length of
-// the steps costs falls with them.
+// The ledger of scenes of grains: it closes to rounding at every step, contains the true losses, and its integration
+// error falls with the time step.
 #include "tests/system/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>

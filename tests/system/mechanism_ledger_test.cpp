@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The books of mechanisms and of a vehicle's bodies, as a run has them.
+// The ledger of mechanisms and of a vehicle's bodies in a run.
 #include "coupling/mechanism.hpp"
 #include "coupling/simulation.hpp"
 #include "coupling/vehicle_rig.hpp"

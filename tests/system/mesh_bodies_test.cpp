@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies with a shape from a mesh file: among grains, on rigid surfaces, on each other, and what is refused.
+// Bodies with a shape from a mesh file: among grains, on rigid surfaces, on each other, and refused scenes.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/shape_points.hpp"
@@ -324,15 +324,15 @@ TEST(MeshBodies, BadFilesAndKeysAreRefusedAtTheirPlace) {
     EXPECT_NE(message.find("bodies.toml:"), std::string::npos) << message;
   };
   const std::string cube = "kind = \"mesh\"\nfile = \"cube.obj\"\n";
-  refused("kind = \"mesh\"", "shape.0.file is missing, which a mesh needs");
+  refused("kind = \"mesh\"", "shape.0.file is missing, but a mesh requires it");
   refused("kind = \"mesh\"\nfile = \"cub.obj\"", "shape.0.file = \"cub.obj\" does not exist");
-  refused("kind = \"mesh\"\nfile = \"open.obj\"", "is of no use");
+  refused("kind = \"mesh\"\nfile = \"open.obj\"", "cannot be used");
   refused(cube + "sphere_radius = 0.06", "shape.0.sphere_radius = 0.06 [m] is above 0.05 m");
   refused(cube + "sphere_radius = 1e-5", "lattice points");
   refused(cube + "radius = 0.1", "shape.0.radius = 0.1 does not apply to a mesh");
   refused(cube + "size = [1, 1, 1]", "does not apply to a mesh");
   refused(cube + "length = 1", "does not apply to a mesh");
-  refused(cube + "angle = 3", "and angle turn a mesh together");
+  refused(cube + "angle = 3", "and angle rotate a mesh together");
   refused("kind = \"sphere\"\nradius = 0.1\nfile = \"cube.obj\"", "does not apply to a sphere");
   refused("kind = \"sphere\"\nradius = 0.1\nsphere_radius = 0.01", "does not apply to a sphere");
   refused("kind = \"box\"\nsize = [1, 1, 1]\nscale = 2", "does not apply to a box");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Micro-slip: the ledger books the energy that Hertz springs lose as their stiffness follows the load.
+// Micro-slip: the ledger contains the energy that Hertz springs lose as their stiffness changes with the load.
 #include "tests/system/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is put on a settled bed: the bed settles as if alone, things stand where they shall, and one answer for all.
+// Objects placed on a settled bed: the bed settles as if alone, positions are correct, and results are identical.
 #include "coupling/placed_on_bed.hpp"
 
 #include "base/error.hpp"
@@ -145,7 +145,7 @@ TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
 
 TEST(PutOnBed, OverlapIsRefusedWithNumbersAndRemedy) {
   const std::string deep = refusal(sceneWithBed(plate("velocity = [0, 0, -0.1]\n"), {"box.plate.position.2=0.0"}));
-  for (const char* part : {"placed.toml:", "plate would stand", "m deep in grain", "above_bed", "placed = \"before\""})
+  for (const char* part : {"placed.toml:", "plate would lie", "m deep in grain", "above_bed", "placed = \"before\""})
     EXPECT_NE(deep.find(part), std::string::npos) << part << "\n" << deep;
   const std::string grain =
       refusal(sceneWithBed("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.05\nmaterial = \"steel\"\n"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// When a bed counts as settled.
+// Criteria for a settled bed.
 #include "base/error.hpp"
 #include "coupling/settled_ground.hpp"
 #include "runs/scene/scene.hpp"
@@ -50,7 +50,8 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
     settle(*setup.grains->bed, ground, [](double, double) {});
     FAIL() << "nothing rests to 1e-9";
   } catch (const base::SimulationError& error) {
-    for (const char* part : {"has not settled within 0.3 s", "of its weight, wanted is 1e-09", "settle_force_ratio"})
+    for (const char* part :
+         {"did not settle within 0.3 s", "of its weight, required: less than 1e-09", "settle_force_ratio"})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   }
 }
@@ -71,8 +72,8 @@ TEST(Settling, WhatIsToldOfARestlessBedIsTheMostOfTheLastFiveLooks) {
     ASSERT_GT(most, 1.2 * seen.back()) << "or this shows nothing";
     EXPECT_NE(
         std::string(error.what())
-            .find(fmt::format("in the last 5 looks, 0.02 s apart, the kinetic energy a grain is up to {:.3g} of m g "
-                              "radius, wanted is less than 0.01",
+            .find(fmt::format("in the last 5 checks, 0.02 s apart, the kinetic energy per grain was up to {:.3g} of "
+                              "m g radius, required: less than 0.01",
                               most)),
         std::string::npos)
         << error.what();
@@ -117,10 +118,10 @@ TEST(Settling, ASteepFloorIsNamedWhereItIsTheCause) {
     }
     return std::string();
   };
-  EXPECT_NE(fault(1.5).find("m a metre, and grains slide off it: set terrain.floor = \"flat\""), std::string::npos)
+  EXPECT_NE(fault(1.5).find("m/m, and grains slide off it: set terrain.floor = \"flat\""), std::string::npos)
       << fault(1.5);
   const std::string gentle = fault(0.03);
-  EXPECT_NE(gentle.find("has not settled within 0.1 s"), std::string::npos) << gentle;
+  EXPECT_NE(gentle.find("did not settle within 0.1 s"), std::string::npos) << gentle;
   EXPECT_EQ(gentle.find("terrain.floor"), std::string::npos) << gentle;
 }
 

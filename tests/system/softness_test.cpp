@@ -72,7 +72,7 @@ TEST(Softness, IsRefusedWithTheLeastThatWillDo) {
   for (const Soft& soft : softOnes()) {
     const auto set = [&](double value) { return std::vector{fmt::format("{}={:.6g}", soft.key, value)}; };
     const std::string error = errorOf(soft.text, set(soft.value));
-    EXPECT_NE(error.find(fmt::format("{} = {:g} [{}] is so soft", soft.key, soft.value, soft.unit)), std::string::npos)
+    EXPECT_NE(error.find(fmt::format("{} = {:g} [{}] is too low", soft.key, soft.value, soft.unit)), std::string::npos)
         << error;
     const std::size_t number = error.find("raise it to ");
     ASSERT_NE(number, std::string::npos) << error;

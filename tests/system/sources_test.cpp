@@ -102,8 +102,7 @@ TEST(Sources, ABoxWithoutRoomIsRefused) {
                           [](double, double) {});
     FAIL();
   } catch (const base::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("source.0: 200 grains of radius 0.02 m do not find room"),
-              std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("source.0: 200 grains of radius 0.02 m do not fit"), std::string::npos)
         << error.what();
   }
 }
@@ -134,7 +133,7 @@ void expectParts(const std::string& message, const std::vector<std::string>& par
 
 TEST(Sources, AGrainThatLiesInTheWayStopsTheRunAndBothAreNamed) {
   expectParts(stopOf(dropAt("[0, 0, 1]", "0.0"), {"source.0.total=2"}),
-              {"crowd.toml:9: source.0 would set a grain at (0, 0, 1) m at step 500, time 0.05 s",
+              {"crowd.toml:9: source.0 would insert a grain at (0, 0, 1) m at step 500, time 0.05 s",
                "0.04 m deep in grain 0", "later (start)", "every"});
   EXPECT_EQ(stopOf(dropAt("[0, 0, 1]", "0.0"), {"source.0.total=2", "source.0.velocity=[0, 0, 1]"}), "");
 }

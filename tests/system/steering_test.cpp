@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is set from outside acts at a step's boundary, is part of state, books and hash, and can be replayed.
+// Inputs act at a step's boundary, are part of state, ledger and hash, and can be replayed.
 #include "coupling/simulation.hpp"
 #include "runs/session/replay.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -198,7 +198,7 @@ TEST(Steering, WhatTheSceneDoesNotHaveIsRefusedAndNothingChanges) {
   EXPECT_NE(refused(InputKind::hitchForce, 0, {5}).find("[hitch] kind = \"force\""), std::string::npos);
   EXPECT_NE(refused(InputKind::sprocketSpeed, 2, {5}).find("no track 2"), std::string::npos);
   EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {101}).find("[-100, 100] [rad/s]"), std::string::npos);
-  EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {NAN}).find("nan is no finite number"), std::string::npos);
+  EXPECT_NE(refused(InputKind::sprocketSpeed, 0, {NAN}).find("nan is not finite"), std::string::npos);
   EXPECT_NE(refused(InputKind::bodyLoad, 9999, {5}).find("no body 9999"), std::string::npos);
   EXPECT_NE(messageOf([&] { bodyIndex(*s, "chasis"); }).find("\"chassis\""), std::string::npos);
   EXPECT_TRUE(s->inputs().series().empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps that follow an error are as long as their own error allows, no shorter and no longer.
+// Error-controlled steps are as long as their error allows, no shorter and no longer.
 #include "coupling/step_controller.hpp"
 #include "multibody/solver.hpp"
 #include "runs/setup/load_scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps of mechanisms that follow an error: the error at the end goes with the tolerance.
+// Error-controlled steps of mechanisms: the final error is proportional to the tolerance.
 #include "base/math.hpp"
 #include "coupling/mechanism.hpp"
 #include "runs/scene/scene.hpp"

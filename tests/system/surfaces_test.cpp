@@ -399,10 +399,11 @@ TEST(Mesh, WhatItDoesNotGoTogetherWithIsRefused) {
   const std::string block = movingBlock(meshHead());
   EXPECT_NE(refusal(meshHead() + "material = \"glass\"\n" + grainAt("[0, 0, 0.02]")).find("overlaps mesh 0"),
             std::string::npos);
-  EXPECT_NE(refusal(block + meshHead() + "material = \"wood\"\n[material.wood]\n").find("all meshes have one"),
-            std::string::npos);
+  EXPECT_NE(
+      refusal(block + meshHead() + "material = \"wood\"\n[material.wood]\n").find("use one material for all meshes"),
+      std::string::npos);
   EXPECT_NE(refusal(movingBlock("[[mesh]]\nfile = \"nosuch.obj\"\n")).find("does not exist"), std::string::npos);
-  EXPECT_NE(refusal(movingBlock("[[mesh]]\nfile = \"heightmaps/hills.png\"\n")).find("is of no use"),
+  EXPECT_NE(refusal(movingBlock("[[mesh]]\nfile = \"heightmaps/hills.png\"\n")).find("cannot be used"),
             std::string::npos);
   EXPECT_NE(refusal(movingBlock(meshHead(1e-3))).find("sphere_radius"), std::string::npos);
 }
@@ -415,23 +416,23 @@ TEST(Surfaces, WhatCannotBeIsRefusedByName) {
                                    "material = \"glass\"\n";
   const Fault faults[] = {
       {"box.lid.size", "[0.1,-0.1,0.1]", "is outside"},
-      {"box.lid.velocity", "[0,0,0.1]", "where free leaves it to the forces"},
+      {"box.lid.velocity", "[0,0,0.1]", "the axis of free"},
       {"box.lid.amplitude", "[0,0,0.1]", "frequency [Hz] is missing"},
-      {"box.lid.frequency", "3", "has no meaning without amplitude"},
-      {"box.lid.placed", "after_settling", "has no meaning without a bed of grains"},
-      {"box.lid.above_bed", "0.1", "has no meaning without a bed of grains"},
-      {"box.lid.pivot", "[1,0,0]", "has no meaning without spin"},
-      {"box.lid.start", "1.0", "that is not moved"},
+      {"box.lid.frequency", "3", "has no effect without amplitude"},
+      {"box.lid.placed", "after_settling", "has no effect without a bed of grains"},
+      {"box.lid.above_bed", "0.1", "has no effect without a bed of grains"},
+      {"box.lid.pivot", "[1,0,0]", "has no effect without spin"},
+      {"box.lid.start", "1.0", "on a fixed surface"},
       {"box.lid.free", "w", "x, y, z"},
-      {"box.lid.angle", "3", "without axis"},
+      {"box.lid.angle", "3", "requires axis"},
       {"box.lid.material", "cheese", "names no material"},
-      {"box.lid.name", "floor", "that of another surface"},
-      {"box.lid.name", "my lid", "must be a word"},
+      {"box.lid.name", "floor", "the name of another surface"},
+      {"box.lid.name", "my lid", "must not contain blanks"},
       {"box.lid.mass", "0", "is outside"},
-      {"plane.floor.load", "3", "belongs to a surface that forces move"},
+      {"plane.floor.load", "3", "applies to free surfaces only"},
       {"plane.floor.normal", "[0,0,0]", "is zero"},
-      {"plane.floor.name", "cylinder0", "is what a surface without a name is called"},
-      {"cylinder.0.radius", "0.009", "wider than what is in it"},
+      {"plane.floor.name", "cylinder0", "is the default name of another surface"},
+      {"cylinder.0.radius", "0.009", "which a hollow cylinder must contain"},
   };
   for (const Fault& f : faults) {
     try {

@@ -179,11 +179,11 @@ TEST(Towing, WrongHitchesAreRefused) {
       for (const char* word : words) EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
     }
   };
-  refused("kind = \"force\"\n", {"hitch.force", "missing", "kind = \"force\" needs it"});
+  refused("kind = \"force\"\n", {"hitch.force", "missing", "kind = \"force\" requires it"});
   refused("kind = \"sled\"\nmass = 10\n", {"hitch.friction", "missing"});
-  refused("kind = \"speed\"\nslip = 0.2\nmass = 3\n", {"hitch.mass", "no meaning", "kind = \"sled\""});
-  refused("kind = \"ramp\"\nrate = 2\nstiffness = 1e6\n", {"hitch.stiffness", "no meaning"});
-  refused("kind = \"speed\"\nslip = 0.2\nstiffness = 1e12\n", {"hitch.stiffness", "under-resolved", "swing"});
+  refused("kind = \"speed\"\nslip = 0.2\nmass = 3\n", {"hitch.mass", "no effect", "kind = \"sled\""});
+  refused("kind = \"ramp\"\nrate = 2\nstiffness = 1e6\n", {"hitch.stiffness", "no effect"});
+  refused("kind = \"speed\"\nslip = 0.2\nstiffness = 1e12\n", {"hitch.stiffness", "under-resolved", "period"});
   refused("kind = \"pull\"\n", {"hitch.kind", "sled"});
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic-plastic contacts in scenes: what they give back, what they lose, and what the ledger says of it.
+// Elastic-plastic contacts in scenes: rebound, losses, and their entries in the ledger.
 #include "base/error.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/system/ledger_fixture.hpp"
@@ -109,12 +109,12 @@ void expectRefused(const std::string& material, const std::string& message) {
 
 TEST(Yielding, KeysOfOtherLawsAreRefused) {
   const std::string begin = "[material.soil]\n";
-  expectRefused(begin + "law = \"linear\"\nplasticity = 0.5\n", "plasticity = 0.5 belongs to law");
-  expectRefused(begin + "law = \"luding\"\nsurface_energy = 1\n", "surface_energy = 1 belongs to law");
-  expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nplastic_depth = 0.1\n", "plastic_depth = 0.1 belongs to law");
+  expectRefused(begin + "law = \"linear\"\nplasticity = 0.5\n", "plasticity = 0.5 requires law");
+  expectRefused(begin + "law = \"luding\"\nsurface_energy = 1\n", "surface_energy = 1 requires law");
+  expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nplastic_depth = 0.1\n", "plastic_depth = 0.1 requires law");
   expectRefused(begin + "law = \"eepa\"\n", "young");
   expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nstiffness = 1e5\n", "stiffness");
-  expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nadhesion_exponent = 1.7\n", "whole number of halves");
+  expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nadhesion_exponent = 1.7\n", "multiple of 0.5");
   expectRefused(begin + "law = \"eepa\"\nyoung = 1e8\nplasticity = 1\n", "[0, 0.99]");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Springs of walls, floor and surfaces stand for the grains near those alone, and go along when these are listed anew.
+// Springs of walls, floor and surfaces exist only for grains near them, and move along when these are listed again.
 #include "surface_fixture.hpp"
 
 #include "base/memory_held.hpp"

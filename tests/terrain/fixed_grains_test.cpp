@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains that never move: what bounces off them, what the books say, and one answer.
+// Fixed grains: bounces off them, energy accounting, and identical results.
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "surface_fixture.hpp"

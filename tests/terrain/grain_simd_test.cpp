@@ -112,7 +112,7 @@ void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
   ahead.end(0);
 }
 
-/// State and books.
+/// State and ledger sums.
 std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threads, int steps, double skin = 0.5,
                                       bool apart = false) {
   GrainModel m = laneModel(kind);

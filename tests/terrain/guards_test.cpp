@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What must stop a run or keep it from starting: coinciding grains, the end of the range, grains pressed together.
+// Faults that stop a run or prevent its start: coinciding grains, the end of the range, grains pressed together.
 #include "grain_fixture.hpp"
 
 #include "base/error.hpp"

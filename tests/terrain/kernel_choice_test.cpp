@@ -114,19 +114,20 @@ TEST(KernelChoice, WordsNameTheFeatureThatHasNoKernel) {
     const std::string text = stepKernelText(features, m);
     EXPECT_NE(text.find(words), std::string::npos) << text;
   };
-  has(kRoughBed | kFloor, "linear, friction, planes or floor, ledger; single precision: its own kernel; ");
-  has(kRoughBed | kManyRadii | kManyMaterials, "general kernel, same results but slower; there is one without many "
-                                               "materials; ");
+  has(kRoughBed | kFloor, "linear, friction, planes or floor, ledger; single precision: specialised kernel; ");
+  has(kRoughBed | kManyRadii | kManyMaterials, "general kernel, same results but slower; a specialised kernel exists "
+                                               "without many materials; ");
 #if defined(__x86_64__)
   has(kRoughBed | kManyRadii | kManyMaterials, "), general kernel");
   has(kRoughBed | kPeriodic | kSurfaces | kFixed | kCohesion, "slower; on this CPU"); // two changes are no remedy
 #endif
   has(kUnderVehicle | kHertz | kGeneral, "linear and hertz, friction");
-  has(kUnderVehicle | kHertz | kGeneral, "; there is one where all contacts are hertz;");
+  has(kUnderVehicle | kHertz | kGeneral, "; a specialised kernel exists if all contacts are hertz;");
   m.precision = Precision::double_;
-  has(kRoughBed, "double precision: general kernel; single precision has a kernel of its own; no SIMD");
+  has(kRoughBed, "double precision: general kernel; single precision has a specialised kernel; no SIMD");
   const std::string walls = boundaryKernelText(kUnderVehicle | kPeriodic | kFloor, roughModel());
-  EXPECT_EQ(walls.find("linear, friction, height-map floor; single precision: its own kernel; no SIMD on a CPU: "), 0u)
+  EXPECT_EQ(walls.find("linear, friction, height-map floor; single precision: specialised kernel; no SIMD on a CPU: "),
+            0u)
       << walls;
 }
 

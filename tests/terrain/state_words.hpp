@@ -8,7 +8,7 @@
 
 namespace grouser::terrain {
 
-/// State and books of grains, bit by bit.
+/// State and ledger sums of grains, bit by bit.
 inline std::vector<std::uint32_t> wordsOf(const Grains& grains) {
   const GrainState state = grains.state();
   std::vector<std::uint32_t> words = state.words();

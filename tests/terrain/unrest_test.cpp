@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The share of its weight that a grain's forces leave unbalanced.
+// The resultant force on a grain as a share of its weight.
 #include "grain_fixture.hpp"
 #include "terrain/grain_forces.hpp"
 #include "tests/device_under_test.hpp"

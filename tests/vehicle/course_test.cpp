@@ -73,7 +73,7 @@ TEST(Course, SpeedRisesWithTheAcceleration) {
   EXPECT_NEAR(course.sprocketSpeeds({0, 0, 1, 0, 0, 0}, 9, 1e-3)[0], 2 / 0.25, 1e-14);
   o.speed = -2;
   EXPECT_NEAR(Course(o).sprocketSpeeds({0, 0, 1, 0, 0, 0}, 1.5, 1e-3)[1], -0.75 / 0.25, 1e-14);
-  // Of a hull that went at 1 m/s when it took over, from there.
+  // Hull speed at takeover is 1 m/s.
   EXPECT_NEAR(Course(o).sprocketSpeeds({0, 0, 1, 0, 0, 0}, 1.5, 1e-3, 1)[1], (1 - 0.75) / 0.25, 1e-14);
   EXPECT_NEAR(Course(o).sprocketSpeeds({0, 0, 1, 0, 0, 0}, 90, 1e-3, 1)[1], -2 / 0.25, 1e-14);
 }
@@ -114,7 +114,7 @@ TEST(Course, OffsetFromALineDiesOutAsTheClosedFormSays) {
   for (int i = 0; i < 20000; ++i) {
     plant.step(course, 10, dt);
     const double s = plant.x / L, wanted = 0.01 * std::exp(-s) * (std::cos(s) + std::sin(s));
-    // Of second order in y0 / L, and of first in the step.
+    // Second order in y0 / L, first order in the step.
     ASSERT_NEAR(plant.y, wanted, 1e-2 * 0.01) << plant.x;
   }
 }

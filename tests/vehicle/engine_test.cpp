@@ -102,8 +102,8 @@ double pulled(double torque) {
 
 } // namespace
 
-/// What one torque gains over another: resistance, which hardly depends on it, drops out. In a loop that runs about a
-/// hull the sum of m (v + u)^2 / 2 over all directions u of size v is m v^2: its shoes count twice; wheels add I / r^2.
+/// Difference between two torques: resistance, which hardly depends on it, cancels. In a loop that runs about a hull
+/// the sum of m (v + u)^2 / 2 over all directions u of size v is m v^2: its shoes count twice; wheels add I / r^2.
 TEST(Torque, AcceleratesMassAndEverythingThatTurns) {
   const vehicle::VehicleSpec s = easyRunning();
   const double light = 1000, strong = 2500;

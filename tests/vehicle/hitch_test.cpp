@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a hitch exerts, on points whose motion is known: closed forms and the discrete recurrence.
+// Hitch force on points with known motion: closed forms and the discrete recurrence.
 #include "vehicle/hitch.hpp"
 
 #include "base/error.hpp"

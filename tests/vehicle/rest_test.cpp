@@ -73,7 +73,7 @@ TEST(Rest, Driver_AfterTheLimitSaysWhatIsNotAtRest) {
   Driver driver = waiting();
   EXPECT_EQ(judged(driver, 0, 301, 0.3, 0.7), "");
   const std::string message = judged(driver, 301, 302, 0.3, 0.7);
-  for (const char* word : {"driver.rest_time_limit = 2 s", "0.3 m/s", "0.7 of its weight", "driver.drive_start"})
+  for (const char* word : {"driver.rest_time_limit = 2 s", "0.3 m/s", "0.7 times the weight", "driver.drive_start"})
     EXPECT_NE(message.find(word), std::string::npos) << message;
 }
 

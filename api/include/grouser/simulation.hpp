@@ -38,7 +38,7 @@ private:
   std::unique_ptr<detail::RanksData> data_;
 };
 
-/// How a simulation is run. No option changes the answer.
+/// Options of a simulation. No option changes the answer.
 struct Options {
   std::string device;           ///< "auto", "cpu" or "cuda"; empty: as in the scene
   std::optional<int> threads;   ///< number of CPU threads, 0: all cores; empty: as in the scene

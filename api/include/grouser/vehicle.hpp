@@ -25,7 +25,7 @@ struct Track {
   std::vector<double> shearForce;  ///< magnitude of the ground force tangential to each pad, mean [N]
 };
 
-/// How the vehicle moves now, and what acts on it.
+/// Motion of the vehicle and forces on it.
 struct VehicleState {
   double time = 0;                  ///< [s]
   Vec3 position;                    ///< middle of the sprockets' axle line [m]

@@ -14,9 +14,9 @@ namespace {
 
 constexpr double kDegrees = 180 / base::kPi;
 constexpr const char* kPullColumn = "hitch.pull [N]";
-constexpr double kDriverHertz = 30; // of the low-pass before peaks of acceleration are read
+constexpr double kDriverHertz = 30; // cutoff of the low-pass filter for peak accelerations
 
-/// Mean of a column over the second half of the time behind `from` [s]; NaN where there is none.
+/// Mean of a column over the second half of the time after `from` [s]; NaN without values.
 double lateMean(const sweeps::RunSeries& series, const std::string& column, double from) {
   const std::vector<double>* values = series.of(column);
   if (!values || series.time.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -28,7 +28,7 @@ double lateMean(const sweeps::RunSeries& series, const std::string& column, doub
   return count ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Change of a quantity over the second half of the motion, and how long that is.
+/// Change of a quantity over the second half of the motion, and its duration.
 struct LateChange {
   double change = 0, seconds = 0;
 };
@@ -45,7 +45,7 @@ std::vector<double> slopes(const std::vector<double>& time, const std::vector<do
 }
 
 void addAcceleration(std::vector<Figure>& figures, const Motion& m, const Trial& trial, const Course& course) {
-  // The speed within a tooth passage ripples: it is that over a tenth of a second.
+  // Averaged over 0.1 s, as the speed fluctuates with each sprocket tooth.
   constexpr double kSpan = 0.1;
   std::vector<double> time, speed;
   for (std::size_t i = 0, j = 0; i < m.time.size(); ++i) {
@@ -79,7 +79,7 @@ void addPivot(std::vector<Figure>& figures, const Motion& m, const sweeps::RunSe
 std::vector<double> lowPass(const std::vector<double>& values, double dt, double cutoff) {
   const double k = std::tan(base::kPi * cutoff * dt);
   std::vector<double> passed = values;
-  for (const double angle : {base::kPi / 8, 3 * base::kPi / 8}) { // of the two pairs of poles
+  for (const double angle : {base::kPi / 8, 3 * base::kPi / 8}) { // two pairs of poles
     const double q = 1 / (2 * std::cos(angle)), norm = 1 / (1 + k / q + k * k);
     const double b0 = k * k * norm, a1 = 2 * (k * k - 1) * norm, a2 = (1 - k / q + k * k) * norm;
     double x1 = passed.empty() ? 0 : passed.front(), x2 = x1, y1 = x1, y2 = x1;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// What an event's run has measured, beside its verdict.
+/// Measured figures of a run of an event.
 namespace grouser::events {
 
 struct Figure {
@@ -14,7 +14,7 @@ struct Figure {
   double value = 0;
 };
 
-/// Of the event drawbar: the mean over the second half of the drive.
+/// Figure of the event drawbar: mean over the second half of the drive.
 inline constexpr const char* kPull = "drawbar pull [N]";
 
 /// Figures of an event from a run's motion and time series; `driveStart` [s] as in motionOf().
@@ -24,8 +24,8 @@ std::vector<Figure> figuresOf(Event event, const Motion& motion, const sweeps::R
 /// Fourth-order Butterworth low-pass, forward only, of values `dt` [s] apart; cutoff [Hz] below half of 1 / dt.
 std::vector<double> lowPass(const std::vector<double>& values, double dt, double cutoff);
 
-/// Moment that resists a turn on the spot: friction on an evenly loaded ground run in the direction in which each place
-/// of it slips: sideways with rate x, along with `slipSpeed` [m/s]. mu W L / 4 where slipSpeed is 0 [N m].
+/// Turning resistance moment on the spot [N m]: friction on an evenly loaded contact length opposite to the local slip,
+/// rate x sideways and `slipSpeed` [m/s] longitudinally. mu W L / 4 if slipSpeed is 0.
 double turningMoment(const VehicleShape& shape, double friction, double weight, double rate, double slipSpeed);
 
 } // namespace grouser::events

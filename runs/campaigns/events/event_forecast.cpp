@@ -19,11 +19,10 @@ namespace grouser::events {
 
 namespace {
 
-constexpr double kStepH200 = 161e-6, kMore = 0.43e-9;              // s, and s for a grain
-constexpr double kGrainsH200 = 285'000, kSettling = 1, kBegin = 5; // -, s, s for a process
+constexpr double kStepH200 = 161e-6, kMore = 0.43e-9;              // s per step, s per further grain
+constexpr double kGrainsH200 = 285'000, kSettling = 1, kBegin = 5; // -, s, s per process
 
-/// What is probed for a run: its own scene, but of obstacles that reach into a bed, which the probe's copied tiles
-/// cannot have: there a bed alone.
+/// Scene to probe for a run: its own, or the bed alone if obstacles reach into it, which copied tiles do not support.
 scene::Scene probedScene(const EventPlan& plan, const sweeps::SweepRun& run, const std::vector<std::string>& sets) {
   std::vector<std::string> bed;
   for (const std::string& set : sets)
@@ -46,7 +45,7 @@ std::string timeText(double seconds) {
 std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::path& folder) {
   std::vector<EventTime> times;
   support::Progress progress("probing");
-  double steps = 0, output = 0, preparation = 0; // of the probed run, for a step, a run, a bed
+  double steps = 0, output = 0, preparation = 0; // of the probed run: per step and grain, per run, per grain of the bed
   for (std::size_t i = 0; i < plan.trials.size(); ++i) {
     const PlannedTrial& planned = plan.trials[i];
     const sweeps::SweepRun& run = plan.sweep.runs[planned.runs.front()];
@@ -89,8 +88,8 @@ std::string timesText(const std::vector<EventTime>& times) {
     sum.runs += t.runs, sum.here += t.here, sum.h200 += t.h200;
   }
   text += fmt::format("{:<18}{:>6}{:>12}{:>14}{:>14}\n", "all", sum.runs, "", timeText(sum.here), timeText(sum.h200));
-  text += "here: one run after the other on all cores of this machine. H200: by figures of docs/evidence/paper.md and "
-          "docs/evidence/speed.md\nfor a step; without grains, where the host does the work, as here.\n";
+  text += "here: runs in sequence on all cores of this machine. H200: from the step times in docs/evidence/paper.md "
+          "and docs/evidence/speed.md;\nwithout grains the host does the work, as here.\n";
   return text;
 }
 

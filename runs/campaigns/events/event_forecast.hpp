@@ -8,27 +8,27 @@
 #include <string>
 #include <vector>
 
-/// How long a set of events will take.
+/// Estimated run time of a set of events.
 namespace grouser::events {
 
-/// Of one event: all its levels and seeds, one run after the other.
+/// Run time of one event: all levels and seeds in sequence.
 struct EventTime {
   Event event{};
   int runs = 0;
-  double grains = 0; ///< of the largest of its beds
+  double grains = 0; ///< of its largest bed
   double here = 0;   ///< on this machine, with all its cores [s]
   double h200 = 0;   ///< on one NVIDIA H200 [s]
 };
 
 /// Probes the first level of each event for about a second, as `grouser plan` does, and scales it to the others by
-/// steps and grains. A run is taken to last until its course is driven at the commanded speed.
+/// steps and grains. A run is assumed to end when its course is driven at the commanded speed.
 ///
 /// For an H200: 161 us a step of vehicle and soil up to 285,000 grains (docs/evidence/paper.md), 0.43 us more for each
 /// thousand beyond that (docs/evidence/speed.md, Hertz contacts, many radii), a second of steps for the bed to settle;
 /// without grains, where the host does all the work, as here.
 std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::path& folder);
 
-/// Table with the sum, in hours; `jobs` runs at the same time share the cores.
+/// Table of the events and their sum.
 std::string timesText(const std::vector<EventTime>& times);
 
 } // namespace grouser::events

@@ -29,9 +29,9 @@ namespace {
 
 constexpr const char* kRigid = "rigid";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
-constexpr double kFewOnPad = 6;         // grains on the width of a pad; of four tracks skip teeth (docs/events.md)
-constexpr double kSphere = 0.02 / 0.28; // radius of the parts' spheres over a pad's width
-constexpr double kStart = 1.2, kSlower = 1.2; // s until it drives; over the time at full speed
+constexpr double kFewOnPad = 6;               // grains per pad width; with four, tracks skip teeth (docs/events.md)
+constexpr double kSphere = 0.02 / 0.28;       // radius of the parts' spheres over pad width
+constexpr double kStart = 1.2, kSlower = 1.2; // start of the drive [s]; duration over that at full speed
 
 /// The names of the ready vehicles.
 std::vector<std::string> readyVehicles() {
@@ -43,32 +43,31 @@ std::vector<std::string> readyVehicles() {
   return names;
 }
 
-/// The file of a vehicle by name or path, from where grouser is called or among the assets.
+/// Vehicle file by name or path, in the working directory or the assets.
 std::string vehicleFile(const std::string& word) {
   const bool isPath = word.find('/') != std::string::npos || word.ends_with(".toml");
   std::vector<fs::path> tried;
   const fs::path found =
       support::findInput(isPath ? word : "vehicles/" + word + ".toml", fs::current_path() / "events.toml", tried);
   if (found.empty() || word.empty())
-    throw InputError(fmt::format("--vehicle {}: is no vehicle; ready ones: {}; or give the path of a vehicle file",
+    throw InputError(fmt::format("--vehicle {}: unknown vehicle; available: {}; or set the path of a vehicle file",
                                  word, fmt::join(readyVehicles(), ", ")));
   return fs::absolute(found).lexically_normal().string();
 }
 
 scene::Soil soilOf(const std::string& word) {
   if (word.find('/') != std::string::npos || word.ends_with(".toml"))
-    throw InputError(fmt::format("--soil {}: give a soil's name; a file of your own is found by its name in the folder "
-                                 "soils/ of where grouser is called",
-                                 word));
+    throw InputError(fmt::format(
+        "--soil {}: requires the name of a soil, not a file; put your file in ./soils/ and name it without .toml",
+        word));
   std::vector<fs::path> tried;
   const fs::path here = fs::current_path() / "events.toml", file = scene::findSoil(word, here, tried);
   if (file.empty())
-    throw InputError(
-        fmt::format("--soil {}: is neither {} ground nor a soil; {}", word, kRigid, scene::soilHint(word, here)));
+    throw InputError(fmt::format("--soil {}: is neither {} nor a soil; {}", word, kRigid, scene::soilHint(word, here)));
   return scene::readSoil(file);
 }
 
-/// The vehicle's file with the keys that the user has changed in it.
+/// The vehicle file with the user's overrides.
 vehicle::VehicleSpec specOf(const std::string& file, const EventOptions& options) {
   std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", file)};
   for (const std::string& set : options.fixed)
@@ -83,11 +82,11 @@ void refuseGrainOptions(const EventOptions& options, bool rigid) {
                                     {options.seeds.has_value(), "--seeds"}})
     if (given)
       throw InputError(
-          rigid ? fmt::format("{}: rigid ground has no grains; name a --soil, or leave it out", name)
+          rigid ? fmt::format("{}: rigid ground has no grains; set --soil, or remove it", name)
                 : fmt::format("{}: deformable soil has no grains; remove it, or set --ground granular", name));
 }
 
-/// The soil's constants, with those that the user has changed.
+/// The soil constants with the user's overrides.
 scm::SoilConstants constantsOf(const EventOptions& options, const std::string& file) {
   std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", file), "terrain.kind=\"scm\"",
                                    fmt::format("terrain.material=\"{}\"", options.soil)};
@@ -104,8 +103,8 @@ Course courseOf(const EventOptions& options, const std::string& file, double& gr
   if (!c.granular()) refuseGrainOptions(options, c.rigid());
   if (c.rigid()) return c;
   if (options.soil == kRigid)
-    throw InputError(fmt::format("--ground {}: needs a soil; name one with --soil (`grouser soils` lists them)",
-                                 base::wordOf(c.ground)));
+    throw InputError(
+        fmt::format("--ground {}: requires a soil; set --soil (`grouser soils` lists them)", base::wordOf(c.ground)));
   const scene::Soil soil = soilOf(options.soil);
   if (c.deformable()) {
     c.constants = constantsOf(options, file);
@@ -120,7 +119,7 @@ Course courseOf(const EventOptions& options, const std::string& file, double& gr
   return c;
 }
 
-/// What all runs of these events have in common.
+/// Overrides common to all runs of these events.
 std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& plan) {
   std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", plan.vehicleFile),
                                    fmt::format("vehicle.sphere_radius={:.3g}", kSphere * plan.course.shape.padWidth),
@@ -147,7 +146,7 @@ std::string runName(Event event, double level, int number, const EventPlan& plan
   return name;
 }
 
-/// When its course will be driven [s]. The duration of a scene is the limit up to which it may take.
+/// Expected time at which the course is driven [s]; at most `limit`, the duration of the scene.
 double expectedEnd(const PlannedTrial& planned, double limit) {
   const Trial& trial = planned.trial;
   if (trial.angle > 0) return limit;
@@ -162,8 +161,8 @@ std::vector<Event> chosen(const EventOptions& options) {
   return {asked.begin(), asked.end()};
 }
 
-/// Levels as a user gives them, in the order of all tables.
-std::vector<double> fromTheEasiest(Event event, std::vector<double> levels) {
+/// Levels in the order of the tables, easiest first.
+std::vector<double> easiestFirst(Event event, std::vector<double> levels) {
   std::sort(levels.begin(), levels.end());
   if (event == Event::softSoil) std::reverse(levels.begin(), levels.end());
   return levels;
@@ -172,16 +171,16 @@ std::vector<double> fromTheEasiest(Event event, std::vector<double> levels) {
 void checkLevels(const EventOptions& options, const std::vector<Event>& events) {
   if (options.levels.empty()) return;
   if (events.size() != 1 || options.only.empty() || levelText(events[0]).empty())
-    throw InputError("--levels: are of one event that has levels; name it with --only, e.g. --only step");
+    throw InputError("--levels: requires a single event with levels; set --only, e.g. --only step");
   std::vector<double> sorted = options.levels;
   std::sort(sorted.begin(), sorted.end());
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() || !(sorted.front() > 0) ||
       !std::isfinite(sorted.back()))
-    throw InputError("--levels: give each once, all above 0 and finite");
+    throw InputError("--levels: must be distinct, finite and above 0");
 }
 
-/// A fault of a key that the command has set for a word of the user's, told of that word instead of --set.
-std::string inWordsOfTheUser(const std::string& fault, const EventOptions& options, Event event, double level) {
+/// Error message that names the user's option instead of the --set that the command derived from it.
+std::string namingUserOption(const std::string& fault, const EventOptions& options, Event event, double level) {
   static constexpr std::string_view kSet = "--set: ";
   if (!fault.starts_with(kSet)) return fault;
   const std::string rest = fault.substr(kSet.size());
@@ -201,14 +200,14 @@ void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial
     run.scene = setup::loadScene(run.file, run.overrides);
     if (number == 1) sweeps::checkScene(run.scene);
   } catch (const InputError& fault) {
-    throw InputError(inWordsOfTheUser(fault.what(), options, planned.event, planned.level));
+    throw InputError(namingUserOption(fault.what(), options, planned.event, planned.level));
   }
 }
 
 } // namespace
 
 fs::path sceneOf(Event event) {
-  // Soft soil is the scene of the resistance over another material.
+  // Soft soil uses the scene of motion resistance with another material.
   const Event file = event == Event::softSoil ? Event::motionResistance : event;
   return support::shareFolder() / "runs" / "scenes" / fmt::format("event_{}.toml", base::wordOf(file));
 }
@@ -252,7 +251,7 @@ EventPlan planEvents(const EventOptions& options) {
       continue;
     }
     const std::vector<double> levels =
-        options.levels.empty() ? levelsOf(event, plan.course, options.quick) : fromTheEasiest(event, options.levels);
+        options.levels.empty() ? levelsOf(event, plan.course, options.quick) : easiestFirst(event, options.levels);
     for (const double level : levels) {
       PlannedTrial planned{event, level, trialOf(event, level, plan.course), {}};
       for (int number = 1; number <= std::max(plan.seeds, plan.draws); ++number) {

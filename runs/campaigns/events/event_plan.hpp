@@ -12,16 +12,16 @@
 /// The runs of a set of events.
 namespace grouser::events {
 
-/// How fine, deep and wide beds are, in widths of a pad, and how many seeds each level has.
+/// Resolution, depth and width of beds in pad widths, and seeds per level.
 struct BedCare {
-  double grainsOnPad; ///< mean diameters on its width
+  double grainsOnPad; ///< mean diameters per pad width
   double depth;
   double margin; ///< beside the tracks
   int seeds;
 };
 inline constexpr BedCare kFullCare{10.4, 1.6, 4, 3}, kQuickCare{3, 1.1, 2, 2};
 
-/// What the user asks for.
+/// Options of the user.
 struct EventOptions {
   std::string vehicle = "light_tracked";    ///< a file of assets/vehicles by its name, or a path that ends in .toml
   std::string soil = "rigid";               ///< rigid, or a soil by its name
@@ -29,11 +29,11 @@ struct EventOptions {
   std::vector<std::string> only;            ///< events; empty: all
   std::string onlyOption = "--only";        ///< command-line option of `only`, for messages
   std::vector<double> levels;               ///< of the single event in `only`; empty: its default levels
-  std::vector<std::string> fixed;           ///< "key=value", of all runs
+  std::vector<std::string> fixed;           ///< "key=value" for all runs
   std::optional<double> speed;              ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
-  std::optional<double> grainRadius;        ///< in the middle of the distribution [m]
+  std::optional<double> grainRadius;        ///< mean radius [m]
   std::optional<double> depth;              ///< of the bed [m]
-  std::optional<int> seeds;                 ///< of a bed; empty: those of the care
+  std::optional<int> seeds;                 ///< seeds of a bed; empty: default by `quick`
   int draws = 0;                            ///< samples of the soil constants, one run each; 0: nominal constants
   bool quick = false;
   bool frames = false; ///< for films
@@ -55,9 +55,9 @@ struct PlannedTrial {
 
 struct EventPlan {
   Course course;
-  std::string vehicleFile; ///< as the runs take it
+  std::string vehicleFile; ///< absolute path
   double grainRadius = 0;  ///< [m]; 0 without grains
-  int seeds = 1;           ///< one without grains, as nothing is random
+  int seeds = 1;           ///< 1 without grains
   int draws = 0;           ///< samples of the soil constants, one run each
   sweeps::SweepPlan sweep; ///< all runs; each names its scene
   std::vector<PlannedTrial> trials;
@@ -68,7 +68,7 @@ struct EventPlan {
 };
 
 /// Reads the vehicle and the soil, and loads and checks the scene of every run as `grouser plan` does. Throws
-/// base::InputError for a vehicle, soil, event, level or key that is none.
+/// base::InputError for an invalid vehicle, soil, event, level or key.
 EventPlan planEvents(const EventOptions& options);
 
 /// The scene of an event: runs/scenes/event_NAME.toml of this installation.

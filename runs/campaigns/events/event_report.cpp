@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of what every sweep measures in the steady part of a run.
+/// Sweep figures of the steady part that are reported.
 constexpr const char* kSteady[] = {"speed [m/s]",        "slip [-]",        "sinkage mean [m]",     "sinkage max [m]",
                                    "drive torque [N m]", "drive power [W]", "motion resistance [N]"};
 
@@ -27,13 +27,13 @@ bool isOfSteadyPart(const std::string& figure) {
   return std::find(std::begin(kSteady), std::end(kSteady), figure) != std::end(kSteady);
 }
 
-/// Whether means over the second half of a run tell of steady driving straight on, or on a circle.
+/// Whether the second half of a run is steady driving, straight or on a circle.
 bool isSteady(Event event) {
   return event != Event::pivotTurn && event != Event::step && event != Event::gap && event != Event::ditch &&
          event != Event::halfRound;
 }
 
-/// Figures of the runs of one level, by name in the order in which they came.
+/// Figures of the runs of one level, in order of first occurrence.
 class Gathered {
 public:
   void add(const std::string& name, double value) {
@@ -56,18 +56,18 @@ private:
   std::map<std::string, std::vector<double>> values_;
 };
 
-/// What a finished run says.
+/// Verdict of a finished run.
 Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs::path& folder, Gathered& gathered) {
   const sweeps::RunSeries series = sweeps::readSeries(folder);
   const double start = sweeps::RunManifest(folder).figure("drive_start_s");
-  if (std::isnan(start)) return {false, "never drove off"};
+  if (std::isnan(start)) return {false, "never drove"};
   const Motion motion = motionOf(series, start, planned.event == Event::steadyTurn);
   double pull = 0;
   for (const Figure& f : figuresOf(planned.event, motion, series, start, planned.trial, course)) {
     gathered.add(f.name, f.value);
     if (f.name == kPull) pull = f.value;
   }
-  // A carriage that imposes the slip goes its way whatever the vehicle does.
+  // With imposed slip, the carriage always completes the course.
   if (planned.event == Event::drawbar)
     return {pull > 0, fmt::format("{} {:.3g} kN", pull > 0 ? "pulls" : "is pulled with", std::fabs(pull) / 1000)};
   return judge(motion, planned.trial);
@@ -85,7 +85,7 @@ std::string EventRow::doubtOf(const FigureOverSeeds& figure) const {
 std::string EventRow::why() const {
   if (event == Event::drawbar && gos > 1 && gos == runs)
     for (const FigureOverSeeds& f : figures)
-      if (f.name == kPull) return fmt::format("pulls {:.3g} kN in the mean", f.estimate.value / 1000);
+      if (f.name == kPull) return fmt::format("mean pull {:.3g} kN", f.estimate.value / 1000);
   for (const char* verdict : {"no-go", "go", "incomplete", "failed"})
     for (const RunVerdict& r : each)
       if (r.verdict == verdict) return r.why;
@@ -104,7 +104,7 @@ std::string limitText(const EventLimit& limit) {
   if (limit.go && limit.noGo) return fmt::format("between {:g} and {:g}", *limit.go, *limit.noGo);
   if (limit.go) return fmt::format("above {:g}", *limit.go);
   if (limit.noGo) return fmt::format("below {:g}", *limit.noGo);
-  return "not known";
+  return "unknown";
 }
 
 std::string referenceText(const EventLimit& limit) {
@@ -191,21 +191,20 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
     text += fmt::format("{:<18}{:<9}{:<11}{}\n", base::wordOf(row.event), levelCell(row.event, row.level), goText(row),
                         row.why());
     if (row.unknown > 0)
-      text += fmt::format("{:<18}{} of its runs failed for a cause that is not the vehicle's\n", "", row.unknown);
+      text += fmt::format("{:<18}{} of its runs failed for reasons unrelated to the vehicle\n", "", row.unknown);
     if (row.incomplete > 0)
       text += fmt::format("{:<18}{}\n", "",
                           base::counted(row.incomplete, "of its runs is incomplete", "of its runs are incomplete"));
     if (row.pending > 0)
-      text += fmt::format(
-          "{:<18}{}\n", "",
-          base::counted(row.pending, "of its runs is still to be done", "of its runs are still to be done"));
+      text += fmt::format("{:<18}{}\n", "",
+                          base::counted(row.pending, "of its runs is pending", "of its runs are pending"));
     for (const FigureOverSeeds& f : row.figures)
       text += fmt::format("{:<18}  {:<50} {}{}\n", "", f.name,
                           f.values.size() > 1 ? jobs::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
                           row.doubtOf(f).empty() ? "" : "  inconclusive");
   }
   for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);
-  if (plan.shoesAlone()) text += fmt::format("\n{}\n", kShoesAlone);
+  if (plan.shoesAlone()) text += fmt::format("\n{}\n", kShoesOnly);
   if (!limits.empty()) text += "\nlimits\n";
   for (const EventLimit& limit : limits)
     text += fmt::format("{:<18}{:<42}{:<26}{}\n", base::wordOf(limit.event), levelText(limit.event), limitText(limit),

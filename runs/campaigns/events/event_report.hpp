@@ -18,16 +18,16 @@ namespace grouser::events {
 
 struct FigureOverSeeds {
   std::string name;           ///< with its unit
-  std::vector<double> values; ///< of the runs that have it
+  std::vector<double> values; ///< of the runs that have the figure
   /// Mean with the half width of its 95 % confidence interval over seeds, or of the 95 % prediction interval of one
   /// further draw; infinite for one run.
   support::Estimate estimate;
 };
 
-/// What one run says.
+/// Verdict of one run.
 struct RunVerdict {
   std::string run;     ///< name of its folder
-  std::string verdict; ///< "go", "no-go", "failed" (for another cause than the vehicle's), "incomplete", "pending"
+  std::string verdict; ///< "go", "no-go", "failed" (unrelated to the vehicle), "incomplete", "pending"
   std::string why;
 };
 
@@ -35,38 +35,37 @@ struct RunVerdict {
 struct EventRow {
   Event event{};
   double level = 0;
-  int runs = 0;    ///< that have a verdict
-  int gos = 0;     ///< of these
-  int unknown = 0; ///< runs that failed for another cause than the vehicle's
+  int runs = 0;    ///< runs with a verdict
+  int gos = 0;     ///< runs with verdict go
+  int unknown = 0; ///< runs that failed for reasons unrelated to the vehicle
   int pending = 0;
-  int incomplete = 0; ///< runs whose vehicle never drove, or too little to tell
+  int incomplete = 0; ///< runs whose vehicle never drove, or too little for a verdict
   std::vector<RunVerdict> each;
   std::vector<FigureOverSeeds> figures;
-  std::string doubt;   ///< why those of the steady part are inconclusive; empty where they are not
-  std::string picture; ///< of the first run, from the folder; empty where there is none
+  std::string doubt;   ///< reason why steady-part figures are inconclusive; empty if valid
+  std::string picture; ///< of the first run, relative to the folder; empty if missing
 
   /// Reason why a steady-part mean is inconclusive; empty if it is valid, or no steady-part mean.
   std::string doubtOfMean(const std::string& figure) const;
   /// Reason why a figure is inconclusive; empty if it is valid.
   std::string doubtOf(const FigureOverSeeds& figure) const;
-  /// Of the first run that is no go, since that decides; else of the first that has ended, and of drawbar pulls their
-  /// mean.
+  /// Reason of the first no-go run; else of the first finished one, or the mean drawbar pull.
   std::string why() const;
 };
 
-/// Between which levels an event's limit lies.
+/// Bounds of the limit level of an event.
 struct EventLimit {
   Event event{};
-  std::optional<double> go;   ///< highest level that all seeds pass, with none that any fails below
-  std::optional<double> noGo; ///< lowest that some seed fails
+  std::optional<double> go;   ///< highest level that all seeds pass, as at all levels below
+  std::optional<double> noGo; ///< lowest level that some seed fails
   std::optional<Reference> reference;
-  /// Whether runs and reference agree: nothing passes that it blocks, or fails that it passes; empty: nothing to say.
+  /// Whether runs agree with the reference: none passes a blocked level or fails a passable one; empty: no reference.
   std::optional<bool> agrees;
 };
 
 std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
                                 const std::filesystem::path& folder);
-/// Of the events that have more than one level.
+/// Limits of the events with more than one level.
 std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Course& course);
 
 /// "go", "partly 1/3", "pending": the verdict over all seeds.
@@ -78,11 +77,11 @@ std::string limitText(const EventLimit& limit);
 /// Closed form, and whether the runs agree with it; empty without a closed form.
 std::string referenceText(const EventLimit& limit);
 
-/// Said of such runs, at the head and in the tables.
-inline constexpr const char* kShoesAlone =
-    "soil meets the shoes alone, not the running gear: coarse stones would jam it (vehicle.soil_contact)";
+/// Note on such runs, in the head and the tables.
+inline constexpr const char* kShoesOnly =
+    "soil contact: track shoes only, as coarse grains would jam the running gear (vehicle.soil_contact)";
 
-/// Both tables to read.
+/// Text of both tables.
 std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);
 /// One row per level and figure, with its runs, mean and half width. `first`: name and value of a leading column.
 std::string eventsCsv(const std::vector<EventRow>& rows, const std::pair<std::string, std::string>& first = {});

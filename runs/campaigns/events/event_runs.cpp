@@ -74,8 +74,8 @@ void checkFolder(const EventsCommand& command, const fs::path& folder, const job
   const bool goesOn = command.pieces.resume || !command.pieces.part.empty() || call.isThere();
   std::error_code unreadable;
   if (!command.force && !goesOn && fs::is_directory(folder, unreadable) && !fs::is_empty(folder, unreadable))
-    throw base::InputError(fmt::format("{}: the folder holds something else than the runs of this command; go on there "
-                                       "with --resume, name another with --out, or run all of it again with --force",
+    throw base::InputError(fmt::format("{}: contains other files than the runs of this command; continue with "
+                                       "--resume, name another folder with --out, or repeat all runs with --force",
                                        folder.string()));
   output::checkOutputFolder(folder, command.force || goesOn);
 }
@@ -84,18 +84,18 @@ void printHead(const EventsCommand& command, const std::string& what, const Even
   const VehicleShape& s = plan.course.shape;
   fmt::print("{:<10}{} on {}: commit {}, {}\n", what, command.options.vehicle, plan.groundText(),
              support::buildInfo().commit, support::machineText());
-  fmt::print("          {:.0f} kg, centre of mass {:.3f} m high and {:.3f} m before the rearmost of its wheels, ground "
-             "run {:.3f} m, {:g} m/s\n",
+  fmt::print("          {:.0f} kg, centre of mass {:.3f} m high and {:.3f} m ahead of the rear road wheel, "
+             "track-ground contact length {:.3f} m, {:g} m/s\n",
              s.mass, s.massCentre.z, s.massCentre.x - s.firstWheel, s.groundRun(), plan.course.speed);
   if (plan.course.granular())
-    fmt::print("          beds {:.3g} m deep of grains of {:.3g} mm, {:.1f} on the width of a pad; {}{}\n",
+    fmt::print("          bed depth {:.3g} m, grain diameter {:.3g} mm, {:.1f} grains per pad width; {}{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
                base::counted(plan.seeds, "seed"), command.options.quick ? "; coarse" : "");
   if (plan.draws > 0)
-    fmt::print("          {} of the soil's constants: +- is half of the interval that holds one further draw with 95 % "
-               "probability\n",
-               base::counted(plan.draws, "draw"));
-  if (plan.shoesAlone()) fmt::print("          {}\n", kShoesAlone);
+    fmt::print(
+        "          {} of the soil constants: +- half width of the 95 % prediction interval of one further draw\n",
+        base::counted(plan.draws, "draw"));
+  if (plan.shoesAlone()) fmt::print("          {}\n", kShoesOnly);
   for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
   fmt::print("          {}\n", base::counted(runs, "run"));
   std::fflush(stdout);
@@ -123,7 +123,7 @@ std::vector<sweeps::SweepOutcome> doRuns(const EventsCommand& command, const std
   sweeps::SweepOptions sweep;
   sweep.program = fs::read_symlink("/proc/self/exe");
   sweep.folder = folder, sweep.jobs = command.jobs, sweep.seconds = command.pieces.seconds;
-  sweep.force = command.force, sweep.failuresStay = true, sweep.shared = !command.pieces.part.empty();
+  sweep.force = command.force, sweep.keepFailures = true, sweep.shared = !command.pieces.part.empty();
   fs::create_directories(folder);
   call.keep();
   auto outcomes = sweeps::runMissing(partOf(plan, command.pieces.share()), sweep, what,
@@ -139,9 +139,8 @@ void throwOnUnknownFailures(const std::vector<EventRow>& rows, const fs::path& t
   std::size_t runs = 0;
   for (const EventRow& row : rows) unknown += row.unknown, runs += row.each.size();
   if (unknown > 0)
-    throw base::SimulationError(
-        fmt::format("{} of {} runs failed for a cause that is not the vehicle's; their messages stand in {}", unknown,
-                    runs, table.string()));
+    throw base::SimulationError(fmt::format("{} of {} runs failed for reasons unrelated to the vehicle; see {}",
+                                            unknown, runs, table.string()));
 }
 
 } // namespace grouser::events

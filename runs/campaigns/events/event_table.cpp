@@ -16,27 +16,27 @@ namespace grouser::events {
 
 namespace {
 
-constexpr double kWay = 5;      // m, that is to be driven at half the commanded speed or more
+constexpr double kWay = 5;      // m, distance to drive at half the commanded speed or more
 constexpr double kEnd = 0.3;    // m, between the vehicle and the end of the terrain
-constexpr double kRunUp = 3;    // m, before those on a slope: near the limit it takes long to come up to speed
-constexpr double kCrawl = 0.4;  // of the commanded speed, and m/s at least: over steps, gaps and ditches
-constexpr double kBeyond = 0.3; // m, driven on behind the course, or drifted to the side in it
-constexpr double kSwerve = 0.2; // room beside a course without grains, over its length: obstacles turn vehicles
-constexpr double kReferenceRun = 1.7832; // m, ground run of the light vehicle, whose obstacles are scaled to others
-constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of the ditch of ditch.png, over its length
-constexpr double kSettled = 2;                           // s, in which any vehicle stands and drives
+constexpr double kRunUp = 3;    // m, run-up on slopes: near the limit acceleration is slow
+constexpr double kCrawl = 0.4;  // share of the commanded speed, and minimum in m/s: over steps, gaps and ditches
+constexpr double kBeyond = 0.3; // m, beyond the end of the course, or lateral drift
+constexpr double kSwerve = 0.2; // space beside a course without grains over its length, as obstacles turn vehicles
+constexpr double kReferenceRun = 1.7832; // m, contact length of the light vehicle; obstacles scale with it
+constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of ditch.png, over its length
+constexpr double kSettled = 2;                           // s, until every vehicle has settled and drives
 
 double crawl(const Course& c) { return std::max(kCrawl * c.speed, kCrawl); }
 
 double scaleOf(const Course& c) { return c.shape.groundRun() / kReferenceRun; }
 
-/// Two digits: a level is read, and written into names of folders.
+/// Rounds to two digits, for readable levels and folder names.
 double rounded(double value) {
   const double unit = std::pow(10.0, std::floor(std::log10(std::fabs(value))) - 1);
   return std::round(value / unit) * unit;
 }
 
-/// Three digits: for levels beside a limit.
+/// Rounds to three decimals, for levels close to a limit.
 double finely(double value) { return std::round(value * 1000) / 1000; }
 
 std::string set(const std::string& key, double value) { return fmt::format("{}={:.6g}", key, value); }
@@ -46,20 +46,19 @@ std::string set(const std::string& key, std::initializer_list<double> values) {
   return fmt::format("{}=[{}]", key, fmt::join(words, ", "));
 }
 
-/// Beside the tracks [m]. Ground without grains costs nothing; a bed reaches as far as the tracks work.
+/// Width of the ground beside the tracks [m]; small for a bed, as grains are expensive.
 double sideRoom(const Course& c, double distance) {
   return c.granular() ? std::max(c.margin, kEnd) : kSwerve * distance;
 }
 
-/// A course straight on: where the vehicle stands, how long the ground is.
+/// Straight course: initial position of the vehicle, size of the ground.
 struct Straight {
   double start = 0;    ///< x of the sprockets' axle [m]
   double obstacle = 0; ///< x where an obstacle begins [m]
   double length = 0, width = 0;
 };
 
-/// `behind`: room for the vehicle to slide back. `obstacle`: its length along the way, 0: none. `runUp`: before the way
-/// that counts.
+/// `behind`: space for sliding back. `obstacle`: its length, 0: none. `runUp`: distance before the measured one.
 Straight straight(const Course& c, Trial& trial, double behind, double obstacle, double drift, double runUp = 0) {
   const double approach = 0.4 * scaleOf(c);
   Straight s;
@@ -68,7 +67,7 @@ Straight straight(const Course& c, Trial& trial, double behind, double obstacle,
   trial.distance = obstacle > 0 ? std::max(kWay, approach + c.shape.length() + obstacle) : kWay + runUp;
   s.length = s.start + c.shape.front + trial.distance + 2 * kEnd;
   s.width = 2 * (c.shape.halfWidth + sideRoom(c, trial.distance) + drift);
-  const double soft = c.granular() ? c.margin : 0; // grains before the vehicle are pushed ahead
+  const double soft = c.granular() ? c.margin : 0; // the vehicle pushes grains ahead
   s.length += soft;
   trial.overrides.push_back(set("terrain.size", {s.length, s.width}));
   trial.overrides.push_back(set("vehicle.position", {s.start, 0.0}));
@@ -81,33 +80,35 @@ void drive(const Course& c, Trial& trial, double speed) {
   trial.overrides.push_back(set("driver.sprocket_speed", speed / c.shape.pitchRadius));
 }
 
-/// Gravity that leans by an angle of this tangent.
+/// Gravity for a slope of this tangent.
 std::string leaning(double slope, bool sideways) {
   const double along = kGravity * slope / std::sqrt(1 + slope * slope), down = kGravity / std::sqrt(1 + slope * slope);
   return sideways ? set("run.gravity", {0.0, -along, -down}) : set("run.gravity", {-along, 0.0, -down});
 }
 
-/// A solid box of a scene from x to `end`, over the whole width, its top at `top`; it reaches down through a bed,
-/// and a pad's width into deformable soil.
+/// Box from x to `end` over the whole width, with its top at `top`; it extends through a bed, and a pad width into
+/// deformable soil.
 void box(const Course& c, Trial& trial, int number, double x, double end, double width, double top) {
   const double foot = c.rigid() ? 0.0 : c.granular() ? -c.depth : -c.shape.padWidth;
   const std::string key = fmt::format("box.{}.", number);
   trial.overrides.push_back(set(key + "position", {0.5 * (x + end), 0.0, 0.5 * (top + foot)}));
   trial.overrides.push_back(set(key + "size", {end - x, width, top - foot}));
-  // Grains touch what stands in their bed, by a law that goes with their own.
+  // Grains touch obstacles in the bed, whose contact law must match.
   if (c.granular()) trial.overrides.push_back(key + "material=" + c.soil);
 }
 
-/// A grain of coarse soil that a track presses on the edge of something rigid carries a good part of the vehicle: it
-/// may be squeezed as far as grains below parts may be.
-void squeezed(const Course& c, Trial& trial) {
+/// Raises the overlap limit to that of grains below parts: a coarse grain between track and obstacle edge carries much
+/// of the vehicle weight.
+void allowDeepOverlap(const Course& c, Trial& trial) {
   if (c.granular()) trial.overrides.push_back(set("run.max_overlap", 1.0));
 }
 
-/// One cosine wave whose steepest slope is `level`. The height-map is as long as the course behind its ditch asks for.
+/// One cosine wave whose steepest slope is `level`. The course behind the ditch determines the length of the
+/// height-map.
 void ditch(const Course& c, Trial& trial, double level) {
   const double approach = 0.4 * scaleOf(c), ends = 2 * kEnd + c.margin;
-  const double before = kDitchMiddle - 0.5 * kDitchWidth, behind = 1 - before; // of the length, where the ditch begins
+  const double before = kDitchMiddle - 0.5 * kDitchWidth,
+               behind = 1 - before; // share of the length at which the ditch starts
   const double length = std::max({(approach + c.shape.length() + kEnd) / before, (kWay + ends - approach) / behind,
                                   (c.shape.length() + ends) / (behind - kDitchWidth)});
   const double wide = kDitchWidth * length;
@@ -130,11 +131,11 @@ void pivot(const Course& c, Trial& trial) {
 }
 
 void circle(const Course& c, Trial& trial, double radius) {
-  // A run ends by its chord, which grows over half of the circle at most.
+  // A run ends by its chord, which increases for half of the circle at most.
   const double path = std::min(1.2 * kWay, 0.8 * base::kPi * radius), angle = (path + kBeyond) / radius;
   const double reach = c.shape.halfWidth + c.margin + 2 * kEnd, start = kEnd + c.shape.rear;
   const double ahead = radius * std::sin(std::min(angle, base::kPi / 2)), left = radius * (1 - std::cos(angle));
-  const double half = left + c.shape.length() + reach; // as if it stood across the way in the end
+  const double half = left + c.shape.length() + reach; // margin for a vehicle that ends up sideways
   trial.distance = path, trial.speed = c.speed;
   trial.overrides = {set("terrain.size", {start + c.shape.massCentre.x + ahead + c.shape.length() + reach, 2 * half}),
                      set("vehicle.position", {start, 0.0}),
@@ -149,7 +150,7 @@ void circle(const Course& c, Trial& trial, double radius) {
 Event eventOf(const std::string& word) {
   if (const auto event = base::valueOf<Event>(word)) return *event;
   throw base::InputError(
-      fmt::format("--only {}: is no event; events: {}", word, fmt::join(base::wordsOf<Event>(), ", ")));
+      fmt::format("--only {}: unknown event; events: {}", word, fmt::join(base::wordsOf<Event>(), ", ")));
 }
 
 std::vector<Event> allEvents() {
@@ -188,7 +189,7 @@ std::string levelText(Event event) {
 std::string titleOf(Event event) {
   switch (event) {
   case Event::acceleration:
-    return "full speed at once";
+    return "acceleration to full speed";
   case Event::grade:
     return "up a slope, from rest";
   case Event::sideSlope:
@@ -206,18 +207,18 @@ std::string titleOf(Event event) {
   case Event::halfRound:
     return "over a half-round";
   case Event::drawbar:
-    return "pulling, at a slip that is imposed";
+    return "drawbar pull at imposed slip";
   case Event::motionResistance:
     return "straight on at constant speed";
   case Event::softSoil:
-    return "straight on over weaker and weaker soil";
+    return "straight on over soil of decreasing strength";
   }
   return "";
 }
 
 std::string omission(Event event, const Course& course) {
-  if (event == Event::softSoil && course.rigid()) return "rigid ground does not become softer";
-  if (event == Event::gap && !course.rigid()) return "between slabs the soil has no part in it: --soil rigid";
+  if (event == Event::softSoil && course.rigid()) return "rigid ground has no strength to vary; set --soil";
+  if (event == Event::gap && !course.rigid()) return "soil does not affect a gap between slabs; use --soil rigid";
   return "";
 }
 
@@ -287,7 +288,7 @@ Trial trialOf(Event event, double level, const Course& c) {
   case Event::step: {
     const Straight s = straight(c, trial, 0, 0.3 * scale, 0);
     box(c, trial, 0, s.obstacle, s.length, s.width, level);
-    squeezed(c, trial);
+    allowDeepOverlap(c, trial);
     break;
   }
   case Event::gap: {
@@ -306,7 +307,7 @@ Trial trialOf(Event event, double level, const Course& c) {
     trial.overrides.push_back(set("cylinder.0.radius", level));
     trial.overrides.push_back(set("cylinder.0.length", s.width));
     if (c.granular()) trial.overrides.push_back("cylinder.0.material=" + c.soil);
-    squeezed(c, trial);
+    allowDeepOverlap(c, trial);
     break;
   }
   case Event::drawbar:
@@ -364,7 +365,7 @@ std::optional<Reference> referenceOf(Event event, const Course& c) {
   case Event::gap: {
     const GapBounds g = gapBounds(c.shape);
     return Reference{
-        fmt::format("all up to {:.3g} m (wheels), by the far wall's grip from {:.3g} m on, none from {:.3g} m on",
+        fmt::format("all up to {:.3g} m (wheels), above {:.3g} m by friction at the far wall, none above {:.3g} m",
                     g.sure, g.level, g.never),
         g.sure, g.never};
   }

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// The standard mobility events: which there are, at which levels, and what a level sets in the event's scene.
+/// The standard mobility events, their levels, and the scene overrides of a level.
 namespace grouser::events {
 
 enum class Event {
@@ -28,26 +28,26 @@ enum class Event {
   softSoil
 };
 
-/// Says which events there are. Throws base::InputError for a word that is none of them.
+/// Event by its word. Throws base::InputError that lists the events.
 Event eventOf(const std::string& word);
-/// In the order in which they are run and listed.
+/// Events in the order of runs and tables.
 std::vector<Event> allEvents();
 
-/// What an event's level is: "tan of the slope [-]", "height of the step [m]"; empty where it has one level only.
+/// Quantity of the levels: "tan of the slope [-]", "height of the step [m]"; empty for events with a single level.
 std::string levelText(Event event);
 /// "Up a slope".
 std::string titleOf(Event event);
 
-/// What the courses are made for.
+/// Parameters of the courses.
 struct Course {
   VehicleShape shape;
   double speed = 0; ///< commanded [m/s]
   scene::TerrainKind ground = scene::TerrainKind::rigid;
   double depth = 0;             ///< of the bed [m]
-  double margin = 0;            ///< of a bed beside the tracks [m]
+  double margin = 0;            ///< width of a bed beside the tracks [m]
   double soilFriction = 0;      ///< of the soil's grains [-]
   double rollingFriction = 0;   ///< of the soil's grains [-]
-  std::string soil;             ///< material of the bed and of what stands in it
+  std::string soil;             ///< material of the bed and of obstacles in it
   scm::SoilConstants constants; ///< of deformable soil
 
   bool rigid() const { return ground == scene::TerrainKind::rigid; }
@@ -55,29 +55,29 @@ struct Course {
   bool deformable() const { return ground == scene::TerrainKind::scm; }
 };
 
-/// Levels that are run where none are given: three to five, or with `quick` those that tell most. Of events with one
-/// level what it is, of those that this ground has not none.
+/// Default levels: three to five, fewer with `quick`; one for events with a single level, none for events that do not
+/// apply to the ground.
 std::vector<double> levelsOf(Event event, const Course& course, bool quick);
-/// Why an event is left out; empty where it is not.
+/// Reason why an event is left out; else empty.
 std::string omission(Event event, const Course& course);
 
-/// One level of an event: what it sets in the scene, and by what it is judged.
+/// One level of an event: scene overrides and target motion.
 struct Trial {
   std::vector<std::string> overrides; ///< "key=value"
-  double distance = 0;                ///< to be driven [m]; of a turn on the spot 0
-  double angle = 0;                   ///< to be turned [rad]
+  double distance = 0;                ///< to drive [m]; 0 for a turn on the spot
+  double angle = 0;                   ///< to turn [rad]
   double rate = 0;                    ///< commanded, of the turn [rad/s]
   double speed = 0;                   ///< commanded [m/s]
   double slip = 0;                    ///< imposed [-]
 };
 Trial trialOf(Event event, double level, const Course& course);
 
-/// What geometry and friction say of an event's limit.
+/// Analytical limit of an event from geometry and friction.
 struct Reference {
   std::string text;                     ///< "friction 0.8"
-  std::optional<double> passes, blocks; ///< up to and from which level; in between it does not say
+  std::optional<double> passes, blocks; ///< highest level that passes, lowest that fails; undecided in between
 };
-/// Of a level; empty where nothing is known of it.
+/// Reference of an event; empty if there is none.
 std::optional<Reference> referenceOf(Event event, const Course& course);
 
 } // namespace grouser::events

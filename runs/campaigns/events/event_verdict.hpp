@@ -8,51 +8,51 @@
 #include <string>
 #include <vector>
 
-/// Whether a run was a go.
+/// Go/no-go verdict of a run.
 namespace grouser::events {
 
-/// What "go" asks for.
+/// Criteria of a go.
 struct GoRule {
-  double way = 5;       ///< [m] of level distance, the last before the course's end
-  double share = 0.5;   ///< of the commanded speed, or rate of turn, in the mean over that way
-  double time = 20;     ///< [s] from the beginning of the drive
-  double mostRoll = 30; ///< [deg] of the hull against the ground's plane
+  double way = 5;       ///< [m] horizontal distance at the end of the course
+  double share = 0.5;   ///< minimum mean speed, or rate of turn, over that distance relative to the commanded one
+  double time = 20;     ///< [s] after the start of the drive
+  double mostRoll = 30; ///< [deg] of the hull relative to the plane of the ground
 };
 
 struct Verdict {
   bool go = false;
-  std::string why; ///< "5.0 m in 6.2 s", "rolls to 41 degrees": short, for a table
+  std::string why; ///< "5.0 m in 6.2 s", "rolls to 41 degrees"
 };
 
-/// A run's motion since its drive began, from its time series.
+/// Motion of a run after the start of its drive, from its time series.
 struct Motion {
-  std::vector<double> time;    ///< [s], 0 where the drive begins
-  std::vector<double> way;     ///< [m] covered: along the x axis, or on a circle along the path
-  std::vector<double> turned;  ///< [rad] of the heading, without jumps
-  std::vector<double> left;    ///< [m] to the left of where the drive began
+  std::vector<double> time;    ///< [s] since the start of the drive
+  std::vector<double> way;     ///< [m] travelled: along the x axis, or along the path on a circle
+  std::vector<double> turned;  ///< [rad] unwrapped heading change
+  std::vector<double> left;    ///< [m] lateral displacement, left positive
   std::vector<double> roll;    ///< [rad]
   std::vector<double> pitch;   ///< [rad]
   std::vector<double> upSpeed; ///< [m/s] of the hull along z
 };
-/// `alongPath`: the way is the path's length, not the progress along x. Rows before `driveStart` [s] are left out; no
-/// rows where there are none behind it. Throws base::InputError where the series has no vehicle.
+/// `alongPath`: distance along the path, not along x. Excludes rows before `driveStart` [s]; may be empty. Throws
+/// base::InputError if the series has no vehicle.
 Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPath);
 
-/// Of a run that has ended soundly.
+/// Verdict of a run without errors.
 Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule = {});
 
-/// A run that ended with an error is a no-go where its vehicle has thrown a track or never came to rest, as on a slope
-/// that it slides down; with any other error it says nothing of the vehicle, and `known` is false.
+/// Verdict of a failed run: no-go if the vehicle threw a track or never came to rest, e.g. sliding down a slope;
+/// `known` is false for errors unrelated to the vehicle.
 struct FailureVerdict {
   bool known = false;
   std::string why;
 };
 FailureVerdict judgeFailure(const sweeps::SweepOutcome& outcome);
 
-/// Time at which a growing quantity first reaches `level`, straight between rows; NaN where it does not [s].
+/// Time [s] at which an increasing quantity first reaches `level`, linear between rows; NaN if it does not.
 double timeAt(const std::vector<double>& time, const std::vector<double>& value, double level);
 
-/// The greatest magnitude of some values; 0 of none.
+/// Maximum magnitude of values; 0 if empty.
 double greatest(const std::vector<double>& values);
 
 } // namespace grouser::events

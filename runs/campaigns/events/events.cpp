@@ -46,7 +46,7 @@ void makeFilms(const EventPlan& plan, const fs::path& folder) {
     if (made.status == 0)
       fmt::print("film      {}\n", film.string());
     else
-      support::tell("grouser: warning: no film of {}: {}\n", name, made.output);
+      support::tell("WARNING: no film of {}: {}\n", name, made.output);
   }
 }
 

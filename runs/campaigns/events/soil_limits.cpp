@@ -11,7 +11,7 @@ namespace grouser::events {
 
 namespace {
 
-/// Both tracks [m2].
+/// Contact area of both tracks [m2].
 double groundArea(const VehicleShape& s) { return 2 * s.groundRun() * s.padWidth; }
 
 } // namespace

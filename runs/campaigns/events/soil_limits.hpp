@@ -8,9 +8,8 @@
 /// Janosi.
 namespace grouser::events {
 
-/// Tangent of the slope on which shear stress holds the vehicle: W sin a = c A + W cos a tan phi; infinity where it
-/// holds on any
-/// [-].
+/// Tangent of the slope on which shear stress holds the vehicle: W sin a = c A + W cos a tan phi; infinity if it holds
+/// on any slope [-].
 double holdingSlope(const VehicleShape& shape, const scm::SoilConstants& soil);
 
 /// F(i) = (c A + W tan phi) (1 - K / (i L) (1 - exp(-i L / K))) at a slip i in (0, 1] [N].

@@ -16,7 +16,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr int kCorners = 96;                        // of a disc
+constexpr int kCorners = 96;                        // corners of a disc
 constexpr double kDegree = base::kPi / 180;         // rad
 constexpr int kLeastPitch = 2, kMostPitch = 80;     // degrees, in steps of
 constexpr int kPitchStep = 2;                       // the maximum is flat
@@ -75,24 +75,24 @@ double topAt(const std::vector<SidePoint>& hull, double x) {
   return top;
 }
 
-/// What is drawn of a vehicle, in the hull's frame.
+/// Running gear in the frame of the hull.
 struct Frame {
-  SideDisc sprocket, idler;           ///< as the pins' loop encloses them, the idler at its inner stop
-  std::vector<SidePoint> pivots;      ///< of the arms of the road wheels
+  SideDisc sprocket, idler;           ///< enclosed by the loop of pins, the idler at its inner stop
+  std::vector<SidePoint> pivots;      ///< pivots of the road-wheel arms
   double wheel = 0, arm = 0;          ///< radius of the loop about a road wheel; length of an arm [m]
   double drawn = 0;                   ///< angle of the arms below the horizontal, backwards [rad]
   bool rigid = false;                 ///< arms
-  double outward = 0, halfLength = 0; ///< from the pins to the grousers' tips; of a shoe [m]
-  double hanging = 0;                 ///< lowest angle of an arm: its bar unloaded but for the wheel's own weight [rad]
-  double highestEdge = 0;             ///< z of an edge under the ground run, at most [m]
-  double first = 0, last = 0;         ///< x of the ground run's ends [m]
-  double inward = 0;                  ///< from an edge on a pad to the pins, at least [m]
-  double loop = 0;                    ///< length of the pins' loop [m]
+  double outward = 0, halfLength = 0; ///< from pins to grouser tips; half length of a shoe [m]
+  double hanging = 0;                 ///< lowest arm angle: torsion bar loaded by the weight of the wheel only [rad]
+  double highestEdge = 0;             ///< maximum z of an edge under the contact length [m]
+  double first = 0, last = 0;         ///< x of the ends of the contact length [m]
+  double inward = 0;                  ///< minimum distance from an edge at a pad to the pins [m]
+  double loop = 0;                    ///< length of the loop of pins [m]
 
   SideDisc wheelAt(std::size_t k, double angle) const {
     return {{pivots[k].x - arm * base::cos(angle), pivots[k].z - arm * base::sin(angle)}, wheel};
   }
-  /// How far the grousers' tips reach from the middle of a disc.
+  /// Distance of the grouser tips from the centre of a disc.
   double reach(const SideDisc& disc) const { return std::hypot(disc.radius + outward, halfLength); }
 };
 
@@ -111,7 +111,7 @@ Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap) {
   f.loop = s.shoe.count * s.shoe.pitch;
   f.first = s.roadWheel.firstX - f.wheel;
   f.last = s.lastWheelX() + f.wheel;
-  // Between two wheels the pins rise by the folds that the plates leave, straight under one wheel not at all.
+  // Between two wheels the pins rise by the maximum fold, below a wheel not at all.
   const double between = s.shoe.pitch * base::sin(s.shoe.maximumFold), half = 0.5 * s.totalMass() * kGravity;
   f.hanging = f.drawn;
   double pressed = between;
@@ -128,7 +128,7 @@ Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap) {
   return f;
 }
 
-/// Nose up by an angle.
+/// Rotation by a pitch angle, nose up.
 struct Pitch {
   double s, c;
   explicit Pitch(double angle) : s(base::sin(angle)), c(base::cos(angle)) {}
@@ -136,8 +136,8 @@ struct Pitch {
   SideDisc operator()(const SideDisc& d) const { return {(*this)(d.middle), d.radius}; }
 };
 
-/// The largest angle up to `most` at which wheel k fits into the loop, and lies behind the step; -1 where it does not.
-/// `notch`: where the pins pass above the edge, pitched; none: there is no step.
+/// Largest angle up to `most` at which wheel k fits into the loop and lies behind the step; -1 if none. `notch`:
+/// position of the pins above the edge, pitched; null: no step.
 double lowestArm(const Frame& f, std::size_t k, double most, const Pitch& pitched, const SidePoint* notch) {
   const auto fits = [&](double angle) {
     const SideDisc wheel = pitched(f.wheelAt(k, angle));
@@ -156,7 +156,7 @@ double lowestArm(const Frame& f, std::size_t k, double most, const Pitch& pitche
   return high;
 }
 
-/// The centre of mass as far forward and down as wheels on their arms and the lower half of the tracks can move it.
+/// Foremost and lowest centre of mass by motion of the arms and the lower half of the tracks.
 SidePoint foremostCentre(const vehicle::VehicleSpec& s, const vehicle::Assembly& drawn, const Frame& f) {
   SidePoint c;
   double mass = 0;
@@ -174,16 +174,15 @@ SidePoint foremostCentre(const vehicle::VehicleSpec& s, const vehicle::Assembly&
     c.x += share * std::max(0.0, to.x - from.x), c.z += share * (to.z - from.z);
     farthest = std::max(farthest, distance(from, to));
   }
-  const double shoes = s.shoe.mass * s.shoe.count / mass; // half of both tracks
+  const double shoes = s.shoe.mass * s.shoe.count / mass; // half of the mass of both tracks
   return {c.x + shoes * farthest, c.z - shoes * farthest};
 }
 
-/// How far below the centre of mass the hull ends, along a line that leans back by the pitch [m]; 0 where it is
-/// outside.
+/// Distance from the centre of mass to the bottom of the hull along the pitched vertical [m]; 0 if outside the hull.
 double hullBelow(const base::TriangleMesh& mesh, const SidePoint& centre, double pitch) {
-  const double s = base::sin(pitch), c = base::cos(pitch), y = 1.37e-3; // beside edges in the middle plane
+  const double s = base::sin(pitch), c = base::cos(pitch), y = 1.37e-3; // avoids mesh edges in the middle plane
   const Vec3d from{centre.x, y, centre.z}, along{-s, 0, -c};
-  std::vector<std::pair<double, int>> crossings; // way, and 1 where it leaves a shell
+  std::vector<std::pair<double, int>> crossings; // distance, and 1 at exits, -1 at entries
   int within = 0;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
     const Vec3d a = mesh.vertices[mesh.indices[i]], p = mesh.vertices[mesh.indices[i + 1]] - a,
@@ -206,7 +205,7 @@ double hullBelow(const base::TriangleMesh& mesh, const SidePoint& centre, double
   return 0;
 }
 
-/// Of one pitch: the highest that an edge lies over the lowest point, or `least` where it is no more than that.
+/// Maximum height of an edge above the lowest point at one pitch, at least `least`.
 double highestAt(const Frame& f, const SidePoint& centre, double hull, double angle, double least) {
   const Pitch pitched(angle);
   const SidePoint middle = pitched(centre);
@@ -215,7 +214,7 @@ double highestAt(const Frame& f, const SidePoint& centre, double hull, double an
     const double edge = middle.z - below;
     const SidePoint inHull{centre.x - below * pitched.s, centre.z - below * pitched.c};
     if (inHull.x > f.first && inHull.x < f.last && inHull.z > f.highestEdge + kDepthStep) continue;
-    // The loop is asked at the lower end of this step of depth, the height told at the upper one.
+    // The loop is tested at the lower end of this depth step, the height taken at the upper one: an upper bound.
     const SidePoint notch{middle.x, edge - kDepthStep + f.inward};
     const auto keepsOut = [&](std::size_t k) {
       const SidePoint wheel = pitched(f.wheelAt(k, f.drawn)).middle;
@@ -231,7 +230,7 @@ double highestAt(const Frame& f, const SidePoint& centre, double hull, double an
       for (const SideDisc& disc : {f.sprocket, f.idler})
         if (pitched(disc).middle.x + disc.radius <= notch.x) take(disc);
     for (std::size_t k = 0; k < f.pivots.size(); ++k) {
-      // An arm's wheel is lowest where it hangs straight down.
+      // A wheel is lowest with a vertical arm.
       const double most = std::max(f.drawn, std::min(f.hanging, 0.5 * base::kPi - angle));
       const SideDisc straight = f.wheelAt(k, most);
       if (edge - pitched(straight).middle.z + f.reach(straight) <= highest) continue;
@@ -255,7 +254,7 @@ double shortestLoop(const std::vector<SideDisc>& discs, const SidePoint& notch) 
   for (const SideDisc& disc : discs) addCorners(disc, corners);
   const std::vector<SidePoint> hull = hullOf(corners);
   if (!isInside(notch, hull)) return perimeter(hull);
-  // Cut upright through the notch: on either side the loop is convex.
+  // Split vertically at the notch: each side of the loop is convex.
   const SidePoint top{notch.x, topAt(hull, notch.x)};
   double length = -2 * distance(notch, top);
   for (const double side : {-1.0, 1.0}) {

@@ -5,43 +5,41 @@
 
 #include <vector>
 
-/// The highest step that a vehicle can climb by its shape, its wheels free to move on their arms.
+/// Upper bound of the step height that a vehicle can climb, from its geometry.
 namespace grouser::events {
 
 inline constexpr double kGravity = 9.81; ///< of the events' scenes [m/s2]
 
-/// A point in the side view: x forward from the sprockets' axle, z up [m].
+/// Point in the side view: x forward from the sprocket axle, z up [m].
 struct SidePoint {
   double x = 0, z = 0;
 };
 
-/// A disc in the side view, about which a track lies.
+/// Disc in the side view, enclosed by a track.
 struct SideDisc {
   SidePoint middle;
   double radius = 0; ///< [m]
 };
 
-/// Length of the shortest loop about discs [m]; of `notch` the loop passes above: pressed in from below where the point
-/// lies inside the loop, and no matter where it lies outside. Discs are cut to polygons of 96 corners on their rims, so
-/// that it is never longer than it is, and shorter by 2e-4 of the arcs at most.
+/// Length of the shortest loop around discs [m] that passes above `notch`, which has no effect outside the loop. Discs
+/// are inscribed polygons of 96 corners: the result is a lower bound, short by at most 2e-4 of the arcs.
 double shortestLoop(const std::vector<SideDisc>& discs);
 double shortestLoop(const std::vector<SideDisc>& discs, const SidePoint& notch);
 
-/// Above which no slow vehicle climbs a step, whatever its grip [m].
+/// Height above which no slow vehicle climbs a step at any friction [m].
 ///
-/// A slow vehicle whose centre of mass is about to pass over a step's edge still stands on the ground behind it: on
-/// nothing but the edge and what lies beyond it would tip back. So the step is no higher than the edge can lie over the
-/// lowest point of the track, at any pitch, with the edge straight below the centre of mass. There
-/// - the edge is not within the hull, and no higher under the ground run than half of the weight, all of it that a
-/// track
-///   bears, turns the arm of one wheel, or a quarter those of two wheels with shoes folded up between them;
-/// - the track goes round sprocket, idler and the wheel that is lowest, and above the edge; its pins' loop is no longer
-///   than its shoes are, the idler pushed back to its stop;
-/// - the wheel that is lowest hangs on its arm, which turns as far as that loop lets it and until its bar is unloaded;
-///   all others are wherever they want to be; rigid arms stay as drawn, and wheels on them keep the edge out;
-/// - wheels, arms and shoes may move the centre of mass as far forward and down as they can.
-/// Each of these leaves out something that would hold it back, so this is an upper bound. Throws base::InputError where
-/// the track does not close or the hull's mesh cannot be read.
+/// A slow vehicle whose centre of mass passes over the edge of a step must still be supported by the ground behind it,
+/// or it tips back. So the step is at most as high as the edge can lie above the lowest point of the track, at any
+/// pitch, with the edge vertically below the centre of mass, where
+/// - the edge is outside the hull, and under the contact length no higher than an arm turned by half the weight allows,
+///   or two arms turned by a quarter each with shoes folded up between them;
+/// - the track encloses sprocket, idler (at its inner stop) and the lowest wheel, passes above the edge, and is at most
+///   as long as its shoes;
+/// - the lowest wheel hangs on its arm as far as the loop and the unloaded torsion bar allow; other wheels are free;
+///   rigid arms keep their angle, and their wheels keep the edge out;
+/// - wheels, arms and shoes shift the centre of mass as far forward and down as possible.
+/// Each assumption favours the vehicle, so this is an upper bound. Throws base::InputError if the track does not close
+/// or the hull mesh cannot be read.
 double highestStep(const vehicle::VehicleSpec& spec);
 
 } // namespace grouser::events

@@ -11,7 +11,7 @@ namespace grouser::events {
 
 namespace {
 
-/// Corners of the pads of all shoes of a loop, grousers included, over level ground.
+/// Corners of the pads of all shoes of a loop, with grousers, relative to level ground.
 std::vector<SidePoint> padCorners(const vehicle::VehicleSpec& spec, const vehicle::Wrap& wrap) {
   std::vector<SidePoint> corners;
   for (int i = 0; i < spec.shoe.count; ++i) {

@@ -18,7 +18,7 @@ CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64
   if (!scene.terrain || !scene.terrain->granular()) return counted;
   if (scene.terrain->tile) {
     counted.exact = false;
-    counted.doubt = "by volume; copies of a tile are cut at the walls, so within some percent";
+    counted.doubt = "by volume, within some percent: walls cut the copies of a tile";
     return counted;
   }
   if (counted.grains > mostLaid) {
@@ -28,7 +28,7 @@ CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64
   }
   const coupling::GroundSetup whole = setup::groundSetup(scene, timeStep);
   const coupling::BedSetup& placed = *whole.grains->bed;
-  const coupling::GroundSetup& ground = placed.alone ? *placed.alone : whole; // in which the bed is laid
+  const coupling::GroundSetup& ground = placed.alone ? *placed.alone : whole; // ground in which the bed is laid
   const support::Stopwatch laying;
   const std::vector<terrain::Seed> seeds = terrain::layBed(*ground.surface, ground.grains->bed->options);
   const auto laid = std::count_if(seeds.begin(), seeds.end(), [&](const terrain::Seed& seed) {

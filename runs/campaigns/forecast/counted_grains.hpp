@@ -8,20 +8,20 @@
 
 namespace grouser::forecast {
 
-/// How many grains a run of a scene will have, and how sure that is.
+/// Number of grains of a run, and its accuracy.
 struct CountedGrains {
-  std::int64_t grains = 0; ///< those that enter later and fixed ones of the floor among them
-  bool exact = true;       ///< laid, or placed one by one, as a run does it
-  std::string doubt;       ///< why it is not exact, in words; empty where it is
-  double laying = 0;       ///< how long laying the bed took [s]; 0 where none was laid
+  std::int64_t grains = 0; ///< including later sources and fixed floor grains
+  bool exact = true;       ///< counted as a run places them
+  std::string doubt;       ///< reason why the count is not exact; else empty
+  double laying = 0;       ///< time to lay the bed [s]; 0 if not laid
 };
 
-/// A bed up to which grains are laid to count them; of larger ones the volume tells.
+/// Largest bed that is laid to count its grains; larger ones are estimated by volume.
 inline constexpr std::int64_t kMostLaid = 1'000'000;
 
-/// Lays the bed of the scene, around what stands in it, as a run does, and counts. Reads the height-map. A bed of more
-/// than `mostLaid` grains, or of copied tiles, is not laid: then `doubt` says how far off its count may be. Throws what
-/// groundSetup() throws.
+/// Lays the bed of the scene around obstacles, as a run does, and counts its grains. Reads the height-map. A bed of
+/// more than `mostLaid` grains, or of copied tiles, is not laid; `doubt` then has the uncertainty. Throws as
+/// groundSetup().
 CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64_t mostLaid = kMostLaid);
 
 } // namespace grouser::forecast

@@ -9,11 +9,11 @@ namespace grouser::forecast {
 
 namespace {
 
-/// Of the corner of a rectangle with sides `a` and `b`, times modulus over pressure [m]; odd in both, so that corners
-/// add up to what any point settles.
+/// Settlement of the corner of a rectangle with sides `a` and `b`, times modulus over pressure [m]; odd in both, so
+/// that corners add up to the settlement of any point.
 double cornerSettlement(double a, double b, double depth, double poisson) {
   if (a == 0 || b == 0) return 0;
-  // What half-space settles at its surface, then what it does at `depth`.
+  // Settlement of a half-space at its surface, then at `depth`.
   const double surface = a * std::asinh(b / std::fabs(a)) + b * std::asinh(a / std::fabs(b));
   double settled = (1 - poisson * poisson) * surface;
   if (std::isfinite(depth)) {

@@ -3,11 +3,11 @@
 
 #include <vector>
 
-/// How deep a bed has to be for its floor not to matter: an elastic solid of one modulus, as a measure for soil that is
-/// alike at all depths. Tracks are long, so that what they press reaches far down.
+/// Depth of a bed without floor effect, from a homogeneous elastic solid as a measure for uniform soil. The stress
+/// below long tracks reaches deep.
 namespace grouser::forecast {
 
-/// A rectangle on the surface that carries an even pressure, its sides along x and y.
+/// Rectangle on the surface with uniform pressure, sides along x and y.
 struct LoadedRectangle {
   double x{}, y{};      ///< its middle [m]
   double halfLength{};  ///< along x [m], above 0
@@ -16,7 +16,7 @@ struct LoadedRectangle {
 
 /// Mean settlement of all `loads` under one pressure, times the solid's modulus over that pressure [m]. By Steinbrenner
 /// (1934): a layer settles by what a half-space does between its surface and `depth` [m], which may be infinite;
-/// that a stiff floor draws stress to itself is neglected. `poisson` is the solid's ratio [-].
+/// neglects stress concentration at a stiff floor. `poisson` is the solid's ratio [-].
 double layerSettlement(const std::vector<LoadedRectangle>& loads, double depth, double poisson);
 
 } // namespace grouser::forecast

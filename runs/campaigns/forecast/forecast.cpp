@@ -37,8 +37,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kMostCopied =
-    60'000; // grains of a piece on a CPU; a GPU, where few take as long as many, has kMostTaken
-constexpr double kMostTaken = 400'000; // grains of a kept bed that is taken as it is
+    60'000; // maximum grains of a piece on a CPU; kMostTaken on a GPU, where few take as long as many
+constexpr double kMostTaken = 400'000; // maximum grains of a cached bed that is used unchanged
 constexpr double kTrials = 4;          // small beds settled to find the friction for a porosity
 constexpr double kStride = 4;          // ratio of softened to real time step [-]
 constexpr double kFurtherPlot = 0.3;   // time of a further plot over that of the first, which starts Python [-]
@@ -46,7 +46,7 @@ constexpr double kShort = 0.25;        // duration of the short probe's steps [s
 constexpr double kFewGrains = 50'000;  // largest scene without a bed that the short probe runs whole
 constexpr double kCutMeshes = 2;       // typical time for sphere sets of meshes [s]
 constexpr int kTestedThreads = 4;      // maximum thread count with a probed (not typical) forecast
-constexpr double kNoFigure = 1e-4;     // parts of less are not kept [s]
+constexpr double kNoFigure = 1e-4;     // shorter parts are not stored [s]
 
 constexpr const char* kStepText = "steps"; // add() prints number and time of the steps
 
@@ -58,10 +58,10 @@ std::string stepTime(double seconds) {
 
 bool hasBed(const scene::Scene& scene) { return scene.terrain && scene.terrain->granular(); }
 
-/// The scene's forecast while it is put together.
+/// Computes the forecast of a scene.
 class Forecaster {
 public:
-  /// `ratios`: empty for typical values alone.
+  /// `ratios`: empty for typical values only.
   Forecaster(const scene::Scene& scene, const CountedGrains& counted, const ForecastOptions& options, Ratios ratios)
       : scene_(scene), probed_(scene), options_(options), counted_(counted), ratios_(std::move(ratios)),
         exec_(support::chooseDevice(scene.run.device, scene.run.threads, nullptr)),
@@ -98,7 +98,7 @@ public:
     }
     memory();
     if (sound && options_.probe && options_.cache) {
-      simulation_.reset(); // its memory is free for the model
+      simulation_.reset(); // frees its memory for the model
       keep();
     }
     f_.spent = all.seconds();
@@ -113,7 +113,7 @@ public:
   }
 
 private:
-  /// It steps once more.
+  /// Performs one more step.
   session::OutputTimes timeOutput() {
     const setup::RecordSetup record = setup::recordSetup(probed_, setup::provenanceOf(probed_));
     return session::timeOutput(*simulation_, record, exec_, scratch(), scene_.output.plots);
@@ -128,13 +128,13 @@ private:
     typical_ = typicalTimes(scene_, grains_, spheres, exec_);
     if (scene_.vehicle && spheres == 0) uncut_ = typical_.cutting;
     modelled_ = hasBed(scene_) || grains_ > kFewGrains || uncut_ > 0;
-    if (!modelled_ || !hasMeshes()) return; // the steps of the probe cut meshes
+    if (!modelled_ || !hasMeshes()) return; // the steps of the probe generate sphere sets
     std::vector<spheredecomp::CutReport> cuts;
     if (!keptMeshes(scene_, grains_, timeStep_, cache, cuts)) uncut_ += kCutMeshes;
     f_.cuts.insert(f_.cuts.end(), cuts.begin(), cuts.end());
   }
 
-  /// A small tile of the bed, and typical times.
+  /// Step times from a small tile of the bed, and typical times.
   bool model() {
     double grain = typical_.grain, list = typical_.list;
     if (settles()) {
@@ -150,7 +150,7 @@ private:
       if (exec_.onCpu()) {
         grain = each * std::max(0.3 * tile_.resting, tile_.resting - kStepAlone);
         list = each * tile_.list;
-      } else { // where few grains take as long as many
+      } else { // few grains take as long as many
         grain = std::max(grain, tile_.resting / grains_);
         list = std::max(list, tile_.list / grains_);
       }
@@ -173,7 +173,7 @@ private:
   bool hasMeshes() const { return !scene_.meshes.empty() || scene_.mechanism.hasMeshes(); }
   bool hasParts() const { return scene_.vehicle || !scene_.meshes.empty() || !scene_.mechanism.empty(); }
 
-  /// Ratios of what was probed to what is modelled for the same scene. A failure leaves the forecast as it is.
+  /// Stores ratios of probed to modelled times of the scene. Ignores failures.
   void keep() {
     options_.stage("saving the results for later plans");
     try {
@@ -206,7 +206,7 @@ private:
     return modelled_ || (!options_.probe && !kSteps.contains(part));
   }
 
-  /// The kind of work that a part is, by which ratios are kept.
+  /// Kind of work of a part, the key of stored ratios.
   std::string workOf(const std::string& part) const {
     static const std::set<std::string> kOfVehicle{"vehicle", "parts, placing", "sphere sets"},
         kOfMachine{"picture", "plots", "files begun", "laying the bed", "bed, kept"};
@@ -241,7 +241,7 @@ private:
     }
     const auto& grains = simulation_->ground().grains;
     pieceGrains_ = grains ? static_cast<double>(grains->count()) : 0;
-    // What enters later is no reason to take the piece for a small one.
+    // Grains that enter later do not affect the scale.
     scale_ = copied && pieceGrains_ > 0 ? grains_ / pieceGrains_ : 1;
   }
 
@@ -253,14 +253,14 @@ private:
         beds_ && kept_ ? &*beds_ : nullptr, spheres_ ? &*spheres_ : nullptr);
   }
 
-  /// Grains without a bed change most while they run: soft ones get farther in the same time.
+  /// Scenes without a bed change most during the run: softer contacts cover more of it in the same time.
   bool stepSoft() {
     const bool soft = !hasBed(scene_) && !scene_.vehicle && grains_ > 0 && scene_.mechanism.empty();
     if (!soft) return false;
     try {
       probed_ = softened(scene_, timeStep_, kStride);
       build();
-      times_ = timeSteps(*simulation_, exec_, 2 * options_.seconds, // nothing has to be settled first
+      times_ = timeSteps(*simulation_, exec_, 2 * options_.seconds, // no settling
                          std::max<std::int64_t>(1, std::llround(steps_ / kStride) - 2));
       stride_ = kStride;
       return true;
@@ -270,7 +270,7 @@ private:
     return false;
   }
 
-  /// Whether the steps went well.
+  /// Times the steps. Returns false if they fail.
   bool step() {
     if (stepSoft()) return true;
     if (scene_.vehicle) probed_ = hurried(scene_);
@@ -305,12 +305,12 @@ private:
       const double settled =
           hasBed(scene_) && !modelled_ ? tile_.fallen * tile_.seconds : 0; // time to settle the copied tile again
       add(f_.preparation, spheres ? "parts, placing" : "placing", std::max(0.0, own_ - cut - settled),
-          modelled_ ? "" : "as the probe's");
+          modelled_ ? "" : "as in the probe");
     }
     if (spheres) add(f_.preparation, "sphere sets", uncut_, spheresText(cut));
   }
 
-  /// Origin of the sphere sets; `cut`: the time that they took in the probe [s].
+  /// Origin of the sphere sets; `cut`: their time in the probe [s].
   std::string spheresText(double cut) const {
     if (cut > 0) return fmt::format("cut in {:.2g} s{}", cut, spheres_->saved() > 0 ? "; cached for the run" : "");
     if (uncut_ > 0) return spheres_ ? "cut once; cached by the first run" : "cut by the run; no cache";
@@ -320,12 +320,12 @@ private:
 
   void settling() {
     if (scene_.terrain->settleTimeLimit <= 0) return;
-    // A grain's step costs what it costs at rest in the piece, and more while grains fall; so do their lists.
+    // Steps and lists cost more while grains fall than at rest.
     const StepTimes::Group last = times_.last();
     const double each = last.seconds / std::max(1.0, last.steps) * (1 - last.lists - last.parts);
     const double whole = scale_ * (each * tile_.falling / std::max(1e-300, tile_.resting) +
                                    lists() * tile_.rebuilds / std::max(1.0, tile_.steps));
-    std::string how = fmt::format("{:.0f} steps to rest of a tile of {:.0f} grains", tile_.steps, tile_.grains);
+    std::string how = fmt::format("{:.0f} steps to settle a tile of {:.0f} grains", tile_.steps, tile_.grains);
     if (!tile_.complete) how = "not settled in the probe; estimated";
     if (scene_.terrain->porosity) {
       const double sample = sampleGrains(scene_, timeStep_);
@@ -367,7 +367,7 @@ private:
     if (wrote > 0 && options_.probe) f_.diskSpeed = (o.frameBytes + o.checkpointBytes) / wrote;
   }
 
-  /// One list of the piece made anew [s]; afterwards it takes no step.
+  /// Time of one list rebuild of the piece [s]; the simulation takes no step afterwards.
   double lists() {
     if (lists_ < 0) lists_ = timeOfLists(*simulation_, exec_);
     return lists_;
@@ -383,12 +383,12 @@ private:
     const double each = last.seconds / std::max(1.0, last.steps);
     double perStep = last.lists * each * scale_;
     std::string how = "as often as in the probe";
-    // In a bed at rest no list ends: how often one does follows from how quickly its grains go.
+    // No list expires in a bed at rest: the rebuild interval follows from the grain speed.
     if (const double speed = speedOf(scene_); speed > 0) {
       const double reach = 0.5 * scene_.run.skin * setup::ContactPairs(scene_).kinds.largest;
       const double between = std::max(1.0, reach / (speed * timeStep_));
       const double told = lists() * scale_ / between;
-      if (told > perStep) perStep = told, how = fmt::format("one in {:.0f} steps, at {:.2g} m/s", between, speed);
+      if (told > perStep) perStep = told, how = fmt::format("one per {:.0f} steps at {:.2g} m/s", between, speed);
     }
     addSteps(steps_ * each * (1 - last.lists - last.parts) * scale_, steps_ * perStep, steps_ * each * last.parts, how);
   }
@@ -401,7 +401,7 @@ private:
       add(f_.steps, scene_.vehicle ? "vehicle" : scene_.mechanism.empty() ? "meshes" : "mechanism", parts, kStepText);
   }
 
-  /// Grains in the mean over the steps that the probe has not taken.
+  /// Mean number of grains over the steps after the probe.
   double meanLater() const {
     double mean = pieceGrains_;
     const double from = simulation_ ? std::min(simulation_->time(), scene_.run.duration) : 0, to = scene_.run.duration;
@@ -425,7 +425,7 @@ private:
     if (f_.disk == 0) f_.disk = all.disk();
   }
 
-  /// A folder of this process beside where the results will go.
+  /// Temporary folder of this process beside the results.
   fs::path scratch() const {
     const fs::path place = roomOf(exec_, options_.folder, false).place;
     const fs::path folder = fmt::format(".grouser-plan-{}", getpid());
@@ -457,7 +457,7 @@ private:
   static constexpr double kStepAlone = 25e-6, kLarge = 1.3;
 
   const scene::Scene& scene_;
-  scene::Scene probed_; ///< with what makes it quicker to probe
+  scene::Scene probed_; ///< scene modified for a quicker probe
   ForecastOptions options_;
   const CountedGrains& counted_;
   Ratios ratios_;
@@ -475,7 +475,7 @@ private:
   bool whole_ = false; ///< the long probe settled the bed itself
   SettledTile tile_;
   std::unique_ptr<coupling::Simulation> simulation_;
-  double own_ = 0;    ///< to build the piece [s]
+  double own_ = 0;    ///< time to build the piece [s]
   double lists_ = -1; ///< [s]; below 0: not measured
   session::OutputTimes output_;
   double stride_ = 1; ///< steps of the run that one of the probe stands for

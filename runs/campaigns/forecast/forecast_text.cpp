@@ -80,7 +80,7 @@ std::string forecastText(const Forecast& f) {
   if (f.device > 0) text += fmt::format("  {:<24} about {}\n", "memory of the GPU", bytes(f.device));
   text += fmt::format("  {:<24} about {}{}\n", "on the disk", bytes(f.disk),
                       f.diskSpeed > 0 ? fmt::format(", written at {}/s", bytes(f.diskSpeed)) : "");
-  if (!f.warning.empty()) text += fmt::format("\nwarning: {}\n", f.warning);
+  if (!f.warning.empty()) text += fmt::format("\nWARNING: {}\n", f.warning);
   return text;
 }
 

@@ -27,17 +27,17 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kGiB = 1073741824.0;
-constexpr double kProgram = 100e6, kVehicle = 250e6; // of a process, beside its grains [bytes]
+constexpr double kProgram = 100e6, kVehicle = 250e6; // of a process without its grains [bytes]
 constexpr double kRow = 1000, kVehicleRow = 7000;    // of results.h5 and timeseries.csv [bytes]
 constexpr double kPicture = 1e6;                     // picture.png [bytes]
-constexpr double kCheckpointBytes = 250;             // of a grain in a checkpoint, with its contacts
-constexpr double kMostRemembered = 2e6;              // grains, of which a state is kept in memory too
+constexpr double kCheckpointBytes = 250;             // per grain in a checkpoint, with its contacts
+constexpr double kMostRemembered = 2e6;              // grains up to which a state is also kept in memory
 
 std::string size(double bytes) {
   return bytes >= 0.1 * kGiB ? fmt::format("{:.3g} GiB", bytes / kGiB) : fmt::format("{:.3g} MiB", bytes / 1048576.0);
 }
 
-/// The nearest folder that there is.
+/// The nearest existing folder.
 fs::path existing(fs::path folder) {
   std::error_code error;
   folder = fs::absolute(folder, error);
@@ -81,7 +81,7 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
   Demand demand;
   demand.grains = all;
   const double lists = grains > 0 ? all * setup::grainMemory(scene).most() : 0;
-  // Every rank has the places that all grains begin at; then its own state, to save.
+  // Every rank has the initial positions of all grains; then its own state to save.
   const double start = all * static_cast<double>(sizeof(terrain::GrainSpec) + sizeof(base::Position));
   const double saved = all * kCheckpointBytes * (all <= kMostRemembered && ranks == 1 ? 2 : 1);
   demand.process =
@@ -116,16 +116,16 @@ Room roomOf(const base::Exec& exec, const fs::path& folder, bool overwritten) {
 std::string misfit(const Demand& demand, const Room& room) {
   std::vector<std::string> lacks;
   if (room.process && demand.process > *room.process)
-    lacks.push_back(fmt::format("{} about {} of memory, and {} are free: use fewer or larger grains, more hosts "
-                                "(mpirun), or end what else runs here",
+    lacks.push_back(fmt::format("{} about {} of memory, but {} are free: use fewer or larger grains, more hosts "
+                                "(mpirun), or stop other programs",
                                 demand.grains > 0 ? fmt::format("its {:.3g} grains take", demand.grains) : "it takes",
                                 size(demand.process), size(*room.process)));
   if (room.device && demand.device > *room.device)
-    lacks.push_back(fmt::format("its grains take about {} of each GPU, and {} are free: use fewer or larger grains, "
+    lacks.push_back(fmt::format("its grains take about {} of each GPU, but {} are free: use fewer or larger grains, "
                                 "more GPUs (mpirun), or run.device = \"cpu\"",
                                 size(demand.device), size(*room.device)));
   if (room.disk && demand.disk() > *room.disk)
-    lacks.push_back(fmt::format("its results take about {} ({} of frames), and {} are free in {}: raise "
+    lacks.push_back(fmt::format("its results take about {} ({} of frames), but {} are free in {}: raise "
                                 "run.frame_interval, set output.frames = false, or name a folder on another disk "
                                 "(--out)",
                                 size(demand.disk()), size(demand.frames), size(*room.disk), room.place.string()));
@@ -134,11 +134,11 @@ std::string misfit(const Demand& demand, const Room& room) {
 
 void requireFit(const scene::Scene& scene, const base::Exec& exec, const fs::path& folder, bool overwritten, bool disk,
                 const base::Ranks* ranks) {
-  // These name the key that makes them.
+  // Their errors name the key.
   setup::checkFillSizes(scene);
   setup::checkBedSize(scene);
   const int all = ranks ? ranks->comm().size() : 1, here = ranks ? ranks->ranksOnHost() : 1;
-  // Rows and frames are hardly ever closer than steps; which step is sound is asked later, of parts that are.
+  // Output intervals rarely undercut the step; its stability is checked later.
   const double step = scene.run.timeStep.value_or(std::min(scene.run.outputInterval, scene.run.frameInterval));
   const Demand demand = demandOf(scene, setup::plannedGrains(scene), step, !exec.onCpu(), all, here);
   Room room = roomOf(exec, folder, overwritten);

@@ -23,16 +23,16 @@ using coupling::Stage;
 
 namespace {
 
-constexpr double kTileGrains = 300;  // at least, of a tile
-constexpr double kTileWidth = 8;     // largest radii, at least
-constexpr double kNearlyAtRest = 10; // times the energy of rest: of the tile that is copied
-constexpr double kPrepared = 0.1;    // friction of the tile's preparation [-]: the middle of those tried
+constexpr double kTileGrains = 300;  // minimum of a tile
+constexpr double kTileWidth = 8;     // minimum width in largest radii
+constexpr double kNearlyAtRest = 10; // kinetic energy of the copied tile over the limit for rest
+constexpr double kPrepared = 0.1;    // friction while the tile settles [-]: the middle of the tested range
 constexpr int kGroups = 24;
 
-/// Ends the settling of a tile whose time is up.
-struct TimeIsUp {};
+/// Ends the settling of a tile at its time limit.
+struct TimeLimitReached {};
 
-/// The bed that settles: that of the ground, or of the ground alone on which more is put.
+/// The bed that settles: that of the ground, or of the ground without the objects placed on it.
 const coupling::BedSetup& settlingBed(const coupling::GroundSetup& whole) {
   const coupling::BedSetup& bed = *whole.grains->bed;
   return bed.alone ? *bed.alone->grains->bed : bed;
@@ -52,7 +52,7 @@ StepTimes timeSteps(coupling::Simulation& simulation, const base::Exec& exec, do
   while (left() > 0 && (all.seconds() < seconds || times.groups.empty())) {
     StepTimes::Group group;
     if (simulation.ground().grains) group.grains = static_cast<double>(simulation.ground().grains->count());
-    // As a run steps, then some with a look at the parts, which takes time of its own on a GPU.
+    // Plain steps, then steps with a stage timer, which adds time on a GPU.
     const std::int64_t taken = std::min(batch, left());
     const Stopwatch plain;
     advance(simulation, taken);
@@ -140,7 +140,7 @@ SettledTile settleTile(const coupling::GroundSetup& piece, bool prepared, const 
   tile.grains = static_cast<double>(grains.count());
   const Stopwatch settling;
   const coupling::SettleProgress limited = [&](double, double) {
-    if (settling.seconds() > seconds) throw TimeIsUp();
+    if (settling.seconds() > seconds) throw TimeLimitReached();
   };
   coupling::SettleReport report;
   try {
@@ -148,7 +148,7 @@ SettledTile settleTile(const coupling::GroundSetup& piece, bool prepared, const 
       coupling::settleWithFriction(bed, grains, kPrepared, limited, report);
     else
       coupling::settleUntilRest(bed, bed.settle, grains, bed.fall, limited, report);
-  } catch (const TimeIsUp&) {
+  } catch (const TimeLimitReached&) {
     tile.complete = false;
   }
   tile.steps = static_cast<double>(report.steps), tile.seconds = settling.seconds();
@@ -181,7 +181,7 @@ scene::Scene pieceOf(const scene::Scene& scene, double grains, double most) {
   const double area = t.size[0] * t.size[1], each = area / std::max(1.0, grains);
   const double side = std::max(std::sqrt(kTileGrains * each), kTileWidth * options.largestRadius());
   if (t.depth && t.floor == terrain::FloorShape::flat) {
-    // As deep as in the mean.
+    // Mean depth of the bed.
     const terrain::HeightField surface = setup::readSurface(scene);
     const std::vector<double>& h = surface.heights();
     const double lowest = *std::min_element(h.begin(), h.end());
@@ -193,7 +193,7 @@ scene::Scene pieceOf(const scene::Scene& scene, double grains, double most) {
     const double shrink = std::sqrt(most / grains);
     std::array<double, 2> size{std::max(t.size[0] * shrink, side), std::max(t.size[1] * shrink, side)};
     if (piece.vehicle) {
-      // Room for it where it stands by default: a track is as long as its strand, twice as wide as their distance.
+      // Space for the vehicle at its default position.
       const vehicle::VehicleSpec spec = setup::vehicleSpec(piece);
       const double length = 0.55 * spec.shoe.count * spec.shoe.pitch, width = 2 * (spec.trackOffset + 0.5);
       const double all = std::max(length, width);
@@ -212,8 +212,8 @@ scene::Scene hurried(const scene::Scene& scene) {
   scene::Scene piece = scene;
   piece.driver.tensionRamp = piece.driver.weightRamp = 0.3 * kHurry;
   piece.driver.driveStart = 0.6 * kHurry, piece.driver.driveRamp = 0.4 * kHurry;
-  piece.hitch.reset();                            // costs nothing, and might hold it longer than the piece
-  if (const auto& course = scene.driver.course) { // of another place: straight on with its speed
+  piece.hitch.reset();                            // negligible cost, and might outlast the piece
+  if (const auto& course = scene.driver.course) { // a course does not fit the piece: drive straight at its speed
     piece.driver.sprocketSpeed = course->speed / vehicle::readVehicleSpec(piece.vehicle->source()).pitchRadius();
     piece.driver.course.reset();
   }

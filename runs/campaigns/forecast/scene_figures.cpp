@@ -59,7 +59,7 @@ double keptSpheres(const scene::Scene& scene, double grains, storage::SphereCach
     const coupling::VehicleParts parts(vehicle::assemble(setup.spec, {}), setup, base::Comm(), &kept,
                                        rigid ? base::kInfinity : setup::ContactPairs(scene).kinds.smallest,
                                        setup.shapes && rigid && setup::obstaclesOf(scene).empty());
-    double spheres = 1; // none may be needed
+    double spheres = 1; // nonzero if no set is needed
     for (const auto& set : parts.setFigures()) spheres += static_cast<double>(set.spheres);
     cuts = parts.cutReports();
     return spheres;

@@ -7,17 +7,17 @@
 
 #include <vector>
 
-/// Figures of a scene on which the time of its run depends.
+/// Properties of a scene that determine its run time.
 namespace grouser::forecast {
 
-/// Grains of the small bed that frictions are tried on, with its floor; 0 without a requested porosity.
+/// Grains of the small bed for the friction search, with its floor; 0 without a porosity.
 double sampleGrains(const scene::Scene& scene, double timeStep);
 
-/// Largest expected grain speed [m/s]: with the track of a vehicle, or with a surface that is moved.
+/// Largest expected grain speed [m/s]: by the track of a vehicle, or by a moving surface.
 double speedOf(const scene::Scene& scene);
 
-/// Spheres of the vehicle's sets of a scene with so many grains, each set once; 0 where some are still to be cut.
-/// `cuts` receives their reports.
+/// Spheres of the vehicle's unique sets in a scene with `grains` grains; 0 if a set is not cached. `cuts` receives
+/// their reports.
 double keptSpheres(const scene::Scene& scene, double grains, storage::SphereCache kept,
                    std::vector<spheredecomp::CutReport>& cuts);
 

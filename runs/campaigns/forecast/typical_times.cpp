@@ -24,8 +24,8 @@ double pairsBelowTracks(const scene::Scene& scene) {
 }
 
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec) {
-  constexpr double kSetArea = 7;        // spheres of a light vehicle's sets times the square of their radius [m2]
-  constexpr double kHull = 27e3;        // spheres of a hull, all that is cut for rigid ground
+  constexpr double kSetArea = 7;        // spheres of the sets of a light vehicle times their radius squared [m2]
+  constexpr double kHull = 27e3;        // spheres of a hull, the only set on rigid ground
   constexpr double kDisk = 400e6;       // [bytes/s]
   constexpr double kVehicleFrame = 8e5; // [bytes]
   constexpr double kCheckpointed = 250; // checkpoint size a grain [bytes]

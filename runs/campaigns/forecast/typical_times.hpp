@@ -6,7 +6,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/session/output_times.hpp"
 
-/// Times of the parts of a run where nothing of the kind was measured on this machine.
+/// Typical times of the parts of a run, without measurements on this machine.
 namespace grouser::forecast {
 
 /// Typical times on a CPU with SIMD of about 2020, and on an H100.
@@ -30,7 +30,7 @@ double pairsBelowTracks(const scene::Scene& scene);
 /// no vehicle.
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec);
 
-/// A tile that no probe has settled: it rests after 0.7 s, each step and list at its typical time.
+/// Assumed tile without a probe: at rest after 0.7 s, with typical times of steps and lists.
 SettledTile typicalTile(const TypicalTimes& times, double timeStep);
 
 } // namespace grouser::forecast

@@ -23,12 +23,12 @@ struct Strip {
   Vec3d low, high;
 };
 
-/// What lies beside a bed at one of its sides, as far as the wider bed would reach, and a grain's width within.
+/// Region that a wider bed would fill at one side, and a grain's width inside the bed.
 Strip besideBed(const scene::Scene& scene, double timesAsWide, bool upper) {
   const scene::Terrain& t = *scene.terrain;
   const terrain::Rectangle area = *setup::terrainArea(scene);
   const double largest = setup::grainKinds(scene).largest, more = 0.5 * (timesAsWide - 1) * area.length();
-  // As deep as it is, and as much above: loose grains stand higher than those at rest.
+  // The same height above the bed as below: loose grains stand higher than settled ones.
   const double thick = t.layers ? *t.layers * *t.spacing * *t.grainRadius : t.depth.value_or(0);
   Strip s{{area.xMin, area.yMin - more, t.heightRange[0] - thick},
           {area.xMax, area.yMin + 2 * largest, t.heightRange[1] + thick}};
@@ -36,12 +36,12 @@ Strip besideBed(const scene::Scene& scene, double timesAsWide, bool upper) {
   return s;
 }
 
-/// Whether the half-space behind a plane reaches into it.
+/// Whether the half-space behind a plane overlaps the strip.
 bool meets(const Strip& strip, const scene::Plane& plane) {
-  constexpr double kLevel = 1e-9; // of its normal, along y [-]
+  constexpr double kLevel = 1e-9; // y component of the normal [-]
   const Vec3d n = normalized(plane.normal);
   if (std::fabs(n.y) < kLevel) return false;
-  double nearest = 0; // of the corner farthest behind it
+  double nearest = 0; // signed distance of the farthest corner behind the plane [m]
   for (int axis = 0; axis < 3; ++axis)
     nearest +=
         std::min(n[axis] * (strip.low[axis] - plane.point[axis]), n[axis] * (strip.high[axis] - plane.point[axis]));

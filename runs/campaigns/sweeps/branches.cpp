@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSettled = "settled"; // folder of the run to rest
+constexpr const char* kSettled = "settled"; // folder of the settling run
 
 /// The first run of each seed.
 std::map<std::int64_t, const SweepRun*> firstOfSeeds(const SweepPlan& plan) {
@@ -30,27 +30,27 @@ std::map<std::int64_t, const SweepRun*> firstOfSeeds(const SweepPlan& plan) {
   return first;
 }
 
-/// Throws where `run` cannot begin with the state that `first` had before its drive.
+/// Throws if `run` cannot start from the state of `first` before its drive.
 void requireOneState(const SweepRun& first, const SweepRun& run) {
   const auto refuse = [&](const std::string& what) {
-    throw base::InputError(fmt::format("--from-checkpoint: {}, which shapes the state that all runs branch from; vary "
-                                       "keys of the drive and the hitch alone, or leave --from-checkpoint away",
+    throw base::InputError(fmt::format("--from-checkpoint: {}, which affects the common initial state; vary only keys "
+                                       "of the drive and the hitch, or remove --from-checkpoint",
                                        what));
   };
   const setup::Provenance was = setup::provenanceOf(first.scene), is = setup::provenanceOf(run.scene);
   for (const storage::KeyChange& c : storage::changedKeys(was.resolved, is.resolved))
     if (!storage::actsInTheDrive(c.key))
-      refuse(fmt::format("{} is {} in run {} and {} in run {}", c.key, c.was.value_or("not given"), first.name,
-                         c.is.value_or("not given"), run.name));
+      refuse(fmt::format("{} is {} in run {} and {} in run {}", c.key, c.was.value_or("not set"), first.name,
+                         c.is.value_or("not set"), run.name));
   if (const std::string file = storage::changedFile(was.inputs, is.inputs); !file.empty())
-    refuse(fmt::format("{} is another file in run {} than in run {}", file, first.name, run.name));
+    refuse(fmt::format("file {} differs between the runs {} and {}", file, first.name, run.name));
   const double step = setup::chooseTimeStep(first.scene), other = setup::chooseTimeStep(run.scene);
   if (step != other)
-    refuse(fmt::format("run.time_step = \"auto\" is {:g} s in run {} and {:g} s in run {} (give it)", step, first.name,
+    refuse(fmt::format("run.time_step = \"auto\" is {:g} s in run {} and {:g} s in run {} (set it)", step, first.name,
                        other, run.name));
 }
 
-/// Whether the folder holds a run to rest, by this program, that this run can branch from.
+/// Whether the folder contains a settling run by this program that this run can branch from.
 bool holdsState(const fs::path& folder, const SweepRun& run) {
   const RunManifest manifest(folder);
   if (manifest.text("status") != "finished" || manifest.text("ended_by") != output::kUntilRest ||
@@ -61,26 +61,24 @@ bool holdsState(const fs::path& folder, const SweepRun& run) {
     storage::checkSameScene(storage::readOrigin(file), file, setup::provenanceOf(run.scene));
     return true;
   } catch (const base::InputError&) {
-    return false; // of another scene, or damaged
+    return false; // another scene, or damaged
   }
 }
 
-/// Runs to rest, one a seed, those left out that are there. Returns their checkpoints.
+/// Performs the missing settling runs, one per seed. Returns their checkpoints.
 std::map<std::int64_t, fs::path> settledStates(const SweepPlan& plan, const SweepOptions& options) {
   const auto seeds = firstOfSeeds(plan);
   SweepPlan base{plan.scene, {}, {}};
   std::map<std::int64_t, fs::path> files;
   for (const auto& [seed, first] : seeds) {
     if (!first->scene.vehicle)
-      throw base::InputError(
-          "--from-checkpoint: the scene has no vehicle that could be lowered; name the checkpoint of "
-          "a run, or leave --from-checkpoint away");
+      throw base::InputError("--from-checkpoint: the scene has no vehicle to settle; name the checkpoint of a run, or "
+                             "remove --from-checkpoint");
     SweepRun run = *first;
     run.name = seeds.size() > 1 ? fmt::format("{},seed={}", kSettled, seed) : kSettled;
     if (std::any_of(plan.runs.begin(), plan.runs.end(), [&](const SweepRun& r) { return r.name == run.name; }))
-      throw base::InputError(fmt::format("--case {}: with --from-checkpoint the folder of this name is that of the "
-                                         "vehicle at rest; give the case another name",
-                                         kSettled));
+      throw base::InputError(
+          fmt::format("--case {}: name reserved for the settling run of --from-checkpoint; rename the case", kSettled));
     run.untilRest = true, run.expectedEnd = run.scene.driver.driveBegins();
     const fs::path folder = options.folder / run.name;
     files[seed] = folder / storage::kCheckpointName;
@@ -93,10 +91,10 @@ std::map<std::int64_t, fs::path> settledStates(const SweepPlan& plan, const Swee
   SweepOptions once = options;
   once.seconds = 0;
   const std::vector<SweepOutcome> outcomes =
-      runMissing(base, once, "lowering", [](const std::vector<SweepOutcome>&) {});
+      runMissing(base, once, "settling", [](const std::vector<SweepOutcome>&) {});
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     if (outcomes[i].status != output::RunStatus::finished)
-      throw base::SimulationError(fmt::format("--from-checkpoint: the run {} has not come to rest: {}",
+      throw base::SimulationError(fmt::format("--from-checkpoint: run {} did not come to rest: {}",
                                               (options.folder / base.runs[i].name).string(), outcomes[i].message));
   return files;
 }

@@ -5,10 +5,9 @@
 
 namespace grouser::sweeps {
 
-/// The plan with runs that branch from `options.from`, or, where that is empty, from the vehicle at rest: a run to
-/// there for each seed, in the sweep's folder, which is made first unless it is there. Throws InputError, before
-/// anything is run, where the runs of a seed differ in a key that has shaped the state; SimulationError where the
-/// vehicle does not come to rest.
+/// Plan whose runs branch from `options.from` or, if that is empty, from the vehicle at rest: one settling run per seed
+/// in the sweep's folder, performed first if missing. Throws InputError before any run if the runs of a seed differ in
+/// a key that affects the state; SimulationError if the vehicle does not come to rest.
 SweepPlan branched(const SweepPlan& plan, const SweepOptions& options);
 
 } // namespace grouser::sweeps

@@ -37,7 +37,7 @@ namespace {
 namespace fs = std::filesystem;
 using output::RunStatus;
 
-/// With nothing drawn that nobody will look at; what is asked for stays.
+/// Turns frames, pictures and plots off unless the overrides set them.
 std::vector<std::string> quiet(std::vector<std::string> overrides) {
   for (const std::string set : {"output.frames=false", "output.picture=false", "output.plots=false"})
     if (std::none_of(overrides.begin(), overrides.end(),
@@ -46,14 +46,14 @@ std::vector<std::string> quiet(std::vector<std::string> overrides) {
   return overrides;
 }
 
-/// Which runs a check with --of makes, look by look; kept in choice.json where a budget decides.
+/// Runs of a check with --of at each look; stored in choice.json if there is a budget.
 class GoalChoice {
 public:
   RunCosts costs;
   std::vector<std::vector<int>> looks; ///< [looks][cases] seeds
 
-  /// Takes over what an earlier call with the same options has kept; false if that does not fit these cases.
-  bool take(const nlohmann::json& kept, std::size_t cases, int most) {
+  /// Restores the choice of an earlier call with the same options; false if it does not match these cases.
+  bool restore(const nlohmann::json& kept, std::size_t cases, int most) {
     try {
       kept.at("run_s").get_to(costs.run), kept.at("settling_s").get_to(costs.settling);
       kept.at("looks").get_to(looks);
@@ -69,7 +69,7 @@ public:
   }
 };
 
-/// One check, from its options to its files.
+/// A check: runs, results and files.
 class Check {
 public:
   Check(const fs::path& file, const CheckOptions& options)
@@ -78,7 +78,7 @@ public:
     checkScene(scene_);
     origin_ = checkOrigin(scene_, setup::inputsOf(scene_));
     if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.mostSeeds())
-      throw base::InputError(fmt::format("run.seed = {}: has no {} seeds after it; choose a smaller one",
+      throw base::InputError(fmt::format("run.seed = {}: too large for {} more seeds; set a smaller one",
                                          scene_.run.seed, options.mostSeeds()));
     record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = support::hashOfText(origin_);
     record_.jobs = options.sweep.jobs;
@@ -100,7 +100,7 @@ public:
   }
 
 private:
-  /// One run that is not made, for the names of its figures.
+  /// A plan of one run, never performed, for the names of its figures.
   static SweepPlan planOf(const scene::Scene& scene) {
     SweepPlan plan;
     plan.runs.emplace_back().scene = scene;
@@ -118,9 +118,9 @@ private:
   void keepAxes() {
     if (options_.axes.empty()) return;
     if (options_.draws == 0 && std::count(options_.axes.begin(), options_.axes.end(), CheckAxis::parameter) > 0)
-      throw base::InputError("--axes parameter: needs samples of the soil's constants; add --draws 8");
+      throw base::InputError("--axes parameter: requires samples of the soil constants; add --draws 8");
     const auto unwanted = [this](CheckAxis axis) {
-      return axis != CheckAxis::base && axis != CheckAxis::parameter && // --draws asks for it
+      return axis != CheckAxis::base && axis != CheckAxis::parameter && // requested by --draws
              std::find(options_.axes.begin(), options_.axes.end(), axis) == options_.axes.end();
     };
     std::erase_if(record_.cases.cases, [&](const CheckCase& c) { return unwanted(c.axis); });
@@ -130,7 +130,7 @@ private:
         record_.cases.omitted.push_back({axis, "not among --axes"});
   }
 
-  /// The question that a choice in choice.json answers.
+  /// Settings on which the choice in choice.json depends.
   nlohmann::json asked() const {
     nlohmann::json asked = {{"origin", record_.origin},
                             {"budget", options_.budget},
@@ -141,7 +141,7 @@ private:
     return asked;
   }
 
-  /// choice.json of a former call with the same question; no object where there is none.
+  /// choice.json of an earlier call with the same settings; not an object if missing.
   nlohmann::json keptFile() const {
     std::ifstream former(record_.folder / kCheckChoice);
     const nlohmann::json kept = nlohmann::json::parse(former, nullptr, false);
@@ -152,7 +152,7 @@ private:
     support::replaceTextFile(record_.folder / kCheckChoice, support::jsonText(made, 1) + "\n");
   }
 
-  /// Which runs are to be made: as this very check chose before, or by what the first run takes.
+  /// Selects the runs: the stored choice of this check, or one from the cost of the first run.
   CheckChoice choose() {
     const int seeds = options_.mostSeeds();
     if (options_.budget.empty()) return chooseRuns(record_.cases, seeds, std::nullopt, {}, 1);
@@ -167,26 +167,25 @@ private:
       keepFile(
           {{"asked", asked()}, {"run_s", costs.run}, {"settling_s", costs.settling}, {"choice", choiceJson(*choice)}});
     }
-    tellBudget(choice->seconds, choice->beyondBudget);
+    printBudget(choice->seconds, choice->beyondBudget);
     return *choice;
   }
 
-  void tellBudget(double seconds, const std::vector<std::size_t>& beyondBudget) const {
+  void printBudget(double seconds, const std::vector<std::size_t>& beyondBudget) const {
     std::string names;
     for (const std::size_t c : beyondBudget)
       names += (names.empty() ? "; left out: " : ", ") + record_.cases.cases[c].name;
-    fmt::print("budget    {}: the runs chosen take about {}{}\n", options_.budget, support::Progress::duration(seconds),
+    fmt::print("budget    {}: selected runs take about {}{}\n", options_.budget, support::Progress::duration(seconds),
                names);
   }
 
-  /// Makes the runs of one look after the other until the bars of --of are met, or nothing that may be run brings them
-  /// there.
+  /// Performs the runs of each look until the error bars of --of are met or no permitted run can reduce them enough.
   void runToGoals() {
     GoalChoice choice;
     const nlohmann::json kept = keptFile();
-    const bool goesOn = kept.is_object() && choice.take(kept, record_.cases.cases.size(), record_.looks.most());
+    const bool goesOn = kept.is_object() && choice.restore(kept, record_.cases.cases.size(), record_.looks.most());
     if (options_.budget.empty()) {
-      choice = {}, choice.costs.run = 1; // costs of the cases alone: the same choice on every machine
+      choice = {}, choice.costs.run = 1; // relative costs only: the same choice on every machine
     } else {
       CheckBeds beds(record_.runs.plan.scene, fixed_, record_.cases);
       if (!goesOn) choice = {}, choice.costs = work_.pilot(beds), choice.costs.isKept = nullptr;
@@ -197,7 +196,7 @@ private:
       if (look > 0 && choice.looks[look] == taken_) break;
       taken_ = choice.looks[look];
       keepLooks(choice);
-      record_.isWhole = work_.make(taken_, fmt::format("check, look {}", look + 1));
+      record_.isWhole = work_.make(taken_, fmt::format("check, stage {}", look + 1));
       if (!record_.isWhole || !work_.hasBase()) break;
       findGoals();
     }
@@ -221,14 +220,14 @@ private:
     return nextLook(record_.cases, record_.goals, taken_, record_.looks, costs, fits);
   }
 
-  /// Before the runs of a look are made, so that a call that goes on makes the same.
+  /// Called before the runs of a look, so that a resumed call makes the same choice.
   void keepLooks(const GoalChoice& choice) const {
     if (options_.budget.empty()) return;
     keepFile({{"asked", asked()},
               {"run_s", choice.costs.run},
               {"settling_s", choice.costs.settling},
               {"looks", choice.looks}});
-    tellBudget(secondsOf(record_.cases, choice.costs, taken_) / options_.sweep.jobs, {});
+    printBudget(secondsOf(record_.cases, choice.costs, taken_) / options_.sweep.jobs, {});
   }
 
   CheckResults results() const {
@@ -238,7 +237,7 @@ private:
 
   void findGoals() {
     const CheckResults found = results();
-    if (figures_.empty()) { // without a vehicle names are known from runs
+    if (figures_.empty()) { // without a vehicle, names are known from the runs only
       std::vector<std::string> names;
       for (const CheckFigure& f : found.figures) names.push_back(f.name);
       nameFigures(names);
@@ -256,8 +255,7 @@ private:
       const bool failed = std::any_of(record_.outcomes.begin(), record_.outcomes.end(),
                                       [](const SweepOutcome& o) { return o.status == RunStatus::failed; });
       if (failed) work_.throwBaseFailed();
-      return fmt::print(
-          "check     no run of the scene as it is has ended yet; run the same command again to continue\n");
+      return fmt::print("check     the base case has no finished run yet; run the same command again to continue\n");
     }
     const CheckResults found = results();
     record_.costs = costsOf(record_);
@@ -280,7 +278,7 @@ private:
     keepCheck(origin_, json, static_cast<int>(finished), !options_.figures.empty(), record_.folder);
     if (found.skin == SameBits::no)
       throw base::SimulationError(
-          "another run.skin gave other bits: this is a fault of the program; please report it with the scene");
+          "run.skin changes the results, which is a bug in grouser; please report it with the scene");
   }
 
   const CheckOptions& options_;

@@ -5,19 +5,19 @@
 
 #include <filesystem>
 
-/// Error bars of a scene's figures: by step, seed, extent of the bed, grain size, spheres, precision; and what each
+/// Error bars of a scene's figures by step, seed, extent of the bed, grain size, spheres and precision, and their
 /// costs.
 namespace grouser::sweeps {
 
-/// Runs what is missing, a process a run, and writes check.json, series.csv, costs.json and check.png into
-/// the folder; settled beds are shared with other runs. A check that was killed goes on: its files are then the same as
-/// those of one that was not, and of one with other `jobs`, but for costs.json and what shows it. With a budget the
-/// cost of the first run decides what is made, and is kept in choice.json, so that a call that goes on makes the same
-/// choice. With figures the runs are made look by look until their bars are as narrow as wanted: see check_goals.hpp.
+/// Performs the missing runs, one process each, and writes check.json, series.csv, costs.json and check.png into the
+/// folder; settled beds are shared with other runs. A killed check resumes: its files, except costs.json and plots of
+/// it, do not depend on interruptions or `jobs`. With a budget, the cost of the first run determines the choice of
+/// runs, which choice.json keeps for resumed calls. With figures, runs are added at looks until their error bars are
+/// met: see check_goals.hpp.
 ///
-/// A run that fails is a result: it is shown with its message, and the others go on. Throws InputError where the scene
-/// or the options are wrong, before anything is started; SimulationError at the end where no run of the scene as it is
-/// has ended, or where the skin of the neighbour lists changed a bit.
+/// A failed run is a result, reported with its message; the others continue. Throws
+/// InputError for an invalid scene or option before any run starts; SimulationError at the end if no run of the
+/// unchanged scene finished, or if the skin of the neighbour lists changed the results.
 void runCheck(const std::filesystem::path& scene, const CheckOptions& options);
 
 } // namespace grouser::sweeps

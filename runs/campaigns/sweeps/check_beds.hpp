@@ -12,21 +12,21 @@
 #include <utility>
 #include <vector>
 
-/// Which beds the runs of a check settle, and which of them earlier runs have kept.
+/// Beds that the runs of a check settle, and those in the cache.
 namespace grouser::sweeps {
 
 class CheckBeds {
 public:
-  /// `file` and `fixed`: what the scene was loaded from; it has seeds from its own on.
+  /// `file` and `fixed`: scene file and overrides; seeds count up from that of the scene.
   CheckBeds(const std::filesystem::path& file, const std::vector<std::string>& fixed, const CheckCases& cases);
 
-  /// [cases] the first case that has the same bed for the same seed; where nothing is kept, the case itself.
+  /// [cases] first case with the same bed for the same seed; the case itself without a cache.
   const std::vector<int>& numbers() const { return numbers_; }
-  /// Steps in which the kept bed of that number and of the seed after so many came to rest; empty where none is kept.
+  /// Settling steps of the cached bed of that number and seed offset; empty if not cached.
   std::optional<std::int64_t> keptSteps(int number, int seed);
 
 private:
-  std::vector<scene::Scene> scenes_; ///< [cases] those that are refused have none of their own
+  std::vector<scene::Scene> scenes_; ///< [cases] default-constructed for refused cases
   std::vector<int> numbers_;
   std::optional<storage::BedCache> kept_;
   std::map<std::pair<int, int>, std::optional<std::int64_t>> found_;

@@ -29,11 +29,12 @@ namespace {
 using Overrides = std::vector<std::string>;
 
 constexpr double kFiner = 0.8, kLarger = 1.5, kWiderSkin = 1.5;
-constexpr double kCostOfDouble = 1.6, kCostOfSpheres = 1.3, kCostOfNodes = 1.8; // about, of a whole run
+constexpr double kCostOfDouble = 1.6, kCostOfSpheres = 1.3,
+                 kCostOfNodes = 1.8; // approximate cost of a run over that of the base
 
 std::string set(const std::string& key, double value) { return fmt::format("{}={}", key, value); }
 
-/// A name as part of a key: in quotes where it is no plain word.
+/// Name as part of a key, quoted if it contains other characters than letters, digits and _.
 std::string keyWord(const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
   return plain && !name.empty() ? name : fmt::format("\"{}\"", name);
@@ -47,7 +48,7 @@ public:
         grains_(static_cast<double>(setup::plannedGrains(scene))) {
     all_.seeded = seedMatters(scene);
     CheckCase base;
-    base.name = "base", base.what = "the scene as it is";
+    base.name = "base", base.what = "unchanged scene";
     all_.cases.push_back(base);
   }
 
@@ -69,7 +70,7 @@ private:
            double costOfStep = 1, int refinement = 0) {
     CheckCase c;
     c.axis = axis, c.name = name, c.what = what, c.overrides = overrides, c.refinement = refinement;
-    c.cost = c.settling = std::ldexp(1.0, refinement); // where it is refused, and nothing more is known
+    c.cost = c.settling = std::ldexp(1.0, refinement); // estimate for refused cases
     try {
       Overrides all = fixed_;
       for (const std::string& o : overrides) putOverride(all, o);
@@ -85,7 +86,7 @@ private:
     all_.cases.push_back(std::move(c));
   }
 
-  /// The base's rows, frames and end fall on whole steps of it; so do those of the finer run on whole steps of its own.
+  /// Rows, frames and the end fall on whole steps of the base and of the finer run.
   void addStep(int refinement) {
     const double factor = std::ldexp(1.0, -refinement);
     const std::string name =
@@ -96,7 +97,7 @@ private:
           {set("run.tolerance", tolerance)}, std::sqrt(1 / factor), refinement);
       return;
     }
-    // Coarse steps are as much longer or shorter than 2^k h that they end where the base does.
+    // Coarse steps deviate from 2^k h such that the run ends at the same time as the base.
     const double end = std::max(1.0, std::round(scene_.run.duration / step_)) * step_;
     const double step = refinement > 0 ? factor * step_ : end / std::max(1.0, std::round(end / (factor * step_)));
     const auto whole = [this](double time) { return std::max(1.0, std::round(time / step_)) * step_; };
@@ -134,7 +135,7 @@ private:
     const scene::Terrain* t = bed();
     if (!t) return omit(CheckAxis::width, "no bed of grains");
     if (const std::string other = surfaceAtSides(scene_, kLarger); !other.empty())
-      return omit(CheckAxis::width, fmt::format("{} stands at the bed's sides, and would not move with them", other));
+      return omit(CheckAxis::width, fmt::format("{} stands at a side of the bed and would not move with it", other));
     const double width = kLarger * t->size[1];
     Overrides overrides = {fmt::format("terrain.size=[{}, {}]", t->size[0], width)};
     if (t->tile) overrides.push_back(fmt::format("terrain.tile=[{}, {}]", (*t->tile)[0], kLarger * (*t->tile)[1]));
@@ -142,7 +143,7 @@ private:
       overrides.push_back(fmt::format("run.domain_y=[{}, {}]", (*y)[0] - 0.5 * (kLarger - 1) * ((*y)[1] - (*y)[0]),
                                       (*y)[1] + 0.5 * (kLarger - 1) * ((*y)[1] - (*y)[0])));
     const bool hilly = t->heightRange[0] != t->heightRange[1];
-    add(CheckAxis::width, "wider", fmt::format("{:.4g} m wide{}", width, hilly ? ", the height-map with it" : ""),
+    add(CheckAxis::width, "wider", fmt::format("{:.4g} m wide{}", width, hilly ? ", height-map scaled with it" : ""),
         overrides);
   }
 
@@ -174,15 +175,15 @@ private:
     if (t->coarsestRadius) overrides.push_back(set("terrain.coarsest_radius", share * *t->coarsestRadius));
     addSoilOf(share, overrides);
     if (scene_.run.timeStep) overrides.push_back(set("run.time_step", share * step_));
-    add(CheckAxis::grainSize, "finer", fmt::format("grains x {:.3g}, stiffness and cohesion with them", share),
+    add(CheckAxis::grainSize, "finer", fmt::format("grain radii x {:.3g}, stiffness and cohesion scaled", share),
         overrides);
   }
 
-  /// Stiffness and cohesion that keep strains and strength of the bed's material at another size of its grains.
+  /// Scales stiffness and cohesion of the bed's material such that strains and strength stay.
   void addSoilOf(double share, Overrides& overrides) const {
     const scene::Material& soil = scene_.material(scene_.terrain->material);
     const std::string section = fmt::format("material.{}.", keyWord(soil.name));
-    // What comes from a soil's file goes with the radius by itself.
+    // Values of a soil file scale with the radius automatically.
     const auto given = [&](const char* key) { return !scene::goesWithGrains(scene_, soil.name, key); };
     if (!soil.soil.empty() && given("grain_radius"))
       overrides.push_back(set(section + "grain_radius", share * *soil.grainRadius));
@@ -226,20 +227,17 @@ private:
     const auto drawn = [](int number) { return fmt::format("{}={}", kDrawKey, number); };
     if (!scene_.deformable())
       throw base::InputError(
-          fmt::format("--draws {}: the scene has no deformable soil, whose constants it draws; remove "
-                      "it, or set terrain.kind = \"scm\"",
-                      draws));
+          fmt::format("--draws {}: requires deformable soil; set terrain.kind = \"scm\", or remove --draws", draws));
     if (scene_.scm && scene_.scm->constantsDraw > 0)
-      throw base::InputError(
-          fmt::format("--draws {}: the scene itself has scm.constants_draw = {}; remove that key, so "
-                      "that the base has the nominal constants",
-                      draws, scene_.scm->constantsDraw));
+      throw base::InputError(fmt::format(
+          "--draws {}: the scene sets scm.constants_draw = {}; remove that key to start from the nominal constants",
+          draws, scene_.scm->constantsDraw));
     Overrides first = fixed_;
     putOverride(first, drawn(1));
-    setup::loadScene(file_, first); // throws where all constants are given
+    setup::loadScene(file_, first); // throws if all constants are set
     for (int number = 1; number <= draws; ++number)
-      add(CheckAxis::parameter, fmt::format("draw_{}", number),
-          fmt::format("sample {} of the soil's constants", number), {drawn(number)});
+      add(CheckAxis::parameter, fmt::format("draw_{}", number), fmt::format("sample {} of the soil constants", number),
+          {drawn(number)});
   }
 
   const std::filesystem::path& file_;
@@ -256,7 +254,7 @@ CheckAxis checkAxisOf(const std::string& word) {
   if (axis && axis != CheckAxis::base) return *axis;
   std::vector<std::string> words;
   for (const CheckAxis known : kCheckAxes) words.emplace_back(base::wordOf(known));
-  throw base::InputError(fmt::format("--axes {}: is none of {}", word, fmt::join(words, ", ")));
+  throw base::InputError(fmt::format("--axes {}: unknown axis; axes: {}", word, fmt::join(words, ", ")));
 }
 
 bool seedMatters(const scene::Scene& scene) {

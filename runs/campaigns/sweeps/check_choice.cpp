@@ -15,7 +15,7 @@ namespace grouser::sweeps {
 
 namespace {
 
-/// Seeds of one case where those that scatter have `seeds`.
+/// Seeds of a case if seed-dependent cases have `seeds`.
 int seedsOf(const CheckCases& cases, std::size_t c, int seeds) {
   return !cases.seeded || cases.cases[c].axis == CheckAxis::skin ? 1 : seeds;
 }
@@ -26,7 +26,7 @@ public:
   Spending(const CheckCases& cases, const RunCosts& costs)
       : cases_(&cases), costs_(&costs), taken_(cases.cases.size(), 0), settled_(cases.cases.size(), 0) {}
 
-  /// So many seeds of a case, those taken before among them.
+  /// Raises the seeds of a case to `seeds`.
   void take(std::size_t c, int seeds) {
     const CheckCase& one = cases_->cases[c];
     seconds_ += costs_->run * one.cost * (seeds - taken_[c]);
@@ -43,7 +43,7 @@ private:
   const CheckCases* cases_;
   const RunCosts* costs_;
   std::vector<int> taken_;   // seeds [cases]
-  std::vector<int> settled_; // seeds whose bed has been settled, or was kept [beds]
+  std::vector<int> settled_; // seeds whose bed is settled or cached [beds]
   double seconds_ = 0;
 };
 
@@ -110,7 +110,7 @@ double budgetSeconds(const std::string& text) {
   constexpr double kMost = 3600.0 * 10'000;
   if (error != std::errc() || !(seconds >= 1 && seconds <= kMost))
     throw base::InputError(
-        fmt::format("--budget {}: is no time from 1 s to 10000 h; write e.g. 90s, 20min or 1.5h", text));
+        fmt::format("--budget {}: must be a time from 1 s to 10000 h, e.g. 90s, 20min or 1.5h", text));
   return seconds;
 }
 

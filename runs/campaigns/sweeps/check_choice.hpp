@@ -10,42 +10,39 @@
 #include <string>
 #include <vector>
 
-/// Which runs of a check are made.
+/// Selection of the runs of a check.
 namespace grouser::sweeps {
 
-/// Of which case how many seeds are run.
+/// Number of seeds of each case.
 struct CheckChoice {
   std::vector<int> seeds;                ///< [cases]; 0: none
-  std::vector<std::size_t> beyondBudget; ///< cases that did not fit
-  double seconds = 0;                    ///< that all of it takes by the cost of one run of the base [s]
+  std::vector<std::size_t> beyondBudget; ///< cases that exceed the budget
+  double seconds = 0;                    ///< estimated from the cost of one base run [s]
 
   bool operator==(const CheckChoice&) const = default;
 };
 
-/// What runs cost, as one run of the base has told. Of all runs that have one bed the first settles it, unless an
-/// earlier run has kept it.
+/// Costs of runs, measured in one base run. The first of the runs that share a bed settles it, unless it is cached.
 struct RunCosts {
-  double run = 0;        ///< one of the base, but for its bed's settling [s]
-  double settling = 0;   ///< of the base's bed [s]
-  std::vector<int> beds; ///< [cases] those of one number have one bed for each seed; empty: each run has its own
-  std::function<bool(int bed, int seed)> isKept; ///< of the seed after so many; empty: none is
+  double run = 0;        ///< of a base run without settling [s]
+  double settling = 0;   ///< of the base bed [s]
+  std::vector<int> beds; ///< [cases] equal numbers share a bed per seed; empty: each run has its own
+  std::function<bool(int bed, int seed)> isKept; ///< by seed offset; empty: none is cached
 };
 
-/// Without a budget every case gets `seeds` runs, or one where seeds make no difference. The skin has one: bits are
-/// alike or not.
+/// Without a budget every case gets `seeds` runs, or one without seed dependence. The skin has one, as bits are equal
+/// or not.
 ///
-/// With a budget [s]: three seeds of the base; then each case in its order with three, if the whole of it still fits;
-/// then a seed more for all that were taken, as long as that fits, up to `seeds`. `costs`: when `jobs` runs go at the
-/// same time.
+/// With a budget [s]: three seeds of the base; then three of each case in order, if they fit; then one more
+/// seed for all selected cases while it fits, up to `seeds`. `costs`: with `jobs` concurrent runs.
 CheckChoice chooseRuns(const CheckCases& cases, int seeds, std::optional<double> budget, const RunCosts& costs,
                        int jobs);
-inline constexpr int kFewSeeds = 3; ///< with which an interval begins to say something
+inline constexpr int kFewSeeds = 3; ///< smallest useful sample for an interval
 
-/// Total time of `seeds` runs of each case, run one after another [s].
+/// Total time of `seeds` runs of each case in sequence [s].
 double secondsOf(const CheckCases& cases, const RunCosts& costs, const std::vector<int>& seeds);
 
-/// A choice as it is kept for calls that go on; empty where it is none of these cases, or asks for more than `most`
-/// seeds.
+/// Choice stored for resumed calls; empty if it does not match these cases or exceeds `most` seeds.
 nlohmann::json choiceJson(const CheckChoice& choice);
 std::optional<CheckChoice> keptChoice(const nlohmann::json& json, const CheckCases& cases, int most);
 

@@ -11,18 +11,18 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kSafety = 1.25;                    // Roache's factor for three grids or more
-constexpr double kLeastOrder = 0.5, kMostOrder = 8; // rattle has orders up to 8
-constexpr double kLeastLeft = 0.25;                 // of C h, where no order is seen
-constexpr double kAgree = 0.5;                      // orders of one convergence
+constexpr double kLeastOrder = 0.5, kMostOrder = 8; // the RATTLE scheme has orders up to 8
+constexpr double kLeastLeft = 0.25;                 // share of C h without an observed order
+constexpr double kAgree = 0.5;                      // largest difference of successive orders
 
-/// log2(a / b) where both have one sign and the order is one that a scheme can have.
+/// log2(a / b) if both have the same sign and the order is plausible.
 std::optional<double> orderOf(double a, double b) {
   if (!(a * b > 0)) return std::nullopt;
   const double order = std::log2(a / b);
   return order >= kLeastOrder && order <= kMostOrder ? std::optional(order) : std::nullopt;
 }
 
-/// Seen in the last three differences.
+/// Order of the last three differences.
 std::optional<double> orderSeen(std::span<const double> values) {
   const std::size_t n = values.size();
   if (n < 4) return std::nullopt;
@@ -48,7 +48,7 @@ StepError stepError(std::span<const double> values) {
   double most = 0;
   for (std::size_t i = 0; i + 1 < values.size(); ++i)
     most = std::max(most, std::ldexp(std::fabs(finest - values[i]), static_cast<int>(i)));
-  // The finest value has as much of it left as its step says.
+  // Error of the finest value for first-order convergence.
   const double left = 1 / (std::ldexp(1.0, static_cast<int>(values.size()) - 1) - 1);
   error.bar = std::fabs(error.change) + std::max(kLeastLeft, left) * most;
   return error;

@@ -16,23 +16,23 @@ namespace grouser::sweeps {
 
 namespace {
 
-constexpr double kMissed = 0.05;  // probability that any reading misses the truth
-constexpr double kFarAway = 1000; // bars wanted: stands for a part that no run has measured yet
+constexpr double kMissed = 0.05;  // probability that any interval misses the truth
+constexpr double kFarAway = 1000; // target bars: assumed for a part without runs
 constexpr double kCheap = 1.5;    // runs of the base: cases up to this cost are run first
 
-/// Half width of so many seeds, one of which deviates by so much.
+/// Half width of an interval over seeds with this standard deviation.
 double halfWidth(double deviation, int seeds, double miss) {
   return support::student(seeds - 1, miss) * deviation / std::sqrt(static_cast<double>(seeds));
 }
 
-/// Total bar where each part has the number that `barOf` says.
+/// Total bar of parts whose bars are `barOf`.
 template <class BarOf> double total(const std::vector<BarPart>& parts, const BarOf& barOf) {
   std::vector<double> bars;
   for (const BarPart& part : parts) bars.push_back(barOf(part));
   return totalBar(0, bars);
 }
 
-/// The case behind an axis's error: of the step that of h/2.
+/// The case of an axis; h/2 for the step.
 std::size_t caseOf(const CheckCases& cases, CheckAxis axis) {
   const auto at = std::find_if(cases.cases.begin(), cases.cases.end(), [axis](const CheckCase& c) {
     return c.axis == axis && (axis != CheckAxis::step || c.refinement == 1);
@@ -72,7 +72,7 @@ double expectedBar(const Goal& goal, const std::vector<int>& taken, const std::v
   });
 }
 
-/// `planned` with the next look of case c, and of the base where its pairs want more of that.
+/// `planned` with the next look of case c, and of the base if pairs require it.
 std::vector<int> withMore(const std::vector<int>& planned, std::size_t c, const Looks& looks) {
   std::vector<int> more = planned;
   more[c] = looks.after(planned[c]);
@@ -94,8 +94,8 @@ double worth(const CheckCases& cases, const std::vector<Goal>& goals, const std:
 }
 
 /// Adds looks to `taken` until the open goals are expected to be met, or nothing more can be added.
-std::vector<int> wayToGoals(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
-                            const Looks& looks, const RunCosts& costs, const SeedsFit& fits) {
+std::vector<int> plannedSeeds(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
+                              const Looks& looks, const RunCosts& costs, const SeedsFit& fits) {
   std::vector<int> planned = taken;
   const auto isFar = [&](const Goal& g) {
     return g.state == GoalState::open && expectedBar(g, taken, planned) > g.wanted;
@@ -128,13 +128,13 @@ Goal atLevels(Goal goal, const SeedLevels& levels) {
   return goal;
 }
 
-/// How a goal stands that is not met.
+/// State of an unmet goal.
 GoalState stateOf(const Goal& goal, const Looks& looks, bool seeded) {
   constexpr int kUnlimited = 1'000'000;
   const auto least = [&](int seeds) {
     return total(goal.parts, [&](const BarPart& p) { return std::max(0.0, p.least(std::max(p.seeds, seeds))); });
   };
-  if (!seeded) { // other axes than the step have no more runs
+  if (!seeded) { // only the step axis has more runs
     const double others = total(goal.parts, [](const BarPart& p) { return p.axis == CheckAxis::step ? 0 : p.bar; });
     return others > goal.wanted ? GoalState::limited : GoalState::open;
   }
@@ -142,7 +142,7 @@ GoalState stateOf(const Goal& goal, const Looks& looks, bool seeded) {
   return least(looks.most()) > goal.wanted ? GoalState::beyond : GoalState::open;
 }
 
-/// Small letters, '_' as a blank, without a unit.
+/// Lower case, '_' replaced by a blank, without unit.
 std::string plainName(std::string name) {
   const std::size_t from = name.find(" ["), to = name.find(']');
   if (from < to && to != std::string::npos) name.erase(from, to + 1 - from);
@@ -174,7 +174,7 @@ Looks looksUpTo(int most, bool seeded) {
 }
 
 double BarPart::expected(int more) const {
-  if (!std::isfinite(deviation)) return 0; // unknown: run it
+  if (!std::isfinite(deviation)) return 0; // unknown: assume zero so that it is run
   const double scatter = deviation * deviation;
   const double truth = seeds > 0 ? std::max(0.0, change * change - scatter / seeds) : 0;
   const double expectedChange = axis == CheckAxis::base ? 0 : std::sqrt(truth + scatter / more);
@@ -182,10 +182,10 @@ double BarPart::expected(int more) const {
 }
 
 double BarPart::least(int more) const {
-  if (seeds < kFewSeeds) return 0; // as where runs failed: too few to end a check
+  if (seeds < kFewSeeds) return 0; // too few seeds to end a check, e.g. after failed runs
   const double root = std::sqrt(static_cast<double>(seeds));
   const double leastChange = std::max(0.0, std::fabs(change) - 2 * deviation / root);
-  constexpr int kKnown = 1000; // from here on the quantile changes no more
+  constexpr int kKnown = 1000; // the quantile is constant beyond
   const double quantile = support::student(std::min(more, kKnown) - 1, miss);
   return factor * (leastChange + quantile * deviation / (1 + 1.6 / root) / std::sqrt(static_cast<double>(more)));
 }
@@ -226,7 +226,7 @@ void keepGoalCases(CheckCases& cases, const std::vector<CheckAxis>& axes) {
     if (hasPart(cases, c) || (isOther && isNamed(one.axis)))
       kept.push_back(one);
     else if (isOther)
-      cases.omitted.push_back({one.axis, "no part in the bars of --of; name it in --axes to run it"});
+      cases.omitted.push_back({one.axis, "does not affect the error bars of --of; add it to --axes to run it"});
   }
   cases.cases = std::move(kept);
 }
@@ -283,7 +283,7 @@ std::vector<int> nextLook(const CheckCases& cases, const std::vector<Goal>& goal
                           const Looks& looks, const RunCosts& costs, const SeedsFit& fits) {
   const auto isOpen = [](const Goal& g) { return g.state == GoalState::open; };
   if (!cases.seeded || std::none_of(goals.begin(), goals.end(), isOpen)) return taken;
-  const std::vector<int> way = wayToGoals(cases, goals, taken, looks, costs, fits);
+  const std::vector<int> way = plannedSeeds(cases, goals, taken, looks, costs, fits);
   std::vector<int> next = taken;
   for (std::size_t c = 0; c < next.size(); ++c)
     if (way[c] > taken[c]) next[c] = looks.after(taken[c]);
@@ -300,7 +300,7 @@ std::vector<int> seedsToReach(const CheckCases& cases, const Goal& goal, const s
   for (int most = looks.most();; most = std::min(kMost, 2 * most)) {
     const Looks more = most == looks.most() ? looks : looksUpTo(most, true);
     const Goal asked = atLevels(goal, more.levels);
-    std::vector<int> planned = wayToGoals(cases, {asked}, taken, more, costs, any);
+    std::vector<int> planned = plannedSeeds(cases, {asked}, taken, more, costs, any);
     if (expectedBar(asked, taken, planned) <= asked.wanted) return planned;
     if (most >= kMost) return {};
   }

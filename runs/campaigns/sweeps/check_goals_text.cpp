@@ -36,7 +36,7 @@ std::string nameOf(const BarPart& part) {
   return part.axis == CheckAxis::base ? "seeds" : std::string(base::wordOf(part.axis));
 }
 
-/// Cases that count in the bars of goals and lack runs: "floor (failed)".
+/// Cases that contribute to the bars of goals but lack runs: "floor (failed)".
 std::vector<std::string> missingCases(const CheckRecord& record) {
   std::vector<std::string> missing;
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
@@ -53,7 +53,7 @@ const char* stateOf(const CheckRecord& record, const Goal& goal) {
   return goal.state == GoalState::met && !missingCases(record).empty() ? "inconclusive" : wordOf(goal.state);
 }
 
-/// Seeds of each case so far.
+/// Present number of seeds of each case.
 std::vector<int> seedsSoFar(const CheckRecord& record) {
   std::vector<int> seeds(record.cases.cases.size(), 0);
   for (const std::size_t c : record.runs.caseOf) ++seeds[c];
@@ -69,19 +69,19 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
     runs += toReach[c] - taken[c];
     if (std::isfinite(record.costs[c].wall)) seconds += record.costs[c].wall * (toReach[c] - taken[c]) / record.jobs;
   }
-  if (runs == 0) return "not even 1000 seeds are likely to reach it";
+  if (runs == 0) return "even 1000 seeds are unlikely to reach it";
   return fmt::format("about {} more {} would reach it ({}, up to {} seeds)", runs, runs == 1 ? "run" : "runs",
                      support::Progress::duration(seconds), *std::max_element(toReach.begin(), toReach.end()));
 }
 
-/// Next step of the user, for a bar that is not met.
+/// Remedy for an unmet bar.
 std::string remedy(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
   const BarPart& worst = *goal.largest();
   if (goal.state == GoalState::limited)
     return fmt::format("{} alone changes it by {:+.3g} {}, which no number of seeds reduces: change the scene",
                        nameOf(worst), worst.change, unitOf(goal.figure));
   if (!record.isWhole) return "run the same command again to continue";
-  if (!record.cases.seeded) return "a finer step than those run would be needed";
+  if (!record.cases.seeded) return "needs a finer step than those tested";
   return moreText(record, toReach);
 }
 
@@ -98,8 +98,8 @@ std::string lineOf(const CheckRecord& record, const Goal& goal, const std::vecto
                                  share(goal.bar), stateOf(record, goal));
   const BarPart* worst = goal.largest();
   if (goal.state != GoalState::met && worst)
-    text +=
-        fmt::format("; largest part: {} {} %; {}", nameOf(*worst), share(worst->bar), remedy(record, goal, toReach));
+    text += fmt::format("; largest contribution: {} {} %; {}", nameOf(*worst), share(worst->bar),
+                        remedy(record, goal, toReach));
   return text + "\n";
 }
 
@@ -128,10 +128,12 @@ nlohmann::ordered_json goalsJson(const CheckRecord& record) {
 std::string goalsText(const CheckRecord& record, double percent) {
   if (record.looks.seeds.empty()) return "";
   std::string text =
-      fmt::format("\nbars of --of at {:g} %, {}", percent, base::counted(record.runs.caseOf.size(), "run"));
-  if (record.cases.seeded) text += fmt::format(", intervals read at {} seeds", fmt::join(record.looks.seeds, ", "));
+      fmt::format("\nerror bars of --of at {:g} %, {}", percent, base::counted(record.runs.caseOf.size(), "run"));
+  if (record.cases.seeded)
+    text += fmt::format(", intervals evaluated at {} seeds", fmt::join(record.looks.seeds, ", "));
   text += "\n";
-  if (record.goals.empty()) text += "  some of the first runs have not ended; run the same command again to continue\n";
+  if (record.goals.empty())
+    text += "  some of the first runs have not finished; run the same command again to continue\n";
   for (std::size_t g = 0; g < record.goals.size(); ++g) text += lineOf(record, record.goals[g], record.toReach[g]);
   if (const std::vector<std::string> missing = missingCases(record); !missing.empty())
     text += fmt::format("  missing from these bars: {}\n", fmt::join(missing, ", "));

@@ -7,13 +7,13 @@
 
 #include <string>
 
-/// Reports on the bars that --of asks for.
+/// Reports on the error bars of --of.
 namespace grouser::sweeps {
 
-/// [goals]: figure, bar wanted and reached, parts of the bar, and the seeds that would reach it.
+/// [goals]: figure, target and actual bar, its parts, and the seeds that would reach the target.
 nlohmann::ordered_json goalsJson(const CheckRecord& record);
 
-/// A line a goal for a terminal, with the run time that is still to be expected. Empty without goals.
+/// One line per goal for the terminal, with the expected remaining run time. Empty without goals.
 std::string goalsText(const CheckRecord& record, double percent);
 
 } // namespace grouser::sweeps

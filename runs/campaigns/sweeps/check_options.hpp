@@ -12,12 +12,12 @@ namespace grouser::sweeps {
 
 struct CheckOptions {
   std::vector<std::string> fixed;   ///< overrides "key=value" of all runs
-  std::optional<int> seeds;         ///< most of each case, from the scene's run.seed on; default: 8, with figures 24
-  double percent = 5;               ///< of a figure's mean: the bar of the verdicts, and that wanted of figures
-  std::vector<std::string> figures; ///< whose bars decide what is run: words of goalFigure(); empty: all is run
-  std::vector<CheckAxis> axes;      ///< to be looked at; empty: all
+  std::optional<int> seeds;         ///< maximum per case, starting at run.seed; default: 8, with figures 24
+  double percent = 5;               ///< of a figure's mean: bar of the verdicts and target of figures
+  std::vector<std::string> figures; ///< figures with target bars, words of goalFigure(); empty: all cases are run
+  std::vector<CheckAxis> axes;      ///< axes to vary; empty: all
   int draws = 0;                    ///< samples of the constants of deformable soil
-  std::string budget;               ///< "20min": wall time for all; empty: no end
+  std::string budget;               ///< total wall time, e.g. "20min"; empty: unlimited
   SweepOptions sweep;               ///< folder, jobs, seconds of this call
 
   int mostSeeds() const { return seeds.value_or(figures.empty() ? 8 : 24); }

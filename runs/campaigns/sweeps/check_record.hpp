@@ -10,13 +10,13 @@
 
 namespace grouser::sweeps {
 
-/// Cost of one case: medians over the runs that have ended; NaN if none has.
+/// Cost of a case: medians over its finished runs; NaN without any.
 struct CaseCost {
-  double wall = 0, cpu = 0; ///< [s] a run, preparation included; in steps alone, all threads together
+  double wall = 0, cpu = 0; ///< [s] per run with preparation; of the steps only, all threads
   double steps = 0;
 };
 
-/// All that a report tells of, but for the results themselves.
+/// Data of a report except the results.
 struct CheckRecord {
   std::filesystem::path folder; ///< of the check
   CheckCases cases;
@@ -24,22 +24,22 @@ struct CheckRecord {
   std::vector<SweepOutcome> outcomes;
   std::vector<CaseCost> costs;           ///< [cases] see costsOf()
   std::vector<std::size_t> beyondBudget; ///< cases that the budget left out
-  std::string scene, origin;             ///< its file; hash of what decides its results
-  int jobs = 1;                          ///< runs at the same time
+  std::string scene, origin;             ///< file; hash of everything that determines the results
+  int jobs = 1;                          ///< concurrent runs
   Looks looks;                           ///< of a check with --of; else empty
   std::vector<Goal> goals;               ///< likewise
   std::vector<std::vector<int>> toReach; ///< [goals][cases] seeds that likely reach it; empty: see seedsToReach()
-  bool isWhole = true;                   ///< all runs chosen have ended
+  bool isWhole = true;                   ///< all selected runs have ended
 };
 
 /// [cases] from the manifests of the runs.
 std::vector<CaseCost> costsOf(const CheckRecord& record);
 
-/// "finished", "incomplete", "failed" (all runs), "partly failed", "refused", "left out" or "not begun", with the
-/// message behind it where there is one.
+/// "finished", "incomplete", "failed" (all runs), "partly failed", "refused", "left out" or "not begun", with its
+/// message if any.
 struct CaseStatus {
   std::string word, message;
-  bool isNeeded = true; ///< false: left out because it could not change a verdict
+  bool isNeeded = true; ///< false: left out as it cannot change a verdict
 };
 CaseStatus statusOf(const CheckRecord& record, std::size_t aCase);
 

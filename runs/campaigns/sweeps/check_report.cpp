@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kPercents[] = {10, 5, 1};
-constexpr int kMostTold = 24; // figures in a terminal
+constexpr int kMostPrinted = 24; // maximum number of figures in the terminal
 
 Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -49,7 +49,7 @@ Json errorJson(const AxisError& e, const CheckFigure& f) {
 }
 
 bool isInconclusive(const CheckResults& results, const CheckFigure& f) {
-  const bool isNothing = f.value.value == 0 && f.bar == 0; // in all runs
+  const bool isNothing = f.value.value == 0 && f.bar == 0; // zero in all runs
   return (!results.doubt.empty() && !isNothing) || jobs::isInconclusive({f.value.value, f.bar});
 }
 
@@ -68,7 +68,7 @@ Json figureJson(const CheckFigure& f, const CheckResults& results) {
   return json;
 }
 
-/// A message without the name that the folder was given.
+/// Message without the path of the folder.
 std::string placeless(std::string message, const CheckRecord& record) {
   const std::string folder = (record.folder / "").string();
   for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder, at))
@@ -100,7 +100,7 @@ std::string changeText(const support::Estimate& change) {
   return fmt::format("{}{}", change.value < 0 ? "" : "+", jobs::valueText(change));
 }
 
-/// "-0.5 +- 4.2 %"; empty where the value may as well be zero.
+/// "-0.5 +- 4.2 %"; empty if the value is not significantly different from zero.
 std::string shareText(const CheckFigure& f, const support::Estimate& change) {
   const double value = std::fabs(f.value.value);
   if (value == 0 || value <= f.value.halfWidth) return "";
@@ -114,7 +114,7 @@ std::string remark(const CheckResults& results, const CheckFigure& f, const Axis
                                                           : "OUTSIDE the seeds' interval";
   if (e.axis == CheckAxis::parameter) return base::counted(e.seeds, "sample");
   if (e.axis != CheckAxis::step) return "";
-  return e.order ? fmt::format("order {:.1f}", *e.order) : "no order seen";
+  return e.order ? fmt::format("order {:.1f}", *e.order) : "no observed order";
 }
 
 std::string cheapestText(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
@@ -124,7 +124,7 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
     const std::string seeds = results.seeded ? ", " + base::counted(c.seeds, "seed") : "";
     parts.push_back(fmt::format("{:g} %: {}", percent,
                                 c.name.empty()
-                                    ? "no setting run"
+                                    ? "no tested setting"
                                     : fmt::format("{}{}, {}", c.name, seeds, support::Progress::duration(c.wall))));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
@@ -137,7 +137,7 @@ bool hasSoilAxes(const CheckFigure& f) {
   });
 }
 
-/// "depth, width  left out: no bed of grains": a line for each reason.
+/// "depth, width  left out: no bed of grains": one line per reason.
 std::string omittedText(const std::vector<CheckOmission>& omitted) {
   std::vector<std::pair<std::string, std::string>> lines; // reason, axes
   for (const CheckOmission& o : omitted) {
@@ -166,7 +166,7 @@ std::string linesOf(const CheckRecord& record, const CheckResults& results, cons
   return text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
 }
 
-/// Of runs that repeat, a figure a line: its bar, the order of the step, and the cheapest step that keeps 1 %.
+/// One line per figure of reproducible runs: bar, order of the step, and the cheapest step within 1 %.
 std::string lineOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::string order;
   for (const AxisError& e : f.errors)
@@ -190,7 +190,7 @@ Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const 
   for (std::size_t i = 0; i < results.stepCases.size(); ++i) {
     const double bar = figure.barOfStep[i];
     if (!(bar < most)) continue;
-    // What the step leaves of the bar is for the seeds.
+    // The seeds get the rest of the bar.
     const int seeds = results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth,
                                                 figure.seeds, results.levels.value)
                                      : 1;
@@ -219,7 +219,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
   json["figures"] = Json::array();
   for (const CheckFigure& f : results.figures) {
     json["figures"].push_back(figureJson(f, results));
-    json["figures"].back()["headline"] = isHeadline(results, f) && isTold(f);
+    json["figures"].back()["headline"] = isHeadline(results, f) && isAboveRounding(f);
   }
   return support::jsonText(json, 1) + "\n";
 }
@@ -249,7 +249,7 @@ std::string costsJson(const CheckRecord& record, const CheckResults& results) {
   return support::jsonText(json, 1) + "\n";
 }
 
-bool isTold(const CheckFigure& figure) {
+bool isAboveRounding(const CheckFigure& figure) {
   constexpr double kRounding = 1e-12;
   const double rounding = kRounding * figure.scale;
   return std::isfinite(figure.value.value) && (std::fabs(figure.value.value) > rounding || figure.bar > rounding);
@@ -268,19 +268,19 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
     return f.name.ends_with(" at the end") && !f.name.starts_with("ledger.");
   };
   if (has(ofVehicle)) return ofVehicle(figure);
-  // Of few grains each is looked at.
+  // With few grains each is a figure.
   if (has(isForce)) return isForce(figure) || (isEnd(figure) && figure.name.starts_with("grain."));
   return !has(isEnd) || isEnd(figure);
 }
 
 std::string checkText(const CheckRecord& record, const CheckResults& results) {
-  std::string text = fmt::format("\n{}: values with error bars; changes from the scene as it is, verdicts at {:g} %\n",
+  std::string text = fmt::format("\n{}: values with error bars; changes from the unchanged scene, verdicts at {:g} %\n",
                                  record.scene, results.percent);
-  int told = 0, more = 0;
+  int printed = 0, more = 0;
   for (const CheckFigure& f : results.figures) {
-    if (!isHeadline(results, f) || !isTold(f)) continue;
-    if (++told > kMostTold) ++more;
-    if (told > kMostTold) continue;
+    if (!isHeadline(results, f) || !isAboveRounding(f)) continue;
+    if (++printed > kMostPrinted) ++more;
+    if (printed > kMostPrinted) continue;
     text += results.seeded || hasSoilAxes(f) ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);

@@ -6,31 +6,30 @@
 #include <string>
 #include <vector>
 
-/// What a check leaves: as text, as files, and as a page.
+/// Reports of a check as text, JSON and a plot.
 namespace grouser::sweeps {
 
-/// Of a figure the cheapest step, with so many seeds, that keeps its error by both within `percent` of its value.
+/// Cheapest time step and number of seeds that keep the error of a figure within `percent` of its value.
 struct Cheapest {
-  std::string name; ///< of the case; empty: none of those run
+  std::string name; ///< of the case; empty: none of the tested ones
   double step = 0;  ///< error bar by the step [-]
-  int seeds = 0;    ///< 1 where they make no difference
-  double wall = 0;  ///< of all these runs, one after the other [s]
+  int seeds = 0;    ///< 1 without seed dependence
+  double wall = 0;  ///< of all these runs in sequence [s]
 };
 Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const CheckFigure& figure, double percent);
 
-/// Values, errors, verdicts and what was run: the same bytes whenever and however the runs were made. Figures without a
-/// number are null.
+/// Values, errors, verdicts and runs: the same bytes however the runs were scheduled. Figures without a number are
+/// null.
 std::string checkJson(const CheckRecord& record, const CheckResults& results);
-/// What each run took on this machine, and the cheapest settings for 10, 5 and 1 %.
+/// Costs of the runs on this machine, and the cheapest settings for 10, 5 and 1 %.
 std::string costsJson(const CheckRecord& record, const CheckResults& results);
 
-/// The figures one asks for first, to read in a terminal.
+/// The main figures, for the terminal.
 std::string checkText(const CheckRecord& record, const CheckResults& results);
 
-/// Whether a figure says more than that something is zero: it is known, and itself or its bar is above rounding, 1e-12
-/// of its scale.
-bool isTold(const CheckFigure& figure);
-/// Of a vehicle the figures one asks for first, of surfaces forces, else all.
+/// Whether a figure is known and its value or bar is above rounding, 1e-12 of its scale.
+bool isAboveRounding(const CheckFigure& figure);
+/// Main figures: those of a vehicle, forces of surfaces, else all.
 bool isHeadline(const CheckResults& results, const CheckFigure& figure);
 
 inline constexpr const char *kCheckFile = "check.json", *kCheckCosts = "costs.json", *kCheckSeries = "series.csv",

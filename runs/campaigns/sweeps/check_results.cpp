@@ -15,7 +15,7 @@ namespace grouser::sweeps {
 
 namespace {
 
-/// Figures of all runs: those of a sweep, and of scenes without a vehicle all columns at the end.
+/// Figures of all runs: those of a sweep, and final values of all columns in scenes without a vehicle.
 SweepFigures figuresOf(const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
                        const std::filesystem::path& folder, bool hasVehicle, std::string& doubt) {
   SweepFigures figures = sweepFigures(runs.plan, outcomes, folder);
@@ -24,7 +24,7 @@ SweepFigures figuresOf(const CheckRuns& runs, const std::vector<SweepOutcome>& o
   doubt = figures.doubtOf(all);
   figures.keepSound(all);
   if (hasVehicle) return figures;
-  std::map<std::string, std::size_t> columnOf; // of what is added
+  std::map<std::string, std::size_t> columnOf; // columns of final values
   for (std::size_t r = 0; r < runs.plan.runs.size(); ++r) {
     if (!output::hasEnded(outcomes[r].status)) continue;
     const RunSeries& series = runs.series[r];
@@ -53,7 +53,7 @@ public:
       if (std::isfinite(at(run))) values.push_back(at(run));
     return values;
   }
-  /// Differences from case `from` to case `to`, seed by seed, of the seeds that both have, and `third` where it is one.
+  /// Differences from case `from` to case `to` over their common seeds, which `third` must also have if given.
   std::vector<double> changes(std::size_t from, std::size_t to, std::optional<std::size_t> third) const {
     std::vector<std::size_t> cases = {from, to};
     if (third) cases.push_back(*third);
@@ -71,7 +71,7 @@ private:
   std::size_t column_;
 };
 
-/// Index of the case of a refinement of the step (0: the base); none where it is missing.
+/// Index of the case with this refinement of the step (0: the base); empty if missing.
 std::optional<std::size_t> stepCase(const CheckCases& cases, int refinement) {
   for (std::size_t c = 0; c < cases.cases.size(); ++c) {
     const CheckAxis axis = cases.cases[c].axis;
@@ -80,7 +80,7 @@ std::optional<std::size_t> stepCase(const CheckCases& cases, int refinement) {
   return std::nullopt;
 }
 
-/// The verdict on a change of a figure; none is shown of one whose mean may as well be zero, unless nothing changed.
+/// Verdict on a change of a figure; inconclusive if the mean is not significant, unless nothing changed.
 jobs::Verdict verdictOf(const CheckFigure& figure, const AxisError& error, double bar, bool seeded) {
   const double mean = std::fabs(figure.value.value);
   if (error.change.value == 0 && error.change.halfWidth == 0) return jobs::Verdict::equal;
@@ -89,7 +89,7 @@ jobs::Verdict verdictOf(const CheckFigure& figure, const AxisError& error, doubl
   return seeded ? judgeSeeds(share, bar, error.seeds) : jobs::judge(share, bar);
 }
 
-/// Makes one figure of the values of all cases.
+/// Computes one figure from the values of all cases.
 class FigureMaker {
 public:
   FigureMaker(const CheckCases& cases, const Values& values, const CheckResults& asked)
@@ -121,7 +121,7 @@ private:
     figure_.errors.push_back(error);
   }
 
-  /// Values at h, h/2, h/4... as far as they are there, from this refinement on.
+  /// Available values at h, h/2, h/4..., starting at this refinement.
   std::vector<double> refined(int from) const {
     std::vector<double> values;
     for (int refinement = from;; ++refinement) {
@@ -136,17 +136,17 @@ private:
     const std::vector<double> values = refined(0);
     if (values.size() < 2) return;
     const StepError e = stepError(values);
-    // The bar reaches as far as the change and what is not known of it.
+    // The bar covers the change and its uncertainty.
     const double rest = std::max(0.0, e.bar - std::fabs(e.change));
     add({CheckAxis::step, {e.change, rest}, e.order, 1, std::max(e.bar, std::fabs(e.change)), {}});
   }
 
-  /// Changes from case `from` to case `to`, of the seeds that all three cases have; the third may be missing.
+  /// Changes from case `from` to case `to` over the common seeds of all three cases; the third is optional.
   std::vector<double> changes(std::size_t from, std::size_t to, std::optional<std::size_t> third) const {
     return values_.changes(from, to, third);
   }
 
-  /// The step's error at the base, from h to h/2 and, where it is there for the same seeds, from 2 h to h.
+  /// Error of the step at the base, from h to h/2 and, if available for the same seeds, from 2 h to h.
   ScatteredStepError scatteredAtBase(std::size_t& seeds) const {
     const auto fine = stepCase(cases_, 1), coarse = stepCase(cases_, -1);
     const std::vector<double> both = coarse ? changes(0, *fine, coarse) : std::vector<double>{};
@@ -180,8 +180,7 @@ private:
          {}});
   }
 
-  /// Scatter of the figure with the soil's constants: the interval in which one more sample lies, about the samples'
-  /// mean.
+  /// Scatter of the figure with the soil constants: prediction interval of one more sample.
   void addParameter() {
     std::vector<double> samples;
     for (std::size_t c = 1; c < cases_.cases.size(); ++c) {
@@ -205,7 +204,7 @@ private:
     return cases_.seeded ? jobs::interval(change, asked_.levels.change) : support::Estimate{change.front(), 0};
   }
 
-  /// Error bar of the figure at the step of case c, all else as in the base.
+  /// Error bar of the figure at the step of case c with the other settings of the base.
   double barOfStep(std::size_t c) const {
     const int refinement = cases_.cases[c].refinement;
     if (!cases_.seeded) {
@@ -217,7 +216,7 @@ private:
     std::size_t seeds = 0;
     const ScatteredStepError base = scatteredAtBase(seeds);
     if (c == 0) return base.bar;
-    // What lies between this case and the base is added to the base's error, or taken off.
+    // The change from this case to the base is added to the error of the base.
     const std::vector<double> change = changes(c, 0, std::nullopt);
     if (change.empty()) return base::kNaN;
     const support::Estimate apart = over(change);
@@ -231,7 +230,7 @@ private:
   CheckFigure figure_;
 };
 
-/// To each figure the largest value among those of its unit.
+/// Sets the scale of each figure to the largest value with its unit.
 void findScales(std::vector<CheckFigure>& figures) {
   std::map<std::string, double> largest;
   for (const CheckFigure& f : figures) {
@@ -241,7 +240,7 @@ void findScales(std::vector<CheckFigure>& figures) {
   for (CheckFigure& f : figures) f.scale = largest[unitOf(f.name)];
 }
 
-/// Whether the runs of the skin's case end in the bits of the base's with the same seed.
+/// Whether the runs with another skin end in the same state as those of the base.
 SameBits sameBits(const CheckCases& cases, const RunsByCase& byCase, const CheckRuns& runs,
                   const std::vector<SweepOutcome>& outcomes, const std::filesystem::path& folder) {
   SameBits same = SameBits::notRun;

@@ -21,7 +21,7 @@ struct Member {
   const RunSeries* series;
 };
 
-/// Those of the base and of finer steps that have ended.
+/// Finished runs of the base and of finer steps.
 std::vector<Member> membersOf(const CheckCases& cases, const CheckRuns& runs,
                               const std::vector<SweepOutcome>& outcomes) {
   std::vector<Member> members;
@@ -40,13 +40,13 @@ bool sameTimes(const RunSeries& a, const RunSeries& b) {
   return true;
 }
 
-/// Mean and half width; of runs that repeat the one value.
+/// Mean and half width; for reproducible runs the single value.
 support::Estimate estimateOf(const std::vector<double>& values, bool seeded, double miss) {
   if (values.empty()) return {base::kNaN, base::kNaN};
   return seeded ? jobs::interval(values, miss) : support::Estimate{values.front(), 0};
 }
 
-/// Numbers of one column in one row, by refinement and seed.
+/// Values of one column in one row, by refinement and seed.
 using Cell = std::map<int, std::map<std::int64_t, double>>;
 
 double stepBar(const Cell& cell, bool seeded, double miss) {
@@ -101,7 +101,7 @@ CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const st
   std::erase_if(members, [&](const Member& m) { return !sameTimes(*m.series, first); });
   all.time = first.time;
   for (const std::string& column : first.columns) {
-    if (column.starts_with("terrain.rebuilds")) continue; // of the search, not of the ground
+    if (column.starts_with("terrain.rebuilds")) continue; // depends on the neighbour search
     SeriesWithBars& s = all.series.emplace_back();
     s.name = column;
     const Column ofColumn(members, column);

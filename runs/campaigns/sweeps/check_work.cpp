@@ -51,12 +51,13 @@ RunCosts CheckWork::pilot(CheckBeds& beds) {
   };
   RunCosts costs;
   costs.settling = part("wall_settling_s");
-  costs.run = std::max(1e-3, wall - costs.settling - part("wall_cutting_s")); // spheres are cut once for all runs
-  // A kept bed records its number of steps, but not the time they took.
+  costs.run =
+      std::max(1e-3, wall - costs.settling - part("wall_cutting_s")); // sphere sets are generated once for all runs
+  // A cached bed records its number of steps, but not their wall time.
   if (!settles) costs.settling = 1e-6 * part("microseconds_a_step") * static_cast<double>(*beds.keptSteps(0, 0));
   costs.beds = beds.numbers();
   costs.isKept = [&beds, seed, settles](int bed, int of) {
-    const bool justMade = settles && bed == 0 && of == seed; // by the first run: its cost counts
+    const bool justMade = settles && bed == 0 && of == seed; // settled by the first run: its cost counts
     return !justMade && beds.keptSteps(bed, of).has_value();
   };
   return costs;
@@ -79,7 +80,7 @@ void CheckWork::addRun(std::size_t c, int seedIndex) {
 void CheckWork::makeAdded(const std::string& what) {
   SweepOptions sweep = options_.sweep;
   sweep.made = made_;
-  // Both limits hold for the whole call, also where the first run predicts less than the others take.
+  // Both limits hold for the whole call, even if the first run underestimates the others.
   const double budget = options_.budget.empty() ? 0 : budgetSeconds(options_.budget);
   for (const double limit : {budget, options_.sweep.seconds}) {
     if (limit <= 0) continue;
@@ -96,7 +97,7 @@ void CheckWork::makeAdded(const std::string& what) {
     if (output::hasEnded(record_.outcomes[r].status)) read(r);
 }
 
-/// Reads the series of a run. One with damaged files has failed, and the next call makes it again.
+/// Reads the series of a run. A run with damaged files counts as failed and is repeated by the next call.
 void CheckWork::read(std::size_t r) {
   const fs::path folder = record_.folder / record_.runs.plan.runs[r].name;
   try {
@@ -105,9 +106,9 @@ void CheckWork::read(std::size_t r) {
     support::Hdf5File::open(folder / "results.h5");
     record_.runs.series[r] = std::move(series);
   } catch (const std::exception& error) {
-    record_.outcomes[r] = {RunStatus::failed, fmt::format("its results are damaged: {}; the same call again makes "
-                                                          "them anew",
-                                                          error.what())};
+    record_.outcomes[r] = {
+        RunStatus::failed,
+        fmt::format("its results are damaged: {}; run the same command again to repeat it", error.what())};
     std::error_code none;
     fs::remove(folder / "manifest.json", none);
   }
@@ -123,7 +124,7 @@ void CheckWork::throwBaseFailed() const {
   std::string why;
   for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
     if (record_.runs.caseOf[r] == 0) why = record_.outcomes[r].message;
-  throw base::SimulationError(fmt::format("no run of the scene as it is has ended: {}", why));
+  throw base::SimulationError(fmt::format("no run of the unchanged scene finished: {}", why));
 }
 
 } // namespace grouser::sweeps

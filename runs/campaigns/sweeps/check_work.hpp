@@ -11,25 +11,25 @@
 #include <string>
 #include <vector>
 
-/// Makes the runs of a check.
+/// Performs the runs of a check.
 namespace grouser::sweeps {
 
 class CheckWork {
 public:
-  /// `record` holds the cases and the scene's file, and gets runs and outcomes; `fixed`: overrides of all runs.
+  /// `record` contains the cases and the scene file, and receives runs and outcomes; `fixed`: overrides of all runs.
   CheckWork(const CheckOptions& options, const std::vector<std::string>& fixed, std::int64_t firstSeed,
             CheckRecord& record)
       : options_(options), fixed_(fixed), firstSeed_(firstSeed), record_(record) {}
 
-  /// Makes those of so many seeds of each case [cases] that are not made yet; `what` stands before the lines of
-  /// progress. Returns whether all have ended, well or not: the time of this call may be over before.
+  /// Performs missing runs up to these seeds of each case [cases]; `what`: label of the progress lines. Returns whether
+  /// all have ended or failed; false if the time limit of this call was reached.
   bool make(const std::vector<int>& seeds, const std::string& what);
 
-  /// Makes a run of the base, and returns what runs cost by it. Of the seeds that are run in any case it takes one
-  /// whose bed no run has kept, so that it settles its bed as other cases will theirs.
+  /// Performs a base run and returns the costs of runs estimated from it. Prefers a seed without cached bed, so that
+  /// the costs include settling.
   RunCosts pilot(CheckBeds& beds);
 
-  /// Whether the base has a run that ended.
+  /// Whether the base has a finished run.
   bool hasBase() const;
   [[noreturn]] void throwBaseFailed() const;
 
@@ -44,7 +44,7 @@ private:
   CheckRecord& record_;
   std::vector<int> added_; ///< [cases] seeds
   support::Stopwatch clock_;
-  std::vector<std::string> made_; ///< names of runs that this call has made
+  std::vector<std::string> made_; ///< names of runs performed by this call
 };
 
 } // namespace grouser::sweeps

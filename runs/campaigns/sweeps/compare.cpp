@@ -32,14 +32,14 @@ namespace {
 constexpr const char* kVariantKey = "variant";
 constexpr const char *kText = "compare.txt", *kTable = "compare.csv", *kJson = "compare.json", *kPlot = "compare.png";
 
-/// One way of running the scene.
+/// A variant of the scene.
 struct Variant {
   std::string option, word;
   bool random; ///< it has a run for each seed
   std::vector<std::string> overrides;
 };
 
-/// Calls `make`, whose faults then name the variant.
+/// Calls `make` and adds the variant to its error messages.
 template <class Make> auto naming(const std::string& option, const std::string& word, const Make& make) {
   try {
     return make();
@@ -62,7 +62,7 @@ std::vector<Variant> variantsOf(const fs::path& scene, const CompareOptions& opt
   return variants;
 }
 
-/// Words of an option, each another value, at least two.
+/// Values of an option: at least two, all different.
 template <class Enum>
 std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::string& option, const char* what) {
   std::vector<Enum> values;
@@ -71,7 +71,7 @@ std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::
     const auto value = base::valueOf<Enum>(word);
     if (!value) throw InputError(fmt::format("{} {}: is not {}; give two or more of {}", option, word, what, choices));
     if (std::find(values.begin(), values.end(), *value) != values.end())
-      throw InputError(fmt::format("{}: {} is there twice; remove one", option, word));
+      throw InputError(fmt::format("{}: {} is listed twice; remove one", option, word));
     values.push_back(*value);
   }
   if (values.size() < 2)

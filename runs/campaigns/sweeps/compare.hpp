@@ -15,22 +15,22 @@ struct CompareOptions {
   std::vector<scene::TerrainKind> grounds;    ///< at least two, or none
   std::vector<scene::ContactMethod> contacts; ///< at least two, or none
   int seeds = 3;                              ///< runs per variant with grains; other grounds have one run
-  std::vector<std::string> fixed;             ///< "key=value", of all runs
-  double percent = 5;                         ///< difference of two figures that counts as equal
+  std::vector<std::string> fixed;             ///< "key=value" for all runs
+  double percent = 5;                         ///< largest difference of figures that counts as equal
   std::string words;                          ///< the whole command line
 };
 
-/// Kinds of ground, or contact methods, by their words. Throws InputError for a word that is none, for one that is
-/// there twice, and for fewer than two.
+/// Kinds of ground, or contact methods, by their words. Throws InputError for unknown or duplicate words, and for fewer
+/// than two.
 std::vector<scene::TerrainKind> groundsOf(const std::vector<std::string>& words);
 std::vector<scene::ContactMethod> contactsOf(const std::vector<std::string>& words);
 
-/// A run for each ground or contact method and, of grains, each seed. The scene of every run is loaded and checked;
-/// throws InputError that names the variant.
+/// One run for each variant and, with grains, each seed. Loads and checks the scene of every run; throws InputError
+/// that names the variant.
 SweepPlan planCompare(const std::filesystem::path& scene, const CompareOptions& options);
 
-/// Runs what is missing (runMissing()), and writes compare.txt, compare.csv, compare.json, compare.png and summary.csv.
-/// Returns the number of failed runs.
+/// Performs the missing runs (runMissing()), and writes compare.txt, compare.csv, compare.json, compare.png and
+/// summary.csv. Returns the number of failed runs.
 int runCompare(const std::filesystem::path& scene, const CompareOptions& options);
 
 } // namespace grouser::sweeps

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// In the table to read; the files have all.
+/// Figures in the text table; the files have all.
 constexpr const char* kShown[] = {"speed [m/s]",           "slip [-]",           "sinkage mean [m]",
                                   "sinkage max [m]",       "drive torque [N m]", "drive power [W]",
                                   "tension mean [N]",      "gross traction [N]", "drawbar pull [N]",
@@ -45,7 +45,7 @@ double steadyPitch(const SweepRun& run, const fs::path& folder) {
   return count > 0 ? sum / count * 180 / base::kPi : base::kNaN;
 }
 
-/// Those of a sweep, and the pitch.
+/// Figures of a sweep, and the pitch.
 SweepFigures figuresOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
   SweepFigures figures = sweepFigures(plan, outcomes, folder);
   const auto hasVehicle = [](const SweepRun& run) { return run.scene.vehicle.has_value(); };
@@ -102,12 +102,12 @@ VariantDifference differenceOf(const Comparison& all, std::size_t from, std::siz
   return difference;
 }
 
-/// Why a variant has no sound figures; empty if it has.
-std::string whyNone(const Comparison& all, const VariantResult& result) {
+/// Reason why a variant has no valid figures; empty if it has.
+std::string reasonWithoutFigures(const Comparison& all, const VariantResult& result) {
   if (!result.doubt.empty()) return result.doubt;
   for (std::size_t c = 0; c < all.columns.size(); ++c)
     if (isShown(all.columns[c]) && std::isfinite(result.figures[c].value)) return {};
-  return result.ended > 0 ? "its runs end before the drive is up to speed; raise run.duration" : "no run has ended";
+  return result.ended > 0 ? "its runs end before full speed; raise run.duration" : "no run has ended";
 }
 
 } // namespace
@@ -150,7 +150,7 @@ Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& 
 
 std::string comparisonText(const Comparison& all, double percent) {
   const auto word = [&](std::size_t g) { return all.variants[g].variant; };
-  std::string text = "means over the steady part; +- half of the 95 % interval over the seeds, where there are some\n";
+  std::string text = "means over the steady part; +- half width of the 95 % interval over seeds, where available\n";
   text += fmt::format("{:<28}", "figure");
   for (std::size_t g = 0; g < all.variants.size(); ++g) text += fmt::format("{:>22}", word(g));
   text += "\n";
@@ -167,12 +167,12 @@ std::string comparisonText(const Comparison& all, double percent) {
     if (isShown(all.columns[c]) && isKnown(c))
       line(all.columns[c], [c](const VariantResult& g) { return figureText(g.figures[c]); });
   line("runs", [](const VariantResult& g) { return fmt::format("{} of {}", g.ended, g.runs); });
-  line("preparation of a run [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.preparation); });
-  line("wall time of its steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.wallTime); });
-  line("CPU time of its steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.cpuTime); });
-  line("wall time a second [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.perSecond); });
+  line("preparation per run [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.preparation); });
+  line("wall time of the steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.wallTime); });
+  line("CPU time of the steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.cpuTime); });
+  line("wall time per second [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.perSecond); });
   for (const VariantResult& g : all.variants)
-    if (const std::string why = whyNone(all, g); !why.empty())
+    if (const std::string why = reasonWithoutFigures(all, g); !why.empty())
       text += fmt::format("WARNING: {} is inconclusive: {}\n", g.variant, why);
   for (const VariantDifference& d : all.differences) {
     if (std::all_of(d.verdicts.begin(), d.verdicts.end(), [](const std::string& v) { return v.empty(); })) continue;

@@ -17,21 +17,21 @@ namespace grouser::sweeps {
 /// One variant over its runs.
 struct VariantResult {
   std::string variant;                     ///< "granular", "penalty"
-  bool random = false;                     ///< it has seeds; without them a value has no interval
+  bool random = false;                     ///< it has seeds; otherwise values have no interval
   int runs = 0, ended = 0;                 ///< planned; with figures
-  std::string doubt;                       ///< why all its figures are inconclusive; else empty
-  std::vector<support::Estimate> figures;  ///< of the columns; NaN where there is none
-  std::vector<std::vector<double>> values; ///< [columns][runs with it]
+  std::string doubt;                       ///< reason why all its figures are inconclusive; else empty
+  std::vector<support::Estimate> figures;  ///< [columns]; NaN if missing
+  std::vector<std::vector<double>> values; ///< [columns][runs with a value]
   double wallTime = 0;                     ///< mean over the runs, of their steps [s]
   double preparation = 0, cpuTime = 0;     ///< mean wall time before the steps, CPU time of the steps [s]
-  double perSecond = 0;                    ///< the same over the simulated time [-]
+  double perSecond = 0;                    ///< wall time per simulated time [-]
 };
 
 /// One variant less another.
 struct VariantDifference {
-  std::size_t from = 0, to = 0;           ///< of the results
-  std::vector<support::Estimate> changes; ///< of the columns; NaN where one has none
-  std::vector<std::string> verdicts;      ///< "equal", "differs", "inconclusive"; empty where one has none
+  std::size_t from = 0, to = 0;           ///< indices of the variants
+  std::vector<support::Estimate> changes; ///< [columns]; NaN if a variant lacks the value
+  std::vector<std::string> verdicts;      ///< "equal", "differs", "inconclusive"; empty if a variant lacks the value
 };
 
 struct Comparison {
@@ -40,8 +40,8 @@ struct Comparison {
   std::vector<VariantDifference> differences; ///< all pairs of variants
 };
 
-/// Difference b - a with its 95 % half width: Welch's interval between two samples, that of the other mean where one
-/// variant has no scatter, 0 where both have none.
+/// Difference b - a with its 95 % half width: Welch's interval between two samples, that of the other mean if one
+/// variant has no scatter, 0 if neither has.
 support::Estimate variantDifference(const VariantResult& a, const VariantResult& b, std::size_t column);
 
 /// Verdict on a difference by the bar `percent` of the larger of both means.
@@ -50,13 +50,13 @@ std::string variantVerdict(const support::Estimate& difference, double a, double
 /// Value with its half width ("12.3 +- 0.4"); four digits if the half width is zero or infinite; "-" for NaN.
 std::string figureText(const support::Estimate& e);
 
-/// The first value of each run names its variant. `random`: those that have seeds.
+/// The first value of each run is its variant. `random`: variants with seeds.
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                         const std::vector<std::string>& random, double percent, const std::filesystem::path& folder);
 
-/// The figures one asks for first, their differences, and the cost.
+/// Main figures, their differences, and the cost.
 std::string comparisonText(const Comparison& comparison, double percent);
-/// A row for each figure, variant and variant before it.
+/// One row per figure and pair of variants.
 std::string comparisonCsv(const Comparison& comparison);
 nlohmann::ordered_json comparisonJson(const Comparison& comparison);
 

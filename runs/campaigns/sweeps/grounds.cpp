@@ -40,8 +40,7 @@ bool isSoil(const Node& root, const std::string& material, const std::filesystem
 void requireKeys(const Node& root, const std::filesystem::path& scene, TerrainKind ground) {
   const Node& terrain = *root.find("terrain");
   const auto missing = [&](const char* key, const char* unit) {
-    throw InputError(fmt::format("{}: terrain.{} [{}] is missing, which granular ground needs; add --set "
-                                 "terrain.{}=VALUE",
+    throw InputError(fmt::format("{}: granular ground requires terrain.{} [{}]; add --set terrain.{}=VALUE",
                                  scene.string(), key, unit, key));
   };
   if (ground == TerrainKind::granular) {
@@ -51,7 +50,7 @@ void requireKeys(const Node& root, const std::filesystem::path& scene, TerrainKi
   }
   const std::string* material = wordOf(&terrain, "material");
   if (ground != TerrainKind::scm || !material || root.find(kScm) || isSoil(root, *material, scene)) return;
-  throw InputError(fmt::format("{}: terrain.material = \"{}\" is not a soil, which ground scm needs; add --set "
+  throw InputError(fmt::format("{}: ground scm requires a soil, which terrain.material = \"{}\" is not; add --set "
                                "terrain.material=SOIL (`grouser soils` lists them), or --set scm.n, k_c, k_phi, c, phi "
                                "and K",
                                scene.string(), *material));
@@ -122,7 +121,7 @@ std::vector<std::string> groundOverrides(const std::filesystem::path& scene, con
   const base::Document file = base::Document::load(scene), changed = base::Document::load(scene, sets);
   const Node& root = changed.root().node();
   if (const Node* terrain = root.find("terrain"); !terrain || !terrain->isMap())
-    throw InputError(fmt::format("{}: has no [terrain], and so no ground to change", scene.string()));
+    throw InputError(fmt::format("{}: [terrain] is missing; add it to choose a ground", scene.string()));
   requireKeys(root, scene, ground);
   const std::vector<std::string> inFile = foreignKeys(file.root().node(), ground);
   std::vector<std::string> all = without(sets, inFile, foreignKeys(root, ground));
@@ -136,7 +135,7 @@ std::vector<std::string> groundOverrides(const std::filesystem::path& scene, con
   for (const std::string& list : lists.sets) {
     const std::size_t equals = equalsSign(list);
     if (equals == std::string::npos) continue; // planSweep() reports it
-    if (keyOf(list) == "terrain.kind") throw InputError("--set terrain.kind: --ground sets this key; leave one out");
+    if (keyOf(list) == "terrain.kind") throw InputError("--set terrain.kind: --ground sets this key; remove one");
     swept.push_back(list.substr(0, equals + 1) + splitValues(std::string_view(list).substr(equals + 1)).front());
   }
   sets.insert(sets.end(), swept.begin(), swept.end());

@@ -17,7 +17,7 @@ namespace grouser::sweeps {
 std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const std::vector<std::string>& sets,
                                          scene::TerrainKind ground);
 
-/// The same for a sweep, whose lists may hold what the ground needs; they stay apart.
+/// The same for a sweep, whose lists may contain required keys; the lists are excluded from the result.
 std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const SweepLists& lists,
                                          const std::vector<std::string>& fixed, scene::TerrainKind ground);
 

@@ -14,6 +14,7 @@
 #include "runs/support/json_text.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/kept_json.hpp"
+#include "runs/support/locations.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/shell_word.hpp"
 
@@ -32,7 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr auto kCheck = support::KeptFiles::Kind::check;
-constexpr int kSeedsOfCheck = 8; // of a whole one
+constexpr const char* kShippedChecks = "runs/scenes/checks";
+constexpr int kSeedsOfCheck = 8; // seeds of a full check
 
 nlohmann::json readJson(const fs::path& path) {
   std::ifstream file(path);
@@ -44,14 +46,25 @@ double numberOrInfinity(const nlohmann::json& json, const char* key) {
   return at != json.end() && at->is_number() ? at->get<double>() : base::kInfinity;
 }
 
-/// The check that is kept of a scene of this origin; no object where there is none.
-nlohmann::json keptCheck(const std::string& origin) {
-  const auto kept = support::KeptFiles::ofUser();
-  if (!kept) return {};
-  return support::keptJson(*kept, kCheck, origin);
+/// Check of a scene that comes with the program, from runs/scenes/checks; not an object if there is none.
+nlohmann::json shippedCheck(const std::string& origin) {
+  std::error_code error;
+  for (const fs::directory_entry& file : fs::directory_iterator(support::shareFolder() / kShippedChecks, error)) {
+    const nlohmann::json check = readJson(file.path());
+    if (check.is_object() && check.value("origin", "") == origin)
+      return {{"runs", 0}, {"of_some", false}, {"folder", file.path().string()}, {"check", check}};
+  }
+  return {};
 }
 
-/// "step, depth, 8 seeds": what is in the bar of a figure.
+/// Stored check of a scene of this origin, of the user or else of the program; not an object if there is none.
+nlohmann::json keptCheck(const std::string& origin) {
+  if (const auto kept = support::KeptFiles::ofUser())
+    if (nlohmann::json json = support::keptJson(*kept, kCheck, origin); json.is_object()) return json;
+  return shippedCheck(origin);
+}
+
+/// "step, depth, 8 seeds": contributions to the bar of a figure.
 std::string partsOf(const nlohmann::json& figure, bool seeded) {
   std::string text;
   for (const nlohmann::json& e : figure.at("errors"))
@@ -61,25 +74,27 @@ std::string partsOf(const nlohmann::json& figure, bool seeded) {
   return text;
 }
 
-std::string barsText(const nlohmann::json& kept) {
+/// `listed`: with the figures.
+std::string barsText(const nlohmann::json& kept, bool listed) {
   constexpr int kMost = 12;
   const nlohmann::json& check = kept.at("check");
   std::string text, parts;
-  int told = 0, more = 0;
+  int printed = 0, more = 0;
   for (const nlohmann::json& f : check.at("figures")) {
     if (!f.value("headline", false) || !f.at("value").is_number()) continue;
-    if (++told > kMost) ++more;
-    if (told > kMost) continue;
+    if (++printed > kMost) ++more;
+    if (printed > kMost) continue;
     if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
     text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
                         jobs::valueText({f.at("value").get<double>(), numberOrInfinity(f, "bar")}));
   }
   if (more > 0) text += fmt::format("  and {} more\n", more);
-  return fmt::format("checked   error bars by {}, of the last check of this scene ({}, commit {})\n{}", parts,
-                     kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>(), text);
+  return fmt::format("checked   error bars by {}, from the last check of this scene ({}, commit {})\n{}", parts,
+                     kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>(),
+                     listed ? text : "");
 }
 
-/// The command that checks this scene, with what was overridden.
+/// The command that checks this scene, with its overrides.
 std::string commandOf(const scene::Scene& scene) {
   std::string text = fmt::format("grouser check {}", support::shellWord(scene.file.string()));
   for (const std::string& o : scene.overrides)
@@ -112,16 +127,16 @@ void keepCheck(const std::string& origin, const std::string& json, int runs, boo
                                               {"folder", fs::absolute(folder).lexically_normal().string()},
                                               {"check", check}}));
   } catch (const std::exception&) {
-    return; // a later run then says that nothing was checked
+    return; // later runs then print no error bars
   }
 }
 
-std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds) {
+std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds, bool listed) {
   try {
     const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
-    if (kept.is_object()) return barsText(kept);
+    if (kept.is_object()) return barsText(kept, listed);
   } catch (const nlohmann::json::exception&) {
-    // damaged, or of another version
+    // damaged, or from another version
   }
   const std::string whole = support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck));
   if (scene.vehicle && seedMatters(scene))
@@ -144,15 +159,14 @@ void checkFolderOfCheck(const fs::path& folder) {
   std::error_code error;
   const nlohmann::json choice = readJson(folder / kCheckChoice);
   if (fs::exists(folder / kCheckChoice, error) && !(choice.is_object() && choice.contains("asked")))
-    throw base::InputError(fmt::format("{}: is a file that no check has written; name another folder with --out, or "
-                                       "overwrite it with --force",
-                                       (folder / kCheckChoice).string()));
+    throw base::InputError(fmt::format(
+        "{}: exists but was not written by a check; name another folder with --out, or overwrite it with --force",
+        (folder / kCheckChoice).string()));
   for (const char* name : {kCheckFile, kCheckCosts, kCheckSeries, kCheckPlot})
     if (fs::exists(folder / name, error))
-      throw base::InputError(
-          fmt::format("{}: is a file that no check has written, and this one would write over it; name "
-                      "another folder with --out, or overwrite it with --force",
-                      (folder / name).string()));
+      throw base::InputError(fmt::format(
+          "{}: exists but was not written by a check; name another folder with --out, or overwrite it with --force",
+          (folder / name).string()));
 }
 
 } // namespace grouser::sweeps

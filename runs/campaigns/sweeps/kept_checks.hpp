@@ -7,28 +7,28 @@
 #include <filesystem>
 #include <string>
 
-/// The last check of each scene, kept beside settled beds, so that a later run can say how far its figures hold.
+/// The last check of each scene, stored beside settled beds, for the error bars of later runs.
 namespace grouser::sweeps {
 
-/// What decides a scene's results, the bytes of the files that it names with it (`inputs`, see setup::inputsOf()), as
-/// text; seed, output and machine aside.
+/// Text that identifies everything that determines the results of a scene, with the contents of its files (`inputs`,
+/// see setup::inputsOf()), without seed, output and machine.
 std::string checkOrigin(scene::Scene scene, const std::string& inputs);
 
-/// Keeps check.json of `folder` for later runs, made of so many of them, unless one of more runs by the same commit is
-/// kept. One of `ofSome` figures, which may leave axes out, does not replace one of all. Nothing is said where it
-/// cannot be kept.
+/// Stores check.json of `folder`, from `runs` runs, unless a check of more runs by the same commit is stored. A check
+/// of some figures (`ofSome`) does not replace one of all. Ignores write errors.
 void keepCheck(const std::string& origin, const std::string& json, int runs, bool ofSome,
                const std::filesystem::path& folder);
 
-/// For the end of a run of this scene with these inputs, whose steps and preparation took `runSeconds`: figures with
-/// their bars where it has been checked, else how long `grouser check` would take. Whole lines.
-std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds);
+/// Lines for the end of a run of this scene, whose steps and preparation took `runSeconds`: what its error bars contain
+/// if a check is stored or comes with the program, with the figures if `listed`; else the estimated time of `grouser
+/// check`.
+std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds, bool listed = true);
 
-/// The check that is kept of this scene with these inputs, as JSON: check.json as `check`, its folder as `folder`.
-/// Empty where it has not been checked.
+/// Stored check of this scene with these inputs as JSON: check.json as `check`, its folder as `folder`. Empty if there
+/// is none.
 std::string keptCheckText(const scene::Scene& scene, const std::string& inputs);
 
-/// Throws InputError where the folder holds files of other origin in the places of a check's.
+/// Throws InputError if the folder contains other files with the names of a check's files.
 void checkFolderOfCheck(const std::filesystem::path& folder);
 
 } // namespace grouser::sweeps

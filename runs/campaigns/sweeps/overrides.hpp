@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
-/// Overrides of a scene's keys as a command line gives them: "key=value".
+/// Overrides of scene keys from the command line: "key=value".
 namespace grouser::sweeps {
 
-/// Position of the = between key and value: a key in quotes may hold one. npos where there is none.
+/// Position of the = between key and value; a quoted key may contain one. npos if missing.
 std::size_t equalsSign(const std::string& set);
 
-/// The key, without quotes: contact."a|b".friction and contact.a|b.friction are one.
+/// The key, without quotes: contact."a|b".friction and contact.a|b.friction are equal.
 std::string keyOf(const std::string& set);
 
-/// Throws InputError, with both values, where two of them set one key.
+/// Throws InputError, with both values, if two overrides set the same key.
 void checkGivenOnce(const std::vector<std::string>& overrides);
 
-/// Adds `set`, which takes the place of those that set the same key.
+/// Adds `set`, replacing overrides of the same key.
 void putOverride(std::vector<std::string>& overrides, const std::string& set);
 
 } // namespace grouser::sweeps

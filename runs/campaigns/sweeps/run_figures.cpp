@@ -29,7 +29,7 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   if (!complete && manifest.text("status") != base::wordOf(output::RunStatus::incomplete)) return json;
   SweepPlan plan;
   plan.scene = folder / "scene.toml";
-  // The name of a folder, whether or not its path ends in a slash or a dot.
+  // Resolves paths that end in a slash or a dot.
   const std::filesystem::path whole = std::filesystem::canonical(folder);
   plan.runs.push_back({whole.filename().string(), {}, {}, setup::loadScene(plan.scene)});
   const scene::Scene& scene = plan.runs.front().scene;

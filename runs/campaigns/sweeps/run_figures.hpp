@@ -6,11 +6,10 @@
 
 namespace grouser::sweeps {
 
-/// Figures of one finished run, as a sweep's summary has them, with the error bars of the last check of its scene. As
-/// JSON: `figures`, each with `name` (and unit, as a column of summary.csv) and `value` (null: none); `inconclusive`:
-/// why they are, empty where they are sound; `steady_from` [s], from which on rows count; `check`: what is kept of the
-/// last check (sweeps::keptCheckText()), or null; `note`: why there are no figures. Nothing is thrown: where the
-/// resolved scene in the folder can no longer be read, as when its height-map is gone, the note says so.
+/// Figures of one finished run as in summary.csv, with the error bars of the last check of its scene. As JSON:
+/// `figures`, each with `name` (with unit) and `value` (null: none); `inconclusive`: the reason, empty if valid;
+/// `steady_from` [s], start of the steady part; `check`: the last check (sweeps::keptCheckText()), or null; `note`: why
+/// there are no figures, e.g. an unreadable scene. Throws nothing.
 std::string runFiguresText(const std::filesystem::path& folder);
 
 } // namespace grouser::sweeps

@@ -43,8 +43,7 @@ std::string RunManifest::commit() const {
 
 double RunManifest::stepsOverTimed() const {
   const double steps = number("steps"), before = figure("resumed_at_step"), from = figure("branched_at_step");
-  return before > 0 ? (steps - (from > 0 ? from : 0)) / (steps - before)
-                    : 1; // which is no number where it went on at its end
+  return before > 0 ? (steps - (from > 0 ? from : 0)) / (steps - before) : 1; // NaN for a run resumed at its end
 }
 
 double RunManifest::wallTime() const {

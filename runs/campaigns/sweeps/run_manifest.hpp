@@ -8,7 +8,7 @@
 
 namespace grouser::sweeps {
 
-/// manifest.json of a run's folder; without one, or where it is damaged, everything in it is missing.
+/// manifest.json of a run's folder; every entry is missing if the file is missing or damaged.
 class RunManifest {
 public:
   explicit RunManifest(const std::filesystem::path& folder);
@@ -17,10 +17,10 @@ public:
   double figure(const char* key) const;    ///< of the run's figures; NaN where it is missing
   std::string text(const char* key) const; ///< empty where it is missing
   std::string commit() const;              ///< of the program; empty where it is missing
-  /// All steps of the run over those that its times are of: a run that went on from a checkpoint tells times since
-  /// then. Steps before a branch are not its own.
+  /// All steps of the run over the timed ones: a resumed run has times since its checkpoint. Excludes steps before a
+  /// branch.
   double stepsOverTimed() const;
-  double wallTime() const; ///< all steps [s]; a resumed run measured only its last part; NaN: missing
+  double wallTime() const; ///< of all steps, extrapolated for a resumed run [s]; NaN: missing
 
 private:
   nlohmann::json json_;

@@ -30,7 +30,7 @@ double timeReached(const std::filesystem::path& folder) {
   const std::size_t end = text.rfind('\n');
   if (end == std::string::npos || end == 0) return 0;
   const std::size_t begin = text.rfind('\n', end - 1);
-  if (begin == std::string::npos) return 0; // the names of the columns alone
+  if (begin == std::string::npos) return 0; // header line only
   const std::size_t comma = text.find(',', begin);
   return comma < end ? std::max(0.0, std::strtod(text.c_str() + comma + 1, nullptr)) : 0;
 }

@@ -5,18 +5,17 @@
 
 #include <filesystem>
 
-/// How far runs are, as seen from outside.
+/// Progress of runs in other processes.
 namespace grouser::sweeps {
 
-/// Simulated time at which a run will likely end [s]: what its plan expects, at most run.duration. Where [stop] ends
-/// runs, their duration is a limit that few reach.
+/// Expected simulated time at the end of a run [s], at most run.duration, which few runs with [stop] reach.
 double expectedEnd(const SweepRun& run);
 
-/// Work of a run beside that of another of the same sweep: its expectedEnd() times its grains, a vehicle being as much
-/// as twenty thousand of them [grain s]. Steps of other lengths and beds that have yet to settle are not in it.
+/// Relative work of a run in a sweep: expectedEnd() times grains, a vehicle counting as twenty thousand grains [grain
+/// s]. Ignores time steps and settling.
 double workOf(const SweepRun& run);
 
-/// Simulated time of the last row that the run in this folder wrote [s]; 0 where it has written none.
+/// Simulated time of the last row in the folder [s]; 0 without rows.
 double timeReached(const std::filesystem::path& folder);
 
 } // namespace grouser::sweeps

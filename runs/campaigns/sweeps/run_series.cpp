@@ -34,7 +34,7 @@ double numberIn(const std::string& cell) {
   return end == cell.c_str() ? std::numeric_limits<double>::quiet_NaN() : number;
 }
 
-/// A CSV file of numbers under one line of names.
+/// A CSV file of numbers with a header line.
 struct Table {
   std::vector<std::string> head;
   std::vector<std::vector<double>> rows;
@@ -49,14 +49,14 @@ Table readTable(const fs::path& path) {
     std::vector<double> row;
     for (const std::string& cell : cellsOf(line)) row.push_back(numberIn(cell));
     if (row.size() != table.head.size())
-      throw base::InputError(fmt::format("{}:{}: {} cells stand under {} names; run the scene again", path.string(),
+      throw base::InputError(fmt::format("{}:{}: {} cells in a table of {} columns; run the scene again", path.string(),
                                          table.rows.size() + 2, row.size(), table.head.size()));
     table.rows.push_back(std::move(row));
   }
   return table;
 }
 
-/// Whether its first row of the time series has few grains; reads no more of it than that.
+/// Whether the first output has few grains; reads only that part of the file.
 bool hasFewGrains(const fs::path& path) {
   std::ifstream file(path);
   std::string line, first;
@@ -70,14 +70,14 @@ bool hasFewGrains(const fs::path& path) {
   return grains <= kGrainsWithSeries;
 }
 
-/// Adds the grains of grains.csv, whose lines are step, time, id and what it is, in the order of the rows.
+/// Adds the grains of grains.csv (step, time, id, quantities) in the order of the rows.
 void addGrains(const Table& table, RunSeries& series) {
   constexpr std::size_t kId = 2, kFirst = 3;
   std::map<long long, std::vector<std::size_t>> rowsOf;
   for (std::size_t r = 0; r < table.rows.size(); ++r) rowsOf[static_cast<long long>(table.rows[r][kId])].push_back(r);
   if (rowsOf.size() > kGrainsWithSeries) return;
   for (const auto& [id, rows] : rowsOf) {
-    if (rows.size() != series.time.size()) continue; // it entered later, or was taken out
+    if (rows.size() != series.time.size()) continue; // inserted later, or removed
     for (std::size_t c = kFirst; c < table.head.size(); ++c) {
       if (table.head[c].starts_with("radius")) continue;
       series.columns.push_back(fmt::format("grain.{}.{}", id, table.head[c]));

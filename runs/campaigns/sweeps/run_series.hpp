@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// What a run wrote over time, as text.
+/// Time series of a run, from its text files.
 namespace grouser::sweeps {
 
 /// Rows of a run; a number that is missing is NaN.
@@ -14,17 +14,17 @@ struct RunSeries {
   std::vector<double> time;                ///< [s]
   std::vector<std::vector<double>> values; ///< [columns][rows]
 
-  /// Values of a column by its name; empty where there is none.
+  /// Values of a column by name; null if missing.
   const std::vector<double>* of(const std::string& column) const;
-  /// Forgets all rows but the last.
+  /// Discards all rows except the last.
   void keepEnd();
 };
 
-/// Of scenes with so few grains each of them is a quantity of its own: "grain.3.position.z [m]".
+/// Up to this number, each grain has its own columns: "grain.3.position.z [m]".
 inline constexpr std::size_t kGrainsWithSeries = 20;
 
-/// Reads timeseries.csv of a run's folder, and grains.csv where it has at most kGrainsWithSeries grains that are always
-/// there. Throws base::InputError where a line cannot be read.
+/// Reads timeseries.csv of a run's folder, and grains.csv with at most kGrainsWithSeries grains that are always
+/// present. Throws base::InputError for an invalid line.
 RunSeries readSeries(const std::filesystem::path& folder);
 
 } // namespace grouser::sweeps

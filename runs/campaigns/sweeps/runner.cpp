@@ -38,9 +38,9 @@ namespace {
 
 using output::RunStatus;
 
-constexpr const char* kLog = "log.txt"; // what a run printed
+constexpr const char* kLog = "log.txt"; // output of a run
 
-/// How this run by this program stands in the folder; pending where there is none.
+/// Status of this run by this program in the folder; pending if there is none.
 RunStatus statusOf(const fs::path& folder, const SweepRun& run) {
   const scene::Scene& scene = run.scene;
   const RunManifest manifest(folder);
@@ -55,29 +55,29 @@ RunStatus statusOf(const fs::path& folder, const SweepRun& run) {
   }
 }
 
-/// Throws where the folder holds something that no run has left there.
+/// Throws if the folder contains something other than a run.
 void checkRunFolder(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return;
-  const bool isOurs = fs::exists(folder / kLog, error); // a run of its own has none
+  const bool isOurs = fs::exists(folder / kLog, error); // a plain `grouser run` writes none
   if (!fs::is_directory(folder, error) || (!isOurs && !fs::is_empty(folder, error)))
     throw base::InputError(fmt::format(
-        "{}: stands where a run's folder should be; name another with --out, or use it with --force", folder.string()));
+        "{}: exists but is not the folder of a run; name another with --out, or use it with --force", folder.string()));
 }
 
-/// A sweep's files beside those of a run would hide what the run has.
+/// A sweep in the folder of a run would hide its results.
 void requireNoRun(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "manifest.json", error))
     throw base::InputError(
-        fmt::format("{}: holds the results of a run; name another folder with --out", folder.string()));
+        fmt::format("{}: contains the results of a run; name another folder with --out", folder.string()));
 }
 
 base::Cause causeIn(const RunManifest& manifest) {
   return base::valueOf<base::Cause>(manifest.text("cause")).value_or(base::Cause::unknown);
 }
 
-/// Waits until no run writes in this folder: the runs of a killed sweep still write their checkpoints.
+/// Waits until no run writes into this folder: runs of a killed sweep still write their checkpoints.
 void awaitFormer(const fs::path& folder) {
   constexpr auto kPatience = std::chrono::seconds(60);
   constexpr auto kLook = std::chrono::milliseconds(20);
@@ -92,7 +92,7 @@ void awaitFormer(const fs::path& folder) {
   }
 }
 
-/// Why a run failed: its own error message where it printed one.
+/// Reason why a run failed: its error message if it printed one.
 std::string reason(const support::ProcessEnd& end, const fs::path& log) {
   const std::string mark = "grouser: error: ";
   std::string message;
@@ -103,7 +103,7 @@ std::string reason(const support::ProcessEnd& end, const fs::path& log) {
   return message.empty() ? fmt::format("{}; see {}", end.text(), log.string()) : message;
 }
 
-/// Whether a signal has stopped a run, which may go on: exit code 128 + signal.
+/// Whether a signal stopped a run, which can be resumed: exit code 128 + signal.
 bool hasStopped(const support::ProcessEnd& end) { return end.status > 128; }
 
 std::ptrdiff_t countEnded(const std::vector<SweepOutcome>& outcomes) {
@@ -132,14 +132,14 @@ public:
       } else if (former == RunStatus::incomplete) {
         outcomes_[i] = {RunStatus::incomplete, RunManifest(folder(i)).text("incomplete")};
         progress_.note(fmt::format("{} incomplete already: {}", title(i), outcomes_[i].message));
-      } else if (former == RunStatus::failed && options.failuresStay) {
+      } else if (former == RunStatus::failed && options.keepFailures) {
         const RunManifest manifest(folder(i));
         outcomes_[i] = {RunStatus::failed, manifest.text("error"), causeIn(manifest)};
         progress_.note(fmt::format("{} failed before: {}", title(i), outcomes_[i].message));
       } else {
         waiting_.push_back(i);
         work_[i] = workOf(plan.runs[i]), due_ += work_[i];
-        const bool isHalfDone = former == RunStatus::stopped || former == RunStatus::running; // or killed
+        const bool isHalfDone = former == RunStatus::stopped || former == RunStatus::running; // killed
         std::error_code error;
         if (isHalfDone && fs::exists(folder(i) / storage::kCheckpointName, error)) goesOn_.insert(i);
       }
@@ -150,7 +150,7 @@ public:
                        [&](std::size_t a, std::size_t b) { return work_[a] > work_[b]; });
   }
 
-  /// Runs that an error leaves are all asked at once to save their work, and then waited for one by one.
+  /// After an error: signals all runs to write checkpoints, then waits for each.
   ~Runner() {
     for (Running& run : running_) run.process.terminate();
   }
@@ -171,8 +171,8 @@ public:
       if (progress_.due()) report();
     }
     if (todo_ > 0)
-      progress_.finish(
-          fmt::format("{}{}", endedText(outcomes_), next < waiting_.size() ? "; call again for the others" : ""));
+      progress_.finish(fmt::format("{}{}", endedText(outcomes_),
+                                   next < waiting_.size() ? "; run the same command again to continue" : ""));
   }
 
 private:
@@ -180,7 +180,7 @@ private:
   struct Running {
     Running(std::size_t run, int gpu, const support::Program& program) : index(run), place(gpu), process(program) {}
     std::size_t index;
-    int place; ///< among those that run at the same time
+    int place; ///< slot among the concurrent runs
     Clock::time_point since = Clock::now();
     support::ChildProcess process;
   };
@@ -190,7 +190,7 @@ private:
   std::string title(std::size_t i) const {
     return fmt::format("run {} of {}  {:<28}", i + 1, plan_.runs.size(), plan_.runs[i].name);
   }
-  /// The status of a run of an earlier sweep. Waits for runs of a killed sweep, which still write their checkpoints.
+  /// Status of a run of an earlier sweep. Waits for runs of a killed sweep, which still write their checkpoints.
   RunStatus statusAtEnd(std::size_t i) const {
     const RunStatus now = statusOf(folder(i), plan_.runs[i]);
     if (now != RunStatus::running) return now;
@@ -205,11 +205,11 @@ private:
     std::error_code error;
     fs::create_directories(folder(i), error);
     if (error)
-      throw base::InputError(fmt::format("{}: the folder cannot be made ({}); name another with --out",
+      throw base::InputError(fmt::format("{}: cannot create the folder ({}); name another with --out",
                                          folder(i).string(), error.message()));
     awaitFormer(folder(i));
     const bool goesOn = goesOn_.contains(i);
-    // What an earlier run left must not be taken for what this one does.
+    // Results of an earlier run must not be mistaken for those of this one.
     if (!goesOn)
       for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
     support::Program program{{options_.program.string(), "run", fileOf(i).string()}};
@@ -225,13 +225,13 @@ private:
     program.environment = gpus_.environment();
     program.environment.emplace_back(support::kFirstGpu, support::firstGpuOf(place));
     program.log = folder(i) / kLog, program.append = goesOn;
-    if (goesOn) progress_.note(fmt::format("{} goes on from its checkpoint", title(i)));
+    if (goesOn) progress_.note(fmt::format("{} resumes from its checkpoint", title(i)));
     running_.emplace_back(i, place, program);
     outcomes_[i].status = RunStatus::running;
     changed_(outcomes_);
   }
 
-  /// The first place that no run has: where one ends the next takes its GPU.
+  /// First free slot: the next run uses the GPU of a finished one.
   int freePlace() const {
     const auto isTaken = [&](int place) {
       return std::any_of(running_.begin(), running_.end(), [&](const Running& r) { return r.place == place; });
@@ -241,7 +241,7 @@ private:
     return place;
   }
 
-  /// Waits a moment, and takes the results of the runs that have ended.
+  /// Waits 20 ms, and collects the results of finished runs.
   void reap() {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     for (auto it = running_.begin(); it != running_.end();) {
@@ -253,21 +253,21 @@ private:
       const std::size_t i = it->index;
       const double seconds = std::chrono::duration<double>(Clock::now() - it->since).count();
       it = running_.erase(it);
-      if (!beginsAnew(i, *end)) finish(i, *end, seconds);
+      if (!restarted(i, *end)) finish(i, *end, seconds);
     }
   }
 
-  /// A run that could not go on, such as from a damaged checkpoint, is begun anew.
-  bool beginsAnew(std::size_t i, const support::ProcessEnd& end) {
+  /// Restarts a run that could not be resumed, e.g. from a damaged checkpoint.
+  bool restarted(std::size_t i, const support::ProcessEnd& end) {
     constexpr int kWrongInput = 2;
     if (stopping_ || !goesOn_.contains(i) || end.status != kWrongInput) return false;
-    progress_.note(fmt::format("{} begins anew: {}", title(i), reason(end, folder(i) / kLog)));
+    progress_.note(fmt::format("{} restarts: {}", title(i), reason(end, folder(i) / kLog)));
     goesOn_.erase(i);
     launch(i);
     return true;
   }
 
-  /// The runs end after their step, and write their checkpoints.
+  /// Stops the runs, which finish their step and write their checkpoints.
   void stop(int signal) {
     stopping_ = true;
     for (Running& run : running_) run.process.terminate();
@@ -285,7 +285,7 @@ private:
       outcomes_[i] = {whole ? RunStatus::finished : RunStatus::incomplete, manifest.text("incomplete")};
       progress_.note(fmt::format("{} {} in {}", title(i), base::wordOf(outcomes_[i].status),
                                  support::Progress::duration(seconds)));
-    } else if (stopping_ || (support::StopSignals::received() && hasStopped(end))) { // Ctrl-C is for all of them
+    } else if (stopping_ || (support::StopSignals::received() && hasStopped(end))) { // Ctrl-C signals all of them
       outcomes_[i].status = RunStatus::stopped;
       progress_.note(fmt::format("{} stopped", title(i)));
     } else {
@@ -303,21 +303,21 @@ private:
       done += work_[run.index] * std::min(1.0, timeReached(folder(run.index)) / expectedEnd(planned));
       names += (names.empty() ? "" : "; ") + plan_.runs[run.index].name;
     }
-    progress_.update(done / due_, fmt::format("{} of {} runs to do ended, now {}", ended_, todo_, names));
+    progress_.update(done / due_, fmt::format("{} of {} runs finished, now {}", ended_, todo_, names));
   }
 
   const SweepPlan& plan_;
   const SweepOptions& options_;
   const OutcomesChanged& changed_;
-  support::GpuSharing gpus_; ///< ends after the runs
+  support::GpuSharing gpus_; ///< destroyed after the runs
   std::vector<SweepOutcome> outcomes_;
   std::vector<std::size_t> waiting_;
-  std::set<std::size_t> goesOn_; ///< runs to do of which a checkpoint is there
+  std::set<std::size_t> goesOn_; ///< pending runs that have a checkpoint
   std::list<Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
   bool stopping_ = false;
-  std::vector<double> work_;  ///< workOf() each run to do
-  double due_ = 0, done_ = 0; ///< of the runs to do, and those that have ended
+  std::vector<double> work_;  ///< workOf() of each pending run
+  double due_ = 0, done_ = 0; ///< total work of the pending runs, and of those that have ended
   Clock::time_point begin_ = Clock::now();
   support::Progress progress_;
 };
@@ -340,23 +340,22 @@ std::string identity(scene::Scene scene) {
 std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
                                      const OutcomesChanged& changed) {
   requireNoRun(options.folder);
-  support::firstGpuOf(0); // throws before anything of earlier runs is taken away
+  support::firstGpuOf(0); // throws before results of earlier runs are removed
   for (const SweepRun& run : plan.runs) {
     if (!options.force) checkRunFolder(options.folder / run.name);
     if (run.scene.run.device == support::DeviceChoice::cuda && !base::cudaAvailable())
-      base::cudaExec(); // throws, and says why
+      base::cudaExec(); // throws with the reason
   }
   std::error_code error;
   fs::create_directories(options.folder, error);
   if (error || !fs::is_directory(options.folder))
     throw base::InputError(
-        fmt::format("{}: the folder cannot be made; name another with --out", options.folder.string()));
-  support::FileLock alone; // two sweeps in one folder would take each other's files away
+        fmt::format("{}: cannot create the folder; name another with --out", options.folder.string()));
+  support::FileLock alone; // two sweeps in one folder would remove each other's files
   if (!options.shared && !alone.take(options.folder))
-    throw base::InputError(
-        fmt::format("{}: another sweep or check is at work in this folder; wait for its end, or name "
-                    "another with --out",
-                    options.folder.string()));
+    throw base::InputError(fmt::format(
+        "{}: another sweep or check is running in this folder; wait for its end, or name another with --out",
+        options.folder.string()));
   Runner runner(plan, options, what, changed);
   runner.run();
   return runner.outcomes();

@@ -10,37 +10,35 @@
 #include <string>
 #include <vector>
 
-/// Runs of a scene as processes of their own.
+/// Runs of scenes, one process each.
 namespace grouser::sweeps {
 
 struct SweepOptions {
   std::filesystem::path program; ///< of grouser
-  std::filesystem::path folder;  ///< the runs' folders go in here, with summary.csv and summary.png
+  std::filesystem::path folder;  ///< contains the folders of the runs, summary.csv and summary.png
   int jobs = 1;                  ///< runs at the same time
-  double seconds = 0;            ///< no run is begun after so many; 0: no end
-  bool force = false;            ///< run again what has already been run, and overwrite folders of other origin
-  std::vector<std::string> made; ///< names of runs that `force` does not run again: made a moment ago
+  double seconds = 0;            ///< no run starts after this wall time; 0: no limit
+  bool force = false;            ///< repeat finished runs, and overwrite other folders
+  std::vector<std::string> made; ///< names of runs that `force` does not repeat: performed by this call
   bool plot = true;
-  std::optional<std::filesystem::path> from; ///< checkpoint that all runs branch from; empty path: made for them
-  bool failuresStay = false;                 ///< a run that has failed is a result: it is not run again
-  bool shared = false;                       ///< other calls work in the same folder at the same time, on other runs
+  std::optional<std::filesystem::path> from; ///< checkpoint that all runs branch from; empty path: from settling runs
+  bool keepFailures = false;                 ///< failed runs are results and not repeated
+  bool shared = false;                       ///< other calls perform other runs in the same folder
 };
 
 using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;
 
-/// What decides the result of a run, as text: the resolved scene without device, threads and folder.
+/// Text that determines the result of a run: the resolved scene without device, threads and folder.
 std::string identity(scene::Scene scene);
 
 /// "2 of 3 runs finished"; "2 of 2 runs ended, 1 incomplete".
 std::string endedText(const std::vector<SweepOutcome>& outcomes);
 
-/// Runs what is not there yet, at most `jobs` at a time: in the order of the plan, but where several may go at a time
-/// and `seconds` sets no end, those with the most work first, since the longest would else be what all wait for
-/// (workOf). A run is left out when its folder holds a finished one of the same identity(), the same bytes of all files
-/// that the scene names, and the same commit of the program, that has branched from the same state; what is half done
-/// goes on from its checkpoint, if it has one, and what is of another scene is run again. `changed` is called at the
-/// start and after every run; `what` stands before the lines of progress. Throws InputError, before anything is
-/// started, where a run's folder holds something else. Returns how each run stands.
+/// Performs missing runs, at most `jobs` at a time: in the order of the plan, but with several jobs and no time limit
+/// the longest first (workOf). A run is skipped if its folder contains a finished one with the same identity(), input
+/// files, program commit and branch state; unfinished runs resume from their checkpoints, and runs of other scenes are
+/// repeated. `changed` is called at the start and after every run; `what`: label of the progress lines. Throws
+/// InputError before any run starts if a folder contains something else. Returns the outcomes of all runs.
 std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& options, const std::string& what,
                                      const OutcomesChanged& changed);
 

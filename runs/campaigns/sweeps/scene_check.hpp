@@ -5,10 +5,9 @@
 
 namespace grouser::sweeps {
 
-/// Throws InputError where a run of this scene would be refused before its first step: reads height-map and vehicle
-/// spec, lays out bed and parts, chooses the step, builds the mechanism. Settles nothing. First of all, unless `sizes`
-/// is false, whether its grains would fit into the memory of this machine: what is wrong with scenes of too many small
-/// grains is their number, not the step that follows from it.
+/// Throws InputError if a run of this scene would fail before its first step: reads height-map and vehicle spec, lays
+/// out bed and parts, chooses the step, builds the mechanism. Settles nothing. Unless `sizes` is false, first checks
+/// that the grains fit the memory of this machine, as their number is the cause of errors that follow.
 void checkScene(const scene::Scene& scene, bool sizes = true);
 
 } // namespace grouser::sweeps

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Warns of runs whose figures are inconclusive, and of finished runs without a steady part, whose figures are empty.
+/// Warnings for runs with inconclusive figures, and for finished runs without a steady part.
 std::string inconclusiveText(const SweepPlan& plan, const SweepFigures& figures) {
   std::string first;
   std::size_t count = 0;
@@ -41,8 +41,8 @@ std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOu
     if (!std::isfinite(figures.values[i][at])) ++tooShort;
   }
   if (tooShort == 0) return {};
-  return fmt::format("note      {} of {} ended before their drive was up to speed, and have no figures: give "
-                     "run.duration more than driver.drive_start + driver.drive_ramp\n",
+  return fmt::format("note      {} of {} ended before full speed and have no means over the steady part; raise "
+                     "run.duration above driver.drive_start + driver.drive_ramp\n",
                      tooShort, base::counted(finished, "run"));
 }
 
@@ -53,7 +53,7 @@ int runSweep(const SweepPlan& given, const SweepOptions& options) {
   const SweepPlan plan = options.from ? branched(given, options) : given;
   const std::vector<SweepOutcome> outcomes = runMissing(
       plan, options, "sweep", [&](const std::vector<SweepOutcome>& now) { writeSummary(plan, now, options.folder); });
-  // Of an earlier sweep with other values.
+  // Files of an earlier sweep with other values.
   for (const char* name : {kIntervalsFile, kSummaryPlot}) fs::remove(options.folder / name);
   std::vector<fs::path> tables = {options.folder / kSummaryFile};
   const SweepFigures figures = sweepFigures(plan, outcomes, options.folder);

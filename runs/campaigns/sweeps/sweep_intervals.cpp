@@ -19,7 +19,7 @@ namespace grouser::sweeps {
 
 namespace {
 
-/// Of a vehicle; of surfaces the forces are shown.
+/// Main figures of a vehicle; for surfaces, forces are shown.
 constexpr const char* kShown[] = {"sinkage mean [m]", "sinkage max [m]",    "slip [-]",
                                   "speed [m/s]",      "drive torque [N m]", "tension mean [N]"};
 
@@ -28,7 +28,7 @@ bool isShown(const std::string& column) {
          column.find(" force ") != std::string::npos;
 }
 
-/// Values of one figure in the runs `rows`, those that have one.
+/// Finite values of one figure in the runs `rows`.
 std::vector<double> valuesOf(const SweepFigures& figures, const std::vector<std::size_t>& rows, std::size_t column) {
   std::vector<double> values;
   for (const std::size_t row : rows)
@@ -36,13 +36,13 @@ std::vector<double> valuesOf(const SweepFigures& figures, const std::vector<std:
   return values;
 }
 
-/// Runs of a group, in their order, and by seed.
+/// Runs of a group, in order and by seed.
 struct Members {
   std::vector<std::size_t> rows;
   std::map<std::string, std::size_t> rowOf;
 };
 
-/// Runs of a and b that have one seed.
+/// Runs of a and b with the same seed.
 std::vector<std::pair<std::size_t, std::size_t>> pairsOf(const Members& a, const Members& b) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (const auto& [seed, row] : a.rowOf)
@@ -51,7 +51,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairsOf(const Members& a, const
   return pairs;
 }
 
-/// Adds to `of` how far the second of each pair of runs lies from the first.
+/// Adds to `of` the differences of the second from the first run of each pair.
 void addDifference(const SweepFigures& figures, const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
                    std::size_t column, SeedGroup& of) {
   std::vector<double> first, second;
@@ -72,14 +72,14 @@ std::string named(const SeedIntervals& intervals, const SeedGroup& group) {
   return words.empty() ? "all" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-/// Why a figure of a group says little; empty where it is sound, and where there is none.
+/// Reason why a figure of a group is inconclusive; empty if valid or missing.
 std::string doubtOf(const SeedGroup& group, std::size_t column) {
   const support::Estimate& figure = group.figures[column];
   if (!std::isfinite(figure.value)) return {};
   return !group.doubt.empty() ? group.doubt : jobs::isInconclusive(figure) ? "interval wider than the value" : "";
 }
 
-/// "+12.3 +- 0.4 %"; in the figure's unit where the first mean may as well be zero, of which shares say nothing.
+/// "+12.3 +- 0.4 %"; in the figure's unit if the first mean is not significant.
 std::string differenceText(const support::Estimate& first, const SeedGroup& group, std::size_t column) {
   const support::Estimate &share = group.differences[column], &change = group.changes[column];
   const bool zero = !(std::fabs(first.value) > first.halfWidth) && std::isfinite(first.halfWidth);
@@ -145,8 +145,8 @@ std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::
 std::string intervalsText(const SeedIntervals& intervals) {
   std::size_t width = 8;
   for (const SeedGroup& group : intervals.groups) width = std::max(width, named(intervals, group).size());
-  std::string text = fmt::format("\nmeans over the steady part, +- half of the 95 % interval over the seeds{}\n",
-                                 intervals.groups.size() > 1 ? "; difference to the first line, seed by seed" : "");
+  std::string text = fmt::format("\nmeans over the steady part, +- half width of the 95 % interval over seeds{}\n",
+                                 intervals.groups.size() > 1 ? "; difference from the first line, paired by seed" : "");
   for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
     const bool isKnown = std::any_of(intervals.groups.begin(), intervals.groups.end(),
                                      [c](const SeedGroup& g) { return std::isfinite(g.figures[c].value); });

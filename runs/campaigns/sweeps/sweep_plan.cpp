@@ -20,7 +20,7 @@ using base::InputError;
 
 namespace {
 
-constexpr std::size_t kLongestName = 120; // of a folder; the file system allows 255
+constexpr std::size_t kLongestName = 120; // of folder names; the file system allows 255
 
 /// One value of an axis.
 struct Point {
@@ -43,14 +43,15 @@ std::string trimmed(std::string_view text) {
 Axis axisOf(const std::string& set) {
   const KeyValues given = keyValues(set, "--set", "driver.sprocket_speed=1,2");
   if (given.key == "output.folder")
-    throw InputError(fmt::format("--set {}: a sweep gives each run its folder; name that of all with --out", set));
+    throw InputError(
+        fmt::format("--set {}: a sweep sets the folder of each run; set the folder of the sweep with --out", set));
   Axis axis{given.key, {}};
   for (const std::string& value : given.values) axis.points.push_back({value, {axis.key + "=" + value}});
   return axis;
 }
 
-/// Whether a folder may have this name: the sweep's own files and folders above it may not.
-bool namesAFolder(const std::string& label) {
+/// Whether this is a valid folder name, different from the sweep's files, . and ..
+bool isFolderName(const std::string& label) {
   const std::string plain = plainText(label);
   return plain.find_first_not_of('.') != std::string::npos &&
          std::find(kSweepFiles.begin(), kSweepFiles.end(), plain) == kSweepFiles.end();
@@ -64,15 +65,14 @@ Point caseOf(const std::string& text) {
     throw InputError(fmt::format("--case {}: a case begins with its name; write NAME: key=value, key=value..., e.g. "
                                  "--case 'deep: terrain.depth=0.6'",
                                  text));
-  if (!namesAFolder(point.label))
-    throw InputError(fmt::format("--case {}: '{}' can name no folder beside {}; give a name with letters (a to z) or "
-                                 "digits",
-                                 text, point.label, kSummaryFile));
+  if (!isFolderName(point.label))
+    throw InputError(fmt::format("--case {}: '{}' cannot be a folder beside {}; use letters (a to z) or digits", text,
+                                 point.label, kSummaryFile));
   if (colon == std::string::npos || trimmed(std::string_view(text).substr(colon + 1)).empty()) return point;
   for (const std::string& set : splitValues(std::string_view(text).substr(colon + 1))) {
     const std::size_t equals = equalsSign(set);
     if (equals == std::string::npos || equals == 0 || equals + 1 == set.size())
-      throw InputError(fmt::format("--case {}: '{}' is no key=value", text, set));
+      throw InputError(fmt::format("--case {}: '{}' is not of the form key=value", text, set));
     point.overrides.push_back(set);
   }
   return point;
@@ -83,7 +83,8 @@ Axis caseAxis(const std::vector<std::string>& cases) {
   for (const std::string& text : cases) {
     const Point point = caseOf(text);
     for (const Point& p : axis.points)
-      if (p.label == point.label) throw InputError(fmt::format("--case {}: two cases have this name", p.label));
+      if (p.label == point.label)
+        throw InputError(fmt::format("--case {}: two cases have this name; rename one", p.label));
     axis.points.push_back(point);
   }
   return axis;
@@ -96,8 +97,7 @@ Axis seedAxis(int seeds) {
   return axis;
 }
 
-/// Throws where two of the axes, or a case twice, set the same key. A case may set one that a --set gives one value:
-/// that is then for the other cases.
+/// Throws if two axes, or a case twice, set the same key. A case may override a key with a single value in --set.
 void checkKeysApart(const std::vector<Axis>& axes) {
   std::set<std::string> ofCases, before;
   for (const Axis& axis : axes) {
@@ -113,17 +113,17 @@ void checkKeysApart(const std::vector<Axis>& axes) {
     const std::string key = keyOf(axis.key);
     if (!before.insert(key).second)
       throw InputError(
-          fmt::format("sweep: {} is given twice; give it once, with its values joined by commas", axis.key));
+          fmt::format("sweep: {} is given twice; give it once, with its values separated by commas", axis.key));
     if (axis.points.size() > 1 && ofCases.contains(key))
-      throw InputError(fmt::format("sweep: {} has {} values, and a --case sets it, too; give it one value, or leave it "
-                                   "out of the case",
-                                   axis.key, axis.points.size()));
+      throw InputError(fmt::format(
+          "sweep: {} has {} values, and a --case sets it, too; give it one value, or remove it from the case", axis.key,
+          axis.points.size()));
   }
 }
 
 std::string lastWord(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-/// The key's last word where that tells it from the others, else the whole key: an entry of a list is no word.
+/// Last word of the key if unique, else the whole key; also for numbers of list entries.
 std::string shortName(const std::string& key, const std::vector<Axis>& axes) {
   const std::string last = lastWord(key);
   const auto alike = std::count_if(axes.begin(), axes.end(), [&](const Axis& a) { return lastWord(a.key) == last; });
@@ -144,8 +144,8 @@ std::string folderName(const std::vector<Axis>& swept, const std::vector<std::st
   return unique;
 }
 
-/// Why a run of these overrides would be refused; empty where it would not. Reads spec and height-map, lays out the bed
-/// and chooses the step.
+/// Reason why a run with these overrides is invalid; empty if valid. Reads spec and height-map, lays out the bed and
+/// chooses the step.
 std::string faultOf(const std::filesystem::path& file, const std::vector<std::string>& overrides, scene::Scene& scene) {
   try {
     scene = setup::loadScene(file, overrides);
@@ -156,14 +156,14 @@ std::string faultOf(const std::filesystem::path& file, const std::vector<std::st
   }
 }
 
-/// The fault with the name of the case that brings it about: a case's keys become overrides, which faults call --set.
+/// Error message with --case NAME instead of --set, which it names for the keys of a case.
 std::string namedFault(const std::string& fault, const std::string& name) {
   const std::string set = "--set";
   if (fault.rfind(set + " ", 0) == 0) return fmt::format("--case {}:{}", name, fault.substr(set.size()));
   return fmt::format("--case {}{}", name, fault.rfind(set + ":", 0) == 0 ? fault.substr(set.size()) : ": " + fault);
 }
 
-/// The scene of one run. Throws where a run would.
+/// Loads and checks the scene of one run.
 scene::Scene checkedScene(const std::filesystem::path& file, const SweepRun& run, const Point* ofCase) {
   scene::Scene scene;
   const std::string fault = faultOf(file, run.overrides, scene);
@@ -176,7 +176,7 @@ scene::Scene checkedScene(const std::filesystem::path& file, const SweepRun& run
   throw InputError(faultOf(file, others, scene) == fault ? fault : namedFault(fault, ofCase->label));
 }
 
-/// All lists, in the order of the keys of a sweep.
+/// Axes of all lists, in the order of the swept keys.
 std::vector<Axis> axesOf(const SweepLists& lists) {
   std::vector<Axis> axes;
   if (!lists.cases.empty()) axes.push_back(caseAxis(lists.cases));
@@ -222,7 +222,7 @@ KeyValues keyValues(const std::string& set, const std::string& option, const std
     if (given.values[i].empty())
       throw InputError(fmt::format("{} {}: value {} of the list is empty; remove a comma", option, set, i + 1));
     if (std::count(given.values.begin(), given.values.end(), given.values[i]) > 1)
-      throw InputError(fmt::format("{} {}: {} stands there twice; remove one", option, set, given.values[i]));
+      throw InputError(fmt::format("{} {}: {} is listed twice; remove one", option, set, given.values[i]));
   }
   return given;
 }
@@ -244,9 +244,8 @@ SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
                     const std::vector<std::string>& fixed) {
   const std::vector<Axis> axes = axesOf(lists);
   if (axes.empty())
-    throw InputError(
-        "sweep: nothing is to be varied; add e.g. --set driver.sprocket_speed=0.5,1,2 or --seeds 3, or use "
-        "grouser run");
+    throw InputError("sweep: nothing to vary; add e.g. --set driver.sprocket_speed=0.5,1,2 or --seeds 3, or use "
+                     "grouser run");
   const auto varies = [](const Axis& a) { return a.points.size() > 1 || a.key == kCaseKey; };
   const bool any = std::any_of(axes.begin(), axes.end(), varies);
   std::vector<Axis> swept;

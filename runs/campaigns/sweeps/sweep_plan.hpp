@@ -10,40 +10,40 @@
 #include <string_view>
 #include <vector>
 
-/// What a sweep is to run: all combinations of the values given.
+/// Runs of a sweep: all combinations of the values.
 namespace grouser::sweeps {
 
-/// What is asked of a sweep, as words of the command line.
+/// Options of a sweep from the command line.
 struct SweepLists {
   std::vector<std::string> sets = {}; ///< "key=value,value..."
   std::vector<std::string> cases =
-      {};        ///< "NAME: key=value, key=value": keys that change together; a name alone: no key
-  int seeds = 0; ///< each combination with run.seed 1 to so many; 0: as the scene says
+      {};        ///< "NAME: key=value, key=value": keys that change together; a name without keys: unchanged
+  int seeds = 0; ///< each combination with run.seed 1 to this number; 0: the seed of the scene
 };
 
-inline constexpr const char* kCaseKey = "case";               ///< stands for the cases among the keys of a sweep
-inline constexpr const char* kSeedKey = "run.seed";           ///< over its values means and intervals are taken
+inline constexpr const char* kCaseKey = "case";               ///< key of the cases
+inline constexpr const char* kSeedKey = "run.seed";           ///< means and intervals are over its values
 inline constexpr const char* kDrawKey = "scm.constants_draw"; ///< sample of the soil constants
 
 /// One run of a sweep.
 struct SweepRun {
-  std::string name;                           ///< of its folder: "deep,sprocket_speed=0.5,seed=1"
-  std::vector<std::string> values;            ///< as given, one a swept key
-  std::vector<std::string> overrides;         ///< "key=value", the swept ones and the fixed ones
+  std::string name;                           ///< folder name: "deep,sprocket_speed=0.5,seed=1"
+  std::vector<std::string> values;            ///< as given, one per swept key
+  std::vector<std::string> overrides;         ///< "key=value", swept and fixed
   scene::Scene scene;                         ///< with the overrides applied
-  std::filesystem::path file{};               ///< of its scene; empty: the plan's
-  bool untilRest = false;                     ///< it stops before its drive
-  std::optional<storage::BranchPoint> from{}; ///< that it begins with
-  double expectedEnd = 0;                     ///< simulated time at which it will likely end [s]; 0: run.duration
+  std::filesystem::path file{};               ///< scene file; empty: that of the plan
+  bool untilRest = false;                     ///< the run stops before its drive
+  std::optional<storage::BranchPoint> from{}; ///< initial state
+  double expectedEnd = 0;                     ///< expected simulated time at its end [s]; 0: run.duration
 };
 
 struct SweepPlan {
   std::filesystem::path scene;
-  std::vector<std::string> keys; ///< the swept ones: kCaseKey, those of --set in the order given, kSeedKey
+  std::vector<std::string> keys; ///< swept keys: kCaseKey, those of --set in order, kSeedKey
   std::vector<SweepRun> runs;    ///< the last key changes fastest
 };
 
-/// Cuts at commas that stand outside quotes, brackets and braces: "[1, 2],[3, 4]" is two values.
+/// Splits at commas outside quotes, brackets and braces: "[1, 2],[3, 4]" has two values.
 std::vector<std::string> splitValues(std::string_view list);
 
 /// A key with a list of values.
@@ -58,9 +58,9 @@ KeyValues keyValues(const std::string& set, const std::string& option, const std
 /// Replaces each run of characters that are unsafe in folder names by an underscore.
 std::string plainText(const std::string& text);
 
-/// The runs of `scene` over the product of all lists, every scene of them loaded and checked as `grouser plan` does. A
-/// key of --set with one value is fixed; where nothing has several, those with one are swept. `fixed` are overrides for
-/// all runs. Throws InputError for the first wrong value, for a key that is given twice, and for a sweep of nothing.
+/// Plans the runs of `scene` over the product of all lists; loads and checks every scene as `grouser plan` does. A key
+/// of --set with one value is fixed, unless no key has several. `fixed`: overrides for all runs. Throws InputError for
+/// the first invalid value, a duplicate key, or an empty sweep.
 SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
                     const std::vector<std::string>& fixed = {});
 

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Mean and largest of the numbers that are there.
+/// Mean and maximum of the numbers that are not NaN.
 struct Spread {
   double sum = 0, most = base::kNaN;
   std::size_t count = 0;
@@ -40,7 +40,7 @@ struct Spread {
   double mean() const { return count ? sum / static_cast<double>(count) : base::kNaN; }
 };
 
-/// The steady rows of a run's series. Without a file everything is NaN.
+/// Steady rows of the series of a run. All values are NaN without a file.
 class Steady {
 public:
   Steady(const support::Hdf5File* file, double from) : file_(file) {
@@ -52,7 +52,7 @@ public:
     for (const double v : rows(path)) spread.add(v);
     return spread;
   }
-  /// Over both tracks and all shoes.
+  /// Values of both tracks and all shoes.
   Spread ofTracks(const std::string& name) const {
     Spread spread;
     for (const std::string side : {"left", "right"})
@@ -66,7 +66,7 @@ public:
     for (std::size_t i = k; i < all.size(); i += 3) spread.add(all[i]);
     return spread.mean();
   }
-  /// Sum of the means of those tracks that there are.
+  /// Sum of the means of the existing tracks.
   double sumOfTracks(const std::string& name) const {
     double sum = base::kNaN;
     for (const std::string side : {"left", "right"})
@@ -85,7 +85,7 @@ public:
     }
     return spread;
   }
-  /// Slip of both tracks together: way of the hull over the way of the sprockets, in each track's own direction.
+  /// Common slip of both tracks: 1 - hull travel over sprocket travel, in the direction of each track.
   double slip() const {
     double went = 0, asked = 0;
     for (const std::string side : {"left", "right"}) {
@@ -98,7 +98,7 @@ public:
     }
     return asked > 0 ? 1 - went / (asked * constant("vehicle/pitch_radius")) : base::kNaN;
   }
-  /// Whether forces are stated along both directions of motion: gross traction has the sign of the torques forward.
+  /// Whether the direction of motion changes: gross traction has the sign of the torques when driving forward.
   bool turnsRound() const {
     const std::vector<double> traction = rows("vehicle/gross_traction"), left = rows("vehicle/left/mean_torque"),
                               right = rows("vehicle/right/mean_torque");
@@ -142,7 +142,7 @@ private:
   std::size_t first_ = 0;
 };
 
-/// Columns that are stated in the direction of motion.
+/// Columns along the direction of motion.
 constexpr std::array kAlongMotion{"gross traction [N]", "drawbar pull [N]", "motion resistance [N]"};
 constexpr const char* kTurned = "direction of motion changes: gross traction, drawbar pull, motion resistance";
 
@@ -151,7 +151,7 @@ struct Figure {
   double value;
 };
 
-/// What all runs of a sweep have columns for, where only some of them have it, too.
+/// Vehicle and surfaces of all runs of a sweep, which determine the columns.
 struct Columns {
   bool vehicle = false;
   std::vector<std::string> surfaces; ///< their names
@@ -165,7 +165,7 @@ struct Columns {
   }
 };
 
-/// Loads on the surfaces, and where they are at the end.
+/// Loads on the surfaces, and their final positions.
 void addSurfaces(const Steady& steady, const std::vector<std::string>& names, std::vector<Figure>& figures) {
   for (const std::string& name : names) {
     const std::string group = "surfaces/" + name + "/";
@@ -180,7 +180,7 @@ void addSurfaces(const Steady& steady, const std::vector<std::string>& names, st
   }
 }
 
-/// The figures of one run, all NaN where `file` is null: one list for header and rows.
+/// The figures of one run, for header and rows; all NaN if `file` is null.
 std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const Columns& columns) {
   const Steady steady(file, from);
   std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
@@ -207,14 +207,14 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
   return figures;
 }
 
-/// Why figures of the steady part say little; empty where they are sound, and where there are none.
+/// Reason why figures of the steady part are inconclusive; empty if valid or missing.
 std::string doubtOf(const scene::Scene& scene, const SweepOutcome& outcome, double teeth) {
   if (outcome.status == output::RunStatus::incomplete) return outcome.message;
   if (!setup::asksToDrive(scene) || !(teeth < setup::kFewestTeeth)) return {};
   return fmt::format("{:.2g} teeth in the steady part, fewer than {:g}", teeth, setup::kFewestTeeth);
 }
 
-/// Adds the figures of one run to `all`; NaN where it has not ended.
+/// Adds the figures of one run to `all`; NaN if it has not ended.
 void addFigures(const SweepRun& run, const SweepOutcome& outcome, const fs::path& folder, const Columns& columns,
                 SweepFigures& all) {
   std::optional<support::Hdf5File> file;
@@ -261,7 +261,7 @@ double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
 }
 
 double steadyFrom(const scene::Scene& scene, const RunManifest& manifest) {
-  // [stop] and --steps end runs early; without them the last step may still end a rounding away from the duration.
+  // [stop] and --steps end runs early; otherwise the last step may differ from the duration by rounding.
   const double end = manifest.number("simulated_time_s"), step = end / manifest.number("steps");
   return steadyFrom(scene, manifest.figure("drive_start_s"), scene.run.duration - end > step ? end : base::kNaN);
 }
@@ -306,9 +306,9 @@ void checkSweepFiles(const fs::path& folder) {
   std::error_code error;
   for (const char* name : kSweepFiles)
     if (fs::exists(folder / name, error))
-      throw base::InputError(fmt::format("{}: is a file that no sweep has written, and this one would write over it; "
-                                         "name another folder with --out, or overwrite it with --force",
-                                         (folder / name).string()));
+      throw base::InputError(fmt::format(
+          "{}: exists but was not written by a sweep; name another folder with --out, or overwrite it with --force",
+          (folder / name).string()));
 }
 
 fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {

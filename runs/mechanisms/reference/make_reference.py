@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reference solutions of the mechanisms that have no closed form in elementary functions; needs python3-scipy.
+"""Reference solutions of mechanisms without a closed form in elementary functions; requires python3-scipy.
 
     top_free.csv, top_flip.csv   the directions of the first two principal axes, by DOP853 (Hairer, Norsett and Wanner) at a
                                  tolerance of 3e-14 from Euler's equations with the attitude's quaternion
-    andrews.csv                  place of point F, by DOP853 at 3e-14 from the equations of the IVP test set in minimal form with
+    andrews.csv                  point F, by DOP853 at 3e-14 from the equations of the IVP test set in minimal form with
                                  index 1, positions and velocities projected onto the constraints at each row
 """
 import math
@@ -73,7 +73,7 @@ def andrews():
     spring = [polar(sd, -sc, G)]
 
     def place(arms, q):
-        """Sum of arms, its Jacobian, and what is left of its second derivative."""
+        """Sum of arms, its Jacobian, and the velocity part of its second derivative."""
         p, J = numpy.zeros(2), numpy.zeros((2, 7))
         for r, angles, phase in arms:
             a = sum(q[k] for k in angles) + phase

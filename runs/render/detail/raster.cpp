@@ -10,7 +10,7 @@ namespace grouser::render::detail {
 
 namespace {
 
-constexpr float kCreaseCosine = 0.82f; ///< of 35 degrees
+constexpr float kCreaseCosine = 0.82f; ///< cosine of 35 degrees
 constexpr int kBandRows = 32;
 
 struct Rectangle {
@@ -24,7 +24,7 @@ void put(Surfaces& s, std::size_t i, float depth, const Vec3f& normal_W, std::in
   s.object[i] = object;
 }
 
-/// Ends of the sphere's shadow on the plane at depth 1, along one axis: tangents from the eye in the plane of z and it.
+/// Extent of the sphere's projection on the plane at depth 1 along one axis: tangents from the eye.
 std::pair<float, float> tangents(float x, float z, float radius) {
   const float t = std::sqrt(x * x + z * z - radius * radius);
   return {(x * t - radius * z) / (z * t + radius * x), (x * t + radius * z) / (z * t - radius * x)};
@@ -56,7 +56,7 @@ std::vector<PlacedSphere> place(const View& view, const std::vector<RenderSphere
     if (r.left < r.right && r.top < r.bottom)
       placed.push_back({c, spheres[i].radius, c.z - spheres[i].radius, r, static_cast<std::int32_t>(i)});
   }
-  // Nearest first: most of what is hidden is then left out at one look.
+  // Front to back, so that most hidden spheres are rejected early.
   std::sort(placed.begin(), placed.end(), [](const PlacedSphere& a, const PlacedSphere& b) {
     return std::tie(a.nearest, a.object) < std::tie(b.nearest, b.object);
   });
@@ -71,7 +71,7 @@ void draw(const PlacedSphere& sphere, int top, int bottom, Surfaces& s) {
     for (int column = sphere.bounds.left; column < sphere.bounds.right; ++column) {
       const std::size_t i = s.index(column, row);
       if (sphere.nearest >= s.depth[i]) continue;
-      // Foot of the centre on the ray, then back along it: no difference of large squares.
+      // Foot point of the centre on the ray, then back along it: avoids differences of large squares.
       const Vec3f origin = v.perspective ? Vec3f{} : Vec3f{v.planeX(column), v.planeY(row), 0};
       const Vec3f along = v.perspective ? Vec3f{v.planeX(column), v.planeY(row), 1} : Vec3f{0, 0, 1};
       const float a = dot(along, along), foot = dot(c - origin, along) / a;
@@ -95,7 +95,7 @@ struct Polygon {
   void add(const Corner& c) { corner[count++] = c; }
 };
 
-/// The part of a triangle beyond the near plane: none, three or four corners.
+/// The part of a triangle beyond the near plane: zero, three or four corners.
 Polygon clipped(const Facet& f, const View& view) {
   std::array<Corner, 3> in;
   Polygon out;
@@ -114,7 +114,7 @@ Polygon clipped(const Facet& f, const View& view) {
   return out;
 }
 
-/// One triangle on the screen; `w` is 1/depth (perspective) or 1 (parallel): what is linear over the screen is value w.
+/// One triangle on the screen; `w`: 1/depth (perspective) or 1 (parallel); value * w is linear on the screen.
 struct ScreenTriangle {
   std::array<float, 3> x, y, z, w;
   std::array<Vec3f, 3> normal, colour;
@@ -144,7 +144,7 @@ void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& li
     const auto [x0, x1] = std::minmax_element(t.x.begin(), t.x.end());
     const auto [y0, y1] = std::minmax_element(t.y.begin(), t.y.end());
     const auto clampTo = [](float p, int n) { return static_cast<int>(std::clamp(p, 0.0f, float(n))); };
-    // Pixels whose middle may lie inside: most small triangles have none.
+    // Pixels whose centre may be inside: most small triangles have none.
     t.bounds = {clampTo(std::ceil(*x0 - 0.5f), view.width), clampTo(std::floor(*x1 + 0.5f), view.width),
                 clampTo(std::ceil(*y0 - 0.5f), view.height), clampTo(std::floor(*y1 + 0.5f), view.height)};
     t.object = facet.object, t.coloured = facet.coloured;
@@ -194,7 +194,7 @@ View viewTowards(const base::Vec3d& eye, const base::Vec3d& target, const base::
 
 namespace {
 
-/// For each vertex the number of its place: vertices at the same place share one.
+/// Position index of each vertex: vertices at the same position share one.
 std::vector<std::uint32_t> placesOf(const base::TriangleMesh& mesh, std::size_t& count) {
   std::vector<std::uint32_t> order(mesh.vertices.size()), place(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -211,13 +211,13 @@ std::vector<std::uint32_t> placesOf(const base::TriangleMesh& mesh, std::size_t&
   return place;
 }
 
-/// The facets of one mesh into `facets`.
+/// Appends the facets of one mesh to `facets`.
 void facetsOf(const RenderMesh& part, std::int32_t object, Facet* facets) {
   const std::vector<std::uint32_t>& corners = part.mesh.indices;
   const std::size_t triangles = corners.size() / 3;
   std::size_t places = 0;
   const std::vector<std::uint32_t> place = placesOf(part.mesh, places);
-  // Triangles round each place: those of place p are at[start[p]] ... at[start[p + 1] - 1].
+  // Triangles at each position: those of position p are at[start[p]] ... at[start[p + 1] - 1].
   std::vector<std::uint32_t> start(places + 1, 0), at(3 * triangles);
   for (std::size_t k = 0; k < 3 * triangles; ++k) ++start[place[corners[k]]];
   std::partial_sum(start.begin(), start.end(), start.begin());
@@ -273,7 +273,7 @@ std::vector<ScreenTriangle> place(const View& view, const std::vector<Facet>& fa
   return all;
 }
 
-/// For each band of rows the things that reach into it, in their order.
+/// Objects overlapping each band of rows, in order.
 template <class Placed> std::vector<std::vector<std::uint32_t>> byBand(const std::vector<Placed>& things, int bands) {
   std::vector<std::vector<std::uint32_t>> lists(static_cast<std::size_t>(bands));
   for (std::size_t i = 0; i < things.size(); ++i) {

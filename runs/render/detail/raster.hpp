@@ -12,12 +12,12 @@ namespace grouser::render::detail {
 
 using base::Vec3f;
 
-/// A camera as the rasteriser wants it. Camera frame C: x right, y up, z into the picture.
+/// Camera of the rasteriser. Camera frame C: x right, y up, z into the picture.
 struct View {
   Vec3f eye, right, up, forward;
   bool perspective = true;
   float halfHeight = 1; ///< of the picture at depth 1 (perspective), or anywhere (parallel)
-  float near = 0.01f;   ///< what is nearer is not seen (perspective) [m]
+  float near = 0.01f;   ///< near plane (perspective) [m]
   int width = 0, height = 0;
 
   Vec3f toCamera(const Vec3f& p_W) const {
@@ -28,7 +28,7 @@ struct View {
   Vec3f turn(const Vec3f& v_C) const { return right * v_C.x + up * v_C.y + forward * v_C.z; }
   Vec3f toCameraFrame(const Vec3f& v_W) const { return {dot(v_W, right), dot(v_W, up), dot(v_W, forward)}; }
   float pixelsPerUnit() const { return 0.5f * static_cast<float>(height) / halfHeight; }
-  /// Camera-frame coordinates (x, y) at depth 1 of a pixel's middle; for a parallel view at any depth.
+  /// Camera-frame coordinates (x, y) of a pixel centre at depth 1; parallel view: at any depth.
   float planeX(int column) const {
     return (static_cast<float>(column) + 0.5f - 0.5f * static_cast<float>(width)) / pixelsPerUnit();
   }
@@ -45,17 +45,17 @@ struct View {
 /// Looks from `eye` to `target`.
 View viewTowards(const base::Vec3d& eye, const base::Vec3d& target, const base::Vec3d& up);
 
-/// What is seen at each pixel.
+/// Buffers of visible objects per pixel.
 struct Surfaces {
   explicit Surfaces(const View& v)
       : view(v), depth(static_cast<std::size_t>(v.width) * v.height, std::numeric_limits<float>::infinity()),
         normal(depth.size()), object(depth.size(), -1) {}
 
   View view;
-  std::vector<float> depth;                        ///< along z of the camera; infinite where nothing is
+  std::vector<float> depth;                        ///< along z of the camera; infinite for empty pixels
   std::vector<std::array<std::int16_t, 3>> normal; ///< world, times 32767
-  std::vector<std::int32_t> object;                ///< sphere i, or spheres + mesh j; -1 where nothing is
-  std::vector<Vec3f> colour;                       ///< of meshes with colours at their vertices; empty: there is none
+  std::vector<std::int32_t> object;                ///< sphere i, or spheres + mesh j; -1: empty
+  std::vector<Vec3f> colour;                       ///< of meshes with vertex colours; empty: none
 
   std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * view.width + column; }
   Vec3f normalAt(std::size_t i) const {
@@ -65,15 +65,15 @@ struct Surfaces {
 
 /// A triangle in the world with the normal at each corner.
 struct Facet {
-  std::array<Vec3f, 3> corner, normal, colour; ///< colours of a mesh that has them at its vertices
+  std::array<Vec3f, 3> corner, normal, colour; ///< colours of meshes with vertex colours
   std::int32_t object{};
   bool oneSided{}, coloured{};
 };
 
-/// All triangles of a scene; corners are smooth where neighbouring faces differ by less than 35 degrees.
+/// All triangles of a scene; smooth shading between faces that differ by less than 35 degrees.
 std::vector<Facet> facetsOf(const RenderScene& scene);
 
-/// Fills the depth buffer with everything.
+/// Renders all objects into the depth buffer.
 void rasterise(const std::vector<RenderSphere>& spheres, const std::vector<Facet>& facets, Surfaces& surfaces);
 
 } // namespace grouser::render::detail

@@ -7,13 +7,13 @@
 #include <optional>
 #include <string>
 
-/// What sections of several subjects are checked for.
+/// Checks shared by sections of several subjects.
 namespace grouser::scene::detail {
 
 /// Throws InputError unless `name` is a material of the scene; `key` is where the name stands.
 void requireMaterial(const Scene& scene, const base::Section& section, const std::string& key, const std::string& name);
 
-/// Makes `name` the absolute path of an existing file. Throws InputError with the places that were looked at.
+/// Makes `name` the absolute path of an existing file. Throws InputError with the searched paths.
 void resolveFile(const Scene& scene, const base::Section& section, const std::string& key, std::string& name);
 
 /// Reads the mesh at the absolute path `file`. `scale`: metres per unit of the file; `sphereRadius` [m], empty for the
@@ -22,7 +22,7 @@ void resolveFile(const Scene& scene, const base::Section& section, const std::st
 LoadedMesh loadMesh(const base::Section& section, const std::string& file, double scale,
                     const std::optional<double>& sphereRadius, bool centred);
 
-/// What only the scene as a whole shows, once all sections are read. Throws InputError.
+/// Checks of the scene as a whole, once all sections are read. Throws InputError.
 void checkTogether(const Scene& scene);
 
 } // namespace grouser::scene::detail

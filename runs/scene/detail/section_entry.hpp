@@ -13,20 +13,20 @@
 #include <utility>
 #include <vector>
 
-/// What is done with each kind of section of a scene file: reading, checks, the resolved copy and the help all walk
-/// along one list of entries. The functions below make entries; they differ in how a section stands in a file and in
-/// the Scene. `where` is what holds the sections: a member of Scene, or a function from a Scene to it.
+/// Sections of a scene file: reading, checks, the resolved copy and the help iterate over one list of entries. The
+/// functions below make entries for the forms of a section in a file and in the Scene. `where` holds the sections: a
+/// member of Scene, or a function from a Scene to it.
 namespace grouser::scene::detail {
 
 struct SectionEntry {
-  std::string name; ///< in a file, without brackets; "driver.table" stands inside of another
+  std::string name; ///< in a file, without brackets; "driver.table" is part of another
   std::function<void(const base::Section& root, Scene& scene)> read; ///< and check; throws InputError
   std::function<std::string(const Scene& scene)> write;              ///< TOML with headings
   std::function<std::string()> describe;                             ///< Markdown
-  std::function<void(base::Document& document)> renameKeys;          ///< that files still call by a former name
+  std::function<void(base::Document& document)> renameKeys;          ///< that have a former name in files
   std::vector<std::string> keys;                                     ///< with the section: "driver.table.time"
 
-  /// As long as `holds` does not, nothing is written.
+  /// Writes the section only if `holds`.
   SectionEntry writtenIf(bool (*holds)(const Scene&)) && {
     write = [holds, always = std::move(write)](const Scene& s) { return holds(s) ? always(s) : std::string(); };
     return std::move(*this);
@@ -34,10 +34,10 @@ struct SectionEntry {
 };
 using SectionList = std::vector<SectionEntry>;
 
-/// What a table cannot say about a section, and defaults that follow from other keys. `scene` holds all that stands
-/// before it in the list of entries.
+/// Checks beyond a table's, and defaults that follow from other keys. `scene` has all sections that precede it in the
+/// list of entries.
 template <class S> using Check = std::function<void(const base::Section& section, S& s, const Scene& scene)>;
-template <class S> using CheckOf = std::type_identity_t<Check<S>>; // is no part of what a call deduces
+template <class S> using CheckOf = std::type_identity_t<Check<S>>; // not deduced
 
 template <class S> std::vector<std::string> fullKeys(const std::string& name, const base::Table<S>& table) {
   std::vector<std::string> keys;
@@ -76,7 +76,7 @@ std::function<void(const base::Section&, Scene&)> readerOfOne(const std::string&
   };
 }
 
-/// [name]: one, with its defaults where the file has none. `subsections` stand inside it and have their own entries.
+/// [name]: one, with its defaults where the file has none. `subsections` are part of it and have their own entries.
 template <class S, class Where> SectionEntry single(const std::string& name, Where where, const base::Table<S>& table,
                                                     CheckOf<S> check = {},
                                                     const std::vector<std::string>& subsections = {}) {
@@ -132,8 +132,7 @@ SectionEntry list(const std::string& name, Where where, const base::Table<S>& ta
           fullKeys(name, table)};
 }
 
-/// [name.KEY], in the file's order. `begin` makes a section with its key and all that stands there before it is read,
-/// `keyOf` gives the key back.
+/// [name.KEY], in the file's order. `begin` makes a section with its key and initial values, `keyOf` returns the key.
 template <class S, class Where>
 SectionEntry named(const std::string& name, Where where, const base::Table<S>& table,
                    S (*begin)(const base::Section& section, const std::string& key, Scene& scene),

@@ -9,31 +9,32 @@
 #include <optional>
 #include <string>
 
-/// Materials of soils: from names in a scene to sections, from a soil's file to a material, from its grains to theirs.
+/// Materials of soils: sections for names in a scene, materials from soil files, scaling to the scene's grains.
 namespace grouser::scene::detail {
 
 base::Table<Material> materialTable();
-/// What the table cannot say about a material, and the defaults of its law.
+/// Checks of a material beyond its table, and the defaults of its law.
 void completeMaterial(const base::Section& section, Material& m);
 
-/// Has the scene say [material.NAME] soil = "NAME" of each soil that stands where a material does, and of which the
-/// scene has no section of that name, but for overrides.
+/// Adds [material.NAME] soil = "NAME" for each soil used as a material without a section of that name (overrides
+/// aside).
 void supplySoils(base::Document& document, const std::filesystem::path& scene);
 
-/// The soil that [material.NAME] is of, where it is; kept in the scene. Null otherwise. Throws InputError.
+/// The soil of [material.NAME], stored in the scene; null if it has none. Throws InputError.
 const Soil* soilOf(const base::Section& section, const std::string& name, Scene& scene);
 
-/// What the soil's file says, but for keys that contradict those of the scene's section: those of the other law, or
-/// the other way to say how lossy a contact is.
+/// Values of the soil's file, without keys that contradict those of the scene's section: keys of the other law, or
+/// restitution and damping.
 Material materialOf(const Soil& soil, const base::Section& section);
 
-/// Once all sections are read: scales what comes from soils' files from their grains to those of the scene. Throws
-/// InputError where these have no one radius.
+/// Once all sections are read: scales values of soil files to the grains of the scene. Throws InputError if these have
+/// no common radius.
 void scaleSoils(Scene& scene);
 
-/// Hands to `f` what goes with the radius r of the grains, as key, unit, value and power of r. Modulus, densities,
-/// coefficients of friction and restitution do not: strains under a pressure, and strength over it, are then the same
-/// at all sizes, and the time step goes with r. (Thakur et al. 2015; stiffness with r, forces of adhesion with r^2.)
+/// Calls `f` with key, unit, value and power of r for each value that scales with the grain radius r. Modulus,
+/// densities, coefficients of friction and restitution do not: strains under a pressure, and strength over it, are then
+/// the same at all sizes, and the time step scales with r. (Thakur et al. 2015; stiffness with r, forces of adhesion
+/// with r^2.)
 template <class M, class F> void forEachScaled(M&& m, F f) {
   f("stiffness", "N/m", m.stiffness, 1);
   f("damping", "1/s", m.damping, -1);

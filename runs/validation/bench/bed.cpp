@@ -39,11 +39,11 @@ double median(std::vector<double> values) {
   return n == 0 ? 0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-/// Radii that a bed's grains have [m].
+/// Range of grain radii [m].
 struct Radii {
   double mean, smallest, largest;
 };
-/// The mean cube of radii that are uniform between mean (1 - s) and mean (1 + s) is mean^3 (1 + s^2).
+/// For radii uniform between mean (1 - s) and mean (1 + s) the mean cube is mean^3 (1 + s^2).
 Radii radiiOf(const BedBench& b) {
   const double s = b.radiiSpread, mean = s > 0 ? b.radius * base::pow(1 + s * s, -1.0 / 3) : b.radius;
   return {mean, mean * (1 - s), mean * (1 + s)};
@@ -85,18 +85,18 @@ terrain::GrainModel modelOf(const BedBench& b) {
   model.gravity = {0, 0, -kGravity};
   model.skin = b.skin, model.mostSimdLanes = b.lanes;
   model.ledger = b.ledger;
-  model.law = lawOf(b, 0.5 * model.mass); // a pair of grains weighs half a grain
+  model.law = lawOf(b, 0.5 * model.mass); // effective mass of a pair
   model.floorLaw = model.law;
   const double lightest = base::sphereMass(b.density, radii.smallest);
   const double limit = contact::stableStep(std::sqrt(8 * b.stiffness / lightest), 0);
   if (b.timeStep > limit)
     throw base::InputError(fmt::format(
-        "bench bed: a step of {:g} s is above {} s, where grains of radius {} m become unstable; give --time-step",
+        "bench bed: a step of {:g} s exceeds the stable step {} s of grains of radius {} m; reduce --time-step",
         b.timeStep, base::roundedDown(limit, 3), radii.smallest));
   return model;
 }
 
-/// Places on the side of the lattice that holds all grains in kLayers layers; the top layer may be incomplete.
+/// Sites per side of the lattice for all grains in kLayers layers; the top layer may be incomplete.
 std::int64_t sideOf(std::int64_t grains) {
   auto side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(grains) / kLayers));
   while (side * side * kLayers < grains) ++side;
@@ -109,7 +109,7 @@ std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
   const std::int64_t side = sideOf(b.grains);
   const Radii radii = radiiOf(b);
   const double spacing = kSpacing * radii.largest;
-  const double shift = 0.5 * b.jitter * (kSpacing - 2) * radii.largest; // grains never touch at the start
+  const double shift = 0.5 * b.jitter * (kSpacing - 2) * radii.largest; // no initial contacts
   std::vector<terrain::GrainSpec> start;
   start.reserve(static_cast<std::size_t>(b.grains));
   for (std::int64_t i = 0; i < b.grains; ++i) {
@@ -137,7 +137,7 @@ std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
 terrain::Boundaries box(const BedBench& b, const terrain::GrainModel& model) {
   const double edge = edgeOf(b);
   contact::ContactLaw law = model.law;
-  // Against a wall the whole grain swings: the same restitution is less damping.
+  // At a wall the effective mass is that of the whole grain.
   law.damping /= std::sqrt(2.0f), law.tangentialDamping /= std::sqrt(2.0f);
   terrain::Boundaries box;
   if (!b.fixedFloor) box.walls.push_back({{0, 0, 1}, 0, law});
@@ -169,7 +169,7 @@ double BatchTimes::most() const { return *std::max_element(microseconds.begin(),
 
 BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm& comm) {
   if (!b.save.empty() && comm.size() > 1)
-    throw base::InputError("bench bed: --save is for one rank; leave it out, or start one rank");
+    throw base::InputError("bench bed: --save does not support MPI; remove it or use one rank");
   const terrain::GrainModel model = modelOf(b);
   terrain::Grains grains(exec, model, box(b, model), b.start.empty() ? lattice(b) : readBed(b),
                          {comm, {0, 0, 0}, {}, true, b.peerMemory});
@@ -180,7 +180,7 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   base::synchronize(exec);
   f.settleSeconds = secondsSince(settling);
 
-  // Warm-up; it also tells how many steps a batch of one second takes.
+  // Warm-up; it also determines the steps of a batch of one second.
   timed(exec, grains, 5);
   const double warm = timed(exec, grains, 20);
   f.times.steps = b.steps > 0 ? b.steps : std::clamp<std::int64_t>(static_cast<std::int64_t>(1e6 / warm), 10, 20000);

@@ -12,7 +12,7 @@ namespace grouser::bench {
 
 namespace {
 
-constexpr double kSameRadius = 1e-6; // [-]: files may hold radii as floats
+constexpr double kSameRadius = 1e-6; // [-]: radii in files may be floats
 
 std::string rowOf(const base::Vec3d& x, double radius, const base::Vec3f& v, const base::Vec3f& w) {
   return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", x.x, x.y, x.z,
@@ -24,14 +24,14 @@ std::string rowOf(const base::Vec3d& x, double radius, const base::Vec3f& v, con
 std::vector<terrain::GrainSpec> readBed(const BedBench& bench) {
   const std::vector<scene::Grain> rows = scene::readGrainFile(bench.start, {});
   if (static_cast<std::int64_t>(rows.size()) != bench.grains)
-    throw base::InputError(fmt::format("bench bed: {} holds {} grains and the box is for {}; give --grains {}",
+    throw base::InputError(fmt::format("bench bed: {} contains {} grains, but --grains is {}; use --grains {}",
                                        bench.start, rows.size(), bench.grains, rows.size()));
   std::vector<terrain::GrainSpec> grains;
   grains.reserve(rows.size());
   for (const scene::Grain& row : rows) {
     if (std::fabs(row.radius - bench.radius) > kSameRadius * bench.radius)
-      throw base::InputError(fmt::format("bench bed: {} holds a grain of radius {:g} m, and the bed's is {:g} m; give "
-                                         "--radius, and grains of one radius",
+      throw base::InputError(fmt::format("bench bed: {} contains a grain of radius {:g} m, but --radius is {:g} m; set "
+                                         "--radius, and use grains of equal radius",
                                          bench.start, row.radius, bench.radius));
     grains.push_back({row.position, row.velocity, row.spin});
   }

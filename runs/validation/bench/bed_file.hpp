@@ -9,12 +9,12 @@
 
 namespace grouser::bench {
 
-/// The grains of `bench.start`, a line each as in files of a scene. Throws base::InputError where it holds others than
-/// the bed: so many, and of its radius, the box being made for them.
+/// The grains of `bench.start`, one per line as in grain files of scenes. Throws base::InputError if their number or
+/// radius differs from the bed's.
 std::vector<terrain::GrainSpec> readBed(const BedBench& bench);
 
-/// Writes the grains as they are now, for readBed(), scenes and other programs: 17 digits give back what frames have.
-/// What contacts remember is not among it. Throws base::InputError where the file cannot be written.
+/// Writes the current grains for readBed(), scenes and other programs, with 17 digits, without contact history. Throws
+/// base::InputError if the file cannot be written.
 void saveBed(const terrain::Grains& grains, const std::string& path);
 
 } // namespace grouser::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the benches print and write.
+// Output of the benchmarks.
 #include "runs/validation/bench/bench.hpp"
 
 #include "base/error.hpp"
@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr int kCountsTaken = 20; // how often contacts are counted in the instrumented pass
+constexpr int kCountsTaken = 20; // contact counts in the instrumented pass
 
 Json jsonOf(const BatchTimes& times) {
   return {{"steps_a_batch", times.steps},
@@ -38,13 +38,13 @@ Json jsonOf(const BatchTimes& times) {
           {"max", times.most()}};
 }
 
-/// The vehicle's drive in what is timed.
+/// Drive of the timed vehicle.
 struct Drive {
-  std::optional<double> start; ///< empty: it has not driven off [s]
+  std::optional<double> start; ///< start of the drive [s]; empty: not started
   double ramp = 0;             ///< [s]
 };
 
-/// When the timing begins [s]; empty while a vehicle for which it waits has not driven off.
+/// Start of the timing [s]; empty while waiting for the start of the drive.
 std::optional<double> timedFrom(const StepBenchOptions& o, const coupling::Simulation& simulation, double ramp) {
   const bool waits = simulation.vehicle() && (o.fromDrive || !o.after);
   if (!waits) return o.after.value_or(0);
@@ -53,7 +53,7 @@ std::optional<double> timedFrom(const StepBenchOptions& o, const coupling::Simul
   return *start + o.after.value_or(ramp);
 }
 
-/// Steps until the timing begins, with progress; returns when that is [s].
+/// Steps until the start of the timing, with progress; returns that time [s].
 double advance(coupling::Simulation& simulation, const StepBenchOptions& o, double ramp) {
   support::Progress progress("up to speed", simulation.comm().first());
   while (true) {
@@ -63,27 +63,26 @@ double advance(coupling::Simulation& simulation, const StepBenchOptions& o, doub
     simulation.advance(std::min(end - simulation.steps(), coupling::VehicleRig::kAlarmInterval));
     if (progress.due())
       progress.update(from ? simulation.time() / *from : 0,
-                      fmt::format("t {:.3f} s{}", simulation.time(), from ? "" : ", before the vehicle rests"));
+                      fmt::format("t {:.3f} s{}", simulation.time(), from ? "" : ", waiting until the vehicle rests"));
   }
 }
 
-/// What the vehicle did between two times, in a word and in words.
+/// Motion of the vehicle between two times: keyword and text.
 std::array<std::string, 2> phaseOf(const Drive& drive, double from, double to) {
   constexpr double kStep = 1e-9; // [s]: rounding of times
   if (!drive.start || *drive.start >= to)
-    return {"standing", "the vehicle stands, and drives off later: --after drive times the driving"};
+    return {"standing", "the vehicle stands; use --after drive to time the driving"};
   if (*drive.start > from + kStep)
-    return {"driving off", fmt::format("the vehicle drives off at t = {:g} s, while it is timed: --after drive times "
-                                       "the driving alone",
+    return {"driving off", fmt::format("the vehicle drives off at t = {:g} s, during the timing; use --after drive to "
+                                       "time only the driving",
                                        *drive.start)};
   const std::string since = fmt::format("the vehicle drives since t = {:g} s", *drive.start);
   if (from < *drive.start + drive.ramp - kStep)
-    return {"speeding up",
-            fmt::format("{}, and its sprockets come up to speed until {:g} s", since, *drive.start + drive.ramp)};
+    return {"speeding up", fmt::format("{}, sprockets accelerate until {:g} s", since, *drive.start + drive.ramp)};
   return {"driving", since};
 }
 
-/// Contacts a step, by kind, and what is listed as near: means over the instrumented pass.
+/// Contacts per step by kind, and listed neighbours: means over the instrumented pass.
 struct Contacts {
   double grainGrain = 0, grainBoundary = 0, grainPart = 0, partPart = 0, pairsListed = 0, samplesListed = 0;
   int counts = 0;
@@ -105,8 +104,8 @@ Json printParts(const coupling::StageTimer& timer) {
   const double n = static_cast<double>(timer.steps());
   double sum = 0;
   for (const coupling::StageTimer::Part& part : timer.parts()) sum += part.microseconds / n;
-  fmt::print("\ninstrumented pass of {} steps: the device is waited for after every part, so that nothing overlaps and "
-             "the sum is larger than a step\n",
+  fmt::print("\ninstrumented pass of {} steps: synchronises after every part, so nothing overlaps and the "
+             "sum is larger than a step\n",
              timer.steps());
   Json json = Json::object();
   for (const coupling::StageTimer::Part& part : timer.parts()) {
@@ -119,32 +118,32 @@ Json printParts(const coupling::StageTimer& timer) {
   return json;
 }
 
-/// Steps of grains a second.
+/// Particle-steps per second.
 double rate(const BedBench& bench, double microseconds) {
   return static_cast<double>(bench.grains) / (1e-6 * microseconds);
 }
 
 void printBed(const BedBench& b, const BedFigures& f, int ranks) {
   const double share = f.rebuildMicroseconds / f.stepsBetweenRebuilds;
-  fmt::print("settling  {:.2f} s wall; kinetic energy a grain {:.2g} of m g radius\n", f.settleSeconds,
+  fmt::print("settling  {:.2f} s wall time; kinetic energy per grain {:.2g} m g radius\n", f.settleSeconds,
              f.kineticPerGrain);
   fmt::print("features  {}\n", f.features);
   fmt::print("speed     {:.3e} particle-steps/s (median of {} batches of {} steps; {:.3e} to {:.3e})\n",
              rate(b, f.times.median()), f.times.microseconds.size(), f.times.steps, rate(b, f.times.most()),
              rate(b, f.times.least()));
   fmt::print("step      {:.2f} us (median; {:.2f} to {:.2f})\n", f.times.median(), f.times.least(), f.times.most());
-  fmt::print("contacts  {:.3f} a grain, each counted once; {:.2f} neighbours listed a grain\n", f.contactsPerGrain,
+  fmt::print("contacts  {:.3f} per grain, each counted once; {:.2f} neighbours listed per grain\n", f.contactsPerGrain,
              f.listLength);
   fmt::print("rebuild   {:.1f} us, {}\n", f.rebuildMicroseconds,
              std::isfinite(f.stepsBetweenRebuilds)
-                 ? fmt::format("one in {:.0f} steps: {:.2f} us a step", f.stepsBetweenRebuilds, share)
-                 : std::string("none was needed while timing"));
-  fmt::print("memory    {:.0f} bytes a grain; {:.0f} at the peak of a rebuild, for which {:.0f} are reserved\n",
-             f.bytesPerGrain, f.peakBytesPerGrain, f.reservedPerGrain);
+                 ? fmt::format("every {:.0f} steps: {:.2f} us per step", f.stepsBetweenRebuilds, share)
+                 : std::string("none during the timing"));
+  fmt::print("memory    {:.0f} bytes per grain; {:.0f} at the peak of a rebuild ({:.0f} reserved)\n", f.bytesPerGrain,
+             f.peakBytesPerGrain, f.reservedPerGrain);
   if (ranks > 1)
     fmt::print(
-        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes a step sent by the busiest ({}); waiting "
-        "for others {:.1f} to {:.1f} % of the time\n",
+        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes per step sent by the busiest rank ({}); "
+        "MPI wait time {:.1f} to {:.1f} %\n",
         ranks, f.subdomains[0], f.subdomains[1], f.subdomains[2], 100 * f.ghostShare, f.bytesAStep, f.way,
         100 * f.leastWait, 100 * f.mostWait);
   if (!f.stateHash.empty()) fmt::print("state-hash {} step {}\n", f.stateHash, f.stepsTaken);
@@ -194,7 +193,7 @@ void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   if (!f.stateHash.empty()) json["state_hash"] = f.stateHash;
 }
 
-/// The scene with its bed at rest, and how long that took [s].
+/// The scene with a settled bed, and the wall time of settling [s].
 std::unique_ptr<coupling::Simulation> prepare(const scene::Scene& scene, const base::Exec& exec, const base::Comm& comm,
                                               double& seconds) {
   std::unique_ptr<support::Progress> settling;
@@ -211,7 +210,7 @@ std::unique_ptr<coupling::Simulation> prepare(const scene::Scene& scene, const b
   return simulation;
 }
 
-/// What is timed.
+/// Prints the timed scene.
 Json describeScene(const scene::Scene& scene, const coupling::Simulation& simulation, double preparation) {
   const std::size_t grains = simulation.ground().grains ? simulation.ground().grains->count() : 0;
   const std::size_t spheres = simulation.vehicle() ? simulation.vehicle()->parts().totalSpheres() : 0;
@@ -223,7 +222,7 @@ Json describeScene(const scene::Scene& scene, const coupling::Simulation& simula
           {"vehicle_spheres", spheres},        {"time_step_s", simulation.timeStep()}};
 }
 
-/// Batches of steps without clocks inside.
+/// Batches of steps without internal timers.
 BatchTimes timeBatches(coupling::Simulation& simulation, const StepBenchOptions& o, const base::Exec& exec) {
   BatchTimes times;
   times.steps = o.steps;
@@ -238,7 +237,7 @@ BatchTimes timeBatches(coupling::Simulation& simulation, const StepBenchOptions&
   return times;
 }
 
-/// The same steps with a clock at each stage, and contacts counted now and then.
+/// The same steps with timers at each stage and some contact counts.
 Contacts instrument(coupling::StageTimer& timer, coupling::Simulation& simulation, std::int64_t steps) {
   Contacts contacts;
   const std::int64_t countEvery = std::max<std::int64_t>(1, steps / kCountsTaken);
@@ -250,10 +249,10 @@ Contacts instrument(coupling::StageTimer& timer, coupling::Simulation& simulatio
 }
 
 void printTimes(const BatchTimes& times, const StepBenchOptions& o, double from, int ranks) {
-  fmt::print("step      {:.2f} us (median of {} batches of {} steps without clocks inside; {:.2f} to {:.2f}), from t = "
-             "{:g} s on\n",
+  fmt::print("step      {:.2f} us (median of {} batches of {} steps without internal timers; {:.2f} to {:.2f}), "
+             "starting at t = {:g} s\n",
              times.median(), o.batches, o.steps, times.least(), times.most(), from);
-  if (ranks > 1) fmt::print("ranks     {}: the times are the first one's, with its waiting for the others\n", ranks);
+  if (ranks > 1) fmt::print("ranks     {}: times of the first rank, including MPI wait time\n", ranks);
 }
 
 void printRebuilds(const coupling::StageTimer& timer) {
@@ -273,7 +272,7 @@ Json printContacts(const Contacts& contacts) {
                {"part on part and ground, patches", "part_patches", contacts.partPart},
                {"grain-part pairs listed", "grain_part_pairs_listed", contacts.pairsListed},
                {"samples listed", "probes_listed", contacts.samplesListed}};
-  fmt::print("\ncontacts a step (mean of {} counts)\n", contacts.counts);
+  fmt::print("\ncontacts per step (mean of {} counts)\n", contacts.counts);
   for (const auto& kind : kinds) {
     fmt::print("  {:<34} {:10.1f}\n", kind.text, contacts.mean(kind.sum));
     json[kind.key] = contacts.mean(kind.sum);
@@ -284,8 +283,8 @@ Json printContacts(const Contacts& contacts) {
 void printMemory(Json& json, const base::Exec& exec) {
   const double bytes = static_cast<double>(base::memoryTaken(exec));
   const double host = static_cast<double>(base::memoryTaken(base::cpuExec()));
-  fmt::print("\nmemory    host {:.0f} MiB at most", host / 1048576);
-  if (!exec.onCpu()) fmt::print(", device {:.0f} MiB taken by all programs", bytes / 1048576);
+  fmt::print("\nmemory    host {:.0f} MiB peak", host / 1048576);
+  if (!exec.onCpu()) fmt::print(", device {:.0f} MiB used by all programs", bytes / 1048576);
   fmt::print("\n");
   json["host_peak_bytes"] = host;
   if (!exec.onCpu()) json["device_bytes_taken"] = bytes;
@@ -323,7 +322,7 @@ void benchStepCommand(const BenchCommand& command) {
   json.update(describeScene(scene, *simulation, preparation));
   if (o.fromDrive && !simulation->vehicle())
     throw base::InputError(
-        fmt::format("--after drive: {} has no [vehicle] that drives off; give a time in seconds", scene.file.string()));
+        fmt::format("--after drive: {} has no driving [vehicle]; give a time in seconds", scene.file.string()));
   const double ramp = scene.driver.rampOfDrive(), from = advance(*simulation, o, ramp);
   const BatchTimes times = timeBatches(*simulation, o, exec);
   coupling::StageTimer timer(*simulation, exec);

@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kSpheresSeed = 1;
-constexpr double kPairsPerSphere = 3; ///< of many spheres
-constexpr double kLinearFrom = 1e6;   ///< contacts above which the growth is fitted
+constexpr double kPairsPerSphere = 3; ///< for many spheres
+constexpr double kLinearFrom = 1e6;   ///< minimum number of contacts of the growth fit
 const std::vector<double> kOnCpu = {3e4, 1e5, 3e5, 1e6, 3e6, 1e7};
 const std::vector<double> kOnGpu = {1e6, 1e7, 1e8, 3e8, 1e9, 2e9, 4e9, 6e9};
 
@@ -40,14 +40,14 @@ struct Times {
 
 struct Point {
   std::int64_t spheres = 0, contacts = 0;
-  Times first;  ///< with all memory still to be had
-  Times median; ///< of the others, or the first
+  Times first;  ///< including memory allocation
+  Times median; ///< of the other searches, or the first
   int slabs = 0;
   double bytesPerSphere = 0; ///< positions, pairs and work
   std::optional<BulletFigures> bullet;
 };
 
-/// One search from positions alone, pairs given back; all ranks together, timed until the last has ended.
+/// One search from positions, releasing the pairs; all ranks together, timed until the last one has finished.
 Times search(PairSearch& searcher, const base::Array<base::Position>& positions, const PairSearchOptions& options,
              const base::Comm& comm, Point& point) {
   comm.wait();
@@ -88,7 +88,7 @@ Point measure(std::int64_t spheres, const ContactsBench& bench, const base::Exec
 
 void printHead(bool isStored) {
   fmt::print("\n{:>12} {:>13} {:>8} | {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} | {:>11} {:>6}", "spheres", "contacts",
-             "a sphere", "first [s]", "total [s]", "grid", "sort", "count", isStored ? "store" : "-", "contacts/s",
+             "/sphere", "first [s]", "total [s]", "grid", "sort", "count", isStored ? "store" : "-", "contacts/s",
              "B/sph.");
   if (!bulletVersion().empty()) fmt::print(" | {:>9} {:>9} {:>8}", "cold [s]", "warm [s]", "warm/ours");
   fmt::print("\n");
@@ -130,13 +130,14 @@ Json jsonOf(const Point& p) {
   return json;
 }
 
-/// Bullet's pairs are those of single precision: a few that just touch may differ.
+/// Bullet uses single precision: a few pairs near zero overlap may differ.
 void checkBullet(const Point& p) {
   if (!p.bullet) return;
   const double apart = std::fabs(static_cast<double>(p.bullet->contacts - p.contacts));
   if (apart > 1e-4 * static_cast<double>(p.contacts) + 2)
-    throw base::SimulationError(fmt::format("of {} spheres Bullet finds {} contacts, and this program {}", p.spheres,
-                                            p.bullet->contacts, p.contacts));
+    throw base::SimulationError(
+        fmt::format("contact counts differ: for {} spheres Bullet finds {} contacts and this program {}", p.spheres,
+                    p.bullet->contacts, p.contacts));
 }
 
 } // namespace
@@ -144,12 +145,12 @@ void checkBullet(const Point& p) {
 void benchContactsCommand(const ContactsBench& bench) {
   const base::Exec exec = support::chooseDevice(support::deviceChoice(bench.device), bench.threads, bench.ranks);
   if (!bench.plot.empty() && !bench.plot.ends_with(".png"))
-    throw base::InputError(fmt::format("--plot {}: its name must end with .png", bench.plot));
+    throw base::InputError(fmt::format("--plot {}: the file name must end in .png", bench.plot));
   if (!bench.plot.empty() && bench.json.empty())
-    throw base::InputError("--plot: is drawn from the figures that --json writes; give both");
+    throw base::InputError("--plot requires --json, from which it is drawn");
   Json json = benchOrigin("contacts", exec);
   json["arrangement"] =
-      fmt::format("cubic lattice of spacing {:g} diameters, each sphere moved by up to {:g} diameters "
+      fmt::format("cubic lattice of spacing {:g} diameters, random displacements up to {:g} diameters "
                   "along each axis, ids scattered over the lattice",
                   ContactSpheres::kSpacing, ContactSpheres::kJitter);
   json["pairs"] = bench.countOnly ? "counted" : "stored";
@@ -157,16 +158,16 @@ void benchContactsCommand(const ContactsBench& bench) {
   json["ranks"] = ranks;
   json["bullet_version"] = bulletVersion();
   fmt::print("spheres   {}\n", json["arrangement"].get<std::string>());
-  fmt::print("contacts  pairs of spheres that overlap, each once, {}\n",
+  fmt::print("contacts  overlapping pairs, each once, {}\n",
              bench.countOnly ? "counted only" : "stored as two 32-bit ids");
-  fmt::print("times     of a search from positions alone, median of {} after a first one that also allots the memory\n",
+  fmt::print("times     search from positions, median of {} after a first one that allocates memory\n",
              std::max(1, bench.repeats - 1));
-  if (ranks > 1) fmt::print("ranks     {}: each holds all positions and searches its share of the slabs\n", ranks);
+  if (ranks > 1) fmt::print("ranks     {}: each has all positions and searches part of the slabs\n", ranks);
   fmt::print("bullet    {}\n",
              bulletVersion().empty()
                  ? std::string("none: built without it (Debian: libbullet-dev)")
-                 : fmt::format("{}, one thread, up to {} spheres; cold: with its set-up; warm: pairs kept, "
-                               "nothing moved",
+                 : fmt::format("{}, one thread, up to {} spheres; cold: with set-up; warm: kept pairs, "
+                               "fixed spheres",
                                bulletVersion(), bench.bulletSpheres));
   printHead(!bench.countOnly);
   std::vector<double> wanted = bench.contacts.empty() ? exec.onCpu() ? kOnCpu : kOnGpu : bench.contacts;

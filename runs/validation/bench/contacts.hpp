@@ -7,24 +7,23 @@
 #include <string>
 #include <vector>
 
-/// `grouser bench contacts`: the speed of contact detection alone.
+/// `grouser bench contacts`: speed of contact detection.
 namespace grouser::bench {
 
 struct ContactsBench {
-  std::vector<double> contacts; ///< about so many, each pair once; empty: a range that suits the device
+  std::vector<double> contacts; ///< approximate numbers of contacts, each pair once; empty: a range for the device
   bool countOnly = false;
-  std::size_t atATime = 0; ///< spheres sorted at a time; 0: as PairSearch has it
+  std::size_t atATime = 0; ///< spheres sorted at a time; 0: default of PairSearch
   int repeats = 3;
-  std::size_t bulletSpheres = 100000; ///< compare with Bullet up to so many
+  std::size_t bulletSpheres = 100000; ///< maximum number of spheres of the comparison with Bullet
   std::string device = "auto";
   int threads = 0;                    ///< 0: all
   std::string json;                   ///< file; empty: none
   std::string plot;                   ///< PNG file; empty: none
-  const base::Ranks* ranks = nullptr; ///< that share each search; null: this program alone
+  const base::Ranks* ranks = nullptr; ///< ranks of each search; null: one process
 };
 
-/// Prints a table over the number of contacts; each search starts from positions alone, which every
-/// rank holds.
+/// Prints a table over the number of contacts; each search starts from positions, which every rank has.
 void benchContactsCommand(const ContactsBench& bench);
 
 } // namespace grouser::bench

@@ -5,7 +5,7 @@
 
 namespace grouser::bench {
 
-/// Two spheres that touch, by their places in the array of positions.
+/// Two spheres in contact, by their indices in the array of positions.
 struct IdPair {
   std::uint32_t first, second; ///< first < second
 };

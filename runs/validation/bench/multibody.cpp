@@ -24,15 +24,15 @@ namespace {
 
 const Vec3d kGravityVector{0, 0, -9.81};
 constexpr double kTensionRamp = 0.05, kWeightRamp = 0.1, kDriveRamp = 0.2; // [s]
-constexpr double kGoal = 20;                                               // [us] a step of the vehicle's graph
+constexpr double kGoal = 20;                                               // target time per step of the vehicle [us]
 constexpr double kLoose = 1e-8, kTight = 1e-13;                            // [m, rad] tolerances of the gaps
-constexpr double kGrowth = 2.2;                                            // for twice the shoes
+constexpr double kGrowth = 2.2;                                            // maximum time ratio for twice the shoes
 
 double microsecondsSince(Clock::time_point start) {
   return 1e6 * std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// `f` returns the microseconds that count of one call.
+/// `f` returns the time of one call [us].
 template <class F> BatchTimes timed(int batches, std::int64_t calls, F f) {
   BatchTimes times;
   times.steps = calls;
@@ -66,7 +66,7 @@ void timeParts(const multibody::Model& model, const multibody::State& state, con
   f.linearise = timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.factor(); }); });
   f.solve = timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.solve(); }); });
 
-  // Two tolerances ask for different numbers of iterations at the same state.
+  // Two tolerances require different numbers of iterations at the same state.
   const auto stepped = [&](double tolerance, double& iterations) {
     multibody::SolverOptions options;
     options.positionTolerance = tolerance;
@@ -92,15 +92,16 @@ Json summaryOf(const BatchTimes& times) {
 Json report(const VehicleGraphFigures& f) {
   fmt::print("vehicle   {} bodies, {} joints, {} hard rows, {} loops, {} batches of four bodies\n", f.bodies, f.joints,
              f.rows, f.loops, f.batches);
-  fmt::print("driven    hull at {:.2f} m/s, {:.2f} iterations a step, {:.0f} at most; gaps up to {:.1e} m or rad\n",
-             f.hullSpeed, f.iterations, f.mostIterations, f.positionError);
+  fmt::print(
+      "drive     hull at {:.2f} m/s, {:.2f} iterations per step, maximum {:.0f}; joint errors up to {:.1e} m or rad\n",
+      f.hullSpeed, f.iterations, f.mostIterations, f.positionError);
   fmt::print("step      {:.2f} us (median of {} batches of {} steps; {:.2f} to {:.2f}); goal {:g}\n", f.step.median(),
              f.step.microseconds.size(), f.step.steps, f.step.least(), f.step.most(), kGoal);
-  fmt::print("parts, by themselves and at their best:\n");
+  fmt::print("parts of a step, measured separately (minimum):\n");
   fmt::print("  {:<42} {:7.2f} us\n", "rows, inertias, factorisation", f.linearise.least());
-  fmt::print("  {:<42} {:7.2f} us\n", "each iteration: solution, poses, gaps", f.iteration);
-  fmt::print("  {:<42} {:7.2f} us\n", "  its solution", f.solve.least());
-  fmt::print("  {:<42} {:7.2f} us\n", "loads, first gaps, readings", f.rest);
+  fmt::print("  {:<42} {:7.2f} us\n", "each iteration: solution, poses, errors", f.iteration);
+  fmt::print("  {:<42} {:7.2f} us\n", "  solution only", f.solve.least());
+  fmt::print("  {:<42} {:7.2f} us\n", "loads, first errors, readings", f.rest);
   return {{"bodies", f.bodies},
           {"joints", f.joints},
           {"hard_rows", f.rows},
@@ -132,7 +133,7 @@ VehicleGraphFigures benchVehicleGraph(const MultibodyBench& bench) {
   const vehicle::Driver driver(driverOptions(bench.speed));
   const TrackGuide guide(assembly);
 
-  // The guide is no part of what is timed.
+  // The guiding forces are not timed.
   const auto step = [&] {
     vehicle::applyControls(assembly, driver.at(state.time), kGravityVector, loads);
     guide.apply(state, loads);
@@ -184,12 +185,11 @@ void benchMultibodyCommand(const MultibodyBench& bench) {
   json["vehicle"] = report(benchVehicleGraph(bench));
   json["goal_microseconds"] = kGoal;
 
-  fmt::print(
-      "\ngrowth: two rings of shoes that spin, and a hull with wheels, arms and idlers; goal: at most {:g} times "
-      "for twice the shoes\n",
-      kGrowth);
+  fmt::print("\ngrowth: two spinning rings of shoes, and a hull with wheels, arms and idlers; goal: at most {:g} times "
+             "the time for twice the shoes\n",
+             kGrowth);
   fmt::print("  {:>5} {:>7} {:>15} {:>11} {:>12} {:>9} {:>9} {:>7}\n", "shoes", "bodies", "multiplications",
-             "iterations", "median [us]", "min [us]", "us/body", "times");
+             "iterations", "median [us]", "min [us]", "us/body", "ratio");
   json["growth"] = Json::array();
   double before = 0;
   for (const int shoes : {46, 92, 184}) {

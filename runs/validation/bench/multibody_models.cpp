@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `grouser bench multibody` steps: the forces that guide a vehicle's tracks, and rings of any size with a hull.
+// Models of `grouser bench multibody`: guiding forces of a vehicle's tracks, and rings of any size with a hull.
 #include "base/math.hpp"
 #include "runs/validation/bench/multibody.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kStiffness = 1e7; // [N/m]
 constexpr double kDamping = 4e3;   // [N s/m]
-// Teeth carry along what friction would let slip.
+// High drag of the sprocket: teeth do not slip.
 constexpr double kSprocketDrag = 2e4, kWheelDrag = 2e2; // [N s/m]
 
 Vec3d velocity(int body, const Vec3d& p, const multibody::State& state) {
@@ -33,7 +33,7 @@ void push(int body, const Vec3d& p, const Vec3d& force, const multibody::State& 
 TrackGuide::TrackGuide(const vehicle::Assembly& vehicle) : vehicle_(vehicle) {
   const vehicle::VehicleSpec& spec = vehicle.spec;
   for (const vehicle::Track& track : vehicle.tracks) {
-    // The pins lie on sprocket and idler, the plates on the others.
+    // Contact of the pins with sprocket and idler, of the plates with the others.
     std::vector<Circle> circles{{track.sprocket, spec.sprocketPinRadius(), 0, kSprocketDrag},
                                 {track.idler, spec.idlerPinRadius(), 0, kWheelDrag}};
     for (const int wheel : track.wheels)
@@ -83,8 +83,8 @@ void TrackGuide::touch(int shoe, const base::Pose& X, const Circle& circle, cons
   }
 }
 
-/// Two rings of `shoes` links that spin about their centres, 1 rad/s, and a hull with 32 bodies: arms with wheels,
-/// rollers, sprockets that are driven, carriers with idlers. Sizes as the light vehicle's.
+/// Two rings of `shoes` links spinning about their centres at 1 rad/s, and a hull with 32 bodies: arms with wheels,
+/// rollers, driven sprockets, carriers with idlers. Dimensions of the light vehicle.
 multibody::Model ringsAndHull(int shoes) {
   multibody::Model model;
   const double pitch = 0.154, turn = 2 * base::kPi / shoes;

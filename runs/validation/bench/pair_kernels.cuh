@@ -4,7 +4,7 @@
 #include "contact/cell_search.cuh"
 #include "runs/validation/bench/id_pair.hpp"
 
-/// Kernel bodies of the pair search.
+/// Kernels of the pair search.
 namespace grouser::bench::detail {
 
 using base::Position;
@@ -13,7 +13,7 @@ using contact::Cell;
 using contact::ColumnOfThree;
 using contact::overShare;
 
-/// Quotients of 42-bit numbers by the cells' edge, without a division.
+/// Division of 42-bit numbers by the cell edge, by multiplication.
 struct Divider {
   std::uint64_t edge, inverse;
   explicit Divider(std::int64_t e) : edge(static_cast<std::uint64_t>(e)), inverse(~std::uint64_t{0} / edge) {}
@@ -44,7 +44,7 @@ struct CellOf {
   }
 };
 
-/// How many spheres of a sample lie in each layer of cells along x.
+/// Number of spheres of a sample in each layer of cells along x.
 struct CountLayers {
   CellOf cellOf;
   const Position* position;
@@ -66,7 +66,7 @@ struct MarkLayers {
   }
 };
 
-/// Lists the marked ones by the sums of the marks before them.
+/// Compacts the marked ones by prefix sums of the marks.
 struct ListMarked {
   const std::uint32_t* before;
   std::int64_t count;
@@ -78,7 +78,7 @@ struct ListMarked {
   }
 };
 
-/// Dense grid over a slab; x runs slowest, so that the layer of the next slab comes last.
+/// Dense grid over a slab; x is the slowest index, so that the layer of the next slab is last.
 struct SlabGrid {
   CellOf cellOf;
   Cell low, cells;
@@ -91,21 +91,20 @@ struct SlabGrid {
   }
 };
 
-/// What the search of one slab reads.
+/// Input of the search of one slab.
 struct Neighbourhood {
   SlabGrid grid;
   const Position* position; ///< sorted by cell
   const std::uint32_t* start;
   std::int64_t reach2;
-  bool checkFar; ///< cells are so wide that 32-bit differences may wrap
+  bool checkFar; ///< 32-bit differences may wrap in cells this wide
 
   GROUSER_HD bool overlaps(const Position& a, const Position& b) const {
     if (checkFar && !contact::differencesHold(base::toUnits(b) - base::toUnits(a))) return false;
     return base::squaredNorm(base::difference(a, b)) < reach2;
   }
 
-  /// Calls visit(j, whether j touches i) for each sphere j that comes after i: in i's cell, or in one of the 13 that
-  /// follow it.
+  /// Calls visit(j, contact of j and i) for each sphere j after i in the same cell or in one of the 13 following cells.
   template <class Visit> GROUSER_HD void forLater(std::uint32_t i, Visit& visit) const {
     const Position p = position[i];
     const Cell c = grid.local(p);
@@ -141,7 +140,7 @@ struct Count {
   }
 };
 
-/// By sharesOf(count) threads.
+/// Run with sharesOf(count) threads.
 struct SumCounts {
   const std::uint32_t* counts;
   std::int64_t count;

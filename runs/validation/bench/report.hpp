@@ -8,14 +8,13 @@
 
 #include <string>
 
-/// What all benches have in common.
+/// Common parts of all benchmarks.
 namespace grouser::bench {
 
-/// Machine, device and program: printed as the first lines of a bench, and returned as the head of its JSON.
+/// Machine, device and program: printed as the first lines of a benchmark, and returned as the head of its JSON.
 nlohmann::ordered_json benchOrigin(const char* bench, const base::Exec& exec);
 
-/// The first rank writes for all. Throws base::InputError where the file cannot be written; does nothing without a
-/// name.
+/// Written by the first rank. Throws base::InputError if the file cannot be written; does nothing without a name.
 void writeBench(const nlohmann::ordered_json& json, const std::string& path, const base::Comm& comm);
 
 } // namespace grouser::bench

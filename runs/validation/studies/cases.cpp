@@ -30,7 +30,7 @@ Values sum(const Vec3d& a, double s, const Vec3d& b, double t) {
   return {v.x, v.y, v.z};
 }
 
-/// Angle of a pendulum from its lowest position that is let go at `amplitude`: theta'' = -rate^2 sin(theta).
+/// Angle from the lowest position of a pendulum released at `amplitude`: theta'' = -rate^2 sin(theta).
 struct Pendulum {
   double amplitude, rate;
   double angle(double t) const {
@@ -47,7 +47,7 @@ struct Rotor {
     const double a = 9.81 * (0.5 * (n + 1) + n) / ((n + 1) / 3.0 + n);
     rate = 0.5 * std::sqrt(1 + 4 * a), k = std::sqrt(4 * a / (1 + 4 * a)), quarter = quarterPeriod(k);
   }
-  /// Place and velocity of the first coupler's end.
+  /// Position and velocity of the end of the first coupler.
   Values tip(double t) const {
     const Jacobi j = jacobi(rate * t - quarter, k);
     const double sine = -2 * j.sn * j.cn, cosine = 2 * j.sn * j.sn - 1, speed = 2 * rate * j.dn;
@@ -135,7 +135,7 @@ StudyCase ring() {
 std::vector<StudyCase> joints() {
   std::vector<StudyCase> cases;
   const Pendulum rod{90 * kDegree, std::sqrt(9.80665 * 2 / 4.1)};
-  cases.push_back({"revolute", "joint_revolute.toml", "rod on a hinge, let go at 90 degrees, 5 s",
+  cases.push_back({"revolute", "joint_revolute.toml", "rod on a hinge, released at 90 degrees, 5 s",
                    "closed form (Jacobi)", 5, 0.1, 1, point("rod", {}, {0, 2}), [rod](double t) {
                      const double a = rod.angle(t);
                      return Values{2 * std::sin(a), -2 * std::cos(a)};
@@ -160,7 +160,7 @@ std::vector<StudyCase> joints() {
                      const Vec3d arm{0, -std::sin(10 * t), std::cos(10 * t)};
                      return sum(normalized(cross(shaft, arm)), -1, {}, 0);
                    }});
-  cases.push_back({"cylindrical", "joint_cylindrical.toml", "nut that runs down a screw, 1 s", "closed form (parabola)",
+  cases.push_back({"cylindrical", "joint_cylindrical.toml", "nut running down a screw, 1 s", "closed form (parabola)",
                    1, 0.02, 2, both(point("nut", {}, {2}), point("nut", {1, 0, 0}, {0, 1}, Probe::kDirection)),
                    [](double t) {
                      const double r = 0.1 / (2 * base::kPi), z = -0.5 * 9.81 * r * r / (r * r + 1e-3) * t * t;
@@ -213,7 +213,7 @@ std::vector<double> readProbes(const coupling::Mechanism& mechanism, const std::
 
 std::function<std::vector<double>(double t)> referenceFile(const std::string& name) {
   const std::filesystem::path path = support::shareFolder() / "runs" / "mechanisms" / "reference" / name;
-  // Read when it is first needed: listing the cases must not need the file.
+  // Read on first use, so that listing the cases does not require the file.
   return [path, rows = std::map<long long, Values>()](double t) mutable {
     constexpr double kTick = 1e-7; // [s] finer than any step between rows
     if (rows.empty()) {
@@ -229,7 +229,7 @@ std::function<std::vector<double>(double t)> referenceFile(const std::string& na
     }
     const auto row = rows.find(std::llround(t / kTick));
     if (row == rows.end())
-      throw base::InputError(fmt::format("{}: has no row at {} s; run make_reference.py beside it", path.string(), t));
+      throw base::InputError(fmt::format("{}: no row at {} s; run make_reference.py in its folder", path.string(), t));
     return row->second;
   };
 }
@@ -247,7 +247,7 @@ std::vector<StudyCase> studyCases() {
                    referenceFile("andrews.csv")});
   cases.push_back(ring());
   cases.push_back(top("top_free", "free top with moments 1, 2, 3, 20 s", 0.1, 1));
-  cases.push_back(top("top_flip", "the same, turning over (Dzhanibekov), 20 s", 0.1, 4));
+  cases.push_back(top("top_flip", "free top flipping over (Dzhanibekov effect), 20 s", 0.1, 4));
   for (StudyCase& c : joints()) cases.push_back(std::move(c));
   return cases;
 }
@@ -257,11 +257,11 @@ std::vector<ReactionCase> reactionCases() {
   return {
       {"ring46", "ring46.toml", "hinge of the spinning ring", 1, 1e-3, forceOf("pin 0"),
        18.02 * 100 * R * std::cos(half) / (2 * std::sin(half))},
-      {"chain100", "chain100.toml", "top of 100 links of 1 kg with 1e6 kg at the end", 0.05, 5e-5, forceOf("pin 0"),
+      {"chain100", "chain100.toml", "top pin of 100 links of 1 kg with 1e6 kg at the end", 0.05, 5e-5, forceOf("pin 0"),
        1000100 * 9.81},
-      {"chain100", "chain100.toml", "its middle", 0.05, 5e-5, forceOf("pin 50"), 1000050 * 9.81},
+      {"chain100", "chain100.toml", "middle pin of the same chain", 0.05, 5e-5, forceOf("pin 50"), 1000050 * 9.81},
       {"strand12", "strand12.toml", "lowest pin of the sagging strand", 0.5, 1e-4, forceOf("pin 6"), 6381.7283},
-      {"pulleys", "pulleys.toml", "belt strand, half of the tensioner's 20 kN", 1, 1e-3, forceOf("upper strand"),
+      {"pulleys", "pulleys.toml", "belt strand, half of the 20 kN of the tensioner", 1, 1e-3, forceOf("upper strand"),
        10000},
   };
 }

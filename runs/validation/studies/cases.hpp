@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-/// The mechanisms whose motion is known: what `grouser study multibody` measures errors against.
+/// Mechanisms with known motion: the references of `grouser study multibody`.
 namespace grouser::studies {
 
-/// One component of the place or velocity of a point of a body.
+/// One component of position or velocity of a point of a body.
 struct Probe {
   enum Kind { kPosition, kVelocity, kDirection };
   std::string body;
@@ -28,14 +28,14 @@ struct StudyCase {
   std::string source; ///< of the reference
   double end = 1;     ///< simulated time [s]
   double sample = 1;  ///< between the times compared [s]
-  int coarsest = 1;   ///< the longest step is sample / coarsest; each other a quarter of the one before
+  int coarsest = 1;   ///< longest step: sample / coarsest; then a quarter of the previous one each
   std::vector<Probe> probes;
   std::function<std::vector<double>(double t)> reference; ///< the probes' values at time t
-  bool isLong = false; ///< takes minutes: left out unless asked for or in the full study
+  bool isLong = false;                                    ///< takes minutes: only in the full study or if named
 };
 std::vector<StudyCase> studyCases();
 
-/// A reaction that is known in closed form.
+/// A reaction with a closed form.
 struct ReactionCase {
   std::string name, scene, title;
   double end = 1, step = 1e-3; ///< [s]
@@ -44,7 +44,7 @@ struct ReactionCase {
 };
 std::vector<ReactionCase> reactionCases();
 
-/// Positions over time from runs/mechanisms/reference/; linear in the row nearest to t, which must be there.
+/// Positions over time from runs/mechanisms/reference/; t must be the time of a row.
 std::function<std::vector<double>(double t)> referenceFile(const std::string& name);
 
 } // namespace grouser::studies

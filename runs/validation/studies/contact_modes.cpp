@@ -17,12 +17,12 @@ namespace {
 constexpr int kIterations = 4000;
 constexpr double kSphereInertia = 0.4; ///< 2/5: moment of a sphere over m R^2
 
-/// Displacement, and turn times radius.
+/// Displacement, and rotation times radius.
 struct Motion {
   Vec3d move, turn;
 };
 
-/// Forces and moments / radius that springs of unit stiffness answer a motion with, sign turned.
+/// Negative forces and moments / radius of springs of unit stiffness for a displacement.
 void stiffnessTimes(const ContactNetwork& network, const std::vector<Motion>& u, std::vector<Motion>& f) {
   std::fill(f.begin(), f.end(), Motion{});
   for (const ContactNetwork::Contact& c : network.contacts) {

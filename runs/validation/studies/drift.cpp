@@ -42,13 +42,13 @@ void advanceBy(Grains& grains, std::int64_t steps) {
   }
 }
 
-/// Mean time between the collisions of a grain in a gas of hard spheres (Enskog, with the contact value of Carnahan and
-/// Starling 1969): 1 / (4 sqrt(pi) n D^2 chi sqrt(T / m)).
+/// Mean time between collisions in a gas of hard spheres (Enskog, contact value of Carnahan and Starling 1969):
+/// 1 / (4 sqrt(pi) n D^2 chi sqrt(T / m)).
 double collisionTimeOf(const StudyBox& box) {
   const double number = 1 / std::pow(box.spacing * StudyBox::kRadius, 3);
   const double fraction = number * base::kPi / 6 * std::pow(kDiameter, 3);
   const double chi = (1 - 0.5 * fraction) / std::pow(1 - fraction, 3);
-  const double thermal = box.speed / std::sqrt(3.0); // of each component, even in [-speed, speed]
+  const double thermal = box.speed / std::sqrt(3.0); // per component, uniform in [-speed, speed]
   return 1 / (4 * std::sqrt(base::kPi) * number * kDiameter * kDiameter * chi * thermal);
 }
 
@@ -80,7 +80,7 @@ Drift runPair(const std::string& scene, const std::string& pair, const StudyBox&
   Drift drift;
   drift.scene = scene, drift.pair = pair;
   const auto samples = static_cast<std::int64_t>(duration / StudyBox::kTimeStep) / kSampleEvery;
-  // Growth is measured between what rounding makes and what no longer is small.
+  // Growth is fitted above rounding and below saturation.
   const double low = 10 * studyBoxScale().unit, high = 0.02 * kDiameter;
   std::vector<double> time, logRms;
   bool small = true;
@@ -98,7 +98,7 @@ Drift runPair(const std::string& scene, const std::string& pair, const StudyBox&
   return drift;
 }
 
-/// What is measured of one run of the bed at one time.
+/// Macroscopic quantities of one run of the bed at one time.
 struct Macro {
   double kinetic, centre, top, coordination;
 };
@@ -147,7 +147,7 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
     for (int p = 0; p < 2; ++p) {
       StudyBox box = bedOf(study);
       box.precision = p == 0 ? Precision::single : Precision::double_;
-      // Runs of one precision begin as no other does: the two means are independent.
+      // All runs have different initial states, so the two means are independent.
       box.shaken = kShaken, box.seed = 2 * static_cast<std::uint64_t>(run) + static_cast<std::uint64_t>(p) + 1;
       progress((run + 0.5 * p) / study.runs, "dropped bed");
       Grains grains = fill(box, exec);
@@ -181,7 +181,7 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
 
 std::string driftTable(const std::vector<Drift>& drifts) {
   std::string text =
-      fmt::format("\ndrift of two runs from one state: distance between the same grains\n  {:<12} {:<32} "
+      fmt::format("\ndrift between two runs from the same state: distance of the same grains\n  {:<12} {:<32} "
                   "{:>17} {:>15} {:>14} {:>16} {:>14}\n",
                   "", "", "growth [1/s]", "a collision [-]", "farthest at D", "rms at D", "rms at end [m]");
   for (const Drift& d : drifts) {
@@ -193,7 +193,7 @@ std::string driftTable(const std::vector<Drift>& drifts) {
         moment(d.toDiameter), moment(d.rmsToDiameter), d.samples.back().rms);
   }
   if (!drifts.empty() && drifts.front().collisionTime > 0)
-    text += fmt::format("  a grain of the gas collides every {:.4f} s; D is a diameter, {:g} m; a unit of length is "
+    text += fmt::format("  mean time between collisions in the gas: {:.4f} s; D: diameter, {:g} m; unit of length: "
                         "{:.2e} m\n",
                         drifts.front().collisionTime, kDiameter, studyBoxScale().unit);
   return text;
@@ -208,21 +208,21 @@ std::string driftCsv(const std::vector<Drift>& drifts) {
 }
 
 std::string macroTable(const std::vector<MacroRow>& rows, int runs) {
-  std::string text = fmt::format("\nsingle against double in what is measured: means of {0} + {0} dropped beds that "
-                                 "begin up to {1} units of length "
-                                 "apart\n  {2:<30} {3:>9} {4:>25} {5:>25} {6:>12} {7:>12} {8:>8}\n",
-                                 runs, kShaken, "", "time [s]", "single", "double", "bias", "std. error", "ratio");
+  std::string text = fmt::format(
+      "\nsingle and double precision, macroscopic quantities: means of {0} + {0} dropped beds with "
+      "initial displacements up to {1} units of length\n  {2:<30} {3:>9} {4:>25} {5:>25} {6:>12} {7:>12} {8:>8}\n",
+      runs, kShaken, "", "time [s]", "single", "double", "bias", "std. error", "ratio");
   int beyond = 0;
   for (const MacroRow& r : rows) {
     const double ratio = r.error() > 0 ? r.bias() / r.error() : 0;
     beyond += std::fabs(ratio) > 2;
-    if ((&r - rows.data()) % 2 == 0) continue; // every other time; all are in the file
+    if ((&r - rows.data()) % 2 == 0) continue; // every second time; the file contains all
     text += fmt::format("  {:<30} {:>9.3g} {:>25} {:>25} {:>12.2e} {:>12.2e} {:>+8.2f}\n",
                         fmt::format("{} [{}]", r.quantity, r.unit), r.time,
                         fmt::format("{:.6g} +- {:.1e}", r.single.mean, r.single.error),
                         fmt::format("{:.6g} +- {:.1e}", r.double_.mean, r.double_.error), r.bias(), r.error(), ratio);
   }
-  return text + fmt::format("  {} of {} rows beyond two standard errors; by chance one in twenty, or a little more\n",
+  return text + fmt::format("  {} of {} rows exceed two standard errors (expected by chance: about one in twenty)\n",
                             beyond, rows.size());
 }
 

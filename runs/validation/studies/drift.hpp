@@ -9,11 +9,10 @@
 #include <string>
 #include <vector>
 
-/// How far two runs of different precision drift apart: grain by grain while that means something, and in what is
-/// measured of many grains after.
+/// Drift between runs of different precision: distances of single grains first, then macroscopic quantities.
 namespace grouser::studies {
 
-/// Distances between the same grains of two runs.
+/// Distances of the same grains in two runs.
 struct DriftSample {
   double time = 0;         ///< [s]
   double max = 0, rms = 0; ///< [m]
@@ -23,19 +22,19 @@ struct DriftSample {
 struct Drift {
   std::string scene, pair; ///< "gas", "single - double"
   std::vector<DriftSample> samples;
-  double collisionTime = 0; ///< mean time between the collisions of a grain [s]; 0: not known
-  support::LineFit growth;  ///< of ln rms while it is small [1/s]
-  double toDiameter = -1;   ///< time until the farthest grain is a diameter away [s]; negative: not within the run
+  double collisionTime = 0; ///< mean time between collisions [s]; 0: unknown
+  support::LineFit growth;  ///< growth of ln rms while rms is small [1/s]
+  double toDiameter = -1;   ///< time until the maximum distance is one diameter [s]; negative: not reached
   double rmsToDiameter = -1;
 };
 
-/// One quantity of many grains at one time, over runs that begin a few units of length apart.
+/// A macroscopic quantity at one time, over runs whose initial states differ by a few units of length.
 struct MacroRow {
   std::string quantity, unit;
   double time = 0; ///< [s]
   jobs::MeanError single, double_;
   double bias() const { return single.mean - double_.mean; }
-  double error() const; ///< standard error of the bias, from the runs' scatter
+  double error() const; ///< standard error of the bias, from the scatter of the runs
 };
 
 struct DriftStudy {
@@ -45,10 +44,10 @@ struct DriftStudy {
   int threads = 0;                     ///< 0: all
 };
 using DriftProgress = std::function<void(double fraction, const std::string& what)>;
-/// A gas of elastic grains, and a bed that is dropped: single against double, and double against itself with all grains
-/// moved by up to a unit of length.
+/// A gas of elastic grains and a dropped bed: single against double precision, and double against double with all
+/// grains displaced by up to a unit of length.
 std::vector<Drift> studyDrift(const DriftStudy& study, const DriftProgress& progress);
-/// The dropped bed many times over in both precisions: heights, kinetic energy, coordination.
+/// Many runs of the dropped bed in both precisions: heights, kinetic energy, coordination.
 std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgress& progress);
 
 std::string driftTable(const std::vector<Drift>& drifts);

@@ -10,7 +10,7 @@ namespace grouser::studies {
 
 namespace {
 
-/// Steps of the arithmetic-geometric mean: it doubles its digits with each, so that these are more than enough.
+/// Steps of the arithmetic-geometric mean; each doubles the number of digits.
 constexpr int kMeans = 10;
 
 struct Means {
@@ -39,7 +39,7 @@ Jacobi jacobi(double u, double k) {
   double phi = std::ldexp(m.a[kMeans] * u, kMeans);
   for (std::size_t n = kMeans; n > 0; --n) phi = 0.5 * (phi + std::asin(m.c[n] / m.a[n] * std::sin(phi)));
   const double sn = std::sin(phi), cn = std::cos(phi);
-  // 1 - k^2 sn^2, without cancellation where k is near 1.
+  // 1 - k^2 sn^2 without cancellation for k near 1.
   return {sn, cn, std::sqrt((1 - k) * (1 + k) + k * k * cn * cn)};
 }
 

@@ -22,10 +22,10 @@ namespace {
 constexpr double kFeatureRadius = 0.01, kFeatureStiffness = 1e5; // [m], [N/m]
 constexpr int kLayers = 6, kTile = 12;                           // grains on a side of the tile
 constexpr double kFeatureSpacing = 2.1;                          // [radii]
-constexpr std::int64_t kCompared = 300;                          // steps, after which states are compared
+constexpr std::int64_t kCompared = 300;                          // number of steps before states are compared
 constexpr std::int64_t kOutputEvery = 100;                       // steps
 
-/// Values of `section` among lines "section: key = value".
+/// Lines of `section` in text of the form "section: key = value".
 std::string keysOf(const std::string& keys, const std::string& section) {
   std::string found;
   std::istringstream lines(keys);
@@ -34,7 +34,7 @@ std::string keysOf(const std::string& keys, const std::string& section) {
   return found;
 }
 
-/// The grains of a scene's bed, where they lie.
+/// The grains of a scene's bed.
 std::vector<terrain::GrainSpec> placesOf(const coupling::GroundSetup& setup, const base::Exec& exec) {
   const coupling::LaidGround ground = coupling::buildGround(setup, exec);
   const terrain::GrainSnapshot at = ground.grains->snapshot();
@@ -56,10 +56,9 @@ void advance(terrain::Grains& grains, std::int64_t steps) {
   for (std::int64_t i = 0; i < steps;) i += grains.advance(steps - i);
 }
 
-/// Calls `turn(false)` and `turn(true)`, which step one of two things and return the time of a step, in pairs; which
-/// comes first changes from pair to pair.
+/// Calls `turn(false)` and `turn(true)` in pairs of alternating order; both return the time per step.
 template <class Turn> void inPairs(int pairs, const Turn& turn, jobs::Table& table) {
-  turn(false), turn(true); // memory is touched, lists are made
+  turn(false), turn(true); // warm-up: memory and neighbour lists
   for (int k = 0; k < pairs; ++k) {
     jobs::stopStudyIfAsked();
     double without = 0, with = 0;
@@ -77,7 +76,7 @@ void fill(jobs::Table& table, double bytesWithout, double bytesWith, double grai
     row[2] = bytesWithout, row[3] = bytesWith, row[4] = grainsWithout, row[5] = grainsWith, row[6] = same ? 1 : 0;
 }
 
-/// As many steps as take `seconds`, by a first look.
+/// Number of steps that takes about `seconds`, from a first measurement.
 template <class Step> std::int64_t stepsIn(double seconds, const Step& step) {
   step(5);
   const support::Stopwatch start;
@@ -119,11 +118,11 @@ const std::vector<Feature>& features() {
       {"cohesion", "cohesion = 0.05 J/m2", "", "material: cohesion = 0.05\n"},
       {"hertz", "law = \"hertz\"", "", "material: law = \"hertz\"\nmaterial: young = 1e7\n"},
       {"double", "precision = \"double\"", "", "run: precision = \"double\"\n"},
-      {"radii", "a radius of each grain, all the same", "", "", false, false, radii},
-      {"random_radii", "arrangement = \"random\": radii +- 25 %, on a bed of its own", "", random, true},
-      {"grading", "coarsening = 0.1 below 0.05 m, beside random radii", random,
+      {"radii", "an (equal) radius per grain", "", "", false, false, radii},
+      {"random_radii", "arrangement = \"random\": radii +- 25 %, own bed", "", random, true},
+      {"grading", "coarsening = 0.1 below 0.05 m, against random radii", random,
        random + "terrain: fine_depth = 0.05\nterrain: coarsening = 0.1\nterrain: coarsest_radius = 0.016\n", true},
-      {"no_ledger", "the books of energies left out (no key does)", "", "", false, false, ledgerOff},
+      {"no_ledger", "without energy accounting (has no key)", "", "", false, false, ledgerOff},
       {"off_rolling", "rolling_friction = 0", "", "material: rolling_friction = 0\n", false, true},
       {"off_cohesion", "cohesion = 0", "", "material: cohesion = 0\n", false, true},
       {"off_linear", "law = \"linear\"", "", "material: law = \"linear\"\n", false, true},
@@ -170,7 +169,7 @@ jobs::Table measureOutput(const FeaturesCommand& c, const base::Exec& exec, cons
   terrain::Grains& grains = *ground.grains;
   output::FramesFile frames(folder, {}, {});
   const auto write = [&] {
-    grains.ledger(); // of a row
+    grains.ledger(); // as for an output row
     const terrain::GrainSnapshot at = grains.snapshot({true});
     output::Frame frame;
     frame.step = grains.steps(), frame.time = static_cast<double>(grains.steps());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study features`: what each feature costs, and that it costs nothing when it is off.
+// `grouser study features`: cost of each feature, and check that it costs nothing when it is off.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/output/plots.hpp"
@@ -27,7 +27,7 @@ namespace {
 constexpr const char* kVehicle = "vehicle";
 constexpr const char* kOutput = "output";
 constexpr const char* kRanksName = "ranks";
-constexpr double kReady = 0.05; // of the vehicle's run, with its weight on and its drive begun [s]
+constexpr double kReady = 0.05; // time when the vehicle drives with full weight [s]
 
 std::vector<std::string> allNames() {
   std::vector<std::string> names;
@@ -40,9 +40,9 @@ std::vector<std::string> allNames() {
 }
 
 std::string whatOf(const std::string& name) {
-  if (name == kVehicle) return "[vehicle] that drives; times and bytes of the whole, not of a grain";
+  if (name == kVehicle) return "driving [vehicle]; time per step and total memory, not per grain";
   if (name == kOutput) return "a row and a frame every 100 steps";
-  if (name == kRanksName) return "two ranks of a thread each, one rank of two threads without";
+  if (name == kRanksName) return "two ranks with one thread each, against one rank with two threads";
   return std::find_if(features().begin(), features().end(), [&](const Feature& f) { return f.name == name; })->what;
 }
 
@@ -69,7 +69,7 @@ jobs::Table measured(const FeaturesCommand& c, const std::string& name, const ba
   if (name == kRanksName) return measureRanks(c, folder);
   for (const Feature& f : features())
     if (f.name == name) return measureFeature(c, f, exec);
-  throw std::logic_error(name + " is no feature");
+  throw std::logic_error(name + ": unknown feature");
 }
 
 } // namespace
@@ -113,28 +113,29 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
   const std::vector<std::string> known = allNames(), wanted = c.features.empty() ? known : c.features;
   for (const std::string& name : wanted)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw base::InputError(fmt::format("study features: --features {}: is none of {}", name, fmt::join(known, ", ")));
+      throw base::InputError(
+          fmt::format("study features: --features {}: unknown; features are {}", name, fmt::join(known, ", ")));
   jobs::Pieces pieces("features", c.place, c.pieces, recipeOf(c));
   const support::StopSignals signals;
   const support::Stopwatch begin;
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
-  fmt::print("          about {} grains on {}, {} pairs of turns of {:g} s, +- 95 % of the pairs\n", c.grains,
-             base::describe(exec), c.pairs, c.turn);
+  fmt::print("          about {} grains on {}, {} pairs of measurements of {:g} s, +- 95 % interval over the pairs\n",
+             c.grains, base::describe(exec), c.pairs, c.turn);
   support::Progress progress("measuring");
   int done = 0;
   for (const std::string& name : wanted) {
     progress.update(double(done++) / static_cast<double>(wanted.size()), name);
     if (pieces.due(name)) pieces.keep(name, measured(c, name, exec, pieces.begin(name)));
   }
-  progress.finish(fmt::format("{} of {} features are there", wanted.size() - static_cast<std::size_t>(pieces.left()),
+  progress.finish(fmt::format("{} of {} features finished", wanted.size() - static_cast<std::size_t>(pieces.left()),
                               wanted.size()));
   if (!pieces.whole()) return;
 
   std::string csv = "feature,what,without [ns],with [ns],difference [ns],half width [ns],relative [-],half width [-],"
                     "bytes without,bytes with,verdict\n";
   fmt::print("\n  {:<14} {:>10} {:>10} {:>18} {:>16} {:>9} {:>9}  {}\n", "feature", "without", "with", "difference",
-             "of without", "bytes", "with", "what");
-  fmt::print("  {:<14} {:>10} {:>10} {:>18} {:>16} {:>9} {:>9}\n", "", "ns", "ns", "ns a grain-step", "%", "a grain",
+             "of without", "bytes", "with", "feature");
+  fmt::print("  {:<14} {:>10} {:>10} {:>18} {:>16} {:>9} {:>9}\n", "", "ns", "ns", "ns/(grain step)", "%", "per grain",
              "");
   for (const std::string& name : wanted) {
     if (!pieces.has(name)) continue;
@@ -149,7 +150,7 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
                        cost.difference.halfWidth, cost.relative.value, cost.relative.halfWidth, cost.bytesWithout,
                        cost.bytesWith, verdict);
   }
-  if (pieces.left() > 0) fmt::print("{} features are missing: call again with --resume\n", pieces.left());
+  if (pieces.left() > 0) fmt::print("{} features missing: run again with --resume\n", pieces.left());
   support::writeTextFile(pieces.folder() / "features.csv", csv, "--out");
   jobs::writeStudyOrigin(pieces.folder(), "features", begin.seconds(), recipeOf(c));
   output::drawPicture("study_features.py", {pieces.folder() / "features.csv"}, pieces.folder() / "features.png");

@@ -17,12 +17,12 @@ namespace {
 
 constexpr int kRanks = 2;
 constexpr int kBatches = 3;
-constexpr double kUsual = 100e-9; // of a step of a grain on one core [s]: how many steps a turn has
+constexpr double kUsual = 100e-9; // typical time per grain and step on one core [s], sets the steps of a measurement
 
-/// What `grouser bench bed` has written of one call.
+/// Output of one call of `grouser bench bed`.
 struct BedTimes {
-  double step = 0;  ///< of a grain [ns]
-  double bytes = 0; ///< a grain, of all ranks
+  double step = 0;  ///< time per grain and step [ns]
+  double bytes = 0; ///< per grain, all ranks
   std::string hash;
 };
 
@@ -59,13 +59,12 @@ BedTimes timesOf(const FeaturesCommand& c, bool ranks, const std::filesystem::pa
   words.insert(words.end(), bed.begin(), bed.end());
   const support::CallOutcome outcome = support::callProgram(words, environment);
   if (ranks && !outcome.started)
-    throw base::InputError(
-        fmt::format("study features: `ranks`: {}; install openmpi-bin, or name the other features with --features",
-                    outcome.output));
+    throw base::InputError(fmt::format(
+        "study features: ranks: {}; install openmpi-bin, or select other features with --features", outcome.output));
   std::ifstream in(file);
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (outcome.status != 0 || !json.is_object())
-    throw base::InputError(fmt::format("study features: `ranks`: {} ended with {}: {}", fmt::join(words, " "),
+    throw base::InputError(fmt::format("study features: ranks: {} failed with exit code {}: {}", fmt::join(words, " "),
                                        outcome.status, outcome.output));
   return {1e3 * json.at("microseconds_a_step").at("median").get<double>() / json.at("grains").get<double>(),
           json.at("bytes_a_grain").get<double>(), json.at("state_hash").get<std::string>()};

@@ -20,7 +20,7 @@ using fluid::FluidSnapshot;
 
 namespace {
 
-/// Steps a fluid until `end` [s]; `look` sees it after each step.
+/// Steps a fluid until `end` [s]; calls `look` after each step.
 template <class Look>
 void drive(const FluidSetup& setup, double end, const base::Exec& exec, FluidPoint& point, const Look& look) {
   Fluid fluid(setup, exec);
@@ -36,7 +36,7 @@ void drive(const FluidSetup& setup, double end, const base::Exec& exec, FluidPoi
   point.steps = fluid.steps(), point.seconds = seconds;
 }
 
-/// Two-dimensional flows in the plane of x and z, or of x and y where both are periodic.
+/// Two-dimensional flow in the xz plane, or in the xy plane if both are periodic.
 FluidSetup planar(double spacing) {
   FluidSetup setup;
   setup.model.dimensions = 2, setup.model.spacing = spacing;
@@ -46,14 +46,14 @@ FluidSetup planar(double spacing) {
 std::int64_t cellsOf(double length, double spacing) { return std::llround(length / spacing); }
 double centre(std::int64_t k, double spacing) { return (static_cast<double>(k) + 0.5) * spacing; }
 
-/// Times at which a signal changes its sign, by straight lines between steps.
+/// Zero crossings of a signal, by linear interpolation between steps.
 class ZeroCrossings {
 public:
   void add(double time, double value) {
     if (before_ * value < 0) times_.push_back(time_ + (time - time_) * before_ / (before_ - value));
     time_ = time, before_ = value;
   }
-  /// Mean time from one to the next; 0 with fewer than two.
+  /// Mean time between crossings; 0 with fewer than two.
   double meanDistance() const {
     return times_.size() < 2 ? 0 : (times_.back() - times_.front()) / static_cast<double>(times_.size() - 1);
   }
@@ -141,7 +141,7 @@ void taylorGreen(const base::Exec& exec, FluidPoint& point) {
   for (std::int64_t i = 0; i < cells; ++i)
     for (std::int64_t j = 0; j < cells; ++j) {
       const double x = centre(i, point.spacing), y = centre(j, point.spacing), k = 2 * kPi;
-      // Particles on an exact lattice keep its symmetry, which is unstable: to the last bit, since sums are exact.
+      // Exact sums preserve the (unstable) symmetry of a perfect lattice, so it is perturbed.
       const double dx = kDisorder * point.spacing * std::sin(static_cast<double>(37 * i + 91 * j * j));
       const double dy = kDisorder * point.spacing * std::sin(static_cast<double>(53 * j + 71 * i * i));
       const double pressure = -0.25 * (std::cos(2 * k * x) + std::cos(2 * k * y));
@@ -159,7 +159,7 @@ void taylorGreen(const base::Exec& exec, FluidPoint& point) {
   point.errors = {relative(energy, 1), momentum};
 }
 
-/// A channel between two walls, 0.2 m apart, from rest: fluid of 1e-3 m2/s.
+/// Channel of width 0.2 m, started from rest, viscosity 1e-3 m2/s.
 FluidSetup channel(double spacing, double wallSpeed, double pull) {
   constexpr double kGap = 0.2, kLength = 0.2; // [m]
   FluidSetup setup = planar(spacing);
@@ -179,7 +179,7 @@ FluidSetup channel(double spacing, double wallSpeed, double pull) {
   return setup;
 }
 
-/// Root of the mean squared error of the velocity against `exact(z, t)` at `end`, over the greatest velocity.
+/// RMS error of the velocity against `exact(z, t)` at `end`, over the maximum velocity.
 template <class Exact> double profileError(const FluidSetup& setup, double end, const base::Exec& exec,
                                            FluidPoint& point, const Exact& exact) {
   double square = 0, greatest = 0;
@@ -313,7 +313,7 @@ void rotatingPatch(const base::Exec& exec, FluidPoint& point) {
 std::vector<FluidCase> fluidCases() {
   return {
       {"tank",
-       "still tank, 0.5 m deep, 2 s",
+       "tank at rest, 0.5 m deep, 2 s",
        {{"pressure, rms", 0.01}, {"pressure, worst", 0.025}, {"base force", 0.002}},
        {0.04, 0.02, 0.01},
        stillTank},

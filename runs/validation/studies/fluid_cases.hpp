@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-/// Flows of the particle fluid whose solution is known: error against spacing and run time.
+/// Particle fluid against known solutions: error over spacing and run time.
 namespace grouser::studies {
 
-/// A relative error, and the bar that the finest spacing must keep.
+/// A relative error, with the tolerance at the finest spacing.
 struct FluidQuantity {
   std::string name;
-  double bar; ///< [-]; 0: no bar
+  double bar; ///< tolerance [-]; 0: none
 };
 
 /// One spacing.
@@ -37,7 +37,7 @@ struct FluidCase {
 };
 std::vector<FluidCase> fluidCases();
 
-/// Order in spacing of one quantity's error: slope of the line through the logarithms.
+/// Order of one quantity's error in spacing: log-log slope.
 support::LineFit fluidOrder(const std::vector<FluidPoint>& points, std::size_t quantity);
 
 } // namespace grouser::studies

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study fluid`: which flows, which spacings, and the files.
+// `grouser study fluid`: selection of flows and spacings, tables and files.
 #include "runs/validation/studies/fluid_command.hpp"
 
 #include "runs/output/plots.hpp"
@@ -25,7 +25,7 @@ struct FluidResult {
   std::vector<FluidPoint> points;
 };
 
-/// For the finest spacing; "" without it, or without a bar.
+/// Verdict at the finest spacing; "" if it was not run or has no tolerance.
 std::string verdictOf(const FluidResult& result, std::size_t quantity) {
   const double bar = result.study.quantities[quantity].bar, error = result.points.back().errors[quantity];
   return bar == 0 || result.points.size() < result.study.spacings.size()
@@ -46,7 +46,7 @@ std::string fluidTable(const FluidResult& result) {
   text += fmt::format("\n  {:<52}", "order in spacing");
   for (std::size_t q = 0; q < c.quantities.size(); ++q)
     text += fmt::format(" {:>20}", fluidOrder(result.points, q).slopeText());
-  text += fmt::format("\n  {:<52}", "finest spacing and bar");
+  text += fmt::format("\n  {:<52}", "finest spacing, tolerance");
   for (std::size_t q = 0; q < c.quantities.size(); ++q) text += fmt::format(" {:>20}", verdictOf(result, q));
   return text + "\n";
 }
@@ -89,7 +89,7 @@ void studyFluidCommand(const FluidCommand& command) {
     for (std::size_t q = 0; q < cases[i].quantities.size(); ++q) beyond += verdictOf(result, q).starts_with("beyond");
     results.push_back(std::move(result));
   }
-  progress.finish(fmt::format("{} cases, {} of their errors beyond the bar", cases.size(), beyond));
+  progress.finish(fmt::format("{} cases, {} errors beyond the tolerance", cases.size(), beyond));
   support::writeTextFile(folder / "fluid.csv", fluidCsv(results), "--out");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   jobs::writeStudyOrigin(folder, "fluid", seconds,

@@ -24,16 +24,15 @@ using terrain::Grains;
 namespace {
 
 constexpr double kRadius = 0.005, kDensity = 2600; // [m], [kg/m3]
-constexpr double kOwnOverlap = 1e-3;               // of a grain under its own weight [radii]
-constexpr double kDisturbance = 5e-4;              // amplitude of its sqrt(k / m) swing [own overlaps]
+constexpr double kOwnOverlap = 1e-3;               // overlap of a grain under its own weight [radii]
+constexpr double kDisturbance = 5e-4; // initial amplitude at frequency sqrt(k / m) [overlaps under own weight]
 constexpr double kTangentialRatio = 2.0 / 7;
 constexpr double kSettleStiffness = 1e5, kSettleZeta = 0.3, kSettleStep = 0.3; // [N/m], [-], [1 / sqrt(k / m)]
 constexpr std::uint64_t kSeed = 1, kPurpose = base::purpose("study.stability");
 
 double rate(double stiffness) { return std::sqrt(stiffness / base::sphereMass(kDensity, kRadius)); } // [1/s]
 
-/// The scene a user would write. Dashpots are to springs alike in all contacts: c = 2 zeta sqrt(k m), which is
-/// gamma m / 2 between grains and gamma m at a plane.
+/// Scene of the study. All contacts have c = 2 zeta sqrt(k m): gamma m / 2 between grains, gamma m at a plane.
 scene::Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta) {
   std::string text = "version = 1\n[run]\nduration = 1\n";
   for (const char* name : {"grain", "wall"})
@@ -49,7 +48,7 @@ scene::Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta)
   return scene;
 }
 
-/// Its grains, at a step that nobody has checked.
+/// Grains of the scene with an unchecked time step.
 Grains build(const RestingGrains& grains, double stiffness, double zeta, double timeStep,
              const std::vector<terrain::GrainSpec>& start) {
   const scene::Scene scene = sceneOf(grains, stiffness, zeta);
@@ -70,7 +69,7 @@ std::vector<terrain::GrainSpec> places(const terrain::GrainState& state) {
   return start;
 }
 
-/// The springs of what touches in `state`.
+/// Contact springs of `state`.
 ContactNetwork networkOf(const RestingGrains& grains) {
   const terrain::GrainState& s = grains.state;
   ContactNetwork network;
@@ -90,7 +89,7 @@ ContactNetwork networkOf(const RestingGrains& grains) {
   return network;
 }
 
-/// Lets the grains settle, stopping all motion now and then: what is left is a rest, whatever the way to it.
+/// Settles the grains, repeatedly resetting all velocities to zero.
 void settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start) {
   Grains grains = build(resting, kSettleStiffness, kSettleZeta, kSettleStep / rate(kSettleStiffness), start);
   const auto advance = [&grains](int steps) {
@@ -110,7 +109,7 @@ void settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start
     jobs::stopStudyIfAsked();
   }
   grains.stop();
-  advance(1); // what touches, without the motion
+  advance(1); // updates contacts without motion
   resting.state = grains.state();
   resting.network = networkOf(resting);
   resting.frequency = highestFrequency(resting.network);
@@ -132,7 +131,7 @@ RestingGrains column(int grains) {
   std::vector<terrain::GrainSpec> start;
   double z = 0;
   for (int i = 0; i < grains; ++i) {
-    // The contact under i carries all from i on.
+    // The contact below sphere i carries spheres i and above.
     z += (i == 0 ? 1 : 2) * kRadius - (grains - i) * kOwnOverlap * kRadius;
     start.push_back({{0, 0, z}, {}, {}});
   }
@@ -141,7 +140,7 @@ RestingGrains column(int grains) {
 }
 
 RestingGrains randomBed(int grains, double friction) {
-  constexpr double kLoose = 2.3; // spacing of the lattice it falls from [radii]
+  constexpr double kLoose = 2.3; // initial lattice spacing [radii]
   RestingGrains r;
   r.friction = friction, r.box = true;
   r.name = friction > 0 ? "bed with friction" : "bed";
@@ -200,7 +199,7 @@ GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, doubl
       if (i % kLookEvery) continue;
       const terrain::GrainLedger ledger = grains.ledger();
       cell.growth = std::max(cell.growth, (ledger.kinetic + ledger.rotational) / first);
-      cell.stable = cell.growth <= kGrowth; // false for what is no number, too
+      cell.stable = cell.growth <= kGrowth; // false for NaN too
     }
   } catch (const base::SimulationError&) {
     cell.stable = false, cell.stopped = true;

@@ -8,28 +8,28 @@
 #include <string>
 #include <vector>
 
-/// Which steps the grains' integrator takes: maps over time step, stiffness and damping, against what theory predicts
-/// and what a run's check of its scene refuses.
+/// Stability maps of the grain integrator over time step, stiffness and damping, against theory and against the step
+/// limit that a run enforces.
 namespace grouser::studies {
 
-/// Spheres at rest under gravity, whose rest is then disturbed. Gravity grows with the stiffness, so that a sphere's
-/// own weight overlaps it by a thousandth of its radius at any stiffness.
+/// Spheres at rest under gravity, then disturbed. Gravity is proportional to the stiffness, so that the overlap under
+/// a sphere's own weight is 1e-3 radii at any stiffness.
 struct RestingGrains {
   std::string name;  ///< "contact", "column", "bed", "bed with friction"
-  std::string title; ///< for tables
+  std::string title; ///< in tables
   double friction = 0;
-  bool box = false;          ///< four walls around
+  bool box = false;          ///< four walls
   double halfWidth = 0;      ///< of the box [m]
-  bool vertical = false;     ///< disturbed along z only: a column would fall over
+  bool vertical = false;     ///< disturbed along z only (a column would fall over)
   terrain::GrainState state; ///< at rest
   ContactNetwork network;
-  double frequency = 0;  ///< highest natural [sqrt(k / m)]
-  double gershgorin = 0; ///< its bound from each sphere's own contacts [sqrt(k / m)]
-  double forceRatio = 0; ///< mean resultant force a grain over its weight, once settled [-]
+  double frequency = 0;  ///< highest natural frequency [sqrt(k / m)]
+  double gershgorin = 0; ///< its Gershgorin bound [sqrt(k / m)]
+  double forceRatio = 0; ///< mean resultant force / weight of a grain after settling [-]
 };
 RestingGrains oneContact();
 RestingGrains column(int grains);
-/// About so many grains, poured into a box and brought to rest.
+/// About `grains` grains, poured into a box and brought to rest.
 RestingGrains randomBed(int grains, double friction);
 
 /// One step at one stiffness and damping.
@@ -38,23 +38,23 @@ struct GrainStabilityCell {
   double zeta = 0;      ///< c / (2 sqrt(k m)) of every contact [-]
   double timeStep = 0;  ///< [s]
   double scaled = 0;    ///< timeStep sqrt(k / m) [-]
-  double ofLimit = 0;   ///< timeStep over the predicted limit [-]
+  double ofLimit = 0;   ///< timeStep / predicted limit [-]
   bool calm = false;    ///< within calmLimit()
-  bool stable = false;  ///< as found
-  double growth = 0; ///< largest kinetic energy over that of the disturbance [-]; of a run that was stopped, until then
-  bool stopped = false; ///< by a guard of the run
+  bool stable = false;  ///< observed
+  double growth = 0;    ///< maximum kinetic energy / that of the disturbance [-]; of stopped runs until the stop
+  bool stopped = false; ///< by a guard
   bool predicted() const { return ofLimit < 1; }
   bool agrees() const { return stable == predicted(); }
 };
 
-/// Longest stable step [1 / sqrt(k / m)]: omega dt < 2 (sqrt(1 + z^2) - z) for the highest mode, whose damping ratio is
-/// z = zeta omega / sqrt(k / m), since every contact's dashpot is to its spring as the others'.
+/// Longest stable step [1 / sqrt(k / m)]: omega dt < 2 (sqrt(1 + z^2) - z) for the highest mode, with damping ratio
+/// z = zeta omega / sqrt(k / m) (dashpots proportional to springs).
 double predictedLimit(const RestingGrains& grains, double zeta);
-/// Longest step at which setup::stepLimit() takes all motions of this scene to decay [s].
+/// Longest step at which all motions of this scene decay according to setup::stepLimit() [s].
 double calmLimit(const RestingGrains& grains, double stiffness, double zeta);
 
-/// Disturbs the rest, steps along; unstable when the kinetic energy passes kGrowth of the disturbance's, or when a
-/// guard stops the run.
+/// Disturbs the state at rest and steps. Unstable if the kinetic energy exceeds kGrowth times that of the disturbance,
+/// or if a guard stops the run.
 GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, double zeta, double timeStep);
 inline constexpr double kGrowth = 1e3;
 inline constexpr int kStabilitySteps = 600;
@@ -65,8 +65,8 @@ struct GrainStabilityMap {
 };
 struct StabilityAxes {
   std::vector<double> stiffness, zeta;
-  std::vector<double> scaled;  ///< steps on a regular grid [1 / sqrt(k / m)]
-  std::vector<double> ofLimit; ///< and as shares of the predicted limit
+  std::vector<double> scaled;  ///< steps on a grid [1 / sqrt(k / m)]
+  std::vector<double> ofLimit; ///< steps over the predicted limit [-]
 };
 StabilityAxes stabilityAxes(bool quick);
 GrainStabilityMap stabilityMap(const RestingGrains& grains, const StabilityAxes& axes);

@@ -28,7 +28,7 @@ std::string counted(const GrainStabilityMap& map, const std::function<bool(const
 
 bool at(const GrainStabilityCell& c, double share) { return std::fabs(c.ofLimit - share) < 1e-9; }
 
-/// In the order of the cells.
+/// Damping ratios in the order of the cells.
 std::vector<double> zetasOf(const GrainStabilityMap& map) {
   std::vector<double> zetas;
   for (const GrainStabilityCell& c : map.cells)
@@ -56,8 +56,8 @@ std::string grainStabilityTable(const GrainStabilityMap& map) {
   for (const GrainStabilityCell& c : map.cells)
     beyondStable += c.stable && !c.calm, withinUnstable += !c.stable && c.calm, stopped += c.stopped;
   std::string text = fmt::format(
-      "\n{}: {} contacts, highest frequency {:.4f} sqrt(k/m), Gershgorin {:.4f}; resultant force a grain {:.1e} of its "
-      "weight\n  {:>6} {:>16} {:>16} {:>16} {:>22}\n",
+      "\n{}: {} contacts, highest frequency {:.4f} sqrt(k/m), Gershgorin {:.4f}; resultant force / weight of a grain "
+      "{:.1e}\n  {:>6} {:>16} {:>16} {:>16} {:>22}\n",
       r.title, r.network.contacts.size(), r.frequency, r.gershgorin, r.forceRatio, "zeta", "stable up to",
       "unstable from", "predicted limit", "calm up to");
   const double stiffness = map.cells.front().stiffness;
@@ -68,13 +68,13 @@ std::string grainStabilityTable(const GrainStabilityMap& map) {
     text += fmt::format("  {:>6g} {:>16.4f} {:>16.4f} {:>16.4f} {:>13.4f} ({:.2f})\n", zeta, found.highestStable,
                         found.lowestUnstable, limit, calm, calm / limit);
   }
-  text += fmt::format(
-      "  steps in 1 / sqrt(k/m); in brackets: over the predicted limit\n"
-      "  as predicted: {} cells; at 0.95 of the limit {}, at 1.05 {}\n"
-      "  the bound of calm leaves out {} stable cells and holds {} unstable ones; guards stopped {} runs\n",
-      counted(map, [](const GrainStabilityCell&) { return true; }),
-      counted(map, [](const GrainStabilityCell& c) { return at(c, 0.95); }),
-      counted(map, [](const GrainStabilityCell& c) { return at(c, 1.05); }), beyondStable, withinUnstable, stopped);
+  text += fmt::format("  steps in 1 / sqrt(k/m); in brackets: step / predicted limit\n"
+                      "  as predicted: {} cells; at 0.95 of the limit {}, at 1.05 {}\n"
+                      "  bound of calm: excludes {} stable cells, includes {} unstable cells; guards stopped {} runs\n",
+                      counted(map, [](const GrainStabilityCell&) { return true; }),
+                      counted(map, [](const GrainStabilityCell& c) { return at(c, 0.95); }),
+                      counted(map, [](const GrainStabilityCell& c) { return at(c, 1.05); }), beyondStable,
+                      withinUnstable, stopped);
   return text;
 }
 
@@ -111,7 +111,7 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
   const auto folder = jobs::beginStudy("stability", command.place);
   const support::StopSignals signals;
   const bool quick = command.place.quick;
-  fmt::print("          radius 5 mm, 2600 kg/m3; unstable: the kinetic energy passes {:g} times that of a small "
+  fmt::print("          radius 5 mm, 2600 kg/m3; unstable: the kinetic energy exceeds {:g} times that of a small "
              "disturbance within {} steps, or a guard stops the run\n",
              kGrowth, kStabilitySteps);
   const StabilityAxes axes = stabilityAxes(quick);

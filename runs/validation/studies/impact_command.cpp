@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study impact`: which collisions, which steps, and the files.
+// `grouser study impact`: collisions, steps, and files.
 #include "contact/restitution.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/progress.hpp"
@@ -19,8 +19,7 @@ using terrain::Precision;
 
 namespace {
 
-/// Steps a contact: three decades by factors of 1.8, none of them whole, so that the moment of leaving falls anywhere
-/// in its step, as that of first touch does.
+/// Steps per contact: three decades by factors of 1.8, not integers, so that the phase of separation varies.
 std::vector<double> stepCounts(bool quick) {
   std::vector<double> steps;
   for (int k = 0; k <= (quick ? 6 : 12); ++k) steps.push_back(4.7 * std::pow(1.8, k));
@@ -28,7 +27,7 @@ std::vector<double> stepCounts(bool quick) {
 }
 
 std::vector<ImpactCase> impactCases(bool quick) {
-  // The table of closed forms; a quick pass takes four of its rows.
+  // Rows of the table of closed forms; four of them with --quick.
   const std::vector<double> zetas =
       quick ? std::vector<double>{0, 0.2, 1, 2}
             : std::vector<double>{0, 0.05, 0.1, 0.2, 0.3, 0.5, std::sqrt(0.5), 0.9, 1, 1.5, 2};
@@ -69,9 +68,9 @@ void studyImpactCommand(const ImpactCommand& command) {
   const std::vector<double> steps = stepCounts(quick);
   const std::vector<ImpactCase> cases = impactCases(quick);
   fmt::print(
-      "          radius 5 mm, 2600 kg/m3; linear 1e5 N/m, Hertz E_eff 1 GPa; 1 m/s; one thread; steps a contact "
-      "are of the undamped contact; {} phases of first touch, {} of leaving\n          CPU time: {} collisions side "
-      "by side, median of {}\n",
+      "          radius 5 mm, 2600 kg/m3; linear 1e5 N/m, Hertz E_eff 1 GPa; 1 m/s; one thread; steps per undamped "
+      "contact; {} phases of first contact, {} of separation\n          CPU time: {} simultaneous collisions, "
+      "median of {}\n",
       command.phases.touching, command.phases.leaving, command.collisions, command.repeats);
   support::Progress progress("studying");
   std::vector<ImpactSeries> all;
@@ -86,7 +85,7 @@ void studyImpactCommand(const ImpactCommand& command) {
       }
       all.push_back(std::move(series));
     }
-    // In full those that show the most; all are in the file.
+    // Prints the most informative ones; the file contains all.
     if (cases[i].damping == 0 || cases[i].damping == 0.2 || !cases[i].isLinear())
       progress.note(impactTable(all[all.size() - 2], all.back()));
   }

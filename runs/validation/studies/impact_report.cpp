@@ -37,7 +37,7 @@ std::string impactTable(const ImpactSeries& single, const ImpactSeries& double_)
     const ImpactPoint &p = single.points[i], &d = double_.points[i];
     text += fmt::format("  {:>8.4g} {:>10.3e}", p.steps, p.timeStep);
     if (!p.stable) {
-      text += "  beyond the stable step\n";
+      text += "  above the stable step\n";
       continue;
     }
     for (int q = 0; q < kImpactQuantities; ++q)
@@ -53,8 +53,8 @@ std::string impactTable(const ImpactSeries& single, const ImpactSeries& double_)
 
 std::string orderTable(const std::vector<ImpactSeries>& all) {
   std::string text =
-      fmt::format("\norder of the worst error in the step, 95 % confidence, from {:g} steps a contact on, "
-                  "above {:g}; in brackets: expected\n  {:<36} {:<7}",
+      fmt::format("\norder of the worst error in the step, 95 % confidence, at {:g} or more steps per contact, "
+                  "errors above {:g}; in brackets: expected\n  {:<36} {:<7}",
                   kFitFrom, kRoundOffFloor, "", "");
   for (int q = 0; q < kImpactQuantities; ++q) text += fmt::format(" {:>19}", impactQuantityName(q));
   text += "\n";
@@ -73,10 +73,10 @@ std::string orderTable(const std::vector<ImpactSeries>& all) {
 
 std::string cheapestImpactTable(const std::vector<ImpactSeries>& all) {
   std::string text =
-      fmt::format("\ncheapest step for an error (worst over the phases) of 10, 1 and 0.1 %: steps a contact, and CPU "
-                  "time of a collision [us]\n  {:<36} {:<7}",
+      fmt::format("\ncheapest step for an error (worst over the phases) of 10, 1 and 0.1 %: steps per contact / CPU "
+                  "time per collision [us]\n  {:<36} {:<7}",
                   "", "");
-  for (const char* what : {"restitution", "all that is known"})
+  for (const char* what : {"restitution", "all quantities"})
     for (const double tolerance : kTolerances)
       text += fmt::format(" {:>16}",
                           fmt::format("{} {:g} %", what == std::string("restitution") ? "e" : "all", 100 * tolerance));
@@ -142,7 +142,7 @@ std::string cheapestImpactCsv(const std::vector<ImpactSeries>& all) {
 
 std::string closedFormTable(const std::vector<ImpactSeries>& all, std::size_t point) {
   std::string text = fmt::format(
-      "\nthe closed forms beside what the step gives at {:.4g} steps a contact, mean over the phases, single "
+      "\nclosed forms and simulation at {:.4g} steps per contact, mean over the phases, single "
       "precision\n  {:<30} {:>11} {:>11}  {:>11} {:>11}  {:>11} {:>11}\n",
       all.front().points[point].steps, "", "e", "measured", "t_c [s]", "measured", "overlap [m]", "measured");
   for (const ImpactSeries& s : all) {
@@ -168,7 +168,7 @@ std::vector<ConvergenceRow> convergenceRows(int phases) {
   for (ConvergenceRow& row : rows) {
     ImpactCase c;
     c.damping = 0.2;
-    // Whole steps in the damped contact, which is longer.
+    // Integer steps of the (longer) damped contact.
     const ImpactReference reference = impactReference(c);
     const double shorter = reference.contactTime / *reference.value[kDuration];
     row.damped = measureImpact(c, terrain::Precision::double_, row.steps * shorter, {phases, 1}).error[kRestitution];
@@ -179,10 +179,11 @@ std::vector<ConvergenceRow> convergenceRows(int phases) {
 }
 
 std::string convergenceTable(const std::vector<ConvergenceRow>& rows) {
-  std::string text = fmt::format(
-      "\nlinear free on a plane, double precision: error of the restitution at whole steps a contact\n  {:>6} {:>26} "
-      "{:>12} {:>12}   {:>16}\n  {:>6} {:>26} {:>12} {:>12}   {:>16}\n",
-      "", "zeta 0.2: worst, published", "worst here", "mean here", "elastic: worst", "steps", "", "", "", "");
+  std::string text = fmt::format("\nlinear free on a plane, double precision: error of the restitution at integer "
+                                 "steps per contact\n  {:>6} {:>26} "
+                                 "{:>12} {:>12}   {:>16}\n  {:>6} {:>26} {:>12} {:>12}   {:>16}\n",
+                                 "", "zeta 0.2: worst, published", "worst here", "mean here", "elastic: worst", "steps",
+                                 "", "", "", "");
   for (const ConvergenceRow& r : rows)
     text += fmt::format("  {:>6g} {:>26} {:>12.4f} {:>+12.4f}   {:>16.1e}\n", r.steps, number(r.published, "{:.4f}"),
                         r.damped.worst, r.damped.mean, r.elastic.worst);
@@ -212,7 +213,7 @@ std::vector<CoarseRow> coarseRows(int phases) {
 
 std::string coarseTable(const std::vector<CoarseRow>& rows) {
   std::string text =
-      "\nlinear clamped on a plane, double precision: error of the restitution, worst (mean), at steps a "
+      "\nlinear clamped on a plane, double precision: error of the restitution, worst (mean), at steps per "
       "contact\n  restitution";
   for (const double steps : kCoarseSteps) text += fmt::format(" {:>18g}", steps);
   for (const CoarseRow& row : rows) {
@@ -224,7 +225,7 @@ std::string coarseTable(const std::vector<CoarseRow>& rows) {
 
 std::string speedTable(const std::vector<ImpactSeries>& all) {
   std::string text =
-      fmt::format("\nworst error over the speed of approach, {:.4g} steps a contact\n  {:<36} {:<7} {:>12} "
+      fmt::format("\nworst error over the approach speed, {:.4g} steps per contact\n  {:<36} {:<7} {:>12} "
                   "{:>12} {:>12} {:>12}\n",
                   all.front().points.front().steps, "", "", "speed [m/s]", "restitution", "duration", "overlap");
   for (const ImpactSeries& s : all)

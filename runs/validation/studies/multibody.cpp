@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kThreshold = 1e-3; ///< y_thr of the error's definition
-constexpr double kShortRun = 0.2;   ///< [s] of CPU below which a run is done again
-constexpr int kRepeats = 3;         ///< of a short run; the least time counts
-constexpr double kHopeless = 1e3;   ///< an error that is not worth a number [-]
+constexpr double kShortRun = 0.2;   ///< CPU time below which a run is repeated [s]
+constexpr int kRepeats = 3;         ///< of a short run; the minimum time counts
+constexpr double kHopeless = 1e3;   ///< error above which a run counts as failed [-]
 
 double cpuSeconds() {
   timespec now{};
@@ -35,7 +35,7 @@ double cpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The scene of a case; one that is not in runs/mechanisms/ is made by the script that stands there.
+/// The scene of a case; scenes not in runs/mechanisms/ are made by the script there.
 scene::Scene loadCase(const std::string& scene, const IntegratorChoice& integrator) {
   const fs::path folder = support::shareFolder() / "runs" / "mechanisms";
   fs::path file = folder / scene;
@@ -61,7 +61,7 @@ struct Measured {
   double error = 0, position = 0, velocity = 0, energy = 0, seconds = 0;
 };
 
-/// Steps through a case, comparing at its sample times; the clock runs in the steps only.
+/// Runs a case and compares at its sample times; measures the time of the steps only.
 Measured measure(const StudyCase& c, const scene::Scene& scene, double step, std::int64_t stepsPerSample,
                  std::int64_t samples) {
   coupling::Mechanism mechanism(setup::mechanismSetup(scene), step);
@@ -109,7 +109,7 @@ std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& int
     p.order = std::numeric_limits<double>::quiet_NaN();
     const StudyPoint* before = points.empty() ? nullptr : &points.back();
     if (before && before->seconds * 4 > budget) {
-      p.failure = fmt::format("left out: about {:.0f} s", before->seconds * 4);
+      p.failure = fmt::format("skipped: about {:.0f} s", before->seconds * 4);
       p.seconds = before->seconds * 4;
       points.push_back(p);
       continue;
@@ -122,12 +122,13 @@ std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& int
       if (m.error < kHopeless)
         p.error = m.error;
       else
-        p.failure = "lost: the error is beyond all bounds";
+        p.failure = "failed: unbounded error";
       if (p.error && before && before->error && *p.error > 0) p.order = std::log2(*before->error / *p.error) / 2;
     } catch (const base::SimulationError& error) {
       p.failure = error.what();
     } catch (const base::InputError& error) {
-      p.failure = error.what(); // an explicit spring beyond its stable step, or what an integrator does not take
+      p.failure =
+          error.what(); // an explicit spring above its stable step, or a case that the integrator does not support
     }
     points.push_back(p);
   }

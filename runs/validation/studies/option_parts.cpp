@@ -9,8 +9,8 @@ namespace grouser::studies {
 
 void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick) {
   app.add_flag("--quick", place.quick, quick);
-  support::addOut(app, place.folder, "folder of the tables and the plot; default: out/study_" + name);
-  app.add_flag("--force", place.force, "overwrite what is in that folder");
+  support::addOut(app, place.folder, "folder for tables and plot; default: out/study_" + name);
+  app.add_flag("--force", place.force, "overwrite the contents of that folder");
 }
 
 CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
@@ -21,12 +21,12 @@ CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, do
 void checkCaseNames(const std::vector<std::string>& names, const std::vector<std::string>& known) {
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw base::InputError(fmt::format("--cases {}: is no case; did you mean {}? (cases: {})", name,
+      throw base::InputError(fmt::format("--cases {}: unknown case; did you mean {}? (cases: {})", name,
                                          base::nearestWord(name, known), fmt::join(known, ", ")));
 }
 
 void addContact(CLI::App& app, std::string& contact, const std::string& help) {
-  app.add_option("--contact", contact, "method for contacts " + help)
+  app.add_option("--contact", contact, "contact method " + help)
       ->check(CLI::IsMember({"penalty", "complementarity"}))
       ->capture_default_str();
 }

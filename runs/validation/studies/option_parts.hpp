@@ -13,13 +13,13 @@
 #include <type_traits>
 #include <vector>
 
-/// Options that several studies have.
+/// Options common to several studies.
 namespace grouser::studies {
 
-/// What --quick takes instead of the defaults: an option that the user gives keeps the value given.
+/// Defaults under --quick; options set by the user keep their values.
 class QuickValues {
 public:
-  /// `value`: what the option sets. Its help says so.
+  /// `value`: target of the option, whose help shows the quick default.
   template <class T> void instead(CLI::Option* option, T& value, const std::type_identity_t<T>& quick) {
     std::string text;
     if constexpr (std::is_arithmetic_v<T>)
@@ -39,14 +39,14 @@ private:
   std::vector<std::function<void()>> values_;
 };
 
-/// --quick, --out and --force; `quick` is the help of the first, `name` the study's.
+/// --quick, --out and --force; `quick`: help of --quick; `name`: of the study.
 void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick);
 /// A number in [low, high].
 CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
                        const std::string& help);
-/// Throws InputError, with the nearest known name, where one of `names` is not known.
+/// Throws InputError with the nearest known name for an unknown name.
 void checkCaseNames(const std::vector<std::string>& names, const std::vector<std::string>& known);
-/// The cases that --cases names, in the order of `all`; all of them without names.
+/// The cases of --cases in the order of `all`; without names all of them.
 template <class Case> std::vector<Case> chosenCases(std::vector<Case> all, const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const Case& c : all) known.push_back(c.name);
@@ -56,11 +56,11 @@ template <class Case> std::vector<Case> chosenCases(std::vector<Case> all, const
   });
   return all;
 }
-/// --contact: a word of run.contact.
+/// --contact: value of run.contact.
 void addContact(CLI::App& app, std::string& contact, const std::string& help);
 /// --seeds
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help);
-/// Has the study done, with `command`.
+/// Runs the study with `command` as the callback of `app`.
 template <class Command>
 void doStudy(CLI::App& app, Command& command, void (*study)(const Command&), const QuickValues& quick) {
   app.callback([&command, study, quick] {

@@ -17,7 +17,7 @@
 
 namespace grouser::studies {
 
-/// What `grouser study` was asked for, beside `multibody`.
+/// Options of `grouser study`, except `multibody`.
 struct GrainStudies {
   ImpactCommand impact;
   GrainStabilityCommand stability;

@@ -20,11 +20,11 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kRestEnergy = 1e-7;         // kinetic energy a grain over m g d that counts as rest [-]
+constexpr double kRestEnergy = 1e-7;         // kinetic energy per grain over m g d at rest [-]
 constexpr double kPatience = 4.0;            // [s]
-constexpr double kOffFloor = 4, kOffTop = 3; // [d] left out: the floor puts layers into order, the top is loose
+constexpr double kOffFloor = 4, kOffTop = 3; // [d] excluded: ordered layers on the floor, loose top
 
-/// Volume that two spheres share whose centres are `overlap` nearer than two radii: counted twice in their sum.
+/// Volume shared by two spheres with this overlap.
 double sharedVolume(double overlap, double r) {
   const double half = 0.5 * overlap; // height of each cap
   return 2 * base::kPi * half * half * (3 * r - half) / 3;
@@ -35,7 +35,7 @@ double sharedVolume(double overlap, double r) {
 Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, double width, std::int64_t seed) {
   const double d = material.diameter(), side = width * d;
   const double height = static_cast<double>(grains) * base::kPi / 6 * d * d * d * 7 / (side * side);
-  // The random fill keeps its grains whole within the box: it leaves a diameter open where the sides join.
+  // The random fill keeps whole grains inside the box, so one diameter stays free at the periodic boundary.
   virtual_tests::Sample sample = virtual_tests::buildSample(
       fmt::format(
           "version = 1\n[run]\nduration = 1\nperiodic = [true, true]\ndomain_x = [0, {0}]\ndomain_y = [0, {0}]\n"
@@ -69,7 +69,7 @@ Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, dou
       const double distance =
           norm(period.apart(state.position[g], state.position[other]).as<double>()) * sample.grains().scale().unit;
       overlaps += d - distance, ++contacts;
-      shared += 0.5 * sharedVolume(d - distance, r); // each contact is met from both sides
+      shared += 0.5 * sharedVolume(d - distance, r); // each contact is visited twice
     }
   }
   packing.solidFraction = (volume - shared) / (side * side * (high - low));
@@ -78,7 +78,7 @@ Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, dou
   packing.coordination = contacts / count;
   packing.overlap = contacts > 0 ? overlaps / contacts / d : 0;
 
-  // What fewer contacts than hold it bear is no part of the packing; taking it out may free others.
+  // Removing a rattler may make its neighbours rattlers.
   const std::size_t least = material.friction > 0 ? 2 : 4;
   std::vector<bool> held(state.rows(), true);
   const auto holding = [&](std::size_t g) {
@@ -109,8 +109,7 @@ void studyPackingCommand(const PackingCommand& command) {
       command.place.quick ? std::vector<double>{0, 0.5} : std::vector<double>{0, 0.05, 0.1, 0.2, 0.5, 1.0};
   fmt::print(
       "          {} spheres of 10 mm, 1e5 N/m, restitution 0.5, poured between periodic boundaries {} d apart; {} "
-      "seeds, "
-      "+- their standard error\n          measured from {} d above the floor to {} d below the top; one thread\n",
+      "seeds, +- standard error\n          measured from {} d above the floor to {} d below the top; one thread\n",
       grains, width, seeds, kOffFloor, kOffTop);
   support::Progress progress("pouring");
   std::string csv = "friction [-],seed,solid fraction [-],coordination [-],coordination without rattlers [-],"
@@ -141,12 +140,12 @@ void studyPackingCommand(const PackingCommand& command) {
   }
   progress.finish(base::counted(done, "sample"));
   fmt::print(
-      "{}\n  known: without friction 0.634 to 0.64 (random close packing) and 6 contacts (isostatic), poured with\n"
-      "  friction 0.58 to 0.62, loosest about 0.55 and towards 4 contacts for friction without bound\n",
+      "{}\n  literature: frictionless 0.634 to 0.64 (random close packing) and 6 contacts (isostatic); poured with\n"
+      "  friction 0.58 to 0.62; loosest packings about 0.55, and 4 contacts for infinite friction\n",
       table);
   if (restless > 0)
-    fmt::print("  {} of {} samples still moved after {} s: their time of rest is negative in the file\n", restless,
-               done, kPatience);
+    fmt::print("  {} of {} samples not at rest after {} s (negative time of rest in the file)\n", restless, done,
+               kPatience);
   support::writeTextFile(folder / "packing.csv", csv, "--out");
   jobs::writeStudyOrigin(folder, "packing", std::chrono::duration<double>(Clock::now() - begin).count(),
                          {{"grains", grains}, {"seeds", seeds}, {"width_in_diameters", width}, {"threads", 1}});

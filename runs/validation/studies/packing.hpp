@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
-/// How densely poured spheres lie, and in how many contacts: against the known limits of random packings.
+/// Solid fraction and coordination of poured spheres, against known limits of random packings.
 namespace grouser::studies {
 
-/// Of the inside of one poured sample, away from floor and top.
+/// The interior of one poured sample, away from floor and top.
 struct Packing {
   double solidFraction = 0; ///< [-] volume of the spheres, overlaps counted once
-  double coordination = 0;  ///< [-] contacts a grain
+  double coordination = 0;  ///< [-] contacts per grain
   double coordinationWithoutRattlers = 0;
-  double rattlers = 0; ///< [-] share of the grains that nothing holds
+  double rattlers = 0; ///< [-] fraction of grains without sufficient contacts
   double overlap = 0;  ///< [-] mean overlap of the contacts, in diameters
-  double rest = 0;     ///< [s] until it lay still; negative: it did not within the limit
+  double rest = 0;     ///< [s] time until rest; negative: not reached
 };
 
-/// Pours `grains` of these at a seventh of the volume between periodic boundaries, `width` diameters apart, and
-/// measures. A grain counts as held from `least` contacts on: four without friction, two with.
+/// Pours `grains` spheres at a seventh of the volume between periodic boundaries `width` diameters apart, and measures.
+/// Grains with fewer than `least` contacts are rattlers: four without friction, two with.
 Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, double width, std::int64_t seed);
 
 struct PackingCommand {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What cannot be among the options of `grouser study plates`: each case is looked at before any of them runs.
+// Checks the options of `grouser study plates` for all cases before any of them runs.
 #include "base/error.hpp"
 #include "runs/validation/studies/plates.hpp"
 
@@ -9,10 +9,10 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kNarrowest = 3.5;      // of the largest grain's diameter: three, and the margin of the neighbour list
-constexpr double kLatticeHeight = 5.05; // [d] of five layers
+constexpr double kNarrowest = 3.5;      // largest diameters: three, plus the margin of the neighbour list
+constexpr double kLatticeHeight = 5.05; // [d] height of five layers
 
-/// What the options of a case are called.
+/// Names of the options of a case.
 struct Names {
   std::string breadth = "--breadth", bin = "--strip-bin", depth = "--strip-depth";
   explicit Names(const PlateCase& plate) {
@@ -21,7 +21,7 @@ struct Names {
   }
 };
 
-/// A case with its bed in mean diameters of the soil.
+/// A case with its bed in mean grain diameters.
 class CaseCheck {
 public:
   CaseCheck(const PlateCase& plate, const virtual_tests::Soil& soil)
@@ -44,39 +44,40 @@ private:
     throw base::InputError(fmt::format("{} {:g} [{}], case {}: {}", option, value, unit, name_, why));
   }
 
-  /// Between periodic boundaries no grain may touch two images of another.
+  /// No grain may touch two periodic images of another one.
   void checkWidth() const {
     const double least = kNarrowest * largest_;
     if (bin_ < least)
       fail(names_.bin, test_.bin / wider_, "breadths",
-           fmt::format("the boundaries stand {:g} d apart, where the largest grains need {:.3g} d; give at least "
+           fmt::format("the boundaries are {:g} d apart, but the largest grains need {:.3g} d; use at least "
                        "{:.3g}, or a larger {} than {:g} d",
                        bin_, least, least / test_.breadth / wider_, names_.breadth, test_.breadth));
     const bool isStrip = test_.shape == virtual_tests::PlateShape::strip;
     if (isStrip && test_.thickness < least)
       fail(test_.young > 0 ? "--fine-thickness" : "--strip-thickness", test_.thickness, "d",
-           fmt::format("the largest grains need {:.3g} d between periodic boundaries; give at least that", least));
+           fmt::format("the largest grains need {:.3g} d between periodic boundaries; increase it", least));
   }
 
   void checkFineDepth() const {
     if (test_.coarsening > 0 && test_.fineDepth >= test_.depth)
       fail("--fine-depth", test_.fineDepth, "breadths",
-           fmt::format("nothing of the bed would be coarser; give less than its depth, {} = {:g} breadths",
-                       names_.depth, test_.depth));
+           fmt::format("no part of the bed would be coarser; use less than its depth, {} = {:g} breadths", names_.depth,
+                       test_.depth));
   }
 
-  /// Porosity is measured from some grains above the floor to some below the surface.
+  /// Porosity is measured away from floor and surface.
   void checkDepth() const {
     const double least = 1 + virtual_tests::PlateTest::kOffEnds * (1 + coarsest_);
     if (!test_.lattice && height_ < least)
       fail(names_.depth, test_.depth / deeper_, "breadths",
-           fmt::format("the bed is {:g} d deep, and its porosity is measured {:g} of its grains off floor and surface; "
-                       "give at least {:.3g}, or a larger {} than {:g} d",
-                       height_, virtual_tests::PlateTest::kOffEnds, least / test_.breadth / deeper_, names_.breadth,
-                       test_.breadth));
+           fmt::format(
+               "the bed is {:g} d deep, too thin to measure its porosity {:g} grains away from floor and surface; "
+               "use at least {:.3g}, or a larger {} than {:g} d",
+               height_, virtual_tests::PlateTest::kOffEnds, least / test_.breadth / deeper_, names_.breadth,
+               test_.breadth));
   }
 
-  /// A plate that has reached the floor measures the floor.
+  /// The plate must stay above the floor.
   void checkSinkage() const {
     const double most = (height_ - largest_) / test_.breadth;
     if (test_.sinkage <= most) return;
@@ -84,15 +85,15 @@ private:
         test_.lattice ? fmt::format("a smaller {} than {:g} d", names_.breadth, test_.breadth)
                       : fmt::format("a deeper bed than {} = {:g} breadths", names_.depth, test_.depth / deeper_);
     fail("--sinkage", test_.sinkage, "breadths",
-         fmt::format("the plate would come within a grain of the floor, or through it; give at most {:.3g}, or {}",
-                     most, remedy));
+         fmt::format("the plate would reach the floor or come within a grain of it; use at most {:.3g}, or {}", most,
+                     remedy));
   }
 
   std::string name_;
   virtual_tests::PlateTest test_;
   Names names_;
   virtual_tests::BedPreparation preparation_;
-  double deeper_, wider_;     // than the options say [-]
+  double deeper_, wider_;     // factors on the options [-]
   double coarsest_, largest_; // [d] mean and largest diameter at the floor
   double bin_, height_;       // [d]
 };

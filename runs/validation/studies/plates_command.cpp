@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study plates`: which plates on which beds, tables and files.
+// `grouser study plates`: plates and beds, tables and files.
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "runs/output/plots.hpp"
@@ -19,7 +19,7 @@ namespace grouser::studies {
 namespace {
 
 constexpr int kSlices = 4;
-constexpr double kLatticeSinkage = 0.2; // [breadths] a bed of five layers is no deeper
+constexpr double kLatticeSinkage = 0.2; // [breadths] maximum for a bed of five layers
 
 virtual_tests::Soil soilOf(const PlatesCommand& c) {
   virtual_tests::Soil soil;
@@ -73,7 +73,7 @@ void runAll(const PlatesCommand& command, const virtual_tests::Soil& soil, const
       if (command.keepBeds) std::filesystem::rename(folder / "bed.txt", pieces.folder() / ("bed_" + name + ".txt"));
       std::filesystem::remove_all(folder);
     }
-  progress.finish(fmt::format("{} of {} plates are there", all - pieces.left(), all));
+  progress.finish(fmt::format("{} of {} plates finished", all - pieces.left(), all));
 }
 
 } // namespace
@@ -97,16 +97,17 @@ std::vector<PlateCase> plateCases(const PlatesCommand& c) {
                                 {"wide", "width doubled", wide, "base", false, 1, 2},
                                 {"old", "five layers in a lattice on a plane floor", old, "base"},
                                 {"circular", "circular plate", circular, "", true},
-                                {"fine", "strip of many grains, all as fine", fine},
-                                {"graded", "the same, coarser with depth", graded, "fine"}};
+                                {"fine", "strip on uniformly fine grains", fine},
+                                {"graded", "the same strip, grains coarser with depth", graded, "fine"}};
   if (c.cases.empty()) return all;
   std::vector<PlateCase> chosen;
   for (const std::string& name : c.cases) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const PlateCase& p) { return p.name == name; });
     if (found == all.end())
-      throw base::InputError(fmt::format("--cases: {} is none of base, rough, deep, wide, old, circular, fine, "
-                                         "graded",
-                                         name));
+      throw base::InputError(
+          fmt::format("--cases: unknown case {}; cases are base, rough, deep, wide, old, circular, fine, "
+                      "graded",
+                      name));
     chosen.push_back(*found);
   }
   return chosen;
@@ -129,11 +130,11 @@ void studyPlatesCommand(const PlatesCommand& command) {
   jobs::Pieces pieces("plates", command.place, command.pieces, recipe);
   const support::StopSignals signals;
   const auto begin = std::chrono::steady_clock::now();
-  fmt::print(
-      "          spheres of {:g} mm +- {:g} %, {:g} N/m, friction {:g}, rolling friction {:g}, poured with {:g}; "
-      "plate {:g} d; {} seeds, +- 95 %\n",
-      2e3 * soil.grains.radius, 100 * soil.spread, soil.grains.stiffness, soil.grains.friction,
-      soil.grains.rollingFriction, soil.preparationFriction, command.breadth, command.seeds);
+  fmt::print("          spheres of {:g} mm +- {:g} %, {:g} N/m, friction {:g}, rolling friction {:g}, friction {:g} "
+             "during pouring; "
+             "plate {:g} d; {} seeds, +- 95 %\n",
+             2e3 * soil.grains.radius, 100 * soil.spread, soil.grains.stiffness, soil.grains.friction,
+             soil.grains.rollingFriction, soil.preparationFriction, command.breadth, command.seeds);
   runAll(command, soil, cases, pieces);
   if (!pieces.whole()) return;
   const std::vector<CaseRuns> all = runsThatAreThere(cases, soil, command.seeds, pieces);
@@ -144,7 +145,7 @@ void studyPlatesCommand(const PlatesCommand& command) {
   fmt::print("{}", bearingTable(command, soil, all, slices, bearing));
   fmt::print("{}", costTable(all, costs));
   if (pieces.left() > 0)
-    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "plates.csv", pressures, "--out");
   support::writeTextFile(pieces.folder() / "differences.csv", differences, "--out");
   support::writeTextFile(pieces.folder() / "bearing.csv", bearing, "--out");

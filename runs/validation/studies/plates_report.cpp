@@ -54,7 +54,7 @@ std::vector<CaseRuns> runsThatAreThere(const std::vector<PlateCase>& cases, cons
 
 std::string pressureTable(const std::vector<CaseRuns>& all, const std::vector<Slice>& slices, std::string& csv) {
   std::string text =
-      fmt::format("\npressure [kPa] at sinkage / breadth\n  {:<10} {:>5} {:>8}", "", "seeds", "porosity");
+      fmt::format("\npressure [kPa] over sinkage / breadth\n  {:<10} {:>5} {:>8}", "", "seeds", "porosity");
   text += sliceHeads(slices);
   csv = "case,seeds,porosity [-],from [breadths],to [breadths],pressure [Pa],half width\n";
   for (const CaseRuns& c : all) {
@@ -83,11 +83,11 @@ std::string differenceTable(const std::vector<CaseRuns>& all, const std::vector<
         std::find_if(all.begin(), all.end(), [&](const CaseRuns& o) { return o.plate->name == c.plate->comparedWith; });
     if (other == all.end()) continue;
     if (text.empty())
-      text =
-          fmt::format("\ndifference of pressures [%] at sinkage / breadth; bar {:g} %\n  {:<18}", 100 * kEqualBar, "") +
-          sliceHeads(slices);
+      text = fmt::format("\ndifference of pressures [%] over sinkage / breadth; tolerance {:g} %\n  {:<18}",
+                         100 * kEqualBar, "") +
+             sliceHeads(slices);
     text += fmt::format("  {:<18}", fmt::format("{} to {}", c.plate->name, other->plate->name));
-    std::string verdict = "sinks less deep";
+    std::string verdict = "smaller sinkage only";
     for (const Slice& s : slices) {
       if (!c.reaches(s)) {
         text += fmt::format(" {:>16}", "-");
@@ -107,8 +107,8 @@ std::string differenceTable(const std::vector<CaseRuns>& all, const std::vector<
 std::string costTable(const std::vector<CaseRuns>& all, std::string& csv) {
   csv = "case,grains,steps of the bed,wall time of the bed [s],steps of the plate,wall time of the plate [s],times "
         "fewer grains,times faster\n";
-  std::string text = fmt::format("\nmeans of a run\n  {:<10} {:>9} {:>11} {:>8} {:>13} {:>8}\n", "", "grains",
-                                 "bed's steps", "[s]", "plate's steps", "[s]");
+  std::string text = fmt::format("\nmeans per run\n  {:<10} {:>9} {:>11} {:>8} {:>13} {:>8}\n", "", "grains",
+                                 "bed steps", "[s]", "plate steps", "[s]");
   for (const CaseRuns& c : all) {
     std::array<double, 5> m{};
     for (std::size_t k = 0; k < m.size(); ++k) m[k] = c.mean(virtual_tests::kPlateColumns[3 + k]);
@@ -135,13 +135,12 @@ std::string bearingTable(const PlatesCommand& command, const virtual_tests::Soil
                          const std::vector<CaseRuns>& all, const std::vector<Slice>& slices, std::string& csv) {
   csv = "case,from [breadths],to [breadths],measured [Pa],half width,theory [Pa],at the angle's lower end [Pa],at its "
         "upper end [Pa],measured over theory - 1,half width,verdict,angle that theory would need [deg]\n";
-  if (command.angle <= 0)
-    return "\nno theory of bearing: give the angle that `grouser study shear-angle` has measured, --angle\n";
+  if (command.angle <= 0) return "\nno bearing theory: requires --angle, measured by `grouser study shear-angle`\n";
   std::string text =
-      fmt::format("\nbearing at {:g} +- {:g} deg (Vesic's factors; with the bed's own density), bar {:g} %\n"
+      fmt::format("\nbearing capacity at {:g} +- {:g} deg (Vesic's factors, density of the bed), tolerance {:g} %\n"
                   "  {:<10} {:>12} {:>18} {:>28} {:>20} {:>11} {:>14}\n",
                   command.angle, command.angleError, 100 * kBearingBar, "", "sinkage / B", "measured [kPa]",
-                  "theory, over the angle [kPa]", "measured/theory - 1", "", "angle of it");
+                  "theory, angle interval [kPa]", "measured/theory - 1", "", "fitted angle");
   for (const CaseRuns& c : all) {
     if (!c.plate->bears) continue;
     const double weight = (1 - c.mean("porosity [-]")) * soil.grains.density * jobs::kGravity;
@@ -154,7 +153,7 @@ std::string bearingTable(const PlatesCommand& command, const virtual_tests::Soil
       const support::Estimate p = jobs::interval95(measured);
       const double q = theory(command.angle), low = theory(command.angle - command.angleError),
                    high = theory(command.angle + command.angleError);
-      // What is not known of the angle counts as the pressure's own scatter.
+      // The uncertainty of the angle is added to the scatter of the pressure.
       const support::Estimate ratio{p.value / q - 1, std::hypot(p.halfWidth / q, p.value / q * 0.5 * (high - low) / q)};
       const double fits = virtual_tests::bearingAngle(c.plate->test.shape, p.value, weight, c.breadth,
                                                       0.5 * (s[0] + s[1]) * c.breadth) *

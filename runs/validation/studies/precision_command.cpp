@@ -24,10 +24,10 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
   DriftStudy drift = command.drift;
   touch.threads = drift.threads = command.threads;
   fmt::print(
-      "          radius 27 mm, 2500 kg/m3, 1e6 N/m, step 5e-5 s, 20 steps a contact; a bed that falls into a box, "
+      "          radius 27 mm, 2500 kg/m3, 1e6 N/m, step 5e-5 s, 20 steps per contact; a bed dropped into a box, "
       "friction 0.5, restitution 0.5; a gas of elastic grains\n");
 
-  support::Progress judging("judging");
+  support::Progress judging("deciding");
   int judged = 0;
   const std::vector<TouchConfiguration> touches = studyTouch(touch, [&](const TouchConfiguration& c) {
     judging.update(static_cast<double>(++judged) / touch.configurations, fmt::format("step {}", c.step));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study preparation`: beds of [terrain] that ask for a porosity, and what they have got.
+// `grouser study preparation`: beds with a target porosity in [terrain], and their porosity.
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
@@ -21,9 +21,9 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kPorosityBar = 0.01;                // [-] of the porosity
+constexpr double kPorosityBar = 0.01;                // [-] tolerance of the porosity
 constexpr double kGrainRadius = 0.025;               // [m]
-constexpr double kGrainStiffness = 4e5, kSoft = 1e5; // [N/m] rained grains meet at some m/s; quick ones fall less deep
+constexpr double kGrainStiffness = 4e5, kSoft = 1e5; // [N/m] grains collide at some m/s; slower with --quick
 
 std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
   const double d = 2 * kGrainRadius;
@@ -39,7 +39,7 @@ std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
 
 std::string nameOf(double porosity, int seed) { return fmt::format("porosity{:g}_seed{}", porosity, seed); }
 
-/// One row; without numbers where the porosity cannot be reached.
+/// One row; without numbers if the porosity cannot be reached.
 jobs::Table prepare(const PreparationCommand& c, double porosity, int seed, const base::Exec& exec,
                     std::string& refused) {
   jobs::Table table;
@@ -69,7 +69,7 @@ void studyPreparationCommand(const PreparationCommand& c) {
   jobs::Pieces pieces("preparation", c.place, c.pieces, recipeOf(c));
   const support::StopSignals signals;
   const auto begin = std::chrono::steady_clock::now();
-  fmt::print("          spheres of {:g} mm +- 25 %, friction {:g}, rolling friction {:g}, {:g} d wide between periodic "
+  fmt::print("          spheres of {:g} mm +- 25 %, friction {:g}, rolling friction {:g}, {:g} d wide, periodic "
              "boundaries, {:g} d deep; {} seeds, +- 95 %\n",
              2e3 * kGrainRadius, c.friction, c.rollingFriction, c.width, c.depth, c.seeds);
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
@@ -85,13 +85,13 @@ void studyPreparationCommand(const PreparationCommand& c) {
       pieces.keep(name, prepare(c, porosity, seed, exec, refused));
       if (!refused.empty()) progress.note(fmt::format("{}: {}\n", name, refused));
     }
-  progress.finish(fmt::format("{} of {} beds are there", all - pieces.left(), all));
+  progress.finish(fmt::format("{} of {} beds finished", all - pieces.left(), all));
   if (!pieces.whole()) return;
 
   std::string csv = "wanted [-],seeds,porosity [-],half width of porosity,preparation friction [-],coordination "
                     "[-],half width of coordination,"
                     "rattlers [-],order [-],verdict\n";
-  fmt::print("\n  {:>7} {:>6} {:>18} {:>10} {:>16} {:>9} {:>8}  within {:g}\n", "wanted", "seeds", "porosity",
+  fmt::print("\n  {:>7} {:>6} {:>18} {:>10} {:>16} {:>9} {:>8}  within {:g}\n", "target", "seeds", "porosity",
              "friction", "contacts", "rattlers", "order", kPorosityBar);
   for (const double porosity : c.porosities) {
     std::vector<double> reached, friction, contacts, rattlers, order;
@@ -106,8 +106,8 @@ void studyPreparationCommand(const PreparationCommand& c) {
       rattlers.push_back(run.values("rattlers [-]").front()), order.push_back(run.values("order [-]").front());
     }
     if (reached.empty()) {
-      fmt::print("  {:>7.3f} {:>6}   out of reach\n", porosity, 0);
-      csv += fmt::format("{:g},0,,,,,,,,out of reach\n", porosity);
+      fmt::print("  {:>7.3f} {:>6}   unreachable\n", porosity, 0);
+      csv += fmt::format("{:g},0,,,,,,,,unreachable\n", porosity);
       continue;
     }
     const support::Estimate n = jobs::interval95(reached), z = jobs::interval95(contacts);
@@ -119,9 +119,9 @@ void studyPreparationCommand(const PreparationCommand& c) {
                        n.value, n.halfWidth, jobs::meanOf(friction).mean, z.value, z.halfWidth,
                        jobs::meanOf(rattlers).mean, jobs::meanOf(order).mean, verdict);
   }
-  fmt::print("  friction: with which the bed comes to rest; it then gets its own back\n");
+  fmt::print("  friction: during settling only; afterwards the grains have their own\n");
   if (pieces.left() > 0)
-    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "preparation.csv", csv, "--out");
   nlohmann::ordered_json more = recipeOf(c);
   more["seeds"] = c.seeds;

@@ -9,18 +9,18 @@
 
 namespace grouser::studies {
 
-/// Random numbers of one scene, one after the other; the same for the same seed, purpose and number.
+/// Sequence of random numbers of one scene, determined by seed, purpose and number.
 class Draw {
 public:
   Draw(std::uint64_t seed, std::uint64_t purpose, int number)
       : seed_(seed), purpose_(purpose), number_(static_cast<std::uint64_t>(number)) {}
-  /// Evenly.
+  /// Uniform.
   double in(double low, double high) { return low + (high - low) * base::uniform(seed_, purpose_, number_, k_++); }
-  /// Evenly over the logarithm.
+  /// Uniform in the logarithm.
   double over(double low, double high) { return low * base::exp(in(0, 1) * base::log(high / low)); }
-  /// True in this share of cases.
+  /// True with this probability.
   bool once(double share) { return in(0, 1) < share; }
-  /// A whole number in [low, high].
+  /// Integer in [low, high].
   int of(int low, int high) { return std::min(high, low + static_cast<int>(in(0, 1) * (high - low + 1))); }
 
 private:

@@ -20,15 +20,15 @@ namespace {
 
 constexpr std::uint64_t kScenesPurpose = base::purpose("study.random_scenes");
 
-/// What the materials of a scene have in common: its scales.
+/// Scales common to the materials of a scene.
 struct Scales {
-  double radius, density, stiffness, young, poisson; ///< of the smallest grains
+  double radius, density, stiffness, young, poisson; ///< values of the smallest grains
   bool hertz;
   double mass() const { return base::sphereMass(density, radius); }
-  /// Speed [m/s] at which an impact overlaps by about `share` of a radius.
+  /// Impact speed [m/s] with a maximum overlap of about `share` radii.
   double speedFor(double share) const {
     if (!hertz) return share * radius * std::sqrt(stiffness / mass());
-    // Johnson's impact of a grain on a plane of its like: deepest = (15 m v^2 / (16 E_eff sqrt(R)))^(2/5).
+    // Impact of a grain on a plane (Johnson): overlap = (15 m v^2 / (16 E_eff sqrt(R)))^(2/5).
     const double modulus = 0.5 * young / (1 - poisson * poisson);
     const double v2 = share * share * std::sqrt(share) * radius * radius * radius * 16 * modulus / (15 * mass());
     return std::sqrt(v2);
@@ -54,7 +54,7 @@ std::string material(Draw& draw, const std::string& name, const Scales& s, doubl
 }
 
 struct Room {
-  double halfWidth, height; ///< [m]; no lid: 0
+  double halfWidth, height; ///< [m]; height 0: no lid
 };
 
 std::string planes(const Room& room, bool sides, bool floor, bool lid) {
@@ -71,14 +71,14 @@ std::string planes(const Room& room, bool sides, bool floor, bool lid) {
   return text;
 }
 
-/// What differs from kind to kind.
+/// Parameters of each kind of scene.
 struct Form {
   int side, layers;    ///< grains along x and y, and upwards
-  double spacing;      ///< in largest radii
-  double widest;       ///< largest over smallest radius
+  double spacing;      ///< lattice spacing [largest radii]
+  double widest;       ///< largest / smallest radius
   double gravity;      ///< overlap under the largest grain's own weight [radii]
-  double push;         ///< overlap of impacts at the start [radii]
-  bool random, closed; ///< directions of the velocities; a lid
+  double push;         ///< overlap of initial impacts [radii]
+  bool random, closed; ///< random directions of velocities; lid
 };
 
 Form formOf(const std::string& kind, Draw& draw) {
@@ -94,7 +94,7 @@ Form formOf(const std::string& kind, Draw& draw) {
           draw.over(3e-5, 3e-4), hit,           draw.once(0.5),  false};
 }
 
-/// By which the largest grain sinks in as deep as the form says [m/s2].
+/// Gravity that gives the overlap `gravity` of the form [m/s2].
 double gravityOf(const Form& form, const Scales& s) {
   if (form.gravity <= 0) return 0;
   const double largest = form.widest * s.radius, mass = form.widest * form.widest * form.widest * s.mass();
@@ -106,7 +106,7 @@ double gravityOf(const Form& form, const Scales& s) {
   return std::min(gravity, 1000.0);
 }
 
-/// What the grains lie on and between.
+/// Boundaries of the grains.
 std::string aroundOf(const std::string& kind, const Room& room, double largest, bool closed, Draw& draw) {
   if (kind == "box")
     return planes(room, true, true, false) +
@@ -121,7 +121,7 @@ std::string aroundOf(const std::string& kind, const Room& room, double largest, 
   return planes(room, kind != "plane", true, closed);
 }
 
-/// Weak enough for grains to part again [J/m2].
+/// Weak enough for grains to separate [J/m2].
 double cohesionOf(const Scales& s, Draw& draw) {
   return s.hertz ? draw.over(1e-8, 1e-6) * s.young * s.radius : draw.over(1e-6, 1e-4) * s.stiffness / base::kPi;
 }
@@ -156,12 +156,12 @@ RandomScene randomScene(std::uint64_t seed, int number) {
   const double spacing = form.spacing * largest;
   const bool few = scene.kind == "few";
   const int count = few ? draw.of(2, 4) : form.side * form.side * form.layers;
-  // Narrow enough for all to meet, or wide.
+  // Narrow enough for all to collide, or wide.
   Room room{0.5 * form.side * spacing + 0.05 * largest, form.layers * spacing + 0.1 * largest};
   std::string grains;
   double lightest = 0, heaviest = 0;
   for (int i = 0; i < count; ++i) {
-    // Half of them are the smallest: the quickest shall be among those that meet.
+    // Half of them have the smallest radius, so that the highest frequencies occur.
     const double radius = form.widest > 1 && i > 0 && draw.once(0.5) ? draw.in(s.radius, largest) : s.radius;
     const double free = few ? 0.9 * (0.5 * spacing - radius) : 0.9 * std::max(0.0, 0.5 * spacing - largest);
     const int x = i % form.side, y = i / form.side % form.side, z = i / (form.side * form.side);
@@ -185,7 +185,7 @@ RandomScene randomScene(std::uint64_t seed, int number) {
   }
   const double impact = std::max(scene.speed, 1e-6);
   scene.speed *= std::sqrt(heaviest / lightest), scene.grains = count;
-  // The fewer, the rarer they meet.
+  // Fewer grains collide less often.
   scene.contacts = count > 32 ? 500 : 1500;
   std::string materials = material(draw, "a", s, 1, first);
   if (two) materials += material(draw, "b", s, draw.over(0.1, 1), second);
@@ -197,7 +197,7 @@ RandomScene randomScene(std::uint64_t seed, int number) {
   if (pulls) add("attraction = true\n");
 
   const std::string around = aroundOf(scene.kind, room, largest, form.closed, draw);
-  // Output is asked for once: the checks of a scene want it above the step.
+  // A single output: scene checks require an interval above the step.
   scene.toml =
       fmt::format("version = 1\n[run]\nduration = 1e4\noutput_interval = 1e4\nframe_interval = 1e4\ngravity = [0, 0, "
                   "{:.6g}]\nimpact_speed = {:.6g}\nprecision = \"{}\"\nthreads = 1\n",

@@ -20,10 +20,10 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kFactor = 1.5, kFarthest = 40; // of the search upwards, over the limit
-constexpr int kLooks = 40;                      // at the energy, a run
+constexpr double kFactor = 1.5, kFarthest = 40; // search above the limit: factor, maximum [limits]
+constexpr int kLooks = 40;                      // number of energy checks per run
 
-/// Runs of one scene, each step once.
+/// Runs of one scene, each step size once.
 class Trials {
 public:
   Trials(const RandomScene& random, const scene::Scene& scene, double share)
@@ -35,7 +35,7 @@ public:
     return done_[step] = tryStep(random_, scene_, step, share_);
   }
 
-  /// The longest step that `unsound` does not find fault with; 0 where none is found.
+  /// The longest step for which `unsound` is false; 0 if none is found.
   double longest(double limit, double accuracy, const std::function<bool(const StepTrial&)>& unsound) {
     double low = limit, high = limit;
     if (unsound(at(limit))) {
@@ -84,15 +84,15 @@ StepTrial tryStep(const RandomScene& random, const scene::Scene& scene, double s
       while (run.steps() < next) try {
           run.advance(next - run.steps());
         } catch (const coupling::EnergyAlarm& error) {
-          alarm(error.what()); // a step has been taken all the same
+          alarm(error.what()); // the step itself has been completed
         }
       const coupling::Ledger ledger = run.ledger();
       trial.growth = std::max(trial.growth, (ledger.kinetic + ledger.potential + ledger.elastic) / random.energy);
       if (!(ledger.fastestGrain <= kRandomSpeed * random.speed))
-        blowUp(fmt::format("step {}: a grain moves at {:.3g} m/s, where none can be quicker than {:.3g} m/s",
+        blowUp(fmt::format("step {}: a grain moves at {:.3g} m/s, above the physical maximum of {:.3g} m/s",
                            run.steps(), ledger.fastestGrain, random.speed));
       if (!(trial.growth <= kRandomGrowth))
-        blowUp(fmt::format("step {}: energy has grown by {:.3g} of that at the start", run.steps(), trial.growth));
+        blowUp(fmt::format("step {}: energy has grown by {:.3g} of the initial energy", run.steps(), trial.growth));
     }
     if (!trial.alarmed) run.checkEnergy();
   } catch (const coupling::EnergyAlarm& error) {
@@ -100,7 +100,7 @@ StepTrial tryStep(const RandomScene& random, const scene::Scene& scene, double s
   } catch (const base::SimulationError& error) {
     blowUp(error.what());
   } catch (const base::InputError& error) {
-    blowUp(error.what()); // too quick for the neighbour lists in such steps
+    blowUp(error.what()); // too fast for the neighbour lists at this step
   }
   return trial;
 }

@@ -44,19 +44,19 @@ std::vector<std::string> cells(const std::string& line) {
   return row;
 }
 
-/// Lines of a table that an earlier call has left.
+/// Lines of the table of an earlier call.
 std::vector<std::string> formerLines(const fs::path& file, std::int64_t seed) {
   std::ifstream in(file);
   std::vector<std::string> lines;
   std::string line;
   if (!in || !std::getline(in, line)) return lines;
-  if (line != kColumns)
-    throw base::InputError(file.string() + ": has other columns, of another version; leave out --resume");
+  if (line != kColumns) throw base::InputError(file.string() + ": columns of another version; run without --resume");
   while (std::getline(in, line)) {
     const std::vector<std::string> row = cells(line);
     if (row.size() < 2 || row[1] != std::to_string(seed))
-      throw base::InputError(fmt::format("{}: holds scenes of seed {}; take that with --seed, or leave out --resume",
-                                         file.string(), row.size() < 2 ? "?" : row[1]));
+      throw base::InputError(
+          fmt::format("{}: contains scenes of seed {}; use --seed with this value, or run without --resume",
+                      file.string(), row.size() < 2 ? "?" : row[1]));
     lines.push_back(line);
   }
   return lines;
@@ -98,19 +98,19 @@ std::string marginsSummary(const std::vector<std::string>& lines, bool& sound) {
     const std::array<double, 3> steps{number(13), number(14), number(11)};
     for (std::size_t k = 0; k < 3; ++k) {
       for (const std::string& kind : {row[2], std::string("all")}) {
-        // 0: no sound step was found.
+        // 0: no sound step found.
         bounded[kind][k].values.push_back(number(15) > 0 ? steps[k] / number(15) : INFINITY);
         silent[kind][k].values.push_back(number(16) > 0 ? steps[k] / number(16) : INFINITY);
       }
       blownUp[k] += row.at(17 + k) == "blows up", alarmed[k] += row.at(17 + k) != "sound";
     }
   }
-  static const std::array<const char*, 3> kSteps{"auto", "auto, fewest steps a contact", "limit"};
+  static const std::array<const char*, 3> kSteps{"auto", "auto, fewest steps per contact", "limit"};
   std::string text;
-  for (const auto& [title, of] : {std::pair{"longest step that does not blow up", &bounded},
-                                  std::pair{"longest step without an alarm", &silent}}) {
-    text += fmt::format("\nover the {}\n  {:<10} {:<30} {:>8} {:>8} {:>8} {:>8} {:>14}\n", title, "", "", "least",
-                        "tenth", "median", "most", "below 1/4");
+  for (const auto& [title, of] :
+       {std::pair{"longest step without blow-up", &bounded}, std::pair{"longest step without alarm", &silent}}) {
+    text += fmt::format("\nstep / {}\n  {:<10} {:<30} {:>8} {:>8} {:>8} {:>8} {:>14}\n", title, "", "", "min", "10 %",
+                        "median", "max", "below 1/4");
     for (const auto& [kind, spreads] : *of)
       for (std::size_t k = 0; k < 3; ++k)
         text += fmt::format("  {:<10} {:<30} {}\n", kind, kSteps[k], spreads[k].text());
@@ -131,8 +131,7 @@ void studyRandomStability(const RandomStability& command, const jobs::StudyPlace
   const support::StopSignals signals;
   std::vector<std::string> lines;
   if (command.resume) lines = formerLines(table, command.seed);
-  fmt::print("          {} random scenes of seed {}; sought to {:g} %\n", command.scenes, command.seed,
-             100 * kAccuracy);
+  fmt::print("          {} random scenes of seed {}; steps to {:g} %\n", command.scenes, command.seed, 100 * kAccuracy);
   support::Progress progress("trying");
   const auto write = [&] {
     std::string text = std::string(kColumns) + "\n";
@@ -154,7 +153,7 @@ void studyRandomStability(const RandomStability& command, const jobs::StudyPlace
   output::drawPicture("study_random_stability.py", {table}, folder / "random.png");
   fmt::print("tables    {}\n", folder.string());
   if (!sound)
-    throw base::SimulationError("a random scene is unsound at the step that a run chooses or allows: see above");
+    throw base::SimulationError("a random scene is unsound at its automatic step or its step limit (listed above)");
 }
 
 } // namespace grouser::studies

@@ -19,15 +19,15 @@ namespace {
 
 constexpr std::uint64_t kPurpose = base::purpose("study.random_vehicles");
 constexpr double kStart = 0.12, kUntil = 0.4, kWindow = 0.15; // [s]
-constexpr double kLightPad = 0.28, kLightRadius = 0.2451; // of the light vehicle, whose grains and speeds are scaled
+constexpr double kLightPad = 0.28, kLightRadius = 0.2451;     // light vehicle, reference for grain sizes and speeds
 constexpr double kLightMass = 5018;
 
 std::string triple(const base::Vec3d& v, double times) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", times * v.x, times * v.y, times * v.z);
 }
 
-/// More shoes, with the idler half as many pitches farther, and the ground run as much longer; a wheel more or less
-/// where they have room.
+/// More shoes, with the idler moved and the track-ground contact length increased by half as many pitches; a road wheel
+/// more or fewer if there is room.
 std::string gear(Draw& draw, vehicle::VehicleSpec& s) {
   const int more = draw.once(0.5) ? draw.of(-2, 4) : 0;
   s.shoe.count += more, s.idler.x += 0.5 * s.outward() * more * s.shoe.pitch;
@@ -41,7 +41,7 @@ std::string gear(Draw& draw, vehicle::VehicleSpec& s) {
       break;
     }
   s.roadWheel.spacing = spaced(s.roadWheel.count);
-  // Of a sprocket in front the first wheel is the rearmost, beside the idler.
+  // With a front sprocket the first wheel is the rearmost, next to the idler.
   if (s.sprocketInFront()) s.roadWheel.firstX -= 0.5 * more * s.shoe.pitch;
   s.trackOffset *= draw.once(0.3) ? draw.in(1, 1.2) : 1;
   return fmt::format("[spec.vehicle]\ntrack_offset = {:.6g}\n[spec.road_wheel]\ncount = {}\nspacing = {:.7g}\n"
@@ -80,7 +80,7 @@ std::string springs(Draw& draw, const vehicle::VehicleSpec& s, bool& rigidArms) 
 std::string driver(Draw& draw, const vehicle::VehicleSpec& s, const std::string& kind) {
   std::string text = fmt::format("[driver]\ntension_ramp = 0.04\nweight_ramp = 0.08\ndrive_start = {:g}\n", kStart);
   const double omega = draw.over(0.5, 10) * std::sqrt(kLightRadius / s.pitchRadius()), side = draw.in(0.2, 0.9);
-  if (kind == "torque") // up to what makes the tracks slide
+  if (kind == "torque") // up to the traction limit
     return text + fmt::format("drive = \"torque\"\ntorque = {:.6g}\ndrive_ramp = 0.1\n",
                               draw.in(-1, 1) * 0.4 * s.totalMass() * jobs::kGravity * s.pitchRadius());
   if (kind == "reversal")
@@ -92,7 +92,7 @@ std::string driver(Draw& draw, const vehicle::VehicleSpec& s, const std::string&
   return text + fmt::format("left = {:.5g}\nright = {:.5g}\ndrive_ramp = {:.3g}\n", left, omega, draw.over(0.03, 0.15));
 }
 
-/// Ground and what stands on it; `start`: x of the sprockets' axle.
+/// Ground and obstacles; `start`: x of the sprocket axle.
 std::string ground(Draw& draw, const vehicle::VehicleSpec& s, RandomVehicle& random, double& start) {
   const double scale = 2 * s.shoe.padHalfWidth / kLightPad, room = 0.9 * scale;
   const double reach = s.sprocketPinRadius() + 2 * s.shoe.pitch, idler = s.idlerPinRadius() + s.shoe.pitch;
@@ -102,7 +102,7 @@ std::string ground(Draw& draw, const vehicle::VehicleSpec& s, RandomVehicle& ran
   const std::string flat = fmt::format("heightmap = \"heightmaps/flat.png\"\nsize = [{:.6g}, {:.6g}]\n", length, width);
   random.onBed = draw.once(0.3);
   if (random.onBed) {
-    // As stiff as makes grains give as much as under the light vehicle.
+    // Stiffness for the same relative overlap as under the light vehicle.
     const double stiffness = 1e6 * s.totalMass() / (kLightMass * scale) * draw.over(0.5, 3);
     return fmt::format(
         "[material.soil]\ndensity = {:.5g}\nstiffness = {:.5g}\nrestitution = {:.3g}\nfriction = {:.3g}\n"
@@ -129,7 +129,7 @@ RandomVehicle randomVehicle(std::uint64_t seed, int number) {
   Draw draw(seed, kPurpose, number);
   RandomVehicle random;
   random.number = number;
-  random.base = kRandomBases[static_cast<std::size_t>(std::max(0, draw.of(-1, 2)))]; // the light one twice as often
+  random.base = kRandomBases[static_cast<std::size_t>(std::max(0, draw.of(-1, 2)))]; // light_tracked twice as often
   random.drive = kRandomDrives[static_cast<std::size_t>(draw.of(0, 4))];
   const std::string file = (support::shareFolder() / "assets" / "vehicles" / (random.base + ".toml")).string();
   vehicle::VehicleSpec spec = vehicle::readVehicleSpec(file);
@@ -185,11 +185,11 @@ Judgement judgeRandom(const RandomVehicle& vehicle, const RandomOutcome& outcome
   if (run.end == TrialEnd::stopped)
     return {run.blamed == base::Cause::unknown ? MapVerdict::wrongCause : MapVerdict::stopped, run.cause};
   const MapFigures& f = run.figures;
-  if (!(std::fabs(f.leftOver) <= kMostLeftOver))
-    return {MapVerdict::silentlyWrong, fmt::format("the books leave {:.3g} of the turnover over", f.leftOver)};
+  if (!(std::fabs(f.energyResidual) <= kMaxResidual))
+    return {MapVerdict::silentlyWrong, fmt::format("the energy residual is {:.3g} of the turnover", f.energyResidual)};
   for (const ComparedFigure& c : comparedFigures(true))
     if (c.value != &MapFigures::sinkage && !std::isfinite(f.*c.value))
-      return {MapVerdict::silentlyWrong, fmt::format("{} is {}: no number", c.name, f.*c.value)};
+      return {MapVerdict::silentlyWrong, fmt::format("{} is {}, not a finite number", c.name, f.*c.value)};
   return {MapVerdict::sound, ""};
 }
 

@@ -26,7 +26,7 @@ std::string nameOf(int number) { return fmt::format("vehicle_{}", number); }
 
 void runAll(const RandomVehicles& c, jobs::Pieces& pieces) {
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
-  storage::SphereCache spheres{support::KeptFiles(pieces.folder() / "kept")}; // of a vehicle at all its steps
+  storage::SphereCache spheres{support::KeptFiles(pieces.folder() / "kept")}; // shared by all steps of a vehicle
   support::Progress progress("driving");
   for (int k = 0; k < c.vehicles; ++k) {
     const std::string name = nameOf(k);
@@ -37,13 +37,13 @@ void runAll(const RandomVehicles& c, jobs::Pieces& pieces) {
     place.folder = folder, place.exec = exec, place.spheres = &spheres;
     const RandomVehicle vehicle = randomVehicle(static_cast<std::uint64_t>(c.seed), k);
     const RandomOutcome outcome = tryRandomVehicle(vehicle, place);
-    // To be run again by `grouser run`; written first, since with the trials the piece is there.
+    // Scene for `grouser run`; written before the trials, which mark the piece as finished.
     support::replaceTextFile(pieces.folder() / "runs" / (name + ".toml"),
                              sceneText(vehicle.what, outcome.trials.at(0).step));
     keepTrials(pieces, name, outcome.trials);
     fs::remove_all(folder);
   }
-  progress.finish(fmt::format("{} of {} vehicles are there", c.vehicles - pieces.left(), c.vehicles));
+  progress.finish(fmt::format("{} of {} vehicles finished", c.vehicles - pieces.left(), c.vehicles));
 }
 
 } // namespace
@@ -75,14 +75,14 @@ void studyRandomVehicles(const RandomVehicles& c) {
                                 : "rigid",
                        v.rigidArms ? "rigid" : "sprung", run.step, kVerdictWords[verdict],
                        support::csvCell(judgement.why), run.reached, support::csvCell(run.figures.speed),
-                       support::csvCell(run.figures.dissipated), support::csvCell(run.figures.leftOver), wall);
+                       support::csvCell(run.figures.dissipated), support::csvCell(run.figures.energyResidual), wall);
     if (judgement.verdict != MapVerdict::sound)
       told += fmt::format("{}: vehicle {}, {} {} on {}: {}\n", kVerdictWords[verdict], k, v.base, v.drive,
                           v.onBed ? "a bed" : "rigid ground", judgement.why);
   }
   fmt::print("{}\n", told);
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v) fmt::print("  {:<16}{:>5}\n", kVerdictWords[v], counts[v]);
-  if (pieces.left() > 0) fmt::print("{} vehicles are missing: call again with --resume\n", pieces.left());
+  if (pieces.left() > 0) fmt::print("{} vehicles missing: run again with --resume\n", pieces.left());
   nlohmann::ordered_json verdicts;
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v) verdicts[kVerdictWords[v]] = counts[v];
   support::replaceTextFile(pieces.folder() / "random_vehicles.csv", csv);
@@ -95,7 +95,7 @@ void studyRandomVehicles(const RandomVehicles& c) {
                     counts[static_cast<std::size_t>(MapVerdict::silentlyWrong)];
   if (wrong > 0)
     throw base::SimulationError(
-        fmt::format("{} vehicles are silently wrong, or stopped for a wrong cause: see above", wrong));
+        fmt::format("{} vehicles are silently wrong, or stopped for a wrong cause (listed above)", wrong));
 }
 
 } // namespace grouser::studies

@@ -26,14 +26,14 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kRest = 0.9;           // [s] the sample falls and is pressed before it is sheared
+constexpr double kRest = 0.9;           // [s] settling and compression before shearing
 constexpr double kLidMass = 0.05;       // [kg]
 constexpr double kRow = 0.01;           // [s]
-constexpr double kPlateau = 0.5;        // share of the travel behind which the strength counts as residual
-constexpr double kLatticeSpacing = 2.1; // of the lattice that the sample falls from, in largest radii
-constexpr double kSampleSolid = 0.6;    // solid fraction expected of the sample, for its depth only
+constexpr double kPlateau = 0.5;        // fraction of the travel after which the strength is residual
+constexpr double kLatticeSpacing = 2.1; // initial lattice spacing [largest radii]
+constexpr double kSampleSolid = 0.6;    // expected solid fraction of the sample, for its depth only
 
-/// The boxes of the scene: half of the box at rest, half of it drawn.
+/// Walls of the shear box: lower half fixed, upper half moving.
 enum class Side { floor, lowerLeft, lowerRight, upperLeft, upperRight, lid };
 
 constexpr bool rests(Side side) { return side == Side::floor || side == Side::lowerLeft || side == Side::lowerRight; }
@@ -54,7 +54,7 @@ namespace {
 std::string shearScene(const virtual_tests::SampleGrains& material, const ShearBox& box, double stress,
                        std::int64_t seed) {
   const double d = material.diameter(), l = box.length * d, w = box.width * d, depth = box.depth * d;
-  const double wall = box.travel * l + 2 * d; // thick enough to close what it leaves open
+  const double wall = box.travel * l + 2 * d; // thick enough to cover the gap
   const double largest = material.radius * (1 + box.spread), cell = kLatticeSpacing * largest;
   const double loose = depth * kSampleSolid * cell * cell * cell / (base::kPi / 6 * d * d * d);
   const double top = loose - 0.5 * depth + d;
@@ -138,15 +138,14 @@ void studyShearCommand(const ShearCommand& command) {
   material.friction = command.friction, material.rollingFriction = command.rollingFriction;
   fmt::print(
       "          spheres of 10 mm +- {:.0f} %, 1e5 N/m, restitution 0.5, friction {}, rolling friction {}; box {} d "
-      "long, {} d between\n          periodic boundaries, {} d deep; drawn at {} m/s over {} of its length; {} "
-      "contacts; {} "
-      "seeds, +- their standard error; one thread\n",
+      "long, {} d between\n          periodic boundaries, {} d deep; sheared at {} m/s over {} of its length; {} "
+      "contacts; {} seeds, +- standard error; one thread\n",
       100 * box.spread, material.friction, material.rollingFriction, box.length, box.width, box.depth, box.speed,
       box.travel, box.contact, seeds);
   support::Progress progress("shearing");
   std::string csv = "stress [Pa],seed,displacement [m],shear force [N],normal force [N],lid [m]\n";
   std::string table = fmt::format("\n  {:>10} {:>18} {:>18} {:>22} {:>20}\n", "load [Pa]", "peak T/N", "residual T/N",
-                                  "residual angle [deg]", "lid rises [d]");
+                                  "residual angle [deg]", "rise of the lid [d]");
   const double area = box.length * box.width * material.diameter() * material.diameter();
   std::vector<double> sigma, tau, angles;
   int done = 0;
@@ -166,7 +165,7 @@ void studyShearCommand(const ShearCommand& command) {
         const ShearRow& r = rows[k];
         csv += fmt::format("{:g},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", stress, seed, r.displacement, r.shear, r.normal,
                            r.lid);
-        // A peak of means over five rows: single rows flicker.
+        // Peak of means over five rows, to reduce noise.
         if (k >= 4) {
           double t = 0, n = 0;
           for (std::size_t j = k - 4; j <= k; ++j) t += rows[j].shear, n += rows[j].normal;
@@ -186,9 +185,9 @@ void studyShearCommand(const ShearCommand& command) {
   progress.finish(base::counted(done, "sample"));
   fmt::print("{}\n  friction angle of the bed: {} deg\n", table, both(angles, 1));
   if (const support::LineFit line = support::fitLine(sigma, tau); line.hasError() && stresses.size() > 1)
-    fmt::print("  straight line through all: slope {} (95 %), {:.1f} deg; cohesion {:.0f} +- {:.0f} Pa (95 %)\n",
+    fmt::print("  linear fit to all samples: slope {} (95 %), {:.1f} deg; cohesion {:.0f} +- {:.0f} Pa (95 %)\n",
                line.slopeText(), degrees(line.slope), line.intercept, line.interceptEstimate().halfWidth);
-  fmt::print("  T, N: forces on the upper half, and across the plane between the halves; residual: second half of the "
+  fmt::print("  T: shear force on the upper half, N: normal force between the halves; residual: second half of the "
              "travel\n");
   support::writeTextFile(folder / "shear.csv", csv, "--out");
   jobs::writeStudyOrigin(folder, "shear", std::chrono::duration<double>(Clock::now() - begin).count(),

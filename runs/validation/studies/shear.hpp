@@ -7,26 +7,26 @@
 #include <string>
 #include <vector>
 
-/// A direct shear box: the friction angle of a bed of grains.
+/// Direct shear box: friction angle of a bed of grains.
 namespace grouser::studies {
 
-/// One look at a sample while its upper half is drawn over the lower one.
+/// One row of a test.
 struct ShearRow {
   double displacement = 0; ///< of the upper half [m]
-  double shear = 0;        ///< force that draws it [N]
-  double normal = 0;       ///< force across the plane between the halves [N]
-  double lid = 0;          ///< height of the lid over that plane [m]
+  double shear = 0;        ///< shear force on the upper half [N]
+  double normal = 0;       ///< normal force between the halves [N]
+  double lid = 0;          ///< height of the lid above the shear plane [m]
 };
 
 struct ShearBox {
   double length = 16, width = 6, depth = 10; ///< [d] inside, between periodic boundaries, of the settled sample
   double travel = 0.12;                      ///< [-] of the length
   double speed = 0.02;                       ///< [m/s]
-  double spread = 0.12;                      ///< [-] radii are uniform within this share of the mean, against order
-  std::string contact = "penalty";           ///< word of run.contact
+  double spread = 0.12;            ///< [-] radii uniform within +- this fraction of the mean, to prevent order
+  std::string contact = "penalty"; ///< value of run.contact
 };
 
-/// Fills the box, presses the lid down with `stress` [Pa], then shears.
+/// Fills the box, loads the lid with `stress` [Pa], then shears.
 std::vector<ShearRow> shearSample(const virtual_tests::SampleGrains& material, const ShearBox& box, double stress,
                                   std::int64_t seed);
 

@@ -19,13 +19,12 @@ void studyShearAngleCommand(const ShearAngleCommand& command);
 
 /// Angle of internal friction and cohesion of one soil, from the lines tau = c + sigma tan phi of the seeds.
 struct ShearAngle {
-  support::Estimate angle;       ///< of the residual stresses [deg]
-  support::Estimate peakAngle;   ///< of the peaks [deg]
-  support::Estimate mohrCoulomb; ///< of the core, mean over the stresses [deg]
-  support::Estimate cohesion;    ///< of the residual line [Pa]
+  support::Estimate angle;       ///< residual [deg]
+  support::Estimate peakAngle;   ///< peak [deg]
+  support::Estimate mohrCoulomb; ///< core, mean over the stresses [deg]
+  support::Estimate cohesion;    ///< residual [Pa]
 };
-/// `runs`: [seed][stress]; a seed's angle is that of the line through its stresses; through the origin where there are
-/// fewer than two of them.
+/// `runs`: [seed][stress]; one line fit per seed, through the origin with fewer than two stresses.
 ShearAngle shearAngle(const std::vector<std::vector<virtual_tests::ShearStrength>>& runs);
 
 } // namespace grouser::studies

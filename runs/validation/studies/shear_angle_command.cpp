@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study shear-angle`: which samples, tables and files.
+// `grouser study shear-angle`: samples, tables and files.
 #include "base/counted.hpp"
 #include "base/math.hpp"
 #include "runs/output/plots.hpp"
@@ -18,8 +18,8 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kBar = 1;         // [deg] half width of the angle's interval
-constexpr double kInertial = 1e-3; // [-] above it the angle depends on the speed
+constexpr double kBar = 1;         // [deg] target half width of the angle
+constexpr double kInertial = 1e-3; // [-] maximum inertial number of a quasi-static test
 
 double inDegrees(double radians) { return radians * 180 / base::kPi; }
 
@@ -79,14 +79,14 @@ void runAll(const Samples& s, jobs::Pieces& pieces, const jobs::PieceOptions& op
         pieces.keep(name, virtual_tests::shearCell(soil, s.cell, stress, seed, folder, exec));
         std::filesystem::remove_all(folder);
       }
-  progress.finish(fmt::format("{} of {} samples are there", all - pieces.left(), all));
+  progress.finish(fmt::format("{} of {} samples finished", all - pieces.left(), all));
 }
 
 std::string stressTable(const Samples& s, const jobs::Pieces& pieces, double rolling,
                         std::vector<std::vector<virtual_tests::ShearStrength>>& runs, std::string& csv) {
   std::string text =
       fmt::format("\nrolling friction {:g}\n  {:>10} {:>16} {:>16} {:>16} {:>14} {:>14} {:>9}\n", rolling, "load [Pa]",
-                  "peak tau/sigma", "residual", "core angle [deg]", "porosity", "at the end", "I");
+                  "peak tau/sigma", "residual", "core angle [deg]", "porosity", "final", "I");
   for (int seed = 1; seed <= s.seeds; ++seed) {
     std::vector<virtual_tests::ShearStrength> row;
     for (const double stress : s.stresses)
@@ -113,7 +113,8 @@ std::string stressTable(const Samples& s, const jobs::Pieces& pieces, double rol
                        rolling, s.stresses[k], runs.size(), peak.value, peak.halfWidth, residual.value,
                        residual.halfWidth, core.value, core.halfWidth, before.value, before.halfWidth, after.value,
                        after.halfWidth, inertial.value);
-    if (inertial.value > kInertial) text += "             sheared too fast for a quasi-static angle: I is above 1e-3\n";
+    if (inertial.value > kInertial)
+      text += "             WARNING: not quasi-static (I > 1e-3); reduce the shear speed\n";
   }
   return text;
 }
@@ -131,7 +132,7 @@ ShearAngle shearAngle(const std::vector<std::vector<virtual_tests::ShearStrength
     }
     core.push_back(inDegrees(angle));
     const support::LineFit line = support::fitLine(sigma, tau), peaks = support::fitLine(sigma, high);
-    const bool through = line.points < 2; // one stress only: the line goes through the origin
+    const bool through = line.points < 2; // one stress only: line through the origin
     residual.push_back(inDegrees(std::atan(through ? tau.front() / sigma.front() : line.slope)));
     peak.push_back(inDegrees(std::atan(through ? high.front() / sigma.front() : peaks.slope)));
     cohesion.push_back(through ? 0 : line.intercept);
@@ -144,10 +145,11 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
   jobs::Pieces pieces("shear-angle", command.place, command.pieces, recipeOf(s));
   const support::StopSignals signals;
   const auto begin = std::chrono::steady_clock::now();
-  fmt::print("          spheres of {:g} mm +- {:g} %, {:g} N/m, friction {:g}, poured with {:g}; {:g} x {:g} d between "
-             "periodic boundaries, {:g} d deep; {} seeds, +- 95 %\n",
-             2e3 * s.soil.grains.radius, 100 * s.soil.spread, s.soil.grains.stiffness, s.soil.grains.friction,
-             s.soil.preparationFriction, s.cell.length, s.cell.width, s.cell.depth, s.seeds);
+  fmt::print(
+      "          spheres of {:g} mm +- {:g} %, {:g} N/m, friction {:g}, {:g} during pouring; {:g} x {:g} d between "
+      "periodic boundaries, {:g} d deep; {} seeds, +- 95 %\n",
+      2e3 * s.soil.grains.radius, 100 * s.soil.spread, s.soil.grains.stiffness, s.soil.grains.friction,
+      s.soil.preparationFriction, s.cell.length, s.cell.width, s.cell.depth, s.seeds);
   runAll(s, pieces, command.pieces);
   if (!pieces.whole()) return;
   std::string csv =
@@ -161,21 +163,21 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
     const std::string text = stressTable(s, pieces, rolling, runs, csv);
     if (runs.empty()) continue;
     const ShearAngle a = shearAngle(runs);
-    fmt::print("{}  atan of the line's slope: residual {} deg, peak {} deg; cohesion {} Pa; core {} deg\n"
+    fmt::print("{}  line fit: residual {} deg, peak {} deg; cohesion {} Pa; core {} deg\n"
                "  half width of the residual angle {} {:g} deg: {}\n",
                text, jobs::plusMinus(a.angle, 2), jobs::plusMinus(a.peakAngle, 2), jobs::plusMinus(a.cohesion, 0),
                jobs::plusMinus(a.mohrCoulomb, 2), a.angle.halfWidth < kBar ? "below" : "not below", kBar,
-               a.angle.halfWidth < kBar ? "shown" : "not shown");
+               a.angle.halfWidth < kBar ? "conclusive" : "inconclusive");
     angles += fmt::format("{:g},{},{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g},{:.4g},{:.3g}\n", rolling, runs.size(),
                           a.angle.value, a.angle.halfWidth, a.peakAngle.value, a.peakAngle.halfWidth,
                           a.mohrCoulomb.value, a.mohrCoulomb.halfWidth, a.cohesion.value, a.cohesion.halfWidth);
   }
   fmt::print(
-      "  tau, sigma: on both plates; residual: second half of the strain; core angle: sine = (s1 - s3)/(s1 + s3) "
-      "of the stress in the plane of shear,\n  from the contacts farther than two grains from the plates: the "
-      "angle of Mohr and Coulomb, to be used in theories of bearing\n");
+      "  tau, sigma: mean of both plates; residual: second half of the strain; core angle: sine = (s1 - s3)/(s1 + s3) "
+      "of the stress in the shear plane,\n  from contacts more than two grains away from the plates: the "
+      "Mohr-Coulomb angle for bearing theories\n");
   if (pieces.left() > 0)
-    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "shear_angle.csv", csv, "--out");
   support::writeTextFile(pieces.folder() / "angles.csv", angles, "--out");
   nlohmann::ordered_json more = recipeOf(s);

@@ -9,7 +9,7 @@
 
 namespace grouser::studies {
 
-/// Virtual soil tests of `grouser study`.
+/// Options of the soil studies of `grouser study`.
 struct SoilStudies {
   ShearAngleCommand shearAngle;
   PlatesCommand plates;

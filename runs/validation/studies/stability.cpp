@@ -36,11 +36,11 @@ scene::Scene sceneOf(const scene::MechanismSections& sections, const Choice& cho
   scene.run.gravity = gravity;
   scene.run.integrator = choice.integrator, scene.run.springs = choice.springs;
   scene.mechanism = sections;
-  scene.run.stepsPerPeriod = 2; // stability is what is looked for, however little is resolved
+  scene.run.stepsPerPeriod = 2; // low resolution: only stability matters
   return scene;
 }
 
-/// Steps along; stable as long as `size` stays below `bound`.
+/// Runs; stable if `size` stays below `bound`.
 void tryStep(const scene::Scene& scene, StabilityPoint& point,
              const std::function<double(const coupling::Mechanism&)>& size, double bound) {
   point.predicted = point.step < point.limit;
@@ -48,7 +48,7 @@ void tryStep(const scene::Scene& scene, StabilityPoint& point,
     coupling::Mechanism mechanism(setup::mechanismSetup(scene), point.step);
     for (int i = 0; i < kSteps && point.stable; ++i) {
       mechanism.advance();
-      point.stable = size(mechanism) <= bound; // false for what is no number, too
+      point.stable = size(mechanism) <= bound; // false for NaN too
     }
   } catch (const base::InputError&) {
     point.stable = false, point.refused = true;
@@ -57,7 +57,7 @@ void tryStep(const scene::Scene& scene, StabilityPoint& point,
   }
 }
 
-/// Steps to try: from 1e-6 s up, and on either side of the limit.
+/// Trial steps: from 1e-6 s upwards, and around the limit.
 std::vector<double> stepsFor(double limit, double longest) {
   std::vector<double> steps;
   for (const double s : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0})
@@ -89,7 +89,7 @@ void springs(std::vector<StabilityPoint>& points) {
       const double limit = limited ? 2 / omega : kAnyStep;
       for (const double step : stepsFor(limit, 1)) {
         StabilityPoint p{fmt::format("spring x {:g}", factor), choice.name, limit, step};
-        // It swings about kPull / k by as much; twice as far again is no swing of its own.
+        // The free oscillation reaches 2 kPull / k; twice that is unstable.
         tryStep(
             sceneOf(m, choice, {kPull / kMass, 0, 0}), p,
             [](const coupling::Mechanism& now) { return std::fabs(now.state().pose[0].position.x); },
@@ -100,15 +100,15 @@ void springs(std::vector<StabilityPoint>& points) {
   }
 }
 
-/// Highest frequency of a hanging chain's small swings [rad/s], by power iteration on M^-1 K: links of mass m, length l
-/// and inertia I about the centre, angles from the vertical as coordinates.
+/// Highest frequency of small oscillations of a hanging chain [rad/s], by power iteration on M^-1 K: links of mass m,
+/// length l and inertia I about the centre, angles from the vertical as coordinates.
 double highestSwing(int n, double m, double l, double I, double tip, double g) {
   const auto at = [n](int i, int j) {
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
   };
   std::vector<double> M(at(n, 0)), K(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
-    // What hangs below link i moves with l theta_i, its own centre with half of that.
+    // Links below i move with l theta_i, the centre of link i with half of that.
     K[static_cast<std::size_t>(i)] = g * l * (0.5 * m + (n - 1 - i) * m + tip);
     for (int j = 0; j < n; ++j) {
       const int low = std::max(i, j);
@@ -168,7 +168,7 @@ void massRatios(std::vector<StabilityPoint>& points) {
     for (const Choice& choice : {kChoices[0], kChoices[1]})
       for (const double step : stepsFor(limit, 1)) {
         StabilityPoint p{fmt::format("tip mass x {:g}", ratio), choice.name, limit, step};
-        // It swings as a whole to twice the tilt; the fastest swing is a zigzag, with large angles in its pins.
+        // The chain oscillates as a whole to twice the tilt; the fastest mode is a zigzag with large pin angles.
         const auto widest = [](const coupling::Mechanism& now) {
           double angle = 0;
           for (const multibody::JointReading& joint : now.state().joint)
@@ -189,7 +189,7 @@ void inertiaRatios(std::vector<StabilityPoint>& points) {
     body.name = "top", body.mass = 1, body.inertia = {1, ratio, ratio + 0.5};
     body.spin = base::Vec3d{1, 1, 1} * (kSpin / std::sqrt(3.0));
     m.bodies.push_back(body);
-    // No theory: what the implicit gyroscopic equation has been found to bear, in turn a step.
+    // No theory: empirical limit of the implicit gyroscopic equation, rotation per step.
     const double limit = (ratio <= 10 ? 1.0 : 0.1) / kSpin; // [rad] over [rad/s]
     const double start = 0.5 * kSpin * kSpin / 3 * (1 + 2 * ratio + 0.5);
     for (const Choice& choice : {kChoices[0], kChoices[1]})
@@ -218,8 +218,8 @@ std::vector<StabilityPoint> studyStability() {
 
 std::string stabilityTable(const std::vector<StabilityPoint>& points) {
   std::string text =
-      fmt::format("\nstability over {} steps: the steps tried [s]; s stable, u unstable, r refused with the limit "
-                  "named; ! against the prediction\n  {:<16} {:<26} {:>10}  steps\n",
+      fmt::format("\nstability over {} steps: trial steps [s]; s stable, u unstable, r rejected with the limit; "
+                  "! contradicts the prediction\n  {:<16} {:<26} {:>10}  steps\n",
                   kSteps, "", "", "limit [s]");
   std::string former;
   int wrong = 0;

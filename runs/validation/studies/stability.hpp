@@ -4,23 +4,23 @@
 #include <string>
 #include <vector>
 
-/// Which steps the multibody solver takes, against what theory says.
+/// Stable time steps of the multibody solver against theory.
 namespace grouser::studies {
 
-/// One run of many steps.
+/// One run at one step size.
 struct StabilityPoint {
   std::string what;       ///< "spring x 1e3"
   std::string integrator; ///< "rattle2, springs explicit"
-  double limit = 0;       ///< longest step that theory allows [s]; infinite where it allows any
+  double limit = 0;       ///< longest stable step in theory [s]; may be infinite
   double step = 0;        ///< [s]
   bool predicted = true;  ///< stable
   bool stable = true;
-  bool refused = false; ///< by the program, with an error that names the limit
+  bool refused = false; ///< rejected by the program with an error that names the limit
   bool agrees() const { return stable == predicted; }
 };
 
-/// A spring on a slide, 1e-3 to 1e6 times as stiff; a chain with a tip of 1 to 1e6 times a link's mass; a free top
-/// whose moments are as 1 to 1 to 1e4.
+/// A spring on a slide with stiffness factors 1e-3 to 1e6; a chain with a tip of 1 to 1e6 link masses; a free top with
+/// ratios of moments of 1 to 1e4.
 std::vector<StabilityPoint> studyStability();
 
 std::string stabilityTable(const std::vector<StabilityPoint>& points);

@@ -17,14 +17,14 @@ using base::Vec3l;
 
 namespace {
 
-/// Cells are this many units wide: a grain is 1e8 to 2e8.
+/// Width of cells [units]; a grain is 1e8 to 2e8 wide.
 constexpr std::int64_t kCell = std::int64_t{1} << 27;
 
 std::int64_t cellOf(std::int64_t units) { return units >= 0 ? units / kCell : -((kCell - 1 - units) / kCell); }
 
 template <class T> bool nearer(const Vec3<T>& apart, T reach) { return dot(apart, apart) < reach * reach; }
 
-/// Gap between the surfaces [m], from exact squares.
+/// Gap [m], from exact squares.
 double gapOf(const Position& a, const Position& b, double unit, std::int64_t diameterUnits) {
   const std::int64_t distance2 = base::squaredNorm(base::difference(a, b));
   const double difference = static_cast<double>(distance2 - diameterUnits * diameterUnits);
@@ -43,7 +43,7 @@ std::vector<std::uint64_t> contactKeys(const terrain::GrainState& state) {
   return keys;
 }
 
-/// Contact lists that a step of `grains` finds in a configuration.
+/// Contact lists found by a step of `grains` in a configuration.
 terrain::GrainState listsOf(terrain::Grains& grains, const terrain::GrainState& configuration) {
   grains.restore(configuration);
   grains.refreshNeighbours();
@@ -174,17 +174,14 @@ std::string touchTable(const std::vector<TouchConfiguration>& all, const TouchSt
     if (&c != &all.front()) changed.push_back(c.changed);
   }
   std::string text = fmt::format(
-      "\ntouch decisions: {} configurations of {} grains, {} steps apart ({:g} s); contacts that came or went between "
-      "two "
-      "of them: {:.3g} of all in the median, {:.3g} at the least\n  {} candidate pairs, {} of them touching; nearest "
-      "to "
-      "touching: {:.2g} m\n  grains whose contacts differ between a step in single and one in double precision: {} "
-      "with grains, {} with "
+      "\ncontact decisions: {} configurations of {} grains, {} steps apart ({:g} s); contacts made or lost between two "
+      "configurations: median {:.3g}, minimum {:.3g} of all\n  {} candidate pairs, {} in contact; smallest |gap|: "
+      "{:.2g} m\n  grains whose contacts differ between single and double precision: {} with grains, {} with "
       "walls\n  {:<28} {:>14} {:>14} {:>14} {:>22}\n",
       all.size(), study.grains, study.every, static_cast<double>(study.every) * StudyBox::kTimeStep,
       jobs::medianOf(changed), changed.empty() ? 0 : *std::min_element(changed.begin(), changed.end()), sum.pairs,
       sum.touching, sum.nearest, grains, walls, "against exact integers", "disagreements", "missed", "invented",
-      "widest |gap| [m]");
+      "largest |gap| [m]");
   for (int k = 0; k < kTouchArithmetics; ++k) {
     const TouchCounts::Disagreements& d = sum.wrong[static_cast<std::size_t>(k)];
     text += fmt::format("  {:<28} {:>14} {:>14} {:>14} {:>22}\n", touchArithmeticName(k), d.count(), d.missed,

@@ -7,33 +7,33 @@
 #include <functional>
 #include <string>
 
-/// Whether two spheres touch, decided in several arithmetics, on the configurations of a run. The step itself decides
-/// with exact integers, whatever the precision of its forces: that is the truth here.
+/// Contact decisions between spheres in several arithmetics, on the configurations of a run. Reference: exact integers,
+/// as used by the step in any precision.
 namespace grouser::studies {
 
-/// In what the squared distance is formed and compared with the squared diameter.
+/// Arithmetic of the comparison of squared distance and squared diameter.
 enum TouchArithmetic {
-  kFloatFromOrigin, ///< positions rounded to float metres from the scene's origin
-  kFloatFromCell,   ///< to float metres from the corner of a cell about as wide as a grain
+  kFloatFromOrigin, ///< positions as float metres from the scene's origin
+  kFloatFromCell,   ///< positions as float metres from the corner of a cell about as wide as a grain
   kFloatDifference, ///< exact integer difference, rounded to float units
-  kDoubleMetres,    ///< double metres from the origin, which hold positions exactly
+  kDoubleMetres,    ///< positions as double metres from the origin (exact)
   kTouchArithmetics
 };
 const char* touchArithmeticName(int arithmetic);
 
-/// Squared distance below squared diameter, in that arithmetic.
+/// Whether the squared distance is below the squared diameter in this arithmetic.
 bool touchesIn(TouchArithmetic arithmetic, const base::Position& a, const base::Position& b,
                const base::PositionScale& scale, std::int64_t diameterUnits);
-/// The step's own decision.
+/// Decision of the step (exact integers).
 bool touchesExactly(const base::Position& a, const base::Position& b, std::int64_t diameterUnits);
 
 struct TouchCounts {
-  std::int64_t pairs = 0;    ///< candidates: on the neighbour list
-  std::int64_t touching = 0; ///< of them, exactly
+  std::int64_t pairs = 0;    ///< candidate pairs on the neighbour list
+  std::int64_t touching = 0; ///< pairs in contact, exact
   double nearest = 1e300;    ///< smallest |distance - diameter| of all [m]
   struct Disagreements {
-    std::int64_t missed = 0, invented = 0; ///< touches not seen; seen where there is none
-    double widest = 0;                     ///< |distance - diameter| of the clearest case decided wrongly [m]
+    std::int64_t missed = 0, invented = 0; ///< contacts missed; contacts reported without contact
+    double widest = 0;                     ///< largest |distance - diameter| of a wrong decision [m]
     std::int64_t count() const { return missed + invented; }
   };
   std::array<Disagreements, kTouchArithmetics> wrong;
@@ -42,7 +42,7 @@ struct TouchCounts {
   void add(const TouchCounts& more);
 };
 
-/// All pairs on the grains' neighbour list, each once; the list must be valid.
+/// All pairs on the grains' neighbour list, each once. Requires a valid list.
 TouchCounts judgePairs(const terrain::Grains& grains, std::int64_t diameterUnits);
 
 /// One configuration of a run.
@@ -50,7 +50,7 @@ struct TouchConfiguration {
   std::int64_t step = 0;
   TouchCounts counts;
   double kineticPerGrain = 0; ///< [J]
-  double changed = 0;         ///< contacts that came or went since the configuration before, over contacts [-]
+  double changed = 0;         ///< contacts made or lost since the previous configuration / contacts [-]
   /// Grains whose contacts with grains, and with walls, differ between a step in single and one in double precision.
   std::int64_t grainListsDiffer = 0, wallListsDiffer = 0;
 };

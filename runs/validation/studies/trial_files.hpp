@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-/// Runs of vehicles, kept as pieces of a study.
+/// Runs of vehicles, stored as pieces of a study.
 namespace grouser::studies {
 
-/// A figure of a run, as a column.
+/// A figure of a run as a column.
 struct FigureColumn {
   const char* name;
   double MapFigures::*value;
@@ -26,14 +26,14 @@ inline constexpr std::array<FigureColumn, 14> kTrialFigures{{{"speed [m/s]", &Ma
                                                              {"dissipated [J]", &MapFigures::dissipated},
                                                              {"integration error [J]", &MapFigures::integrationError},
                                                              {"turnover [J]", &MapFigures::turnover},
-                                                             {"left over [-]", &MapFigures::leftOver},
+                                                             {"left over [-]", &MapFigures::energyResidual},
                                                              {"speed magnitude [m/s]", &MapFigures::speedMagnitude},
                                                              {"power magnitude [W]", &MapFigures::powerMagnitude},
                                                              {"blow [weights]", &MapFigures::blow}}};
 
-/// The runs of one point or vehicle, kept as numbers with their messages beside them.
+/// The runs of one point or vehicle.
 void keepTrials(jobs::Pieces& pieces, const std::string& name, const std::vector<VehicleTrial>& trials);
-/// Throws base::InputError where the table is of another version.
+/// Throws base::InputError if the table is from another version.
 std::vector<VehicleTrial> readTrials(const jobs::Pieces& pieces, const std::string& name);
 
 } // namespace grouser::studies

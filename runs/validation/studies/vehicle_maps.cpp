@@ -21,22 +21,22 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kStep = 1e-4;      // of maps whose axes are not steps: the automatic one on rigid ground [s]
+constexpr double kStep = 1e-4;      // step of maps without a step axis: the automatic one on rigid ground [s]
 constexpr double kDriveStart = 0.2; // [s]
 constexpr double kHardStart = 0.05; // [s]
-constexpr int kLinePoints = 25;     // of a predicted line
+constexpr int kLinePoints = 25;     // points of a predicted line
 constexpr const char* kStepAxis = "step [s]";
-constexpr const char* kLongestLine = "longest step that the program takes";
+constexpr const char* kLongestLine = "longest step allowed by the program";
 
 struct Drive {
-  double speed = 2;   ///< of the sprockets [rad/s]
+  double speed = 2;   ///< sprocket speed [rad/s]
   double ramp = 0.2;  ///< [s]
-  double length = 9;  ///< of the ground [m]
+  double length = 9;  ///< length of the ground [m]
   double until = 0.7; ///< [s]; the last 0.3 s are compared
 };
 
-/// Rigid, level ground on which the vehicle is set down from 5 mm. `driver`: what the sprockets are given from
-/// kDriveStart on. `obstacles`: sections.
+/// The vehicle is set down from 5 mm on rigid, level ground. `driver`: keys of the drive, which starts at kDriveStart.
+/// `obstacles`: sections.
 VehicleCase setDown(double length, const std::string& driver, const std::string& obstacles, double until,
                     const std::string& place = "") {
   VehicleCase c;
@@ -51,7 +51,7 @@ VehicleCase setDown(double length, const std::string& driver, const std::string&
   return c;
 }
 
-/// The same without obstacles: it drives off.
+/// The same without obstacles, then driving.
 VehicleCase onRigidGround(const Drive& drive, std::vector<SpecChange> changes = {}, const std::string& run = "") {
   VehicleCase c =
       setDown(drive.length, fmt::format("sprocket_speed = {:.9g}\ndrive_ramp = {:g}\n", drive.speed, drive.ramp), "",
@@ -60,7 +60,7 @@ VehicleCase onRigidGround(const Drive& drive, std::vector<SpecChange> changes = 
   return c;
 }
 
-/// A coarse bed of three layers, on which it is set down and drives off.
+/// The vehicle is set down on a coarse bed of three layers and drives.
 VehicleCase onBed(double radius, std::vector<SpecChange> changes, int seed = 1) {
   VehicleCase c;
   c.run = fmt::format("seed = {}\n", seed);
@@ -92,7 +92,7 @@ std::string triple(const base::Vec3d& v, double times) {
   return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", times * v.x, times * v.y, times * v.z);
 }
 
-/// Steps over something else: at shares of the longest that the program takes, which is the line drawn.
+/// Points over a quantity and the step, at fractions of the longest step of the program, which is drawn as a line.
 VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::vector<double>& shares,
                      const std::function<VehicleCase(double)>& make, const fs::path& folder) {
   for (const double x : xs) {
@@ -105,7 +105,7 @@ VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::v
   std::vector<double> at;
   if (map.x.logarithmic) at = between(*low, *high, kLinePoints);
   for (int i = 0; i < kLinePoints && !map.x.logarithmic; ++i) {
-    const double share = static_cast<double>(i) / (kLinePoints - 1); // squared: closer where limits change most
+    const double share = static_cast<double>(i) / (kLinePoints - 1); // squared: denser where limits change most
     at.push_back(*low + (*high - *low) * share * share);
   }
   for (const double x : at) limit.x.push_back(x), limit.y.push_back(longestStep(make(x), folder));
@@ -125,18 +125,18 @@ VehicleMap speedAndTension(bool quick, const fs::path& folder) {
   for (const double preload : preloads)
     for (const double speed : speeds) {
       const Drive drive{speed, kHardStart, 8 + 0.4 * speed * spec.pitchRadius(), 0.7};
-      // The way that the spring gives stays what it is.
+      // The deflection of the spring stays constant.
       const double stiffness = spec.idler.stiffness * std::max(1.0, preload / spec.idler.preload);
       map.points.push_back({preload, speed,
                             onRigidGround(drive, {{"idler", "preload", fmt::format("{:g}", preload)},
                                                   {"idler", "stiffness", fmt::format("{:g}", stiffness)}}),
                             kStep});
     }
-  // A strand that runs at v pulls itself taut by lambda v^2: from there on the preload of both strands is used up.
+  // A strand moving at v has a tension of lambda v^2: above that speed the preload of both strands is used up.
   const double lambda = spec.shoe.mass / spec.shoe.pitch;
-  PredictedLine taut{"the track's own pull, lambda v^2, takes up the preload", {}, {}};
-  // Half the track is pulled up to speed through each strand, 1.5 times as quickly as on average on a smooth ramp.
-  PredictedLine start{"pulling the track up to speed takes up the preload", {}, {}};
+  PredictedLine taut{"centrifugal tension lambda v^2 exceeds the preload", {}, {}};
+  // Each strand accelerates half the track, with 1.5 times the mean acceleration on a smooth ramp.
+  PredictedLine start{"track acceleration exceeds the preload", {}, {}};
   const double pulled = 0.5 * spec.shoe.mass * spec.shoe.count * 1.5 * spec.pitchRadius() / kHardStart; // [N s]
   for (const double preload : between(preloads.front(), preloads.back(), kLinePoints)) {
     const double speed = std::sqrt(0.5 * preload / lambda) / spec.pitchRadius();
@@ -149,7 +149,7 @@ VehicleMap speedAndTension(bool quick, const fs::path& folder) {
   return map;
 }
 
-/// The whole vehicle times as heavy on springs times as stiff, so that it stands as drawn.
+/// Mass and suspension stiffness scaled by the same factor, so that the ride height is unchanged.
 std::vector<SpecChange> heavier(const vehicle::VehicleSpec& s, double times) {
   const double mass = s.chassis.mass + (times - 1) * s.totalMass();
   const auto scaled = [times](double value) { return fmt::format("{:.9g}", times * value); };
@@ -164,7 +164,7 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   VehicleMap map{"grains",
                  "grain size and weight, on a bed of 1e6 N/m, step 1e-4 s",
                  {"grain radius [m]"},
-                 {"weight of the vehicle over the shipped one's [-]"}};
+                 {"weight / weight of the shipped vehicle [-]"}};
   map.onBed = true;
   const vehicle::VehicleSpec spec = shippedSpec(folder);
   const std::vector<double> radii = quick ? std::vector<double>{0.05} : std::vector<double>{0.025, 0.035, 0.05};
@@ -172,8 +172,8 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   for (const double radius : radii)
     for (const double weight : weights)
       map.points.push_back({radius, weight, onBed(radius, heavier(spec, weight)), kStep});
-  // One grain, borne by one below, bears a road wheel and is pressed to its middle.
-  PredictedLine pressed{"a grain alone under a road wheel is pressed to its middle", {}, {}};
+  // A single grain on another one carries a road wheel and overlaps by one radius.
+  PredictedLine pressed{"a single grain under a road wheel overlaps by its radius", {}, {}};
   const double wheels = 2.0 * spec.roadWheel.count;
   for (const double radius : between(radii.front(), radii.back(), kLinePoints)) {
     const double weight = 1e6 * radius * wheels / (spec.totalMass() * jobs::kGravity);
@@ -183,9 +183,9 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   return map;
 }
 
-/// What another seed changes, beside which the rest of a bed's differences stand. None in a quick pass.
+/// Scatter between seeds, the reference for differences on beds. Not with --quick.
 VehicleMap seeds(bool quick, const fs::path& folder) {
-  VehicleMap map{"seeds", "beds of radius 0.05 m from other seeds", {"seed", false}, {kStepAxis}};
+  VehicleMap map{"seeds", "beds with grain radius 0.05 m, different seeds", {"seed", false}, {kStepAxis}};
   map.onBed = true;
   constexpr int kSeeds = 4;
   for (int seed = 1; seed <= kSeeds && !quick; ++seed)
@@ -199,7 +199,7 @@ VehicleMap stiffness(bool quick, const fs::path& folder) {
   const VehicleMap map{"stiffness", "stiffness of shoes and wheels", {"foundation modulus [N/m3]"}, {kStepAxis}};
   const vehicle::VehicleSpec spec = shippedSpec(folder);
   const auto make = [&](double modulus) {
-    // The same damping ratio.
+    // Constant damping ratio.
     const double relaxation = spec.contact.relaxationTime * std::sqrt(spec.contact.foundationModulus / modulus);
     return onRigidGround({}, {{"contact", "foundation_modulus", fmt::format("{:.9g}", modulus)},
                               {"contact", "relaxation_time", fmt::format("{:.9g}", relaxation)}});
@@ -209,7 +209,7 @@ VehicleMap stiffness(bool quick, const fs::path& folder) {
 }
 
 VehicleMap drop(bool quick, const fs::path& folder) {
-  const VehicleMap map{"drop", "dropped", {"height [m]"}, {kStepAxis}};
+  const VehicleMap map{"drop", "drop height", {"height [m]"}, {kStepAxis}};
   const auto make = [](double height) {
     VehicleCase c = onRigidGround({});
     c.scene = "[material.ground]\nstiffness = 1e7\nrestitution = 0.3\nfriction = 0.8\n"
@@ -232,7 +232,7 @@ VehicleMap speeds(bool quick, const fs::path& folder) {
                    folder);
 }
 
-/// Forward, and back as quickly a tenth of a second later: what grip cannot do the shoes slide.
+/// Forward, then backward at the same speed a tenth of a second later, with sliding shoes.
 VehicleMap reversal(bool quick, const fs::path& folder) {
   const VehicleMap map{
       "reversal", "drives reversed within 0.1 s", {"sprocket speed, forward and back [rad/s]", false}, {kStepAxis}};
@@ -247,7 +247,7 @@ VehicleMap reversal(bool quick, const fs::path& folder) {
                    folder);
 }
 
-/// Set down with the middle of its left track on a half-round: the right one falls beside it, and it drives off.
+/// Set down with the middle of the left track on a half-round and the right track on the ground, then driving.
 VehicleMap bump(bool quick, const fs::path& folder) {
   const VehicleMap map{"bump", "one track on a bump", {"radius of the half-round [m]", false}, {kStepAxis}};
   const auto make = [&folder](double radius) {
@@ -263,7 +263,7 @@ VehicleMap bump(bool quick, const fs::path& folder) {
                    folder);
 }
 
-/// Off a ledge at 10 rad/s; its centre of mass stands 0.3 m before the edge.
+/// Driven off a ledge at 10 rad/s; the centre of mass starts 0.3 m before the edge.
 VehicleMap ledge(bool quick, const fs::path& folder) {
   const VehicleMap map{"ledge", "driven off a ledge at 10 rad/s", {"height [m]", false}, {kStepAxis}};
   const auto make = [&folder](double height) {
@@ -345,7 +345,7 @@ VehicleMap vehicleMap(const std::string& name, bool quick, const fs::path& folde
   for (const auto& [known, make] : makers())
     if (known == name) return make(quick, folder);
   throw base::InputError(
-      fmt::format("--maps: there is no map \"{}\"; choose of {}", name, fmt::join(vehicleMapNames(), ", ")));
+      fmt::format("--maps: unknown map \"{}\"; maps are {}", name, fmt::join(vehicleMapNames(), ", ")));
 }
 
 } // namespace grouser::studies

@@ -6,17 +6,17 @@
 #include <string>
 #include <vector>
 
-/// Stability maps of the vehicle: what is run at which place of which map, and the limits that are predicted there.
+/// Stability maps of the vehicle: scenes of the points of each map, and predicted limits.
 namespace grouser::studies {
 
-/// A place of a map: a scene, run at `step` and at a quarter of it.
+/// A point of a map: a scene, run at `step` and at a quarter of it.
 struct MapPoint {
-  double x = 0, y = 0; ///< as drawn
+  double x = 0, y = 0; ///< coordinates in the map
   VehicleCase what;
   double step = 0; ///< [s]
 };
 
-/// A line that theory or the program itself draws through a map.
+/// A limit from theory or from the program, drawn as a line.
 struct PredictedLine {
   std::string label;
   std::vector<double> x, y;
@@ -31,17 +31,16 @@ struct VehicleMap {
   std::string name; ///< of --maps
   std::string title;
   StabilityAxis x, y;
-  bool onBed = false; ///< grains: means alone are compared
+  bool onBed = false; ///< on grains: only means are compared
   std::vector<MapPoint> points{};
   std::vector<PredictedLine> lines{};
 };
 
-/// Names of all maps, in their order.
+/// Names of all maps, in order.
 std::vector<std::string> vehicleMapNames();
-/// Steps as shares of the longest that the program takes in the scene [-]; the last is beyond.
+/// Steps as fractions of the longest step of the program in the scene [-]; the last one is above it.
 std::vector<double> mapShares(bool quick);
-/// A map with its points and lines. `folder`: for the vehicle files that tell limits. Throws InputError where there is
-/// no such map.
+/// A map with its points and lines. `folder`: for temporary vehicle files. Throws InputError for an unknown map.
 VehicleMap vehicleMap(const std::string& name, bool quick, const std::filesystem::path& folder);
 
 } // namespace grouser::studies

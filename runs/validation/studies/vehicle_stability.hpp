@@ -15,30 +15,30 @@ struct VehicleStability {
   jobs::PieceOptions pieces;
   std::vector<std::string> maps; ///< names; empty: all
 };
-/// Throws base::SimulationError, after all is written, where a point is silently wrong or stopped for a wrong cause.
+/// Throws base::SimulationError, after writing all files, if a point is silently wrong or stopped for a wrong cause.
 void studyVehicleStability(const VehicleStability& command, const jobs::StudyPlace& place);
 
-/// A point and what became of it.
+/// A point with its runs and verdict.
 struct JudgedPoint {
   const VehicleMap* map;
   const MapPoint* point;
-  std::vector<TrialPair> pairs; ///< the point's own, whose finer run has no meaning where it was refused; neighbours
+  std::vector<TrialPair> pairs; ///< the point's own pair (finer run undefined if rejected), then neighbours
   Judgement judgement;
   const VehicleTrial& run() const { return pairs.front().run; }
   const VehicleTrial& finer() const { return pairs.front().finer; }
 };
-/// Of a map; of all where it is empty.
+/// Number of points with this verdict in a map; empty: in all maps.
 int pointsOf(const std::vector<JudgedPoint>& points, const std::string& map, MapVerdict verdict);
 std::string vehicleMapsCsv(const std::vector<JudgedPoint>& points);
 std::string predictedLinesCsv(const std::vector<VehicleMap>& maps);
-/// How far the figures of a bed's runs lie apart that differ by their seed alone, beside what a run may differ from the
-/// one at a quarter of its step; empty unless two points of the map `seeds` are sound.
+/// Scatter of the figures between seeds of a bed, with the allowed difference between a run and the one at a quarter of
+/// its step; empty unless two points of the map `seeds` are sound.
 std::string seedScatterTable(const std::vector<JudgedPoint>& points);
-/// Of each point that has neighbours how its figures scatter over them; empty where none has.
+/// Scatter of the figures over neighbouring steps for each point that has some; empty if none has.
 std::string neighboursTable(const std::vector<JudgedPoint>& points);
-/// A row a neighbouring step, with the figures of both runs.
+/// One row per neighbouring step, with the figures of both runs.
 std::string neighboursCsv(const std::vector<JudgedPoint>& points);
-/// A line a map, then each stop, each refusal of its kind, and each point that is wrong, in words.
+/// One line per map, then the messages of stops, rejections (one of each kind) and wrong points.
 std::string vehicleMapsTable(const std::vector<JudgedPoint>& points);
 
 } // namespace grouser::studies

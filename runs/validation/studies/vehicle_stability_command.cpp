@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study stability --scene vehicle`: pieces, tables and files of the maps.
+// `grouser study stability --scene vehicle`: pieces, tables and files.
 #include "runs/validation/studies/vehicle_stability.hpp"
 
 #include "base/counted.hpp"
@@ -29,10 +29,10 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string nameOf(const VehicleMap& map, std::size_t point) { return fmt::format("{}_{}", map.name, point); }
-/// Of its pair at neighbouring step `k`.
+/// Name of the pair at neighbouring step `k`.
 std::string nameBeside(const std::string& point, std::size_t k) { return fmt::format("{}_beside_{}", point, k); }
 
-/// What the runs depend on, beside the program.
+/// Inputs of the runs, for --resume.
 nlohmann::ordered_json recipeOf(const std::vector<VehicleMap>& maps, bool quick) {
   nlohmann::ordered_json recipe = {{"study", "stability"}, {"scene", "vehicle"}, {"quick", quick}};
   for (const VehicleMap& map : maps) {
@@ -93,7 +93,7 @@ std::vector<JudgedPoint> judged(const std::vector<VehicleMap>& maps, const jobs:
         for (std::size_t k = 0; k < kNeighbourShares.size() && whole; ++k)
           if (const std::string beside = nameBeside(name, k); (whole = pieces.has(beside)))
             p.pairs.push_back(pairOf(pieces, beside));
-      if (!whole) continue; // a verdict wants all of them
+      if (!whole) continue; // a verdict requires all of them
       p.judgement = judge(p.pairs, map.onBed);
       points.push_back(p);
     }
@@ -120,17 +120,17 @@ void studyVehicleStability(const VehicleStability& command, const jobs::StudyPla
   fs::remove_all(scratch);
   jobs::Pieces pieces("stability_vehicle", place, command.pieces, recipeOf(maps, place.quick));
   const support::StopSignals signals;
-  fmt::print("          the shipped vehicle, each point at its step and at a quarter of it\n");
+  fmt::print("          shipped vehicle, each point at its step and at a quarter of it\n");
   runAll(maps, pieces, command.pieces);
   if (!pieces.whole()) return;
   const std::vector<JudgedPoint> points = judged(maps, pieces);
   if (points.empty()) {
-    fmt::print("no point is there yet: call again with --resume\n");
+    fmt::print("no point finished yet: run again with --resume\n");
     return;
   }
   fmt::print("{}{}{}", vehicleMapsTable(points), seedScatterTable(points), neighboursTable(points));
   if (pieces.left() > 0)
-    fmt::print("{} missing: call again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   nlohmann::ordered_json counts;
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v)
     counts[kVerdictWords[v]] = pointsOf(points, "", static_cast<MapVerdict>(v));
@@ -143,7 +143,7 @@ void studyVehicleStability(const VehicleStability& command, const jobs::StudyPla
   if (const int wrong = pointsOf(points, "", MapVerdict::silentlyWrong) + pointsOf(points, "", MapVerdict::wrongCause);
       wrong > 0)
     throw base::SimulationError(
-        fmt::format("{} points are silently wrong, or stopped for a wrong cause: see above", wrong));
+        fmt::format("{} points are silently wrong, or stopped for a wrong cause (listed above)", wrong));
 }
 
 } // namespace grouser::studies

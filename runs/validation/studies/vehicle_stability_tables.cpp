@@ -83,9 +83,10 @@ std::string seedScatterTable(const std::vector<JudgedPoint>& points) {
   for (const JudgedPoint& p : points)
     if (p.map->name == "seeds" && p.judgement.verdict == MapVerdict::sound) seeds.push_back(&p);
   if (seeds.size() < 2) return {};
-  std::string text = fmt::format("\n  {} beds from other seeds: mean and standard deviation at the step, the same at a "
-                                 "quarter, root mean square difference\n  of the two, and what they may differ by\n",
-                                 seeds.size());
+  std::string text =
+      fmt::format("\n  {} beds from different seeds: mean and standard deviation at the step, the same at a "
+                  "quarter of it,\n  rms difference, allowed difference\n",
+                  seeds.size());
   for (const ComparedFigure& figure : comparedFigures(true)) {
     std::array<double, 2> mean{}, squares{};
     double apart = 0;
@@ -115,7 +116,7 @@ std::string neighboursTable(const std::vector<JudgedPoint>& points) {
       text += fmt::format(
           "\n  {}: {} at {} = {:.4g}, {} = {:.4g}: mean and standard deviation over {} neighbouring steps down to "
           "{:.3g} of it, the same over\n  their quarters, difference of the means with Welch's 95 % "
-          "interval, and what it may be\n{}",
+          "interval, allowed difference\n{}",
           wordOf(p.judgement.verdict), p.map->name, p.map->x.label, p.point->x, p.map->y.label, p.point->y,
           p.pairs.size() - 1, kNeighbourShares.back(), scatterTable(p.pairs, p.map->onBed));
   return text;

@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSamples = 100; // of the window
+constexpr int kSamples = 100; // samples in the window
 
-/// The shipped vehicle's file with other values, as text.
+/// The file of the shipped vehicle with changed values, as text.
 std::string specText(const std::vector<SpecChange>& changes) {
   const fs::path assets = support::shareFolder() / "assets", file = assets / "vehicles" / "light_tracked.toml";
   std::ifstream in(file);
@@ -48,7 +48,7 @@ std::string specText(const std::vector<SpecChange>& changes) {
   return text;
 }
 
-/// `step`: 0 for the automatic one.
+/// `step`: 0: automatic.
 scene::Scene parsed(const VehicleCase& what, double step, const fs::path& folder) {
   fs::create_directories(folder);
   std::string text = sceneText(what, step);
@@ -60,7 +60,7 @@ scene::Scene parsed(const VehicleCase& what, double step, const fs::path& folder
   return setup::parseScene(text, folder / "scene.toml");
 }
 
-/// Mean of all pins' tensions in the last step [N].
+/// Mean tension of all pin joints in the last step [N].
 double pinTension(const coupling::VehicleRig& rig) {
   double sum = 0, pins = 0;
   for (const vehicle::Track& track : rig.assembly().tracks)
@@ -69,8 +69,8 @@ double pinTension(const coupling::VehicleRig& rig) {
   return sum / pins;
 }
 
-/// Sums over the samples of the window; of the tension over all its steps: links are rigid, so a blow lasts one step
-/// and is as high as that is short, and no sample tells its impulse.
+/// Sums over the samples of the window; tension over all steps, since impacts of rigid links last a single step and
+/// samples would miss their impulse.
 class Window {
 public:
   void step(const coupling::VehicleRig& rig) { pull_ += pinTension(rig), ++steps_; }
@@ -101,7 +101,7 @@ private:
   double samples_ = 0, sunken_ = 0, pull_ = 0, steps_ = 0;
 };
 
-/// Steps to the end of the window, or until a guard stops it.
+/// Runs to the end of the window, or until a guard stops it.
 void drive(coupling::Simulation& run, const VehicleCase& what, VehicleTrial& trial) {
   const auto stepOf = [&run](double time) { return static_cast<std::int64_t>(std::llround(time / run.timeStep())); };
   const std::int64_t begin = stepOf(what.from), end = std::max(begin + 1, stepOf(what.until));
@@ -117,7 +117,7 @@ void drive(coupling::Simulation& run, const VehicleCase& what, VehicleTrial& tri
     const coupling::Ledger ledger = run.ledger();
     f.dissipated = ledger.dissipated.total(), f.integrationError = ledger.integrationError,
     f.turnover = ledger.turnover;
-    f.leftOver = ledger.turnover > 0 ? ledger.residual / ledger.turnover : 0;
+    f.energyResidual = ledger.turnover > 0 ? ledger.residual / ledger.turnover : 0;
     f.blow = run.vehicle()->observe().blows.most;
     if (run.steps() > begin) f.power = (ledger.driveWork - workBefore) / (run.time() - began);
   };
@@ -128,7 +128,7 @@ void drive(coupling::Simulation& run, const VehicleCase& what, VehicleTrial& tri
       if (run.steps() > begin) window.step(*run.vehicle());
       f.lowest = std::min(f.lowest, run.vehicle()->state().pose[chassis].position.z);
       if (run.steps() % 256 == 0) jobs::stopStudyIfAsked();
-      // Samples are spread evenly, whatever the step.
+      // Evenly spaced samples for any step.
       if (run.steps() > begin && (run.steps() - begin) * kSamples >= (sample + 1) * (end - begin)) {
         ++sample;
         window.take(run);

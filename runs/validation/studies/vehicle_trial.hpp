@@ -11,39 +11,39 @@
 #include <string>
 #include <vector>
 
-/// One run of a vehicle for the stability maps, as a user would have it, and what it says in figures.
+/// One run of a vehicle for the stability maps, and its figures.
 namespace grouser::studies {
 
-/// A key of the vehicle file with another value: {"shoe", "mass", "0.85"}.
+/// A changed key of the vehicle file: {"shoe", "mass", "0.85"}.
 struct SpecChange {
   std::string section, key, value;
 };
 
-/// A scene of the shipped vehicle, or of one that it names itself.
+/// A scene of the shipped vehicle, or with its own vehicle.spec.
 struct VehicleCase {
-  std::string scene;       ///< TOML but for run.time_step and vehicle.spec: ends with the section [vehicle]
-  bool ownVehicle = false; ///< it has vehicle.spec, and `changes` none
-  std::string run;         ///< more keys of [run]
+  std::string scene;       ///< TOML without run.time_step and vehicle.spec; ends with the section [vehicle]
+  bool ownVehicle = false; ///< the scene sets vehicle.spec; no `changes`
+  std::string run;         ///< further keys of [run]
   std::vector<SpecChange> changes;
-  double from = 0, until = 0; ///< of the window whose means are compared [s]; the run ends with it
+  double from = 0, until = 0; ///< window of the compared means [s]; the run ends with it
 };
 
-/// Means over the window but where it says otherwise. Figures of a run that was stopped are those until then.
+/// Means over the window unless stated otherwise; until the stop for stopped runs.
 struct MapFigures {
   double speed = NAN;            ///< of the hull along x [m/s]
   double height = NAN;           ///< of the hull's centre of mass [m]
-  double lowest = NAN;           ///< that it was since the start [m]
+  double lowest = NAN;           ///< minimum of this height since the start [m]
   double pitch = NAN;            ///< nose up [rad]
   double power = NAN;            ///< of the drives [W]
-  double tension = NAN;          ///< in the tracks' pins, over all steps [N]
+  double tension = NAN;          ///< track tension, over all steps [N]
   double sinkage = NAN;          ///< of the shoes that carry load [m]
   double dissipated = NAN;       ///< in the whole run [J]
   double integrationError = NAN; ///< of the whole run [J]
   double turnover = NAN;         ///< absolute work of the whole run [J]
-  double leftOver = NAN;         ///< of the books of the whole run over the turnover [-]: rounding
-  double speedMagnitude = NAN;   ///< mean of |speed|: more where it turns back within the window [m/s]
-  double powerMagnitude = NAN;   ///< mean of the drives' |power|: more where they brake and drive in it [W]
-  double blow = NAN;             ///< greatest of the whole run, as a run warns of [weights]
+  double energyResidual = NAN;   ///< energy residual of the whole run / turnover [-]: rounding
+  double speedMagnitude = NAN;   ///< mean of |speed| [m/s]
+  double powerMagnitude = NAN;   ///< mean of |power of the drives| [W]
+  double blow = NAN;             ///< largest impact of the whole run, as in the warning of a run [weights]
 };
 
 enum class TrialEnd { sound, stopped, refused };
@@ -58,28 +58,28 @@ struct VehicleTrial {
   MapFigures figures;
 };
 
-/// Where trials keep and write their files.
+/// Folders and caches of trials.
 struct TrialPlace {
-  std::filesystem::path folder; ///< of the vehicle file
+  std::filesystem::path folder; ///< for the vehicle file
   storage::BedCache* beds = nullptr;
   storage::SphereCache* spheres = nullptr;
   base::Exec exec = base::cpuExec(1);
 };
 
-/// Whether the steps are judged before the run, as for a user, or taken as they are.
+/// Whether the step limit is checked before the run.
 enum class StepCheck { asForUsers, none };
 
-/// The scene's file at this step [s]; 0: the automatic one. Without vehicle.spec where that is not its own.
+/// Text of the scene at this step [s]; 0: automatic. Without vehicle.spec unless it is its own.
 std::string sceneText(const VehicleCase& what, double step);
 
-/// The scene at this step. Writes its vehicle file into `folder`. Throws InputError where it is refused.
+/// The scene at this step. Writes its vehicle file to `folder`. Throws InputError if the scene is rejected.
 scene::Scene sceneOf(const VehicleCase& what, double step, const std::filesystem::path& folder,
                      StepCheck check = StepCheck::asForUsers);
 
-/// The longest step that the program takes for it: stable contacts, and whatever swings or turns resolved [s].
+/// The longest step allowed by the program: stable contacts, resolved oscillations and rotations [s].
 double longestStep(const VehicleCase& what, const std::filesystem::path& folder);
 
-/// Runs it to the end of its window. Throws nothing but what asks the program to stop.
+/// Runs it to the end of its window. Throws only if the program is asked to stop.
 VehicleTrial tryVehicle(const VehicleCase& what, double step, const TrialPlace& place,
                         StepCheck check = StepCheck::asForUsers);
 

@@ -13,8 +13,8 @@
 namespace grouser::studies {
 
 const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
-  // A twentieth of what is measured, and a floor where that is small: a hundredth of the vehicle's walking pace, a
-  // tenth of the arms' deflection under its weight, a hundredth of what it takes to drive, and of a strand's pull.
+  // Relative tolerance, and absolute floors: a hundredth of a slow speed, a tenth of the static arm deflection, a
+  // hundredth of the driving power and of the strand tension.
   static const std::vector<ComparedFigure> onRigidGround = {
       {"speed", "m/s", &MapFigures::speed, 0.05, 0.01, &MapFigures::speedMagnitude},
       {"height", "m", &MapFigures::height, 0, 0.004},
@@ -23,8 +23,8 @@ const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
       {"power", "W", &MapFigures::power, 0.05, 30, &MapFigures::powerMagnitude},
       {"tension", "N", &MapFigures::tension, 0.05, 50},
       {"dissipated energy", "J", &MapFigures::dissipated, 0.1, 10}};
-  // Grains at another step settle into another bed: two to four standard deviations of the difference of two beds from
-  // other seeds, as the map `seeds` measures them (docs/evidence/vehicle_stability.md).
+  // Beds differ between steps: two to four standard deviations of the difference of two beds with different seeds,
+  // from the map `seeds` (docs/evidence/vehicle_stability.md).
   static const std::vector<ComparedFigure> onGrains = {
       {"speed", "m/s", &MapFigures::speed, 0.2, 0.05, &MapFigures::speedMagnitude},
       {"sinkage", "m", &MapFigures::sinkage, 0.2, 0.01},
@@ -43,10 +43,10 @@ bool blamesStep(base::Cause cause) {
 
 namespace {
 
-/// Why the books of a run do not count; empty where they close.
+/// Message if the energy balance does not close; empty if it does.
 std::string openBooks(const MapFigures& f) {
-  if (std::fabs(f.leftOver) <= kMostLeftOver) return {};
-  return fmt::format("the books leave {:.3g} of the turnover over", f.leftOver);
+  if (std::fabs(f.energyResidual) <= kMaxResidual) return {};
+  return fmt::format("the energy residual is {:.3g} of the turnover", f.energyResidual);
 }
 
 double sizeOf(const ComparedFigure& c, const MapFigures& f) {
@@ -58,32 +58,32 @@ double allowed(const ComparedFigure& c, double size, double finerSize) {
   return c.relative * std::max(size, finerSize) + c.floor;
 }
 
-/// A figure that is none in one run, in words; empty where all are numbers, or are not to be had in this scene.
+/// Message about a figure that is not finite in one run only; empty if there is none.
 std::string noNumber(const MapFigures& run, const MapFigures& finer, bool onBed) {
   for (const ComparedFigure& c : comparedFigures(onBed)) {
     const double a = run.*c.value, b = finer.*c.value;
     if (!(std::isnan(a) && std::isnan(b)) && (!std::isfinite(a) || !std::isfinite(b)))
-      return fmt::format("{} is {} and {}: no number", c.name, a, b);
+      return fmt::format("{} is {} and {}, not a finite number", c.name, a, b);
   }
   return {};
 }
 
-/// What differs most beyond what it may; empty where nothing does.
+/// Message about the figure that exceeds its allowed difference most; empty if none does.
 std::string apartInWords(const MapFigures& run, const MapFigures& finer, bool onBed) {
   std::string worst;
   double most = 1;
   for (const ComparedFigure& c : comparedFigures(onBed)) {
     const double a = run.*c.value, b = finer.*c.value;
     const double may = allowed(c, sizeOf(c, run), sizeOf(c, finer)), over = std::fabs(a - b) / may;
-    if (!(over > most)) continue; // or not to be had in this scene
+    if (!(over > most)) continue; // or not available in this scene
     most = over;
-    worst = fmt::format("{} is {:.4g} {}, at a quarter of the step {:.4g} {}: {:.3g} apart, more than {:.3g}", c.name,
-                        a, c.unit, b, c.unit, std::fabs(a - b), may);
+    worst = fmt::format("{} is {:.4g} {}, at a quarter of the step {:.4g} {}: difference {:.3g}, allowed {:.3g}",
+                        c.name, a, c.unit, b, c.unit, std::fabs(a - b), may);
   }
   return worst;
 }
 
-/// What is wrong of two runs that end as if sound, beside figures that differ.
+/// Errors of two runs that ended normally, other than different figures.
 std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
   if (finer.end != TrialEnd::sound) return fmt::format("at a quarter of the step: {}", finer.cause);
   for (const MapFigures* f : {&run.figures, &finer.figures})
@@ -91,17 +91,17 @@ std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed
   return noNumber(run.figures, finer.figures, onBed);
 }
 
-/// A figure over neighbouring steps, and over their quarters; without the pair that has asked for them.
+/// A figure over neighbouring steps and their quarters, without the first pair.
 struct FigureScatter {
   std::vector<double> runs, finer;
-  double deviation = 0, finerDeviation = 0; ///< of one run
-  support::Estimate change;                 ///< of the means, quarter less step
+  double deviation = 0, finerDeviation = 0; ///< standard deviation of one run
+  support::Estimate change;                 ///< difference of the means, quarter minus step
   double mean = 0, finerMean = 0, may = 0;
 };
 
 FigureScatter scatterOf(const ComparedFigure& c, const std::vector<TrialPair>& pairs) {
   FigureScatter s;
-  double size = 0, finerSize = 0; // in the mean
+  double size = 0, finerSize = 0; // means
   for (std::size_t i = 1; i < pairs.size(); ++i) {
     const MapFigures &run = pairs[i].run.figures, &finerRun = pairs[i].finer.figures;
     s.runs.push_back(run.*c.value), s.finer.push_back(finerRun.*c.value);
@@ -117,23 +117,22 @@ FigureScatter scatterOf(const ComparedFigure& c, const std::vector<TrialPair>& p
   return s;
 }
 
-/// What a figure's runs at neighbouring steps show of an error of the step; empty where it may be scatter.
+/// Message if neighbouring steps show an error of the step; empty if the difference may be scatter.
 std::string errorOfStep(const ComparedFigure& c, const FigureScatter& s) {
   const double apart = std::fabs(s.change.value);
   if (apart > s.may && apart > s.change.halfWidth)
     return fmt::format(
-        "{} is {:.4g} {} in the mean of {} steps within 2.5 %, of their quarters {:.4g} {}: {:.3g} apart, "
-        "more than {:.3g}, and more than their scatter explains, {:.3g}",
+        "{} is {:.4g} {} in the mean of {} steps within 2.5 %, of their quarters {:.4g} {}: difference {:.3g}, "
+        "allowed {:.3g}, explained by scatter {:.3g}",
         c.name, s.mean, c.unit, s.runs.size(), s.finerMean, c.unit, apart, s.may, s.change.halfWidth);
   if (s.deviation > s.may && s.deviation * s.deviation > kFisher95 * s.finerDeviation * s.finerDeviation)
-    return fmt::format(
-        "{} scatters by {:.3g} {} over {} steps within 2.5 %, by {:.3g} {} over their quarters: the step "
-        "makes it",
-        c.name, s.deviation, c.unit, s.runs.size(), s.finerDeviation, c.unit);
+    return fmt::format("{} scatters by {:.3g} {} over {} steps within 2.5 %, by {:.3g} {} over their quarters: caused "
+                       "by the step",
+                       c.name, s.deviation, c.unit, s.runs.size(), s.finerDeviation, c.unit);
   return {};
 }
 
-/// Merges skipping and thrown tracks: a skipping track is about to leave its wheels.
+/// Treats skipping and thrown tracks as one cause: a skipping track is about to leave its wheels.
 base::Cause kindOf(base::Cause cause) { return cause == base::Cause::skippingTrack ? base::Cause::thrownTrack : cause; }
 
 } // namespace
@@ -142,8 +141,7 @@ Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) 
   if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
   if (run.end == TrialEnd::stopped) {
     const bool same = finer.end == TrialEnd::stopped && kindOf(finer.blamed) == kindOf(run.blamed);
-    // Where the step is to blame a shorter one goes on beyond, whatever it meets later; where it is not, that meets the
-    // same.
+    // If the step is the cause, a shorter one passes this point; if not, it fails in the same way.
     const bool beyond =
         finer.end == TrialEnd::sound || (finer.end == TrialEnd::stopped && !same && finer.reached > run.reached);
     const bool confirmed = blamesStep(run.blamed) ? beyond : same;
@@ -175,7 +173,7 @@ Judgement judge(const std::vector<TrialPair>& pairs, bool onBed) {
       return {first.run.figures.blow > vehicle::BlowMeter::kBlow ? MapVerdict::warned : MapVerdict::silentlyWrong,
               wrong};
   }
-  return {MapVerdict::scatters, fmt::format("{}; no more than the scatter of neighbouring steps", alone.why)};
+  return {MapVerdict::scatters, fmt::format("{}; within the scatter of neighbouring steps", alone.why)};
 }
 
 std::string scatterTable(const std::vector<TrialPair>& pairs, bool onBed) {

@@ -7,29 +7,29 @@
 #include <string>
 #include <vector>
 
-/// The verdict on a run of a stability map: against the same scene at a quarter of the step, and where figures of the
-/// two disagree against runs at neighbouring steps, which tell an error of the step from scatter.
+/// The verdict on a run of a stability map: comparison with the same scene at a quarter of the step, and if figures
+/// disagree with runs at neighbouring steps, to distinguish errors of the step from scatter.
 namespace grouser::studies {
 
 enum class MapVerdict {
-  sound,         ///< ends, and so does the finer run, with figures alike
-  stopped,       ///< by a guard, for a cause that the finer run confirms
-  wrongCause,    ///< by a guard, for a cause that the finer run does not show
-  silentlyWrong, ///< ends as if sound, and the finer run says otherwise
-  scatters,      ///< figures differ, and no more than those of runs at neighbouring steps do: a chaotic motion
-  warned,        ///< ends with a warning of blows, and figures differ by more than that
-  refused        ///< before the run
+  sound,         ///< both runs end normally with equal figures
+  stopped,       ///< stopped by a guard, confirmed by the finer run
+  wrongCause,    ///< stopped by a guard, not confirmed by the finer run
+  silentlyWrong, ///< ends normally, contradicted by the finer run
+  scatters,      ///< figures differ within the scatter of neighbouring steps: chaotic motion
+  warned,        ///< ends with a warning about impacts, figures differ by more than the scatter
+  refused        ///< rejected before the run
 };
 inline constexpr std::array<const char*, 7> kVerdictWords{"sound",    "stopped", "wrong cause", "silently wrong",
                                                           "scatters", "warned",  "refused"};
 
 struct Judgement {
   MapVerdict verdict = MapVerdict::sound;
-  std::string why; ///< the message of the guard or of the refusal; for the rest what differs, and by how much
+  std::string why; ///< message of the guard or rejection; else the difference
 };
 
-/// A figure that is compared, and what it may differ by: `relative` of the larger of both, and `floor` in its unit. One
-/// that may change its sign within the window is a small difference of large ones then: its mean magnitude counts.
+/// A compared figure and its allowed difference: `relative` of the larger value, and `floor` in its unit. Figures that
+/// may change sign within the window are scaled by their mean magnitude.
 struct ComparedFigure {
   const char* name;
   const char* unit;
@@ -37,44 +37,44 @@ struct ComparedFigure {
   double relative, floor;
   double MapFigures::*magnitude = nullptr;
 };
-/// On rigid ground, where a run is the same motion at both steps; on a bed, where grains fall into other places.
+/// Tolerances on rigid ground (same motion at both steps) and on a bed (different grain positions).
 const std::vector<ComparedFigure>& comparedFigures(bool onBed);
 
-/// Left over of the books, of the turnover, that is rounding [-].
-inline constexpr double kMostLeftOver = 1e-8;
+/// Maximum energy residual / turnover that counts as rounding [-].
+inline constexpr double kMaxResidual = 1e-8;
 
 /// Whether a shorter time step avoids failures of this cause.
 bool blamesStep(base::Cause cause);
 
-/// The run that judges has so many times as many steps.
+/// Ratio of the steps of both runs.
 inline constexpr double kFinerRatio = 4;
 
-/// A run, and the same at a quarter of its step.
+/// A run, and the same scene at a quarter of its step.
 struct TrialPair {
   VehicleTrial run, finer;
 };
 
-/// Of the pair alone.
+/// Verdict from the pair only.
 Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed);
 
-/// Whether that judgement is for figures alone, of runs that are sound otherwise: what scatter may explain.
+/// Whether the verdict depends only on figures of otherwise sound runs, which scatter may explain.
 bool figuresDisagree(const VehicleTrial& run, const VehicleTrial& finer, bool onBed);
 
-/// Steps beside each of a pair's, as shares of it [-]: too near for a figure to change with the step, and another way
-/// through for a motion that is chaotic.
+/// Neighbouring steps as fractions of the step [-]: too close for a systematic change, but different for chaotic
+/// motions.
 inline constexpr std::array<double, 5> kNeighbourShares{0.995, 0.99, 0.985, 0.98, 0.975};
-/// 95 % point of Fisher's distribution of 4 and 4 degrees of freedom: of two variances, each of five runs.
+/// 95 % quantile of Fisher's distribution with 4 and 4 degrees of freedom: two variances of five runs each.
 inline constexpr double kFisher95 = 6.388;
 
-/// Of a pair whose figures disagree, the first, and of pairs at neighbouring steps. Silently wrong where one of these
-/// is not sound; where the means of a figure over the neighbours differ by more than it may and by more than Welch's 95
-/// % interval of their difference; or where it scatters more widely at the steps than at the quarters, by Fisher's
-/// test, and more than it may differ. Else it scatters. The first pair is not counted: it is looked into for lying
-/// apart. Warned instead of silently wrong where all are sound and the run warns of blows (vehicle::BlowMeter).
+/// Verdict from a pair whose figures disagree (first) and pairs at neighbouring steps. Silently wrong if one of these
+/// is not sound; if the means of a figure over the neighbours differ by more than allowed and by more than Welch's 95 %
+/// interval; or if the scatter at the steps exceeds that at the quarters (Fisher's test) and the allowed difference.
+/// Else `scatters`. The first pair is excluded (selection bias). `warned` instead of silently wrong if all are sound
+/// and the run warns about impacts (vehicle::BlowMeter).
 Judgement judge(const std::vector<TrialPair>& pairs, bool onBed);
 
-/// A line a compared figure: mean and standard deviation at the neighbouring steps, the same at their quarters, the
-/// difference of the means with its interval, and what it may differ by.
+/// One line per figure: mean and standard deviation at the neighbouring steps, the same at their quarters, difference
+/// of the means with its interval, allowed difference.
 std::string scatterTable(const std::vector<TrialPair>& pairs, bool onBed);
 
 } // namespace grouser::studies

@@ -27,14 +27,14 @@ std::vector<Mistake> sceneFiles() {
        "run scene.toml",
        {"scene.toml"}},
       badScene("PeriodicBoundariesNowhere", "time_step = 1e-5", "time_step = 1e-5\nperiodic = [true, false]",
-               {"periodic", "stand nowhere", "run.domain_x"}),
+               {"periodic", "requires positions of the boundaries along x", "run.domain_x"}),
       badScene("DomainOfSidesNotJoined", "time_step = 1e-5", "time_step = 1e-5\ndomain_y = [0, 1]",
-               {"domain_y", "no meaning", "remove it"}),
+               {"domain_y", "no effect", "remove it"}),
       badScene("DomainUpsideDown", "time_step = 1e-5", "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [1, -1]",
                {"domain_x", "lower side first"}),
       badScene("PeriodicBoundariesTooNear", "time_step = 1e-5",
                "time_step = 1e-5\nperiodic = [false, true]\ndomain_y = [-0.02, 0.02]",
-               {"scene.toml:6: run.domain_y", "too near", "at least 0.06", "use smaller grains"}),
+               {"scene.toml:6: run.domain_y", "too close", "at least 0.06", "use smaller grains"}),
       badScene("PeriodicBoundariesBeyondTheRangeOfPlaces", "time_step = 1e-5",
                "time_step = 1e-5\nperiodic = [false, true]\ndomain_y = [-1e5, 1e5]",
                {"scene.toml:6: run.domain_y", "farther than 256 m from the origin"}),
@@ -52,7 +52,7 @@ std::vector<Mistake> sceneFiles() {
        "run scene.toml",
        {"scene.toml:"}},
       badScene("NothingInIt", std::string(kGrains).substr(std::string(kGrains).find("[material")), "",
-               {"there is nothing to simulate", "add [terrain]"}),
+               {"nothing to simulate", "add [terrain]"}),
   };
 }
 
@@ -121,7 +121,7 @@ std::vector<Mistake> grainsAndSurfaces() {
       badScene("GrainInBox", "[[plane]]", "[[box]]\nposition = [0, 0, 0.5]\nsize = [0.05, 0.05, 0.05]",
                {"grain.0.position", "overlaps box 0"}),
       badScene("FixedGrainThatMoves", "position = [0, 0, 0.5]",
-               "position = [0, 0, 0.5]\nfixed = true\nspin = [0, 0, 1]", {"grain.0.spin", "never moves", "remove it"}),
+               "position = [0, 0, 0.5]\nfixed = true\nspin = [0, 0, 1]", {"grain.0.spin", "fixed grain", "remove it"}),
       badScene("BoxOfNegativeSize", "[[plane]]", "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, -1]",
                {"scene.toml:8", "box.0.size", "is outside"}),
       badScene("CylinderAlongNothing", "[[plane]]",
@@ -130,15 +130,15 @@ std::vector<Mistake> grainsAndSurfaces() {
       badScene("LidBothPushedAndMoved", "[[plane]]",
                "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nfree = \"z\"\nmass = 1\nload = -5\nvelocity = [0, "
                "0, 1]",
-               {"box.0.velocity", "where free leaves it to the forces", "remove free"}),
+               {"box.0.velocity", "the axis of free", "remove free"}),
       badScene("LidWithoutMass", "[[plane]]", "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nfree = \"z\"",
                {"box.0", "mass [kg] is missing", "add it"}),
       badScene("GrainOutsideTheDomain", "position = [0.1, 0, 0.5]", "position = [1e9, 0, 0.5]",
-               {"scene.toml:13: grain.1.position", "farther than 256 m from the origin", "move the scene nearer"}),
+               {"scene.toml:13: grain.1.position", "farther than 256 m from the origin", "move the scene closer"}),
       badScene("GrainAtNoNumber", "position = [0, 0, 0.5]", "position = [nan, 0, 0.5]",
                {"scene.toml:9", "grain.0.position", "is not finite"}),
       badScene("RadiiTooUnlike", "radius = 0.01", "radius = 5e-6",
-               {"scene.toml:10: grain.0.radius", "less than a thousandth", "raise it"}),
+               {"scene.toml:10: grain.0.radius", "less than 0.001 of the largest", "raise it"}),
   };
 }
 
@@ -152,8 +152,8 @@ std::vector<Mistake> stepsAndSizes() {
                {"scene.toml:4: run.time_step", "lid of 1e-06 kg", "raise box.0.mass"}),
       badScene("SurfaceTooQuick", "[[plane]]",
                "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nvelocity = [0, 0, 600]",
-               {"scene.toml:9: box.0.velocity", "unfelt", "keep it below 500 m/s"}),
-      badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3", {"run.time_step", "unstable", "choose"}),
+               {"scene.toml:9: box.0.velocity", "without contact", "keep it below 500 m/s"}),
+      badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3", {"run.time_step", "unstable", "or less"}),
       badScene("TooManyGrains", "grain_radius = 0.03\nlayers = 1", "grain_radius = 5e-5\nlayers = 10000",
                {"scene.toml:11: terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
       badScene("TerrainBeyondTheRangeOfPlaces", "grain_radius = 0.03", "grain_radius = 1e-6",
@@ -162,16 +162,17 @@ std::vector<Mistake> stepsAndSizes() {
           "PlaneAcrossPeriodicBoundaries", "time_step = 1e-5\n[material.glass]\n[[plane]]",
           "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [-1, 1]\n[material.glass]\n[[plane]]\nnormal = [1, "
           "0, 1]",
-          {"scene.toml:9: plane.0.normal", "leans along x", "set that entry to 0"}),
-      badScene("LawsThatDoNotMeet", "[material.glass]",
-               "[material.stone]\nlaw = \"hertz\"\nyoung = 1e7\n[material.glass]\n[[plane]]\nmaterial = \"stone\"",
-               {"scene.toml:6: material.stone.law", "surfaces that touch", "give both one of the two"}),
+          {"scene.toml:9: plane.0.normal", "inclined along x", "set that entry to 0"}),
+      badScene(
+          "LawsThatDoNotMeet", "[material.glass]",
+          "[material.stone]\nlaw = \"hertz\"\nyoung = 1e7\n[material.glass]\n[[plane]]\nmaterial = \"stone\"",
+          {"scene.toml:6: material.stone.law", "is incompatible with law = \"linear\" of material.glass", "for both"}),
       badScene("FolderWithControlCharacter", "[output]", "[output]\nfolder = \"a\\u0000b\"",
                {"scene.toml:17: output.folder", "control character"}),
       badScene(
           "OrderThatIsNone", kGrains,
           "version = 1\n[run]\nduration = 1\nintegrator_order = 3\n[[body]]\nname = \"a\"\nmass = 1\nbox = [1, 1, 1]\n",
-          {"scene.toml:4: run.integrator_order", "2, 4, 6, 8"}),
+          {"scene.toml:4: run.integrator_order", "must be 2, 4, 6 or 8"}),
       badScene(
           "BodiesBesideGrains", kGrains,
           "version = 1\n[run]\nduration = 1\n[material.glass]\n[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nradius = "
@@ -181,7 +182,7 @@ std::vector<Mistake> stepsAndSizes() {
                {"scene.toml:11: grain.0.velocity", "keep it below 150 m/s", "lower run.time_step"}),
       badScene("SpinTooQuickToBeFelt", "[[plane]]",
                "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nspin = [0, 1000, 0]",
-               {"scene.toml:9: box.0.spin", "unfelt", "keep it below 500 m/s"}),
+               {"scene.toml:9: box.0.spin", "without contact", "keep it below 500 m/s"}),
       badScene("MoreGrainsThanIds", "[output]",
                "[[grains]]\nlow = [0, 0, 1]\nhigh = [100, 100, 100]\nradius = 0.01\nmaterial = \"glass\"\n[output]",
                {"scene.toml:19: grains.0.radius", "larger grains or a smaller box"}),
@@ -192,7 +193,7 @@ std::vector<Mistake> stepsAndSizes() {
                {"grains.0.radius", "this machine has", "use fewer or larger grains"},
                replaced(kGrains, "[material.glass]", "[material.glass]\nrolling_friction = 0.1")),
       badScene("BedWithoutGravity", "time_step = 1e-4", "time_step = 1e-4\ngravity = [0, 0, 0]",
-               {"scene.toml:5: run.gravity", "give z below 0", "settle_time_limit"},
+               {"scene.toml:5: run.gravity", "set z below 0", "settle_time_limit"},
                replaced(kBed, "settle_time_limit = 0.0", "settle_time_limit = 1.0")),
       badScene("ExplicitSpringTooStiffForTheStep", kGrains,
                "version = 1\n[run]\nduration = 1\ntime_step = 1e-3\nsprings = \"explicit\"\n[[body]]\nname = "
@@ -223,13 +224,13 @@ std::vector<Mistake> sources() {
                {"source.0.low", "overlaps grain 1 at (0.1, 0, 0.5) m", "move low and high"}),
       badScene("SourcesOnEachOther", "[output]",
                replaced(source("[0.4, 0, 0.5]"), "[output]", "") + source("[0.4, 0, 0.501]"),
-               {"source.1.low", "overlaps one of source.0"}),
+               {"source.1.low", "overlaps a grain of source.0"}),
       badScene("SourceBelowTheFloor", "[output]", source("[0.3, 0, -1]", "", "soil"),
                {"source.0.low", "the terrain's floor"}, kBed),
       badScene("SourceBeyondTheWalls", "[output]", source("[0.3, 0.3, 0.3]", "", "soil"),
                {"source.0.low", "a wall of the terrain"}, kBed),
       badScene("SourceInTheBed", "[output]", source("[0.3, 0, 0.06]", "", "soil", "0.03"),
-               {"scene.toml:18: source.0 would set a grain", "at step 0", "deep in grain", "elsewhere (low, high)"},
+               {"scene.toml:18: source.0 would insert a grain", "at step 0", "deep in grain", "elsewhere (low, high)"},
                kBed),
   };
 }
@@ -238,7 +239,7 @@ std::vector<Mistake> sources() {
 std::vector<Mistake> names() {
   return {
       badScene("NameWithControlCharacter", "[[plane]]", "[[plane]]\nname = \"a\\u0001b\"",
-               {"scene.toml:7: plane.0.name", "control character", "leave it out"}),
+               {"scene.toml:7: plane.0.name", "control character", "remove it"}),
       badScene("NameWithSlash", "[[plane]]", "[[plane]]\nname = \"a/b\"", {"scene.toml:7: plane.0.name", "has a /"}),
       badScene("MaterialNameWithControlCharacter", "[material.glass]", "[material.\"a\\tb\"]\n[material.glass]",
                {"scene.toml:5: material", "control character"}),
@@ -251,7 +252,7 @@ std::vector<Mistake> names() {
 /// Meshes.
 std::vector<Mistake> meshes() {
   return {
-      badMesh("MeshFlat", "", {"scene.toml:7: mesh.0.file", "flat and encloses nothing", "a thin box"},
+      badMesh("MeshFlat", "", {"scene.toml:7: mesh.0.file", "flat and encloses no volume", "a thin box"},
               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n"),
       badMesh("MeshTooSmall", "scale = 1e-7", {"scene.toml:9: mesh.0.scale", "correct it"}),
       badMesh("MeshTooLarge", "scale = 1e5", {"scene.toml:9: mesh.0.scale", "correct it"}),
@@ -298,13 +299,13 @@ std::vector<Mistake> checkpoints() {
       badCheckpoint("CheckpointMissing", [](const fs::path& c) { fs::remove(c); }, {"checkpoint.h5", "no such file"}),
       badCheckpoint("CheckpointCut", [](const fs::path& c) { fs::resize_file(c, fs::file_size(c) / 2); },
                     {"damaged", "start anew"}),
-      badCheckpoint("CheckpointEmpty", [](const fs::path& c) { fs::resize_file(c, 0); }, {"no checkpoint"}),
-      badCheckpoint("CheckpointOfAnotherFormat", [](const fs::path& c) { put(c, picture()); }, {"no checkpoint"}),
+      badCheckpoint("CheckpointEmpty", [](const fs::path& c) { fs::resize_file(c, 0); }, {"not a checkpoint"}),
+      badCheckpoint("CheckpointOfAnotherFormat", [](const fs::path& c) { put(c, picture()); }, {"not a checkpoint"}),
       badCheckpoint("CheckpointOfAnotherScene", nothing, {"run.seed", "set it back"},
                     "run scene.toml --resume --out a --set run.seed=9"),
       badCheckpoint("CheckpointBeyondTheEnd", nothing, {"raise run.duration"},
                     "run scene.toml --resume --out a --steps 10"),
-      badCheckpoint("HashOfWhatIsNone", nothing, {"no checkpoint"}, "hash a/results.h5"),
+      badCheckpoint("HashOfWhatIsNone", nothing, {"not a checkpoint"}, "hash a/results.h5"),
       badCheckpoint("SinkageOfWhatHasNone", nothing, {"results.h5"}, "sinkage a/results.h5"),
       badCheckpoint("FramesThatAreNone", nothing, {"checkpoint.h5"}, "render a/checkpoint.h5 --out p"),
   };

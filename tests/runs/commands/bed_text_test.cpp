@@ -36,12 +36,12 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
     const std::vector<std::string> notes = bedNotes(t);
     return notes.size() == 1 && notes.front().find(word) != std::string::npos;
   };
-  EXPECT_TRUE(only([](TrackOnBed& t) { t.thickness = 0.44; }, "terrain.depth = 0.45"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.thickness = 0.44; }, "terrain.depth >= 0.45 m"));
   TrackOnBed coarse = good; // asked for 0.45 m
   coarse.meanDiameter = coarse.pressedDiameter = 0.08, coarse.thickness = 0.43;
   EXPECT_EQ(bedNotes(coarse).size(), 1u) << "of its grains alone";
-  EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "terrain.size of 4.6 m"));
-  EXPECT_TRUE(only([](TrackOnBed& t) { t.pressedDiameter = 0.015; }, "terrain.grain_radius = 0.007"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "terrain.size >= 4.6 m"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.pressedDiameter = 0.015; }, "terrain.grain_radius <= 0.007 m"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.roughFloor = false; }, "terrain.floor_grains"));
   TrackOnBed graded = good; // coarse below
   graded.meanDiameter = 0.08, graded.thickness = 0.43;
@@ -63,7 +63,7 @@ TEST(BedNotes, ArePlannedBeforeTheBedIsLaid) {
   const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\n";
   const std::vector<std::string> coarse = notes("grain_radius = 0.027\ndepth = 0.46\n" + vehicle);
   ASSERT_EQ(coarse.size(), 1u);
-  EXPECT_EQ(coarse.front().find("a pad is 5.2 mean grains wide"), 0u) << coarse.front();
+  EXPECT_EQ(coarse.front().find("a pad is 5.2 mean grain diameters wide"), 0u) << coarse.front();
   EXPECT_NE(planText(sceneOf("grain_radius = 0.027\ndepth = 0.46\n" + vehicle)).find("note: " + coarse.front()),
             std::string::npos);
   EXPECT_TRUE(notes("grain_radius = 0.007\ndepth = 0.46\n" + vehicle).empty());
@@ -80,7 +80,7 @@ TEST(BedNotes, CountTheGrainsAtTheSurfaceOfABedThatIsCoarserBelow) {
                                         [](double, double) {});
   ASSERT_GT(simulation.ground().structure->meanDiameter, 0.085) << "of all";
   bool told = false;
-  for (const std::string& note : bedNotes(simulation)) told |= note.find("a pad is 3.5 mean grains wide") == 0;
+  for (const std::string& note : bedNotes(simulation)) told |= note.find("a pad is 3.5 mean grain diameters wide") == 0;
   EXPECT_TRUE(told) << "0.28 m over 0.08 m";
 }
 
@@ -89,7 +89,8 @@ TEST(PorosityWarning, NamesLeaningGravityWhereTheBedHasMovedAfterItsPreparation)
   bed.porosity = 0.427, bed.porosityError = 0.001, bed.grains = 500;
   const std::string leaning = porosityWarning(0.40, bed, {5.627, 0, -8.036}),
                     level = porosityWarning(0.40, bed, {0, 0, -9.81});
-  for (const char* part : {"porosity of 0.427", "asks for 0.4:", "straight down", "leans by 35.0 degrees"})
+  for (const char* part :
+       {"porosity of 0.427", "terrain.porosity = 0.4:", "vertical gravity", "tilted by 35.0 degrees"})
     EXPECT_NE(leaning.find(part), std::string::npos) << leaning;
   EXPECT_NE(level.find("enlarge terrain.size or depth"), std::string::npos) << level;
   EXPECT_EQ(leanOf({0, 0, -9.81}), 0);
@@ -122,9 +123,9 @@ TEST(Plan, SaysThatAPorosityIsPreparedStraightDown) {
                                           "material = \"soil\"\ngrain_radius = 0.03\ndepth = 0.25\nporosity = 0.4\n",
                                       "scene.toml"));
   };
-  const std::string note = "under gravity straight down; run.gravity leans by 35.0 degrees";
+  const std::string note = "under vertical gravity; run.gravity is tilted by 35.0 degrees";
   EXPECT_NE(plan("[5.627, 0, -8.036]").find(note), std::string::npos);
-  EXPECT_EQ(plan("[0, 0, -9.81]").find("leans by"), std::string::npos);
+  EXPECT_EQ(plan("[0, 0, -9.81]").find("is tilted by"), std::string::npos);
 }
 
 TEST(BedWarnings, NameBedsThatAreNone) {

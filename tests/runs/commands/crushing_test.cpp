@@ -45,7 +45,7 @@ TEST_F(SqueezedGrains, CrushedOnesAreTakenOutAlikeOnRanksAndInResumedRuns) {
     const Outcome more = OnRanks::run(ranks, words + "more");
     EXPECT_EQ(more.hash(), one.hash()) << more.errors;
     EXPECT_EQ(lines(more, "crush"), lines(one, "crush"));
-    EXPECT_EQ(lines(more, "squeezed"), lines(one, "squeezed"));
+    EXPECT_EQ(lines(more, "overlaps"), lines(one, "overlaps"));
     EXPECT_EQ(contents(folder_ / "more/timeseries.csv"), contents(folder_ / "one/timeseries.csv")) << "on ranks";
   }
   const Outcome begun = OnRanks::run(1, words + "two --steps 2203");
@@ -54,7 +54,7 @@ TEST_F(SqueezedGrains, CrushedOnesAreTakenOutAlikeOnRanksAndInResumedRuns) {
   const Outcome rest = OnRanks::run(2, words + "two --resume");
   EXPECT_EQ(rest.hash(), one.hash()) << rest.errors;
   EXPECT_EQ(lines(rest, "crush"), lines(one, "crush"));
-  EXPECT_EQ(lines(rest, "squeezed"), lines(one, "squeezed"));
+  EXPECT_EQ(lines(rest, "overlaps"), lines(one, "overlaps"));
   EXPECT_EQ(contents(folder_ / "two/timeseries.csv"), contents(folder_ / "one/timeseries.csv")) << "resumed";
   // Grains keep their numbers.
   const support::Hdf5File frames = support::Hdf5File::open(folder_ / "one" / "frames.h5");
@@ -80,7 +80,7 @@ TEST_F(SqueezedGrains, AreCountedInTheSeriesAndNamedInTheSummary) {
   EXPECT_GE(most("crushed"), 1);
   EXPECT_GE(most("part_overlap"), 1);
   EXPECT_EQ(most("part_overlap_by"), 0);
-  EXPECT_NE(lines(o, "          deepest in a part:").find("by tup at"), std::string::npos) << o.out;
+  EXPECT_NE(lines(o, "          largest overlap with a part:").find("by tup at"), std::string::npos) << o.out;
   EXPECT_NE(contents(folder_ / "o/manifest.json").find("\"deepest_in_a_part\""), std::string::npos);
   EXPECT_NE(contents(folder_ / "o/manifest.json").find("\"crushed_mass_kg\""), std::string::npos);
 }

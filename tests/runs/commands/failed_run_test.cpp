@@ -83,7 +83,7 @@ TEST_F(FailedRun, BedThatDoesNotComeToRestIsShown) {
   put(folder_ / "bed.toml", kBed);
   const Outcome o =
       call("run bed.toml --out o --threads 1 --set run.max_overlap=1 --set terrain.settle_time_limit=0.1");
-  EXPECT_NE(o.errors.find("has not settled within 0.1 s"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("did not settle within 0.1 s"), std::string::npos) << o.errors;
   expectExplained(o, {"frames.h5", "frames.xdmf", "picture.png"});
 }
 

@@ -96,7 +96,7 @@ TEST_F(MechanismRun, PlanNamesFreedomsAndRedundantRows) {
   EXPECT_EQ(o.code, 0) << o.errors;
   EXPECT_NE(o.out.find("RATTLE, order 2"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("degrees of freedom       1"), std::string::npos) << o.out;
-  EXPECT_NE(o.out.find("rows held more than once 5"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("redundant constraints    5"), std::string::npos) << o.out;
 }
 
 TEST_F(MechanismRun, AutomaticStepIsAHundredthOfASwing) {
@@ -129,8 +129,7 @@ TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCa
   std::ofstream(folder_ / "chain.toml") << chainScene(1e6, kLean);
   const Outcome o = call("run chain.toml --out r --set run.time_step=2e-4" + kNoPictures);
   EXPECT_EQ(o.code, 3) << o.errors;
-  EXPECT_NE(o.errors.find("at 0.0002 s joint 'pin 5' bore so much that only steps below 7.6e-05 s are stable"),
-            std::string::npos)
+  EXPECT_NE(o.errors.find("at 0.0002 s the load on joint 'pin 5' limits stable steps to 7.6e-05 s"), std::string::npos)
       << o.errors;
 }
 
@@ -142,8 +141,7 @@ TEST_F(MechanismRun, PullThatGrowsSlowlyBeyondWhatAStepBearsIsNamedToo) {
         "run winch.toml --force --out r --set run.duration=2 --set run.time_step=" + std::string(step) + kNoPictures);
     EXPECT_EQ(o.code, 3) << step;
     std::smatch named;
-    ASSERT_TRUE(std::regex_search(o.errors, named, std::regex("bore so much that only steps below ([0-9.e-]+) s")))
-        << o.errors;
+    ASSERT_TRUE(std::regex_search(o.errors, named, std::regex("limits stable steps to ([0-9.e-]+) s"))) << o.errors;
     // The pull is looked at when it has grown by a twentieth, and the root of that goes into the step; two digits. A
     // peak of the links' own swing may be the first to pass the limit.
     EXPECT_LE(std::stod(named[1]), limit * 1.01) << step;
@@ -155,12 +153,12 @@ TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
   // Straight and at rest, the chain would hang still at any step: until the first push.
   std::ofstream(folder_ / "chain.toml") << chainScene(1e6, kLean);
   const std::string still = " chain.toml --set run.gravity=[0,0,-9.81] --set run.time_step=",
-                    warning = "at the start joint 'pin 5' bears so much that swings across it grow with steps above "
+                    warning = "at the start the load on joint 'pin 5' limits stable steps to "
                               "7.6e-05 s";
   const Outcome plan = call("plan" + still + "2e-4"),
                 run = call("run" + still + "2e-4 --steps 10 --out r" + kNoPictures);
   EXPECT_EQ(plan.code, 0) << plan.errors;
-  EXPECT_NE(plan.out.find("warning: chain.toml: run.time_step = 0.0002 s: " + warning), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("WARNING: chain.toml: run.time_step = 0.0002 s: " + warning), std::string::npos) << plan.out;
   EXPECT_EQ(run.code, 0) << run.errors;
   EXPECT_NE(run.errors.find(warning), std::string::npos) << run.errors;
   for (const char* step : {"7e-5", "auto"}) {

@@ -48,8 +48,9 @@ TEST(PlanOfGrains, SaysWhatTheyHaveAndWhichKernelRuns) {
   const std::string plain = planText(parsed("[material.soil]\n[[plane]]\nmaterial = \"soil\"\n" + kGrain));
   expectSaid(plain, "off  rolling history");
   expectSaid(plain, "off  radius of each grain");
-  expectSaid(plain,
-             "kernel of the grains       linear, friction, planes or floor, ledger; single precision: its own kernel");
+  expectSaid(
+      plain,
+      "kernel of the grains       linear, friction, planes or floor, ledger; single precision: specialised kernel");
 }
 
 TEST(PlanOfGrains, NamesPeriodicBoundaries) {
@@ -63,9 +64,9 @@ TEST(PlanOfGrains, WarnsWhereTheyTrembleAtRest) {
   const setup::StepLimit limit = setup::stepLimit(scene);
   ASSERT_LT(limit.calm, limit.step);
   scene.run.timeStep = 0.5 * (limit.calm + limit.step);
-  expectSaid(planText(scene), "tremble");
+  expectSaid(planText(scene), "vibrate");
   scene.run.timeStep = 0.99 * limit.calm;
-  expectNotSaid(planText(scene), "tremble");
+  expectNotSaid(planText(scene), "vibrate");
 }
 
 /// A bed of twelve grains across and six deep.
@@ -94,7 +95,7 @@ TEST(PlanOfABed, SaysWhatIsPutOnItLater) {
                            "free = \"z\"\nmass = 2\n[[grain]]\nposition = [0.15, -0.2, 0]\nradius = 0.04\n"
                            "material = \"soil\"\nabove_bed = 0.001\n";
   expectSaid(planText(bed({}, rigs)), "plate, mesh0, 1 grain");
-  expectSaid(planText(bed({}, kPlate)), "off  put on the settled bed");
+  expectSaid(planText(bed({}, kPlate)), "off  placed on settled bed");
 }
 
 TEST(PlanOfSurfaces, NamesThemAndCountsThoseThatMove) {
@@ -106,7 +107,7 @@ TEST(PlanOfSurfaces, NamesThemAndCountsThoseThatMove) {
       "length = 0.1\nhollow = true\nspin = [0, 8, 0]\nmaterial = \"soil\"\n[[cylinder]]\nposition = [0, 0.06, 0]\n"
       "axis = [0, 1, 0]\nradius = 0.08\nlength = 0.02\nfree = \"y\"\nmass = 0.5\nload = -0.2\nspin = [0, 8, 0]\n"
       "material = \"soil\"\n"));
-  expectSaid(plan, "plane0, box0, drum, cylinder1; 3 moved, 1 free, 1 of these pulled or turned besides");
+  expectSaid(plan, "plane0, box0, drum, cylinder1; 3 moved, 1 free, 1 of these also driven");
   expectSaid(plan, "moving surfaces");
   expectSaid(planText(parsed(kSoil + kGrain)), "off  surfaces");
 }
@@ -133,18 +134,17 @@ TEST(PlanOfPairs, SaysWhyNothingSticksToAVehicle) {
   const auto line = [](const std::vector<std::string>& overrides, const std::string& scene = "coupled") {
     const std::string text =
         switchesText(setup::loadScene(GROUSER_SOURCE_DIR "/tests/scenes/" + scene + ".toml", overrides));
-    const std::size_t at = text.find("soil sticks to vehicle");
+    const std::size_t at = text.find("soil adhesion to vehicle");
     return at == std::string::npos ? "" : text.substr(at - 5, text.find('\n', at) - at + 5);
   };
   const std::string coheres = "material.soil.cohesion=8", eepa = "material.soil.law=eepa_linear";
-  EXPECT_EQ(line({}), "off  soil sticks to vehicle     grains have no cohesion");
-  EXPECT_EQ(line({coheres}), "off  soil sticks to vehicle     vehicle.adhesion = 0");
-  EXPECT_EQ(line({coheres, "vehicle.adhesion=0.5"}), "on   soil sticks to vehicle     cohesion of 4 J/m2");
+  EXPECT_EQ(line({}), "off  soil adhesion to vehicle   grains have no cohesion");
+  EXPECT_EQ(line({coheres}), "off  soil adhesion to vehicle   vehicle.adhesion = 0");
+  EXPECT_EQ(line({coheres, "vehicle.adhesion=0.5"}), "on   soil adhesion to vehicle   cohesion of 4 J/m2");
   EXPECT_EQ(line({eepa, "material.soil.plasticity=0.5", "material.soil.surface_energy=3", "vehicle.adhesion=1"}),
-            "off  soil sticks to vehicle     grains pull by surface_energy or adhesion_stiffness alone, which act "
-            "between grains");
+            "off  soil adhesion to vehicle   surface_energy and adhesion_stiffness act only between grains");
   EXPECT_EQ(line({"vehicle.adhesion=1"}, "rigid"),
-            "off  soil sticks to vehicle     no grains: vehicle.adhesion does nothing");
+            "off  soil adhesion to vehicle   no grains: vehicle.adhesion has no effect");
   EXPECT_EQ(line({}, "rigid"), "");
 }
 

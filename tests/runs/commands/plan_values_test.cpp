@@ -17,7 +17,7 @@
 namespace grouser::commands {
 namespace {
 
-/// What stands behind `what` in its line: the last one, for what is switched on and off comes first.
+/// What stands behind `what` in its line: the last one, because active features come first.
 std::string after(const std::string& text, const std::string& what) {
   const std::size_t at = text.rfind("  " + what + " ");
   if (at == std::string::npos) return "no such line";
@@ -36,8 +36,8 @@ TEST(PlanValues, StepsAndContactsAreThoseOfTheScene) {
   EXPECT_EQ(after(plan, "steps"), "125000 for 0.5 s");
   EXPECT_EQ(after(plan, "grain steps"), "3.75e+05");
   EXPECT_EQ(after(plan, "shortest grain contact"), fmt::format("{:.4g} s", contact));
-  EXPECT_EQ(after(plan, "largest sound step"), fmt::format("{:.4g} s (20 steps a contact)", contact / 20));
-  EXPECT_EQ(after(plan, "time step"), fmt::format("4e-06 s, {:.1f} a contact", contact / 4e-6));
+  EXPECT_EQ(after(plan, "maximum time step"), fmt::format("{:.4g} s (20 steps per contact)", contact / 20));
+  EXPECT_EQ(after(plan, "time step"), fmt::format("4e-06 s, {:.1f} steps per contact", contact / 4e-6));
 }
 
 TEST(PlanValues, VehicleIsWeighedAndMeasured) {
@@ -69,16 +69,16 @@ TEST(PlanValues, DepthOfTheBedIsToldByAnElasticLayerUnderTheTracks) {
            forecast::layerSettlement(tracks, base::kInfinity, 0.25);
   };
   const auto told = [&](const std::vector<forecast::LoadedRectangle>& tracks) {
-    return fmt::format("0.4 m: an elastic layer settles {:.0f} % of what one without a floor does under these tracks; "
-                       "0.8 m: {:.0f} %",
-                       share(tracks, 0.4), share(tracks, 0.8));
+    return fmt::format(
+        "0.4 m: an elastic layer settles {:.0f} % as much as a half-space under these tracks; 0.8 m: {:.0f} %",
+        share(tracks, 0.4), share(tracks, 0.8));
   };
-  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.4"})), "depth of the bed"), told(two));
-  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.75"})), "depth of the bed"),
-            "0.75 m: an elastic layer settles 49 % of what one without a floor does under these tracks; 1.5 m: 64 %");
+  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.4"})), "bed depth"), told(two));
+  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.75"})), "bed depth"),
+            "0.75 m: an elastic layer settles 49 % as much as a half-space under these tracks; 1.5 m: 64 %");
   EXPECT_EQ(
       after(planText(setup::loadScene(scene, {"terrain.depth=0.4", "vehicle.tracks=single", "vehicle.chassis=guided"})),
-            "depth of the bed"),
+            "bed depth"),
       told({two[0]}));
 }
 

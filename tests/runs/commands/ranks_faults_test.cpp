@@ -32,7 +32,7 @@ TEST_F(OnRanks, RanksToldToDoDifferentThingsAreRefused) {
   const Outcome o = shell(kLaunch + std::string("\"$grouser\" run bed.toml --out o --steps 10 : -np 1 \"$grouser\" run "
                                                 "bed.toml --out o --steps 20"));
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("rank 1 has another command line than rank 0"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("rank 1 has a different command line from rank 0"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "o"));
 }
 
@@ -43,7 +43,8 @@ TEST_F(OnRanks, BenchesToldToDoDifferentThingsAreRefused) {
                 friction = shell(kLaunch + bed + "100 --steps 10 : -np 1 " + bed + "100 --steps 10 --friction 0");
   for (const Outcome* o : {&grains, &steps, &friction}) {
     EXPECT_EQ(o->code, 2);
-    EXPECT_NE(o->errors.find("bench bed: rank 1 has another command line than rank 0"), std::string::npos) << o->errors;
+    EXPECT_NE(o->errors.find("bench bed: rank 1 has a different command line from rank 0"), std::string::npos)
+        << o->errors;
     EXPECT_EQ(o->out.find("state-hash"), std::string::npos);
   }
   EXPECT_EQ(shell(kLaunch + bed + "100 --steps 10 : -np 1 " + bed + "100 --steps 10").code, 0);
@@ -65,7 +66,8 @@ TEST_F(OnRanks, SweepsAndStudiesAreRefused) {
                 study = run(2, "study impact --quick --out study");
   for (const Outcome* o : {&sweep, &study}) {
     EXPECT_EQ(o->code, 2);
-    EXPECT_NE(o->errors.find("is no work for 2 ranks: start it without mpirun"), std::string::npos) << o->errors;
+    EXPECT_NE(o->errors.find("does not support MPI (2 ranks): start it without mpirun"), std::string::npos)
+        << o->errors;
   }
   EXPECT_FALSE(fs::exists(folder_ / "sweep"));
   EXPECT_FALSE(fs::exists(folder_ / "study"));
@@ -97,7 +99,8 @@ assert (y > 10).all() and (y < 1e6).all(), y
 TEST_F(OnRanks, MoreRanksThanALatticeHoldsSayHowMany) {
   const Outcome o = run(1, "plan bed.toml --ranks 67");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("67 ranks make no lattice with at most 64 subdomains along each axis"), std::string::npos)
+  EXPECT_NE(o.errors.find("67 ranks do not form a lattice with at most 64 subdomains along each axis"),
+            std::string::npos)
       << o.errors;
 }
 

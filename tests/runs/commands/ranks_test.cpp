@@ -61,15 +61,15 @@ TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   const Outcome one = drive(1, "--out one");
   const std::string expected = one.hash();
   EXPECT_EQ(expected.substr(0, 11), "state-hash ");
-  EXPECT_NE(one.out.find("spheres   5 sets cut in "), std::string::npos) << one.out;
+  EXPECT_NE(one.out.find("spheres   5 meshes converted to spheres in "), std::string::npos) << one.out;
   // Two ranks find no sets, share the cutting, and leave them to three.
   EXPECT_EQ(shell("rm beds/spheres-*.bin").code, 0);
   const Outcome two = drive(2, "--out two --set 'parallel.subdomains=[2,1,1]'");
   EXPECT_EQ(two.hash(), expected);
-  EXPECT_NE(two.out.find("spheres   5 sets cut in "), std::string::npos) << two.out;
+  EXPECT_NE(two.out.find("spheres   5 meshes converted to spheres in "), std::string::npos) << two.out;
   const Outcome three = drive(3, "--out three --set 'parallel.subdomains=[1,3,1]' --set parallel.rebalance=false");
   EXPECT_EQ(three.hash(), expected);
-  EXPECT_NE(three.out.find("spheres   5 sets taken from "), std::string::npos) << three.out;
+  EXPECT_NE(three.out.find("spheres   5 sphere sets read from "), std::string::npos) << three.out;
   const std::string series = contents(folder_ / "one/timeseries.csv");
   EXPECT_EQ(series, contents(folder_ / "two/timeseries.csv"));
   EXPECT_NE(lastOf(series, "vehicle.drawbar_pull [N]"), 0) << "the vehicle does not touch the bed";
@@ -159,7 +159,7 @@ TEST_F(OnRanks, BedKeptByTwoRanksServesThreeAndOne) {
   const Outcome three = shell(kept + "mpirun -np 3 \"$grouser\" " + words + "--out three"),
                 one = shell(kept + "\"$grouser\" " + words + "--out one");
   for (const Outcome& o : {two, three, one}) EXPECT_EQ(o.hash(), anew.hash());
-  for (const Outcome& o : {three, one}) EXPECT_NE(o.out.find("bed       taken from "), std::string::npos) << o.out;
+  for (const Outcome& o : {three, one}) EXPECT_NE(o.out.find("bed       read from "), std::string::npos) << o.out;
   std::ofstream(folder_ / "damage.sh")
       << "for f in beds/*.h5; do printf x | dd of=$f bs=1 seek=2000 conv=notrunc; done";
   const Outcome damaged = shell(kept + "sh damage.sh; mpirun -np 2 \"$grouser\" " + words + "--out damaged");
@@ -245,7 +245,7 @@ TEST_F(OnRanks, PlanForetellsLatticeAndGhosts) {
                 done = run(3, "run bed.toml --steps 1 --out three --set 'terrain.size=[1.5,1]'");
   std::smatch planned, found;
   ASSERT_TRUE(std::regex_search(plan.out, planned,
-                                std::regex("subdomains +([0-9]+ x [0-9]+ x [0-9]+)[^]*ghosts in all +([0-9.]+) %")))
+                                std::regex("subdomains +([0-9]+ x [0-9]+ x [0-9]+)[^]*total ghosts +([0-9.]+) %")))
       << plan.out;
   ASSERT_TRUE(
       std::regex_search(done.out, found, std::regex("subdomains ([0-9]+ x [0-9]+ x [0-9]+),.* ([0-9.]+) % ghosts")))
@@ -295,7 +295,7 @@ TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {
   std::ofstream(folder_ / "other.toml") << std::regex_replace(std::string(kBed), std::regex("1e5"), "2e5");
   const Outcome o = shell("mpirun -np 1 \"$grouser\" run bed.toml --out a : -np 1 \"$grouser\" run other.toml --out a");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("rank 1 has another scene than rank 0"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("rank 1 has a different scene from rank 0"), std::string::npos) << o.errors;
   EXPECT_LT(o.seconds, 60);
 }
 

@@ -104,10 +104,10 @@ TEST_F(RenderFrames, DamagedFileIsNamedNotDrawn) {
   const output::FramesReader reader(path);
   EXPECT_NE(messageOf([&] { reader.read(2); }).find("/000002/grains/radius"), std::string::npos);
   EXPECT_NE(messageOf([&] { reader.read(4); }).find("hull"), std::string::npos);
-  EXPECT_NE(messageOf([&] { reader.read(5); }).find("is no place"), std::string::npos);
+  EXPECT_NE(messageOf([&] { reader.read(5); }).find("is not finite"), std::string::npos);
   const fs::path other = folder_ / "other.h5";
   std::ofstream(other, std::ios::binary) << "no HDF5";
-  EXPECT_NE(messageOf([&] { output::FramesReader again(other); }).find("is no HDF5 file"), std::string::npos);
+  EXPECT_NE(messageOf([&] { output::FramesReader again(other); }).find("is not an HDF5 file"), std::string::npos);
   EXPECT_NE(messageOf([&] { output::FramesReader none(folder_ / "none.h5"); }).find("there is no such file"),
             std::string::npos);
 }
@@ -161,14 +161,14 @@ TEST_F(RenderFrames, WrongWordsAreNamedAndNothingIsWritten) {
   const auto says = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.color = "sped"; }), "did you mean speed");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.color = "presure"; }), "did you mean pressure");
-  EXPECT_PRED2(says, message([](RenderCommand& c) { c.color = "pressure"; }), "holds no deformable soil");
+  EXPECT_PRED2(says, message([](RenderCommand& c) { c.color = "pressure"; }), "no deformable soil");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.size = "100"; }), "WIDTHxHEIGHT");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.size = "100x9999999"; }), "WIDTHxHEIGHT");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.range = {2, 1}; }), "lower end first");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.frame = {6}; }), "frames 0 to 5");
-  EXPECT_PRED2(says, message([](RenderCommand& c) { c.from = 7; }), "leave no frame");
+  EXPECT_PRED2(says, message([](RenderCommand& c) { c.from = 7; }), "no frame between");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.borders = {"x=a"}; }), "is no number");
-  EXPECT_PRED2(says, message([](RenderCommand& c) { c.lookAt = "1,2"; }), "a place X,Y,Z");
+  EXPECT_PRED2(says, message([](RenderCommand& c) { c.lookAt = "1,2"; }), "a point X,Y,Z");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.film = "film.gif"; }), ".mp4");
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }

@@ -39,7 +39,7 @@ TEST_F(SmallMistakes, FaultsOfACaseNameTheCase) {
       {"run.duration=-1", "error: --case b: run.duration = -1 [s] is outside"},
       {"material.glas.friction=0.1", "error: --case b: material.glas is no material of grains.toml"},
       {"grain.7.radius=1", "error: --case b: grain.7.radius=1: there is no entry 7"},
-      {"grain.0.radius=7", "error: --case b: grains.toml:5: material.glass.stiffness [N/m] is so soft"}};
+      {"grain.0.radius=7", "error: --case b: grains.toml:5: material.glass.stiffness [N/m] is too low"}};
   for (const auto& [set, message] : mistakes)
     expectRefused(fmt::format("sweep grains.toml --out o --case a --case 'b: {}' --set run.skin=0.3,0.4", set),
                   {message});
@@ -62,10 +62,10 @@ TEST_F(SmallMistakes, AnOptionIsNoValueOfTheOneBefore) {
   for (const char* words : {"study preparation --porosities --quick --out o",
                             "study shear-angle --stresses --quick --out o", "run grains.toml --steps --force --out o",
                             "sweep grains.toml --seeds 2 --out --force", "run grains.toml --out --steps=3"})
-    expectRefused(words, {"has no value, but the option --"});
+    expectRefused(words, {"has no value: the option --"});
   EXPECT_FALSE(fs::exists(folder_ / "--force"));
   expectRefused("study preparation --porosities --quick --out o",
-                {"--porosities: has no value, but the option --quick behind it; give one"});
+                {"--porosities: has no value: the option --quick follows it; give a value"});
   EXPECT_EQ(call("plan grains.toml --set run.gravity=[0,0,-1]").code, 0);
 }
 
@@ -93,7 +93,7 @@ TEST_F(SmallMistakes, FaultsOfRadiiNameTheKeyThatGivesThem) {
   expectRefused("run sieved.toml --out o --set terrain.size=[0.9,0.9] --set terrain.sieve_size=[2e-5,3e-5,5e-5]",
                 {"--set: terrain.sieve_size = [2e-05, 3e-05, 5e-05] [m] makes about"});
   expectRefused("plan sieved.toml --set terrain.sieve_size=[0.1,0.2,0.5]",
-                {"radius 0.1165 m, the median of sieve_size; give at least 0.233\n"});
+                {"radius 0.1165 m, the median of sieve_size; set at least 0.233\n"});
   const std::string bed = replaced(replaced(kSieved, "radius_distribution = \"sieve\"\n", "grain_radius = 1e-6\n"),
                                    "sieve_size = [0.02, 0.03, 0.05]\nsieve_passing = [0, 0.4, 1]\n", "");
   put(folder_ / "fine.toml", bed);
@@ -105,10 +105,11 @@ TEST_F(SmallMistakes, ABedThatDoesNotSettleIsSaidToFall) {
   put(folder_ / "map.png", picture());
   const Outcome o = call("plan loose.toml --no-probe");
   EXPECT_EQ(o.code, 0) << o.errors;
-  EXPECT_NE(o.errors.find("WARNING: terrain.settle_time_limit = 0 leaves the bed as it is laid, a loose column"),
-            std::string::npos)
+  EXPECT_NE(
+      o.errors.find("WARNING: terrain.settle_time_limit = 0: the bed does not settle and falls as a loose column"),
+      std::string::npos)
       << o.errors;
-  EXPECT_NE(o.errors.find("not of terrain.porosity = 0.42"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("without terrain.porosity = 0.42"), std::string::npos) << o.errors;
   EXPECT_EQ(call("plan loose.toml --no-probe --set terrain.settle_time_limit=3").errors, "");
 }
 
@@ -124,11 +125,11 @@ TEST_F(SmallMistakes, OutputThatCannotBePrintedIsAnError) {
 }
 
 TEST_F(SmallMistakes, DevicesAndPipesAreNoScenes) {
-  expectRefused("run /dev/zero --out o", {"/dev/zero: is no file"});
-  expectRefused("plan /dev/zero", {"/dev/zero: is no file"});
+  expectRefused("run /dev/zero --out o", {"/dev/zero: not a file"});
+  expectRefused("plan /dev/zero", {"/dev/zero: not a file"});
   ASSERT_EQ(shell("mkfifo pipe.toml").code, 0);
-  expectRefused("run pipe.toml --out o", {"pipe.toml: is no file"});
-  expectRefused("plan .", {".: is no file"});
+  expectRefused("run pipe.toml --out o", {"pipe.toml: not a file"});
+  expectRefused("plan .", {".: not a file"});
 }
 
 TEST_F(SmallMistakes, SectionWithALetterLeftOutIsThatSection) {

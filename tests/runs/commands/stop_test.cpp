@@ -60,7 +60,7 @@ TEST_F(StoppedCall, OfARunNamesTheCommandThatGoesOn) {
   const std::string words = "run fall.toml --set run.seed=4 --out r --force";
   const Outcome stopped = stop(words, "INT", "[ -s r/timeseries.csv ]");
   ASSERT_EQ(stopped.code, 130) << stopped.errors;
-  EXPECT_NE(stopped.errors.find("; go on with: " + programUnderTest().string() +
+  EXPECT_NE(stopped.errors.find("; resume with: " + programUnderTest().string() +
                                 " run fall.toml --set run.seed=4 --out r --resume\n"),
             std::string::npos)
       << stopped.errors;
@@ -74,7 +74,7 @@ TEST_F(StoppedCall, OfASweepGoesOnFromTheCheckpointsOfItsRuns) {
   const std::string words = "sweep fall.toml --set run.seed=1,2 --jobs 2 --out s";
   const Outcome stopped = stop(words, "INT", "[ -s s/seed=1/timeseries.csv ] && [ -s s/seed=2/timeseries.csv ]");
   ASSERT_EQ(stopped.code, 130) << stopped.errors;
-  EXPECT_NE(stopped.errors.find(" after 0 of 2 runs; go on with: "), std::string::npos) << stopped.errors;
+  EXPECT_NE(stopped.errors.find(" after 0 of 2 runs; resume with: "), std::string::npos) << stopped.errors;
   EXPECT_EQ(manifest("s/seed=1")["status"], "stopped");
   const Outcome on = shell(nextOf(stopped));
   ASSERT_EQ(on.code, 0) << on.errors << on.out;
@@ -92,7 +92,7 @@ TEST_F(StoppedCall, OfASweepThatWasKilledGoesOnByTheSameCommand) {
   ASSERT_EQ(killed.code, 137) << killed.errors;
   const Outcome on = call(words); // its run gets a SIGTERM, and writes a checkpoint
   ASSERT_EQ(on.code, 0) << on.errors << on.out;
-  EXPECT_NE(on.out.find("goes on from its checkpoint"), std::string::npos) << on.out;
+  EXPECT_NE(on.out.find("resumes from its checkpoint"), std::string::npos) << on.out;
 }
 
 TEST_F(StoppedCall, SweepWaitsForTheCheckpointOfARunThatIsStillEnding) {
@@ -113,7 +113,7 @@ TEST_F(StoppedCall, SweepWaitsForTheCheckpointOfARunThatIsStillEnding) {
   lock.release();
   const Outcome ended = on.get();
   ASSERT_EQ(ended.code, 0) << ended.errors << ended.out;
-  EXPECT_NE(ended.out.find("goes on from its checkpoint"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("resumes from its checkpoint"), std::string::npos) << ended.out;
 }
 
 TEST_F(StoppedCall, WithADamagedCheckpointBeginsThatRunAnew) {
@@ -122,7 +122,7 @@ TEST_F(StoppedCall, WithADamagedCheckpointBeginsThatRunAnew) {
   fs::resize_file(folder_ / "s/seed=1/checkpoint.h5", 1000);
   const Outcome on = call(words + " --resume");
   ASSERT_EQ(on.code, 0) << on.errors << on.out;
-  EXPECT_NE(on.out.find("begins anew: "), std::string::npos) << on.out;
+  EXPECT_NE(on.out.find("restarts: "), std::string::npos) << on.out;
   EXPECT_EQ(manifest("s/seed=1")["status"], "finished");
 }
 

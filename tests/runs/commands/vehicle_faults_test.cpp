@@ -58,9 +58,11 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
        {"makes the hull chassis.obj and the left shoe 0 overlap by 35.0 mm", "set vehicle.track_offset = 0.94"}},
       {{"chassis", "mass", "0.5"}, {"kg/m3, lighter than air; choose a mass in ["}},
       {{"roller", "mass", "500"}, {"roller.obj", "kg/m3, heavier than any metal"}},
-      {{"shoe", "inertia", "[1e-9, 1e-9, 1e-9]"}, {"8.5 kg at 1.08e-05 m", "shoe.obj reaches to 0.199 m"}},
-      {{"road_wheel", "inertia", "[9, 9, 9]"}, {"25 kg at 0.6 m", "road_wheel.obj reaches to 0.218 m"}},
-      {{"arm", "length", "0.01"}, {"arm.inertia", "the arm reaches to 0.01 m"}},
+      {{"shoe", "inertia", "[1e-9, 1e-9, 1e-9]"},
+       {"8.5 kg at a radius of gyration of 1.08e-05 m", "shoe.obj extends 0.199 m"}},
+      {{"road_wheel", "inertia", "[9, 9, 9]"},
+       {"25 kg at a radius of gyration of 0.6 m", "road_wheel.obj extends 0.218 m"}},
+      {{"arm", "length", "0.01"}, {"arm.inertia", "the arm extends 0.01 m"}},
       {{"chassis", "centre", "[1.437, 0, 10]"}, {"9250 mm beyond the hull", "choose its z in [-1.15, 1.7]"}},
       {{"shoe", "mesh", "\"nix.obj\""}, {"shoe.mesh = \"nix.obj\"", "no such mesh file"}},
       {{"vehicle", "mesh_folder", "\"/nix\""}, {"chassis.mesh = \"chassis.obj\" in vehicle.mesh_folder", "/nix"}},
@@ -94,11 +96,10 @@ TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
 
 TEST_F(VehicleFaults, PlanSaysWhichMaterialsDoNothing) {
   test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
-  EXPECT_NE(
-      call("plan scene.toml --no-probe")
-          .out.find("note: material.ground acts on nothing here: between vehicle and rigid ground all contact data "
-                    "are the vehicle file's"),
-      std::string::npos);
+  EXPECT_NE(call("plan scene.toml --no-probe")
+                .out.find("note: material.ground has no effect in this scene: the vehicle file has all contact "
+                          "parameters between vehicle and rigid ground"),
+            std::string::npos);
 }
 
 struct Sound {

@@ -85,7 +85,7 @@ TEST(Channels, OfTheBedReadLedgerAndWhatHasPressedAGrainMost) {
   const auto alone = valuesOf(terrainColumns(), bed);
   EXPECT_TRUE(std::isnan(alone.at("terrain/part_overlap").front())) << "no part touches grains";
   EXPECT_TRUE(std::isnan(alone.at("terrain/part_overlap_by").front()));
-  bed.pressedMost = coupling::PressedMost{12, 0, 0.125};
+  bed.deepestPartOverlap = coupling::DeepestPartOverlap{12, 0, 0.125};
   const std::map<std::string, Numbers> expected = {
       {"terrain/contacts", {1}},          {"terrain/boundary_contacts", {2}},
       {"terrain/part_contacts", {3}},     {"terrain/max_overlap", {2}},

@@ -329,7 +329,7 @@ TEST(MechanismColumns, ACouplingWithAnOffsetThatIsNotMetIsRefused) {
   EXPECT_NO_THROW(setup::parseScene(geared("0"), "geared.toml"));
   EXPECT_EQ(messageOf([&] {
               setup::parseScene(geared("0.3"), "geared.toml");
-            }).rfind("geared.toml:26: coupling.0 (\"teeth\"): is open by -0.3 ", 0),
+            }).rfind("geared.toml:26: coupling.0 (\"teeth\"): has a gap of -0.3 ", 0),
             0u);
 }
 

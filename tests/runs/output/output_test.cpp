@@ -54,7 +54,7 @@ protected:
     return {{"vehicle/left/sinkage", "m", "of each shoe", 3, {}},
             {"vehicle/right/sinkage", "m", "of each shoe", 3, {}},
             {"vehicle/position", "m", "of the hull", 3, {"x", "y", "z"}},
-            {"ledger/residual", "J", "left over", 1, {}}};
+            {"ledger/residual", "J", "residual", 1, {}}};
   }
 
   /// Ten rows whose numbers say where they belong.

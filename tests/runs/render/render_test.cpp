@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kWidth = 160, kHeight = 120;
 
-/// Looks along +y at the origin from 4 m; a sphere of radius 1 there.
+/// Camera at 4 m looking along +y at a sphere of radius 1 at the origin.
 Camera front() {
   Camera c;
   c.eye = {0, -4, 0};
@@ -193,7 +193,7 @@ TEST(Picture, ShowsGrainsPartsAndGroundAndIsWritten) {
   EXPECT_THROW(writePng(image, "/nonexistent/picture.png"), std::runtime_error);
 }
 
-/// Pixels unlike an empty picture's, and whether some lie on the outermost two of any side.
+/// Pixels that differ from an empty picture, and whether any are within two pixels of the edges.
 struct Subject {
   int pixels = 0;
   bool isCut = false;
@@ -241,7 +241,7 @@ base::TriangleMesh level(float half, float z) {
   return {{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {0, 1, 2, 0, 2, 3}};
 }
 
-/// Pixels of the colours of heights, which are livelier than a floor's and the sky's.
+/// Pixels with colours of the height scale, more saturated than floor and sky.
 int livelyPixels(const Image& image) {
   int count = 0;
   for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
@@ -251,7 +251,7 @@ int livelyPixels(const Image& image) {
   return count;
 }
 
-/// A bed of 40 x 20 grains, and the place of a part over its middle.
+/// A bed of 40 x 20 grains, and the position of a part above its middle.
 output::Frame bedAndBox(float spacing) {
   output::Frame frame;
   for (int i = 0; i < 800; ++i)

@@ -58,7 +58,7 @@ TEST_F(GrainFile, AllLinesHaveOneWidth) {
   EXPECT_EQ(read("2 0 0 0.1 1 2 3 4 5 6\n").at(0).spin, (base::Vec3d{4, 5, 6}));
   // A line that was cut short by three numbers would take the scene's velocity.
   for (const char* text : {"0,0,0,0.1\n1,0,0,0.1,1,2,3\n", "0,0,0,0.1,1,2,3\n1,0,0,0.1\n"})
-    EXPECT_NE(refusal(text).find("give all lines as many"), std::string::npos) << refusal(text);
+    EXPECT_NE(refusal(text).find("use the same number in all lines"), std::string::npos) << refusal(text);
 }
 
 TEST_F(GrainFile, EmptyFieldIsAnErrorAtItsColumnAndShiftsNothing) {
@@ -90,37 +90,37 @@ TEST_F(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
       {"0,0,0,0.1,2e4,0,0", ":1:11: column 5, vx = 2e4 [m/s] is outside [-10000, 10000]"},
       {"0,0,0,0.1,0,0,0,0,0,-2e6", "column 10, wz = -2e6 [rad/s] is outside [-1e+06, 1e+06]"},
       {"0,1 0,2 0,3 0,01", ":1:3: column 2, y = 1 0 [m] is not a number; write decimals with a point"},
-      {"1,5;2;3", ":1:4: commas and semicolons in one line"},
-      {"1;2,5;3", ":1:4: commas and semicolons in one line"},
+      {"1,5;2;3", ":1:4: line mixes commas and semicolons"},
+      {"1;2,5;3", ":1:4: line mixes commas and semicolons"},
       {"0.1 0.2, 0.3, 0.01", ":1:1: column 1, x = 0.1 0.2 [m] is not a number"},
       {"1d-3 0 0 0.1", "x = 1d-3 [m] is not a number"},
       {"0x10,0,0,0.1", "x = 0x10 [m] is not a number"},
       {"+-1,0,0,0.1", "x = +-1 [m] is not a number"},
       {"0,0,0,+", "r = + [m] is not a number"},
       {"0,0,0,0.1 m", "r = 0.1 m [m] is not a number"},
-      {"0,0,0,\"0.1\"", "r = \"0.1\" [m] stands in quotes; remove them"},
-      {"\"0\",\"0\",\"0\",\"0.1\"", ":1:1: column 1, x = \"0\" [m] stands in quotes; remove them"},
-      {"0,0,0", ":1:1: 3 numbers; a line has x, y, z, r [m]"},
+      {"0,0,0,\"0.1\"", "r = \"0.1\" [m] is in quotes; remove them"},
+      {"\"0\",\"0\",\"0\",\"0.1\"", ":1:1: column 1, x = \"0\" [m] is in quotes; remove them"},
+      {"0,0,0", ":1:1: 3 numbers; expected x, y, z, r [m]"},
       {"0,0,0,0.1,1", ":1:1: 5 numbers"},
       {"0,0,0,0.1,1,2,3,4,5,6,7", ":1:1: 11 numbers"},
-      {"# only a comment\n\n", ": holds no grain"},
-      {"", ": holds no grain"}};
+      {"# only a comment\n\n", ": contains no grains"},
+      {"", ": contains no grains"}};
   for (const auto& [text, place] : wrong) EXPECT_NE(refusal(text).find(place), std::string::npos) << refusal(text);
 }
 
 TEST_F(GrainFile, HeaderIsCheckedForNamesUnitsAndItsNumberOfColumns) {
   const std::pair<const char*, const char*> wrong[] = {
-      {"x [m],y [m],z [m],r [mm]\n0,0,0,10\n", ":1:19: column 4 of the header is in [mm], expected [m]; convert"},
+      {"x [m],y [m],z [m],r [mm]\n0,0,0,10\n", ":1:19: column 4 of the header has unit [mm], expected [m]; convert"},
       {"x,y,z,diameter\n0,0,0,1\n", ":1:7: column 4 of the header is \"diameter\", expected \"r [m]\""},
       {"x,y,r,z\n0,0,1,0\n", ":1:5: column 3 of the header is \"r\""},
       {"r,x,y,z\n1,0,0,0\n", ":1:1: column 1 of the header is \"r\""},
-      {"x [cm] y z r\n0 0 0 1\n", "column 1 of the header is in [cm]"},
-      {"x,y,z\n0,0,0,1\n", ":1:1: the header names 3 columns"},
+      {"x [cm] y z r\n0 0 0 1\n", "column 1 of the header has unit [cm]"},
+      {"x,y,z\n0,0,0,1\n", ":1:1: the header has 3 columns"},
       {"x,y,z,r,vx,vy,vz,wx,wy,wz,id\n", "column 11 of the header is \"id\""},
-      {"x,y,z,r,vx,vy,vz\n0,0,0,0.1\n", ":2:1: 4 numbers, but the header names 7 columns"},
+      {"x,y,z,r,vx,vy,vz\n0,0,0,0.1\n", ":2:1: 4 numbers, but the header has 7 columns"},
       {"x,y,z,r\nx,y,z,r\n0,0,0,0.1\n", ":2:1: column 1, x = x [m] is not a number"},
       {"0,0,0,0.1\nx,y,z,r\n", ":2:1: column 1, x = x [m] is not a number"},
-      {"x,y,z,r\n", ": holds no grain"}};
+      {"x,y,z,r\n", ": contains no grains"}};
   for (const auto& [text, place] : wrong) EXPECT_NE(refusal(text).find(place), std::string::npos) << refusal(text);
 }
 
@@ -132,7 +132,7 @@ TEST_F(GrainFile, WhatIsNoTextIsRefused) {
                                               "0",
                                               4),
                                   std::string("0,0,0\0,1", 8)})
-    EXPECT_NE(refusal(text).find("is not plain text"), std::string::npos) << refusal(text);
+    EXPECT_NE(refusal(text).find("not plain text"), std::string::npos) << refusal(text);
   EXPECT_THROW(readGrainFile(folder_.string(), {}), base::InputError) << "a folder";
   EXPECT_THROW(readGrainFile(file() + "x", {}), base::InputError) << "nothing";
 }

@@ -120,7 +120,7 @@ TEST_F(Soils, AMaterialOfTheSceneGoesBeforeASoilOfThatName) {
   EXPECT_TRUE(s.material("loam").soil.empty());
   EXPECT_EQ(s.material("loam").friction, Material{}.friction);
   ASSERT_EQ(soilNotes(s).size(), 1u);
-  EXPECT_NE(soilNotes(s)[0].find("is the scene's own"), std::string::npos) << soilNotes(s)[0];
+  EXPECT_NE(soilNotes(s)[0].find("defined by the scene"), std::string::npos) << soilNotes(s)[0];
 }
 
 TEST_F(Soils, TheRadiusIsTheBedsThenThatOfTheGrains) {
@@ -134,7 +134,7 @@ TEST_F(Soils, TheRadiusIsTheBedsThenThatOfTheGrains) {
                     "[material.loam]", "soil = \"loam\""});
   EXPECT_DOUBLE_EQ(*parse(two, {"material.loam.grain_radius=0.03"}).material("loam").stiffness, 6e5);
   expectError(grainOf("other", 0.01, "[material.other]\n[[plane]]\nmaterial = \"loam\"\n"),
-              {"scene.toml:6", "no grains are of this soil", "add grain_radius = 0.01"});
+              {"scene.toml:6", "the scene has no grains of this soil", "add grain_radius = 0.01"});
   const std::string sieved = "depth = 0.3\nradius_distribution = \"sieve\"\nsieve_size = [0.02, 0.04]\n"
                              "sieve_passing = [0, 1]\n";
   const Scene s = parse(replaced(bedOf("loam", sieved), "grain_radius = 0.02\n", ""));
@@ -143,14 +143,14 @@ TEST_F(Soils, TheRadiusIsTheBedsThenThatOfTheGrains) {
 
 TEST_F(Soils, GrainRadiusNeedsASoil) {
   expectError(grainOf("a", 0.01, "[material.a]\ngrain_radius = 0.01\n"),
-              {"material.a.grain_radius = 0.01", "has no meaning without soil"});
+              {"material.a.grain_radius = 0.01", "has no effect without soil"});
 }
 
 TEST_F(Soils, UnknownNamesAreAnsweredWithTheNearestAndAll) {
   expectError(grainOf("lete_snad", 0.01), {"scene.toml:7: grain.0.material", "names no material of this scene",
                                            "did you mean \"lete_sand\"?", "gravel", "loam"});
   expectError(grainOf("a", 0.01, "[material.a]\nsoil = \"laom\"\n"),
-              {"scene.toml:5", "material.a.soil = \"laom\" names no soil", "did you mean \"loam\"?", "looked for"});
+              {"scene.toml:5", "material.a.soil = \"laom\" names no soil", "did you mean \"loam\"?", "searched"});
   expectError(grainOf("soils/loam.toml", 0.01), {"grain.0.material", "soil = \"soils/loam.toml\""});
   expectError(grainOf("a", 0.01, "[material.a]\nsoil = \"\"\n"), {"material.a.soil"});
   expectError(grainOf("a", 0.01, "[material.a]\nsoil = 3\n"), {"material.a.soil = 3 has the wrong type"});
@@ -167,17 +167,17 @@ TEST_F(Soils, MistakesInASoilsFileNameItsLine) {
   expectFileError("friction = 0.45", "friction = 11", {"loam.toml:11: material.friction = 11", "[0, 10]"});
   expectFileError("friction = 0.45", "fricton = 0.4", {"loam.toml:11", "did you mean friction?"});
   expectFileError("radius_spread = 0.2", "radius_spread = 2", {"loam.toml:16: bed.radius_spread", "(0, 0.9]"});
-  expectFileError("[0.008, 0.02]", "[0.02, 0.008]", {"loam.toml:18", "descends"});
-  expectFileError("[0.008, 0.02]", "[0.015, 0.02]", {"does not hold grain_radius = 0.01"});
+  expectFileError("[0.008, 0.02]", "[0.02, 0.008]", {"loam.toml:18", "must be [min, max]"});
+  expectFileError("[0.008, 0.02]", "[0.015, 0.02]", {"does not include grain_radius = 0.01"});
   expectFileError("unit = \"deg\"", "unit = \"rad\"", {"loam.toml:22", "unit = \"rad\"", "unit = \"deg\""});
   expectFileError("low = 29", "low = 31", {"published.0.low", "above value"});
   expectFileError("quantity = \"phi\"", "quantity = \"ph\"", {"none of n, k_c", "did you mean \"phi\"?"});
   expectFileError("title = \"loam\"\n", "", {"[soil] lacks the required key title"});
-  expectFileError("density = 2600", "soil = \"loam\"", {"loam.toml:7: material.soil", "belongs to a scene"});
-  expectFileError("stiffness = 2e5", "young = 2e5", {"loam.toml:9: material.young", "belongs to law = \"hertz\""});
+  expectFileError("density = 2600", "soil = \"loam\"", {"loam.toml:7: material.soil", "is a key of scene files only"});
+  expectFileError("stiffness = 2e5", "young = 2e5", {"loam.toml:9: material.young", "requires law = \"hertz\""});
   const std::string text(kLoam);
   put(folder_ / "soils/loam.toml", text.substr(0, text.find("[[reached]]")));
-  expectError(grainOf("loam", 0.01), {"loam.toml:5: soil.calibrated", "has nothing behind it"});
+  expectError(grainOf("loam", 0.01), {"loam.toml:5: soil.calibrated", "the file has no measured constants"});
 }
 
 TEST_F(Soils, TheBedLiesAsTheSoilDoesUnlessTheSceneSaysOtherwise) {
@@ -212,7 +212,7 @@ TEST_F(Soils, ResolvedSceneSaysWhereItsValuesComeFromAndLoadsToTheSame) {
   const Scene later = readSceneText(resolved, folder_ / "out/scene.toml");
   EXPECT_EQ(later.material("loam").stiffness, 4e5);
   ASSERT_EQ(soilNotes(later).size(), 1u);
-  EXPECT_NE(soilNotes(later)[0].find("has changed since"), std::string::npos) << soilNotes(later)[0];
+  EXPECT_NE(soilNotes(later)[0].find("the soil file has changed"), std::string::npos) << soilNotes(later)[0];
 }
 
 TEST_F(Soils, NotesTellWhatHasNotBeenMeasured) {
@@ -243,9 +243,9 @@ TEST_F(Soils, AreCalibratedAtTheirSizeAndWithTheirValuesAlone) {
     const auto [use, warning] = of(radius);
     EXPECT_FALSE(use.calibrated) << radius;
     EXPECT_TRUE(soilLine(use).ends_with("; scaled, not calibrated at this size")) << soilLine(use);
-    EXPECT_NE(warning.find("calibrated for grains of 8 mm to 20 mm, not of "), std::string::npos) << warning;
+    EXPECT_NE(warning.find("calibrated for grains of 8 mm to 20 mm, not "), std::string::npos) << warning;
   }
-  EXPECT_NE(of(0.06).second.find("not of 60 mm, 6 times its own"), std::string::npos) << of(0.06).second;
+  EXPECT_NE(of(0.06).second.find("not 60 mm (6 times the soil's)"), std::string::npos) << of(0.06).second;
   EXPECT_NE(of(0.06).second.find("grouser soil loam --grain-radius 0.06"), std::string::npos);
   const support::SoilUse changed = of(0.02, {"material.loam.friction=0.6"}).first;
   EXPECT_FALSE(changed.calibrated);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene's bed lies on and between.
+// Boundaries and settling criteria of a scene's bed.
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -38,7 +38,7 @@ TEST(BedValues, TheFloorOfAGradedBedIsOfItsCoarsestGrains) {
   EXPECT_NEAR(graded.floorGrains->scale, 1 + 0.02 * 0.2 / 0.025, 1e-12);
 }
 
-/// With next to no friction, one end of the bisection for a porosity, spins of grains at random never decay.
+/// With almost no friction, one end of the bisection for a porosity, random spins of grains never decay.
 TEST(BedValues, GrainsAtRandomRestThoughTheySpin) {
   const auto restsBySpins = [](const std::string& more) {
     return groundSetup(bed(more), 1e-5).grains->bed->settle.spins;
@@ -59,13 +59,13 @@ TEST(BedValues, HoldTheLargestGrainAndWhereAPorosityIsAskedForAnInterior) {
     return false;
   };
   const std::string wide = "radius_distribution = \"lognormal\"\nradius_spread = 0.9\n"; // up to 25 mm e^1.8
-  EXPECT_TRUE(refused(wide, "0.15", "the radius of the largest grain; give at least 0.1512"));
+  EXPECT_TRUE(refused(wide, "0.15", "the radius of the largest grain; set at least 0.1512"));
   EXPECT_FALSE(refused(wide, "0.152", ""));
   EXPECT_TRUE(refused("porosity = 0.4\n", "0.149", "terrain.porosity"));
   EXPECT_FALSE(refused("porosity = 0.4\n", "0.15", ""));
 }
 
-/// Of m g radius of its own mean grain: one of the coarse ones that rolls weighs what hundreds of fine ones do.
+/// Energy unit m g radius of the bed's own mean grain: a rolling coarse grain weighs as much as hundreds of fine ones.
 TEST(BedValues, AGradedBedRestsByItsOwnGrains) {
   const auto unit = [](const std::string& more) { return groundSetup(bed(more), 1e-5).grains->bed->restEnergy; };
   const terrain::DepthGrading grading{0.1, 0.2, 0.05};
@@ -74,7 +74,7 @@ TEST(BedValues, AGradedBedRestsByItsOwnGrains) {
   EXPECT_GT(unit(graded), 2 * unit(""));
 }
 
-/// Of 50 mm +- 25 %: what a road wheel may roll over.
+/// Grains of 50 mm +- 25 %, which a road wheel may roll over.
 TEST(BedValues, StonesGetBetweenWheelsAndPlatesWhereSoilContactThem) {
   const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n";
   const auto stone = [&](const std::string& more) {

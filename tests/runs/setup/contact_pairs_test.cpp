@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What grains can touch in a scene.
+// Contact partners of grains in a scene.
 #include "runs/setup/contact_pairs.hpp"
 #include "runs/setup/load_scene.hpp"
 

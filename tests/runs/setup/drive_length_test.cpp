@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Whether a vehicle can drive far enough for figures in the time of its run.
+// Warnings on runs too short for means over steady driving.
 #include "runs/setup/drive_length.hpp"
 #include "runs/setup/load_scene.hpp"
 

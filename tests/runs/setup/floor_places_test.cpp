@@ -52,7 +52,7 @@ TEST_F(FloorPlaces, ManyContactsWithTheFloorCountToTheLimitOfBoundaries) {
   EXPECT_EQ(messageOf([&] { groundSetup(valley(kHeight, 24), 1e-5); }), "");
   const std::string message = messageOf([&] { valley(kHeight, 25); });
   for (const char* part :
-       {"scene.toml:", "box.24", "is one of 33 or more", "the floor as 8", "at most 32", "leave some"})
+       {"scene.toml:", "box.24", "is one of 33 or more", "the floor counts as 8", "at most 32", "remove some"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
   // Gentle hollows have one contact.
   EXPECT_EQ(messageOf([&] { groundSetup(valley(0.001, 25), 1e-5); }), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What [fluid] of a scene becomes: particles, markers, sound speed and step; and what is refused, with place and
+// Setup of [fluid]: particles, markers, sound speed and step; errors, with place and
 // remedy.
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
@@ -178,53 +178,53 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
   const std::vector<std::pair<std::string, std::string>> all = {
       {fluid(""), "fluid.level is missing, and there is no [[fluid.box]]"},
       {"[fluid]\nlevel = 1\n", "lacks the required key spacing"},
-      {"[fluid]\nspacing = 0.1\nlevel = 1\n", "has no walls to hold it; give tank_low and tank_high"},
+      {"[fluid]\nspacing = 0.1\nlevel = 1\n", "has no tank; give tank_low and tank_high"},
       {"[fluid]\nspacing = 0.1\nlevel = 1\ntank_low = [0, 0, 0]\n", "requires tank_high"},
       {fluid("level = 0.5\n", "tank_high = [1, 0.3, 1]\n"), "above the lower corner along y, less than 0.4 m"},
-      {fluid("level = 1.5\n"), "lies outside the tank, which reaches from z = 0 to 1 m"},
+      {fluid("level = 1.5\n"), "is outside the tank, z in [0, 1] m"},
       {fluid("level = 0.5\nspacing = 0\n"), "spacing"},
       {fluid("level = 0.5\ndensity = -1\n"), "density"},
       {fluid("level = 0.5\nviscosity = -1\n"), "viscosity"},
       {fluid("level = 0.5\ndimensions = 1\n"), "dimensions"},
       {fluid("level = 0.5\nsmoothing = 0.9\n"), "smoothing"},
       {fluid("level = 0.5\ndiffusion = 2\n"), "diffusion"},
-      {fluid("level = 0.5\nsound_speed = 3\n"), "too slow for this depth and speed; the least is"},
-      {fluid("level = 0.5\nsound_speed = 30\nexpected_speed = 2\n"), "has no effect beside sound_speed"},
+      {fluid("level = 0.5\nsound_speed = 3\n"), "too low for this depth and speed; use at least"},
+      {fluid("level = 0.5\nsound_speed = 30\nexpected_speed = 2\n"), "has no effect with sound_speed"},
       {fluid("level = 0.5\nsalt = 3\n"), "salt"},
       {fluid("level = \"high\"\n"), "level"},
-      {fluid("") + box + "[0.5, 0.8, 0.05]\n", "lies 0.05 m above the lower corner along z"},
-      {fluid("") + box + "[0.5, 0.9, 0.5]\n", "lies outside the tank along y, from 0 to 0.8 m"},
-      {fluid() + probe + "\"a/b\"\n", "use letters, digits, _ and -"},
-      {fluid() + probe + "\"p\"\n" + probe + "\"p\"\n", "is that of another probe"},
+      {fluid("") + box + "[0.5, 0.8, 0.05]\n", "is 0.05 m above the lower corner along z"},
+      {fluid("") + box + "[0.5, 0.9, 0.5]\n", "is outside the tank along y, [0, 0.8] m"},
+      {fluid() + probe + "\"a/b\"\n", "use only letters, digits, _ and -"},
+      {fluid() + probe + "\"p\"\n" + probe + "\"p\"\n", "is the name of another probe"},
       {fluid() + probe + "\"p\"\nkind = \"speed\"\n", "kind"},
       {fluid() + body, "no body has a shape"},
       {fluid() + body + "[[body.shape]]\nkind = \"sphere\"\nradius = 0.03\n", "less than fluid.spacing = 0.1 m"},
       {fluid("level = 0.5\ndimensions = 2\n") + body + "[[body.shape]]\nkind = \"sphere\"\nradius = 0.1\n",
-       "is no box with faces across the plane"},
+       "must be a box with faces parallel to the plane"},
       {fluid() + kWall +
            "[[box]]\nposition = [0.5, 0.4, 0.2]\nsize = [0.2, 0.2, 0.2]\nmaterial = \"wall\"\nvelocity = [1, "
            "0, 0]\n",
-       "make it a [[body]] with a [[drive]]"},
+       "use a [[body]] with a [[drive]]"},
       {fluid() + "[material.sand]\nstiffness = 1e4\nrestitution = 0.5\n[[grain]]\nposition = [0.5, 0.4, 0.9]\nradius = "
                  "0.01\nmaterial = \"sand\"\n",
-       "stands beside grains, whose drag and buoyancy"},
-      {fluid("level = 0.5\ndimensions = 2\n") + kBench, "= 2 is for a tank without vehicle; use 3"},
+       "is incompatible with grains, whose drag and buoyancy"},
+      {fluid("level = 0.5\ndimensions = 2\n") + kBench, "= 2 is incompatible with vehicle; use 3"},
       {"[fluid]\nspacing = 0.3\nlevel = 0.3\ntank_low = [-3, -3, -3]\ntank_high = [6, 3, 3]\n" + kBench,
-       "no marker of the fluid lies within"},
+       "so it contains no markers"},
       {kBenchTank + kBench + kWall +
            "[[body]]\nname = \"b\"\nmaterial = \"wall\"\nmass = 10\nposition = [-1, 0, "
            "1.5]\n[[body.shape]]\nkind = \"sphere\"\nradius = 0.2\n[[spring]]\nname = "
            "\"s\"\nbodies = [\"vehicle\", \"b\"]\nstiffness = 1000\n",
-       "hangs on the vehicle, which [fluid] does not follow yet"},
+       "is connected to the vehicle, which [fluid] does not support"},
   };
   for (const auto& [text, says] : all) {
     const std::string message = messageOf(head() + text);
     EXPECT_NE(message.find(says), std::string::npos) << text << "\n-> " << message;
     EXPECT_EQ(message.rfind("fluid.toml:", 0), 0U) << message;
   }
-  EXPECT_NE(
-      messageOf(head("time_step = 0.01\n") + fluid()).find("where the fluid is no longer stable for its sound speed"),
-      std::string::npos);
+  EXPECT_NE(messageOf(head("time_step = 0.01\n") + fluid())
+                .find("where the fluid becomes unstable because of its sound speed"),
+            std::string::npos);
 }
 
 } // namespace

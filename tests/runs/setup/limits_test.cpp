@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What errors advise is accepted as it is printed; which restitutions are possible; what acts between which materials.
+// Values that errors advise are accepted as printed; limits of restitution; contact parameters by material pair.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/random.hpp"
@@ -63,7 +63,7 @@ TEST(PrintedLimits, StepThatAnErrorAdvisesIsAccepted) {
     const double limit = stepLimit(parsed(random.text(still))).step;
     if (limit >= 0.1) continue;
     const std::string message = messageOf([&] { chooseTimeStep(parsed(random.text(still + "time_step = 0.1"))); });
-    for (const char* words : {"choose ", "\"auto\": "}) {
+    for (const char* words : {"set ", "\"auto\": "}) {
       const std::string printed = numberBehind(message, words);
       ASSERT_NE(printed, "") << message;
       EXPECT_EQ(messageOf([&] { chooseTimeStep(parsed(random.text(still + "time_step = " + printed))); }), "");
@@ -181,11 +181,11 @@ TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
     return messageOf([&] { simulationSetup(parsed(kBall, overrides)); });
   };
   const std::string message = refusal({"material.soil.restitution=0"});
-  for (const char* part : {"material.soil.restitution", "without attraction", "the least is 1e-06", "attraction = true",
-                           "run.contact = \"complementarity\""})
+  for (const char* part : {"material.soil.restitution", "without attraction", "minimum without attraction, 1e-06",
+                           "attraction = true", "run.contact = \"complementarity\""})
     EXPECT_NE(message.find(part), std::string::npos) << message;
-  // What it advises is accepted as it is printed, and nothing longer.
-  const std::string step = numberBehind(message, "takes steps of ");
+  // The advised step is accepted as printed, and no longer one.
+  const std::string step = numberBehind(message, "requires steps of ");
   EXPECT_EQ(refusal({"material.soil.restitution=1e-06", "run.time_step=" + step}), "");
   EXPECT_NE(refusal({"material.soil.restitution=1e-06", fmt::format("run.time_step={}", 1.02 * std::stod(step))}), "");
   // One of two materials with attraction is not enough; the pair is named where it says so.
@@ -260,7 +260,7 @@ TEST(MeetingPairs, HaveTheValuesThatAct) {
   EXPECT_NEAR(plane.restitution, 0.4, 1e-12);
   EXPECT_DOUBLE_EQ(plane.law.friction, 0.6);
   EXPECT_EQ(plane.law.rollingFriction, 0);
-  // Of the dampings the larger acts: that of the restitution 0.4 of the soil, not the 50 /s of the ball.
+  // The larger damping acts: that of the restitution 0.4 of the soil, not the 50 /s of the ball.
   EXPECT_EQ(lid.what.rfind("grain on ", 0), 0u);
   EXPECT_DOUBLE_EQ(lid.stiffness, 2 * 1e5 * 2e5 / 3e5);
   EXPECT_NEAR(lid.restitution, 0.4, 1e-12);

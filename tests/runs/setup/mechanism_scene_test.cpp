@@ -133,8 +133,8 @@ TEST_P(MechanismMistakes, NamePlaceValueAndRemedy) {
 
 constexpr Mistake kMistakes[] = {
     // bodies
-    {"name = \"lower\"", "name = \"upper\"", "scene.toml:10: body.1.name = \"upper\" is the name of another body too"},
-    {"name = \"lower\"", "name = \"world\"", "body.1.name = \"world\" is the name of the ground"},
+    {"name = \"lower\"", "name = \"upper\"", "scene.toml:10: body.1.name = \"upper\" is also the name of another body"},
+    {"name = \"lower\"", "name = \"world\"", "body.1.name = \"world\" is reserved for the ground"},
     {"name = \"lower\"", "name = \"a/b\"", "body.1.name = \"a/b\" has a / in its name"},
     {"mass = 2\n", "", "scene.toml:4: body.0.mass [kg] is missing; add it, or set fixed = true"},
     {"mass = 2", "mass = 0", "scene.toml:6: body.0.mass = 0 [kg] is outside (0, 1e+12]"},
@@ -145,55 +145,55 @@ constexpr Mistake kMistakes[] = {
     {"[0.1, 0.2, 0.15]", "[0.1, 0.2]", "body.0.inertia = [0.1, 0.2] [kg m2] must have 3 entries"},
     {"inertia = [0.1, 0.2, 0.15]\n", "",
      "scene.toml:4: body.0.inertia [kg m2] is missing; add it, or the edges of a box"},
-    {"angle = 90\n", "", "body.1.axis = [0, 1, 0] [-] stands without angle"},
-    {"axis = [0, 1, 0]\nangle = 90", "angle = 90", "body.1.angle = 90 [deg] stands without axis"},
+    {"angle = 90\n", "", "body.1.axis = [0, 1, 0] [-] requires angle"},
+    {"axis = [0, 1, 0]\nangle = 90", "angle = 90", "body.1.angle = 90 [deg] requires axis"},
     {"axis = [0, 1, 0]\nangle = 90", "orientation = [1, 1, 0, 0]",
      "body.1.orientation = [1, 1, 0, 0] [-] has the length 1.41421; give a unit quaternion"},
-    {"angle = 90", "angle = 90\norientation = [1, 0, 0, 0]", "stands beside axis and angle"},
+    {"angle = 90", "angle = 90\norientation = [1, 0, 0, 0]", "is mutually exclusive with axis and angle"},
     // joints
     {"[\"world\", \"upper\"]", "[\"world\", \"uper\"]",
      "scene.toml:18: joint.0.bodies = [\"world\", \"uper\"] names no body \"uper\"; did you mean \"upper\"?"},
     {"[\"world\", \"upper\"]", "[\"upper\"]", "joint.0.bodies = [\"upper\"] must name two bodies"},
     {"[\"world\", \"upper\"]", "[\"upper\", \"upper\"]", "joins 'upper' to itself"},
-    {"name = \"elbow\"", "name = \"hinge\"", "joint.1.name = \"hinge\" is the name of another joint too"},
+    {"name = \"elbow\"", "name = \"hinge\"", "joint.1.name = \"hinge\" is also the name of another joint"},
     {"axis = [0, 1, 0]\nlimits", "limits", "scene.toml:16: joint.0.axis [-] is missing"},
     {"axis = [0, 1, 0]\nlimits", "axis = [0, 0, 0]\nlimits", "joint.0.axis = [0, 0, 0] [-] is zero"},
     {"point = [0, 0, 0]\n", "", "joint.0.point [m] is missing"},
     {"point_b = [-0.5, 0, 0]", "point_b = [-0.4, 0, 0]",
-     "scene.toml:27: joint.1.point_b = [-0.4, 0, 0] [m] is at (1, 0, -0.1) in the world at the start, 0.1 m away from "
+     "scene.toml:27: joint.1.point_b = [-0.4, 0, 0] [m] is at (1, 0, -0.1) in the world at the start, 0.1 m from "
      "point_a at (1, 0, 0)"},
     {"axis_b = [0, 1, 0]", "axis_b = [0, 1, 0.1]", "scene.toml:29: joint.1.axis_b = [0, 1, 0.1] [-] points along"},
     {"axis_b = [0, 1, 0]", "axis_b = [0, -1, 0]", "joint.1.axis_b = [0, -1, 0] [-] points along"},
-    {"axis_b = [0, 1, 0]", "axis_b = [0, 1, 0]\nsecond_axis = [1, 0, 0]", "has a meaning for a universal joint only"},
+    {"axis_b = [0, 1, 0]", "axis_b = [0, 1, 0]\nsecond_axis = [1, 0, 0]", "applies to universal joints only"},
     {"axis = [0, 1, 0]\nlimits", "axis = [0, 1, 0]\ntype = \"universal\"\nlimits", "second_axis [-] is missing"},
     {"axis = [0, 1, 0]\nlimits", "axis = [0, 1, 0]\nsecond_axis = [1, 1, 0]\ntype = \"universal\"\nlimits",
-     "rad off the right angle to axis; make them perpendicular"},
-    {"limits = [-1, 1]", "limits = [1, -1]", "joint.0.limits = [1, -1] [rad or m] must be the lower, then the upper"},
-    {"stop_stiffness = 1e4\n", "", "stop_stiffness [N m/rad or N/m] must be above 0 beside limits"},
+     "rad from perpendicular to axis; make them perpendicular"},
+    {"limits = [-1, 1]", "limits = [1, -1]", "joint.0.limits = [1, -1] [rad or m] must be [min, max]"},
+    {"stop_stiffness = 1e4\n", "", "stop_stiffness [N m/rad or N/m] must be above 0 with limits"},
     {"axis = [0, 1, 0]\nlimits", "axis = [0, 1, 0]\ntype = \"revolut\"\nlimits", "did you mean \"revolute\"?"},
     // velocities
     {"position = [0.5, 0, 0]", "position = [0.5, 0, 0]\nvelocity = [0, 0, 1]",
-     "(\"hinge\") holds \"world\" and \"upper\" together at (0, 0, 0) m, where they start with velocities (0, 0, 0) "
+     "(\"hinge\") connects \"world\" and \"upper\" at (0, 0, 0) m, where their initial velocities are (0, 0, 0) "
      "and (0, "
      "0, 1) m/s"},
     {"position = [0.5, 0, 0]", "position = [0.5, 0, 0]\nspin = [1, 0, 0]",
-     "(\"hinge\") holds \"world\" and \"upper\", which start with spins (0, 0, 0) and (1, 0, 0) rad/s"},
+     "(\"hinge\") connects \"world\" and \"upper\", whose initial spins are (0, 0, 0) and (1, 0, 0) rad/s"},
     // springs
     {"joint = \"elbow\"", "joint = \"elbo\"",
      "spring.0.joint = \"elbo\" names no joint \"elbo\"; did you mean \"elbow\"?"},
     {"joint = \"elbow\"\n", "", "spring.0 has neither bodies nor joint"},
     {"joint = \"elbow\"", "joint = \"elbow\"\nacts_on = \"slide\"",
      "spring.0.acts_on = \"slide\" is not free in joint"},
-    {"point_a = [3, 0, 0]", "point_a = [1, 0, -0.5]", "is at the same place as point_a at the start"},
+    {"point_a = [3, 0, 0]", "point_a = [1, 0, -0.5]", "coincides with point_a at the start"},
     {"stiffness = 100", "stiffness = -1", "spring.1.stiffness = -1 [N/m or N m/rad] is outside [0"},
     // drives
-    {"values = [0, 5]", "values = [0]", "drive.0.values = [0] has another length than time, which has 2"},
+    {"values = [0, 5]", "values = [0]", "drive.0.values = [0] must have as many entries as time, 2"},
     {"time = [0, 1]", "time = [1, 0]", "drive.0.time = [1, 0] [s] does not increase at entry 1"},
-    {"time = [0, 1]\nvalues = [0, 5]\n", "", "drive.0 says nothing; give value, polynomial, amplitude or time"},
+    {"time = [0, 1]\nvalues = [0, 5]\n", "", "drive.0 has no value; give value, polynomial, amplitude or time"},
     {"values = [0, 5]\n",
      "values = [0, 5]\n[[drive]]\nname = \"a\"\njoint = \"elbow\"\nvalue = 1\n[[drive]]\nname = \"b\"\njoint = "
      "\"elbow\"\nimposes = \"position\"\nvalue = 1\n",
-     "drive.2.joint = \"elbow\" is driven by \"a\" already, and two drives contradict each other"},
+     "drive.2.joint = \"elbow\" is already driven by \"a\", and two drives conflict"},
     // couplings
     {"values = [0, 5]\n", "values = [0, 5]\n[[coupling]]\nname = \"g\"\njoints = [\"hinge\", \"elbow\"]\nratio = 0\n",
      "coupling.0.ratio = 0 must not be 0"},
@@ -201,7 +201,7 @@ constexpr Mistake kMistakes[] = {
      "coupling.0.joints = [\"hinge\"] must name two joints"},
     // beside other things
     {"[[spring]]", "[material.glass]\n[[grain]]\nposition = [9, 0, 0]\nradius = 0.1\nmaterial = \"glass\"\n[[spring]]",
-     "is incompatible with grain, since no body has a shape that could touch it"},
+     "is incompatible with grain, since no body has a shape for contact"},
 };
 INSTANTIATE_TEST_SUITE_P(All, MechanismMistakes, ::testing::ValuesIn(kMistakes));
 

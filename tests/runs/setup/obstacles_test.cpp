@@ -37,7 +37,7 @@ TEST(Obstacles, WhatMovesWhereThereAreNoGrainsIsRefused) {
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
     const std::string said = error.what();
-    for (const char* word : {"box.0", "moves in a scene without grains", "let it rest, or remove it"})
+    for (const char* word : {"box.0", "moves, but vehicle and bodies touch surfaces at rest only", "remove its motion"})
       EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
   }
 }
@@ -144,8 +144,8 @@ TEST(Obstacles, AMeshBesideAVehicleOnGrainsIsRefused) {
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
     const std::string said = error.what();
-    for (const char* word : {"mesh.0", "[vehicle]", "and grains, which meet the one or the other",
-                             "use boxes and cylinders, or rigid ground"})
+    for (const char* word :
+         {"mesh.0", "is incompatible with [vehicle] on grains", "use boxes and cylinders, or rigid ground"})
       EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is shipped runs on kernels made for it: the scenes of runs/scenes, and beds of every soil of assets/soils.
+// Specialised kernels exist for the scenes of runs/scenes and for beds of every soil of assets/soils.
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/contact_pairs.hpp"
@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What runs slower than it could, by name: the reason why that is left so. A kernel costs compile time.
+/// Scenes without a specialised kernel, by name, with the reason. A kernel costs compile time.
 const std::map<std::string, std::string> kExceptions = {};
 
 /// Names of what takes a general kernel, or no SIMD on a CPU; behind each the choice in words.

@@ -116,13 +116,13 @@ TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
   std::string reposeOnly = kScene;
   reposeOnly.replace(reposeOnly.find("lete_sand"), 9, "cmu_sand");
   const std::pair<std::string, const char*> cases[] = {
-      {reposeOnly + "[scm]\nconstants = \"measured\"\n", "the soil cmu_sand has no measured n; give it in [scm]"},
+      {reposeOnly + "[scm]\nconstants = \"measured\"\n", "the soil cmu_sand has no measured n; add it to [scm]"},
       {kScene + "[scm]\nconstants_draw = -1\n", "constants_draw = -1"},
       {kScene + "[scm]\nconstants_draw = 1.5\n", "constants_draw"},
       {kScene + "[scm]\nconstants_draw = 3\nn = 1\nk_c = 0\nk_phi = 5e6\nc = 1e3\nphi = 30\nK = 0.01\n",
-       "constants_draw = 3 has nothing to draw: "},
-      {other, "needs scm.n [-]: the soil gravel has no published n; give it in [scm]"},
-      {noSoil, "there is no soil file m; give it in [scm]"},
+       "constants_draw = 3 has no effect, since"},
+      {other, "requires scm.n [-]: the soil gravel has no published n; add it to [scm]"},
+      {noSoil, "there is no soil file m; add it to [scm]"},
       {noVehicle, "has no effect without a [vehicle] or a [[body]]"},
       {kScene + "[scm]\nk_c = -5e6\n", "has no bearing capacity"},
       {kScene + "[scm]\nnode_spacing = 0.2\n", "is more than the length of a shoe, 0.136 m"},

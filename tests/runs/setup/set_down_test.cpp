@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How a vehicle is set down, when it drives, and what may not stand about it.
+// Initial position of a vehicle, start of its drive, and surfaces in its path.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/scene/scene.hpp"
@@ -106,7 +106,7 @@ TEST(DriveStart, ATableIsFollowedAsGiven) {
   const vehicle::Driver ramped(
       vehicleSetup(setDownScene("[driver]\ndrive_start = 0.5\ndrive_ramp = 0.2\n" + table)).driver);
   EXPECT_NEAR(ramped.at(0.6).sprocketSpeed[0], 0.5, 1e-12);
-  // Of constants, the default is a ramp of 0.3 s.
+  // The default ramp of constant speeds is 0.3 s.
   const vehicle::Driver constant(
       vehicleSetup(setDownScene("[driver]\ndrive_start = 0.5\nsprocket_speed = 2\n")).driver);
   EXPECT_NEAR(constant.at(0.65).sprocketSpeed[0], 1, 1e-12);
@@ -151,15 +151,15 @@ TEST(Surroundings, WhatMovesWhereTheVehicleIsSetDown_IsRefused) {
         std::string("[[plane]]\npoint = [3, 0, 0]\nnormal = [-1, 0, 0]\nmaterial = \"soil\"\nname = \"rock\"\n"
                     "velocity = [0, 1, 0]\n")}) {
     const std::string message = refusalWith(more);
-    for (const char* word :
-         {"set_down.toml:", "\"rock\"", "moves", "where the vehicle is set down", "pass through", "let it rest"})
+    for (const char* word : {"set_down.toml:", "\"rock\"", "moves", "at the vehicle's initial position", "pass through",
+                             "remove its motion"})
       EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
   }
 }
 
 TEST(Surroundings, WhatMovesInItsWay_IsRefused) {
   const std::string message = refusalWith(box(6, -0.9, kMoves)); // it drives 1.7 m
-  EXPECT_NE(message.find("in the way of the vehicle, which can drive 1.7 m"), std::string::npos) << message;
+  EXPECT_NE(message.find("in the path of the vehicle, which can drive 1.7 m"), std::string::npos) << message;
   EXPECT_NE(message.find("shorten run.duration"), std::string::npos);
 }
 
@@ -187,7 +187,8 @@ TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
     const auto warnings = vehicleWarnings(setDownScene(more));
     return warnings.empty() ? "" : warnings.front();
   };
-  // Of 12 m; the lead of its shoes before its place is 3.1 m. At 8 rad/s it drives 1.96 m/s from 0.45 s to 4 s.
+  // The terrain is 12 m long; shoes extend 3.1 m ahead of the position. At 8 rad/s it drives 1.96 m/s from 0.45 s to 4
+  // s.
   EXPECT_EQ(said("position = [1.8, 0]\n[driver]\nsprocket_speed = 8\n"), "") << "7.0 m of 7.1 m";
   const std::string ahead = said("position = [2.2, 0]\n[driver]\nsprocket_speed = 8\n");
   for (const char* word : {"the terrain ends 6.", "m ahead of the vehicle", "enlarge terrain.size", "run.duration"})
@@ -204,7 +205,7 @@ TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
 TEST(Surroundings, ATableThatBeginsWithAJump_IsSaid) {
   const auto warnings = vehicleWarnings(setDownScene("[driver.table]\ntime = [0, 1]\nleft = [2, 2]\nright = [2, 2]\n"));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("driver.table begins at 2"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("driver.table starts at 2"), std::string::npos) << warnings[0];
   EXPECT_TRUE(vehicleWarnings(setDownScene("[driver.table]\ntime = [0, 1]\nleft = [0, 2]\nright = [0, 2]\n")).empty());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What no machine's memory holds is refused at the key that asks for it, before any of it is laid.
+// Grains beyond the memory of the machine are an error at their key, before any is laid.
 #include "runs/setup/size_checks.hpp"
 
 #include "base/error.hpp"

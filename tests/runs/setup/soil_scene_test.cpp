@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What follows from a scene's soil: the time step, the name of its settled bed, the size of the ready scenes.
+// Effects of a scene's soil: the time step, the name of its settled bed, the size of the ready scenes.
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/load_scene.hpp"

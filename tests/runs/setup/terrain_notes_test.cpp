@@ -54,7 +54,7 @@ protected:
 TEST_F(TerrainNotes, SteepEdgeUnderABedThatFollowsIt_IsWarnedOf) {
   const std::vector<std::string> warnings = terrainRemarks(bed("")).warnings;
   ASSERT_EQ(warnings.size(), 1u);
-  for (const char* part : {"step.png", "m a metre", "degrees", ") m", "terrain.floor = \"flat\""})
+  for (const char* part : {"step.png", "m/m", "degrees", ") m", "terrain.floor = \"flat\""})
     EXPECT_NE(warnings.front().find(part), std::string::npos) << warnings.front();
   EXPECT_TRUE(terrainRemarks(bed("floor = \"flat\"\n")).warnings.empty());
   EXPECT_TRUE(terrainRemarks(bed("", "heightmaps/hills.png")).warnings.empty());
@@ -69,7 +69,7 @@ TEST_F(TerrainNotes, SinglePixelsAreWarnedOfBySlopeAtTheirSides) {
       const TerrainRemarks remarks = terrainRemarks(spike(height, cubic ? "" : "interpolation = \"bilinear\"\n"));
       ASSERT_EQ(remarks.warnings.size(), slope > 2 ? 1u : 0u) << slope;
       if (slope < 2) continue;
-      const std::string rise = fmt::format("rises by {:.3g} m a metre", slope);
+      const std::string rise = fmt::format("slope is {:.3g} m/m", slope);
       EXPECT_NE(remarks.warnings.front().find(rise), std::string::npos) << remarks.warnings.front();
     }
 }
@@ -90,7 +90,7 @@ TEST_F(TerrainNotes, ColourIsNoted) {
       written("colour.png", pngs::png(2, 2, 8, pngs::kRgb, {255, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 255}));
   const std::vector<std::string> notes = terrainRemarks(bed("", file.c_str())).notes;
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes.front().find("colour.png is a picture in colour"), std::string::npos) << notes.front();
+  EXPECT_NE(notes.front().find("colour.png is a colour image"), std::string::npos) << notes.front();
   EXPECT_NE(notes.front().find("luminance"), std::string::npos);
   EXPECT_TRUE(terrainRemarks(bed("")).notes.empty());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene prescribes over time has steps enough, or is refused with the number.
+// Prescribed motion has enough steps, or is an error with the required number.
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_model.hpp"
 #include "runs/setup/mechanism_setup.hpp"
@@ -102,7 +102,7 @@ TEST(TimeScales, SmallestGapOfATableCountsThatBeginsBeforeTheEnd) {
   EXPECT_EQ(errorOf(table, {"run.time_step=2e-4"}), "no error");
   const std::string error = errorOf(table, {"run.time_step=1e-3"});
   EXPECT_NE(error.find("drive.0.time = a list of 5 entries [s] is under-resolved: steps of 0.001 s are 4 over "
-                       "the 0.004 s from 0.5 to 0.504 s"),
+                       "the interval of 0.004 s from 0.5 to 0.504 s"),
             std::string::npos)
       << error;
   EXPECT_NEAR(stepAskedFor(error), 2e-4, 1e-9);
@@ -157,6 +157,7 @@ TEST(TimeScales, DriversTableAndRampsAreJudged) {
   const std::string table = "[driver.table]\nleft = [0, 1, 1, 1]\nright = [0, 1, 1, 1]\ntime = ";
   EXPECT_NE(errorOf(vehicle(table + "[0, 1, 1.0015, 2]\n"))
                 .find("driver.table.time = [0, 1, 1.0015, 2] [s] is under-resolved: steps of 0.0001 s are 15 over the "
+                      "interval of "
                       "0.0015 s from 1 to 1.0015 s"),
             std::string::npos)
       << errorOf(vehicle(table + "[0, 1, 1.0015, 2]\n"));
@@ -172,8 +173,8 @@ TEST(TimeScales, BodyThatTurnsTooFarInAStepAtTheStartIsRefused) {
       "version = 1\n[run]\nduration = 2\noutput_interval = 0.1\ngravity = [0, 0, 0]\n[[body]]\nname "
       "= \"top\"\nmass = 1\ninertia = [1, 1, 1.5]\nspin = [0, 30, 40]\n";
   const std::string error = errorOf(top, {"run.time_step=0.015"});
-  EXPECT_EQ(error.rfind("--set: run.time_step = 0.015 [s] turns body \"top\" by 0.75 rad a step at the start, "
-                        "above the 0.3142 rad of run.steps_per_period = 20 steps a turn: choose 0.006283 s or less",
+  EXPECT_EQ(error.rfind("--set: run.time_step = 0.015 [s] rotates body \"top\" by 0.75 rad per step at the start, "
+                        "more than 0.3142 rad (run.steps_per_period = 20 steps per turn); set 0.006283 s or less",
                         0),
             0u)
       << error;
@@ -192,13 +193,14 @@ TEST(TimeScales, SpringThatNeedsMillionsOfStepsIsNamedWithTheWayOut) {
   const auto note = [](const std::vector<std::string>& more) {
     return springStepNote(parseScene(stiffSpring(), "scene.toml", more));
   };
-  EXPECT_NE(note({}).find("run.time_step = \"auto\" is 6.283e-08 s, 1.59e+08 steps, because spring 'rod' swings in "
-                          "6.28e-06 s; run.springs = \"implicit\" is stable at any step: with run.time_step = 0.001"),
-            std::string::npos)
+  EXPECT_NE(
+      note({}).find("run.time_step = \"auto\" is 6.283e-08 s, 1.59e+08 steps, because spring 'rod' has a period of "
+                    "6.28e-06 s; run.springs = \"implicit\" is stable at any step: run.time_step = 0.001 resolves"),
+      std::string::npos)
       << note({});
   EXPECT_NE(note({"run.springs=explicit"}).find("run.springs = \"implicit\" allows run.time_step = 0.001"),
             std::string::npos);
-  EXPECT_NE(note({"run.integrator=symplectic_euler"}).find("takes springs implicitly: run.time_step = 0.001"),
+  EXPECT_NE(note({"run.integrator=symplectic_euler"}).find("integrates springs implicitly: run.time_step = 0.001"),
             std::string::npos);
   EXPECT_EQ(note({"spring.0.stiffness=1e3"}), "");
 }
@@ -212,13 +214,14 @@ TEST(TimeScales, StepThatDoesNotResolveASpringIsSaidAndNotRefused) {
   };
   EXPECT_NE(
       note({"run.time_step=1e-3"})
-          .find("spring 'rod' swings in 6.28e-06 s, 0.00628 steps of run.time_step = 0.001 s: implicit springs are "
-                "stable there, and show that swing too slow; for the swing itself choose 3.141e-07 s or less"),
+          .find(
+              "spring 'rod' has a period of 6.28e-06 s, 0.00628 steps of run.time_step = 0.001 s; implicit springs are "
+              "stable but oscillate too slowly; to resolve the oscillation, set 3.141e-07 s or less"),
       std::string::npos)
       << note({"run.time_step=1e-3"});
-  EXPECT_NE(note({"run.time_step=1e-3", "run.integrator=symplectic_euler"}).find("damps that swing"),
+  EXPECT_NE(note({"run.time_step=1e-3", "run.integrator=symplectic_euler"}).find("stable but damps it"),
             std::string::npos);
-  EXPECT_NE(note({"run.time_step=1e-6", "run.springs=explicit"}).find("show that swing too quick"), std::string::npos);
+  EXPECT_NE(note({"run.time_step=1e-6", "run.springs=explicit"}).find("oscillate too fast"), std::string::npos);
   EXPECT_EQ(note({"run.time_step=3.14e-7"}), "");
   EXPECT_NE(
       errorOf(stiffSpring(), {"run.time_step=3e-6", "run.springs=explicit"})
@@ -241,7 +244,7 @@ TEST(TimeScales, StepsThatPassThroughABounceAreRefusedWithTheNumber) {
   const std::string error = errorOf(scene, {"run.time_step=1e-3"});
   EXPECT_EQ(error.rfind("--set: run.time_step = 0.001 [s] is too long for the end stops of ", 0), 0u) << error;
   EXPECT_NE(error.find("spring 'rail stops'"), std::string::npos) << error;
-  EXPECT_NE(error.find("lasts 0.0003142 s, which is 0.314 steps and not 10, half of run.steps_per_period; choose "
+  EXPECT_NE(error.find("lasts 0.0003142 s, 0.314 steps instead of 10, half of run.steps_per_period; set "
                        "3.141e-05 s or less (\"auto\": 1.57e-05 s)"),
             std::string::npos)
       << error;
@@ -258,7 +261,7 @@ TEST(TimeScales, StepsThatTurnABrakedVelocityRoundAreRefusedWithTheNumber) {
   const std::string scene = slider("damping = 4e4\n");
   const std::string error = errorOf(scene, {"run.time_step=1e-3"});
   EXPECT_EQ(error.rfind("--set: run.time_step = 0.001 [s] is too long for the damper of ", 0), 0u) << error;
-  EXPECT_NE(error.find("dies away in 0.0001 s, and with rattle it would change its direction in every step beyond "),
+  EXPECT_NE(error.find("time constant is 0.0001 s, and with rattle velocities change sign in every step longer than "),
             std::string::npos)
       << error;
   EXPECT_EQ(errorOf(scene, {"run.time_step=1.999e-4"}), "no error");
@@ -266,10 +269,11 @@ TEST(TimeScales, StepsThatTurnABrakedVelocityRoundAreRefusedWithTheNumber) {
   EXPECT_EQ(errorOf(scene, {"run.time_step=1e-3", "run.integrator=symplectic_euler"}), "no error");
   EXPECT_NEAR(stepOf(scene), 1e-4, 2e-7) << "a whole share of a row of 0.1 s";
   EXPECT_NEAR(stepOf(scene, {"run.integrator=symplectic_euler"}), 1e-3, 1e-9);
-  EXPECT_NE(springStepNote(parseScene(slider("damping = 4e9\n"), "scene.toml"))
-                .find("dies away in 1e-09 s; run.integrator = \"symplectic_euler\" takes dampers implicitly, and is "
-                      "stable at run.time_step = 0.001"),
-            std::string::npos)
+  EXPECT_NE(
+      springStepNote(parseScene(slider("damping = 4e9\n"), "scene.toml"))
+          .find("time constant of 1e-09 s; run.integrator = \"symplectic_euler\" integrates dampers implicitly and is "
+                "stable at run.time_step = 0.001"),
+      std::string::npos)
       << springStepNote(parseScene(slider("damping = 4e9\n"), "scene.toml"));
 }
 
@@ -300,7 +304,7 @@ TEST(TimeScales, SwingsOfAVehiclesSpringsAndStopsAreJudgedAtTheirKeys) {
     const std::string error = errorOf(scene(variant), {"run.time_step=1e-4"});
     EXPECT_TRUE(std::regex_search(error, std::regex("\\.toml:[0-9]+: "))) << error;
     EXPECT_NE(error.find(stiff.words), std::string::npos) << error;
-    EXPECT_NE(error.find("in a swing of "), std::string::npos) << error;
+    EXPECT_NE(error.find("in an oscillation of "), std::string::npos) << error;
     EXPECT_NEAR(stepAskedFor(error), stiff.period / 20, 1e-3 * stiff.period / 20) << error;
     EXPECT_NEAR(stepOf(scene(variant)), stiff.period / 20, 1e-5 * stiff.period) << "auto";
     EXPECT_EQ(errorOf(scene(variant), {"run.time_step=1e-4", "run.steps_per_period=2"}), "no error");

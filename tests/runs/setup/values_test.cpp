@@ -79,13 +79,14 @@ TEST(PairLawValues, ErrorsStandAtTheKeyInTheScene) {
     }
     return std::string();
   };
-  EXPECT_EQ(messageOf("", "law = \"hertz\"\nyoung = 1e8\n"),
-            "pair.toml:6: material.b.law = \"hertz\" does not go with law = \"linear\" of material.a, which it meets: "
-            "surfaces that touch must both be hertz or eepa, or both linear, eepa_linear or luding, and no eepa_linear "
-            "meets luding; give both one of the two");
+  EXPECT_EQ(
+      messageOf("", "law = \"hertz\"\nyoung = 1e8\n"),
+      "pair.toml:6: material.b.law = \"hertz\" is incompatible with law = \"linear\" of material.a, which it touches; "
+      "use hertz or eepa for both, or linear, eepa_linear or luding for both (eepa_linear and luding are "
+      "incompatible)");
   EXPECT_EQ(messageOf("damping = 300\n", "restitution = 0.5\n"),
-            "pair.toml:5: material.a.damping = 300 [1/s] cannot be compared with the restitution of material.b among "
-            "grains of many masses; give both the same way, or [contact.\"a|b\"] for the pair");
+            "pair.toml:5: material.a.damping = 300 [1/s] cannot be mixed with the restitution of material.b for "
+            "grains of different masses; give both materials the same key, or set [contact.\"a|b\"]");
 }
 
 TEST(PairLawValues, OfAPairAreThoseOfItsSection) {

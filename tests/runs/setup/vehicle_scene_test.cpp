@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene says of its vehicle and driver: keys of the vehicle file, torques, engines, courses.
+// Vehicle and driver of a scene: keys of the vehicle file, torques, engines, courses.
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/placement.hpp"
@@ -101,11 +101,11 @@ TEST(DriverByTorque, TablesAndConstantsReachTheDriver) {
 TEST(DriverByTorque, MixedUpWithSpeedsIsRefused) {
   expectRefused(withDriver("torque = 100"), {"driver.torque = 100", "drive = \"torque\""});
   expectRefused(withDriver("drive = \"torque\"\nsprocket_speed = 1"), {"driver.sprocket_speed", "left_torque"});
-  expectRefused(withDriver("drive = \"torque\"\nleft_torque = 1"), {"left_torque", "without right_torque"});
+  expectRefused(withDriver("drive = \"torque\"\nleft_torque = 1"), {"left_torque", "requires right_torque"});
   expectRefused(withDriver("drive = \"torque\"\ntorque = 1\nleft_torque = 1\nright_torque = 1"),
                 {"one of several torques"});
   expectRefused(withDriver("drive = \"torque\"", "[driver.torques]\ntime = [0, 1]\nleft = [0]\nright = [0, 1]\n"),
-                {"driver.torques.left", "[N m]", "another length"});
+                {"driver.torques.left", "[N m]", "as many entries as time, 2"});
   expectRefused(withDriver("drive = \"steam\""), {"driver.drive", "speed, torque, engine"});
 }
 
@@ -136,12 +136,12 @@ TEST(DriverOfACourse, ReachesTheDriver) {
 TEST(DriverOfACourse, MistakesAreRefused) {
   const auto course = [](const std::string& keys) { return withDriver("", "[driver.course]\n" + keys + "\n"); };
   expectRefused(course("radius = 3"), {"[driver.course]", "speed"});
-  expectRefused(course("speed = 1\nradius = 0"), {"driver.course.radius = 0", "no circle"});
-  expectRefused(course("speed = 1\nradius = 3\nx = [0, 1]\ny = [0, 1]"), {"radius", "keep one"});
+  expectRefused(course("speed = 1\nradius = 0"), {"driver.course.radius = 0", "must not be 0"});
+  expectRefused(course("speed = 1\nradius = 3\nx = [0, 1]\ny = [0, 1]"), {"radius", "remove one"});
   expectRefused(course("speed = 1\nx = [0, 1]\ny = [0]"), {"driver.course.y", "1 entries"});
-  expectRefused(course("speed = 1\nx = [0]\ny = [0]"), {"one corner alone"});
-  expectRefused(course("speed = 1\nx = [0, 0]\ny = [1, 1]"), {"one corner twice, at entries 0 and 1"});
-  expectRefused(course("speed = -1\nx = [0, 1]\ny = [1, 1]"), {"driver.course.speed = -1", "forwards"});
+  expectRefused(course("speed = 1\nx = [0]\ny = [0]"), {"only one corner"});
+  expectRefused(course("speed = 1\nx = [0, 0]\ny = [1, 1]"), {"repeat a corner at entries 0 and 1"});
+  expectRefused(course("speed = -1\nx = [0, 1]\ny = [1, 1]"), {"driver.course.speed = -1", "above 0 on a path"});
   expectRefused(withDriver("sprocket_speed = 1", "[driver.course]\nspeed = 1\n"), {"sprocket_speed", "remove one"});
   expectRefused(withDriver("drive = \"torque\"", "[driver.course]\nspeed = 1\n"), {"driver.drive", "course"});
   expectRefused(replaced(course("speed = 1"), "position = [1.5, 0]", "position = [1.5, 0]\nchassis = \"fixed\""),

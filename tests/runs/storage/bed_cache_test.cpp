@@ -93,8 +93,8 @@ TEST_F(KeptBed, GivesTheBitsOfABedSettledAnew) {
     EXPECT_EQ(o.hash, alone.hash);
     EXPECT_EQ(o.row, alone.row);
   }
-  EXPECT_NE(first.summary.find("kept in " + folder_.string()), std::string::npos) << first.summary;
-  EXPECT_NE(second.summary.find("taken from " + folder_.string()), std::string::npos) << second.summary;
+  EXPECT_NE(first.summary.find("cached in " + folder_.string()), std::string::npos) << first.summary;
+  EXPECT_NE(second.summary.find("read from " + folder_.string()), std::string::npos) << second.summary;
   EXPECT_EQ(files().size(), 1u);
 }
 
@@ -205,7 +205,7 @@ TEST_F(KeptBed, OfAnotherNameIsNotTaken) {
   fs::rename(folder_ / "kept", two); // as if two origins had one hash
   ::testing::internal::CaptureStderr();
   const Outcome again = runIn(folder_, {"run.seed=2"});
-  EXPECT_NE(::testing::internal::GetCapturedStderr().find("another bed"), std::string::npos);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("do not match the file name"), std::string::npos);
   EXPECT_TRUE(again.settled);
   EXPECT_EQ(again.hash, other.hash);
 }
@@ -214,9 +214,9 @@ TEST_F(KeptBed, UnusableFolderIsAWarning) {
   std::ofstream(folder_) << "a file where the folder should be";
   ::testing::internal::CaptureStderr();
   const Outcome o = runIn(folder_ / "below");
-  EXPECT_NE(::testing::internal::GetCapturedStderr().find("cannot be kept"), std::string::npos);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("cannot be cached"), std::string::npos);
   EXPECT_EQ(o.hash, run(nullptr).hash);
-  EXPECT_NE(o.summary.find("not kept"), std::string::npos);
+  EXPECT_NE(o.summary.find("not cached"), std::string::npos);
 }
 
 TEST_F(KeptBed, OldestGoWhenTheLimitIsReached) {

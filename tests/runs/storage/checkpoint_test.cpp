@@ -176,10 +176,10 @@ TEST_F(CheckpointFile, CutForeignAndOtherVersionsAreRefusedByName) {
        {whole.size() - 1, whole.size() / 2, support::kSealBytes, support::kSealBytes - 1, std::size_t{10}})
     EXPECT_NE(refusal(whole.substr(0, length)).find("damaged"), std::string::npos) << length;
   EXPECT_NE(refusal(whole + '\0').find("damaged"), std::string::npos);
-  EXPECT_NE(refusal("").find("no checkpoint"), std::string::npos);
-  EXPECT_NE(refusal("version = 1\n").find("no checkpoint"), std::string::npos);
+  EXPECT_NE(refusal("").find("not a checkpoint"), std::string::npos);
+  EXPECT_NE(refusal("version = 1\n").find("not a checkpoint"), std::string::npos);
   { support::Hdf5File::create(path_).write("/steps", std::vector<std::int64_t>{1}, {1}); }
-  EXPECT_NE(refusal(contents(path_)).find("no checkpoint"), std::string::npos) << "results.h5 is HDF5 too";
+  EXPECT_NE(refusal(contents(path_)).find("not a checkpoint"), std::string::npos) << "results.h5 is HDF5 too";
   std::string other = whole;
   const std::size_t version = other.find("\nversion ") + 9;
   other[version] = static_cast<char>(other[version] + 1);

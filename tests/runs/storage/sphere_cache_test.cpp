@@ -72,16 +72,16 @@ void expectSame(const base::SphereSet& a, const base::SphereSet& b) {
   EXPECT_EQ(std::memcmp(a.spheres.data(), b.spheres.data(), a.spheres.size() * sizeof(base::SetSphere)), 0);
 }
 
-bool wasCut(const std::string& summary) { return summary.find(" cut in ") != std::string::npos; }
+bool wasCut(const std::string& summary) { return summary.find(" converted to spheres in ") != std::string::npos; }
 
 TEST_F(KeptSpheres, AreThoseThatWouldBeCut) {
   const base::SphereSet alone = cutAlone(part());
   const auto [first, says] = cut(part());
   const auto [second, saysThen] = cut(part());
   expectSame(first, alone), expectSame(second, alone);
-  EXPECT_EQ(says.rfind("1 sets cut in ", 0), 0u) << says;
-  EXPECT_NE(says.find("kept in " + folder_.string()), std::string::npos) << says;
-  EXPECT_EQ(saysThen.rfind("1 sets taken from " + folder_.string(), 0), 0u) << saysThen;
+  EXPECT_EQ(says.rfind("1 mesh converted to spheres in ", 0), 0u) << says;
+  EXPECT_NE(says.find("cached in " + folder_.string()), std::string::npos) << says;
+  EXPECT_EQ(saysThen.rfind("1 sphere set read from " + folder_.string(), 0), 0u) << saysThen;
   EXPECT_EQ(files().size(), 1u);
 }
 
@@ -131,8 +131,8 @@ TEST_F(KeptSpheres, DamagedOrForeignFileIsToldAndCutAnew) {
     ::testing::internal::CaptureStderr();
     const auto [set, says] = cut(part());
     const std::string told = ::testing::internal::GetCapturedStderr();
-    EXPECT_EQ(told.rfind("grouser: warning: " + file.string(), 0), 0u) << told;
-    EXPECT_EQ(told.find("warning", 20), std::string::npos) << "told once: " << told;
+    EXPECT_EQ(told.rfind("WARNING: " + file.string(), 0), 0u) << told;
+    EXPECT_EQ(told.find("WARNING", 1), std::string::npos) << "told once: " << told;
     EXPECT_TRUE(wasCut(says)) << says;
     expectSame(set, alone);
     EXPECT_FALSE(wasCut(cut(part()).second)) << "the damaged one is replaced";
@@ -147,7 +147,7 @@ TEST_F(KeptSpheres, OfAnotherOriginAreNotTaken) {
   fs::rename(folder_ / "kept", files().at(0)); // as if two origins had one hash
   ::testing::internal::CaptureStderr();
   const auto [set, says] = cut(part(0.013));
-  EXPECT_NE(::testing::internal::GetCapturedStderr().find("another set"), std::string::npos);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("do not match the file name"), std::string::npos);
   EXPECT_TRUE(wasCut(says));
   expectSame(set, cutAlone(part(0.013)));
 }
@@ -156,7 +156,7 @@ TEST_F(KeptSpheres, UnusableFolderEndsNoRun) {
   put(folder_, "a file where the folder should be");
   const auto [set, says] = cut(part());
   expectSame(set, cutAlone(part()));
-  EXPECT_NE(says.find("; not kept"), std::string::npos) << says;
+  EXPECT_NE(says.find("; not cached"), std::string::npos) << says;
 }
 
 TEST_F(KeptSpheres, ShareTheirLimitWithBedsAndTheOldestGo) {
@@ -235,7 +235,7 @@ TEST_F(KeptSpheres, RunsHaveTheStatesOfRunsWithoutCache) {
       SphereCache c = cache();
       EXPECT_EQ(hashOf(scene, &c), without);
       EXPECT_EQ(wasCut(c.summary()), time == 0) << c.summary();
-      EXPECT_NE(c.summary().find("taken from"), std::string::npos) << "the resumed one needs no cut: " << c.summary();
+      EXPECT_NE(c.summary().find("read from"), std::string::npos) << "the resumed one needs no cut: " << c.summary();
     }
   }
   EXPECT_EQ(files().size(), 7u) << "five parts and a hull that touch by samples, and the mesh";

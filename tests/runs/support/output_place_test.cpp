@@ -59,8 +59,8 @@ TEST_F(OutputPlace, ALinkToNothingIsNamed) {
 
 TEST_F(OutputPlace, AFileInTheWayIsNamed) {
   put(folder_ / "file", "x");
-  EXPECT_NE(ofFolder(folder_ / "file").find("is a file, where the results' folder should be"), std::string::npos);
-  EXPECT_NE(ofFolder(folder_ / "file/below").find("file is a file, where a folder should be"), std::string::npos);
+  EXPECT_NE(ofFolder(folder_ / "file").find("is a file, not a folder"), std::string::npos);
+  EXPECT_NE(ofFolder(folder_ / "file/below").find("file is a file, not a folder"), std::string::npos);
 }
 
 TEST_F(OutputPlace, NamesThatAreTooLongAreSaidSo) {
@@ -77,9 +77,9 @@ TEST_F(OutputPlace, NamesThatAreTooLongAreSaidSo) {
 
 TEST_F(OutputPlace, FoldersThatNobodyMayWriteInAreNamed) {
   // Where even root makes no folders.
-  EXPECT_NE(ofFolder("/proc/results").find("cannot be made, since nothing may be written in /proc"), std::string::npos)
+  EXPECT_NE(ofFolder("/proc/results").find("cannot be created: cannot write in /proc"), std::string::npos)
       << ofFolder("/proc/results");
-  EXPECT_NE(ofFolder("/proc/self").find("nothing may be written in this folder"), std::string::npos);
+  EXPECT_NE(ofFolder("/proc/self").find("cannot write in this folder"), std::string::npos);
   EXPECT_NE(ofFile("/proc/plan.json"), "");
   if (getuid() == 0) return;
   fs::create_directory(folder_ / "closed");
@@ -95,13 +95,13 @@ TEST_F(OutputPlace, AFullDiskIsMetBefore) {
 }
 
 TEST_F(OutputPlace, FilesNeedTheirFolder) {
-  EXPECT_NE(ofFile(folder_ / "none/plan.json").find("there is no folder"), std::string::npos);
-  EXPECT_NE(ofFile(folder_).find("is a folder, where a file should be"), std::string::npos);
+  EXPECT_NE(ofFile(folder_ / "none/plan.json").find("does not exist; create it"), std::string::npos);
+  EXPECT_NE(ofFile(folder_).find("is a folder, not a file"), std::string::npos);
   put(folder_ / "file", "x");
   fs::create_symlink("gone", folder_ / "lost");
   fs::create_directory(folder_ / "there");
   fs::create_symlink("there", folder_ / "good");
-  EXPECT_NE(ofFile(folder_ / "file/plan.json").find("file is a file, where a folder should be"), std::string::npos)
+  EXPECT_NE(ofFile(folder_ / "file/plan.json").find("file is a file, not a folder"), std::string::npos)
       << ofFile(folder_ / "file/plan.json");
   EXPECT_NE(ofFile(folder_ / "lost/plan.json").find("lost is a link to gone, which does not exist"), std::string::npos)
       << ofFile(folder_ / "lost/plan.json");

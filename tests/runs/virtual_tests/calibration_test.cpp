@@ -56,7 +56,7 @@ TEST(CalibrationSearch, FindsAngleAndCohesionThatDependOnBothNumbers) {
   EXPECT_NEAR(0.3 + 0.005 * found.pull, 3.7, 0.5);
 }
 
-/// Tests are taken over from a trial of the very same soil: a last digit makes it another one.
+/// Tests are reused from a trial of an identical soil only: the last digit counts.
 TEST(CalibrationSearch, TheNearestIsWhatWasTriedToTheBit) {
   const double tolerance = 0.7, slope = 0.75e-3 / 0.007 * std::tan(31.1 * 3.141592653589793 / 180);
   for (double pull = 1; pull < 100; ++pull) {
@@ -83,7 +83,7 @@ TEST(CalibrationSearch, MayLeaveOneOfBothAlone) {
   while (onlyAngle.tried(22 + 10 * onlyAngle.at().way, 1)) EXPECT_EQ(onlyAngle.at().pull, 50);
   EXPECT_NEAR(onlyAngle.nearest().way, 0.6, 0.02);
   EXPECT_EQ(onlyAngle.nearest().pull, 50);
-  StrengthSearch onlyC({}, {{3.7, 0.5, 0.054}}, {0.4, 10}); // of a soil that needs many times more than expected
+  StrengthSearch onlyC({}, {{3.7, 0.5, 0.054}}, {0.4, 10}); // soil that needs much more pull than expected
   int trials = 1;
   while (onlyC.tried(30, 0.3 + 0.016 * onlyC.at().pull)) EXPECT_EQ(onlyC.at().way, 0.4), ++trials;
   EXPECT_NEAR(0.3 + 0.016 * onlyC.nearest().pull, 3.7, 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Constants that no soil has, or that nothing tells how well they are known, are called inconclusive.
+// Implausible constants, and constants without interval, are inconclusive.
 #include "runs/virtual_tests/calibration.hpp"
 #include "runs/virtual_tests/constant_doubts.hpp"
 
@@ -41,7 +41,7 @@ TEST(ConstantDoubts, AreOneLineWithTheRemedy) {
   plan.options.coarse = true, plan.options.seeds = 3, plan.options.largeSeeds = 1;
   const std::string text = doubtsText(r, plan);
   EXPECT_EQ(text.find("inconclusive: k_phi = -1"), 0u) << text;
-  EXPECT_NE(text.find("raise --large-seeds, or leave out --quick"), std::string::npos) << text;
+  EXPECT_NE(text.find("raise --large-seeds, or remove --quick"), std::string::npos) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos);
   r.measured[Quantity::frictionModulus] = {1049, 100};
   EXPECT_EQ(doubtsText(r, plan), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What is fitted to the tests of a bevameter: known constants come back, and intervals hold them as often as they say.
+// Fits to bevameter tests: known constants are recovered, and intervals have their nominal coverage.
 #include "base/math.hpp"
 #include "base/random.hpp"
 #include "runs/virtual_tests/pressure_sinkage.hpp"
@@ -102,7 +102,7 @@ SinkageCurve bedding(double firstContact) {
   return curve;
 }
 
-/// A bed that stiffens all along: the line takes the place of most of its curve, and says so.
+/// A bed that stiffens throughout: the line replaces most of the curve, as reported.
 TEST(Bedding, AStiffeningCurveHasItsExponentFromTheFirstContact) {
   SinkageCurve curve;
   for (int i = 0; i <= 200; ++i) {
@@ -132,7 +132,7 @@ TEST(Bedding, OriginIsWhereTheSteepestLineComesToNoPressure) {
 }
 
 TEST(Bedding, IsLookedForWithinItsRoomOnly) {
-  // 1.27 bends upwards all the way: that is the soil's own, and only its first part may be taken for bedding.
+  // 1.27 is convex throughout: a soil property, of which only the first part may count as bedding.
   SinkageCurve curve;
   for (int i = 1; i <= 200; ++i) curve.sinkage.push_back(4e-4 * i), curve.pressure.push_back(std::pow(4e-4 * i, 1.27));
   const auto n = [&](double room) { return fitOnePlate(PlateTests{0.28, {correctedForBedding(curve, room).curve}}).n; };

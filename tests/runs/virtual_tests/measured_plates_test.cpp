@@ -61,7 +61,7 @@ TEST_F(MeasuredPlatesTest, FindsWhereEachPlateFirstBearsTheContactPressure) {
   EXPECT_NEAR(plates[1].contact, 0.0004, 1e-12);
   EXPECT_EQ(readMeasuredPlates(folder_ / "plates.csv", {0.005})[0].contact, 0) << "without a contact pressure";
   const std::pair<double, const char*> cases[] = {
-      {2e4, "trial 1 never bears plates.contact_pressure = 20000 Pa; choose one between 0 and 10000 Pa"},
+      {2e4, "trial 1 never reaches plates.contact_pressure = 20000 Pa; choose one between 0 and 10000 Pa"},
       {200, "trial 3 begins above plates.contact_pressure = 200 Pa; choose one between 300 and 30000 Pa"}};
   for (const auto& [pressure, message] : cases) try {
       readMeasuredPlates(folder_ / "plates.csv", {0.005}, pressure);
@@ -85,12 +85,12 @@ TEST_F(MeasuredPlatesTest, NamesLineColumnAndRemedy) {
   const std::pair<std::string, const char*> cases[] = {
       {"", "the file is empty"},
       {"trial,plate_diameter_mm,sinkage_mm\n1,60,0\n", "column pressure_kPa is missing"},
-      {head, "no rows follow"},
+      {head, "no rows after"},
       {head + "1,60,five,2\n", "plates.csv:3: sinkage_mm = \"five\" is not a number"},
       {head + "1,60,5\n", "pressure_kPa = \"\" is not a number"},
       {head + "1.5,60,0,0\n", "whole number"},
       {head + "1,-60,0,0\n", "outside (0, 10000]"},
-      {head + "1,60,0,0\n1,80,9,9\n", "give each test a number of its own"},
+      {head + "1,60,0,0\n1,80,9,9\n", "give each test its own number"},
       {head + "1,60,0,0\n1,60,4,9\n", "no test reaches 5 mm; remove that sinkage"},
       {head + "1,60,0,0\n1,60,9,-9\n", "bears -5 kPa at 5 mm"},
       {head + "1,60,0,nan\n", "is not a number"}};

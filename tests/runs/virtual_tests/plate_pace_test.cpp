@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// How fast plates go, and what is told of it.
+// Speed of plates, and pressure added by motion.
 #include "runs/virtual_tests/plan.hpp"
 #include "runs/virtual_tests/plate_pace.hpp"
 #include "runs/virtual_tests/plate_sinkage.hpp"
@@ -12,7 +12,7 @@
 namespace grouser::virtual_tests {
 namespace {
 
-/// Of the track's 47.5 kPa waves may add 2.
+/// Waves may add 2 kPa to the track's 47.5 kPa.
 PlatePace pace() {
   PlatePace p;
   p.density = 1500, p.breadth = 0.28, p.depth = 0.56, p.added = 2e3, p.fastest = 0.1, p.firstModulus = 16e6;
@@ -44,14 +44,14 @@ TEST(PlatePace, SlowsDownAtOnceAndSpeedsUpByHalf) {
 TEST(ShownModulus, IsTheSteeperOfTheWholeWayAndItsEnd) {
   std::vector<double> z, p;
   for (int i = 0; i < 64; ++i) z.push_back(1e-4 * i), p.push_back(5e6 * z.back());
-  EXPECT_NEAR(shownModulus(z, p, 0.28, 32), 1.4e6, 1e-3);
+  EXPECT_NEAR(apparentModulus(z, p, 0.28, 32), 1.4e6, 1e-3);
   for (int i = 64; i < 96; ++i) z.push_back(1e-4 * i), p.push_back(p.back() + 2e3);
-  EXPECT_NEAR(shownModulus(z, p, 0.28, 32), 0.28 * 2e7, 1e-3) << "the end is steeper";
+  EXPECT_NEAR(apparentModulus(z, p, 0.28, 32), 0.28 * 2e7, 1e-3) << "the end is steeper";
   for (int i = 96; i < 160; ++i) z.push_back(1e-4 * i), p.push_back(p.back());
-  EXPECT_GT(shownModulus(z, p, 0.28, 32), 1e6) << "a bed that has yielded still has what lies below";
+  EXPECT_GT(apparentModulus(z, p, 0.28, 32), 1e6) << "a bed that has yielded still has what lies below";
   std::vector<double> up(z.rbegin(), z.rend()), falling(p.rbegin(), p.rend());
-  EXPECT_GT(shownModulus(up, falling, 0.28, 32), 1e6) << "on the way up too";
-  EXPECT_EQ(shownModulus(std::vector<double>{1e-3}, std::vector<double>{5}, 0.28, 32), 0);
+  EXPECT_GT(apparentModulus(up, falling, 0.28, 32), 1e6) << "on the way up too";
+  EXPECT_EQ(apparentModulus(std::vector<double>{1e-3}, std::vector<double>{5}, 0.28, 32), 0);
 }
 
 TEST(PlatePace, OfStiffGrainsBeginsMoreSlowly) {
@@ -63,7 +63,7 @@ TEST(PlatePace, OfStiffGrainsBeginsMoreSlowly) {
     EXPECT_EQ(plan.small.added, 0.04 * kTrackPressure);
     return plan.small.pace(plan.grains).first();
   };
-  // Contacts of Hertz: overlap goes with E^(-2/3), the speed with the root of it.
+  // Hertz' contacts: overlap scales with E^(-2/3), the speed with its square root.
   EXPECT_NEAR(first(8e7) / first(8e8), std::pow(10, 1.0 / 3), 1e-6);
   EXPECT_NEAR(first(8e8), 0.0118, 0.0005) << "[m/s]";
 }

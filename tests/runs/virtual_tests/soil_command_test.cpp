@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser soil` as a user calls it: tables, files, slices, and errors that leave nothing.
+// `grouser soil` from the command line: tables, files, slices, and errors that leave no files.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ constexpr const char* kSand =
     "0.3\nfriction = 0.5\n[bed]\ngrain_radius = 0.01\n[[published]]\nquantity = \"phi\"\n"
     "value = 25\nunit = \"deg\"\nsource = \"a book\"\n[[published]]\nquantity = \"n\"\nvalue = 1\nunit = \"-\"\n"
     "source = \"a book\"\n";
-/// The smallest tests that are tests, with the longest steps that are sound.
+/// The smallest valid tests, with the longest stable steps.
 constexpr const char* kSmallest =
     " --quick --plate-grains 5 --plate-ratio 1.5 "
     "--thickness 4.5 --bin 3 --pressure 20000 --inertial-number 0.05 --shear-loads 5000 10000 "
@@ -89,7 +89,7 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   // The soil contact model, fitted to the same tests.
   const Outcome fit = call(words + " --resume --fit-scm");
   ASSERT_EQ(fit.code, 0) << fit.errors;
-  EXPECT_NE(fit.out.find("model error, which no constants remove"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("model error for any constants"), std::string::npos) << fit.out;
   for (const char* group : {"plate 0.1 m", "plate 0.15 m", "shear 5 kPa", "shear 10 kPa"})
     EXPECT_NE(contents(folder_ / "results" / "scm_residuals.csv").find(group), std::string::npos) << group;
   const std::string scm = contents(folder_ / "results" / "scm_fit.toml");
@@ -103,13 +103,13 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
           scm);
   const Outcome plan = call("plan drive.toml --no-probe");
   EXPECT_EQ(plan.code, 0) << plan.errors;
-  EXPECT_NE(plan.out.find("of the scene"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("(given in the scene)"), std::string::npos) << plan.out;
   EXPECT_TRUE(fs::exists(folder_ / "results" / "scm_fit.png"));
-  // Without the large plate: what the small one gives alone.
+  // Results of the small plate without the large one.
   for (const int seed : {1, 2}) fs::remove(folder_ / "results" / "runs" / fmt::format("coarse_large_seed{}.csv", seed));
   const Outcome alone = call(words + " --resume --seconds 1e-6 --fit-scm");
   ASSERT_EQ(alone.code, 0) << alone.errors;
-  EXPECT_NE(alone.out.find("fit       not made"), std::string::npos) << alone.out;
+  EXPECT_NE(alone.out.find("fit       skipped"), std::string::npos) << alone.out;
   EXPECT_NE(alone.out.find("n alone"), std::string::npos) << alone.out;
   EXPECT_NE(alone.out.find("with n = 1;"), std::string::npos) << alone.out;
   const auto small = nlohmann::json::parse(contents(folder_ / "results" / "soil.json"));
@@ -174,7 +174,7 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   put(folder_ / "sand.toml", targets.insert(targets.find("bin"), "contact_pressure = 100\n"));
   const Outcome zeroed = call(words + " --force");
   EXPECT_EQ(zeroed.code, 0) << zeroed.errors;
-  EXPECT_NE(zeroed.out.find("sinkage from"), std::string::npos) << zeroed.out;
+  EXPECT_NE(zeroed.out.find("zero sinkage at"), std::string::npos) << zeroed.out;
   const auto lower = nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")).at("trials").at(0);
   EXPECT_LT(lower.at("measured").at("100 mm at 10 mm").at("value").get<double>(), pressure(0));
   // Its curves begin at the mean sinkage at which the tests bear 100 Pa; the height of their zero follows from the
@@ -185,7 +185,7 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   EXPECT_NEAR(1e3 * sinkage, contact, 1e-4);
   EXPECT_GE(pressed, 100);
   double height = 0, all = 0;
-  ASSERT_EQ(std::sscanf(zeroed.out.c_str() + zeroed.out.find("sinkage from"), "sinkage from %lf mm", &height), 1);
+  ASSERT_EQ(std::sscanf(zeroed.out.c_str() + zeroed.out.find("zero sinkage at"), "zero sinkage at %lf mm", &height), 1);
   for (int n = 1; n <= 2; ++n) {
     std::istringstream rows(
         contents(folder_ / "found" / "curves_1" / "runs" / fmt::format("coarse_plate100mm_seed{}.csv", n)));
@@ -207,8 +207,7 @@ TEST_F(SoilCommandTest, TiltsFourBedsForAnAngleOfReposeEvenWithOneSeed) {
       << o.code << o.out << o.errors;
 }
 
-/// What a search has tried stands in calibration.json as soon as a trial is whole, and a call that goes on tells the
-/// same trials again.
+/// calibration.json has each trial as soon as it is complete, and a resumed call records the same trials.
 TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
   put(folder_ / "targets.toml",
       "version = 1\n[targets]\nphi = 24\nK = 12\nn = 1\nk = 1700\nb = 0.1\n[tolerances]\nphi = 40\nk = 1\n[start]\n"
@@ -216,7 +215,7 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
       "0.01\n[bed]\ngrain_radius = 0.01\n");
   std::string words =
       std::string("soil --calibrate targets.toml --out found --seeds 1 --large-seeds 1") + kSmallest + kLongSteps;
-  words.replace(words.find("20000"), 5, "30000"); // half of what is wanted, which is within the tolerance
+  words.replace(words.find("20000"), 5, "30000"); // half of the target, within the tolerance
   const auto record = [&] { return nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")); };
   // Within so short a time no test begins, on any machine.
   ASSERT_EQ(call(words + " --seconds 1e-9").code, 0);
@@ -249,7 +248,7 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
   ASSERT_EQ(call(words + " --resume").code, 0);
   EXPECT_EQ(record().at("trials"), whole.at("trials"));
   EXPECT_EQ(record().at("outcomes"), whole.at("outcomes"));
-  // With the seconds that it took: it was not done again.
+  // Its wall time is unchanged: it was not repeated.
   const std::string name = "runs/coarse_small_seed1.csv";
   EXPECT_EQ(contents(folder_ / "found" / "final" / name), contents(folder_ / "found" / "plate_1" / name));
 }
@@ -263,7 +262,7 @@ TEST_F(SoilCommandTest, WhatEndsUnsoundlyIsDoneAgainWithShorterSteps) {
   ASSERT_EQ(part.code, 0) << part.errors;
   const Outcome o = call(words + " --resume --seconds 1e-6");
   ASSERT_EQ(o.code, 0) << o.errors;
-  EXPECT_NE(o.out.find("with 1.5 times as many steps a contact"), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("with 1.5 times as many steps per contact"), std::string::npos) << o.out;
   EXPECT_NE(o.out.find("coarse_shear5kPa_seed1: step "), std::string::npos) << o.out;
   const auto json = nlohmann::json::parse(contents(folder_ / "results" / "soil.json"));
   EXPECT_EQ(json.at("tests_with_shorter_steps"), nlohmann::json({"coarse_shear5kPa_seed1"}));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Soil files: numbers scale with the grains, and what is wrong is named with its place.
+// Soil files: scaling with grain size, and errors with their location.
 #include "base/error.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/virtual_tests/plan.hpp"

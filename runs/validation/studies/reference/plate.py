@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same plate on the same bed under the same law in grouser and in LIGGGHTS, seed by seed.
+"""The same plate on the same bed with the same contact law in grouser and in LIGGGHTS, seed by seed.
 
     runs/validation/studies/reference/plate.py --grouser build/bin/grouser --seeds 16 --out out/plate_reference
 
-For each seed grouser pours a bed of spheres into a bin and settles it; both programs then read the places and radii of
-its grains and push a plate down into it at the same speed. Linear spring and dashpot, tangential spring of 2/7, Coulomb
-friction; the same step. What is compared is the force on the plate, as mean over slices of depth, and over all of them.
-Finished runs are kept in the folder and not repeated, so a call that was stopped may be repeated.
+For each seed grouser pours and settles a bed of spheres in a bin; both programs then read positions and radii of the
+grains and push a plate into it at the same speed. Linear spring and dashpot, tangential spring of 2/7, Coulomb
+friction, same time step. Compared: mean force on the plate in slices of depth, and over all of them. Finished runs are
+kept in the folder and not repeated, so an interrupted call can be repeated.
 
 LIGGGHTS: Debian's package `liggghts` (3.8.0). Python: numpy, h5py, matplotlib of Debian.
 """
@@ -24,13 +24,13 @@ import h5py
 import numpy
 
 D = 0.02                     # mean diameter of the grains [m]
-SPREAD = 0.25                # radii are uniform within this share of the mean
+SPREAD = 0.25                # radii uniform within +- this fraction of the mean
 DENSITY, STIFFNESS, FRICTION, RESTITUTION = 2500.0, 1e5, 0.5, 0.3
 GRAVITY = 9.81
 RATIO_T, RATIO_DAMPING = 2 / 7, 0.5  # tangential over normal stiffness, and damping
-SOLID = 0.58                 # expected of a poured bed, for the number of grains only
-REST = 0.6                   # [s] a bed falls and comes to rest; twice that in all
-SLICES = 5                   # of the depth, the first of which is left out: there the plate meets single grains
+SOLID = 0.58                 # expected solid fraction, for the number of grains only
+REST = 0.6                   # [s] pouring; total duration twice that
+SLICES = 5                   # slices of depth; the first one is excluded (contact with single grains)
 BAR = 0.05                   # [-]
 
 
@@ -52,7 +52,7 @@ def interval(values):
 def damping():
     """gamma [1/s] of F_n = k overlap + gamma m_eff v_n whose restitution is RESTITUTION at the mean mass.
 
-    A dashpot that may pull: zeta = -ln e / sqrt(pi^2 + ln^2 e). Which one is of no account, as long as both have it.
+    Attractive dashpot: zeta = -ln e / sqrt(pi^2 + ln^2 e); the choice is arbitrary but the same in both programs.
     """
     mass = DENSITY * math.pi / 6 * D ** 3
     log = math.log(RESTITUTION)
@@ -61,17 +61,17 @@ def damping():
 
 
 class Case:
-    """Sizes in metres, from those in mean diameters."""
+    """Sizes in metres, converted from mean diameters."""
 
     def __init__(self, options):
         self.bin, self.deep, self.plate = options.bin * D, options.deep * D, options.plate * D
         self.speed, self.sinkage = options.speed, options.sinkage * options.plate * D
-        self.tall = self.sinkage + 4 * D  # of the plate: no grain comes to lie on it
+        self.tall = self.sinkage + 4 * D  # height of the plate: no grains on top
         smallest = DENSITY * math.pi / 6 * (D * (1 - SPREAD)) ** 3
         contact = math.pi / math.sqrt(STIFFNESS / (smallest / 2) - (damping() / 2) ** 2)
         self.step = float(f"{contact / options.steps:.3g}")
         self.grains = round(SOLID * self.bin ** 2 * self.deep / (math.pi / 6 * D ** 3 * (1 + SPREAD ** 2)))
-        self.high = 3 * self.deep  # of the cloud that the bed is poured from
+        self.high = 3 * self.deep  # height of the initial cloud of grains
 
     def material(self, friction, name):
         return (f"[material.{name}]\ndensity = {DENSITY}\nstiffness = {STIFFNESS}\ndamping = {damping()!r}\n"
@@ -93,12 +93,12 @@ def call(words, log):
     with open(log, "w") as out:
         done = subprocess.run(words, stdout=out, stderr=subprocess.STDOUT, check=False)
     if done.returncode != 0:
-        sys.exit(f"{words[0]} ended with code {done.returncode}; see {log}")
+        sys.exit(f"{words[0]} failed with exit code {done.returncode}; see {log}")
     return time.time() - begin
 
 
 def pour(case, grouser, folder, seed):
-    """Places and radii of a settled bed [n][4] [m]."""
+    """Positions and radii of a settled bed [n][4] [m]."""
     bed = folder / "bed.txt"
     if not bed.exists():
         text = case.scene(2 * REST, REST / 4, (
@@ -130,7 +130,7 @@ def press_grouser(case, grouser, folder, top):
         with open(folder / "press" / "timeseries.csv") as file:
             rows = [(top + 0.5 * case.tall - float(row["surfaces.plate.position.z [m]"]),
                      float(row["surfaces.plate.force.z [N]"])) for row in csv.DictReader(file)]
-        # Forces are means since the row before: they belong to the middle of the way in between.
+        # Forces are means since the previous row: they belong to the middle of the interval.
         rows = [(0.5 * (before[0] + row[0]), row[1]) for before, row in zip(rows, rows[1:])]
         numpy.savetxt(table, rows, delimiter=",", fmt="%.9g", header=f"sinkage [m],force [N]; {seconds:.1f} s")
     return numpy.loadtxt(table, delimiter=",")
@@ -218,7 +218,7 @@ def press_liggghts(case, program, folder, top, bed):
             done = subprocess.run([program, "-in", "in.plate", "-log", "none"], cwd=folder, stdout=out,
                                   stderr=subprocess.STDOUT, check=False)
         if done.returncode != 0:
-            sys.exit(f"{program} ended with code {done.returncode}; see {folder / 'liggghts.log'}")
+            sys.exit(f"{program} failed with exit code {done.returncode}; see {folder / 'liggghts.log'}")
         rows = numpy.loadtxt(folder / "liggghts.txt")[:, 1:]
         numpy.savetxt(table, rows, delimiter=",", fmt="%.9g",
                       header=f"sinkage [m],force [N]; {time.time() - begin:.1f} s")
@@ -234,7 +234,7 @@ def slice_means(rows, sinkage):
 def verdict(mean, half):
     if abs(mean) + half <= BAR:
         return "equal"
-    return "differs" if abs(mean) - half > BAR else "not shown"
+    return "differs" if abs(mean) - half > BAR else "inconclusive"
 
 
 def report(case, results, folder):
@@ -254,7 +254,7 @@ def report(case, results, folder):
               f"{100 * half:4.2f}   {verdict(difference, half)}")
         lines.append(f"{label},{which[0] * share:.3f},{(which[-1] + 1) * share:.3f},{ma:.5g},{ha:.3g},{mb:.5g},{hb:.3g},"
                      f"{difference:.5f},{half:.5f},{len(results)},{verdict(difference, half)}")
-    print("  +-: 95 % intervals of Student's distribution over the seeds; of the difference seed by seed")
+    print("  +-: 95 % intervals of Student's distribution over the seeds; differences paired by seed")
     (folder / "plate_reference.csv").write_text("\n".join(lines) + "\n")
 
 
@@ -289,9 +289,9 @@ def main():
     parser.add_argument("--sinkage", type=float, default=0.3, help="[plates]")
     parser.add_argument("--speed", type=float, default=0.05, help="[m/s]")
     parser.add_argument("--steps", type=float, default=20, help="steps in the shortest contact")
-    parser.add_argument("--jobs", type=int, default=1, help="runs of grouser at the same time")
-    parser.add_argument("--only", choices=["grouser"], help="does grouser's part alone, as where there is no LIGGGHTS; "
-                        "a later call, also elsewhere with a copy of the folder, does the rest")
+    parser.add_argument("--jobs", type=int, default=1, help="parallel runs of grouser")
+    parser.add_argument("--only", choices=["grouser"], help="run grouser only, e.g. without LIGGGHTS; a later "
+                        "call, also on another machine with a copy of the folder, does the rest")
     options = parser.parse_args()
     case = Case(options)
     out = pathlib.Path(options.out)

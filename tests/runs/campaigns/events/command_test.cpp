@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser events` as a user calls it: one event for half a second, its tables, and what a second call leaves out.
+// `grouser events` from the command line: one event for half a second, its tables, and a second call that skips
+// finished runs.
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/shared_cache.hpp"
 
@@ -29,12 +30,12 @@ TEST_F(EventsProgram, WritesItsTablesAndGoesOn) {
   EXPECT_EQ(json["rows"][0]["each"][0]["verdict"], "no-go");
   EXPECT_EQ(json["rows"][0]["each"][0]["why"], json["rows"][0]["why"]);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / json["rows"][0]["each"][0]["run"].get<std::string>()));
-  EXPECT_NE(contents(folder_ / "out" / "events.csv").find("acceleration,,,1,0,comes 0."), std::string::npos);
+  EXPECT_NE(contents(folder_ / "out" / "events.csv").find("acceleration,,,1,0,covers 0."), std::string::npos);
   EXPECT_FALSE(contents(folder_ / "out" / "events.txt").empty());
 
   const Outcome other = call(words + " --speed 1");
   EXPECT_EQ(other.code, 2);
-  EXPECT_NE(other.errors.find("go on there with --resume"), std::string::npos) << other.errors;
+  EXPECT_NE(other.errors.find("continue with --resume"), std::string::npos) << other.errors;
   for (const char* more : {"", " --resume"}) {
     const Outcome again = call(words + more);
     EXPECT_EQ(again.code, 0) << again.errors;
@@ -55,7 +56,7 @@ TEST_F(EventsProgram, EndsWithTwoAndOneLineWhereAWordIsWrong) {
 TEST_F(EventsProgram, SaysThatFilmsCannotBeMadeBeforeItRuns) {
   const Outcome o = call("events --only acceleration --films --out out", "export PATH=/nowhere; ");
   EXPECT_EQ(o.code, 2);
-  EXPECT_EQ(o.error().find("--films: a film needs the program ffmpeg"), 0u) << o.errors;
+  EXPECT_EQ(o.error().find("--films: a film requires ffmpeg"), 0u) << o.errors;
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 

@@ -50,10 +50,10 @@ TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   EXPECT_EQ(faultOf(options, "scm.c=5"), "--axis scm.c=5: needs at least two values; use --set for a single one");
   EXPECT_EQ(faultOf(options, "scm.c"),
             "--axis scm.c: no value is given; write key=value,value..., e.g. --axis scm.c=0,1000,2000");
-  EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 stands there twice; remove one");
+  EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 is listed twice; remove one");
   EXPECT_EQ(faultOf(options, "scm.colour=1,2").find("--axis scm.colour=1: unknown key scm.colour"), 0u)
       << faultOf(options, "scm.colour=1,2");
-  EXPECT_NE(faultOf(options, "scm.c=0,0").find("stands there twice"), std::string::npos);
+  EXPECT_NE(faultOf(options, "scm.c=0,0").find("is listed twice"), std::string::npos);
   EXPECT_NE(faultOf(options, "terrain.material=dry_sand,lete_sand").find("an option sets this key; use --soil"),
             std::string::npos);
   options.levels = {0.3, 0.3000000001};
@@ -67,7 +67,8 @@ TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   options.levels = {}, options.only = {"pivot_turn"};
   EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--event pivot_turn: has no levels to map; use e.g. grade");
   options.only = {"gap"};
-  EXPECT_EQ(faultOf(options, "scm.c=5,6").find("--event gap: between slabs"), 0u) << faultOf(options, "scm.c=5,6");
+  EXPECT_EQ(faultOf(options, "scm.c=5,6").find("--event gap: soil does not affect a gap"), 0u)
+      << faultOf(options, "scm.c=5,6");
 }
 
 TEST(MobilityMap, TableHasTheHighestLevelOnTopAndTheLimitOfEachValue) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the events ask of a vehicle, by its shape, and whether every scene takes every ready vehicle.
+// Limits of events from the vehicle geometry, and every scene with every shipped vehicle.
 #include "runs/campaigns/events/event_plan.hpp"
 #include "runs/campaigns/events/event_report.hpp"
 #include "runs/campaigns/events/soil_limits.hpp"
@@ -88,7 +88,7 @@ TEST(EventPlan, EveryEventTakesEveryReadyVehicle) {
     EXPECT_EQ(plan.trials.size(), 26u) << vehicle;
     EXPECT_GT(plan.course.shape.diagonal, plan.course.shape.length());
     EXPECT_TRUE(plan.omitted.contains(Event::softSoil));
-    // The scene as it stands, with the vehicle alone changed.
+    // The shipped scene with only the vehicle changed.
     for (const Event event : allEvents())
       EXPECT_NO_THROW(sweeps::checkScene(
           setup::loadScene(sceneOf(event), {std::string("vehicle.spec=vehicles/") + vehicle + ".toml"})))
@@ -190,7 +190,7 @@ TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
   // 8 m at 1.2 m/s, a fifth more, and 1.2 s before it drives; its limit is 22 s.
   EXPECT_DOUBLE_EQ(grade.sweep.runs[0].expectedEnd, 1.2 + 1.2 * 8 / 1.2);
   EXPECT_EQ(grade.sweep.runs[0].scene.run.duration, 22);
-  options.only = {"drawbar"}, options.levels = {0.6, 0.2}; // from the easiest on, however they are given
+  options.only = {"drawbar"}, options.levels = {0.6, 0.2}; // sorted from the easiest
   const EventPlan drawbar = planEvents(options);
   const auto driving = [&](std::size_t run) { return drawbar.sweep.runs[run].expectedEnd - 1.2; };
   EXPECT_NEAR(driving(1), 2 * driving(0), 1e-12) << "half as fast"; // round-off of some seconds
@@ -231,19 +231,19 @@ TEST(EventPlan, RefusesWhatIsNone) {
   };
   EventOptions options;
   options.only = {"jump"};
-  EXPECT_NE(fault(options).find("--only jump: is no event; events: acceleration, grade"), std::string::npos);
+  EXPECT_NE(fault(options).find("--only jump: unknown event; events: acceleration, grade"), std::string::npos);
   options = {}, options.vehicle = "tank";
-  EXPECT_NE(fault(options).find("--vehicle tank: is no vehicle; ready ones: light_tracked, m113_like, robot"),
+  EXPECT_NE(fault(options).find("--vehicle tank: unknown vehicle; available: light_tracked, m113_like, robot"),
             std::string::npos);
   options = {}, options.soil = "cheese";
-  EXPECT_NE(fault(options).find("--soil cheese: is neither rigid ground nor a soil"), std::string::npos);
+  EXPECT_NE(fault(options).find("--soil cheese: is neither rigid nor a soil"), std::string::npos);
   options = {}, options.soil = "my/sand.toml";
-  EXPECT_NE(fault(options).find("--soil my/sand.toml: give a soil's name"), std::string::npos);
+  EXPECT_NE(fault(options).find("--soil my/sand.toml: requires the name of a soil"), std::string::npos);
   options = {}, options.levels = {0.5};
-  EXPECT_NE(fault(options).find("--levels: are of one event"), std::string::npos);
+  EXPECT_NE(fault(options).find("--levels: requires a single event"), std::string::npos);
   options.only = {"step"}, options.levels = {INFINITY};
-  EXPECT_NE(fault(options).find("--levels: give each once"), std::string::npos);
-  // What the command has made of a word is told of that word; what --set has, of that.
+  EXPECT_NE(fault(options).find("--levels: must be distinct"), std::string::npos);
+  // Errors name the option that set the value, or --set.
   options = {}, options.only = {"drawbar"}, options.levels = {100};
   EXPECT_EQ(fault(options).find("--levels 100: hitch.slip = 100"), 0u) << fault(options);
   options = {}, options.only = {"step"}, options.speed = 1e9;
@@ -259,9 +259,9 @@ TEST(EventPlan, RefusesWhatIsNone) {
   options.soil = "lete_sand", options.ground = scene::TerrainKind::scm;
   EXPECT_NE(fault(options).find("--seeds: deformable soil has no grains"), std::string::npos);
   options = {}, options.ground = scene::TerrainKind::scm;
-  EXPECT_EQ(fault(options).find("--ground scm: needs a soil; name one with --soil"), 0u) << fault(options);
+  EXPECT_EQ(fault(options).find("--ground scm: requires a soil; set --soil"), 0u) << fault(options);
   options = {}, options.only = {"soft_soil"};
-  EXPECT_NE(fault(options).find("--only soft_soil: rigid ground does not become softer"), std::string::npos);
+  EXPECT_NE(fault(options).find("--only soft_soil: rigid ground has no strength to vary"), std::string::npos);
 }
 
 /// The light vehicle of shared closed forms: W 49.21 kN, L 1.85 m, b 0.28 m; constants of LETE sand as published.
@@ -318,7 +318,7 @@ TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {
   EXPECT_EQ(eventLimits(rows, course)[0].agrees, false); // friction 0.8 blocks 0.816
   EXPECT_FALSE(eventLimits(rows, course)[0].noGo);
   rows[0].gos = 0;
-  EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go is none to rely on
+  EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go does not count
 }
 
 TEST(EventRow, TellsWhyOfTheRunThatDecides) {
@@ -333,7 +333,7 @@ TEST(EventRow, TellsWhyOfTheRunThatDecides) {
   row.event = Event::drawbar, row.runs = row.gos = 2;
   row.each = {{"a", "go", "pulls 19 kN"}, {"b", "go", "pulls 23 kN"}};
   row.figures = {{"drawbar pull [N]", {}, {21e3, 25e3}}};
-  EXPECT_EQ(row.why(), "pulls 21 kN in the mean");
+  EXPECT_EQ(row.why(), "mean pull 21 kN");
   row.gos = 1, row.each[1] = {"b", "no-go", "is pulled with 2 kN"};
   EXPECT_EQ(row.why(), "is pulled with 2 kN");
 }

@@ -70,7 +70,7 @@ TEST_F(BranchedSweep, LowersTheVehicleOnceAndEndsAsPlainRunsDo) {
   EXPECT_EQ(behind.rows, decltype(behind.rows)(all.rows.begin() + 6, all.rows.end()));
   EXPECT_NE(contents(folder_ / "branched/sprocket_speed=2/manifest.json").find("branched/settled/checkpoint.h5, step"),
             std::string::npos);
-  // By hand, from the same state.
+  // The same run started by hand from the same state.
   const Outcome hand = run("--resume branched/settled/checkpoint.h5 --set driver.sprocket_speed=2 --out hand --hash");
   EXPECT_EQ(hand.hash().substr(11, 16), hashOf("branched", 1)) << hand.errors;
   const Outcome given = sweep("--set driver.sprocket_speed=1,2 --from-checkpoint branched/settled/checkpoint.h5 "
@@ -78,7 +78,7 @@ TEST_F(BranchedSweep, LowersTheVehicleOnceAndEndsAsPlainRunsDo) {
   EXPECT_EQ(hashOf("given", 0), hashOf("plain", 0)) << given.errors;
   EXPECT_FALSE(fs::exists(folder_ / "given/settled"));
 
-  // Again: nothing; with a value more, that one.
+  // A second call performs nothing; with one more value, only that run.
   const auto ended = [&](const char* what) {
     return fs::last_write_time(folder_ / "branched" / what / "manifest.json");
   };

@@ -28,14 +28,14 @@ CheckCases someCases(bool seeded) {
 
 using Counts = std::vector<int>;
 
-/// Nothing settles, or takes part of no time: a run of the base takes 10 s.
+/// Without settling: a base run takes 10 s.
 RunCosts byStepsAlone() {
   RunCosts costs;
   costs.run = 10;
   return costs;
 }
 
-/// A run of the base takes 10 s and settles its bed in 90 s before; the skin's bed is the base's.
+/// A base run takes 10 s after 90 s of settling; the skin case shares its bed.
 RunCosts withBeds() {
   RunCosts costs = byStepsAlone();
   costs.settling = 90, costs.beds = {0, 1, 0, 3, 4};
@@ -55,7 +55,7 @@ TEST(CheckChoice, ABudgetTakesCasesInOrderThenSeeds) {
   EXPECT_EQ(few.seeds, (Counts{3, 3, 1, 0, 0}));
   EXPECT_EQ(few.beyondBudget, std::vector<std::size_t>{3});
   EXPECT_DOUBLE_EQ(few.seconds, 100);
-  // What is too long is left out; what comes later and is shorter may still fit.
+  // A case that is too long is left out; a later, shorter one may still fit.
   EXPECT_EQ(chooseRuns(someCases(true), 8, 85, byStepsAlone(), 1).seeds, (Counts{3, 0, 1, 3, 0}));
   // All cases with three seeds take 14.5, each more seed 4.5: with 24 there are five.
   EXPECT_EQ(chooseRuns(someCases(true), 8, 240, byStepsAlone(), 1).seeds, (Counts{5, 5, 1, 5, 0}));
@@ -76,7 +76,7 @@ TEST(CheckChoice, EveryRunSettlesItsBedUnlessThatIsThereAlready) {
   RunCosts alone = withBeds();
   alone.beds.clear();
   EXPECT_DOUBLE_EQ(chooseRuns(someCases(true), 2, std::nullopt, alone, 1).seconds, 200 + 220 + 100 + 210);
-  // Of the base both beds are kept, of the half step that of the second seed: what others must settle counts.
+  // Cached: both beds of the base, the second of the half step. The settling of the others counts.
   RunCosts kept = withBeds();
   kept.isKept = [](int bed, int seed) { return bed == 0 || (bed == 1 && seed == 1); };
   EXPECT_DOUBLE_EQ(chooseRuns(someCases(true), 2, std::nullopt, kept, 1).seconds, 20 + 130 + 10 + 210);

@@ -28,13 +28,13 @@ TEST(CheckErrors, OfAPowerOfTheStepTheOrderIsSeenAndTheLimitFound) {
 }
 
 TEST(CheckErrors, NoOrderIsAssumed) {
-  // Errors of either sign below C h: nothing tells an order, and the bar reaches beyond the error at h.
+  // Errors of either sign below C h: no observed order, and the bar exceeds the error at h.
   const std::vector<double> values = {3 + 0.2, 3 - 0.09, 3 + 0.04, 3 - 0.01};
   const StepError e = stepError(values);
   EXPECT_FALSE(e.order);
   EXPECT_GE(e.bar, 0.2);
   EXPECT_LE(e.bar, 0.35);
-  // Two values, or three, show none; a bar there is all the same, of two values twice the change.
+  // Two or three values have no observed order, but a bar; for two it is twice the change.
   EXPECT_FALSE(stepError(converging(3, 0.2, 1, 3)).order);
   EXPECT_NEAR(stepError(converging(3, 0.2, 1, 2)).bar, 0.2, 1e-12);
   EXPECT_TRUE(std::isinf(stepError(std::vector<double>{3.0}).bar));
@@ -61,13 +61,13 @@ TEST(CheckErrors, OfSeedsAnOrderIsSeenOnlyWhereBothIntervalsLeaveOutZero) {
   ASSERT_TRUE(first.order);
   EXPECT_NEAR(*first.order, 1, 1e-12);
   EXPECT_NEAR(first.change.value, -0.2, 1e-12);
-  // Of 4 f - c, seed by seed: -0.22, -0.20, -0.18.
+  // 4 f - c for each seed: -0.22, -0.20, -0.18.
   EXPECT_NEAR(first.change.halfWidth, 4.303 * 0.02 / std::sqrt(3.0), 1e-9);
   EXPECT_NEAR(first.bar, 0.2 + first.change.halfWidth, 1e-12);
   EXPECT_FALSE(scatteredStepError(wide, coarse).order);
   EXPECT_FALSE(scatteredStepError(fine, wide).order);
   EXPECT_FALSE(scatteredStepError(fine, Numbers{0.22, 0.20, 0.18}).order); // other signs
-  // None is assumed, but that h/2 is as wrong as it differs from h.
+  // No order is assumed, only that the error at h/2 equals its difference from h.
   const ScatteredStepError none = scatteredStepError(fine, {});
   EXPECT_FALSE(none.order);
   EXPECT_NEAR(none.change.value, -0.1, 1e-12);

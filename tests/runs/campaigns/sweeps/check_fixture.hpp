@@ -11,7 +11,7 @@
 
 namespace grouser::test {
 
-/// Scenes that are checked in a moment, and what a check of them leaves.
+/// Scenes with a quick check, and its files.
 class Check : public ProgramTest {
 protected:
   using Json = nlohmann::json;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says about a check of its scene.
+// Note of a run on checks of its scene.
 #include "runs/campaigns/sweeps/check_beds.hpp"
 #include "runs/campaigns/sweeps/check_goals.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
@@ -17,7 +17,7 @@
 namespace grouser::sweeps {
 namespace {
 
-const std::filesystem::path kQuickStart = std::filesystem::path(GROUSER_SOURCE_DIR) / "runs/scenes/quickstart.toml";
+const std::filesystem::path kQuickStart = std::filesystem::path(GROUSER_SOURCE_DIR) / "runs/scenes/ball_pit.toml";
 
 TEST(CheckForecast, AFirstLookTakesAboutTheRunsOfItsCases) {
   const scene::Scene scene = setup::loadScene(kQuickStart, {});
@@ -32,7 +32,7 @@ TEST(CheckForecast, AFirstLookTakesAboutTheRunsOfItsCases) {
 }
 
 TEST(CheckForecast, WhereAVehicleDrivesOnGrainsTheCheaperCheckIsNamedFirst) {
-  const scene::Scene scene = setup::loadScene(kQuickStart, {"run.gravity=[0, 0, -9.8]"}); // nobody has checked this
+  const scene::Scene scene = setup::loadScene(kQuickStart, {"run.gravity=[0, 0, -9.8]"}); // never checked
   const double runs = runsOfBarCases(scene, 3);
   const std::string note = checkNote(scene, "", 3600 / runs);
   EXPECT_NE(note.find(" --bar 20% --of sinkage,torque (from 1 h 00 min on; "), std::string::npos) << note;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bars that --of asks for: levels of the looks, coverage on known truths, and the runs that are chosen.
+// Error bars of --of: levels of the looks, coverage for known truths, and selected runs.
 #include "runs/campaigns/sweeps/check_goals.hpp"
 
 #include "base/error.hpp"
@@ -45,7 +45,7 @@ public:
     for (int seed = 0; seed < looks_.most(); ++seed) draw();
   }
 
-  /// Goes on until the check stops; returns the goal.
+  /// Continues until the check stops; returns the goal.
   Goal run() {
     std::vector<int> next = firstLook(cases_, looks_, kAnyFit);
     for (;;) {
@@ -177,7 +177,7 @@ TEST(CheckGoals, SkewedValuesAreHeldAboutAsOftenAsInAPlainCheck) {
 }
 
 TEST(CheckGoals, TheBarOfAnAxisHoldsItsTrueChangeWhereverTheCheckStops) {
-  // The hardest truths lie just above the bar wanted: the check goes on until the change looks small enough.
+  // The hardest truths lie just above the target: the check continues until the change appears small enough.
   for (const double change : {0.1, 0.17, 0.2, 0.22})
     for (const double deviation : {0.05, 0.2}) {
       const double held = axisCoverage({1, 0.02, {change}, {deviation}}, looksUpTo(24, true), 20);
@@ -194,7 +194,7 @@ TEST(CheckGoals, ReadingAnAxisAtEverySeedUndercovers) {
 
 TEST(CheckGoals, SeedsGoWhereTheyNarrowTheBar) {
   std::mt19937 dice(3);
-  // Of two axes one scatters fifty times as much as the other.
+  // One of two axes scatters fifty times as much as the other.
   SyntheticCheck check({1, 0.02, {0, 0}, {0.002, 0.1}}, looksUpTo(24, true), 10, dice);
   const Goal goal = check.run();
   EXPECT_EQ(goal.state, GoalState::met);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A check with --of, as a user calls it.
+// A check with --of from the command line.
 #include "runs/campaigns/sweeps/check_report.hpp"
 #include "tests/runs/campaigns/sweeps/check_fixture.hpp"
 
@@ -89,7 +89,7 @@ TEST_F(CheckOf, ABarBeyondTheMostSeedsIsNamedWithWhatWouldDo) {
   ASSERT_EQ(o.code, 0) << o.errors;
   const Json goal = json("c/check.json").at("of").at(0);
   EXPECT_EQ(goal.at("state"), "not met: beyond --seeds");
-  EXPECT_NE(o.out.find("; largest part: seeds "), std::string::npos) << o.out;
+  EXPECT_NE(o.out.find("; largest contribution: seeds "), std::string::npos) << o.out;
   EXPECT_FALSE(goal.at("met").get<bool>());
 }
 
@@ -116,7 +116,7 @@ TEST_F(CheckOf, WrongWordsAreRefused) {
     EXPECT_EQ(o.error().find(named), 0u) << o.errors;
   }
   // Figures of a vehicle are known before anything is run.
-  const Outcome o = call("check '" + std::string(GROUSER_SOURCE_DIR) + "/runs/scenes/quickstart.toml' --of sinkag");
+  const Outcome o = call("check '" + std::string(GROUSER_SOURCE_DIR) + "/runs/scenes/ball_pit.toml' --of sinkag");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.error().find("choose from sinkage, torque, tension, "), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "out"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a check makes of runs, from runs that are written by hand.
+// Results of a check from synthetic runs.
 #include "runs/campaigns/sweeps/check_results.hpp"
 
 #include "runs/campaigns/sweeps/check_goals_text.hpp"
@@ -145,7 +145,7 @@ TEST_F(CheckResults, WhereSeedsMakeNoDifferenceTheStepsTellTheError) {
   const AxisError e = errorBy(f, CheckAxis::step);
   EXPECT_NEAR(e.change.value, -0.8, 1e-9); // 3 at no step
   EXPECT_NEAR(f.bar, 1.25 * 0.8, 1e-9);
-  // Of coarser runs than the base's too: two values are left for the quarter, none for the eighth.
+  // Also for other steps: two values remain for the quarter, none for the eighth.
   const std::vector<double> bars = f.barOfStep;
   ASSERT_EQ(bars.size(), 4U);
   EXPECT_NEAR(bars[2], 0.2, 1e-9);
@@ -191,15 +191,15 @@ TEST_F(CheckResults, RoundingIsToldByTheLargestFigureOfItsUnit) {
   leftOver_ = 1e-14; // beside a depth of some metres
   add(CheckAxis::base, "base", 0, {3.8});
   add(CheckAxis::step, "half", 1, {3.4});
-  EXPECT_TRUE(isTold(depth()));
-  EXPECT_FALSE(isTold(figure("left over [m] at the end")));
+  EXPECT_TRUE(isAboveRounding(depth()));
+  EXPECT_FALSE(isAboveRounding(figure("left over [m] at the end")));
   // The same beside nothing larger than a nanometre is a length.
   record_ = {}, record_.folder = folder_;
   std::filesystem::remove_all(folder_ / "base0"), std::filesystem::remove_all(folder_ / "half0");
   add(CheckAxis::base, "base", 0, {3.8e-9});
   add(CheckAxis::step, "half", 1, {3.4e-9});
-  EXPECT_TRUE(isTold(depth()));
-  EXPECT_TRUE(isTold(figure("left over [m] at the end")));
+  EXPECT_TRUE(isAboveRounding(depth()));
+  EXPECT_TRUE(isAboveRounding(figure("left over [m] at the end")));
 }
 
 TEST_F(CheckResults, WithoutFinerStepsThereIsNoBar) {

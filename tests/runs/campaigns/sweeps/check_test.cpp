@@ -55,7 +55,7 @@ TEST_F(Check, TheFilesAreTheSameForOneJobTwoJobsAndSeveralCalls) {
   writeHeap();
   ASSERT_EQ(call("check heap.toml --seeds 3 --out one").code, 0);
   ASSERT_EQ(call("check heap.toml --seeds 3 --jobs 2 --out two").code, 0);
-  // A call that begins no run after a moment, one in whose place a run was lost, and one that ends it.
+  // A call with a short time limit, one after a run was lost, and one that finishes the check.
   call("check heap.toml --seeds 3 --out some --seconds 0.05");
   fs::remove(folder_ / "some/base,seed=1/manifest.json");
   ASSERT_EQ(call("check heap.toml --seeds 3 --out some").code, 0);
@@ -105,7 +105,7 @@ TEST_F(Check, ABudgetNamesWhatItLeavesOut) {
   const Json check = json("c/check.json");
   for (const Json& c : check.at("cases")) named = named || c.at("status") == "left out";
   EXPECT_TRUE(named);
-  // Called again it chooses the same runs, whatever the first of them takes now.
+  // A second call selects the same runs, whatever the cost of the first.
   const Outcome again = call(words);
   ASSERT_EQ(again.code, 0) << again.errors;
   EXPECT_EQ(choice(again.out), choice(o.out));
@@ -180,7 +180,7 @@ TEST_F(Check, WhatBoundsABedAtItsSidesLeavesTheWidthOut) {
   };
   EXPECT_EQ(width(""), "run");
   EXPECT_EQ(width(plane("[0, 0.06, 0]", "[0, -1, 0]")),
-            "plane 0 (side) stands at the bed's sides, and would not move with them");
+            "plane 0 (side) stands at a side of the bed and would not move with it");
   EXPECT_EQ(width(plane("[0, 0, -0.1]", "[0, 0, 1]")), "run") << "a level plane is the same beside the bed";
   EXPECT_EQ(width(box("[0.1, 0, 0]", "[0.04, 0.04, 0.3]")), "run") << "a post within it";
   EXPECT_EQ(width(box("[0.1, -0.07, 0]", "[0.3, 0.02, 0.2]")).substr(0, 14), "box 0 stands a");
@@ -202,7 +202,7 @@ TEST_F(Check, ARunSaysWhetherItsSceneHasBeenChecked) {
   ASSERT_EQ(call("check fall.toml --axes precision --out less", keep).code, 0);
   const Outcome still = call("run fall.toml --out r --force", keep);
   EXPECT_NE(still.out.find("error bars by step"), std::string::npos) << still.out;
-  // Of another scene they say nothing.
+  // They do not apply to another scene.
   const Outcome other = call("run fall.toml --out r --force --set run.time_step=5e-4", keep);
   EXPECT_NE(other.out.find("grouser check "), std::string::npos) << other.out;
 }
@@ -278,7 +278,7 @@ TEST_F(Check, TheBarsOfScenesWithAKnownTruthHoldIt) {
   const Outcome held = shell(script + "bounce,pendulum,column --out held --program \"$grouser\"");
   EXPECT_EQ(held.code, 0) << held.out << held.errors;
   EXPECT_NE(held.out.find("all        3 of 3 held"), std::string::npos) << held.out;
-  // Of a program whose bars are a thousandth of what they should be it says so.
+  // Detects a program whose bars are 1000 times too small.
   std::ofstream(folder_ / "boast")
       << "#!/bin/sh\n'" << programUnderTest().string()
       << "' \"$@\" && sed -i 's/\"bar\": \\([0-9.]*\\)/\"bar\": 0.00\\1/' \"$4/check.json\"\n";

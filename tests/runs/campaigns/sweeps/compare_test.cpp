@@ -65,8 +65,7 @@ TEST(Grounds, ABedLosesItsGrains) {
 TEST(Grounds, DeformableSoilBecomesABed) {
   const fs::path scene = shipped("scm_drive.toml");
   EXPECT_NE(fault(scene, {}, TerrainKind::granular)
-                .find("terrain.grain_radius [m] is missing, which granular ground "
-                      "needs; add --set terrain.grain_radius=VALUE"),
+                .find("granular ground requires terrain.grain_radius [m]; add --set terrain.grain_radius=VALUE"),
             std::string::npos);
   EXPECT_NE(fault(scene, {"terrain.grain_radius=0.05"}, TerrainKind::granular).find("--set terrain.depth=VALUE"),
             std::string::npos);
@@ -77,13 +76,11 @@ TEST(Grounds, DeformableSoilBecomesABed) {
 }
 
 TEST(Grounds, NameWhatIsMissing) {
-  EXPECT_NE(fault(shipped("rigid_control.toml"), {}, TerrainKind::scm)
-                .find("is not a soil, which ground scm needs; add "
-                      "--set terrain.material=SOIL"),
+  EXPECT_NE(fault(shipped("rigid_control.toml"), {}, TerrainKind::scm).find("is not; add --set terrain.material=SOIL"),
             std::string::npos);
   EXPECT_EQ(fault(shipped("rigid_control.toml"), {"terrain.material=dry_sand"}, TerrainKind::scm), "");
   EXPECT_EQ(fault(shipped("rigid_control.toml"), {"scm.n=1"}, TerrainKind::scm), "") << "the loader names the others";
-  EXPECT_NE(fault(shipped("drum.toml"), {}, TerrainKind::scm).find("has no [terrain]"), std::string::npos);
+  EXPECT_NE(fault(shipped("drum.toml"), {}, TerrainKind::scm).find("[terrain] is missing"), std::string::npos);
 }
 
 TEST(Grounds, EverySceneOfAVehicleIsConverted) {
@@ -169,7 +166,7 @@ TEST(Compare, TablesHaveEveryPairOfGrounds) {
   EXPECT_EQ(json["rows"][0]["means"][2]["values"].size(), 3u);
   all.variants[0].figures[0] = {NAN, NAN}, all.differences[0].verdicts[0] = all.differences[1].verdicts[0] = "";
   const std::string none = comparisonText(all, 5);
-  EXPECT_NE(none.find("rigid is inconclusive: its runs end before the drive"), std::string::npos) << none;
+  EXPECT_NE(none.find("rigid is inconclusive: its runs end before full speed"), std::string::npos) << none;
   EXPECT_EQ(none.find("scm - rigid"), std::string::npos) << none;
 }
 

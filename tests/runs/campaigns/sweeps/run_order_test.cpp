@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// In which order runs of a sweep are begun, and how much of them is told to be done.
+// Start order of the runs of a sweep, and their progress.
 #include "runs/campaigns/sweeps/run_progress.hpp"
 #include "runs/campaigns/sweeps/runner.hpp"
 #include "runs/setup/grain_count.hpp"
@@ -101,7 +101,7 @@ TEST_F(SweepOrder, ShareDoneIsOfTheTimeAtWhichRunsAreExpectedToEnd) {
   ::testing::internal::CaptureStderr();
   runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {});
   const std::string said = ::testing::internal::GetCapturedStderr();
-  // Of the first 5 s of 8; of the second no more than the 2 s that were expected. The last line is half written.
+  // First run: 5 s of 8 s; second: at most the expected 2 s. The last line is incomplete.
   EXPECT_NE(said.find("sweep:  70.0 %"), std::string::npos) << said;
   EXPECT_EQ(timeReached(folder_), 0);
   std::ofstream(folder_ / "timeseries.csv") << "step,time [s]\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A soil's grains, made finer by `grouser check`: what comes from its file goes with them once.
+// Grain-size case of `grouser check` for a soil: values of the soil file scale once.
 #include "runs/campaigns/sweeps/check_cases.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"

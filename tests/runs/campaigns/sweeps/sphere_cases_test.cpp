@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts cut more finely by `grouser check`: whatever their radius follows from.
+// Sphere case of `grouser check`, for every origin of the sphere radius.
 #include "runs/campaigns/sweeps/check_cases.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The table of a sweep: which part of a run its figures are of, and what they are.
+// Table of a sweep: steady part of a run, and its figures.
 #include "runs/campaigns/sweeps/run_figures.hpp"
 #include "runs/campaigns/sweeps/sweep.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
@@ -103,7 +103,7 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   EXPECT_NEAR(number("integration error [J]"), 3, 1e-8) << "at the end";
   EXPECT_NEAR(number("impulse residual [N s]"), 5, 1e-8);
   EXPECT_EQ(csv.at(0, "drawbar pull [N]"), "") << "what the results lack is empty";
-  // What a report says of this run begins where its figures do: at the end that [stop] has made.
+  // A report uses the same steady part, which depends on the end by [stop].
   const auto told = nlohmann::json::parse(runFiguresText(folder_ / "sprocket_speed=2"));
   ASSERT_TRUE(told["steady_from"].is_number()) << told.dump();
   EXPECT_NEAR(told["steady_from"].get<double>(), 2, 1e-12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sweeps: the product of values, names, what is left out when called again, and a failed run that stops no other.
+// Sweeps: product of values, names, skipped runs of a second call, and a failed run that does not stop others.
 #include "runs/campaigns/sweeps/sweep.hpp"
 #include "runs/setup/load_scene.hpp"
 
@@ -187,8 +187,7 @@ TEST_F(Sweep, RunsThatEndBeforeTheyAreUpToSpeedAreNamed) {
   const Outcome brief = call(words + "--set run.duration=0.02 --set vehicle.sphere_radius=0.03 --seeds 2 --out brief",
                              "export GROUSER_CACHE=cache\n");
   EXPECT_EQ(brief.code, 0) << brief.errors;
-  EXPECT_NE(brief.out.find("note      2 of 2 runs ended before their drive was up to speed, and have no figures"),
-            std::string::npos)
+  EXPECT_NE(brief.out.find("note      2 of 2 runs ended before full speed and have no means"), std::string::npos)
       << brief.out;
   EXPECT_EQ(brief.out.find("slip [-]"), std::string::npos) << "a heading of nothing";
   EXPECT_EQ(call("sweep fall.toml --set run.seed=1,2").out.find("note"), std::string::npos) << "no vehicle, no drive";
@@ -335,7 +334,7 @@ TEST_F(Sweep, TheFolderOfARunIsNone) {
   ASSERT_EQ(call("run fall.toml --out one").code, 0);
   const Outcome o = call("sweep fall.toml --set run.seed=1,2 --out one");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.error().find("one: holds the results of a run"), std::string::npos) << o.errors;
+  EXPECT_NE(o.error().find("one: contains the results of a run"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "one/summary.csv"));
   EXPECT_EQ(call("sweep fall.toml --set output.folder=a,b").code, 2);
 }
@@ -349,7 +348,7 @@ TEST_F(Sweep, WhoeverStartedItMayIgnoreEndsOfProcesses) {
 
 TEST_F(Sweep, RunsAtTheSameTimeTakeTheGpusInTurn) {
   unsetenv("GROUSER_GPU");
-  // A program that does nothing but say which GPU it was given; on the first it takes long.
+  // A program that only prints its GPU; it is slow on the first.
   const fs::path program = folder_ / "says.sh";
   std::ofstream(program) << "#!/bin/sh\necho gpu $GROUSER_GPU\n[ $GROUSER_GPU = 1 ] || sleep 2\n";
   fs::permissions(program, fs::perms::owner_all);
@@ -388,7 +387,7 @@ TEST_F(Sweep, TablesOfOtherOriginAreKept) {
     put(out() / name, "run,marks,status\nthesis,1,good\n");
     const Outcome o = call("sweep fall.toml --set run.seed=1,2 --out out");
     EXPECT_EQ(o.code, 2) << name;
-    EXPECT_NE(o.error().find(std::string("out/") + name + ": is a file that no sweep has written"), std::string::npos)
+    EXPECT_NE(o.error().find(std::string("out/") + name + ": exists but was not written by a sweep"), std::string::npos)
         << o.errors;
     EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
     EXPECT_EQ(contents(out() / name), "run,marks,status\nthesis,1,good\n");
@@ -418,7 +417,7 @@ TEST_F(Sweep, StoppedOneEndsItsRunsAndSaysWhatIsReady) {
                                 "s/duration=1e-3/manifest.json; do sleep 0.01; done\nsleep 0.2\n"
                                 "kill -TERM $pid\nwait $pid\nexit $?");
   EXPECT_EQ(stopped.code, 143) << stopped.errors;
-  EXPECT_NE(stopped.errors.find("grouser: stopped by SIGTERM after 1 of 2 runs; go on with: "), std::string::npos)
+  EXPECT_NE(stopped.errors.find("grouser: stopped by SIGTERM after 1 of 2 runs; resume with: "), std::string::npos)
       << stopped.errors;
   EXPECT_NE(contents(folder_ / "s/duration=50/manifest.json").find("\"stopped\""), std::string::npos);
 }
@@ -463,7 +462,7 @@ TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
   plan.scene = folder_ / "none.toml";
   for (SweepRun& run : plan.runs) run.file = scene();
   SweepOptions o = options();
-  o.failuresStay = true;
+  o.keepFailures = true;
   const auto again = [&] { return runMissing(plan, o, "sweep", [](const std::vector<SweepOutcome>&) {}); };
   const std::vector<SweepOutcome> first = again();
   ASSERT_EQ(first[0].status, output::RunStatus::finished) << first[0].message;
@@ -474,7 +473,7 @@ TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
   EXPECT_EQ(ended(fast), before);
   EXPECT_EQ(second[1].status, output::RunStatus::failed);
   EXPECT_EQ(second[1].message, first[1].message);
-  o.failuresStay = false;
+  o.keepFailures = false;
   again();
   EXPECT_NE(ended(fast), before);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The benches compute the same physics as runs, and their figures are whole.
+// Benchmarks compute the same physics as runs, and their figures are complete.
 #include "runs/setup/load_scene.hpp"
 #include "runs/validation/bench/bench.hpp"
 
@@ -26,7 +26,7 @@ BedBench tinyBed() {
   return b;
 }
 
-/// The coupled scene, unsettled and coarse: what is compared are bits.
+/// The coupled scene, unsettled and coarse, for comparison of bits.
 scene::Scene shortScene() {
   return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
                           {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
@@ -124,7 +124,7 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   const Outcome bed = call("bench bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash "
                            "--json bed.json");
   ASSERT_EQ(bed.code, 0) << bed.errors;
-  for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes a grain",
+  for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes per grain",
                            "at the peak", "machine ", "commit ", "state-hash "})
     EXPECT_NE(bed.out.find(part), std::string::npos) << part << "\n" << bed.out;
   const nlohmann::json b = nlohmann::json::parse(contents(folder_ / "bed.json"));
@@ -142,8 +142,8 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
                             " --set terrain.settle_time_limit=0 --set vehicle.sphere_radius=0.03 --after 0.03 "
                             "--steps 10 --batches 2 --threads 1 --device cpu --json step.json");
   ASSERT_EQ(step.code, 0) << step.errors;
-  for (const char* part : {"without clocks", "sum is larger", "grain kernel", "multibody", "track contacts",
-                           "grain on grain", "grain on part", "memory "})
+  for (const char* part : {"without internal timers", "instrumented pass", "grain kernel", "multibody",
+                           "track contacts", "grain on grain", "grain on part", "memory "})
     EXPECT_NE(step.out.find(part), std::string::npos) << part << "\n" << step.out;
   const nlohmann::json s = nlohmann::json::parse(contents(folder_ / "step.json"));
   double sum = 0;
@@ -161,8 +161,7 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   EXPECT_EQ(call("bench step nosuch.toml").code, 2);
 }
 
-/// `grouser bench step` of a vehicle whose ramps are over after 0.02 s; batch and instrumented pass are ten steps of
-/// 1e-4 s.
+/// `grouser bench step` of a vehicle whose ramps end at 0.02 s; batch and instrumented pass: ten steps of 1e-4 s.
 class BenchStep : public BenchCommands {
 protected:
   nlohmann::json timed(const std::string& words) const {
@@ -200,7 +199,7 @@ TEST_F(BenchStep, SaysHowTheVehicleMovesAtEachTime) {
 TEST_F(BenchStep, RefusesATimeThatIsNone) {
   const Outcome wrong = call("bench step x.toml --after driven");
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.errors.find("driven is neither a time in seconds of at least 0, nor drive, nor such as drive+0.5"),
+  EXPECT_NE(wrong.errors.find("driven is not a time in seconds of at least 0, drive, or drive+TIME, e.g. drive+0.5"),
             std::string::npos)
       << wrong.errors;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The bench of the multibody solver steps what it says, and its figures are whole.
+// The multibody benchmark runs the models it prints, and its figures are complete.
 #include "runs/validation/bench/multibody.hpp"
 
 #include "tests/runs/program_fixture.hpp"

@@ -16,7 +16,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 constexpr std::int64_t kDiameter = 150'000'001;
 
-/// Spheres evenly at random in a box of these edges, in diameters, about a middle.
+/// Uniform random spheres in a box with these edges [diameters] around a centre.
 std::vector<Position> randomSpheres(std::uint64_t seed, int count, const base::Vec3d& box,
                                     const base::Vec3d& middle = {}) {
   std::vector<Position> spheres;

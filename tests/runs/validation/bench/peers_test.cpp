@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The script that times one core of grouser beside LIGGGHTS and LAMMPS, with a stand-in for both, and the files of beds
-// that it hands from one to the other.
+// The script that compares the speed of grouser, LIGGGHTS and LAMMPS on one core, with a stand-in for the latter two,
+// and the bed files it exchanges.
 #include "runs/validation/bench/bench.hpp"
 
 #include "tests/runs/program_fixture.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What features cost: nothing when they are off. Times decide no test.
+// Cost of features: nothing when they are off. No test depends on times.
 #include "runs/validation/studies/features.hpp"
 #include "tests/runs/program_fixture.hpp"
 
@@ -45,7 +45,7 @@ TEST(FeatureCosts, WhatIsOnTakesMemoryAndChangesTheState) {
     EXPECT_GT(c.bytesWith, c.bytesWithout) << name;
   }
   EXPECT_GT(cost("radii").bytesWith, cost("radii").bytesWithout);
-  EXPECT_TRUE(cost("no_ledger").sameState) << "books change no motion";
+  EXPECT_TRUE(cost("no_ledger").sameState) << "energy accounting changes no motion";
 }
 
 jobs::Table pairs(const std::vector<std::vector<double>>& times, double bytesWith, double same) {
@@ -86,7 +86,8 @@ TEST_F(FeaturesStudy, GoesOnWithWhatIsThereAndKnowsItsFeatures) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "results/runs/off_rolling.csv"));
   const Outcome none = call(words + "colour --force");
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.error().find("--features colour: is none of friction, rolling"), std::string::npos) << none.errors;
+  EXPECT_NE(none.error().find("--features colour: unknown; features are friction, rolling"), std::string::npos)
+      << none.errors;
 }
 
 TEST_F(FeaturesStudy, OfRanksBothEndInTheSameState) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which steps the grains take: small maps against the predicted limits, and the modes these come from.
+// Stable steps of grains: small maps against predicted limits, and the underlying modes.
 #include "base/math.hpp"
 #include "runs/validation/studies/grain_stability.hpp"
 

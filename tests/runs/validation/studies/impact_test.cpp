@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The study of impacts: its references are the known closed forms, and the step meets them with the known order.
+// Impact study: references are known closed forms, errors have the expected order.
 #include "base/math.hpp"
 #include "runs/validation/studies/impact_report.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 using terrain::Precision;
 
-/// Linear law, radius 5 mm, 2600 kg/m3, 1e5 N/m, on a wall at 1 m/s; found by hand and by an independent integration.
+/// Linear law, radius 5 mm, 2600 kg/m3, 1e5 N/m, on a wall at 1 m/s; by hand and by an independent integration.
 struct ClosedForm {
   double zeta, durationFree, free, overlap, durationClamped, clamped;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Means, their errors and medians that the tables of studies state; and what a shear test says of its load.
+// Means, errors and medians in tables of studies; load of a shear test.
 #include "runs/jobs/estimate.hpp"
 #include "runs/jobs/study_place.hpp"
 #include "runs/validation/studies/shear.hpp"

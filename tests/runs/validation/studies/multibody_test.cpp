@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The study of the multibody solver: its references, and what the solver attains against them.
+// Multibody study: references, and accuracy of the solver.
 #include "runs/validation/studies/elliptic.hpp"
 #include "runs/validation/studies/multibody.hpp"
 #include "runs/validation/studies/report.hpp"
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(All, StudyAccuracy,
                                            "top_free", "ring46"),
                          [](const auto& claim) { return std::string(claim.param); });
 
-/// Imposed motions and constant accelerations: what is left is round-off over the steps.
+/// Imposed motions and constant accelerations: only round-off remains.
 TEST(StudyAccuracy, RattleIsExactWhereTheMotionIsImposedOrAParabola) {
   const auto cases = studyCases();
   for (const char* name : {"universal", "slidercrank", "cylindrical", "gears"}) {
@@ -107,7 +107,7 @@ TEST(StudyStability, IsAsPredicted) {
   const std::vector<StabilityPoint> points = studyStability();
   for (const StabilityPoint& p : points) {
     EXPECT_TRUE(p.stable || !p.predicted) << p.what << ", " << p.integrator << " at " << p.step << " s";
-    // What is refused is refused beyond the limit only; far beyond it nothing holds.
+    // Rejected only above the limit; far above it nothing is stable.
     EXPECT_FALSE(p.refused && p.predicted) << p.what << " at " << p.step;
     EXPECT_FALSE(p.stable && p.step > 2 * p.limit) << p.what << " at " << p.step;
   }

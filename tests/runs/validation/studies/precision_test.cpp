@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// ContactGeometry decided in several arithmetics, and how runs of both precisions drift apart.
+// Contact decisions in several arithmetics, and drift between runs of both precisions.
 #include "runs/validation/studies/drift.hpp"
 #include "runs/validation/studies/touch.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random scenes: all of them valid and spread as wide as they claim; sound at the steps that a run chooses and allows;
-// and a trial of steps tells sound from unsound.
+// Random scenes: valid, with the documented ranges, sound at automatic steps and step limits; trials distinguish sound
+// from unsound steps.
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random vehicles: drawn alike from one seed, of all kinds, most of them valid; a few of them run.
+// Random vehicles: reproducible from the seed, of all kinds, mostly valid; a few are run.
 #include "base/error.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/storage/sphere_cache.hpp"
@@ -84,9 +84,9 @@ TEST(RandomVehicle, OfABedIsJudgedByItsBooksAndItsCause) {
   t.figures = {0.5, 0.4, 0.39, 0.001, 2000, 5000, NAN, 3000, 1, 1e5, 1e-13};
   const auto verdict = [&bed](const VehicleTrial& trial) { return judgeRandom(bed, {{trial}}).verdict; };
   EXPECT_EQ(verdict(t), MapVerdict::sound);
-  t.figures.leftOver = 1e-6;
+  t.figures.energyResidual = 1e-6;
   EXPECT_EQ(verdict(t), MapVerdict::silentlyWrong);
-  t.figures.leftOver = 0, t.figures.speed = NAN;
+  t.figures.energyResidual = 0, t.figures.speed = NAN;
   EXPECT_EQ(verdict(t), MapVerdict::silentlyWrong);
   t.end = TrialEnd::stopped, t.cause = "of a cause that nobody knows", t.blamed = base::Cause::unknown;
   EXPECT_EQ(verdict(t), MapVerdict::wrongCause);
@@ -112,7 +112,7 @@ TEST_F(RandomVehicleStudy, SaysWhatIsWrongOfRunsThatAreThere) {
   const std::string words = "study random-vehicles --vehicles 2 --out results";
   const Outcome none = call(words + " --seconds 1e-9");
   ASSERT_EQ(none.code, 0) << none.errors;
-  EXPECT_NE(none.out.find("vehicles are missing"), std::string::npos) << none.out;
+  EXPECT_NE(none.out.find("vehicles missing"), std::string::npos) << none.out;
   const std::string numbers =
       "step [s],end,reached [s],wall [s],cause,speed [m/s],height [m],lowest height [m],pitch [rad],"
       "power [W],tension [N],sinkage [m],dissipated [J],integration error [J],turnover "

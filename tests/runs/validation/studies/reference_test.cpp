@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The script that pushes one plate in grouser and in LIGGGHTS, with a stand-in for the latter.
+// The script that pushes a plate in grouser and in LIGGGHTS, with a stand-in for the latter.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST_F(PlateReference, ComparesWhatBothProgramsHaveMeasured) {
   EXPECT_GT(bed.size(), 1000u);
   EXPECT_FALSE(fs::exists(first / "liggghts.csv"));
 
-  // One that reads its script and feels a tenth more than grouser did.
+  // A stand-in that reads its script and returns forces a tenth higher than grouser's.
   put(folder_ / "stand-in", "#!/bin/sh\nset -e\ngrep -q 'hooke/stiffness' in.plate\ngrep -q '^facet' plate.stl\n"
                             "grep -q 'atoms' bed.data\n"
                             "awk -F, '!/#/ { print NR, $1, 1.1 * $2 }' grouser.csv > liggghts.txt\n");

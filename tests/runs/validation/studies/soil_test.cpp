@@ -87,7 +87,7 @@ TEST(StudyBed, RestIsThatOfThreeLooksOrTheTimeIsUp) {
     virtual_tests::failRestless(7, 6.3, 2e-3);
     FAIL();
   } catch (const base::SimulationError& e) { // the test alone is left out: exit code 3
-    EXPECT_NE(std::string(e.what()).find("seed 7 did not come to rest within 6.3 s: its grains move on with 0.002"),
+    EXPECT_NE(std::string(e.what()).find("seed 7 did not come to rest within 6.3 s: mean kinetic energy 0.002"),
               std::string::npos)
         << e.what();
   }
@@ -186,7 +186,7 @@ TEST_F(SoilSample, StressFromContactsIsThatOnThePlates) {
   EXPECT_LT(s.porosityBefore, 0.46);
 }
 
-/// What is poured does not depend on the load: it is kept, and whether it was there changes nothing.
+/// The poured sample does not depend on the load: it is cached, without effect on results.
 TEST_F(SoilSample, WhatIsPouredIsKeptForOtherLoads) {
   virtual_tests::ShearCell cell;
   cell.length = 6, cell.width = 5, cell.depth = 5, cell.inertialNumber = 5e-2, cell.strain = 0.04, cell.rows = 4;
@@ -238,7 +238,7 @@ virtual_tests::ShearStrength stickingLayer(bool pressesIn, int seeds, const std:
   return mean;
 }
 
-/// One sample by itself scatters: which is the larger, and no figure.
+/// A single sample scatters: checks only which value is larger.
 TEST_F(SoilSample, OneThatSticksIsShearedMoreWhereTeethArePressedIn) {
   const virtual_tests::ShearStrength in = stickingLayer(true, 1, folder_), upon = stickingLayer(false, 1, folder_);
   EXPECT_GT(in.sheared, upon.sheared);
@@ -345,7 +345,7 @@ TEST(Lifts, AreAsThickInADeeperBed) {
   EXPECT_EQ(virtual_tests::liftTops(bed), (std::vector<double>{0.48}));
 }
 
-/// Grains so small that they trickle through the fixed ones; one that fell on would be waited for in vain.
+/// Grains small enough to fall through the fixed ones, which would never come to rest.
 TEST(PlateBed, WhatFindsAHoleInTheFloorIsCaught) {
   virtual_tests::Soil soil;
   virtual_tests::BedPreparation bed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability maps of the vehicle: the judge tells sound from wrong, steps beyond the predicted limit are
-// refused, and where nobody refuses them a guard stops the run and names the step.
+// Stability maps of the vehicle: verdicts are correct, steps above the predicted limit are rejected, and without that
+// check a guard stops the run and names the step.
 #include "coupling/simulation.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/validation/studies/vehicle_stability.hpp"
@@ -80,11 +80,11 @@ TEST(VehicleVerdict, EveryComparedFigureThatDiffersMakesARunSilentlyWrong) {
 }
 
 TEST(VehicleVerdict, BooksThatDoNotCloseAreSilentlyWrong) {
-  for (const double leftOver : {1e-6, -1e-6, double(NAN)}) {
+  for (const double energyResidual : {1e-6, -1e-6, double(NAN)}) {
     VehicleTrial run = soundTrial();
-    run.figures.leftOver = leftOver;
-    EXPECT_EQ(judge(run, soundTrial(), false).verdict, MapVerdict::silentlyWrong) << leftOver;
-    EXPECT_EQ(judge(soundTrial(), run, false).verdict, MapVerdict::silentlyWrong) << leftOver;
+    run.figures.energyResidual = energyResidual;
+    EXPECT_EQ(judge(run, soundTrial(), false).verdict, MapVerdict::silentlyWrong) << energyResidual;
+    EXPECT_EQ(judge(soundTrial(), run, false).verdict, MapVerdict::silentlyWrong) << energyResidual;
   }
 }
 
@@ -152,8 +152,8 @@ TEST(VehicleNeighbours, ADifferenceBeyondTheirScatterIsSilentlyWrong) {
   EXPECT_EQ(judge(struck, false).verdict, MapVerdict::silentlyWrong);
   struck[0].run.figures.blow = 4.1;
   EXPECT_EQ(judge(struck, false).verdict, MapVerdict::warned);
-  struck[2].finer.figures.leftOver = 1e-6;
-  EXPECT_EQ(judge(struck, false).verdict, MapVerdict::silentlyWrong) << "no blow opens books";
+  struck[2].finer.figures.energyResidual = 1e-6;
+  EXPECT_EQ(judge(struck, false).verdict, MapVerdict::silentlyWrong) << "impacts do not open the energy balance";
   // The same of a figure in which the pair itself agrees.
   std::vector<TrialPair> pairs = neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 4900, 5400, 5100, 5600, 5000});
   for (std::size_t i = 1; i < pairs.size(); ++i) pairs[i].finer.figures.power = 3000;
@@ -174,7 +174,7 @@ TEST(VehicleNeighbours, ScatterThatTheStepMakesIsSilentlyWrong) {
   const Judgement judgement =
       judge(neighbours({5700, 4400, 7000, 4900, 5600, 5200}, {5000, 5020, 4990, 5010, 5000, 4980}), false);
   EXPECT_EQ(judgement.verdict, MapVerdict::silentlyWrong);
-  EXPECT_NE(judgement.why.find("the step makes it"), std::string::npos) << judgement.why;
+  EXPECT_NE(judgement.why.find("caused by the step"), std::string::npos) << judgement.why;
   EXPECT_EQ(
       judge(neighbours({5700, 5000, 5020, 4990, 5010, 4980}, {5000, 5900, 4400, 5010, 5600, 4800}), false).verdict,
       MapVerdict::scatters)
@@ -190,7 +190,7 @@ TEST(VehicleNeighbours, OneThatIsNotSoundMakesThePointWrong) {
     trial = stoppedTrial(kUnstable);
     EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong);
     EXPECT_NE(judge(pairs, false).why.find("unstable"), std::string::npos) << judge(pairs, false).why;
-    trial = sound, trial.figures.leftOver = 1e-6;
+    trial = sound, trial.figures.energyResidual = 1e-6;
     EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong);
     trial = sound, trial.figures.speed = NAN;
     EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong);
@@ -204,7 +204,7 @@ TEST(VehicleNeighbours, AreAskedForFiguresAlone) {
   EXPECT_FALSE(figuresDisagree(soundTrial(), soundTrial(), false));
   EXPECT_FALSE(figuresDisagree(soundTrial(), stoppedTrial(kThrown), false));
   EXPECT_FALSE(figuresDisagree(stoppedTrial(kThrown), apart, false));
-  apart.figures.leftOver = 1e-6;
+  apart.figures.energyResidual = 1e-6;
   EXPECT_FALSE(figuresDisagree(soundTrial(), apart, false));
   // Nor do neighbours change another verdict.
   std::vector<TrialPair> pairs = neighbours({5000, 9000, 1000, 5000, 4000, 7000}, {5000, 9000, 1000, 5000, 4000, 7000});
@@ -354,7 +354,7 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
   EXPECT_NE(csv.find(",refused,"), std::string::npos) << csv;
   EXPECT_TRUE(fs::exists(folder_ / "results" / "vehicle.png") || sound.errors.find("python3") != std::string::npos);
 
-  // A finer run that says otherwise ends the study with a code of its own.
+  // A contradicting finer run leads to a separate exit code.
   const auto withSpeeds = [&numbers](double run, double finer) {
     return fmt::format("{}1e-4,0,0.7,1,0,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n"
                        "2.5e-5,0,0.7,1,0,{},0.4,0.39,0,2000,5000,nan,3000,1,1e5,0,0.5,2000,1.2\n",

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "runs/commands/run_summary.hpp"
+
+#include "base/math.hpp"
+#include "runs/campaigns/sweeps/run_figures.hpp"
+#include "runs/jobs/estimate.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace grouser::commands {
+
+namespace {
+
+struct Line {
+  const char* label;
+  const char* figure; ///< name in the summary of a sweep
+  double scale;
+  const char* unit;
+  const char* note;
+};
+constexpr Line kLines[] = {{"speed", "speed [m/s]", 1, "m/s", ""},
+                           {"slip", "slip [-]", 100, "%", ""},
+                           {"sinkage", "sinkage mean [m]", 1e3, "mm", "mean of the shoes in ground contact"},
+                           {"torque", "drive torque [N m]", 1, "N m", "both sprockets"}};
+
+/// Error bar of a figure by the last check of the scene; infinite without one.
+double barOf(const nlohmann::json& run, const char* name) {
+  const nlohmann::json& kept = run.at("check");
+  if (!kept.is_object()) return base::kInfinity;
+  for (const nlohmann::json& f : kept.at("check").at("figures"))
+    if (f.at("name") == name && f.at("bar").is_number()) return f.at("bar");
+  return base::kInfinity;
+}
+
+std::string valueOf(const nlohmann::json& run, const Line& line) {
+  for (const nlohmann::json& f : run.at("figures")) {
+    if (f.at("name") != line.figure || !f.at("value").is_number()) continue;
+    const double value = line.scale * f.at("value").get<double>(), bar = line.scale * barOf(run, line.figure);
+    return fmt::format("{} {}", std::isfinite(bar) ? jobs::valueText({value, bar}) : fmt::format("{:.3g}", value),
+                       line.unit);
+  }
+  return {};
+}
+
+nlohmann::json figuresOf(const std::filesystem::path& folder) {
+  return nlohmann::json::parse(sweeps::runFiguresText(folder));
+}
+
+} // namespace
+
+std::string energyText(const output::Summary& summary) {
+  const double converted = summary.figures.at("energy_converted_J");
+  if (!(converted > 0)) return {};
+  return fmt::format("energy    balance closes within {:.0e} of {:.3g} J converted; time-integration error {:.2g} %\n",
+                     std::fabs(summary.figures.at("energy_residual_J")) / converted, converted,
+                     100 * std::fabs(summary.figures.at("integration_error_J")) / converted);
+}
+
+std::string driveFiguresText(const std::filesystem::path& folder, const std::filesystem::path& beside,
+                             const std::string& incomplete) {
+  const nlohmann::json run = figuresOf(folder);
+  const nlohmann::json other = beside.empty() ? nlohmann::json() : figuresOf(beside);
+  std::string text;
+  for (const Line& line : kLines) {
+    const std::string value = valueOf(run, line);
+    if (value.empty()) continue;
+    const std::string second = other.is_object() ? valueOf(other, line) : "";
+    if (text.empty() && other.is_object())
+      text += fmt::format("{:<10}{:<24}{}\n", "", folder.filename().string(), beside.filename().string());
+    text += fmt::format("{:<10}{:<24}{:<24}{}", line.label, value, second, line.note);
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += '\n';
+  }
+  if (text.empty()) return text;
+  if (const std::string doubt = run.value("inconclusive", ""); !doubt.empty() && doubt != incomplete)
+    text = fmt::format("WARNING: the figures are inconclusive: {}\n", doubt) + text;
+  return text;
+}
+
+} // namespace grouser::commands

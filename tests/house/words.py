@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rule on language: phrases and openings that plain English does not have, in documents, messages, help and
+comments."""
+import re
+
+from checkout import line_at
+
+#: Phrases, each with what to write instead.
+PHRASES = {
+    r'\b(?:is|are|was|were|be|been) told\b': 'prints, reports, names',
+    r'\b(?:is|are) asked for\b': 'requires, requests',
+    r'\b(?:goes|go|going) with\b': 'depends on, belongs to, requires',
+    r'\bheld against\b': 'compared with',
+    r'\bsay(?:s)? the same\b': 'mutually exclusive, equal',
+    r'\bleave (?:that|this|it|one) out\b': 'remove',
+    r'\bis no (?:command|case|key|section|work|number)\b.*\bfor\b': 'does not support',
+    r'\bWhoever\b': 'a noun',
+    r'\b(?:left over)\b': 'residual',
+    r'\bjust as well\b': 'equally',
+    r'\bit comes to\b': 'it is',
+    r'\bwhat hangs on\b': 'loads on',
+}
+#: Openings of documentation comments that name nothing.
+OPENINGS = r'(?:Of|What|Whoever|Whose|How|Those|That which|By what)\b'
+#: Files whose words are data: columns of stored results, and this list.
+EXCEPTIONS = {'tests/house/words.py', 'tests/house/words_test.py',
+              'runs/validation/studies/trial_files.hpp', 'runs/validation/studies/random_vehicles_command.cpp'}
+
+
+def words(house):
+    """Texts use plain English: no phrase of the list in tests/house/words.py, and comments begin with what they are
+    about."""
+    for path in [*house.code, *house.documents]:
+        if path in EXCEPTIONS or path.startswith(('tests/', 'docs/evidence/')) or path == 'CHANGELOG.md':
+            continue
+        text = house.text[path]
+        for phrase, better in PHRASES.items():
+            for match in re.finditer(phrase, text):
+                yield f'{path}:{line_at(text, match.start())}: "{match[0]}"; better: {better}'
+        if path not in house.documents:
+            for match in re.finditer(rf'^[ \t]*/// ({OPENINGS})', text, re.M):
+                yield f'{path}:{line_at(text, match.start(1))}: a comment begins with "{match[1]}"; name its subject first'
