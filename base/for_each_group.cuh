@@ -50,8 +50,8 @@ template <int kWidth, class Body> __global__ void __launch_bounds__(kGroupBlock)
 #endif
 
 /// Runs `body(i, group)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
-/// work on each item. For items that walk lists long enough to keep a thread waiting. On the CPU a body with
-/// runOnCpu(first, last) receives all items of a thread at once.
+/// work on each item. For bodies that walk lists too long for a single thread per item. On the CPU, a body that has
+/// runOnCpu(first, last) is given a thread's whole range at once.
 template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;

@@ -18,7 +18,7 @@ constexpr std::size_t kWords = 8; // of one patch between a grain and a part
 static_assert(sizeof(std::uint64_t) + sizeof(PatchMemory) == kWords * sizeof(std::uint32_t));
 
 [[noreturn]] void refuse() {
-  throw base::InputError("the checkpoint holds contacts of another vehicle; resume with the scene that was run");
+  throw base::InputError("the checkpoint belongs to another vehicle; resume with the scene that was run");
 }
 
 } // namespace

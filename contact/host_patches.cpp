@@ -62,7 +62,7 @@ SavedPatches HostPatches::save() const {
 
 void HostPatches::restore(const SavedPatches& saved) {
   if (saved.states.size() != states_.size() || saved.sums.size() != 1)
-    throw base::InputError("the checkpoint holds contacts of another vehicle; resume with the scene that was run");
+    throw base::InputError("the checkpoint belongs to another vehicle; resume with the scene that was run");
   states_ = saved.states;
   elastic_ = saved.sums[0].elastic;
   pressed_.clear();

@@ -41,8 +41,9 @@ Partition::Partition(const std::array<int, 3>& shape, const base::Vec3l& low, co
     : shape_(shape) {
   for (std::size_t a = 0; a < 3; ++a) {
     if (shape[a] < 1 || shape[a] > kMostSubdomainsAnAxis)
-      throw base::InputError(fmt::format("{} subdomains along {} are outside [1, {}]; change parallel.subdomains",
-                                         shape[a], "xyz"[a], kMostSubdomainsAnAxis));
+      throw base::InputError(
+          fmt::format("the number of subdomains along {}, {}, is outside [1, {}]; change parallel.subdomains", "xyz"[a],
+                      shape[a], kMostSubdomainsAnAxis));
     cuts_[a] = migrate(shape[a], low[static_cast<int>(a)], high[static_cast<int>(a)], weights[a]);
   }
 }

@@ -116,8 +116,8 @@ public:
                        contact::PartLoad* /*loads*/) {
     throw std::logic_error("a ground without onHost must override compute()");
   }
-  /// Computes the contacts of this step on one thread in host memory: called instead of compute() with the trait
-  /// onHost. refreshContacts() is then not called, and every rank computes all loads.
+  /// Called instead of compute() if the ground has the trait onHost. Computes the contacts of this step on one thread
+  /// in host memory; refreshContacts() is then not called, and every rank computes all loads.
   virtual void computeOnHost(const contact::PartMotion*, contact::PartLoad* /*loads*/) {
     throw std::logic_error("a ground with onHost must override computeOnHost()");
   }

@@ -25,7 +25,8 @@ std::vector<double> Ledger::counted() const {
 
 void Ledger::setCounted(const std::vector<double>& numbers) {
   if (numbers.size() != counted().size())
-    throw base::InputError("the checkpoint has another form of ledger; resume with the program version that wrote it");
+    throw base::InputError("the checkpoint's energy ledger has a different layout; resume with the program version "
+                           "that wrote it");
   std::size_t k = 0;
   forCounted(*this, [&](double& x) { x = numbers[k++]; });
 }

@@ -15,8 +15,8 @@ namespace grouser::coupling {
 
 namespace {
 
-constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another law
-constexpr double kPreparedPull = 1e-4;                     // of cohesion and adhesion [-]; 0 would be another law
+constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 is a different law
+constexpr double kPreparedPull = 1e-4;                     // of cohesion and adhesion [-]; 0 is a different law
 constexpr double kClose = 0.002;                           // of porosities [-]
 constexpr double kOff = 0.01; // tolerance of porosities beyond the ends of the bisection [-]
 constexpr int kTrials = 10;
@@ -36,7 +36,7 @@ double porosityAt(const PreparationSetup& preparation, double friction, const ba
   return structureOf(ground).porosity;
 }
 
-/// Remedy for a bed on a too steep floor; empty if it is not.
+/// Advice for a bed whose floor is too steep; empty if the slope is acceptable.
 std::string steepnessText(const LaidGround& ground) {
   const terrain::HeightFieldBounds& floor = ground.rigid->bounds();
   if (!(floor.slope > kSteep) || floor.highest - floor.lowest < kStep * ground.grains->model().radius) return "";

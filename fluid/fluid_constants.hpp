@@ -20,7 +20,7 @@ struct FluidConstants {
   float sound2{};                  ///< c^2 [m2/s2]
   float artificial{};              ///< alpha h c [m2/s]
   float laminar{};                 ///< twice the kinematic viscosity [m2/s]
-  float central{};                 ///< factor d + 2 of the central operator; 0: that of Morris [-]
+  float central{};                 ///< factor d + 2 of the central operator; 0: Morris operator [-]
   float contact{};                 ///< distance within which markers repel particles [m]
   float diffusion{};               ///< -2 delta h c [m2/s]
   base::Vec3f gravityOverSound2{}; ///< [1/m]

@@ -18,7 +18,7 @@ struct FluidModel {
   double soundSpeed = 0;  ///< numerical, far below that of water [m/s]
   double viscosity = 0;   ///< dynamic [Pa s]
   /// Viscosity by the central operator of Monaghan and Gingold (1983), which keeps angular momentum and is right at
-  /// free surfaces (Colagrossi et al. 2011); else by that of Morris et al. (1997), which is more accurate at walls.
+  /// free surfaces (Colagrossi et al. 2011); else by the Morris operator (1997), which is more accurate at walls.
   bool centralViscosity = false;
   double artificialViscosity = 0.02; ///< alpha of Monaghan (1992) between fluid particles that approach [-]
   double diffusion = 0.1;            ///< delta of the density diffusion of Fourtakas et al. (2019) [-]

@@ -8,8 +8,8 @@ namespace grouser::multibody {
 
 /// Position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint's axis; kOnly if there is one axis.
 AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis = JointAxis::kOnly);
-/// Force a drive exerted on B along its axis in the last step [N m] or [N], and its power [W], positive when it puts
-/// energy into the mechanism.
+/// Force [N] or torque [N m] that a drive exerted on B along its axis in the last step; and the drive's power [W],
+/// positive when it puts energy into the mechanism.
 double driveForce(const Model& model, const State& state, int drive);
 double drivePower(const Model& model, const State& state, int drive);
 

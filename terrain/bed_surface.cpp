@@ -57,7 +57,7 @@ BedSurface::BedSurface(const Rectangle& area, double diameter, std::vector<doubl
   layGrid(diameter);
   if (heights_.size() != static_cast<std::size_t>(columns_) * rows_)
     throw InputError(
-        fmt::format("surface of the bed: {} heights for a grid of {} x {} nodes", heights_.size(), columns_, rows_));
+        fmt::format("bed surface: got {} heights, but the grid has {} x {} nodes", heights_.size(), columns_, rows_));
 }
 
 BedSurface::BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area,

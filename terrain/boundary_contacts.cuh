@@ -179,7 +179,7 @@ private:
     return now;
   }
 
-  /// One contact; its springs are in world axes, or in axes rotated by `turned` since the start.
+  /// Computes one contact; spring displacements are in world axes, or in axes rotated by `turned` since the start.
   GROUSER_HD Reaction react(const Grain& grain, int boundary, const contact::BasicContactGeometry<Real>& touch,
                             const Vec& spin, const base::Mat3d* turned, Load& sum, Losses& lost) const {
     const contact::BasicLaw<Real>& law = Kernel::boundaryLaw(boundary, grain.size.material);

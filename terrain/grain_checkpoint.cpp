@@ -231,7 +231,7 @@ GrainCheckpoint::GrainCheckpoint(const GrainState& saved, const GrainSystem& sys
   const auto count = static_cast<std::int64_t>(system.count);
   const std::int64_t given = saved.total + static_cast<std::int64_t>(saved.gone.size());
   if (given < count || (given > count && !grows) || saved.layout != system.constants.layout())
-    throw base::InputError(fmt::format("the checkpoint contains {} grains of another scene, this scene has {}; "
+    throw base::InputError(fmt::format("the checkpoint belongs to another scene ({} grains, this scene has {}); "
                                        "resume with the scene that was run",
                                        given, count));
   std::vector<int> owner;

@@ -31,8 +31,8 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
     const Vec3d& x = start[i].position;
     if (!(std::fabs(x.x) < limit && std::fabs(x.y) < limit && std::fabs(x.z) < limit))
       throw base::InputError(
-          fmt::format("grain {} at ({}, {}, {}) m is more than {:.6g} m from the origin, the range of positions for "
-                      "grains of radius {} m; move the scene closer to the origin",
+          fmt::format("grain {} at ({}, {}, {}) m lies outside the position range of +-{:.6g} m for grains of radius "
+                      "{} m; move the scene closer to the origin",
                       first + i, x.x, x.y, x.z, limit, c.model.radius));
     places[i] = scale.fromMetres(x);
     if (start[i].fixed && (norm2(start[i].velocity) > 0 || norm2(start[i].spin) > 0))

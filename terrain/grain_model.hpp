@@ -65,8 +65,8 @@ struct GrainModel {
   GrainMaterials materials; ///< instead of law, floorLaw and the walls' laws where grains are of several
   Precision precision{Precision::single};
   bool specialised{true}; ///< false: always the general kernel; same bits, for tests
-  /// Largest displacement of a grain in a step, as a share of the smallest radius [-]: half the skin with penalty
-  /// contacts, so that no contact is missed.
+  /// Maximum allowed displacement of a grain per step, as a fraction of the smallest radius [-]: with penalty contacts,
+  /// half the skin, so that no contact is missed.
   double mostWay() const { return complementarity ? kMostWaySolved : 0.5 * skin; }
   static constexpr double kMostWaySolved = 0.4;
   int mostSimdLanes{16}; ///< largest number of SIMD lanes on a CPU: 16, 8, 4, 1; same bits, for tests

@@ -102,8 +102,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3<std::uint32_t> reference;
   };
 
-  /// Finds the listed neighbours that touch, then computes the contacts: the threads of a warp rarely have contacts at
-  /// the same places of their lists, and would each wait for those of all others.
+  /// Finds the touching neighbours first, then computes the contacts. In a single pass each thread of a warp would wait
+  /// for the others' contacts, which rarely sit at the same list positions.
   GROUSER_HD void gatherGrains(int i, const base::Position& p, const Side& own, Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];
     // 64 neighbours a word; of equal spheres no more can be near.

@@ -32,7 +32,7 @@ public:
   bool boundariesBegun() const { return boundariesBegun_; }
   /// Launches one step, without waiting. `loads`: of rigid parts; null without them.
   void begin(GrainSystem& system, const contact::GrainLoadsView* loads);
-  /// Waits for it, and reduces its flags over the ranks.
+  /// Waits for the step launched by begin() and reduces its flags across ranks.
   StepOutcome end(GrainSystem& system);
 
   // A step that is launched ahead of its loads; see GrainsAhead. Each has flags of its own, by the buffer that holds

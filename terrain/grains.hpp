@@ -28,7 +28,7 @@ public:
   /// The grains in their present slots on the device, ghosts among them: for code that computes loads on grains;
   /// valid until the next refresh. Local.
   contact::GrainsView view() const;
-  /// Migration and cuts, to change them; null on one rank. Local.
+  /// Distribution of grains among ranks (migration, cuts), for modification; null on one rank. Local.
   // NOLINTNEXTLINE(readability-make-member-function-const): not available for const grains
   GrainDistribution* distribution() { return system_.distribution.get(); }
 

@@ -196,7 +196,7 @@ std::string pngFault(const std::vector<stbi_uc>& bytes) {
   return " (no end mark)";
 }
 
-/// The decoder fills missing parts of a JPEG with grey: its end mark must be present.
+/// Returns true if the end-of-image marker is missing: the decoder silently fills the missing part of a JPEG with grey.
 bool isCutShort(const std::vector<stbi_uc>& bytes) {
   const std::size_t n = bytes.size();
   const bool jpeg = n >= 2 && bytes[0] == 0xFF && bytes[1] == 0xD8;

@@ -46,7 +46,7 @@ private:
 };
 
 /// Solid fraction of random close packing of spheres without friction [-]: 0.634 + 0.0658 deviation + 0.0857 skewness
-/// deviation^2 (Desmond and Weeks 2014, Phys. Rev. E 90, 022204). What is denser has crystallised.
+/// deviation^2 (Desmond and Weeks 2014, Phys. Rev. E 90, 022204). Denser packings have crystallised.
 double randomClosePacking(const RadiusDistribution& radii);
 
 /// Growth of the radii with depth: fine grains near the surface, coarse ones below.

@@ -105,7 +105,7 @@ std::vector<double> Hitch::save() const {
 void Hitch::restore(const std::vector<double>& s) {
   constexpr std::size_t kAlways = 12;
   if (s.size() != kAlways && s.size() != kAlways + 1)
-    throw base::InputError("hitch: the checkpoint is of another hitch; resume with the scene that was run");
+    throw base::InputError("hitch: the checkpoint belongs to another hitch; resume with the scene that was run");
   holds_ = s[0] != 0;
   origin_ = {s[1], s[2], 0}, line_ = {s[3], s[4], 0}, begun_ = s[5];
   place_ = {s[6], s[7], 0}, motion_ = {s[8], s[9], 0}, way_ = s[10], speed_ = s[11];

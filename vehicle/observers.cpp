@@ -296,7 +296,7 @@ std::vector<double> Observer::save() const {
 void Observer::restore(const std::vector<double>& flat) {
   const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
   if (flat.size() != save().size())
-    throw base::InputError("observers: the checkpoint is of another vehicle, or of an earlier version of the program; "
+    throw base::InputError("observers: the checkpoint belongs to another vehicle or an earlier program version; "
                            "restart the run with --force");
   const auto place = [&](std::size_t i) { return flat.begin() + static_cast<std::ptrdiff_t>(i * each); };
   for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i].restore({place(i), place(i + 1)});

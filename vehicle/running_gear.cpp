@@ -312,7 +312,7 @@ std::optional<Fault> suspensionFault(const VehicleSpec& s) {
   }
   if (const double beside = std::fabs(c.y) - s.trackOffset; beside >= 0) {
     Fault f = tips;
-    f.what = fmt::format("lies {:.1f} mm beside both tracks, so that the vehicle tips over", 1e3 * beside);
+    f.what = fmt::format("lies {:.1f} mm outside the tracks, so the vehicle would tip over", 1e3 * beside);
     f.advice = fmt::format("choose its y in ({:g}, {:g})", -s.trackOffset, s.trackOffset);
     return f;
   }

@@ -102,7 +102,7 @@ struct EngineSpec {
   double governedSpeed{};     ///< maximum shaft speed under the governor [rad/s]
   double droop{};             ///< shaft speed range of the governor from zero to full torque [rad/s]
   double brakeTorque = 0;     ///< maximum braking torque on a sprocket faster than commanded [N m]
-  double inertia{};           ///< of engine and gear, reduced to the sprocket [kg m2]
+  double inertia{};           ///< of engine and gearing, reflected to the sprocket [kg m2]
 };
 
 /// Contacts between parts, and with the ground.

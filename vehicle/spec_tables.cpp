@@ -175,7 +175,7 @@ Table<EngineSpec> engineTable() {
         "maximum braking torque on a sprocket that turns faster than commanded")
       .atLeast(0)
       .atMost(1e7);
-  t.add("inertia", &EngineSpec::inertia, "kg m2", "inertia of engine and gear, reduced to the sprocket")
+  t.add("inertia", &EngineSpec::inertia, "kg m2", "moment of inertia of engine and gearing, reflected to the sprocket")
       .above(0)
       .atMost(1e6)
       .required();

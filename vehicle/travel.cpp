@@ -111,7 +111,8 @@ std::vector<double> Travel::save() const {
 
 void Travel::restore(const std::vector<double>& flat) {
   if (flat.size() != save().size())
-    throw base::InputError("track travel: the checkpoint is of another vehicle; resume with the scene that was run");
+    throw base::InputError(
+        "track travel: the checkpoint belongs to another vehicle; resume with the scene that was run");
   begun_ = flat[0] != 0;
   time_ = flat[1], firstTeeth_ = flat[2], lastCoordinate_ = flat[3];
   teethPassed_ = flat[4], pitchesPassed_ = flat[5], distance_ = flat[6];

@@ -12,8 +12,8 @@ namespace grouser::multibody::detail {
 void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads& loads, double t,
                  std::vector<AxisLaw>& laws);
 
-/// Projects the twists of one part onto the rows of a linearised system: solves
-///   M dv - J^T dLambda = 0,   J (v + dv) = rate of the laws (0 on hard rows and couplings).
+/// Projects the twists of one part onto the linearised constraints: solves
+///   M dv - J^T dLambda = 0,   J (v + dv) = prescribed rate (0 for hard constraints and couplings).
 /// Adds dv to `twist`; the impulses stay in `x`.
 void projectTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
                    std::vector<Vector6>& x, std::vector<Twist>& twist);

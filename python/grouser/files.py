@@ -17,7 +17,7 @@ _REMEDY = "run it again or restore the file from a copy"
 
 
 def read_json(file: Path, what: str) -> dict:
-    """FileError with line and column if the file is missing, damaged, or not a JSON object."""
+    """FileError with line and column if the file is missing, damaged, or not a JSON dictionary."""
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
     except OSError as error:
@@ -29,7 +29,7 @@ def read_json(file: Path, what: str) -> dict:
         line, column = before.count(b"\n") + 1, error.start - before.rfind(b"\n")
         raise FileError(_damaged(f"{file}:{line}:{column}", what, "not UTF-8 text")) from error
     if not isinstance(found, dict):
-        raise FileError(_damaged(f"{file}:1:1", what, "not a JSON object"))
+        raise FileError(_damaged(f"{file}:1:1", what, "not a JSON dictionary"))
     return found
 
 

@@ -43,7 +43,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// "-h, --help", "--seeds"; "scene" for an argument.
+/// Names of an option as the manual prints them, e.g. "-h, --help"; for a positional argument its name, e.g. "scene".
 std::string namesOf(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true);
   std::vector<std::string> names;

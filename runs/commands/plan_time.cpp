@@ -48,7 +48,7 @@ std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, d
   if (scene.vehicle) text += boundsText(limit);
   if (grains > 0) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * grains);
   if (contact > 0 && !implicit && step > resolved * 1.0000001)
-    text += fmt::format("\nWARNING: the time step resolves a contact by only {:.1f} steps; choose {} s or less\n",
+    text += fmt::format("\nWARNING: the time step resolves a contact with only {:.1f} steps; choose {} s or less\n",
                         contact / step, base::roundedDown(resolved, 4));
   return text;
 }

@@ -166,7 +166,7 @@ std::pair<int, int> pictureSize(const std::string& text) {
     isGood = fault == std::errc{} && stop == end;
   }
   if (!isGood || std::min(width, height) < kSmallest || std::max(width, height) > kLargest)
-    throw base::InputError(fmt::format("--size {}: is not WIDTHxHEIGHT in pixels, each from {} to {}, e.g. 1600x900",
+    throw base::InputError(fmt::format("--size {}: expected WIDTHxHEIGHT in pixels, each from {} to {}, e.g. 1600x900",
                                        text, kSmallest, kLargest));
   return {width, height};
 }

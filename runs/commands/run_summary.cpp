@@ -23,8 +23,8 @@ struct Line {
 };
 constexpr Line kLines[] = {{"speed", "speed [m/s]", 1, "m/s", ""},
                            {"slip", "slip [-]", 100, "%", ""},
-                           {"sinkage", "sinkage mean [m]", 1e3, "mm", "mean of the shoes in ground contact"},
-                           {"torque", "drive torque [N m]", 1, "N m", "both sprockets"}};
+                           {"sinkage", "sinkage mean [m]", 1e3, "mm", ", mean of the shoes in ground contact"},
+                           {"torque", "drive torque [N m]", 1, "N m", ", both sprockets"}};
 
 /// Error bar of a figure by the last check of the scene; infinite without one.
 double barOf(const nlohmann::json& run, const char* name) {
@@ -70,9 +70,8 @@ std::string driveFiguresText(const std::filesystem::path& folder, const std::fil
     const std::string second = other.is_object() ? valueOf(other, line) : "";
     if (text.empty() && other.is_object())
       text += fmt::format("{:<10}{:<24}{}\n", "", folder.filename().string(), beside.filename().string());
-    text += fmt::format("{:<10}{:<24}{:<24}{}", line.label, value, second, line.note);
-    text.erase(text.find_last_not_of(' ') + 1);
-    text += '\n';
+    const std::string columns = second.empty() ? value : fmt::format("{:<24}{}", value, second);
+    text += fmt::format("{:<10}{}{}\n", line.label, columns, line.note);
   }
   if (text.empty()) return text;
   if (const std::string doubt = run.value("inconclusive", ""); !doubt.empty() && doubt != incomplete)

@@ -74,8 +74,8 @@ std::shared_ptr<const FluidPoints> readFluid(const support::Hdf5File& file, cons
     Numbers numbers = file.read<float>(dataset);
     if (numbers.size() != count * d.width ||
         std::any_of(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); }))
-      throw base::InputError(fmt::format("{}: {} does not have a finite value for each particle; the file is damaged, "
-                                         "or of another program",
+      throw base::InputError(fmt::format("{}: {} does not have a finite value for each particle; the file is damaged "
+                                         "or was written by another program",
                                          file.path().string(), dataset));
     if (d.scalars)
       (*fluid).*d.scalars = std::move(numbers);

@@ -50,7 +50,8 @@ bool FramesReader::hasVehicle() const {
 }
 
 void FramesReader::damaged(const std::string& what) const {
-  throw base::InputError(fmt::format("{}: {}; the file is damaged, or of another program", path().string(), what));
+  throw base::InputError(
+      fmt::format("{}: {}; the file is damaged or was written by another program", path().string(), what));
 }
 
 std::vector<base::Vec3f> FramesReader::points(const std::string& dataset) const {

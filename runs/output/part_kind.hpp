@@ -9,7 +9,7 @@ namespace grouser::output {
 
 /// Kind of a part in pictures, which sets its colour. The words are stored in frames.h5.
 enum class PartKind {
-  other, ///< or of another program's file
+  other, ///< also in files from other programs
   chassis,
   shoe,
   sprocket,

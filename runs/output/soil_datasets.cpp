@@ -92,8 +92,8 @@ std::string soilXdmf(const support::Hdf5File& file, const std::string& frame) {
 std::shared_ptr<const SoilSurface> readSoil(const support::Hdf5File& file, const std::string& frame) {
   if (!file.has(frame + kTriangles)) return {};
   const auto damaged = [&](const std::string& dataset, const char* why) {
-    return base::InputError(
-        fmt::format("{}: {} {}; the file is damaged, or of another program", file.path().string(), dataset, why));
+    return base::InputError(fmt::format("{}: {} {}; the file is damaged or was written by another program",
+                                        file.path().string(), dataset, why));
   };
   auto soil = std::make_shared<SoilSurface>();
   soil->mesh.indices = file.read<std::uint32_t>(frame + kTriangles);

@@ -26,7 +26,7 @@ std::optional<GroundQuantity> groundQuantity(const std::string& word);
 class GroundColours {
 public:
   explicit GroundColours(GroundQuantity quantity = GroundQuantity::Soil) : quantity_(quantity) {}
-  /// Colours over `range`; default: from 0 (or the negative minimum) to the maximum of `samples`.
+  /// Colours over `range`; default: from 0, or from the minimum if it is negative, to the maximum of `samples`.
   GroundColours(GroundQuantity quantity, const std::vector<output::StoredFrame>& samples,
                 std::optional<ValueRange> range);
 

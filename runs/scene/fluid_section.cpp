@@ -35,7 +35,7 @@ base::Table<Fluid> fluidTable() {
       .atLeast(-kFarthest)
       .atMost(kFarthest);
   t.add("density", &S::density, "kg/m3", "density at zero pressure").atLeast(1).atMost(1e5);
-  t.add("viscosity", &S::viscosity, "Pa s", "dynamic viscosity; above 0: no slip along walls (operator of Morris)")
+  t.add("viscosity", &S::viscosity, "Pa s", "dynamic viscosity; above 0: no slip along walls (Morris operator)")
       .atLeast(0)
       .atMost(1e6);
   t.add("sound_speed", &S::soundSpeed, "m/s",

@@ -47,7 +47,8 @@ Table<GrainFill> fillTable() {
   t.add("number", &S::number, "-", "number of grains of a random fill").atLeast(1).atMost(1e8);
   t.add("file", &S::file, "",
         "text file with one grain per line: x, y, z, r [m], optionally vx, vy, vz [m/s], then wx, wy, wz [rad/s], and "
-        "optionally a header with these names; searched in the scene's folder, the working folder, the assets folder");
+        "optionally a header with these names; searched for in the scene's folder, the working folder, the assets "
+        "folder");
   t.add("velocity", &S::velocity, "m/s", "initial velocity; for a file, of lines without one")
       .atLeast(-1e4)
       .atMost(1e4);

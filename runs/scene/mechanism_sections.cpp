@@ -64,8 +64,8 @@ Table<ShapeSection> shapeTable() {
       .above(0)
       .atMost(1e5);
   t.add("file", &S::file, "",
-        "closed mesh with outward normals (OBJ, STL, PLY...); searched in the scene's folder, the working folder, the "
-        "assets folder");
+        "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder, "
+        "the assets folder");
   t.add("scale", &S::scale, "m", "length of one unit of a mesh's file; default: 1").above(0).atMost(1e6);
   t.add(
        "sphere_radius", &S::sphereRadius, "m",
@@ -130,7 +130,8 @@ Table<SpringSection> springTable() {
   t.add("point_a", &S::pointA, "m", "its end on the first body, in that body's frame; default: (0, 0, 0)");
   t.add("point_b", &S::pointB, "m", "its end on the second body, in that body's frame");
   t.add("joint", &S::joint, "",
-        "name of the revolute, prismatic or cylindrical joint on whose axis it acts, instead of bodies");
+        "name of the revolute, prismatic or cylindrical joint along or about whose axis the spring acts; replaces the "
+        "key bodies");
   t.add("acts_on", &S::actsOn, "", "axis of a cylindrical joint");
   t.add("stiffness", &S::stiffness, "N/m or N m/rad", "stiffness of the spring").atLeast(0);
   t.add("damping", &S::damping, "N s/m or N m s/rad", "damping coefficient, integrated implicitly: any value is stable")

@@ -145,7 +145,7 @@ struct Terrain {
   terrain::Interpolation interpolation = terrain::Interpolation::monotone;
   TerrainKind kind = TerrainKind::granular;
   std::string material;
-  std::string groundMaterial; ///< of floor and walls; the bed's where not given
+  std::string groundMaterial; ///< of floor and walls; default: the bed's
   Arrangement arrangement = Arrangement::random;
   std::optional<double> grainRadius; ///< [m] has a value after loading, of a granular bed
   std::optional<double> depth;       ///< [m]
@@ -174,8 +174,8 @@ struct Terrain {
   bool lattice() const { return arrangement == Arrangement::lattice; }
   bool operator==(const Terrain&) const = default;
 
-  static constexpr double kSpacing = 2.1, kJitter = 0.9, kPacking = 0.6; ///< of a lattice, where not given
-  static constexpr double kSpread = 0.25;                                ///< of radii, where not given
+  static constexpr double kSpacing = 2.1, kJitter = 0.9, kPacking = 0.6; ///< defaults of a lattice
+  static constexpr double kSpread = 0.25;                                ///< default of radii
   static constexpr double kPoured = 0.41; ///< porosity expected where none is prepared [-]
 };
 
@@ -285,7 +285,7 @@ struct Hitch {
   std::optional<double> stiffness;              ///< [N/m] of rope or carriage; empty: by the masses
   double dampingRatio = 0.7;                    ///< [-] of either
   bool operator==(const Hitch&) const = default;
-  static constexpr double kLength = 3; ///< [m], where not given
+  static constexpr double kLength = 3; ///< [m], default
 };
 
 /// [stop]: conditions that end a run of a vehicle before run.duration.
@@ -329,7 +329,7 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
-/// [parallel]: division of grains among ranks. Results do not depend on it, bit by bit.
+/// [parallel]: division of grains among ranks. Results are bitwise independent of it.
 struct Parallel {
   std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
   std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen

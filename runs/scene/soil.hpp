@@ -89,8 +89,8 @@ struct Soil {
 Soil readSoil(const std::filesystem::path& file);
 
 /// Path of the soil file that a scene calls `word`: a name stands for soils/NAME.toml, a word with a slash or .toml is
-/// a path; both are searched in the scene's folder, the current one and assets/. Empty if there is none; `tried`: the
-/// searched paths.
+/// a path; both are searched for in the scene's folder, the current one and assets/. Empty if there is none; `tried`:
+/// the searched paths.
 std::filesystem::path findSoil(const std::string& word, const std::filesystem::path& scene,
                                std::vector<std::filesystem::path>& tried);
 

@@ -173,9 +173,10 @@ double modulusCorrelation(const std::vector<ContactConstant>& constants) {
 
 std::string jointDistributionText(const std::vector<ContactConstant>& constants) {
   return fmt::format(
-      "samples (scm.constants_draw): at the sinkage under {:g} kPa the standard deviation of pressure is {:g} % "
-      "(assumed), so the correlation of ln k and n is {:.2f}; that of c and tan phi is {:g} (assumed)",
-      1e-3 * kReferencePressure, 100 * kPressureDeviation, modulusCorrelation(constants), kStrengthCorrelation);
+      "sampled constants (scm.constants_draw): pressure is assumed to have a standard deviation of {:g} % at the "
+      "sinkage that {:g} kPa causes, which gives a correlation of {:.2f} between ln k and n; the correlation between c "
+      "and tan phi is assumed to be {:g}",
+      100 * kPressureDeviation, 1e-3 * kReferencePressure, modulusCorrelation(constants), kStrengthCorrelation);
 }
 
 } // namespace grouser::scene

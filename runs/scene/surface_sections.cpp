@@ -111,8 +111,8 @@ Table<MeshSection> meshTable() {
   using S = MeshSection;
   Table<S> t("[mesh]", "A rigid body from a mesh file for contact with grains, fixed or moving, converted to spheres");
   t.add("file", &S::file, "",
-        "closed mesh with outward normals (OBJ, STL, PLY...); searched in the scene's folder, the working folder, the "
-        "assets folder")
+        "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder, "
+        "the assets folder")
       .required();
   t.add("scale", &S::scale, "m", "length of one unit of the file").above(0).atMost(1e6);
   t.add("position", &S::position, "m", "position of the file's origin, the reference point of loads");

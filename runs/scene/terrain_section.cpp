@@ -81,8 +81,8 @@ Table<Terrain> terrainTable() {
   using S = Terrain;
   Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
   t.add("heightmap", &S::heightmap, "",
-        "PNG, 8 or 16 bit; row 0 is the far edge (largest y), pixels are points; searched in the scene's folder, the "
-        "working folder, the assets folder")
+        "PNG, 8 or 16 bit; row 0 is the far edge (largest y), each pixel is a grid point; searched for in the "
+        "scene's folder, the working folder, the assets folder")
       .required();
   t.add("size", &S::size, "m", "extent in x, from 0, and in y, centred at 0").above(0).atMost(1e5).required();
   t.add("height_range", &S::heightRange, "m", "heights of black and white, [min, max]")

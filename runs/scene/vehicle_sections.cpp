@@ -22,8 +22,8 @@ Table<Vehicle> vehicleTable() {
   using S = Vehicle;
   Table<S> t("vehicle", "A tracked vehicle");
   t.add("spec", &S::spec, "",
-        "vehicle file (keys: grouser fields --vehicle); searched in the scene's folder, the working folder, the assets "
-        "folder")
+        "vehicle file (keys: grouser fields --vehicle); searched for in the scene's folder, the working folder, the "
+        "assets folder")
       .required();
   t.add("position", &S::position, "m",
         "x and y of the point between the sprockets; \"auto\": at the near end of the terrain")
@@ -172,9 +172,9 @@ Table<Course> courseTable() {
       .atMost(1e3)
       .orWord("auto");
   t.add("speed_gain", &S::speedGain, "-", "gain of the speed error").atLeast(0).atMost(100);
-  t.add("speed_integral", &S::speedIntegral, "1/s", "of its integral").atLeast(0).atMost(1e3);
+  t.add("speed_integral", &S::speedIntegral, "1/s", "gain of its integral").atLeast(0).atMost(1e3);
   t.add("turn_gain", &S::turnGain, "-", "gain of the yaw-rate error").atLeast(0).atMost(100);
-  t.add("turn_integral", &S::turnIntegral, "1/s", "of its integral").atLeast(0).atMost(1e3);
+  t.add("turn_integral", &S::turnIntegral, "1/s", "gain of its integral").atLeast(0).atMost(1e3);
   t.add("max_sprocket_speed", &S::maxSprocketSpeed, "rad/s", "maximum sprocket speed in closed loop")
       .above(0)
       .atMost(100)

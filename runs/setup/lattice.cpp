@@ -65,7 +65,7 @@ void checkLattice(const scene::Scene& scene, int ranks) {
   if (scene.parallel.subdomains)
     scene.fail("parallel", "subdomains", fmt::format("does not give {} subdomains, one per rank; {}", ranks, kRemedy));
   throw base::InputError(fmt::format("{}: {} ranks do not form a lattice with at most {} subdomains along each axis; "
-                                     "use another number of ranks (mpirun -np)",
+                                     "use a different number of ranks (mpirun -np)",
                                      scene.file.string(), ranks, contact::kMostSubdomainsAnAxis));
 }
 

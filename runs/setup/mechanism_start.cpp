@@ -81,7 +81,7 @@ void checkStartVelocity(const multibody::Model& model, int index) {
   if (norm(slip) > kStartRate * speed)
     throw support::SectionFault(
         "", fmt::format("(\"{}\") connects {} at {} m, where their initial velocities are {} and {} m/s; change "
-                        "velocity or spin of one so that the difference {} m/s vanishes",
+                        "the velocity or spin of one so that the difference {} m/s vanishes",
                         joint.name, bodies(), shortText(p), shortText(A.at(p)), shortText(B.at(p)), shortText(slip)));
   if (norm(turn) > kStartRate * spin)
     throw support::SectionFault("", fmt::format("(\"{}\") connects {}, whose initial spins are {} and {} rad/s; change "

@@ -50,7 +50,7 @@ struct Checkpoint {
 /// On several ranks all of them call it, each with its rows of the grains; all return when the file is in place.
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
 
-/// Throws base::InputError where the file is missing, foreign, of another version, cut or damaged.
+/// Throws base::InputError where the file is missing, foreign, from another version, truncated or damaged.
 /// On several ranks, whatever their number was when it was written, each gets its rows.
 Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
 

@@ -50,7 +50,7 @@ void SphereCache::write(const fs::path& path, const std::string& origin, const F
   if (!out) throw support::notWritten(path);
 }
 
-/// Throws where the bytes are of another origin.
+/// Throws if the bytes have another origin.
 SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::string& origin) {
   const char *at = bytes.data(), *end = at + bytes.size();
   const auto take = [&](void* to, std::size_t count) {

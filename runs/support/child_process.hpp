@@ -39,8 +39,8 @@ public:
   /// Starts a program, with SIGPIPE at its default. Throws base::DeviceError with the cause where that fails.
   explicit ChildProcess(const Program& program);
   /// Calls `work` in a copy of this process, which ends when `work` returns; nothing of the parent's is flushed or
-  /// destroyed in it. What `work` writes into the descriptor is for read(). SIGINT and SIGHUP are left to the parent.
-  /// Call before this process has started any threads. Throws base::DeviceError where no process can be
+  /// destroyed in it. read() gets the data that `work` writes into the descriptor. SIGINT and SIGHUP are left to the
+  /// parent. Call before this process has started any threads. Throws base::DeviceError where no process can be
   /// started.
   explicit ChildProcess(const std::function<void(const Descriptor&)>& work, const Environment& environment = {});
   ~ChildProcess();

@@ -15,11 +15,11 @@ enum class DeviceChoice {
   cuda
 };
 
-/// Device of a value of --device. Throws InputError for an unknown one.
+/// The device that a value of --device names. Throws InputError if the value is unknown.
 DeviceChoice deviceChoice(const std::string& word);
 
-/// Names the GPU of this machine that a process begins with, counted from 0 among those that CUDA sees
-/// (CUDA_VISIBLE_DEVICES, in the order of CUDA_DEVICE_ORDER): a variable of the environment.
+/// Environment variable that gives the first GPU a process uses, as an index from 0 among the GPUs visible to CUDA
+/// (CUDA_VISIBLE_DEVICES, ordered by CUDA_DEVICE_ORDER).
 constexpr const char* kFirstGpu = "GROUSER_GPU";
 
 /// GPU, of `gpus` (> 0), of a rank of this host: (kFirstGpu, or 0 if unset, + `rankOnHost`) modulo `gpus`. Throws

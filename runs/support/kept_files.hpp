@@ -38,8 +38,8 @@ public:
   bool writable() const;
   /// A unique name beside the file, also among machines that share the folder.
   static std::filesystem::path freshName(const std::filesystem::path& file);
-  /// Renames a complete file from its fresh name, then deletes the least recently used files down to the limit. False
-  /// if renaming failed.
+  /// Moves a completed file from its temporary name to its final one, then deletes the least recently used files until
+  /// the cache is within its limit. Returns false if the rename fails.
   bool put(const std::filesystem::path& fresh, const std::filesystem::path& file) const;
   /// Marks the file as the last one used.
   static void noteUse(const std::filesystem::path& file);

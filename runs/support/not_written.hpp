@@ -17,7 +17,7 @@ public:
 /// `what`: what failed, such as "could not be written (No space left on device)".
 NotWritten notWritten(const std::filesystem::path& file, const std::string& what = "could not be written");
 
-/// Renames a file that is whole. Throws NotWritten.
+/// Renames a completely written file to its final path. Throws NotWritten on failure.
 void putInPlace(const std::filesystem::path& whole, const std::filesystem::path& path);
 
 } // namespace grouser::support

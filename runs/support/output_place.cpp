@@ -105,7 +105,8 @@ void requireFile(const fs::path& file, const std::string& option) {
     place = (place.parent_path() / fs::read_symlink(place, error)).lexically_normal();
   const fs::path folder = place.parent_path().lexically_normal();
   if (existingAbove(file, folder, option) != folder)
-    refuse(file, fmt::format("cannot be written: the folder {} does not exist; create it", folder.string()), option);
+    throw base::InputError(fmt::format("{}: folder {} does not exist; create it, or choose another file with {}",
+                                       file.string(), folder.string(), option));
   if (const int fault = writeFault(folder))
     refuse(file, fmt::format("cannot be written ({})", std::strerror(fault)), option);
 }

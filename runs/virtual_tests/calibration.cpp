@@ -72,9 +72,11 @@ void checkBesidePlates(const base::Section& section, const TargetKeys& k, bool h
 }
 
 void checkTogether(const base::Section& section, const TargetKeys& k) {
-  if (k.k.has_value() != k.b.has_value()) section.fail(k.k ? "k" : "b", "requires both k and b; add the other");
+  if (k.k.has_value() != k.b.has_value())
+    section.fail(k.k ? "k" : "b", k.k ? "requires b; add it" : "requires k; add it");
   if (k.kc.has_value() != k.kphi.has_value())
-    section.fail(k.kc ? "k_c" : "k_phi", "requires both k_c and k_phi; add the other, or set k and b");
+    section.fail(k.kc ? "k_c" : "k_phi", k.kc ? "must be given together with k_phi; add it, or use k and b instead"
+                                              : "must be given together with k_c; add it, or use k and b instead");
   if (k.k && k.kphi) section.fail("k", "is mutually exclusive with k_c and k_phi; remove k and b, or k_c and k_phi");
   if ((k.k || k.kphi) && !k.n) section.fail("n", "is missing; add it: the units of k, k_c and k_phi depend on it");
   if (!k.phi && !k.c && !k.k && !k.kphi)

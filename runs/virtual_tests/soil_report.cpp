@@ -137,8 +137,8 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", jobs::valueText(r.k[i]),
                         jobs::valueText(r.ownN[i]), jobs::valueText(r.goodness[i]));
     text += atGivenNText(plan, r, i);
-    text += fmt::format("origin {} mm below the mean surface, straight line starts at {:.0f} % of the pressure; n from "
-                        "first contact {}; ",
+    text += fmt::format("origin {} mm below the mean surface, straight line starts at {:.0f} % of the maximum "
+                        "pressure; n from first contact {}; ",
                         jobs::valueText(r.bedding[i]), 100 * r.lineBegins[i].value, jobs::valueText(r.nFromContact[i]));
     text += fmt::format("k_u {} kN/m3 unloading from {} kPa, {} reloading; ", jobs::valueText(r.unloading[i]),
                         jobs::valueText(r.unloadedFrom[i]), jobs::valueText(r.reloading[i])) +

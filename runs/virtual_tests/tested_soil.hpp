@@ -44,7 +44,7 @@ struct TestedSoil {
   std::string lawWithoutPull;                  ///< the same without cohesion and adhesion
   double density = 0;                          ///< [kg/m3] of the solid
   double friction = 0;                         ///< [-]
-  double young = 0;                            ///< [Pa] of Hertz' contacts; 0: another law
+  double young = 0;                            ///< [Pa] of Hertz' contacts; 0: a different law
   double poisson = 0;                          ///< [-] with `young`
   bool isPlain = false;                        ///< linear springs without cohesion
   double grainRadius = 0;                      ///< [m] mean radius in the tests

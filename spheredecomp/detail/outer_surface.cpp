@@ -85,7 +85,8 @@ struct Sorter {
     sortPiece(c, t, cutters);
   }
 
-  /// Divides a piece while another triangle cuts it, then keeps it if it is on the outer surface.
+  /// Bisects a piece until no other triangle cuts it or it is down to `resolution`, then keeps the parts on the outer
+  /// surface.
   void sortPiece(const Corners& c, std::uint32_t t, const std::vector<std::uint32_t>& cutters) {
     std::vector<std::uint32_t> still;
     for (const std::uint32_t s : cutters)

@@ -92,7 +92,7 @@ private:
     return found;
   }
 
-  /// BoundaryContacts::touchFixed() of `count` contacts, starting at c.
+  /// BoundaryContacts::touchFixed() for `count` contacts, starting at c.
   GROUSER_SIMD void touch(int b, int c, int count) {
     std::uint32_t slots[kWidth];
     for (int l = 0; l < kWidth; ++l) slots[l] = slot_[grain_[c + l]];

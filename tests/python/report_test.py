@@ -87,7 +87,7 @@ class Refused(FolderTest):
         for file in ("run/scene.toml", "run/notes.mp4", "run/picture.png"):
             self.refuses("run", [f"--film {file}", "not a film", ".mp4", ".webm", ".gif"], "--film", file, "--force")
         self.refuses("run", ["nosuch.mp4"], "--film", "nosuch.mp4", "--force")
-        self.refuses("run", ["nodir/x.html", "folder nodir does not exist", "create it"], "--out", "nodir/x.html")
+        self.refuses("run", ["nodir/x.html", "/nodir does not exist", "create it"], "--out", "nodir/x.html")
         self.assertFalse((self.folder / "nodir").exists())
         results = (self.folder / "run/results.h5").read_bytes()
         for size in (len(results) // 2, 2000, 100):

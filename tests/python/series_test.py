@@ -70,7 +70,7 @@ class Printed(unittest.TestCase):
                 (grouser.Series(numpy.zeros((1, 46)), "N", "", "tension", rows[:1]),
                  "tension [N]: 1 row from 0 to 0 s of 46 columns, 0 to 0"),
                 (grouser.Series(numpy.array([[1.0, numpy.nan], [-2.0, numpy.nan]]), "N", "", "force", rows[:2], None, ("x", "y")),
-                 "force [N]: 2 rows from 0 to 0.01 s, x -2 to 1, y no number, 2 of 4 are NaN"),
+                 "force [N]: 2 rows from 0 to 0.01 s, x -2 to 1, y no finite value, 2 of 4 are NaN"),
                 (grouser.Series(rows[:0], "m", "", "way", rows[:0]), "way [m]: 0 rows"),
                 (grouser.Quantity(numpy.array(3.25), "m", "", "radius"), "radius [m]: 3.25"),
                 (grouser.Quantity(numpy.arange(5.0), "m", "", "depth"), "depth [m]: [5], 0 to 4"),

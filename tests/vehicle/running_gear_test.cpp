@@ -139,7 +139,7 @@ INSTANTIATE_TEST_SUITE_P(
         Impossible{"ArmsLiftTheHull", {"arm", "preload", "50000"}, {"lifts the hull"}},
         Impossible{"ArmPivotsBelowTheTrack", {"arm", "pivot_angle", "-1"}, {"20.4 mm below the plates"}},
         Impossible{"TipsOver", {"chassis", "centre", "[3.0, 0.0, 0.1]"}, {"671.8 mm ahead of all road wheels"}},
-        Impossible{"TipsSideways", {"chassis", "centre", "[1.4, 1.5, 0.1]"}, {"550.0 mm beside both tracks"}},
+        Impossible{"TipsSideways", {"chassis", "centre", "[1.4, 1.5, 0.1]"}, {"550.0 mm outside the tracks"}},
         Impossible{"TracksOverlap", {"vehicle", "track_offset", "0.1"}, {"left and right shoes overlap by 80.0 mm"}},
         Impossible{"RollersAllInTheWheels", {"roller", "z", "[0.0, 0.0, 0.0]"}, {"set every entry of roller.z = "}},
         Impossible{"IdlerAsLargeAsTheVehicle", {"idler", "radius", "2"}, {"idler.radius = 2 [m]", "423.2 mm"}},

@@ -84,7 +84,7 @@ EventSet readEventSet(const fs::path& folder) {
     set.folder = folder;
     return set;
   } catch (const nlohmann::json::exception& fault) {
-    throw base::InputError(fmt::format("--against {}: {} is damaged or of an earlier version ({}); repeat the call "
+    throw base::InputError(fmt::format("--against {}: {} is damaged or from an earlier version ({}); repeat the call "
                                        "that wrote it",
                                        folder.string(), file.string(), fault.what()));
   }

@@ -30,7 +30,7 @@ constexpr int kMostPrinted = 24; // maximum number of figures in the terminal
 Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 std::string bitsText(SameBits bits) {
-  return bits == SameBits::yes ? "the same bits" : bits == SameBits::no ? "OTHER BITS" : "not run";
+  return bits == SameBits::yes ? "bitwise identical" : bits == SameBits::no ? "NOT IDENTICAL" : "not run";
 }
 
 Json errorJson(const AxisError& e, const CheckFigure& f) {

@@ -97,7 +97,7 @@ void CheckWork::makeAdded(const std::string& what) {
     if (output::hasEnded(record_.outcomes[r].status)) read(r);
 }
 
-/// Reads the series of a run. A run with damaged files counts as failed and is repeated by the next call.
+/// Reads the series of a run. A run with damaged files counts as failed and is repeated when the command is run again.
 void CheckWork::read(std::size_t r) {
   const fs::path folder = record_.folder / record_.runs.plan.runs[r].name;
   try {

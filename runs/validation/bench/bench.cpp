@@ -76,7 +76,7 @@ std::array<std::string, 2> phaseOf(const Drive& drive, double from, double to) {
     return {"driving off", fmt::format("the vehicle drives off at t = {:g} s, during the timing; use --after drive to "
                                        "time only the driving",
                                        *drive.start)};
-  const std::string since = fmt::format("the vehicle drives since t = {:g} s", *drive.start);
+  const std::string since = fmt::format("the vehicle has been driving since t = {:g} s", *drive.start);
   if (from < *drive.start + drive.ramp - kStep)
     return {"speeding up", fmt::format("{}, sprockets accelerate until {:g} s", since, *drive.start + drive.ramp)};
   return {"driving", since};

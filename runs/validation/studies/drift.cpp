@@ -181,8 +181,8 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
 
 std::string driftTable(const std::vector<Drift>& drifts) {
   std::string text =
-      fmt::format("\ndrift between two runs from the same state: distance of the same grains\n  {:<12} {:<32} "
-                  "{:>17} {:>15} {:>14} {:>16} {:>14}\n",
+      fmt::format("\ndrift between two runs from the same state: distance between corresponding grains\n  {:<12} "
+                  "{:<32} {:>17} {:>15} {:>14} {:>16} {:>14}\n",
                   "", "", "growth [1/s]", "a collision [-]", "farthest at D", "rms at D", "rms at end [m]");
   for (const Drift& d : drifts) {
     const auto moment = [](double t) { return t < 0 ? std::string("-") : fmt::format("{:.3f} s", t); };

@@ -50,7 +50,8 @@ std::vector<std::string> formerLines(const fs::path& file, std::int64_t seed) {
   std::vector<std::string> lines;
   std::string line;
   if (!in || !std::getline(in, line)) return lines;
-  if (line != kColumns) throw base::InputError(file.string() + ": columns of another version; run without --resume");
+  if (line != kColumns)
+    throw base::InputError(file.string() + ": was written by another version; run without --resume");
   while (std::getline(in, line)) {
     const std::vector<std::string> row = cells(line);
     if (row.size() < 2 || row[1] != std::to_string(seed))

@@ -83,7 +83,7 @@ std::string apartInWords(const MapFigures& run, const MapFigures& finer, bool on
   return worst;
 }
 
-/// Errors of two runs that ended normally, other than different figures.
+/// Message about the first error in two runs, apart from differences between their figures; empty if there is none.
 std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
   if (finer.end != TrialEnd::sound) return fmt::format("at a quarter of the step: {}", finer.cause);
   for (const MapFigures* f : {&run.figures, &finer.figures})
