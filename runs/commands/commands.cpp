@@ -143,7 +143,8 @@ void runCommand(const RunCommand& command) {
   fmt::print("{}results   {} (page for a browser: grouser report {})\n", energyText(summary), options.folder.string(),
              support::shellWord(options.folder.string()));
   if (!command.steps && !options.untilRest)
-    fmt::print("{}", sweeps::checkNote(scene, provenance.inputs, secondsOf(summary), command.verbose));
+    fmt::print("{}",
+               sweeps::checkNote(scene, provenance.inputs, secondsOf(summary), command.verbose || !scene.vehicle));
   if (command.hash) fmt::print("state-hash {} step {}\n", summary.stateHash, summary.steps);
 }
 

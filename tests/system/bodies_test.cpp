@@ -205,8 +205,8 @@ TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
   const scene::Scene light = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 0.01) +
                                      "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\nvelocity = [0, 0, -0.1]\n");
   EXPECT_EQ(setup::bodyContactsNote(light),
-            "bodies pass through planes, boxes, cylinders and meshes that move; a driven "
-            "[[body]] touches bodies");
+            "bodies pass through planes, boxes, cylinders and meshes that move; for contact with bodies use a driven "
+            "[[body]]");
   ASSERT_EQ(setup::freeSurfaceNotes(light).size(), 1u);
   EXPECT_NE(setup::freeSurfaceNotes(light)[0].find("body \"cube\" has a mass of 0.01 kg"), std::string::npos);
 }

@@ -137,7 +137,7 @@ TEST(SetDown, AWallInTheTracksIsRefused) {
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
     const std::string said = error.what();
-    for (const char* word : {"obstacles.toml:", "box.0", "stands in the left shoe", "move it or vehicle.position"})
+    for (const char* word : {"obstacles.toml:", "box.0", "overlaps the left shoe", "move it or vehicle.position"})
       EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
   }
 }

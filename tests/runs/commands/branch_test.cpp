@@ -299,7 +299,7 @@ TEST_F(Branch, OfTheProgramGoesToAFolderOfItsOwn) {
         "run v.toml --resume out/v/checkpoint.h5 --out out/v --force --set driver.sprocket_speed=1"}) {
     const Outcome over = call(words);
     EXPECT_EQ(over.code, 2);
-    EXPECT_NE(over.error().find("out/v: holds the run that this one branches from"), std::string::npos) << over.errors;
+    EXPECT_NE(over.error().find("out/v: holds the original run"), std::string::npos) << over.errors;
   }
   EXPECT_NE(call("run v.toml --resume --set driver.sprocket_speed=3").error().find("not empty"), std::string::npos);
   EXPECT_EQ(contents(folder_ / "out/v/timeseries.csv"), rows);

@@ -99,7 +99,7 @@ TEST_F(SqueezedGrains, SoilThatMeetsTheShoesAloneIsSaidEverywhere) {
   const Outcome shoes = OnRanks::run(1, words + "shoes --set vehicle.soil_contact=shoes"),
                 all = OnRanks::run(1, words + "all");
   ASSERT_EQ(shoes.code, 0) << shoes.errors;
-  EXPECT_NE(lines(shoes, "soil").find("meets the shoes alone"), std::string::npos) << shoes.out;
+  EXPECT_NE(lines(shoes, "soil").find("track shoes only"), std::string::npos) << shoes.out;
   EXPECT_EQ(lines(all, "soil"), "");
   EXPECT_NE(contents(folder_ / "shoes/manifest.json").find("\"soil_contact\": \"shoes\""), std::string::npos);
   EXPECT_NE(contents(folder_ / "all/manifest.json").find("\"soil_contact\": \"all\""), std::string::npos);

@@ -73,7 +73,7 @@ protected:
 TEST_F(FailedRun, FaultWhileTheBedSettlesIsSaidToBeOneAndShown) {
   put(folder_ / "bed.toml", kBed);
   const Outcome o = call("run bed.toml --out o --threads 1");
-  EXPECT_NE(o.errors.find("while the bed settled, before the run begins: step "), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("while the bed settled, before the start of the run: step "), std::string::npos) << o.errors;
   expectExplained(o, {"frames.h5", "frames.xdmf", "picture.png", "scene.toml"});
   EXPECT_NE(manifest().find("\"phase\": \"settling\""), std::string::npos) << manifest();
   EXPECT_NE(manifest().find("\"cause\": \"unsettled bed\""), std::string::npos) << manifest();

@@ -123,7 +123,7 @@ TEST(PlanOfPairs, SaysWhatDoesNothing) {
   const std::string pairs = "[material.soil]\nstiffness = 1e5\nfriction = 0.6\n[material.rough]\nstiffness = 3e5\n"
                             "friction = 0.9\nrolling_friction = 0.3\n[[plane]]\nmaterial = \"rough\"\n" +
                             kGrain;
-  const std::string plan = planText(parsed(pairs)), nothing = "rolling_friction = 0.3 of material.rough does nothing";
+  const std::string plan = planText(parsed(pairs)), nothing = "rolling_friction = 0.3 of material.rough has no effect";
   expectSaid(plan, nothing + " against soil, which has 0");
   expectSaid(plan, "[contact.\"soil|rough\"]");
   expectSaid(plan, "grain on a plane: soil, rough");

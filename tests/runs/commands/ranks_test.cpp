@@ -267,9 +267,10 @@ TEST_F(OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
 
 TEST_F(OnRanks, WaitingIsAShareOfTheDriveAlone) {
   // One rank draws the picture while the other waits; that takes longer than these steps.
-  const Outcome o = run(2, "run bed.toml --out o --steps 20 --set output.picture=true --set output.picture_width=4000");
+  const Outcome o =
+      run(2, "run bed.toml --out o --verbose --steps 20 --set output.picture=true --set output.picture_width=4000");
   std::smatch waited;
-  ASSERT_TRUE(std::regex_search(o.out, waited, std::regex("waited for others ([0-9.]+) to ([0-9.]+) % of the time")))
+  ASSERT_TRUE(std::regex_search(o.out, waited, std::regex("MPI wait time ([0-9.]+) to ([0-9.]+) % of the run")))
       << o.out << o.errors;
   EXPECT_LE(std::stod(waited[2]), 100);
 }
@@ -288,7 +289,7 @@ TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
 TEST_F(OnRanks, AnImpossibleLatticeIsRefused) {
   const Outcome o = run(2, "run bed.toml --out wrong --set 'parallel.subdomains=[3,1,1]'");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("parallel.subdomains = [3, 1, 1] does not make 2 subdomains"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("parallel.subdomains = [3, 1, 1] does not give 2 subdomains"), std::string::npos) << o.errors;
 }
 
 TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {

@@ -167,7 +167,7 @@ TEST_F(RenderFrames, WrongWordsAreNamedAndNothingIsWritten) {
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.range = {2, 1}; }), "lower end first");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.frame = {6}; }), "frames 0 to 5");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.from = 7; }), "no frame between");
-  EXPECT_PRED2(says, message([](RenderCommand& c) { c.borders = {"x=a"}; }), "is no number");
+  EXPECT_PRED2(says, message([](RenderCommand& c) { c.borders = {"x=a"}; }), "is not a number");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.lookAt = "1,2"; }), "a point X,Y,Z");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.film = "film.gif"; }), ".mp4");
   EXPECT_FALSE(fs::exists(folder_ / "out"));

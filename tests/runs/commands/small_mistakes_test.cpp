@@ -28,7 +28,7 @@ protected:
 TEST_F(SmallMistakes, MaterialOfAnOverrideMustBeInTheScene) {
   for (const char* command : {"run grains.toml --out o", "plan grains.toml", "sweep grains.toml --out o"})
     expectRefused(command + std::string(" --set material.glas.stiffness=1e5"),
-                  {"--set", "material.glas is no material of grains.toml; did you mean glass?"});
+                  {"--set", "material.glas is not a material of grains.toml; did you mean glass?"});
   EXPECT_EQ(call("plan grains.toml --set material.glass.stiffness=1e5").code, 0);
   EXPECT_EQ(call("plan grains.toml --set 'contact.\"glass|glass\".friction=0.1'").code, 0);
 }
@@ -37,7 +37,7 @@ TEST_F(SmallMistakes, FaultsOfACaseNameTheCase) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"run.duratio=1", "error: --case b: unknown key run.duratio; did you mean duration?"},
       {"run.duration=-1", "error: --case b: run.duration = -1 [s] is outside"},
-      {"material.glas.friction=0.1", "error: --case b: material.glas is no material of grains.toml"},
+      {"material.glas.friction=0.1", "error: --case b: material.glas is not a material of grains.toml"},
       {"grain.7.radius=1", "error: --case b: grain.7.radius=1: there is no entry 7"},
       {"grain.0.radius=7", "error: --case b: grains.toml:5: material.glass.stiffness [N/m] is too low"}};
   for (const auto& [set, message] : mistakes)
@@ -89,7 +89,7 @@ TEST_F(SmallMistakes, FaultsOfRadiiNameTheKeyThatGivesThem) {
   put(folder_ / "sieved.toml", kSieved);
   put(folder_ / "map.png", picture());
   expectRefused("plan sieved.toml --set terrain.sieve_size=[2e-6,3e-6,5e-6]",
-                {"of grains of the sieves of terrain.sieve_size, to 5e-06 m; use larger"});
+                {"for grains of the sieves of terrain.sieve_size, to 5e-06 m; use larger"});
   expectRefused("run sieved.toml --out o --set terrain.size=[0.9,0.9] --set terrain.sieve_size=[2e-5,3e-5,5e-5]",
                 {"--set: terrain.sieve_size = [2e-05, 3e-05, 5e-05] [m] makes about"});
   expectRefused("plan sieved.toml --set terrain.sieve_size=[0.1,0.2,0.5]",

@@ -87,7 +87,7 @@ TEST_F(SoilsOfUser, HaveIntervalsOfTheirConstantsMarkedWhereAssumed) {
   const Outcome plan = call("plan drive.toml --no-probe --set scm.constants_draw=1");
   EXPECT_NE(plan.out.find("lete_sand (published): sample 1"), std::string::npos) << plan.out;
   EXPECT_NE(plan.out.find("0.73116     0.793 +- 0.078 - (assumed)"), std::string::npos) << plan.out;
-  EXPECT_NE(plan.out.find("500 Pa of the scene"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("500 Pa (given in the scene)"), std::string::npos) << plan.out;
 }
 
 TEST_F(SoilsOfUser, StandInThePlan) {

@@ -241,12 +241,12 @@ base::TriangleMesh level(float half, float z) {
   return {{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {0, 1, 2, 0, 2, 3}};
 }
 
-/// Pixels with colours of the height scale, more saturated than floor and sky.
-int livelyPixels(const Image& image) {
+/// Pixels with the dark colours of deep soil, darker than floor and sky.
+int darkPixels(const Image& image) {
   int count = 0;
   for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) {
-    const auto [least, most] = std::minmax({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
-    count += most - least > 60 ? 1 : 0;
+    const auto most = std::max({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+    count += most < 75 ? 1 : 0;
   }
   return count;
 }
@@ -273,10 +273,10 @@ TEST(Picture, FloorWithoutAnEndShrinksNoGrains) {
   const Image empty = drawFrame({}, {}, {}, 320);
   output::Frame frame = bedAndBox(0.1f);
   frame.partPoses.clear();
-  const int alone = livelyPixels(drawFrame(frame, {}, {}, 320));
+  const int alone = darkPixels(drawFrame(frame, {}, {}, 320));
   const Image onFloor = drawFrame(frame, {}, level(60, -0.05f), 320);
   EXPECT_GT(alone, 1000);
-  EXPECT_NEAR(livelyPixels(onFloor), alone, 0.1 * alone) << "but for shadows";
+  EXPECT_NEAR(darkPixels(onFloor), alone, 0.1 * alone) << "but for shadows";
   EXPECT_TRUE(subjectOf(onFloor, empty).isCut) << "it goes on beyond the picture";
 }
 

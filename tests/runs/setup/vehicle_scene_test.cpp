@@ -55,7 +55,7 @@ TEST(SpecKeys, MistakesAreNamedWhereTheyStand) {
   expectRefused(goodScene(), {"--set: spec.shoe.count = 4", "[12, 400]"}, {"spec.shoe.count=4"});
   expectRefused(goodScene(), {"spec.sho", "shoe"}, {"spec.sho.count=46"});
   expectRefused(goodScene(), {"spec.shoe.cuont", "count"}, {"spec.shoe.cuont=46"});
-  expectRefused(goodScene(), {"spec.shoe.mesh", "text"}, {"spec.shoe.mesh=3"});
+  expectRefused(goodScene(), {"spec.shoe.mesh", "string in quotes"}, {"spec.shoe.mesh=3"});
   expectRefused(goodScene(), {"--set", "light_tracked.toml", "shoe.count = 47", "set idler.x"}, {"spec.shoe.count=47"});
   const std::string noVehicle =
       "version = 1\n[run]\nduration = 1\n[material.m]\n[[plane]]\nmaterial = \"m\"\n[[grain]]\n"
@@ -103,7 +103,7 @@ TEST(DriverByTorque, MixedUpWithSpeedsIsRefused) {
   expectRefused(withDriver("drive = \"torque\"\nsprocket_speed = 1"), {"driver.sprocket_speed", "left_torque"});
   expectRefused(withDriver("drive = \"torque\"\nleft_torque = 1"), {"left_torque", "requires right_torque"});
   expectRefused(withDriver("drive = \"torque\"\ntorque = 1\nleft_torque = 1\nright_torque = 1"),
-                {"one of several torques"});
+                {"one of several given torques"});
   expectRefused(withDriver("drive = \"torque\"", "[driver.torques]\ntime = [0, 1]\nleft = [0]\nright = [0, 1]\n"),
                 {"driver.torques.left", "[N m]", "as many entries as time, 2"});
   expectRefused(withDriver("drive = \"steam\""), {"driver.drive", "speed, torque, engine"});
