@@ -97,7 +97,7 @@ TEST_F(SmallMistakes, FaultsOfRadiiNameTheKeyThatGivesThem) {
   const std::string bed = replaced(replaced(kSieved, "radius_distribution = \"sieve\"\n", "grain_radius = 1e-6\n"),
                                    "sieve_size = [0.02, 0.03, 0.05]\nsieve_passing = [0, 0.4, 1]\n", "");
   put(folder_ / "fine.toml", bed);
-  expectRefused("plan fine.toml", {"of grains of terrain.grain_radius = 1e-06 m"}); // the mean, as it was given
+  expectRefused("plan fine.toml", {"for grains of terrain.grain_radius = 1e-06 m"}); // the mean, as it was given
 }
 
 TEST_F(SmallMistakes, ABedThatDoesNotSettleIsSaidToFall) {
