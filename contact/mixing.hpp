@@ -78,8 +78,8 @@ struct MixingError : base::InputError {
       : InputError(message), reason(why), inSecond(second), key(property) {}
 };
 
-/// The law between two materials. Damping follows from the restitution by the formula of the clamped or the free law,
-/// for bodies of the given effective mass [kg], or where there is none for any (grains of many masses).
+/// The law between two materials. Damping is derived from the restitution with the formula for the clamped or the free
+/// law: for bodies of the given effective mass [kg], or, if none is given, for any mass (grains of many masses).
 ///
 /// Values of `pair` apply; else
 /// - linear: stiffness in series doubled, 2 k_a k_b / (k_a + k_b), so that equal materials keep theirs;

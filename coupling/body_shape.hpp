@@ -41,8 +41,8 @@ BodyMesh bodyMesh(std::shared_ptr<const spheredecomp::MeshQuery> query, double s
 double distanceFrom(const BodyShape& shape, const base::Vec3d& p_S);
 /// Smallest half thickness of a shape, at most half the mean thickness of a mesh [m].
 double halfThickness(const BodyShape& shape);
-/// Smallest contact feature [m]: the half thickness, at most the sphere diameter of a mesh. A shape that moves by more
-/// than half of it in one step could pass through another.
+/// Smallest contact feature [m]: the half thickness; for a mesh, the smaller of this and its sphere diameter. A shape
+/// that moves by more than half of it in one step could pass through another.
 double leastFeature(const BodyShape& shape);
 /// Support function: largest p . d over the surface points p [m], for a unit vector d in the shape's frame.
 double farthestAlong(const BodyShape& shape, const base::Vec3d& d);

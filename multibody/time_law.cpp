@@ -55,7 +55,7 @@ template <class F> void forEachPiece(const TimeLaw::Table& t, bool smooth, F f) 
   f(Piece{t.times[n - 1], far, t.values[n - 1], 0, 0, 0});
 }
 
-/// Piece at time t; at a joint the left one.
+/// Piece that contains time t; at a breakpoint, the earlier piece.
 Piece pieceAt(const TimeLaw::Table& table, bool smooth, double t) {
   Piece found{0, 0, 0, 0, 0, 0};
   bool done = false;

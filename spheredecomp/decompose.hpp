@@ -48,7 +48,8 @@ inline constexpr int kCutVersion = 1;
 /// bitwise equal spheres; the set's name is not included.
 std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options);
 
-/// Lattice points about spheres of `radius` at the default spacing, at most kMostLatticePoints of which are possible.
+/// Number of lattice points that spheres of `radius` require at the default spacing; decompose() refuses more than
+/// kMostLatticePoints.
 double latticePoints(const TriangleMesh& mesh, double radius);
 
 } // namespace grouser::spheredecomp

@@ -28,7 +28,8 @@ public:
   /// `diameter` [m]: of the largest grain. The grid spans `area`. Grains outside it by more than a diameter do not
   /// count. InputError: `diameter` not positive, or a grain that is no finite number.
   BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area, double diameter);
-  /// Surface of a running bed, from its device; on several ranks of the whole bed, the same on all ranks.
+  /// Surface of the bed in a running simulation, from the grains on its device. With several ranks it covers the whole
+  /// bed and is identical on all of them.
   BedSurface(const base::Exec& exec, const Grains& grains, const HeightFieldView& floor, const Rectangle& area);
   /// From the nodes of an earlier surface of the same area and diameter. InputError: their number does not fit.
   BedSurface(const Rectangle& area, double diameter, std::vector<double> heights);

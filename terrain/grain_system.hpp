@@ -50,7 +50,7 @@ struct GrainSystem {
     if (distribution) distribution->finishGhostUpdate(exec, arrays);
   }
 
-  /// Radii for the neighbour list if they differ.
+  /// Grain radii for the neighbour list; `sphere` is unset if all radii are equal, `fixed` if no grain is fixed.
   contact::RadiiInW radii() const;
   /// All but loads of rigid parts, and flags.
   GrainKernelData kernelData();

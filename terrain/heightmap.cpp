@@ -168,7 +168,7 @@ std::string pixelFault(const std::vector<stbi_uc>& bytes, const PngPixels& pixel
   const std::vector<stbi_uc> tail(pixels.stream.end() - 4, pixels.stream.end());
   if (!unpacked || (b << 16 | a) != wordAt(tail, 0)) return " (wrong checksum of the pixels)";
   if (const std::int64_t announced = unpackedBytes(bytes); count != announced)
-    return fmt::format(" ({} bytes of pixels, the header announces {})", count, announced);
+    return fmt::format(" ({} bytes of pixels, the header specifies {})", count, announced);
   return paletteFault(bytes, pixels);
 }
 
@@ -182,7 +182,7 @@ std::string pngFault(const std::vector<stbi_uc>& bytes) {
     const std::size_t length = wordAt(bytes, at), from = at + 8;
     const std::string type = chunkType(bytes, at + 4);
     if (length > bytes.size() - at - kAround)
-      return fmt::format(" (chunk {} at byte {} announces {} bytes, more than follow)", type, at, length);
+      return fmt::format(" (chunk {} at byte {} specifies {} bytes, more than follow)", type, at, length);
     if (crcOf(&bytes[at + 4], length + 4) != wordAt(bytes, from + length))
       return fmt::format(" (wrong checksum of chunk {} at byte {})", type, at);
     if (type == "IDAT")
@@ -263,8 +263,8 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
     auto* const decoded = load(bytes.data(), size, &map.columns, &map.rows, &channels, 0);
     const std::unique_ptr<std::remove_pointer_t<decltype(decoded)>, FreePixels> pixels(decoded);
     if (!pixels || !damage.empty())
-      fail(fmt::format("{} announced, but the picture is damaged or cut short{}; save or copy it again", dimensions,
-                       damage.empty() ? decodersReason() : damage));
+      fail(fmt::format("the header specifies {}, but the picture is damaged or truncated{}; save or copy it again",
+                       dimensions, damage.empty() ? decodersReason() : damage));
     map.colour = isColour(pixels.get(), count, channels);
     map.transparent = isTransparent(pixels.get(), count, channels, white);
     map.brightness = brightnessOf(pixels.get(), count, channels, white);

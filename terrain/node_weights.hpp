@@ -11,8 +11,9 @@ struct CubicWeights {
   double w[4]{}, d[4]{}, dd[4]{};
 };
 
-/// Catmull-Rom weights at `u` [cells] among `n` >= 2 nodes. The missing node beyond either end continues the last two
-/// linearly; outside [0, n - 1] the curve is its end tangent. Continuous with its slope everywhere, exact on lines.
+/// Catmull-Rom weights at `u` [cells] among `n` >= 2 nodes. The missing node beyond either end is extrapolated linearly
+/// from the last two; outside [0, n - 1] the curve follows its end tangent. Value and slope are continuous everywhere;
+/// linear data are reproduced exactly.
 GROUSER_HD CubicWeights cubicWeights(double u, int n) {
   CubicWeights c;
   if (!(u >= 0) || u > n - 1) {

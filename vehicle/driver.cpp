@@ -90,7 +90,8 @@ void Driver::restore(const std::vector<double>& saved) {
   const std::size_t start = options_.rest ? 2 : 0, own = start + (course_ ? Course::kSaved : 0);
   if (saved.size() != own && saved.size() != own + Handover::kSaved)
     throw base::InputError(
-        "driver: the checkpoint has another kind of drive start; resume with the scene that was run");
+        "driver: the checkpoint was written with a different kind of drive_start or course; resume with "
+        "the scene that wrote the checkpoint");
   from_.reset();
   if (saved.size() > own) from_ = Handover::of({saved.begin() + static_cast<std::ptrdiff_t>(own), saved.end()});
   if (course_) course_->restore(saved.data() + start);
@@ -105,7 +106,8 @@ void Driver::takeOver(const std::vector<double>& former, const Handover& from) {
 void Driver::restoreStart(const std::vector<double>& saved) {
   if (!options_.rest) return;
   if (saved.size() < 2)
-    throw base::InputError("driver: the checkpoint has a fixed drive start; resume with the scene that was run");
+    throw base::InputError("driver: the checkpoint was written with a fixed drive_start, but this scene has \"auto\"; "
+                           "resume with the scene that wrote the checkpoint");
   begun_ = saved[0] < 0 ? std::nullopt : std::optional(saved[0]);
   restsSince_ = saved[1] < 0 ? std::nullopt : std::optional(saved[1]);
 }

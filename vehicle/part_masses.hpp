@@ -5,8 +5,9 @@
 
 namespace grouser::vehicle {
 
-/// Implausible masses and moments of inertia for the mesh sizes: lighter than air or heavier than any metal, or a
-/// radius of gyration far beyond or below the extent. Empty if plausible.
+/// First mass, moment of inertia or centre of mass that is implausible for the size of its mesh: a part lighter than
+/// air or heavier than any metal, a radius of gyration far above or below the extent, or a hull's centre of mass far
+/// outside the hull. Empty if all are plausible.
 std::optional<SpecFault> massFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -22,8 +22,8 @@ Table<Grain> grainTable() {
   t.add("radius", &S::radius, "m", "radius of the sphere").above(0).atMost(1e3).required();
   t.add("material", &S::material, "", "name of its material").required();
   t.add("above_bed", &S::aboveBed, "m",
-        "height of its lowest point above the highest grain under it once the bed has settled; replaces the z of "
-        "position")
+        "height of the grain's lowest point above the highest grain under it once the bed has settled; overrides the z "
+        "coordinate of position")
       .atLeast(0)
       .atMost(1e4);
   t.add("fixed", &S::fixed, "", "whether it never moves, as part of rough ground");
@@ -57,8 +57,8 @@ Table<GrainFill> fillTable() {
       .atMost(1e6);
   t.add("material", &S::material, "", "name of their material").required();
   t.add("above_bed", &S::aboveBed, "m",
-        "height of their lowest point above the highest grain under them once the bed has settled; all are lifted or "
-        "lowered together")
+        "height of the lowest point of these grains above the highest grain under them once the bed has settled; all "
+        "are lifted or lowered together")
       .atLeast(0)
       .atMost(1e4);
   return t;

@@ -48,8 +48,9 @@ void addPlasticity(Table<Material>& t) {
                     brief(S::kPlasticDepth)))
       .above(0)
       .atMost(1);
-  t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
-        "luding: k_c of the pull of an unloaded contact, at most k_c x at an overlap x; default: 0, no adhesion")
+  t.add(
+       "adhesion_stiffness", &S::adhesionStiffness, "N/m",
+       "luding: k_c, which limits the adhesive pull during unloading to k_c x at an overlap x; default: 0, no adhesion")
       .atLeast(0)
       .atMost(1e12);
 }

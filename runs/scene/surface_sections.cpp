@@ -61,8 +61,8 @@ template <class S> void addSurface(Table<S>& t) {
       "in a scene whose bed settles: before, so that the bed is laid around the surface, or after_settling, on the "
       "settled bed; default: before for surfaces at rest, after_settling for meshes and moving surfaces");
   t.template add<Number>("above_bed", &S::aboveBed, "m",
-                         "height of its lowest point above the highest grain under it once the bed has settled; "
-                         "replaces the z of the section")
+                         "height of the surface's lowest point above the highest grain under it once the bed has "
+                         "settled; overrides the z coordinate given in this section")
       .atLeast(0)
       .atMost(1e4);
 }

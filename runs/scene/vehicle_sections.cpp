@@ -37,8 +37,8 @@ Table<Vehicle> vehicleTable() {
       .atLeast(0)
       .atMost(10);
   t.add("sphere_radius", &S::sphereRadius, "m",
-        "radius of the parts' sphere sets; \"auto\": 0.02, or finer where spheres would protrude by more than a "
-        "twentieth of the smallest grain's radius or of a quarter of the pitch")
+        "radius of the spheres that represent the parts in contacts; \"auto\": 0.02, or finer where spheres would "
+        "protrude by more than a twentieth of the smallest grain's radius or of a quarter of the pitch")
       .above(0)
       .atMost(1)
       .orWord("auto");
@@ -71,7 +71,8 @@ Table<Vehicle> vehicleTable() {
         "[shapes] of the vehicle file; \"samples\", points on the meshes; \"auto\": shapes if the file has them")
       .orWord("auto");
   t.add("hull_sphere_radius", &S::hullSphereRadius, "m",
-        "radius of the hull's sphere set, if the hull has contacts; \"auto\": 0.02, or sphere_radius if larger")
+        "radius of the spheres that represent the hull in contacts, if it has any; \"auto\": 0.02, or sphere_radius if "
+        "larger")
       .above(0)
       .atMost(1)
       .orWord("auto");
@@ -86,8 +87,8 @@ Table<Driver> driverTable() {
   using S = Driver;
   Table<S> t("driver", "Sprocket drive, and the start sequence: tension, weight, drive");
   t.add("drive", &S::drive, "",
-        "sprocket drive: speed (with any torque), torque, or engine (the engines of the vehicle file, whose governors "
-        "hold the speeds)");
+        "sprocket drive: speed (whatever torque that requires), torque, or engine (the engines of the vehicle file, "
+        "whose governors hold the speeds)");
   t.add("sprocket_speed", &S::sprocketSpeed, "rad/s",
         "speed of both sprockets; positive drives forward; 0 if no speed is given")
       .atLeast(-100)

@@ -13,7 +13,7 @@
 /// The trials of a calibration: tests of one soil each, in a folder of their own.
 namespace grouser::virtual_tests {
 
-/// The time limit ends a call before all tests of a trial are done.
+/// Thrown if the time limit is reached before all tests of a trial are done.
 struct Unfinished {
   std::string trial;
   int missing;

@@ -27,8 +27,8 @@ struct ScmFit {
   double modelError(bool ofPlates) const;
 };
 
-/// Unloading slope over max(1, n) p / z at the end of the loading of a plate, as [scm] elastic_ratio [-]; NaN if the
-/// slope was not measured. `origin`: of the sinkage, by correctedForBedding() [m].
+/// Ratio of the unloading slope to max(1, n) p / z at the end of a plate's loading, for [scm] elastic_ratio [-]; NaN if
+/// the slope was not measured. `origin`: zero of the sinkage from correctedForBedding() [m].
 double elasticRatioOf(const jobs::Table& run, double origin, double n);
 
 /// Fits the soil contact model to the finished tests, which include both plates and shear under all loads.

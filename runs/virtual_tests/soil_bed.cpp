@@ -181,9 +181,11 @@ BedGrains grainsOf(const coupling::Simulation& simulation, const BedSize& size) 
 
 void failRestless(std::int64_t seed, double limit, double energy) {
   throw base::SimulationError(
-      fmt::format("the bed of seed {} did not come to rest within {:.1f} s: mean kinetic energy {:.2g} m g r per "
-                  "grain; reduce rolling friction, or raise preparation friction or steps per contact",
-                  seed, limit, energy),
+      fmt::format(
+          "the bed with seed {} did not come to rest within {:.1f} s: the mean kinetic energy per grain is still "
+          "{:.2g} m g r (mass x gravity x radius); reduce rolling friction, or raise preparation friction or "
+          "steps per contact",
+          seed, limit, energy),
       base::Cause::unsettledBed);
 }
 

@@ -267,7 +267,7 @@ CASES = {
     "map wrong CRC of data": picture(png(idat_crc=1), Error(["map.png", "damaged"])),
     "map wrong CRC of header": picture(png(ihdr_crc=1), Error(["map.png", "damaged"])),
     "map wrong adler": picture(png(spoil="adler"), Error(["map.png", "damaged"])),
-    "map without end": picture(png(end=False), Error(["map.png", "cut short"])),
+    "map without end": picture(png(end=False), Error(["map.png", "truncated"])),
     "map with bytes behind its end": picture(png(tail=b"more"), Right()),
     "map data too short": picture(png(raw=b"\0" * 9), Error(["map.png"])),
     "map filter of no kind": picture(png(bits=8, raw=b"\7\1\2\3\4" * 3), Error(["map.png"])),

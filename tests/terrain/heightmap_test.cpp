@@ -87,9 +87,9 @@ TEST_F(HeightmapFile, DamagedBytesOfAPng_AreFoundByItsChecksums) {
   }
   Bytes pixel = good;
   pixel[good.find("IDAT") + 14] ^= 0x20; // a height
-  EXPECT_NE(errorOf(pixel).find("damaged or cut short (wrong checksum of chunk IDAT at byte 33)"), std::string::npos)
+  EXPECT_NE(errorOf(pixel).find("damaged or truncated (wrong checksum of chunk IDAT at byte 33)"), std::string::npos)
       << errorOf(pixel);
-  EXPECT_NE(errorOf(good.substr(0, good.size() - 12)).find("damaged or cut short"), std::string::npos);
+  EXPECT_NE(errorOf(good.substr(0, good.size() - 12)).find("damaged or truncated"), std::string::npos);
   EXPECT_EQ(errorOf(good + "behind the end mark"), "no error");
 }
 
@@ -128,14 +128,14 @@ TEST_F(HeightmapFile, PixelsThatTheHeaderDoesNotAnnounce_AreRefused) {
   EXPECT_EQ(errorOf(pngOf(headerOf(2, 3, 8, kGrey), threeRows)), "no error");
   for (const int rows : {2, 4}) {
     const std::string message = errorOf(pngOf(headerOf(2, rows, 8, kGrey), threeRows));
-    EXPECT_NE(message.find(rows == 2 ? "(9 bytes of pixels, the header announces 6)" : "the header announces 12"),
+    EXPECT_NE(message.find(rows == 2 ? "(9 bytes of pixels, the header specifies 6)" : "the header specifies 12"),
               std::string::npos)
         << message;
   }
   // Interlaced, three of the seven pictures have pixels: (0, 0), (1, 0) and the second row.
   const Bytes header = headerOf(2, 2, 8, kGrey, true), inParts{0, 10, 0, 20, 0, 30, 40};
   EXPECT_EQ(load(pngOf(header, inParts)).at(1, 0), 20 / 255.0);
-  EXPECT_NE(errorOf(pngOf(header, inParts + '\x05')).find("the header announces 7"), std::string::npos);
+  EXPECT_NE(errorOf(pngOf(header, inParts + '\x05')).find("the header specifies 7"), std::string::npos);
 }
 
 TEST_F(HeightmapFile, DamagedPng_IsRefusedForItsOwnReason) {
@@ -145,13 +145,13 @@ TEST_F(HeightmapFile, DamagedPng_IsRefusedForItsOwnReason) {
   unnamed.erase(8, 25); // IHDR
   appendChunk(empty, "IEND", "");
   const std::vector<std::pair<Bytes, std::string>> cases{
-      {longer, "(chunk IDAT at byte 33 announces 42781"}, // 255 * 2^24 and its own length
+      {longer, "(chunk IDAT at byte 33 specifies 42781"}, // 255 * 2^24 and its own length
       {unnamed, "(its first chunk is not IHDR)"},
       {empty, "(no pixels)"},
       {good.substr(0, good.size() - 5), "(no end mark)"},
       {good.substr(0, good.size() - 12), "(no end mark)"}};
   for (const auto& [bytes, cause] : cases)
-    EXPECT_NE(errorOf(bytes).find("damaged or cut short " + cause), std::string::npos) << errorOf(bytes);
+    EXPECT_NE(errorOf(bytes).find("damaged or truncated " + cause), std::string::npos) << errorOf(bytes);
 }
 
 TEST_F(HeightmapFile, TransparentPixelsAreKnown_AndOpaqueOnesAreNone) {
@@ -214,8 +214,8 @@ TEST_F(HeightmapFile, BrokenFiles_GiveOneErrorThatNamesTheFile) {
       {"", "the file is empty"},
       {"version = 1\n[run]\nduration = 2\n", "not a picture"},
       {good.substr(0, 20), "not a picture"},
-      {good.substr(0, good.size() / 2), "damaged or cut short"},
-      {good.substr(0, 60), "damaged or cut short"},
+      {good.substr(0, good.size() / 2), "damaged or truncated"},
+      {good.substr(0, 60), "damaged or truncated"},
       {png(1, 1, 8, kGrey, {7}), "1 x 1 pixels; a height-map needs at least 2 x 2"},
       {png(1, 3, 8, kGrey, {7, 8, 9}), "1 x 3 pixels"},
       {png(3, 1, 8, kGrey, {7, 8, 9}), "3 x 1 pixels"},
@@ -241,7 +241,7 @@ TEST_F(HeightmapFile, Jpeg_IsRead_AndCutShortIsAnError) {
   };
   ASSERT_TRUE(stbi_write_jpg_to_func(append, &jpeg, 32, 32, 1, grey.data(), 95));
   EXPECT_NEAR(load(jpeg).at(7, 7), 100 / 255.0, 1 / 255.0); // lossy: a level
-  EXPECT_NE(errorOf(jpeg.substr(0, jpeg.size() - 40)).find("cut short"), std::string::npos);
+  EXPECT_NE(errorOf(jpeg.substr(0, jpeg.size() - 40)).find("truncated"), std::string::npos);
 }
 
 TEST_F(HeightmapFile, MissingFileOrFolder_IsAnErrorWithTheRemedy) {

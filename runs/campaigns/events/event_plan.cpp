@@ -50,7 +50,7 @@ std::string vehicleFile(const std::string& word) {
   const fs::path found =
       support::findInput(isPath ? word : "vehicles/" + word + ".toml", fs::current_path() / "events.toml", tried);
   if (found.empty() || word.empty())
-    throw InputError(fmt::format("--vehicle {}: unknown vehicle; available: {}; or set the path of a vehicle file",
+    throw InputError(fmt::format("--vehicle {}: unknown vehicle; available: {}; or give the path of a vehicle file",
                                  word, fmt::join(readyVehicles(), ", ")));
   return fs::absolute(found).lexically_normal().string();
 }

@@ -93,7 +93,7 @@ double worth(const CheckCases& cases, const std::vector<Goal>& goals, const std:
   return gain < kLeastGain ? 0 : gain / (secondsOf(cases, costs, more) - secondsOf(cases, costs, planned));
 }
 
-/// Adds looks to `taken` until the open goals are expected to be met, or nothing more can be added.
+/// Returns `taken` plus further looks, until the open goals are expected to be met or no look can be added.
 std::vector<int> plannedSeeds(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
                               const Looks& looks, const RunCosts& costs, const SeedsFit& fits) {
   std::vector<int> planned = taken;

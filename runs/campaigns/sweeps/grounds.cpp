@@ -76,7 +76,8 @@ std::string changedKey(const std::string& set) {
   return word.substr(word.starts_with('~'));
 }
 
-/// Removes the keys `inFile` from the scene, and from `sets` these and all below `foreign`.
+/// Returns overrides that remove the keys `inFile` from the scene, followed by `sets` without the keys `inFile`,
+/// `foreign` or any below them.
 std::vector<std::string> without(const std::vector<std::string>& sets, const std::vector<std::string>& inFile,
                                  std::vector<std::string> foreign) {
   std::vector<std::string> all;
