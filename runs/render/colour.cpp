@@ -38,8 +38,8 @@ Colour groundColour() { return srgb(168, 152, 128); }
 namespace {
 
 /// Colour at `value`, 0 to 1, of a map of evenly spaced points; clamped.
-template <std::size_t Points> Colour mapped(const int (&map)[Points][3], float value) {
-  constexpr int kLast = static_cast<int>(Points) - 1;
+template <std::size_t kPoints> Colour mapped(const int (&map)[kPoints][3], float value) {
+  constexpr int kLast = static_cast<int>(kPoints) - 1;
   const float x = kLast * std::clamp(value, 0.0f, 1.0f);
   const int i = std::min(kLast - 1, static_cast<int>(x));
   const float t = x - static_cast<float>(i);
