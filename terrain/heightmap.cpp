@@ -241,7 +241,7 @@ Heightmap loadHeightmap(const std::filesystem::path& file) {
   const int size = static_cast<int>(bytes.size());
 
   if (isPngWithoutHeader(bytes))
-    fail("the picture is damaged or cut short (its first chunk is not IHDR); save or copy it again");
+    fail("the picture is damaged or truncated (its first chunk is not IHDR); save or copy it again");
   if (const auto [columns, rows] = sizeOfPng(bytes); columns * rows > kMaxPixels)
     fail(fmt::format("{} x {} pixels; at most 2^28 are supported, give a smaller picture", columns, rows));
 

@@ -5,6 +5,7 @@
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/provenance.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -51,6 +52,22 @@ TEST(CheckBeds, SkinAndSpheresOfThePartsSettleOnTheBedOfTheBase) {
     const bool shares = axis == CheckAxis::skin || axis == CheckAxis::spheres;
     EXPECT_EQ(numbers[c], shares ? 0 : static_cast<int>(c)) << cases.cases[c].name;
   }
+}
+
+TEST(ShippedChecks, AreOfTheScenesAsTheyStand) {
+  const std::filesystem::path scenes = std::filesystem::path(GROUSER_SOURCE_DIR) / "runs/scenes";
+  int found = 0;
+  for (const auto& file : std::filesystem::directory_iterator(scenes / "checks")) {
+    const scene::Scene scene = setup::loadScene(scenes / file.path().stem().concat(".toml"), {});
+    const std::string inputs = setup::inputsOf(scene), note = checkNote(scene, inputs, 1, true);
+    EXPECT_NE(note.find("checked   error bars by "), std::string::npos) << "run grouser check again: " << file << note;
+    EXPECT_NE(note.find("speed [m/s]"), std::string::npos) << note;
+    // Another speed is another scene.
+    const scene::Scene other = setup::loadScene(scene.file, {"driver.sprocket_speed=3.5"});
+    EXPECT_EQ(checkNote(other, setup::inputsOf(other), 1).find("checked "), std::string::npos);
+    ++found;
+  }
+  EXPECT_GE(found, 1);
 }
 
 } // namespace

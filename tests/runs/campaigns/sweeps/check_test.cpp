@@ -66,7 +66,7 @@ TEST_F(Check, TheFilesAreTheSameForOneJobTwoJobsAndSeveralCalls) {
     EXPECT_EQ(text, contents((folder_ / "some" / name).string())) << name;
   }
   const Json check = json("one/check.json");
-  EXPECT_EQ(check.at("skin"), "the same bits");
+  EXPECT_EQ(check.at("skin"), "bitwise identical");
   EXPECT_EQ(check.at("seeds_matter"), true);
   const Json f = figure(check, "ground force z [N]");
   EXPECT_EQ(f.at("seeds"), 3);
