@@ -15,7 +15,6 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
-#include "runs/support/file_hash.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/output_place.hpp"
 #include "runs/support/progress.hpp"
@@ -80,7 +79,7 @@ public:
     if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.mostSeeds())
       throw base::InputError(fmt::format("run.seed = {}: too large for {} more seeds; set a smaller one",
                                          scene_.run.seed, options.mostSeeds()));
-    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = support::hashOfText(origin_);
+    record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = originHash(origin_);
     record_.jobs = options.sweep.jobs;
     record_.cases = checkCases(file, fixed_, scene_, options.draws);
     keepAxes();

@@ -11,6 +11,7 @@
 #include "runs/campaigns/sweeps/runner.hpp"
 #include "runs/jobs/estimate.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/support/file_hash.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/kept_files.hpp"
 #include "runs/support/kept_json.hpp"
@@ -51,7 +52,7 @@ nlohmann::json shippedCheck(const std::string& origin) {
   std::error_code error;
   for (const fs::directory_entry& file : fs::directory_iterator(support::shareFolder() / kShippedChecks, error)) {
     const nlohmann::json check = readJson(file.path());
-    if (check.is_object() && check.value("origin", "") == origin)
+    if (check.is_object() && check.value("origin", "") == originHash(origin))
       return {{"runs", 0}, {"of_some", false}, {"folder", file.path().string()}, {"check", check}};
   }
   return {};
@@ -110,6 +111,13 @@ std::string checkOrigin(scene::Scene scene, const std::string& inputs) {
   scene.run.checkpointInterval = fresh.checkpointInterval;
   scene.output = {}, scene.parallel = {};
   return identity(scene) + inputs;
+}
+
+std::string originHash(std::string origin) {
+  const std::string share = support::shareFolder().string() + "/";
+  for (std::size_t at = origin.find(share); at != std::string::npos; at = origin.find(share, at))
+    origin.erase(at, share.size());
+  return support::hashOfText(origin);
 }
 
 void keepCheck(const std::string& origin, const std::string& json, int runs, bool ofSome, const fs::path& folder) {

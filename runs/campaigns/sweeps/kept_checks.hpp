@@ -14,6 +14,9 @@ namespace grouser::sweeps {
 /// see setup::inputsOf()), without seed, output and machine.
 std::string checkOrigin(scene::Scene scene, const std::string& inputs);
 
+/// Hash of an origin without the place where the program's files are installed.
+std::string originHash(std::string origin);
+
 /// Stores check.json of `folder`, from `runs` runs, unless a check of more runs by the same commit is stored. A check
 /// of some figures (`ofSome`) does not replace one of all. Ignores write errors.
 void keepCheck(const std::string& origin, const std::string& json, int runs, bool ofSome,
