@@ -4,7 +4,7 @@
 #include "base/host_device.hpp"
 
 #if !defined(__CUDACC__)
-#define THRUST_DEVICE_SYSTEM THRUST_DEVICE_SYSTEM_OMP // no CUDA headers on a machine without the toolkit
+#define THRUST_DEVICE_SYSTEM THRUST_DEVICE_SYSTEM_OMP // avoids CUDA headers on machines without the toolkit
 #endif
 
 #include <omp.h>
@@ -27,7 +27,7 @@ namespace grouser::base {
 namespace {
 
 #if defined(__CUDACC__)
-/// Thrust's temporary memory, from the same pool as Array.
+/// Allocator of Thrust's temporary memory from the same pool as Array.
 struct PoolAllocator {
   using value_type = char;
   const Exec& exec;

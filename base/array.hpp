@@ -9,7 +9,7 @@
 
 namespace grouser::base {
 
-/// Owned memory of `size()` plain elements on the device of an Exec. Kernels take `data()`.
+/// Owning array of `size()` trivially copyable elements on the device of an Exec. Kernels use the pointer `data()`.
 template <class T> class Array {
   static_assert(std::is_trivially_copyable_v<T>);
 
@@ -39,7 +39,7 @@ public:
   bool empty() const { return size_ == 0; }
   std::size_t bytes() const { return capacity_ * sizeof(T); }
 
-  /// Changes the size; contents are undefined afterwards. Memory grows, it never shrinks.
+  /// Changes the size; the contents are undefined afterwards. The allocation grows but never shrinks.
   void resize(std::size_t size) {
     if (size > capacity_) {
       release(exec_, data_);
@@ -49,7 +49,7 @@ public:
     }
     size_ = size;
   }
-  /// Changes the size and keeps what fits. Memory grows in leaps, so that small changes cost nothing.
+  /// Changes the size and preserves the elements that fit. The capacity grows geometrically to amortise reallocation.
   void resizeKeeping(std::size_t size) {
     if (size > capacity_) {
       Array larger(exec_);
@@ -87,14 +87,14 @@ private:
   std::size_t size_{0}, capacity_{0};
 };
 
-/// Copy of `count` elements of device memory.
+/// Returns a host copy of `count` elements of device memory.
 template <class T> std::vector<T> toHost(const Exec& exec, const T* device, std::size_t count) {
   std::vector<T> values(count);
   copyToHost(exec, values.data(), device, count * sizeof(T));
   return values;
 }
 
-/// Array on the device with a pinned copy on the host, for data transferred every step.
+/// Device array with a pinned copy on the host, for data transferred every step.
 template <class T> class Mirrored {
   static_assert(std::is_trivially_copyable_v<T>);
 
@@ -117,9 +117,9 @@ public:
   T* host() { return host_; }
   const T* host() const { return host_; }
   std::size_t bytes() const { return size() * sizeof(T); }
-  /// Asynchronous: do not change the host side before the next synchronize().
+  /// Starts an asynchronous copy to the device: do not change the host side before the next synchronize().
   void upload() { copyToDeviceLater(exec_, device_.data(), host_, size() * sizeof(T)); }
-  /// Valid after the next synchronize().
+  /// Starts an asynchronous copy to the host, valid after the next synchronize().
   void download() { copyToHostLater(exec_, host_, device_.data(), size() * sizeof(T)); }
 
 private:

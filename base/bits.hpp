@@ -8,8 +8,8 @@
 
 namespace grouser::base {
 
-/// Reinterprets bits as another type of the same size; std::bit_cast is not available on GPUs. Always inlined: code
-/// compiled for one processor type calls it too (base/simd.hpp).
+/// Reinterprets the bits as another type of the same size; std::bit_cast is not available on GPUs. Always inlined,
+/// because code compiled for specific instruction sets also calls it (base/simd.hpp).
 template <class To, class From> GROUSER_HD __attribute__((always_inline)) To bitsAs(const From& from) {
   static_assert(sizeof(To) == sizeof(From));
   To to;
@@ -17,7 +17,7 @@ template <class To, class From> GROUSER_HD __attribute__((always_inline)) To bit
   return to;
 }
 
-/// Place of the lowest bit that is set; `bits` is not 0.
+/// Index of the lowest set bit; `bits` must not be 0.
 GROUSER_HD int lowestBit(std::uint64_t bits) {
 #if defined(__CUDA_ARCH__)
   return __ffsll(static_cast<long long>(bits)) - 1;
@@ -26,7 +26,7 @@ GROUSER_HD int lowestBit(std::uint64_t bits) {
 #endif
 }
 
-/// Number of bits set.
+/// Number of set bits (population count).
 GROUSER_HD std::uint32_t bitsSet(std::uint64_t bits) {
 #if defined(__CUDA_ARCH__)
   return static_cast<std::uint32_t>(__popcll(bits));

@@ -8,8 +8,8 @@
 
 namespace grouser::base {
 
-/// Sets up to four parcels in one launch, without waiting: on a GPU a kernel reads and writes the host's memory itself.
-/// Throws std::logic_error for more, or other sizes.
+/// Executes up to four copies (parcels) asynchronously in one launch; on a GPU the kernel accesses host memory
+/// directly. Throws std::logic_error if there are more parcels or a size is not a multiple of 8.
 void carry(const Exec& exec, std::span<const Parcel> parcels);
 
 } // namespace grouser::base

@@ -7,16 +7,16 @@
 
 namespace grouser::base {
 
-/// Cause of a failed simulation, for programs that count or judge failed runs.
+/// Cause of a failed simulation, for programs that classify failed runs.
 enum class Cause {
   unknown,
-  unsettledBed,     ///< the bed did not come to rest, or not with the requested porosity
+  unsettledBed,     ///< the bed did not come to rest or did not reach the requested porosity
   unstableContacts, ///< the time integration creates or loses energy in contacts
-  pressedGrain,     ///< an overlap is too large although the energies balance
-  fastGrain,        ///< a grain crosses the skin of its neighbour list within a step
-  lostGrain,        ///< a grain leaves the range of positions
-  noNumber,         ///< a value is no number
-  thrownPart,       ///< a part moves several times farther than in the previous step
+  pressedGrain,     ///< an overlap is too large although energy is conserved
+  fastGrain,        ///< a grain moves farther than the skin of its neighbour list within a step
+  lostGrain,        ///< a grain leaves the representable range of positions
+  noNumber,         ///< a value is not a number (NaN)
+  thrownPart,       ///< a part moves several times as far as in the previous step
   fastTurn,         ///< a body rotates too far in a step
   fastMotion,       ///< the constraint solver does not converge within a step
   growingSwings,    ///< oscillations transverse to joint tension grow
@@ -26,7 +26,7 @@ enum class Cause {
   offTerrain        ///< the vehicle leaves the terrain
 };
 
-/// Message and cause of a failure; an empty message means that there is none.
+/// Message and cause of a failure; an empty message means no failure.
 struct Alarm {
   std::string text;
   Cause cause{};

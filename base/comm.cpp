@@ -15,12 +15,12 @@ namespace grouser::base {
 
 namespace {
 
-constexpr std::size_t kLargestPart = std::size_t{1} << 30; // MPI counts in int
-constexpr int kTag = 7;                                    // of blocking messages
+constexpr std::size_t kLargestPart = std::size_t{1} << 30; // MPI counts are int
+constexpr int kTag = 7;                                    // tag of blocking messages
 
 using Clock = std::chrono::steady_clock;
 
-/// Adds the time until it goes out of scope.
+/// Scope timer: adds its lifetime to the waiting time.
 class Waiting {
 public:
   explicit Waiting(const std::shared_ptr<double>& total) : total_(total) {}
@@ -39,7 +39,7 @@ template <class T> void reduce(T* values, std::size_t count, MPI_Datatype type, 
   MPI_Allreduce(MPI_IN_PLACE, values, static_cast<int>(count), type, operation, MPI_COMM_WORLD);
 }
 
-/// Calls `part(offset, bytes)` for pieces that MPI can count.
+/// Calls `part(offset, bytes)` for pieces small enough for MPI's int counts.
 template <class Part> void inParts(std::size_t bytes, const Part& part) {
   for (std::size_t at = 0; at < bytes; at += kLargestPart) part(at, std::min(kLargestPart, bytes - at));
 }
@@ -48,7 +48,7 @@ template <class Part> void inParts(std::size_t bytes, const Part& part) {
 bool launchedWithOthers() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
     if (const char* size = std::getenv(name)) return std::atoi(size) > 1;
-  // SLURM's srun speaks PMIx, and names the number of tasks of the step.
+  // SLURM's srun uses PMIx, and sets the number of tasks of the step.
   const char* tasks = std::getenv("SLURM_STEP_NUM_TASKS");
   return tasks && std::getenv("PMIX_RANK") && std::atoi(tasks) > 1;
 }
@@ -157,7 +157,7 @@ struct Messages::Impl {
 
 Messages::Messages(const Comm& comm) : impl_(std::make_unique<Impl>()) { impl_->waited = comm.waited_; }
 Messages::~Messages() {
-  // Not while an exception unwinds: the other ranks may never send, and the error ends them all.
+  // Skipped during exception unwinding: the other ranks may never send, and the error ends them all.
   if (impl_ && std::uncaught_exceptions() == 0) waitAll();
 }
 Messages::Messages(Messages&&) noexcept = default;
@@ -195,7 +195,7 @@ bool Messages::deviceMemoryTravels() {
 Ranks::Ranks(int& argc, char**& argv) {
   if (!launchedWithOthers()) return;
   int provided = 0;
-  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided); // OpenMP beside it; only the main thread calls MPI
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided); // for use with OpenMP; only the main thread calls MPI
   MPI_Comm_rank(MPI_COMM_WORLD, &comm_.rank_);
   MPI_Comm_size(MPI_COMM_WORLD, &comm_.size_);
   comm_.waited_ = std::make_shared<double>(0.0);

@@ -8,14 +8,14 @@
 #include <type_traits>
 #include <vector>
 
-/// The ranks that run one scene together; the only place that calls MPI, but for HDF5 where all ranks write one file. A
-/// program that was started alone never does.
+/// MPI ranks that run one scene together. This is the only place that calls MPI, except for HDF5 output that all ranks
+/// write to one file. A program started without an MPI launcher never calls MPI.
 namespace grouser::base {
 
 using Bytes = std::vector<std::byte>;
 
-/// The ranks of a run. Cheap to copy. By default alone: rank 0 of 1, every call below returns at once and calls no MPI.
-/// Results are in rank order. Calls of all ranks must come in the same order. MPI's own errors end all ranks.
+/// Communicator of a run; cheap to copy. The default has a single rank, for which every call returns at once. Results
+/// are in rank order. All ranks make collective calls in the same order. MPI errors abort all ranks.
 class Comm {
 public:
   Comm() = default;
@@ -25,7 +25,7 @@ public:
   bool alone() const { return size_ == 1; }
   bool first() const { return rank_ == 0; }
 
-  /// Sums over all ranks in place. Integer sums are exact, so the result does not depend on the order of ranks.
+  /// Sums values over all ranks in place. Integer sums are exact, so the result does not depend on the rank order.
   void sum(std::int64_t* values, std::size_t count) const;
   void minimum(std::uint64_t* values, std::size_t count) const;
   void maximum(std::uint64_t* values, std::size_t count) const;
@@ -40,13 +40,13 @@ public:
   }
   /// Sum of the values of all lower ranks.
   std::int64_t sumBelow(std::int64_t value) const;
-  void wait() const; ///< for all ranks
-  /// Machine of a rank, identified by the first rank there.
+  void wait() const; ///< barrier over all ranks
+  /// Host of a rank, identified by the lowest rank on that host.
   int hostOf(int rank) const { return hosts_ ? (*hosts_)[static_cast<std::size_t>(rank)] : 0; }
-  /// Time that this rank has spent waiting for others since the start [s]; 0 where it is alone.
+  /// Time this rank has spent waiting for other ranks since the start [s]; 0 for a single rank.
   double waited() const { return waited_ ? *waited_ : 0.0; }
 
-  /// Data of all ranks, by rank.
+  /// Gathers data from all ranks, in rank order.
   std::vector<Bytes> gather(const Bytes& mine) const;
   /// Sends `to[r]` to rank r; returns the data received, by rank.
   std::vector<Bytes> allToAll(const std::vector<Bytes>& to) const;
@@ -54,7 +54,7 @@ public:
   Bytes broadcast(const Bytes& bytes, int root = 0) const;
   std::string broadcast(const std::string& text, int root = 0) const;
 
-  /// One value of a plain type from every rank, by rank.
+  /// Gathers one trivially copyable value from every rank, in rank order.
   template <class T> std::vector<T> gatherValue(const T& mine) const {
     std::vector<T> all;
     for (const std::vector<T>& part : gatherAll(std::vector<T>{mine})) all.push_back(part.front());
@@ -66,7 +66,7 @@ public:
     return all;
   }
 
-  /// Blocking messages to and from one rank.
+  /// Blocking send to one rank and receive from one rank.
   void send(int to, const Bytes& bytes) const;
   Bytes receive(int from) const;
 
@@ -86,10 +86,10 @@ private:
   friend class Messages;
   int rank_{0}, size_{1};
   std::shared_ptr<double> waited_;                ///< shared by all copies
-  std::shared_ptr<const std::vector<int>> hosts_; ///< hostOf() by rank; null where alone
+  std::shared_ptr<const std::vector<int>> hosts_; ///< hostOf() by rank; null for a single rank
 };
 
-/// Messages under way between ranks: posted without waiting, completed together.
+/// Non-blocking messages between ranks, completed together by waitAll().
 class Messages {
 public:
   explicit Messages(const Comm& comm);
@@ -97,12 +97,12 @@ public:
   Messages(Messages&&) noexcept;
   Messages& operator=(Messages&&) noexcept;
 
-  /// Do not change `memory` before waitAll(). Messages of one pair of ranks and one tag keep their order. Any size:
-  /// large messages are split.
+  /// Posts a receive. Do not change `memory` before waitAll(). Messages between two ranks with the same tag stay in
+  /// order. Large messages are split, so any size is allowed.
   void receive(int from, void* memory, std::size_t bytes, int tag);
   void send(int to, const void* memory, std::size_t bytes, int tag);
   void waitAll();
-  /// True if MPI accepts pointers to device memory.
+  /// True if MPI accepts pointers to device memory (CUDA-aware MPI).
   static bool deviceMemoryTravels();
 
 private:
@@ -110,11 +110,11 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// Owns the connection between the ranks: one for the life of the program. Where the program was started alone it does
-/// nothing.
+/// Initialises and finalises MPI; one instance for the life of the program. Has no effect if the program was started
+/// without an MPI launcher.
 class Ranks {
 public:
-  /// Joins the other ranks where an MPI launcher has started this program with others.
+  /// Initialises MPI if an MPI launcher has started this program.
   Ranks(int& argc, char**& argv);
   ~Ranks();
   Ranks(const Ranks&) = delete;
@@ -123,7 +123,7 @@ public:
   const Comm& comm() const { return comm_; }
   int rankOnHost() const { return rankOnHost_; }
   int ranksOnHost() const { return ranksOnHost_; }
-  /// Ends all ranks with this exit code. Returns where the program is alone.
+  /// Aborts all ranks with this exit code. Returns if there is only one rank.
   void abort(int code) const;
 
 private:

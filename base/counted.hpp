@@ -5,7 +5,7 @@
 
 namespace grouser::base {
 
-/// "1 seed", "3 seeds": a number with the word that it counts. `many`: the plural, where it is not `one` with an s.
+/// Formats a number with its noun: "1 seed", "3 seeds". `many` is the plural, by default `one` with an s.
 template <class Number> std::string counted(Number number, const std::string& one, const std::string& many = {}) {
   return std::to_string(number) + " " + (number == 1 ? one : many.empty() ? one + "s" : many);
 }

@@ -8,7 +8,7 @@
 
 namespace grouser::base {
 
-/// Throws DeviceError with the code that `what` returned.
+/// Throws DeviceError with `code` unless it reports success; `what` names the failed call.
 inline void checkCuda(cudaError_t code, const std::string& what) {
   if (code != cudaSuccess)
     throw DeviceError(what + ": " + cudaGetErrorName(code) + " (" + cudaGetErrorString(code) + ")");

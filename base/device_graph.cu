@@ -34,16 +34,16 @@ void DeviceGraph::begin() {
 void DeviceGraph::end() {
   cudaGraph_t graph = nullptr;
   checkCuda(cudaStreamEndCapture(streamOf(exec_), &graph), "cudaStreamEndCapture");
-  // A graph of the same shape is updated in place, which is quicker than to instantiate a new one.
+  // A graph of the same topology is updated in place, which is faster than a new instantiation.
   cudaGraphExecUpdateResultInfo unused{};
   cudaError_t code = cudaErrorGraphExecUpdateFailure;
   if (graph_) code = cudaGraphExecUpdate(graphOf(graph_), graph, &unused);
   if (code != cudaSuccess) {
-    cudaGetLastError(); // the failed update is no error of the program
+    cudaGetLastError(); // clears the error: a failed update is expected
     if (graph_) cudaGraphExecDestroy(graphOf(graph_));
     graph_ = nullptr;
     cudaGraphExec_t fresh = nullptr;
-    // The flag keeps each stream's priority; otherwise all nodes run at the priority of the launching stream.
+    // The flag preserves each stream's priority; otherwise all nodes run at the priority of the launching stream.
     code = cudaGraphInstantiate(&fresh, graph, cudaGraphInstantiateFlagUseNodePriority);
     graph_ = fresh;
   }
@@ -55,7 +55,7 @@ void DeviceGraph::end() {
 void DeviceGraph::abandon() noexcept {
   cudaGraph_t graph = nullptr;
   if (cudaStreamEndCapture(streamOf(exec_), &graph) == cudaSuccess && graph) cudaGraphDestroy(graph);
-  cudaGetLastError(); // cleared: the exception that ended the recording is being thrown
+  cudaGetLastError(); // clears the error: the exception that ended the recording is being thrown
 }
 
 void DeviceGraph::start() { checkCuda(cudaGraphLaunch(graphOf(graph_), streamOf(exec_)), "cudaGraphLaunch"); }
@@ -92,7 +92,7 @@ void SideStream::join() {
 
 #else
 
-// Without CUDA every Exec is a CPU: nothing is recorded and no stream is created.
+// Without CUDA every Exec is a CPU: no recording, no stream.
 DeviceGraph::~DeviceGraph() = default;
 void DeviceGraph::begin() {}
 void DeviceGraph::end() {}

@@ -8,11 +8,11 @@
 
 namespace grouser::base {
 
-/// Repeated device work, recorded once and launched as one CUDA graph, at the host cost of a single kernel. A CPU
-/// executes it directly.
+/// Device work recorded once and replayed as one CUDA graph, at the host cost of a single kernel launch. On a CPU the
+/// work runs directly.
 ///
-/// Records launches and copies with their pointers, counts and constants, but no host code. The work must not allocate
-/// or wait; call forget() when any of these has changed.
+/// The graph records launches and copies with their pointers, counts and constants, but no host code. The work must not
+/// allocate or wait; call forget() after any of these changes.
 class DeviceGraph {
 public:
   DeviceGraph() = default;
@@ -26,7 +26,7 @@ public:
   DeviceGraph& operator=(const DeviceGraph&) = delete;
   ~DeviceGraph();
 
-  /// Runs `work()`, which queues work on the Exec and on side streams that fork from it and join it.
+  /// Runs `work()`, which enqueues work on the Exec and on side streams that fork from it and join it.
   template <class Work> void run(const Work& work) {
     if (exec_.onCpu()) return work();
     if (!recorded_) {
@@ -36,11 +36,11 @@ public:
     }
     start();
   }
-  /// The next run records anew.
+  /// Discards the graph; the next run() records a new one.
   void forget() { recorded_ = false; }
 
 private:
-  /// While it lives, work queued on the stream is recorded instead of executed.
+  /// Scope during which work enqueued on the stream is recorded instead of executed.
   class Recording {
   public:
     explicit Recording(DeviceGraph& graph) : graph_(graph) { graph_.begin(); }
@@ -74,14 +74,14 @@ private:
   bool recorded_{false};
 };
 
-/// Graphs of work on double-buffered memory: a graph holds pointers, so there is one for each of the two buffers.
+/// Graphs of work on double-buffered memory: a graph contains pointers, so each of the two buffers has its own graph.
 class DoubleBufferedGraph {
 public:
   DoubleBufferedGraph() = default;
   explicit DoubleBufferedGraph(const Exec& exec) {
     for (Turn& turn : turns_) turn.graph = DeviceGraph(exec);
   }
-  /// The graph of work that reads `buffer` first, and half `other` of a second double buffer. A third combination
+  /// Returns the graph of work that reads `buffer`, and half `other` of a second double buffer. A third combination
   /// replaces the second.
   DeviceGraph& from(const void* buffer, unsigned other = 0) {
     for (Turn& turn : turns_)
@@ -109,7 +109,7 @@ private:
 class SideStream {
 public:
   SideStream() = default;
-  /// `first`: blocks of the side stream start before those of the main stream that wait; else after them.
+  /// `first`: blocks of the side stream start before pending blocks of the main stream; otherwise after them.
   explicit SideStream(const Exec& main, bool first = false);
   SideStream(SideStream&& other) noexcept { swap(other); }
   SideStream& operator=(SideStream&& other) noexcept {
@@ -121,9 +121,9 @@ public:
   ~SideStream();
 
   const Exec& exec() const { return side_; }
-  /// Work queued on the side from now on waits for all that is queued on the main stream so far.
+  /// Makes later work on the side stream wait for all work now queued on the main stream.
   void fork();
-  /// Work queued on the main stream from now on waits for all that is queued on the side so far.
+  /// Makes later work on the main stream wait for all work now queued on the side stream.
   void join();
 
 private:

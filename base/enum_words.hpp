@@ -28,14 +28,14 @@ concept HasWords = std::is_enum_v<E> && requires {
   EnumWords<E>::list;
 };
 
-/// The word for `value`; empty where it has none.
+/// Returns the word for `value`; empty if the value has no word.
 template <HasWords E> constexpr std::string_view wordOf(E value) {
   for (const EnumWord<E>& e : EnumWords<E>::list)
     if (e.value == value) return e.word;
   return {};
 }
 
-/// The value that `word` stands for; empty where it is none of the words.
+/// Returns the value named by `word`; empty if `word` is not in the list.
 template <HasWords E> constexpr std::optional<E> valueOf(std::string_view word) {
   for (const EnumWord<E>& e : EnumWords<E>::list)
     if (e.word == word) return e.value;

@@ -9,7 +9,7 @@
 
 namespace grouser::base {
 
-/// The text as one line: control characters, which a user's file may hold anywhere, as \n or \x1B.
+/// Returns the text as one line: control characters, which user files may contain, are escaped as \n or \x1B.
 inline std::string oneLine(const std::string& text) {
   constexpr char kDigits[] = "0123456789ABCDEF";
   std::string line;
@@ -25,15 +25,15 @@ inline std::string oneLine(const std::string& text) {
   return line;
 }
 
-/// Wrong user input: a scene, file or option. Exit code 2. Nothing has been written when it is thrown. The message
-/// reads `file:line: key = value is ...; remedy`, in one line.
+/// Invalid user input: a scene, file or option. Exit code 2. Thrown before any output is written. The message is one
+/// line: `file:line: key = value is ...; remedy`.
 class InputError : public std::runtime_error {
 public:
   explicit InputError(const std::string& message) : std::runtime_error(oneLine(message)) {}
 };
 
-/// The simulation cannot continue: NaN, overlap, a thrown track. Exit code 3. The message names step, time, id, place
-/// and remedy.
+/// Failure of a running simulation: NaN, excessive overlap, a thrown track. Exit code 3. The message states the step,
+/// time, id, position and remedy.
 class SimulationError : public std::runtime_error {
 public:
   explicit SimulationError(const std::string& message, Cause cause = Cause::unknown)
@@ -44,7 +44,7 @@ private:
   Cause cause_;
 };
 
-/// A device call failed; carries the code it returned. Exit code 4.
+/// Failure of a device call, with the code it returned. Exit code 4.
 class DeviceError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;

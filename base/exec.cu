@@ -43,7 +43,7 @@ std::string whyNoGpu() {
   int count = 0, driver = 0;
   const cudaError_t code = cudaGetDeviceCount(&count);
   if (code == cudaSuccess) return count > 0 ? "" : "none found by the driver";
-  // The runtime calls a driver that is not there too old.
+  // The runtime reports a missing driver as too old.
   if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0) return "NVIDIA's driver is not installed";
   return cudaGetErrorString(code);
 #else
@@ -70,7 +70,7 @@ Exec cudaExec(int index) {
   if (const std::string why = whyNoGpu(); !why.empty())
     throw DeviceError("no usable GPU: " + why + "; run nvidia-smi to list GPUs, or use --device cpu");
   checkCuda(cudaSetDevice(index), "cudaSetDevice");
-  // The pool keeps released memory for the next allocation: asking the driver takes longer than most kernels.
+  // The pool retains released memory for later allocations: driver calls take longer than most kernels.
   cudaMemPool_t pool = nullptr;
   checkCuda(cudaDeviceGetDefaultMemPool(&pool, index), "cudaDeviceGetDefaultMemPool");
   std::uint64_t all = ~std::uint64_t{0};
@@ -142,7 +142,7 @@ std::size_t memoryTaken(const Exec& exec) {
   if (exec.onCpu()) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024; // Linux counts in KiB
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024; // Linux reports KiB
   }
 #if defined(__CUDACC__)
   std::size_t unused = 0, total = 0;
@@ -187,7 +187,7 @@ DeviceError outOfMemory(std::size_t bytes) {
   const auto inMiB = [](std::size_t count) { return std::to_string((count + (1u << 20) - 1) >> 20) + " MiB"; };
   std::size_t unused = 0, total = 0;
   int index = 0;
-  cudaGetLastError(); // cleared: the exception reports it
+  cudaGetLastError(); // clears the error: the exception reports it
   if (cudaGetDevice(&index) != cudaSuccess || cudaMemGetInfo(&unused, &total) != cudaSuccess) unused = total = 0;
   return DeviceError("GPU " + std::to_string(index) + " is out of memory: " + inMiB(bytes) + " more required, " +
                      inMiB(unused) + " of " + inMiB(total) +
@@ -212,7 +212,7 @@ void* allocateUnset(const Exec& exec, std::size_t bytes) {
 #if defined(__CUDACC__)
   cudaError_t code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
   if (code == cudaErrorMemoryAllocation) {
-    // The pool may hold fragments that are too small; returned to the system, they merge.
+    // The pool may contain fragments that are too small; returned to the system, they merge.
     cudaGetLastError();
     emptyPool(exec);
     code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
@@ -258,7 +258,7 @@ void release(const Exec& exec, void* memory) noexcept {
     return;
   }
 #if defined(__CUDACC__)
-  if (memory) cudaFreeAsync(memory, static_cast<cudaStream_t>(exec.stream)); // while unwinding, failures are too late
+  if (memory) cudaFreeAsync(memory, static_cast<cudaStream_t>(exec.stream)); // failures during unwinding are ignored
 #endif
 }
 

@@ -12,24 +12,24 @@
 
 namespace grouser::base {
 
-/// Order-free sums: a real number becomes a 64-bit multiple of a quantum, a power of two, so that additions are exact
-/// and any order, thread count or number of ranks gives the same bits.
+/// Fixed-point format for order-independent sums: a real number becomes a 64-bit multiple of a quantum (a power of
+/// two), so additions are exact and the sum has the same bits for any order, thread count or number of ranks.
 ///
-/// Range: a sum is right while it and every addend stay within +-2^62 quanta. `fixedPointFor(largest, bits)` leaves
-/// room for 2^(62 - bits) addends of the largest size; a larger one is clamped to the end of the range, on every
-/// device. `checked()` detects sums out of range.
+/// Range: a sum is correct while it and every addend stay within +-2^62 quanta. `fixedPointFor(largest, bits)` allows
+/// 2^(62 - bits) addends of the largest size; a larger addend is clamped to the end of the range, on every device.
+/// `checked()` detects sums out of range.
 struct FixedPoint {
   double quantum{1};
   double perUnit{1}; ///< 1 / quantum, exact
 
-  /// Nearest multiple; values beyond the range and NaN are clamped to its end, on every device.
+  /// Rounds to the nearest multiple; clamps NaN and values beyond the range to its end, on every device.
   GROUSER_HD std::int64_t quantise(double value) const {
     constexpr double kMost = 4611686018427387904.0; // 2^62
     const double quanta = floor(value * perUnit + 0.5);
     return static_cast<std::int64_t>(!(quanta > -kMost) ? -kMost : quanta < kMost ? quanta : kMost);
   }
   GROUSER_HD double value(std::int64_t quanta) const { return static_cast<double>(quanta) * quantum; }
-  /// Value of a sum. Throws SimulationError if it is out of range; `what` names the summed quantity.
+  /// Returns the value of a sum. Throws SimulationError if it is out of range; `what` names the summed quantity.
   double checked(std::int64_t quanta, const char* what) const {
     constexpr std::int64_t kEnd = std::int64_t{1} << 62;
     if (quanta >= kEnd || quanta <= -kEnd)
@@ -45,9 +45,9 @@ struct FixedPoint {
   GROUSER_HD Vec3d value(const Vec3l& q) const { return {value(q.x), value(q.y), value(q.z)}; }
 };
 
-/// The quantum under which `largest` takes at most 2^bits quanta, and more than half as many but where it lies below
-/// 2^(bits - 1022), for quanta and their inverse are normal numbers: room for 2^(62 - bits) addends of that size.
-/// Throws SimulationError where `largest` is not above 0 and finite.
+/// Returns the format in which `largest` is at most 2^bits quanta and more than half of that, unless it is below
+/// 2^(bits - 1022), since the quantum and its inverse must be normal numbers. Sums can hold 2^(62 - bits) addends of
+/// that size. Throws SimulationError unless `largest` is positive and finite.
 inline FixedPoint fixedPointFor(double largest, int bits = 42) {
   if (!(largest > 0 && largest <= std::numeric_limits<double>::max()))
     throw SimulationError("no fixed-point scale for sums of values up to " + std::to_string(largest) +

@@ -17,7 +17,7 @@
 namespace grouser::base {
 
 /// Approximate cost of a loop item on one core [ns]: the body's `static constexpr double kNanoseconds` or `double
-/// nanoseconds() const`, else that of a few reads and writes. Only decides whether threads share a loop.
+/// nanoseconds() const`, otherwise the cost of a few memory accesses. Only selects serial or threaded execution.
 template <class Body> double nanosecondsOf(const Body& body) {
   if constexpr (requires { body.nanoseconds(); })
     return body.nanoseconds();
@@ -27,8 +27,8 @@ template <class Body> double nanosecondsOf(const Body& body) {
     return 5;
 }
 
-/// Blocks that a GPU's multiprocessor must be able to run concurrently, which limits the registers of a thread: the
-/// body's `static constexpr int kBlocksTogether`, or 0 for no limit.
+/// Minimum number of resident blocks per GPU multiprocessor, which limits the registers per thread: the body's `static
+/// constexpr int kBlocksTogether`, or 0 for no limit.
 template <class Body> constexpr int blocksTogether() {
   if constexpr (requires { Body::kBlocksTogether; })
     return Body::kBlocksTogether;
@@ -46,9 +46,9 @@ template <class Body> __global__ void __launch_bounds__(128, blocksTogether<Body
 } // namespace detail
 #endif
 
-/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, with all threads if the loop is long
-/// enough (nanosecondsOf()), one kernel on the GPU. `body` is a named functor of pointers and scalars; `name` appears
-/// in errors. Asynchronous on the GPU.
+/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, threaded if the loop is long enough
+/// (nanosecondsOf()), or one kernel on the GPU. `body` is a named functor of pointers and scalars; `name` appears in
+/// error messages. Asynchronous on the GPU.
 template <class Body> void forEach(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {
@@ -64,12 +64,12 @@ template <class Body> void forEach(const Exec& exec, const char* name, std::int6
   detail::forEachKernel<<<blocks, kBlock, 0, static_cast<cudaStream_t>(exec.stream)>>>(body, count);
   checkCuda(cudaGetLastError(), std::string("launch of ") + name);
 #else
-  // Only files that nvcc compiles can launch.
+  // Only files compiled by nvcc can launch kernels.
   throw DeviceError(std::string(name) + ": this file was not compiled for CUDA");
 #endif
 }
 
-/// Adds to a counter shared by threads; integer, so the order does not matter.
+/// Adds to a counter shared by threads; an integer sum does not depend on the order.
 GROUSER_HD void atomicAdd64(std::int64_t* target, std::int64_t value) {
 #if defined(__CUDA_ARCH__)
   atomicAdd(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));
@@ -86,7 +86,7 @@ GROUSER_HD std::uint32_t atomicAdd32(std::uint32_t* target, std::uint32_t value)
 #endif
 }
 
-/// Keeps the largest value. A plain read comes first: a stale value costs one atomic more.
+/// Atomic maximum. A plain read comes first; a stale value only costs one extra atomic.
 GROUSER_HD void atomicMax32(std::uint32_t* target, std::uint32_t value) {
 #if defined(__CUDA_ARCH__)
   if (value > *target) atomicMax(target, value);
@@ -105,7 +105,7 @@ GROUSER_HD void raise(std::uint32_t* flag) {
 #endif
 }
 
-/// Keeps the smallest value: the first fault by key, whatever thread finds it first.
+/// Atomic minimum: keeps the first fault by key, whichever thread finds it.
 GROUSER_HD void atomicMin64(std::uint64_t* target, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
   atomicMin(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));

@@ -5,13 +5,13 @@
 
 namespace grouser::base {
 
-/// The threads that share one item of forEachGroup: `width` neighbours within a warp on the GPU, one on the CPU. They
-/// walk a list together (for k = lane; k < n; k += width) and agree on the best entry.
+/// Threads that share one item of forEachGroup: `width` neighbouring threads of a warp on the GPU, one on the CPU. They
+/// traverse a list together (for k = lane; k < n; k += width) and reduce to the best entry.
 template <int kWidth> struct ThreadGroup {
   static constexpr int width = kWidth;
   int rank;
 
-  /// Gives every thread the greatest `value` of all and, among equal values, the smallest `key`.
+  /// Sets `value` to the maximum over the group and `key` to the smallest key among equal maxima, in every thread.
   template <class T> GROUSER_HD void agreeOnGreatest(T& value, std::uint32_t& key) const {
 #if defined(__CUDA_ARCH__)
     const unsigned self = threadIdx.x & 31u;
@@ -28,7 +28,7 @@ template <int kWidth> struct ThreadGroup {
 };
 
 namespace detail {
-/// The items of one thread on a CPU.
+/// Runs the items of one CPU thread.
 template <class Body> void runGroups(const Body& body, std::int64_t first, std::int64_t last) {
   if constexpr (requires { body.runOnCpu(first, last); })
     body.runOnCpu(first, last);
@@ -39,7 +39,7 @@ template <class Body> void runGroups(const Body& body, std::int64_t first, std::
 
 #if defined(__CUDACC__)
 namespace detail {
-inline constexpr int kGroupBlock = 64; // threads; small blocks fit beside large kernels
+inline constexpr int kGroupBlock = 64; // threads per block; small blocks fit beside large kernels
 template <int kWidth, class Body> __global__ void __launch_bounds__(kGroupBlock)
     forEachGroupKernel(Body body, std::int64_t count) {
   const std::int64_t thread = static_cast<std::int64_t>(blockIdx.x) * blockDim.x + threadIdx.x;
@@ -49,9 +49,9 @@ template <int kWidth, class Body> __global__ void __launch_bounds__(kGroupBlock)
 } // namespace detail
 #endif
 
-/// Runs `body(i, group)` for i in [0, count): like forEach, but on the GPU `kWidth` threads (a power of two up to 32)
-/// work on each item. For bodies that walk lists too long for a single thread per item. On the CPU, a body that has
-/// runOnCpu(first, last) is given a thread's whole range at once.
+/// Runs `body(i, group)` for i in [0, count) like forEach, but with `kWidth` GPU threads (a power of two up to 32) per
+/// item. For bodies that traverse lists too long for one thread. On the CPU, a body with a member runOnCpu(first, last)
+/// receives a thread's whole range at once.
 template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;

@@ -7,11 +7,11 @@
 
 namespace grouser::base {
 
-/// Memory that this process can still allocate [B]: the least of the system's available memory and the remainders of
+/// Memory that this process can still allocate [B]: the minimum of the system's available memory and the remainders of
 /// the cgroup (v2) limit and of `ulimit -v`. Empty if unknown.
 std::optional<double> freeMemoryOfHost();
 
-/// Free memory on the device of `exec` [B]; on a CPU as freeMemoryOfHost().
+/// Free memory on the device of `exec` [B]; for a CPU same as freeMemoryOfHost().
 std::optional<double> freeMemoryOf(const Exec& exec);
 
 } // namespace grouser::base

@@ -19,7 +19,7 @@ namespace grouser::base {
 
 namespace {
 
-constexpr int kBlock = 128; // one block, since its threads wait for each other; finds room beside others
+constexpr int kBlock = 128; // a single block, since its threads wait for each other; fits beside other kernels
 
 cudaStream_t streamOf(const Exec& exec) { return static_cast<cudaStream_t>(exec.stream); }
 
@@ -143,7 +143,7 @@ void Gate::await(Mark mark) {
       __builtin_ia32_pause();
 #endif
     }
-    if (!told() && !isBusy(exec_) && !told()) throw std::logic_error("a run that was let through has not told");
+    if (!told() && !isBusy(exec_) && !told()) throw std::logic_error("a run passed the gate without reporting");
   }
 }
 

@@ -6,42 +6,42 @@
 
 namespace grouser::base {
 
-/// Synchronises work that is launched ahead of its data with the host: it waits on the device for the host and reports
-/// its progress, so that neither waits for a launch. One run may wait at the gate while the previous one is still
-/// running.
+/// Synchronises the host with device work that is launched before its data are ready. The work waits on the device for
+/// the host and reports its progress, which hides the launch latency. One run may wait at the gate while the previous
+/// one is still running.
 ///
-/// While a run waits, no thread may call what waits for all device work, such as the release of pinned memory.
+/// While a run waits, no thread may make a call that waits for all device work, such as freeing pinned memory.
 ///
-/// On a CPU nothing is launched ahead: the gate is always open and queued work is complete.
+/// On a CPU nothing is launched ahead: the gate is always open and all queued work is complete.
 class Gate {
 public:
   Gate() = default;
   explicit Gate(const Exec& exec);
-  /// True on a GPU, unless CUDA_LAUNCH_BLOCKING=1 makes each launch wait for its end. Set that under profilers that
-  /// serialise kernels, too.
+  /// True on a GPU, unless CUDA_LAUNCH_BLOCKING=1 makes every launch synchronous. Set that variable also under
+  /// profilers that serialise kernels.
   static bool canWait(const Exec& exec);
 
   /// Progress marks of the work.
   enum Mark : int { kFirst, kSecond };
 
-  // Device side: queue each once per run; `exec` may be a side stream.
-  /// Sets `parcels` as carry() does, without waiting; does nothing if `watch` cancels the run.
+  // Device side: enqueue each call once per run; `exec` may be a side stream.
+  /// Copies `parcels` as carry() does, without waiting; has no effect if `watch` cancels the run.
   void carryBefore(const Exec& exec, const Watch& watch, std::span<const Parcel> parcels);
-  /// Waits until open() has been called once more than runs have passed, then sets `parcels`. If `watch` cancels the
-  /// run, it neither waits nor sets anything.
+  /// Waits until the calls of open() outnumber the runs that have passed, then copies `parcels`. If `watch` cancels the
+  /// run, returns without waiting or copying.
   void pass(const Exec& exec, const Watch& watch, std::span<const Parcel> parcels);
-  /// Sets `parcels` and lets await(mark) of this run return; does nothing if the run is cancelled.
+  /// Copies `parcels` and releases await(mark) for this run; has no effect if the run is cancelled.
   void tell(const Exec& exec, Mark mark, std::span<const Parcel> parcels);
-  /// Device word, valid after pass(): nonzero if this run is cancelled and must change nothing.
+  /// Device word, valid after pass(): nonzero if this run is cancelled and must not change any state.
   const std::uint32_t* calledOff() const;
 
   // Host side.
-  /// Lets one run pass; it sees everything the host has written before.
+  /// Lets one run pass; it sees all earlier host writes.
   void open();
-  /// Spins until the run that passed last has reached the mark. Throws DeviceError when the device has failed.
+  /// Spins until the latest run that passed has reached the mark. Throws DeviceError if the device has failed.
   void await(Mark mark);
-  /// Cancels the run that waits, will wait, or has been let through but has not arrived; waits for the device and
-  /// resets. Required before the gate is destroyed during a run, which would deadlock.
+  /// Cancels the run that is waiting, will wait, or has passed without reaching its mark; then waits for the device and
+  /// resets. Required before destroying the gate during a run, which would deadlock.
   void callOff();
 
 private:
@@ -58,7 +58,7 @@ private:
   static constexpr std::uint64_t kCalledOff = ~std::uint64_t{0};
 
   Exec exec_{};
-  Mirrored<Word> words_; ///< opened, reached marks (two); its device side is unused
+  Mirrored<Word> words_; ///< opened, reached marks (two); the device side is unused
   Array<Passed> passed_;
   std::uint64_t opened_{0};
 };

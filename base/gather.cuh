@@ -7,7 +7,7 @@
 
 namespace grouser::base {
 
-/// Kernel body: to[i] = from[order[i]], records of `width` elements each.
+/// Kernel body: to[i] = from[order[i]] for records of `width` elements.
 template <class T> struct Gather {
   const std::uint32_t* order;
   const T* from;

@@ -7,11 +7,11 @@
 
 namespace grouser::base {
 
-/// 64-bit hash of a sequence of words, for telling states apart: each word goes through a full 64-bit mix (the
-/// finaliser of splitmix64; Steele, Lea and Flood 2014). Not for secrets.
+/// 64-bit hash of a sequence of words, to compare states. Each word passes a full 64-bit mix (the finaliser of
+/// splitmix64; Steele, Lea and Flood 2014). Not cryptographic.
 class StateHash {
 public:
-  explicit StateHash(std::uint64_t value = 0) : value_(value) {} ///< goes on from another's value()
+  explicit StateHash(std::uint64_t value = 0) : value_(value) {} ///< continues from another hash's value()
 
   void add(std::uint64_t word) {
     std::uint64_t z = (value_ ^ word) + 0x9E3779B97F4A7C15ull;
@@ -24,7 +24,7 @@ public:
     for (const std::uint32_t w : words) add(static_cast<std::uint64_t>(w));
   }
   std::uint64_t value() const { return value_; }
-  /// 16 hexadecimal digits.
+  /// Returns 16 hexadecimal digits.
   std::string hex() const {
     constexpr char kDigits[] = "0123456789abcdef";
     std::string text(16, '0');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Mark a function that runs on the CPU and, where CUDA is compiled, on the GPU too.
+/// Marks a function for the CPU and, if compiled with CUDA, also for the GPU.
 #if defined(__CUDACC__)
 #define GROUSER_HD __host__ __device__ __forceinline__
 #else

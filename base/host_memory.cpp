@@ -8,7 +8,7 @@ namespace grouser::base {
 
 namespace {
 
-/// Counter of the process's memory; no result depends on it.
+/// Memory counter of the process; does not affect results.
 struct Count {
   std::atomic<std::size_t> now{0}, most{0};
 };

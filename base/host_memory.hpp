@@ -3,10 +3,10 @@
 
 #include <cstddef>
 
-/// Host memory held by arrays, counted for base/memory_held.hpp.
+/// Tracks host memory owned by arrays, for base/memory_held.hpp.
 namespace grouser::base {
 
-/// Reports memory as allocated or about to be freed; null is ignored.
+/// Records an allocation or an imminent deallocation; ignores null.
 void noteTaken(void* memory) noexcept;
 void noteGivenBack(void* memory) noexcept;
 

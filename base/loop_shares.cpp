@@ -10,7 +10,7 @@ namespace {
 
 // Minimum work for a team of threads [ns]: the cost of starting and joining a parallel loop.
 constexpr double kLeastOfTeam = 4e3, kLeastOfThread = 250;
-constexpr std::size_t kLeastShared = std::size_t{1} << 19; // [bytes] from which several threads pay off
+constexpr std::size_t kLeastShared = std::size_t{1} << 19; // [bytes] minimum size for several threads
 constexpr std::size_t kPage = 4096;                        // [bytes]
 
 /// Calls work(first byte, number of bytes) for shares of whole pages.

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
-/// Elementary functions with bitwise identical results on every processor: built from + - * / and sqrt only, in a fixed
-/// order. The C library's versions differ between processors (they pick fused multiply-add paths at run time).
-/// Accuracy: a few units in the last place over the ranges stated; measured in tests/base/arithmetic_test.cu.
+/// Elementary functions with bitwise identical results on every processor: built from + - * / and sqrt in a fixed
+/// order. C library versions differ between processors (they choose fused multiply-add paths at run time). Accuracy: a
+/// few units in the last place over the stated ranges; measured in tests/base/arithmetic_test.cu.
 namespace grouser::base {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -138,7 +138,7 @@ GROUSER_HD double cubeRoot(double x) {
 }
 /// Cube root of floats, scalar or SIMD; `Bits` is the integer type of the same size.
 template <class Bits, class Float> GROUSER_HD Float cubeRootBy(const Float& x) {
-  // 1 where the result is 0: the cube of the guess would be a denormal number, which is slow.
+  // Selects 1 where the result is 0: the cube of the guess would be a denormal number, which is slow.
   Float y = x > 0 ? bitsAs<Float>(bitsAs<Bits>(x) / 3 + 0x2A512CE3u) : Float{} + 1;
   for (int k = 0; k < 2; ++k) {
     const Float cube = y * y * y;

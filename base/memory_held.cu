@@ -48,7 +48,7 @@ void restartMemoryPeak(const Exec& exec) {
   if (exec.onCpu()) return restartHostPeak();
 #if defined(__CUDACC__)
   synchronize(exec);
-  std::uint64_t none = 0; // the only value that CUDA accepts: resets the peak to the current size
+  std::uint64_t none = 0; // the only value accepted by CUDA: resets the peak to the current size
   for (const cudaMemPoolAttr peak : {cudaMemPoolAttrUsedMemHigh, cudaMemPoolAttrReservedMemHigh})
     checkCuda(cudaMemPoolSetAttribute(currentPool(), peak, &none), "cudaMemPoolSetAttribute");
 #else

@@ -7,7 +7,7 @@
 
 namespace grouser::base {
 
-/// Buffer for messages between ranks, in words. Grows to 5/4 of the largest message, which discards its contents.
+/// Buffer for messages between ranks, in words. Grows to 5/4 of the largest message; growing discards the contents.
 template <void* (*kAllocate)(const Exec&, std::size_t), void (*kRelease)(const Exec&, void*) noexcept>
 class MessageWords {
 public:

@@ -7,8 +7,8 @@
 
 namespace grouser::base {
 
-/// Branch-free square root, quotient and inverse of numbers from 2^-60 to 2^60 on a GPU. Correctly rounded: an
-/// approximation and Newton steps with fused multiply-adds, as the compiler's own fast paths (P. Markstein 1990, IBM J.
+/// Branch-free square root, quotient and inverse of numbers from 2^-60 to 2^60 on a GPU. Correctly rounded by an
+/// approximation and Newton steps with fused multiply-adds, like the compiler's fast paths (P. Markstein 1990, IBM J.
 /// Res. Dev. 34:111). tests/base/arithmetic_test.cu compares them with the operators.
 template <class T> GROUSER_HD T moderateRoot(const T& x) {
 #if defined(__CUDA_ARCH__)

@@ -13,30 +13,30 @@ namespace grouser::base {
 
 namespace {
 
-constexpr std::size_t kMostNamed = 3;  ///< keys that are equally near
-constexpr std::size_t kTellingKey = 3; ///< minimum length of a key that identifies its section: x or z are in many
+constexpr std::size_t kMostNamed = 3;  ///< maximum number of suggested keys
+constexpr std::size_t kTellingKey = 3; ///< minimum length of a key that identifies its section: x or z occur in many
 constexpr int kOtherSection = 2;       ///< maximum penalty for another section: less than two letters of the key
 
 std::string sectionOf(const std::string& full) { return full.substr(0, full.rfind('.')); }
 std::string keyOf(const std::string& full) { return full.substr(full.rfind('.') + 1); }
 
-/// Whether `part` is one of the words of a key such as sprocket_speed.
+/// True if `part` is one of the words of a key such as sprocket_speed.
 bool isPartOf(const std::string& part, const std::string& whole) {
   return ("_" + whole + "_").find("_" + part + "_") != std::string::npos;
 }
 
-/// Twice the number of edits; a word of the key counts as one edit and a half.
+/// Edit cost: twice the number of edits; a word of the key counts as one and a half edits.
 int distance(const std::string& word, const std::string& key) {
   const int edits = 2 * editDistance(word, key);
   return isPartOf(word, key) || isPartOf(key, word) ? std::min(edits, 3) : edits;
 }
 
-/// Near enough for a suggestion: at most a third of the letters are wrong.
+/// True if near enough for a suggestion: at most a third of the letters are wrong.
 bool isNear(int distance, const std::string& word) {
   return distance <= std::max(2, static_cast<int>(2 * word.size() / 3));
 }
 
-/// The keys nearest to `key` in the section `path`, which may be misspelt or of another name.
+/// Returns the keys nearest to `key` in the section `path`, which may be misspelt or another section.
 std::vector<std::string> nearestKeys(const std::string& path, const std::string& key,
                                      const std::vector<std::string>& all) {
   std::vector<std::string> best;

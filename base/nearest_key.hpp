@@ -8,8 +8,8 @@
 
 namespace grouser::base {
 
-/// The same error, given all keys of the file as "section.key": if the key belongs to another section, or is nearer to
-/// one of its keys, the message names that.
+/// Returns the error with the nearest of all the file's keys ("section.key"): the message suggests another section if
+/// the key belongs there or is nearer to one of its keys.
 InputError amongAllKeys(const UnknownKey& unknown, const std::vector<std::string>& all);
 
 } // namespace grouser::base

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <type_traits>
 
-/// Contact laws are templates over a number type: float, double or SIMD vectors of these (base/simd.hpp). Besides the
-/// operators they use the functions below. Selections are written `mask ? a : b`, which works for both.
+/// Number types of the contact laws, which are templates over float, double or SIMD vectors of these (base/simd.hpp).
+/// Selections are written `mask ? a : b`, valid for scalars and vectors; other operations are below.
 namespace grouser::base {
 
-/// Traits of a number type; here of a scalar.
+/// Traits of a number type; the primary template is for scalars.
 template <class T> struct NumberTraits {
   using Scalar = T;
   GROUSER_HD static T broadcast(T x) { return x; }
@@ -21,20 +21,20 @@ template <class T> struct NumberTraits {
   GROUSER_HD static bool any(bool mask) { return mask; }
 };
 
-/// float of floats side by side, double of doubles.
+/// Scalar type of a number type: float for vectors of floats, double for vectors of doubles.
 template <class T> using ScalarOf = typename NumberTraits<T>::Scalar;
 
-/// The same number in every lane.
+/// Sets every lane to the same number.
 template <class T> GROUSER_HD T broadcast(ScalarOf<T> x) { return NumberTraits<T>::broadcast(x); }
 template <class T> GROUSER_HD Vec3<T> broadcast(const Vec3<ScalarOf<T>>& v) {
   return {broadcast<T>(v.x), broadcast<T>(v.y), broadcast<T>(v.z)};
 }
 
-/// Correctly rounded everywhere (IEEE 754), so it keeps bits equal.
+/// Square root, correctly rounded on every processor (IEEE 754), so results are bitwise reproducible.
 template <class T> GROUSER_HD T squareRoot(const T& x) { return NumberTraits<T>::squareRoot(x); }
 
-/// part / whole, for whole > 0. A GPU's division has a slow path for what is zero or near the ends of a float's range:
-/// a zero is divided as a one, which the compiler is not to know.
+/// part / whole, for whole > 0. A GPU's division has a slow path for zero and values near the limits of the float
+/// range, so a zero is divided as a one; the form keeps the compiler from undoing this.
 template <class T> GROUSER_HD T shareOf(const T& part, const T& whole) {
   if constexpr (std::is_floating_point_v<T>) {
     T dividend = part == 0 ? T(1) : part;
@@ -54,10 +54,10 @@ template <class T> GROUSER_HD T shareOf(const T& part, const T& whole) {
 /// base::cubeRoot(), lane by lane.
 template <class T> GROUSER_HD T cubeRootOf(const T& x) { return NumberTraits<T>::cubeRoot(x); }
 
-/// Whether a comparison holds in any lane.
+/// True if the comparison is true in any lane.
 template <class Mask> GROUSER_HD bool any(const Mask& mask) { return NumberTraits<Mask>::any(mask); }
 
-/// mask ? a : b
+/// Component-wise mask ? a : b.
 template <class Mask, class T> GROUSER_HD Vec3<T> select(const Mask& mask, const Vec3<T>& a, const Vec3<T>& b) {
   return {mask ? a.x : b.x, mask ? a.y : b.y, mask ? a.z : b.z};
 }

@@ -6,16 +6,16 @@
 
 namespace grouser::base {
 
-/// A copy into device or pinned host memory: from other memory, or zeros.
+/// A copy of memory, or zeros, into device memory or pinned host memory.
 struct Parcel {
   void* to;
-  const void* from;  ///< null: zeros
+  const void* from;  ///< null: writes zeros
   std::size_t bytes; ///< a multiple of 8
 };
 
-/// Sixteen bytes on the device that cancel work if they differ from their normal values.
+/// Sixteen bytes of device memory that cancel the work if they differ from their normal values.
 struct Watch {
-  const void* at = nullptr; ///< null: never
+  const void* at = nullptr; ///< null: never cancels
   std::uint64_t idle[2] = {0, 0};
 };
 

@@ -11,11 +11,11 @@
 
 namespace grouser::base {
 
-/// Parcels as a sequence of 8-byte words, for kernels.
+/// Kernel view of the parcels as one sequence of 8-byte words.
 struct ParcelWords {
   std::uint64_t* to[kMostParcels];
   const std::uint64_t* from[kMostParcels];
-  std::int64_t end[kMostParcels]; ///< words of this parcel and those before it
+  std::int64_t end[kMostParcels]; ///< number of words in this and all preceding parcels
 
   explicit ParcelWords(std::span<const Parcel> parcels) {
     constexpr std::size_t kWord = sizeof(std::uint64_t);

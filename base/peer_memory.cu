@@ -16,7 +16,7 @@ namespace grouser::base {
 
 namespace {
 
-constexpr std::size_t kPage = std::size_t{2} << 20; // CUDA shares whole pages, with whatever else lies in them
+constexpr std::size_t kPage = std::size_t{2} << 20; // CUDA shares whole pages, including other data in them
 
 #if defined(__CUDACC__)
 using Handle = cudaIpcMemHandle_t;
@@ -24,7 +24,7 @@ using Handle = cudaIpcMemHandle_t;
 struct Handle {};
 #endif
 
-/// Handle by which other ranks map a rank's memory.
+/// Handle for mapping a rank's memory by other ranks.
 struct Offer {
   std::uint64_t device;
   std::uint32_t given;
@@ -51,14 +51,14 @@ PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::siz
     : exec_(exec), comm_(comm), use_(use),
       shares_(!comm.alone() && (use == PeerUse::always || (use == PeerUse::automatic && !exec.onCpu()))),
       views_(static_cast<std::size_t>(comm.size()), nullptr) {
-  // At least one page from the start, so that which ranks see each other is known at once.
+  // At least one page from the start, to determine at once which ranks have mutual access.
   if (shares_ || bytes > 0) allocate(bytes);
   checkUse();
 }
 
 PeerMemory::~PeerMemory() {
-  // Not while an exception unwinds: others may still read this memory, and release() would wait in closeAll() for ranks
-  // that never come. The error ends them all.
+  // Skipped during exception unwinding: others may still read this memory, and release() would wait in closeAll() for
+  // ranks that never come. The error ends them all.
   if (shares_ && std::uncaught_exceptions() > 0) return;
   release();
 }
@@ -95,7 +95,7 @@ void PeerMemory::allocate(std::size_t bytes) {
   SharedBlock block;
   if (shares_ && exec_.onCpu()) {
     block = createShared(size);
-    // CPUs share only on request: no fallback to private memory, which may be far too much.
+    // CPUs share only on request: no fallback to private memory, which could be far too large.
     if (comm_.sumOf(block.memory ? 0 : 1) > 0) {
       closeShared(block.memory, size);
       endSharing(block);
@@ -119,7 +119,7 @@ void PeerMemory::share(int file) {
   mine.given = ownIsShared_, mine.process = getpid(), mine.file = file;
 #if defined(__CUDACC__)
   if (!exec_.onCpu()) mine.given = cudaIpcGetMemHandle(&mine.handle, own_) == cudaSuccess;
-  if (!exec_.onCpu()) cudaGetLastError(); // a GPU that cannot export its memory is no error
+  if (!exec_.onCpu()) cudaGetLastError(); // not an error: some GPUs cannot export their memory
 #endif
   const std::vector<Offer> offers = comm_.gatherValue(mine);
   std::set<std::pair<int, std::uint64_t>> devices;
@@ -149,8 +149,8 @@ void PeerMemory::share(int file) {
   comm_.wait();
 }
 
-/// Tests, by rank, whether data written through its mapping arrive both ways and read back. A mapping may open and
-/// still be wrong, as under some virtual machines. wait() keeps the reads of all ranks behind the writes of all.
+/// Tests, by rank, whether data written through its mapping arrive in both directions. A mapping may open and still be
+/// wrong, e.g. in some virtual machines. wait() orders the reads of all ranks after the writes of all.
 std::vector<bool> PeerMemory::tryViews() const {
   const auto word = [](void* memory, int r) { return static_cast<std::uint32_t*>(memory) + r; };
   const int me = comm_.rank();
@@ -176,7 +176,7 @@ void* PeerMemory::opened([[maybe_unused]] const void* handle) {
 #if defined(__CUDACC__)
   const cudaError_t code =
       cudaIpcOpenMemHandle(&view, *static_cast<const Handle*>(handle), cudaIpcMemLazyEnablePeerAccess);
-  cudaGetLastError(); // GPUs without a path between them are no error
+  cudaGetLastError(); // not an error: some GPU pairs have no peer path
   if (code != cudaSuccess) view = nullptr;
 #endif
   return view;
@@ -192,7 +192,7 @@ void PeerMemory::close(int rank) noexcept {
 }
 
 /// Waits for this device's work, unmaps the memory of the others, and waits until all ranks have done so: afterwards no
-/// rank reads this one's memory, and it may be freed.
+/// rank reads this one's memory, and it can be freed.
 void PeerMemory::closeAll() noexcept {
   if (!shares_ || !own_) return;
 #if defined(__CUDACC__)

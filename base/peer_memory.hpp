@@ -11,11 +11,11 @@
 
 namespace grouser::base {
 
-/// Use of direct access to the memory of other ranks on one machine.
+/// Policy for direct access to the memory of other ranks on the same machine.
 enum class PeerUse {
   never,
-  automatic, ///< GPUs, where supported
-  always     ///< InputError if unsupported; CPUs too, and PeerReduction also among ranks that share one GPU
+  automatic, ///< GPUs that support it
+  always     ///< InputError if unsupported; includes CPUs, and PeerReduction among ranks that share one GPU
 };
 
 template <> struct EnumWords<PeerUse> {
@@ -23,34 +23,34 @@ template <> struct EnumWords<PeerUse> {
       {PeerUse::automatic, "auto"}, {PeerUse::never, "never"}, {PeerUse::always, "always"}};
 };
 
-/// Device memory of this rank, and mappings of the other ranks' memory: GPUs of one machine read and write each other's
-/// memory (CUDA IPC), without host or MPI. Access is tested, not assumed; without it a rank has only its own memory.
-/// CPUs share memory only on request: messages are as fast there.
+/// Device memory of this rank with mappings of the other ranks' memory: the GPUs of one machine access each other's
+/// memory (CUDA IPC) without host or MPI. Access is tested at run time; without it only the rank's own memory is
+/// mapped. CPUs share memory only on request, since messages are equally fast.
 ///
-/// All ranks call everything that is not marked `local`, the destructor too, in the same order.
+/// All members not marked `local` are collective, including the destructor: call them in the same order on all ranks.
 class PeerMemory {
 public:
-  /// Room for `bytes`, the same on all ranks; zero.
+  /// Allocates `bytes` of zeroed memory, the same size on all ranks.
   PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::size_t bytes = 0);
   PeerMemory(const PeerMemory&) = delete;
   PeerMemory& operator=(const PeerMemory&) = delete;
   ~PeerMemory();
 
-  /// Room for `bytes`, the same on all ranks, and a quarter more where it has to grow; it is zero then. Where it grows,
-  /// waits for the devices of all ranks, so that no peer still reads the memory that is freed.
+  /// Ensures room for `bytes`, the same on all ranks. Growing adds a quarter, zeroes the memory and waits for the
+  /// devices of all ranks, so that no peer reads freed memory.
   void reserve(std::size_t bytes);
 
-  std::size_t size() const { return size_; } ///< bytes; local, on all ranks the same
+  std::size_t size() const { return size_; } ///< bytes; local, equal on all ranks
   void* own() const { return own_; }         ///< local
-  /// Peer access was requested; local, on all ranks the same.
+  /// True if peer access was requested; local, equal on all ranks.
   bool shares() const { return shares_; }
-  /// The memory of another rank, or null; local. Access is mutual.
+  /// Memory of another rank, or null if not accessible; local. Access is mutual.
   void* of(int rank) const { return views_[static_cast<std::size_t>(rank)]; }
   bool seesAny() const {
     return std::any_of(views_.begin(), views_.end(), [](const void* view) { return view; });
   }
-  bool allSeeAll() const { return allSeeAll_; }       ///< local, on all ranks the same
-  bool deviceShared() const { return deviceShared_; } ///< some ranks have the same GPU; local, on all ranks the same
+  bool allSeeAll() const { return allSeeAll_; }       ///< local, equal on all ranks
+  bool deviceShared() const { return deviceShared_; } ///< some ranks share a GPU; local, equal on all ranks
 
 private:
   void allocate(std::size_t bytes);
@@ -65,7 +65,7 @@ private:
   Exec exec_;
   Comm comm_;
   PeerUse use_;
-  bool shares_; ///< on all ranks the same
+  bool shares_; ///< equal on all ranks
   bool ownIsShared_{false};
   void* own_{nullptr};
   std::size_t size_{0};

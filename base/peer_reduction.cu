@@ -15,23 +15,23 @@ namespace grouser::base {
 
 namespace {
 
-constexpr int kMostRanks = 32; // one lane of a warp each
+constexpr int kMostRanks = 32; // one lane of a warp per rank
 
-/// Message of one rank in one run, written into the memory of another: `least` and `bits`, then a system-wide fence,
-/// then `run`. The reader spins until `run` has the number of this run, fences too, and reads the other two. The
-/// writer's fence also makes visible what earlier kernels of its stream have written, such as packed ghosts.
+/// Message of one rank in one run, written to the memory of another: `least` and `bits`, then a system-wide fence, then
+/// `run`. The reader spins until `run` equals the number of this run, executes a fence too, and reads the other two.
+/// The writer's fence also publishes earlier writes of its stream, such as packed ghosts.
 struct alignas(16) Word {
   std::uint64_t least, bits;
   std::uint32_t run;
 };
 
-/// The memory of one rank, written to by all others. Double-buffered by the parity of the run: a rank that has finished
-/// run n may write its message of n + 1 while a slower one still reads those of n. That of n + 2, which overwrites n,
-/// it writes only when it has all messages of n + 1, each sent by a rank that has finished n.
+/// Memory of one rank, written by all others. Double-buffered by the parity of the run: a rank that has finished run n
+/// may write its message of n + 1 while a slower one still reads those of n. It overwrites n with n + 2 only after
+/// receiving all messages of n + 1, each sent by a rank that has finished n.
 struct Table {
   Word said[2][kMostRanks]; ///< by rank
   std::uint64_t waited;     ///< [ns]
-  std::uint32_t runs;       ///< that this rank has finished
+  std::uint32_t runs;       ///< number of runs finished by this rank
 };
 
 struct Tables {

@@ -7,22 +7,22 @@
 
 namespace grouser::base {
 
-/// An all-reduce of two words, and a barrier, among GPUs that see each other's memory: a kernel in the stream of each,
-/// without host or MPI. Each writes its words into the memory of all others and spins on its own until theirs are
-/// there.
+/// All-reduce of two words, which is also a barrier, among GPUs with peer access: a kernel in each GPU's stream,
+/// without host or MPI. Each GPU writes its words to the memory of all others and spins on its own memory until theirs
+/// arrive.
 ///
-/// All ranks construct and destroy it in the same order, and run it equally often.
+/// All ranks construct and destroy it in the same order, and call run() equally often.
 class PeerReduction {
 public:
   PeerReduction(const Exec& exec, const Comm& comm, PeerUse use);
 
-  /// True if all ranks can access each other and each has its own GPU (with PeerUse::always GPUs may be shared), up to
-  /// the maximum number of ranks.
+  /// True if all ranks can access each other, each has its own GPU (PeerUse::always permits shared GPUs), and the
+  /// maximum number of ranks is not exceeded.
   bool possible() const { return possible_; }
-  /// words[0] becomes the least of all ranks', words[1] the union of their bits; two words on the device. Work queued
-  /// after it starts only when what was queued before it has ended on all ranks, and its writes are visible to all.
+  /// Reduces two device words over all ranks: words[0] to the minimum, words[1] to the bitwise OR. Work queued after it
+  /// starts once all ranks have finished their earlier work, and sees its writes.
   void run(const Exec& exec, std::uint64_t* words);
-  /// Time that this rank's GPU has spent waiting for others since the start [s]. Waits for the work of the Exec.
+  /// Time this rank's GPU has waited for other ranks since the start [s]. Waits for queued work of the Exec.
   double waited() const;
 
 private:

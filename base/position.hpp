@@ -7,18 +7,18 @@
 
 namespace grouser::base {
 
-/// Position of a grain as three 42-bit integers in 16 bytes: the low 32 bits of each axis, then three times 10 high
-/// bits.
+/// Grain position as three 42-bit integers in 16 bytes: the low 32 bits of each axis, then the 10 high bits of each of
+/// the three axes.
 ///
-/// One unit is a power of two of a metre, chosen so that the largest grain's diameter is between 1e8 and 2e8 units. The
-/// low words alone give the exact difference of any two grains less than 2^31 units (about 10 diameters) apart, by
-/// 32-bit subtraction that wraps: no cell arithmetic, no rounding, the same from either side. The range is 2^42 units,
+/// The unit is a power of two in metres for which the largest grain diameter is between 1e8 and 2e8 units. The low
+/// words alone determine the exact difference of any two grains less than 2^31 units (about 10 diameters) apart, by
+/// wrapping 32-bit subtraction: without cell arithmetic or rounding, and antisymmetric. The range is 2^42 units, i.e.
 /// 20,000 to 40,000 diameters.
 struct alignas(16) Position {
   std::uint32_t x, y, z, high;
 };
 
-/// Signed 42-bit coordinate of one axis [units]; `low` is that axis' word.
+/// Signed 42-bit coordinate of one axis [units]; `low` is the low word of that axis.
 GROUSER_HD std::int64_t axisOf(std::uint32_t low, std::uint32_t high, int axis) {
   const std::int64_t top = static_cast<std::int32_t>(high << (22 - 10 * axis)) >> 22; // sign-extends 10 bits
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(top) << 32 | low);
@@ -36,7 +36,7 @@ GROUSER_HD Position fromUnits(const Vec3l& u) {
           high(u.x) | high(u.y) << 10 | high(u.z) << 20};
 }
 
-/// b - a [units], exact while the two are less than 2^31 units apart on each axis.
+/// b - a [units], exact if the points are less than 2^31 units apart on each axis.
 GROUSER_HD Vec3i difference(const Position& a, const Position& b) {
   return {static_cast<std::int32_t>(b.x - a.x), static_cast<std::int32_t>(b.y - a.y),
           static_cast<std::int32_t>(b.z - a.z)};
@@ -56,13 +56,13 @@ struct PositionScale {
     const Vec3l u = toUnits(p);
     return {static_cast<double>(u.x) * unit, static_cast<double>(u.y) * unit, static_cast<double>(u.z) * unit};
   }
-  /// Nearest grid point. The caller has checked `inRange`.
+  /// Rounds to the nearest grid point. The caller must check `inRange` first.
   GROUSER_HD Position fromMetres(const Vec3d& p) const {
     return fromUnits({static_cast<std::int64_t>(floor(p.x * perMetre + 0.5)),
                       static_cast<std::int64_t>(floor(p.y * perMetre + 0.5)),
                       static_cast<std::int64_t>(floor(p.z * perMetre + 0.5))});
   }
-  /// The nearest whole number of units of a length [m], which may be beyond the range of positions.
+  /// Rounds a length [m] to the nearest whole number of units; it may exceed the range of positions.
   std::int64_t inUnits(double length) const { return static_cast<std::int64_t>(floor(length * perMetre + 0.5)); }
   double limit() const { return 2199023255552.0 * unit; } ///< |coordinate| must stay below this [m]
 };

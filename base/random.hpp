@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
-/// Counter-based random numbers: pure functions of seed, purpose and id, so they depend neither on the order of calls
-/// nor on how the work is divided. There is no generator state to save in a checkpoint.
+/// Counter-based random numbers: pure functions of seed, purpose and id, independent of the call order and of the
+/// domain decomposition. Checkpoints need no generator state.
 namespace grouser::base {
 
 namespace detail {
@@ -31,7 +31,7 @@ constexpr std::uint64_t purpose(std::string_view name) {
   return h;
 }
 
-/// 64 well mixed bits for (seed, purpose, id); each input passes a full mixer before the next one enters.
+/// 64 well-mixed bits for (seed, purpose, id); each input passes a full mixer before the next is added.
 GROUSER_HD constexpr std::uint64_t hash(std::uint64_t seed, std::uint64_t purpose, std::uint64_t id) {
   std::uint64_t h = detail::mix(seed + detail::kGolden);
   h = detail::mix((h ^ purpose) + detail::kGolden);

@@ -9,7 +9,7 @@ namespace grouser::base {
 
 namespace {
 
-/// The nearest number with `digits` digits, or its neighbour on the side of `direction`.
+/// Returns the nearest number with `digits` digits, or its neighbour in the direction `direction`.
 std::string rounded(double value, int digits, int direction) {
   const std::string nearest = fmt::format("{:.{}e}", value, digits - 1);
   double number = std::strtod(nearest.c_str(), nullptr);
@@ -22,7 +22,7 @@ std::string rounded(double value, int digits, int direction) {
     long long whole = std::strtoll(mantissa.c_str(), nullptr, 10), least = 1;
     for (int d = 1; d < digits; ++d) least *= 10;
     const long long sign = whole < 0 ? -1 : 1;
-    // Towards zero from a power of ten all digits are nines.
+    // Rounding a power of ten towards zero yields nines in all digits.
     if (whole * sign == least && sign != direction)
       whole = sign * (10 * least - 1), --exponent;
     else

@@ -13,25 +13,25 @@
 #include <immintrin.h>
 #endif
 
-/// SIMD vectors: the compiler's own vector types, on which operators, comparisons and `mask ? a : b` work lane by lane.
-/// A wide vector on a processor with narrow registers is split into several; the operations on each number and their
-/// order are the same, hence the same bits. None may fuse multiply and add (-ffp-contract=off).
+/// SIMD vectors: the compiler's vector types, with lane-wise operators, comparisons and `mask ? a : b`. A vector wider
+/// than the registers is split; the operations per lane and their order are unchanged, so the results are bitwise
+/// equal. Fused multiply-add must stay off (-ffp-contract=off).
 ///
 /// Two ways to use the processor's instructions:
-///   - of one width everywhere (multibody: four doubles): GROUSER_SIMD_CLONES compiles a function for each kind of
-///     processor and chooses when the program is loaded;
-///   - of the width that the processor has (grains: 4, 8 or 16 floats): a source file for each, compiled with its
-///     options, and a choice at run time. Such a file must leave nothing behind that other files have too: the linker
-///     might take that copy for the whole program. So all that it calls is inlined (GROUSER_SIMD here, `flatten` on its
-///     one function), and the test simd.alone looks into the objects. That holds for optimised builds only.
+///   - fixed width (multibody: four doubles): GROUSER_SIMD_CLONES compiles a function for each
+///     processor kind; the loader selects one;
+///   - native width (grains: 4, 8 or 16 floats): one source file for each width, compiled with its options, and
+///     selected at run time. Such a file must not emit functions that other files also emit: the linker might use
+///     that copy for the whole program. So all callees are inlined (GROUSER_SIMD here, `flatten` on its only
+///     function), and the test simd.alone inspects the object files. Valid for optimised builds only.
 ///
-/// Highway and std::experimental::simd do not fit: their vectors cannot replace float everywhere (members of structs
-/// and arrays, the operators of base::Vec3 with scalars), so each law would need a second version.
+/// Highway and std::experimental::simd are unsuitable: their vectors cannot replace float everywhere (struct members,
+/// arrays, operators of base::Vec3 with scalars), so each law would need a second version.
 namespace grouser::base {
 
 #define GROUSER_SIMD inline __attribute__((always_inline))
-// Tests may override this. The address sanitizer is not running yet when clones are chosen; clang, which lints, rejects
-// flattened clones.
+// Tests may override this. Clones are selected before the address sanitizer is initialised, and clang (used by the
+// linter) rejects flattened clones.
 #if !defined(GROUSER_SIMD_CLONES)
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define GROUSER_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))
@@ -41,7 +41,7 @@ namespace grouser::base {
 #endif
 
 template <class T, int kWidth> struct SimdOf { using Type __attribute__((vector_size(sizeof(T) * kWidth))) = T; };
-/// kWidth numbers of type T.
+/// Vector of kWidth numbers of type T.
 template <class T, int kWidth> using Simd = typename SimdOf<T, kWidth>::Type;
 
 template <class T>
@@ -51,7 +51,7 @@ concept SimdVector = !std::is_class_v<T> && !std::is_pointer_v<T> && !std::is_ar
 
 template <SimdVector V> inline constexpr int kWidthOf = sizeof(V) / sizeof(V{}[0]);
 
-/// Lane by lane, as static_cast.
+/// Converts lane by lane, like static_cast.
 template <class To, SimdVector From> GROUSER_SIMD Simd<To, kWidthOf<From>> convert(const From& v) {
   return __builtin_convertvector(v, Simd<To, kWidthOf<From>>);
 }
@@ -65,7 +65,7 @@ template <SimdVector V> GROUSER_SIMD void store(void* to, const V& v) { std::mem
 
 template <SimdVector V> GROUSER_SIMD V absolute(const V& x) { return x < V{} ? -x : x; }
 
-/// One bit for each lane of a mask, lane 0 lowest.
+/// Returns a mask as bits, lane 0 lowest.
 template <SimdVector Mask> GROUSER_SIMD unsigned laneBits(const Mask& mask) {
   constexpr int kLane = sizeof(mask[0]), kBytes = sizeof mask;
   static_assert(kLane == 4 || kLane == 8);
@@ -90,14 +90,14 @@ template <SimdVector V> struct NumberTraits<V> {
   using Scalar = std::remove_cvref_t<decltype(V{}[0])>;
   GROUSER_SIMD static V broadcast(Scalar x) { return x - V{}; }
   GROUSER_SIMD static V squareRoot(const V& x) {
-    V r = x; // initialised: at -O1 the compiler does not see that all lanes are set
+    V r = x; // initialised: at -O1 the compiler does not detect that all lanes are set
 #pragma GCC unroll 16
     for (int l = 0; l < kWidthOf<V>; ++l) r[l] = std::sqrt(x[l]);
     return r;
   }
-  GROUSER_SIMD static V cubeRoot(const V& x) { return cubeRootBy<Simd<std::uint32_t, kWidthOf<V>>>(x); } // of floats
+  GROUSER_SIMD static V cubeRoot(const V& x) { return cubeRootBy<Simd<std::uint32_t, kWidthOf<V>>>(x); } // floats only
   GROUSER_SIMD static bool any(const V& mask) {
-    // GROUSER_SIMD_CLONES compile this where no __AVX__ is defined, and the compiler then finds its own instruction.
+    // GROUSER_SIMD_CLONES compile this without __AVX__; the compiler then finds the matching instruction.
     if constexpr (sizeof mask == 32 && sizeof(Scalar) == 8) return ((mask[0] | mask[1]) | (mask[2] | mask[3])) != 0;
     return laneBits(mask) != 0;
   }

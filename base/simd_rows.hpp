@@ -5,7 +5,7 @@
 
 #include <utility>
 
-/// Transposes records to SIMD lanes and back: a row holds four numbers of one record, a vector one number of several
+/// Transposes records to SIMD lanes and back: a row contains four numbers of one record, a vector one number of several
 /// records.
 namespace grouser::base {
 
@@ -28,7 +28,7 @@ GROUSER_SIMD void store3(void* to, const Float4& v) {
   std::memcpy(static_cast<char*>(to) + sizeof first, &last, sizeof last);
 }
 
-// Conversions of four numbers: the compiler converts pairs.
+// Conversions of four numbers: compilers otherwise convert in pairs.
 #if defined(__AVX2__)
 GROUSER_SIMD Double4 toDouble(const Float4& v) { return bitsAs<Double4>(_mm256_cvtps_pd(bitsAs<__m128>(v))); }
 GROUSER_SIMD Double4 toDouble(const Int4& v) { return bitsAs<Double4>(_mm256_cvtepi32_pd(bitsAs<__m128i>(v))); }
@@ -53,7 +53,7 @@ GROUSER_SIMD Int4 clamped(const Int4& v, int least, int most) {
   return below > low ? below : low;
 }
 
-/// Stores the numbers whose bits are set, in order, starting at `to`; overwrites up to the full width.
+/// Stores the lanes selected by `marks` contiguously from `to`; writes up to the full vector width.
 template <SimdVector V> GROUSER_SIMD void storeMarked(void* to, const V& v, unsigned marks) {
   static_assert(sizeof v[0] == 4);
 #if defined(__AVX512VL__)
@@ -86,7 +86,7 @@ template <SimdVector V, int... kLane> GROUSER_SIMD void transpose(V (&r)[4], std
     r[1] = __builtin_shufflevector(a, b, (kLane / 4 * 4 + kLane % 2 + kLane % 4 / 2 * kWidth + 2)...);
     r[2] = __builtin_shufflevector(c, d, (kLane / 4 * 4 + kLane % 2 + kLane % 4 / 2 * kWidth)...);
     r[3] = __builtin_shufflevector(c, d, (kLane / 4 * 4 + kLane % 2 + kLane % 4 / 2 * kWidth + 2)...);
-  } else { // within each 16 bytes, then these
+  } else { // within each 16 bytes, then across 16-byte blocks
     static_assert(kWidth == 4);
     const V a = __builtin_shufflevector(r[0], r[1], 0, 4, 2, 6), b = __builtin_shufflevector(r[0], r[1], 1, 5, 3, 7);
     const V c = __builtin_shufflevector(r[2], r[3], 0, 4, 2, 6), d = __builtin_shufflevector(r[2], r[3], 1, 5, 3, 7);
@@ -97,14 +97,14 @@ template <SimdVector V, int... kLane> GROUSER_SIMD void transpose(V (&r)[4], std
 
 } // namespace detail
 
-/// Columns of 4 x 4 blocks of numbers become rows, in each four lanes of the registers; its own inverse.
+/// Transposes each 4 x 4 block of numbers, one block per four lanes; its own inverse.
 template <SimdVector V> GROUSER_SIMD void transpose(V (&r)[4]) {
   detail::transpose(r, std::make_integer_sequence<int, kWidthOf<V>>{});
 }
 
 /// Loads four numbers of each of kWidth records; the lane order is that of `storeRows`.
 template <SimdVector V> GROUSER_SIMD void loadRows(const Float4* rows, V (&out)[4]) {
-  constexpr int kStride = kWidthOf<V> / 4; // rows that one register holds
+  constexpr int kStride = kWidthOf<V> / 4; // rows per register
 #pragma GCC unroll 4
   for (int k = 0; k < 4; ++k) out[k] = load<V>(rows + k * kStride);
   transpose(out);
@@ -136,7 +136,7 @@ GROUSER_SIMD void gatherRows(const void* from, const std::uint32_t* which, Simd<
   transpose(out);
 }
 
-/// Four consecutive numbers of each of four rows, by number: out[i][l] = row[l][first + i].
+/// Loads four consecutive numbers from each of four rows, transposed: out[i][l] = row[l][first + i].
 GROUSER_SIMD void gatherRows(const double* const (&row)[4], int first, Double4 (&out)[4]) {
 #pragma GCC unroll 4
   for (int l = 0; l < 4; ++l) out[l] = load<Double4>(row[l] + first);

@@ -7,7 +7,7 @@
 
 namespace grouser::base {
 
-/// Mass of a sphere [kg]. The last bits of a bed's state follow from this order of factors.
+/// Mass of a sphere [kg]. The order of the factors affects the last bits of the bed state; do not change it.
 constexpr double sphereMass(double density, double radius) {
   return density * (4.0 / 3.0) * kPi * radius * radius * radius;
 }

@@ -9,7 +9,7 @@
 
 namespace grouser::base {
 
-/// Exact sums over the banks of a kernel and over all ranks: banks[k] is a share of sum k % count. All ranks call it.
+/// Exact sums over the banks of a kernel and over all ranks: banks[k] is a partial sum of sum k % count. Collective.
 std::vector<WideSum> summedBanks(const std::vector<WideSum>& banks, std::size_t count, const Comm& comm);
 
 } // namespace grouser::base

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Keys derived from others, read as if they were in the file.
+// Derived keys, read as if they were in the file.
 #include "base/table.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@ namespace grouser::base {
 
 namespace {
 
-/// The table `key` of `parent`, which is added where there is none.
+/// Returns the table `key` of `parent`, adding it if missing.
 Node& tableAt(Node& parent, const std::string& key, const std::string& path, const std::string& origin) {
   Node* child = parent.find(key);
   if (!child) {

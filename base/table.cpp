@@ -20,7 +20,7 @@ std::string number(double x) {
   return text;
 }
 
-/// A bound as a person writes it: 0, 0.5, 1e+06.
+/// Formats a bound in short decimal form: 0, 0.5, 1e+06.
 std::string bound(double x) { return fmt::format("{:.6g}", x); }
 
 std::string quoted(const std::string& text) {
@@ -291,7 +291,7 @@ std::vector<Section> Section::list(const std::string& key) const {
   if (!node) return sections;
   const std::string full = path_.empty() ? key : path_ + "." + key;
   const auto* list = std::get_if<Node::List>(&node->value);
-  // Keys of --set only: the section does not exist, and another one may have been meant.
+  // For --set only: the section does not exist; another one may have been meant.
   if (const auto* map = std::get_if<Node::Map>(&node->value); map && node->origin == "--set" && !map->empty())
     throw UnknownKey({node->origin, full, map->front().key, {}, {}}, "");
   if (!list || !std::all_of(list->begin(), list->end(), [](const Node& n) { return n.isMap(); }))
@@ -325,7 +325,7 @@ int editDistance(std::string_view a, std::string_view b) {
 
 namespace {
 
-/// Whether `word` is `whole` with letters left out.
+/// True if `word` is `whole` with letters omitted.
 bool isAbridged(std::string_view word, std::string_view whole) {
   std::size_t at = 0;
   for (const char c : whole) at += at < word.size() && word[at] == c;
@@ -338,7 +338,7 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& v
   std::string best;
   int least = std::numeric_limits<int>::max();
   for (const std::string& candidate : valid) {
-    // Of two equally near words prefer the one with letters left out: "drivr" is driver, not drive.
+    // Prefer the word with omitted letters among equally near ones: "drivr" is driver, not drive.
     const int d = 2 * editDistance(word, candidate) - (isAbridged(word, candidate) ? 1 : 0);
     if (d < least) least = d, best = candidate;
   }
@@ -347,7 +347,7 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& v
 
 namespace {
 
-/// The words of `text` in lines of at most 120 columns.
+/// Wraps `text` to lines of at most 120 columns.
 std::string wrapped(const std::string& text) {
   std::string lines, line;
   std::istringstream words(text);

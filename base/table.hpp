@@ -19,8 +19,8 @@
 
 /// Strict reading of TOML files, driven by one table of fields for each section.
 ///
-/// A section is a plain struct; its `Table` names every key once, with unit, range and help, bound to the member that
-/// holds it. The table drives the reading, the checks, the help text and the resolved copy:
+/// A section is a plain struct; its `Table` lists every key once, with unit, range and help, bound to a member of the
+/// struct. The table drives the parsing, the checks, the help text and the resolved copy:
 ///
 ///     struct Wheel { double radius = 0.2; std::string material; };
 ///     base::Table<Wheel> wheelTable() {
@@ -33,14 +33,14 @@
 ///     const Wheel wheel = doc.root().section("wheel").read(wheelTable());
 namespace grouser::base {
 
-/// Value of a field. `monostate`: an optional field that is not set.
+/// Value of a field. `monostate`: an unset optional field.
 using FieldValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::array<double, 2>, Vec3d,
                                 std::vector<double>, std::vector<std::string>, std::array<bool, 2>>;
 
-/// The type a field must have in the file. Integers are accepted as reals, not vice versa.
+/// Type of a field in the file. Integers are accepted as reals, not vice versa.
 enum class FieldType { Boolean, Integer, Real, Text, Pair, Vector, RealList, TextList, BooleanPair };
 
-/// Description of a field, except the storage of its value. The setters return the field, so that they chain.
+/// Description of a field, without its storage. Setters return the field, so calls can be chained.
 struct Field {
   std::string key;
   std::string unit; ///< without brackets; empty for text and switches, "-" for a dimensionless number
@@ -51,7 +51,7 @@ struct Field {
   bool minOpen = false, maxOpen = false;
   bool isRequired = false;
   std::string autoWord;                ///< a word that means "not set", e.g. "auto"
-  std::vector<std::string> formerKeys; ///< accepted for one version; Document::renameKeys reads them
+  std::vector<std::string> formerKeys; ///< accepted for one version; read by Document::renameKeys
   std::vector<std::string> choices;    ///< the words of an enum; empty: any text
 
   Field& above(double a) { return min = a, minOpen = true, *this; }
@@ -59,35 +59,35 @@ struct Field {
   Field& below(double b) { return max = b, maxOpen = true, *this; }
   Field& atMost(double b) { return max = b, maxOpen = false, *this; }
   Field& required() { return isRequired = true, *this; }
-  /// The word may be written instead of a value; the member must be a `std::optional` and is then left empty.
+  /// Permits `word` instead of a value; the member must be a `std::optional` and is then empty.
   Field& orWord(std::string word) { return autoWord = std::move(word), *this; }
 
   Field& formerly(std::string former) { return formerKeys.push_back(std::move(former)), *this; }
 
-  /// "(0, 10]", "one of cpu, cuda", or "" where everything goes.
+  /// Allowed range for messages: "(0, 10]", "one of cpu, cuda", or "" if unrestricted.
   std::string rangeText() const;
 };
 
-/// A key that has a new name.
+/// Renamed key: its former and present names.
 struct FormerKey {
   std::string former, now;
 };
 
-/// Value as TOML text; a real always shows as one ("1.0") and reads back to the same bits.
+/// Returns the value as TOML text; a real always has a decimal point ("1.0") and round-trips to the same bits.
 std::string toToml(const FieldValue& value);
 
-/// One value of a parsed file with the place it came from.
+/// Value of a parsed file with its source location.
 struct Node {
   using List = std::vector<Node>;
   struct Entry;
-  using Map = std::vector<Entry>; ///< in the file's order
+  using Map = std::vector<Entry>; ///< entries in the file's order
 
   std::string origin; ///< "scene.toml:14", or "--set" for an override
   std::variant<bool, std::int64_t, double, std::string, List, Map> value;
 
   bool isMap() const { return std::holds_alternative<Map>(value); }
   bool isList() const { return std::holds_alternative<List>(value); }
-  const Node* find(std::string_view key) const; ///< null where there is no such key, or no map
+  const Node* find(std::string_view key) const; ///< null if this is not a table or the key is absent
   Node* find(std::string_view key);
 };
 struct Node::Entry {
@@ -98,7 +98,7 @@ struct Node::Entry {
 namespace detail {
 FieldValue readValue(const Node& node, const Field& field, const std::string& fullKey);
 [[noreturn]] void failMissing(const Node& section, const Field& field, const std::string& path);
-bool isEmpty(const FieldValue& value); ///< a text or a list of any length, without anything in it
+bool isEmpty(const FieldValue& value); ///< true for an empty text or list
 void checkKeys(const Node& section, const std::string& path, const std::vector<std::string>& valid);
 
 template <class T> struct FieldTypeOf;
@@ -146,13 +146,13 @@ template <HasWords E> struct FieldTypeOf<E> : FieldTypeOf<std::string> {};
 template <HasWords E> struct FieldTypeOf<std::vector<E>> : FieldTypeOf<std::vector<std::string>> {};
 template <class T> struct FieldTypeOf<std::optional<T>> : FieldTypeOf<T> {};
 
-/// The enum of a member that holds one, several or none; void where there are no words to choose from.
+/// Enum type of a member that stores one, several or an optional; void if the type has no words.
 template <class T> struct EnumOf { using Type = void; };
 template <HasWords E> struct EnumOf<E> { using Type = E; };
 template <class T> struct EnumOf<std::vector<T>> : EnumOf<T> {};
 template <class T> struct EnumOf<std::optional<T>> : EnumOf<T> {};
 
-/// Converts between a member and its FieldValue. A word that is read is known to be one of the enum's.
+/// Converts between a member and its FieldValue. The word has already been checked against the enum's words.
 template <class T> struct Conversion {
   using Stored = typename FieldTypeOf<T>::Stored;
   static FieldValue toField(const T& member) { return static_cast<Stored>(member); }
@@ -182,12 +182,12 @@ template <class T> struct Conversion<std::optional<T>> {
 };
 } // namespace detail
 
-/// The fields of one section, bound to the members of `S`. Defaults are those of a default-constructed `S`.
-/// A member may be bool, int, int64, double, string, array<double, 2>, Vec3d, vector<double>, vector<string>,
-/// array<bool, 2>, an enum that has words or a vector of such, or an optional of these (absent: not given).
+/// Fields of one section, bound to the members of `S`. Defaults are those of a default-constructed `S`. Member types:
+/// bool, int, int64, double, string, array<double, 2>, Vec3d, vector<double>, vector<string>, array<bool, 2>, an enum
+/// with words or a vector of it, or an optional of these (empty: not set).
 template <class S> class Table {
 public:
-  /// `name` as it stands in a file ("run", "material.NAME"), and one sentence of help.
+  /// `name` as written in a file ("run", "material.NAME"), and one sentence of help.
   Table(std::string name, std::string help) : name_(std::move(name)), help_(std::move(help)) {}
 
   template <class T, class Owner> // S, or a base of it
@@ -224,8 +224,8 @@ public:
     return {};
   }
 
-  /// Reads `section` over the defaults of `s`. `path` is the section's full name in messages; `subsections` are the
-  /// keys that others read. Throws InputError: unknown key, wrong type, out of range, missing.
+  /// Reads `section` into `s`, which contains the defaults. `path` is the section's full name for messages;
+  /// `subsections` lists keys read elsewhere. Throws InputError: unknown key, wrong type, out of range, missing.
   void read(const Node& section, const std::string& path, S& s,
             const std::vector<std::string>& subsections = {}) const {
     std::vector<std::string> valid = subsections;
@@ -240,10 +240,10 @@ public:
     }
   }
 
-  /// Treats empty texts and lists as not set when sections are written.
+  /// Omits empty texts and lists when sections are written.
   Table& leaveOutEmpty() { return leavesOutEmpty_ = true, *this; }
 
-  /// `key = value` lines of every field that has a value, in the table's order.
+  /// Returns a `key = value` line for every field that is set, in the table's order.
   std::string write(const S& s) const {
     std::string text;
     for (const Entry& e : entries_) {
@@ -279,25 +279,25 @@ public:
   std::string name() const { return path_.substr(path_.rfind('.') + 1); }
 
   bool has(std::string_view key) const { return node_->find(key) != nullptr; }
-  /// Value of a field's key, checked as when a whole table is read; empty if the key is absent. Throws InputError:
+  /// Returns the value of a field's key with the same checks as read(); empty if the key is absent. Throws InputError:
   /// wrong type, out of range.
   FieldValue value(const Field& field) const;
-  /// The table `key`. Throws InputError where it is missing or no table.
+  /// Returns the table `key`. Throws InputError if it is missing or not a table.
   Section section(const std::string& key) const;
-  /// The tables under `key` by name, in the file's order: [material.soil], [material.steel]. Empty where there are
-  /// none.
+  /// Returns the tables under `key` with their names, in file order: [material.soil], [material.steel]. Empty if there
+  /// are none.
   std::vector<std::pair<std::string, Section>> named(const std::string& key) const;
-  /// The elements of `[[key]]`. Empty where there are none.
+  /// Returns the elements of `[[key]]`; empty if there are none.
   std::vector<Section> list(const std::string& key) const;
 
-  /// The section read over `S`'s defaults.
+  /// Reads the section over the defaults of `S`.
   template <class S>
   S read(const Table<S>& table, S defaults = {}, const std::vector<std::string>& subsections = {}) const {
     table.read(*node_, path_, defaults, subsections);
     return defaults;
   }
 
-  /// Throws InputError for a key that is none of `valid`, naming the nearest.
+  /// Throws InputError for a key not in `valid`; the message names the nearest valid key.
   void allowOnly(const std::vector<std::string>& valid) const { detail::checkKeys(*node_, path_, valid); }
 
   /// Throws InputError "file:line: path.key = value <message>"; the line is the key's, or the section's if it is
@@ -309,31 +309,31 @@ private:
   std::string path_;
 };
 
-/// A parsed TOML file with overrides applied. `version = 1` is checked and required.
+/// Parsed TOML file with overrides applied. The file must contain `version = 1`.
 class Document {
 public:
-  /// Reads the file. Each override is "a.b.c=value", e.g. `grain.0.radius=0.01`, `body."left wheel".mass=2` (an entry
-  /// of a list by its name) or `contact."a|b".friction=0.3`; its value is TOML or a bare word, which is text. "~a.b.c"
-  /// removes a key or section. Throws InputError: no such file, syntax (file:line:column), version, override.
+  /// Reads the file. Each override is "a.b.c=value", e.g. `grain.0.radius=0.01`, `contact."a|b".friction=0.3` or
+  /// `body."left wheel".mass=2` (list entry named "left wheel"); the value is TOML or a bare word, read as text.
+  /// "~a.b.c" removes a key or section. Throws InputError: missing file, syntax (file:line:column), version, override.
   static Document load(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
-  /// The same from text; `name` stands for the file in messages.
+  /// Parses text instead of a file; `name` is the file name for messages.
   static Document parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
 
-  /// Renames former keys of a file to their present names, before anything is read. `where` is the path of a section,
-  /// whose entries are meant where it is a list, and with ".*" behind it all sections in it: "run", "grain",
-  /// "material.*". Throws InputError where both names stand.
+  /// Renames former keys of a file to their present names, before anything is read. `where` is the path of a section:
+  /// "run", or "grain" for every entry of that list; a trailing ".*" selects all subsections: "material.*". Throws
+  /// InputError if the file has both names.
   void renameKeys(const std::string& where, const std::vector<FormerKey>& keys);
-  /// Sets `key` = `text` in the table `section.name`, unless the key is set, with `origin` as its place in messages;
-  /// adds the table if missing. Throws InputError if one of the two is not a table.
+  /// Sets `key` = `text` in the table `section.name` if the key is absent, with `origin` as its location in messages.
+  /// Adds the table if missing. Throws InputError if either is not a table.
   void supply(const std::string& section, const std::string& name, const std::string& key, const std::string& text,
               const std::string& origin);
-  /// Sets `section.key` to `value`, replacing any former value; adds the section if missing. Throws InputError if that
-  /// is not a table.
+  /// Sets `section.key` to `value`, replacing any former value; adds the section if missing. Throws InputError if it is
+  /// not a table.
   void put(const std::string& section, const std::string& key, const Node& value);
-  /// One line for each key that was renamed, and where: what users should change in their files.
+  /// One line per renamed key, with its location and the required change to the file.
   const std::vector<std::string>& notes() const { return notes_; }
 
-  /// Valid as long as the document lives. Sections may be read with `version` among their subsections.
+  /// Root section, valid as long as the document exists. Sections may be read with `version` among their subsections.
   Section root() const& { return {root_, ""}; }
   Section root() const&& = delete;
 
@@ -344,10 +344,10 @@ private:
 
 /// Number of edits (insert, delete, replace, swap of neighbours; case ignored) between two words.
 int editDistance(std::string_view a, std::string_view b);
-/// The word of `valid` nearest to `word`; empty where `valid` is empty.
+/// Returns the word of `valid` nearest to `word`; empty if `valid` is empty.
 std::string nearestWord(std::string_view word, const std::vector<std::string>& valid);
 
-/// Rows "key | unit | default | range | help" of a Markdown table, under a heading with the table's name and help.
+/// Returns a Markdown table "key | unit | default | range | help" under a heading with the table's name and help.
 std::string describeFields(const std::string& name, const std::string& help, const std::vector<Field>& fields,
                            const std::vector<FieldValue>& defaults);
 template <class S> std::string describe(const Table<S>& table) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The only file that includes toml++: from its tree to ours, and overrides into it.
+// The only file that includes toml++: converts its tree, and applies overrides.
 #include "base/table.hpp"
 
 #include <fmt/format.h>
@@ -40,7 +40,7 @@ Node convert(const toml::node& from, const std::string& file) {
   return to;
 }
 
-/// toml++ keeps keys in alphabetic order; messages and resolved copies follow the file's.
+/// toml++ sorts keys alphabetically; messages and resolved copies use file order.
 void sortByLine(Node& node, const toml::node& from) {
   if (const auto* table = from.as_table()) {
     auto& map = std::get<Node::Map>(node.value);
@@ -71,7 +71,7 @@ Node parseToml(std::string_view text, const std::string& name) {
   }
 }
 
-/// `contact."a|b".friction` cut at its dots.
+/// Splits a path such as `contact."a|b".friction` at its dots.
 std::vector<std::string> splitKey(std::string_view key, const std::string& whole) {
   std::vector<std::string> parts(1);
   bool inQuotes = false;
@@ -97,7 +97,7 @@ void setOrigin(Node& node, const std::string& origin) {
     for (Node& n : *list) setOrigin(n, origin);
 }
 
-/// The value of an override: TOML where it parses as such, else the bare text.
+/// Value of an override: TOML if it parses, else plain text.
 Node overrideValue(const std::string& text) {
   Node node;
   try {
@@ -113,7 +113,7 @@ Node overrideValue(const std::string& text) {
   return node;
 }
 
-/// The node of this key; null if there is none.
+/// Returns the node of this key; null if there is none.
 Node* nodeAt(Node& root, const std::vector<std::string>& parts) {
   Node* node = &root;
   for (const std::string& part : parts)
@@ -121,7 +121,7 @@ Node* nodeAt(Node& root, const std::vector<std::string>& parts) {
   return node;
 }
 
-/// "~a.b.c"
+/// Removes a key: "~a.b.c".
 void removeKey(Node& root, const std::string& text) {
   std::vector<std::string> parts = splitKey(std::string_view(text).substr(1), text);
   const std::string last = parts.back();
@@ -195,7 +195,7 @@ Document Document::parse(std::string_view text, const std::string& name, const s
 Document Document::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   std::error_code error;
   const bool there = std::filesystem::exists(path, error);
-  // A device may never end, and a pipe may have no writer.
+  // Reading a device may never end, and a pipe may have no writer.
   if (there && !std::filesystem::is_regular_file(path, error))
     throw InputError(fmt::format("{}: not a file; give the path of a TOML file", path.string()));
   std::ifstream file(path, std::ios::binary);

@@ -12,16 +12,16 @@
 
 namespace grouser::base {
 
-/// Unknown key or section of a file. The message names the nearest one of that section; base/nearest_key.hpp considers
-/// the keys of all sections.
+/// Unknown key or section of a file. The message names the nearest one in the same section; base/nearest_key.hpp
+/// considers the keys of all sections.
 class UnknownKey : public InputError {
 public:
   struct Place {
     std::string origin;             ///< "scene.toml:14", or "--set"
     std::string path;               ///< section's path; empty at the root
-    std::string key;                ///< as it stands there
-    std::vector<std::string> inner; ///< the keys of a section that is unknown; empty for a key
-    std::vector<std::string> valid; ///< keys and sections of that place
+    std::string key;                ///< as written in the file
+    std::vector<std::string> inner; ///< keys inside an unknown section; empty for an unknown key
+    std::vector<std::string> valid; ///< valid keys and sections at that place
   };
   UnknownKey(Place place, const std::string& nearest) : InputError(message(place, nearest)), place_(std::move(place)) {}
 

@@ -44,7 +44,7 @@ template <class T> GROUSER_HD Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) 
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 template <class T> GROUSER_HD T norm2(const Vec3<T>& a) { return dot(a, a); }
-/// Euclidean length. The square root is correctly rounded everywhere (IEEE 754), so it keeps bits equal.
+/// Euclidean length. The square root is correctly rounded on every processor (IEEE 754), so results are reproducible.
 GROUSER_HD float norm(const Vec3<float>& a) { return sqrtf(dot(a, a)); }
 GROUSER_HD double norm(const Vec3<double>& a) { return sqrt(dot(a, a)); }
 /// Unit vector along `a`; `a` must not be zero.
@@ -57,7 +57,7 @@ template <class T> GROUSER_HD Vec3<T> max(const Vec3<T>& a, const Vec3<T>& b) {
   return {a.x > b.x ? a.x : b.x, a.y > b.y ? a.y : b.y, a.z > b.z ? a.z : b.z};
 }
 
-/// Four floats in one aligned 16-byte load; `w` is free for its user.
+/// Four floats in one aligned 16-byte load; `w` is available to the caller.
 struct alignas(16) Vec4f {
   float x, y, z, w;
   GROUSER_HD Vec3<float> xyz() const { return {x, y, z}; }
@@ -103,7 +103,7 @@ using Vec3i = Vec3<std::int32_t>;
 using Vec3l = Vec3<std::int64_t>;
 using Mat3d = Mat3<double>;
 
-/// Unit quaternion, scalar first; R(q) takes body components to world components (R_WB).
+/// Unit quaternion, scalar first; R(q) transforms body components to world components (R_WB).
 struct Quat {
   double w{1}, x{0}, y{0}, z{0};
 
@@ -126,7 +126,7 @@ GROUSER_HD Quat operator*(const Quat& a, const Quat& b) {
 }
 GROUSER_HD Vec3d rotate(const Quat& q, const Vec3d& v) { return q.matrix() * v; }
 
-/// Position and orientation of a frame B in the world W: a point is p_W = position + R(orientation) p_B.
+/// Pose of a frame B in the world W: a point is p_W = position + R(orientation) p_B.
 struct Pose {
   Vec3d position;   ///< [m]
   Quat orientation; ///< body to world

@@ -7,7 +7,7 @@
 
 namespace grouser::base {
 
-/// An order-free sum of 64-bit integers that does not overflow: two's complement in 128 bits.
+/// Order-independent 128-bit sum (two's complement) of 64-bit integers; does not overflow.
 struct alignas(16) WideSum {
   std::uint64_t low{};
   std::int64_t high{};
@@ -17,12 +17,12 @@ struct alignas(16) WideSum {
     high += other.high + (low < other.low ? 1 : 0);
     return *this;
   }
-  /// Rounded once.
+  /// Returns the sum as a double, rounded once.
   double value() const {
     __extension__ using Wide = __int128;
     return static_cast<double>(static_cast<Wide>(high) * (static_cast<Wide>(1) << 64) + static_cast<Wide>(low));
   }
-  /// Rounded once where it fits into 64 bits, the same on every device.
+  /// Returns the sum as a double, rounded once if it fits into 64 bits; identical on every device.
   GROUSER_HD double toDouble() const {
     const auto small = static_cast<std::int64_t>(low);
     if (high == (small < 0 ? -1 : 0)) return static_cast<double>(small);
@@ -31,7 +31,7 @@ struct alignas(16) WideSum {
   bool operator==(const WideSum&) const = default;
 };
 
-/// Adds to a sum shared by threads.
+/// Atomically adds `value` to a sum shared by threads.
 GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
   const auto addend = static_cast<std::uint64_t>(value);
 #if defined(__CUDA_ARCH__)
@@ -52,7 +52,7 @@ GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
 #if defined(__CUDACC__)
 namespace detail {
 /// Stores in values[0] the warp's sum of the value with index lane / (32 / kCount): each exchange halves the number of
-/// values that a lane sums.
+/// values per lane.
 template <int kCount> __device__ inline void reduceScatter(std::int64_t* values, unsigned lane, unsigned apart = 16) {
   if constexpr (kCount > 1) {
     constexpr int kHalf = kCount / 2;
@@ -68,13 +68,13 @@ template <int kCount> __device__ inline void reduceScatter(std::int64_t* values,
 }
 } // namespace detail
 
-/// atomicAddWide() of `kCount` values to as many sums by each thread. A complete warp adds its total once: values are
-/// below 2^58, so that 32 of them do not overflow.
+/// Adds `kCount` values per thread to as many sums, like atomicAddWide(). A complete warp adds its total once: values
+/// are below 2^58, so 32 of them do not overflow.
 template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
   static_assert(kCount <= 32);
   if (__activemask() == ~0u) {
     constexpr int kPadded = kCount > 16 ? 32 : kCount > 8 ? 16 : kCount > 4 ? 8 : kCount > 2 ? 4 : kCount;
-    constexpr unsigned kLanes = 32 / kPadded; // per total
+    constexpr unsigned kLanes = 32 / kPadded; // lanes per total
     const unsigned lane = threadIdx.x % 32;
     std::int64_t all[kPadded] = {};
     for (int k = 0; k < kCount; ++k) all[k] = values[k];

@@ -54,7 +54,7 @@ find_package(grouser), grouser::grouser.")
 # Plots, reports, films and MPI require the recommended packages; the program names missing ones.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-  "python3-matplotlib, openmpi-bin, fonts-dejavu-core, libjs-three, libjs-dygraphs")
+  "python3-matplotlib, openmpi-bin, libjs-three, libjs-dygraphs")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, bash-completion, paraview, grouser${suffix}-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # Assets and plots are in the program's package.

@@ -20,8 +20,8 @@ struct BodyVelocity {
   base::Vec3d angular; ///< [rad/s]
 };
 
-/// Rigid bodies with parts among the grains, within one step in which all contacts are solved for simultaneously: their
-/// velocities at its end depend linearly on the impulses of the grains. All ranks have the same values.
+/// Velocity response of the rigid bodies in contact with grains, within one step that solves all contacts
+/// simultaneously: the end velocities depend linearly on the grain impulses. All ranks have the same values.
 class BodyResponse {
 public:
   /// Inverse mass properties of a free body; zero for a fixed body.
@@ -31,11 +31,11 @@ public:
   };
 
   virtual ~BodyResponse() = default;
-  /// [part] index of its body among `inverses()`.
+  /// [part] index of the part's body in `inverses()`.
   virtual const std::vector<std::uint32_t>& bodyOfPart() const = 0;
-  /// Inverse mass properties by body. They bound the response, since joints only reduce it.
+  /// Inverse mass properties by body: an upper bound of the response, since joints only reduce it.
   virtual const std::vector<Inverse>& inverses() const = 0;
-  /// Computes the velocities at the end of the step from the impulses; one entry per body.
+  /// Computes the velocities at the end of the step from the impulses, one entry per body.
   virtual void respond(const std::vector<BodyImpulse>& impulses, std::vector<BodyVelocity>& velocities) = 0;
 };
 

@@ -9,15 +9,15 @@
 
 namespace grouser::contact {
 
-/// Dense grid over the cells in use; z runs fastest, so the three cells of a column are neighbours in memory. Along
-/// periodic boundaries it is a ring of cells that fills the period, none narrower than `edge` asks.
+/// Dense grid over the occupied cells; z runs fastest, so the three cells of a column are adjacent in memory. Along
+/// periodic axes the cells divide the period exactly, each at least `edge` wide, and wrap around.
 struct CellGrid {
   using Cell = base::Vec3<std::uint32_t>;
   base::Period period;
   base::Vec3l edge{}; ///< [units]
   Cell low{}, cells{};
 
-  /// Sets the edges, at least `least`, and the rings; bounds of the other axes are the caller's to find.
+  /// Sets the cell edges to at least `least`, and the periodic axes. The caller sets the bounds of the other axes.
   void setEdge(std::int64_t least);
   GROUSER_HD std::uint64_t key(const Cell& c) const {
     return (static_cast<std::uint64_t>(c.x) * cells.y + c.y) * cells.z + c.z;
@@ -44,7 +44,7 @@ struct CellGrid {
   struct Span {
     std::uint32_t first, count;
   };
-  /// Cells that contain everything within `range` [units] of a position in a cell in use.
+  /// Range of cells that contain all points within `range` [units] of coordinate `u`.
   GROUSER_HD Span within(int axis, std::int64_t u, std::int64_t range) const {
     constexpr std::int64_t kBias = std::int64_t{1} << 41;
     const std::int64_t all = cells[axis];
@@ -54,8 +54,8 @@ struct CellGrid {
       const std::int64_t first = from > 0 ? from : 0, last = to < all ? to : all - 1;
       return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1)};
     }
-    // The last cell includes the remainder of the division: its content is nearer downwards, and farther upwards, than
-    // counted here.
+    // The last cell includes the remainder of the division, so its points lie nearer downwards and farther upwards than
+    // computed here.
     const std::int64_t inside = u + period.periodsBack(axis, u) * period.length[axis] - period.low[axis];
     const std::int64_t own = inside / edge[axis] < all ? inside / edge[axis] : all - 1;
     const std::int64_t below = inside - own * edge[axis];

@@ -6,15 +6,15 @@
 
 #include <cstdint>
 
-/// Kernel bodies of every search by cells: spheres are sorted by the cells of a dense grid, z fastest, and each looks
-/// into the columns of cells around its own. A grid gives cellOf(position), low, cells, local(position), key(cell).
+/// Kernel bodies shared by all cell searches: spheres are sorted by the cells of a dense grid, z fastest, and each
+/// searches the columns of cells around it. A grid has cellOf(position), low, cells, local(position), key(cell).
 namespace grouser::contact {
 
 using Cell = base::Vec3<std::uint32_t>;
 
 constexpr std::int64_t kShare = 32; ///< items per thread in strided loops
 
-/// Threads of kShare items each.
+/// Number of threads for `count` items, kShare items each.
 GROUSER_HD constexpr std::int64_t sharesOf(std::int64_t count) { return (count + kShare - 1) / kShare; }
 
 /// Calls visit(i) for the items of one of sharesOf(count) threads: strided on a GPU, so that reads of neighbouring
@@ -29,8 +29,8 @@ template <class Visit> GROUSER_HD void overShare(std::int64_t thread, std::int64
 #endif
 }
 
-/// Lowest and highest cell in use, by sharesOf(count) threads. bounds[0..2] hold the complement of the minimum, so that
-/// all six grow.
+/// Bounds of the occupied cells, by sharesOf(count) threads. bounds[0..2] store the complement of the minimum, so that
+/// all six are maxima.
 template <class Grid> struct FindBounds {
   static constexpr double kNanoseconds = 3.0 * kShare;
   Grid grid;
@@ -51,7 +51,7 @@ template <class Grid> struct FindBounds {
   }
 };
 
-/// Keys of the spheres, or of those that a list names.
+/// Computes the cell keys of all spheres, or of those in a list.
 template <class Grid> struct AssignKeys {
   static constexpr double kNanoseconds = 8;
   Grid grid;
@@ -61,7 +61,7 @@ template <class Grid> struct AssignKeys {
   GROUSER_HD void operator()(int i) const { key[i] = grid.key(grid.local(position[list ? list[i] : i])); }
 };
 
-/// start[c] = first place whose key is >= c, for c in [0, cells]; run for count + 1 places.
+/// Sets start[c] to the first place whose key is >= c, for c in [0, cells]; run for count + 1 places.
 struct MarkStarts {
   const std::uint64_t* key;
   std::int64_t count, cells;
@@ -73,7 +73,7 @@ struct MarkStarts {
   }
 };
 
-/// Places of the spheres in the cells z - 1, z and z + 1 of a column.
+/// Range of sorted places of the spheres in the cells z - 1, z and z + 1 of a column.
 struct ColumnOfThree {
   std::uint32_t first, last;
 
@@ -85,7 +85,7 @@ struct ColumnOfThree {
   }
 };
 
-/// True if differences of the positions' low words are exact: cells may have been widened for distant spheres.
+/// True if differences of the positions' low words are exact; they may not be if distant spheres widened the cells.
 GROUSER_HD bool differencesHold(const base::Vec3l& apart) {
   constexpr std::int64_t kSafe = std::int64_t{1} << 30;
   return apart.x < kSafe && apart.x > -kSafe && apart.y < kSafe && apart.y > -kSafe && apart.z < kSafe &&

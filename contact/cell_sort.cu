@@ -48,7 +48,7 @@ void sortByCell(const base::Exec& exec, const CellGrid& grid, const base::Positi
   const std::int64_t cells = static_cast<std::int64_t>(grid.cells.x) * grid.cells.y * grid.cells.z;
   order.resize(count);
   cellStart.resize(static_cast<std::size_t>(cells) + 1);
-  if (count == 0) return cellStart.zero(); // MarkStarts would write all of them in one thread
+  if (count == 0) return cellStart.zero(); // MarkStarts would write all entries in one thread
   base::Array<std::uint64_t> key(exec, count);
   base::forEach(exec, "assign cell keys", n, AssignKeys<CellGrid>{grid, position, key.data()});
   base::iota(exec, order.data(), count);

@@ -10,13 +10,13 @@
 /// Sorting of points by grid cells, and layout of the neighbour rows.
 namespace grouser::contact {
 
-/// A grid over all points, with cells of at least `edge` [units]; wider ones where a few points far away would need too
-/// many cells.
+/// Returns a grid over all points with cells of at least `edge` [units], wider if a few distant points would require
+/// too many cells.
 CellGrid fittedGrid(const base::Exec& exec, const base::Position* position, std::size_t count, std::int64_t edge,
                     const base::Period& period);
 
-/// order[k]: slot of the k-th point in the order of the cells. cellStart[c]: index of the first point in cell c or
-/// later; one entry more than cells.
+/// Sorts points by cell. order[k]: slot of the k-th point in cell order. cellStart[c]: index of the first point in cell
+/// c or a later cell; it has one more entry than there are cells.
 void sortByCell(const base::Exec& exec, const CellGrid& grid, const base::Position* position, std::size_t count,
                 base::Array<std::uint32_t>& order, base::Array<std::uint32_t>& cellStart);
 
@@ -25,8 +25,8 @@ struct RowLayout {
   std::uint32_t places; ///< places in all rows
 };
 
-/// Starts of rows of count[i] places: behind one another on a CPU, by slices of 32 rows side by side on a GPU. Throws
-/// SimulationError if there are too many places for 32 bits; `spare` places behind the last are readable.
+/// Sets the start of each row of count[i] places: consecutive on a CPU, interleaved in slices of 32 rows on a GPU.
+/// Throws SimulationError if the number of places exceeds 32 bits; `spare` extra places at the end are readable.
 RowLayout layRows(const base::Exec& exec, const base::Array<std::uint32_t>& count, base::Array<std::uint32_t>& start,
                   std::size_t spare = 0);
 

@@ -14,7 +14,7 @@ namespace grouser::contact {
 
 namespace {
 
-constexpr std::size_t kWords = 8; // of one patch between a grain and a part
+constexpr std::size_t kWords = 8; // words per patch between a grain and a part
 static_assert(sizeof(std::uint64_t) + sizeof(PatchMemory) == kWords * sizeof(std::uint32_t));
 
 [[noreturn]] void refuse() {
@@ -145,7 +145,7 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
     const float* a = saved.angles.data() + w / kWords * 3;
     angles[at] = {a[0], a[1], a[2]};
   }
-  // A list of just the pairs in touch: the next refresh takes the history from it, as from any former list.
+  // Build a list of the touching pairs only: the next refresh takes the history from it, as from any former list.
   pairs_ = keys.size();
   held_ = Held::everywhere;
   key_.assign(keys);

@@ -8,21 +8,21 @@
 
 namespace grouser::contact {
 
-/// Features of a scene's contact laws. Force functions and kernels have a sum of these as template parameter: absent
-/// features are not compiled in. With kGeneral all are compiled in, and each law's constants decide at run time; the
-/// results are bitwise identical.
-inline constexpr unsigned kHertz = 1; ///< Hertz' normal and Mindlin's tangential stiffness; else constant stiffnesses
-inline constexpr unsigned kFriction = 2;        ///< tangential spring with Coulomb's limit
+/// Features of a scene's contact laws. Force functions and kernels have a sum of these flags as template parameter;
+/// absent features are not compiled. With kGeneral all features are compiled and each law's constants select them at
+/// run time; the results are bitwise identical.
+inline constexpr unsigned kHertz = 1; ///< Hertz normal and Mindlin tangential stiffness; otherwise constant stiffnesses
+inline constexpr unsigned kFriction = 2;        ///< tangential spring with Coulomb limit
 inline constexpr unsigned kRollingFriction = 4; ///< rolling resistance with history
 inline constexpr unsigned kCohesion = 8;        ///< constant attraction during contact
-/// Damping depends on the effective mass of each contact, not of the whole scene.
+/// Damping depends on the effective mass of each contact instead of one mass for the scene.
 inline constexpr unsigned kManyMasses = 16;
 inline constexpr unsigned kPlastic = 32; ///< elastic-plastic normal springs, with history
-/// Kernel also sums a ContactMoment; never set in a time step.
+/// The kernel also sums a ContactMoment; never set in a time step.
 inline constexpr unsigned kMeasured = 1u << 30;
 inline constexpr unsigned kGeneral = 1u << 31; ///< all features, selected at run time
 
-/// Index of the plastic state in a contact's history, behind its springs.
+/// Index of the plastic state in a contact's history, after its springs.
 GROUSER_HD constexpr int plasticPlace(unsigned features) {
   return features & kRollingFriction ? 6 : features & (kFriction | kPlastic) ? 3 : 0;
 }
@@ -31,52 +31,52 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
   return plasticPlace(features) + (features & kPlastic ? kPlasticNumbers : 0);
 }
 
-/// A contact law between two surfaces, in float or double. All of them are a normal spring and dashpot, and a
-/// tangential spring with history and dashpot that slips at Coulomb's limit (Cundall and Strack 1979,
-/// Geotechnique 29:47):
+/// Contact law between two surfaces, in float or double. Every law is a normal spring and dashpot, and a tangential
+/// spring with history and a dashpot, which slips at the Coulomb limit (Cundall and Strack 1979, Geotechnique
+/// 29:47):
 ///
 ///   F_n = elastic + c_n v_n                     v_n: approach speed;  never attractive unless `attraction`
-///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; when it slips the spring is shortened to fit:
-///                                               linear, to all of the force; Hertz, to no more than the limit
+///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; on slip the spring is shortened:
+///                                               linear: to the total force; Hertz: at most to the limit
 ///
-/// Linear:  elastic = k overlap,  k_t constant,  c_n = gamma m_eff;  among grains of many masses, where a restitution
-/// is given, c_n = 2 zeta sqrt(k m_eff), so that it is the same for all of them.
+/// Linear:  elastic = k overlap,  k_t constant,  c_n = gamma m_eff.  For grains of many masses with a given
+/// restitution, c_n = 2 zeta sqrt(k m_eff), so that the restitution is the same for all masses.
 ///
 /// Hertz-Mindlin, with the contact radius a = sqrt(R_eff overlap):
 ///   elastic = (4/3) E_eff a overlap,  k_t = 8 G_eff a (Mindlin 1949, no slip),  c_n = 2 beta sqrt(2 E_eff a m_eff), so
 ///   that the restitution does not depend on the speed (Tsuji et al. 1992, Powder Technol. 71:239).
-///   While the contact is loaded the tangential force stays and the spring is shortened as it stiffens; while it is
-///   unloaded the spring's length stays and the force falls with k_t (Thornton, Cummins and Cleary 2013, Powder
-///   Technol. 233:30). So F_t^2 / (2 k_t) only falls as k_t changes: no closed path of loads and shears gains energy.
+///   During loading the tangential force is kept and the spring shortens as it stiffens; during unloading the
+///   spring length is kept and the force decreases with k_t (Thornton, Cummins and Cleary 2013, Powder Technol.
+///   233:30). So F_t^2 / (2 k_t) never increases as k_t changes: no closed path of loading and shear gains energy.
 ///
-/// Cohesion (DMT, Derjaguin et al. 1975): a constant pull of 2 pi w R_eff while the spheres overlap, w the energy of
-/// adhesion. At overlap zero it ends at once: parting needs that force, and the work done against it is that gained on
-/// approach. Friction and rolling friction are limited by the pressing part, F_n without the pull.
+/// Cohesion (DMT, Derjaguin et al. 1975): a constant attraction of 2 pi w R_eff while the spheres overlap; w is the
+/// energy of adhesion. It vanishes at zero overlap: the work of separation equals the work gained on approach. Friction
+/// and rolling resistance are limited by the compressive part, F_n without the attraction.
 ///
-/// Elastic-plastic contacts (plastic_law.hpp) have its force for `elastic`. Where that pulls the dashpot does not add
-/// to it, and friction is limited by the force and what the contact could be pulled with (Thakur et al. 2014).
+/// Elastic-plastic contacts (plastic_law.hpp) use that law's force as `elastic`. In tension the dashpot adds nothing,
+/// and friction is limited by the force plus the maximum attraction of the contact (Thakur et al. 2014).
 template <class T> struct BasicLaw {
   T stiffness{};             ///< linear: k [N/m], > 0;  Hertz: (4/3) E_eff [Pa]
   T damping{};               ///< linear: gamma [1/s], >= 0;  Hertz: 0
   T tangentialStiffness{};   ///< linear: k_t [N/m], >= 0;  Hertz: 8 G_eff [Pa]
   T tangentialDamping{};     ///< linear: gamma_t [1/s], >= 0;  Hertz: 0
-  T friction{};              ///< Coulomb coefficient [-], >= 0; 0 switches the tangential force off
-  bool attraction{};         ///< whether the dashpot may pull
+  T friction{};              ///< Coulomb coefficient [-], >= 0; 0 disables the tangential force
+  bool attraction{};         ///< true: the dashpot may cause a net attraction
   bool hertz{};              ///< Hertz, else linear
   T rootDamping{};           ///< Hertz: 2 beta sqrt(2 E_eff) [sqrt(Pa)];  linear with many masses: 2 zeta sqrt(k)
-  T tangentialRootDamping{}; ///< the same for the tangential dashpot
-  T rollingFriction{};       ///< [-], >= 0; 0 switches rolling resistance off
-  T rollingDamping{};        ///< [-], >= 0: of the rolling spring's critical damping
+  T tangentialRootDamping{}; ///< same for the tangential dashpot
+  T rollingFriction{};       ///< [-], >= 0; 0 disables rolling resistance
+  T rollingDamping{};        ///< [-], >= 0: share of the rolling spring's critical damping
   T pullPerRadius{};         ///< cohesion: 2 pi w [N/m], >= 0
-  T pullPerArea{};           ///< for cohesion that grows with the radius: 2 pi dw / dR_eff [Pa], >= 0
+  T pullPerArea{};           ///< cohesion that grows with the radius: 2 pi dw / dR_eff [Pa], >= 0
   BasicPlasticity<T> plastic{};
-  /// Linear, of one mass: share of both dashpots against a grain that never moves [-], for the restitution asked for.
+  /// Linear law, single mass: factor of both dashpots against a fixed grain [-], for the given restitution.
   T fixedShare{1};
-  /// A power of two near one over the contact's typical force [1/N]. Forces and torques are multiplied by it before
-  /// they are squared: a float holds neither the squares of those of micrometre grains nor of those beyond 1e19 N. It
-  /// changes no other bits; scaledFor() in strongest_force.hpp sets it.
+  /// Power of two near 1 / (typical contact force) [1/N]. Forces and torques are scaled by it before squaring: a float
+  /// cannot represent the squared force between micrometre grains or beyond 1e19 N. Otherwise results are unchanged;
+  /// scaledFor() in strongest_force.hpp sets it.
   T squareScale{1};
-  /// Coefficient of restitution of the damping [-], which complementarity contacts use instead.
+  /// Coefficient of restitution [-]; complementarity contacts use it instead of the damping.
   T restitution{};
 
   template <class U> BasicLaw<U> as() const {
@@ -99,13 +99,13 @@ template <class T> struct BasicLaw {
             u(squareScale),
             u(restitution)};
   }
-  /// The same law without plasticity.
+  /// Returns this law without plasticity.
   BasicLaw elastic() const {
     BasicLaw law = *this;
     law.plastic = {};
     return law;
   }
-  /// The same law with adhesion and cohesion scaled by `share` [-]; same features if that is > 0.
+  /// Returns this law with adhesion and cohesion scaled by `share` [-]; the same features if `share` > 0.
   BasicLaw pulling(T share) const {
     BasicLaw law = *this;
     for (T* pull :
@@ -114,45 +114,45 @@ template <class T> struct BasicLaw {
     return law;
   }
   bool coheres() const { return pullPerRadius > 0 || pullPerArea > 0; }
-  /// Constant pull of cohesion [N] at an effective radius [m].
+  /// Constant attraction of cohesion [N] for an effective radius [m].
   template <class R> GROUSER_HD R pull(R effectiveRadius) const {
     return pullPerRadius * effectiveRadius + pullPerArea * effectiveRadius * effectiveRadius;
   }
-  /// Features that a kernel needs for this law, except kManyMasses, which depends on the scene.
+  /// Features that a kernel requires for this law, except kManyMasses, which depends on the scene.
   unsigned features() const {
     return (hertz ? kHertz : 0u) | (friction > 0 ? kFriction : 0u) | (rollingFriction > 0 ? kRollingFriction : 0u) |
            (coheres() ? kCohesion : 0u) | (plastic.share > 0 ? kPlastic : 0u);
   }
 };
 
-/// Law in double precision; kernels convert to their own.
+/// Law in double precision; kernels convert it to their own precision.
 using ContactLaw = BasicLaw<double>;
 
 using base::ScalarOf;
 using base::squareRoot;
 
-/// Two surfaces in touch, seen from side i; with SIMD numbers, as many pairs as there are lanes. The normal points from
+/// Geometry of two surfaces in contact, seen from side i; with SIMD numbers, one pair per lane. The normal points from
 /// i to j.
 template <class T> struct BasicContactGeometry {
   base::Vec3<T> normal;                   ///< unit, from i to j
   T overlap;                              ///< [m], > 0
-  base::Vec3<T> velocity;                 ///< of i's material point relative to j's at the contact point [m/s]
+  base::Vec3<T> velocity;                 ///< velocity of i's material point relative to j's at the contact [m/s]
   T effectiveMass;                        ///< m_i m_j / (m_i + m_j) [kg]
   T effectiveRadius{};                    ///< R_i R_j / (R_i + R_j) [m]; for Hertz, cohesion and rolling
   T dampingShare = base::broadcast<T>(1); ///< multiplies both damping coefficients [-]: see BasicLaw::fixedShare
-  T pullShare = base::broadcast<T>(1);    ///< multiplies the pull of cohesion [-]
-  bool crushes{false}; ///< the overlap stays as it is while the surfaces approach: the grain gives way (crushing.hpp)
+  T pullShare = base::broadcast<T>(1);    ///< scales the attraction of cohesion [-]
+  bool crushes{false}; ///< the overlap stays constant during approach because the grain crushes (crushing.hpp)
 };
 using ContactGeometry = BasicContactGeometry<float>;
 
-/// Change of a contact's spring stiffness since the last step. With Hertz' law it is proportional to the contact
-/// radius, hence to the root of the overlap.
+/// Change of a contact's spring stiffness since the last step. With Hertz's law the stiffness is proportional to the
+/// contact radius, hence to the square root of the overlap.
 template <class T> struct StiffnessChange {
-  T kept = base::broadcast<T>(1); ///< ratio of spring lengths [-]: loading keeps the force, unloading the length
+  T kept = base::broadcast<T>(1); ///< ratio of spring lengths [-]: loading preserves the force, unloading the length
   T taken{};                      ///< dissipated energy over stiffness times squared former length [-], >= 0
 };
 
-/// Stiffness change from the approach `way` of the surfaces within the step [m].
+/// Stiffness change for the approach `way` of the surfaces within the step [m].
 template <class T> GROUSER_HD StiffnessChange<T> hertzChange(T overlap, T way) {
   using Scalar = ScalarOf<T>;
   const T one = base::broadcast<T>(1), share = way / overlap, within = share < one ? share : one;
@@ -163,14 +163,14 @@ template <class T> GROUSER_HD StiffnessChange<T> hertzChange(T overlap, T way) {
 
 /// Force and energies of one contact in one step.
 template <class T> struct BasicReaction {
-  base::Vec3<T> force;         ///< on i [N]; on j it is the exact opposite
+  base::Vec3<T> force;         ///< force on i [N]; j receives exactly the opposite
   T damped;                    ///< dissipated by the dashpots within the step [J]
   T rubbed;                    ///< dissipated by sliding within the step [J]
-  T pressing;                  ///< normal force without cohesion and adhesion [N], which limits friction
+  T pressing;                  ///< normal force without cohesion and adhesion [N]; limits friction
   T normalStiffness;           ///< dF_n / d overlap of the elastic spring [N/m]
   T yielded{};                 ///< plastic work within the step [J]
   T slipped{};                 ///< dissipated by the tangential spring as its stiffness changes within the step [J]
-  StiffnessChange<T> change{}; ///< Hertz: for the rolling spring too
+  StiffnessChange<T> change{}; ///< Hertz: also for the rolling spring
 };
 using Reaction = BasicReaction<float>;
 
@@ -203,18 +203,18 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
   return c;
 }
 
-/// Force of `law` on side i, and the tangential spring `shear` [m] carried to the end of the step. T is float, double,
-/// or SIMD numbers of these: one source for the kernels of both devices and for many contacts at a time.
-/// Swapping i and j (normal, velocity and shear change sign) changes only the force's sign, to the last bit. `state`:
-/// of an elastic-plastic contact, carried to the end of the step; where it is null all contacts are elastic.
+/// Returns the force of `law` on side i and updates the tangential spring `shear` [m] to the end of the step. T is
+/// float, double, or a SIMD vector: one source for the kernels of both devices and for many contacts at once. Swapping
+/// i and j (normal, velocity and shear change sign) only changes the sign of the force, bit for bit. `state`:
+/// history of an elastic-plastic contact, also updated; null if all contacts are elastic.
 ///
-/// Dashpot work uses the velocity in the middle of the step, with which symplectic Euler changes the kinetic energy
-/// exactly, F . (v_old + v_new) / 2 dt, as if this contact acted alone: second order in the step for a single
-/// collision. A sticking contact dissipates by its dashpots only; a sliding one all work except its spring's gain, with
-/// the slip at the start of the step: a grain held at Coulomb's limit by other contacts must not appear to move.
-/// Rotating the spring into the tangent plane loses energy; that is a time-integration error and not counted here. With
-/// Hertz' law the tangential spring loses energy as k_t follows the contact radius, however short the step: that stands
-/// for the slip that begins at the rim of the contact, and is `slipped`.
+/// Dashpot work uses the mid-step velocity, for which symplectic Euler changes the kinetic energy exactly by F . (v_old
+/// + v_new) / 2 dt if this contact acts alone: second order in the step for a single collision. A sticking contact
+/// dissipates only in its dashpots; a sliding one dissipates all work except the energy gain of its spring, with the
+/// slip at the start of the step, since a grain held at the Coulomb limit by other contacts must not appear to move.
+/// Rotating the spring into the tangent plane loses energy; this is a time-integration error and not counted here. With
+/// Hertz's law the tangential spring loses energy as k_t follows the contact radius, for any step size; this represents
+/// the slip that begins at the rim of the contact and is reported as `slipped`.
 template <unsigned kFeatures, class T>
 GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const BasicContactGeometry<T>& touch,
                                          ScalarOf<T> dt, base::Vec3<T>& shear, BasicPlasticState<T>* state = nullptr) {
@@ -234,7 +234,7 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
       least = elastic < zero ? elastic : zero;
     }
   T dashpot = c.damping * approach;
-  // Without attraction the dashpot may at most cancel the spring, and not help it to pull.
+  // Without attraction the dashpot may cancel the spring force but not turn it into tension.
   if (!law.attraction) dashpot = elastic + dashpot < least ? least - elastic : dashpot;
   T normalForce = elastic + dashpot;
   T pressing = normalForce;
@@ -248,7 +248,7 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   if (hertz) reaction.change = hertzChange(touch.overlap, touch.crushes ? zero : approach * dt);
   if (!(kFeatures & (kFriction | kGeneral)) || law.friction <= 0) return reaction;
 
-  // Rotate the spring into the present tangent plane, then stretch it by this step's slip.
+  // Rotate the spring into the current tangent plane, then stretch it by this step's slip.
   const base::Vec3<T> slip = touch.velocity - n * approach;
   shear -= n * dot(shear, n);
   if (hertz) {
@@ -263,17 +263,17 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   const T scaledLimit = limit * law.squareScale, size2 = dot(scaled, scaled), limit2 = scaledLimit * scaledLimit;
   const auto slides = size2 > limit2;
   if (base::any(slides)) {
-    // Sliding: the force lies on Coulomb's cone.
+    // Sliding: the force lies on the Coulomb cone.
     tangential = base::select(slides, tangential * base::shareOf(scaledLimit, squareRoot(size2)), tangential);
-    // The spring is shortened only if it exceeds the cone by itself: taking over the dashpot's force would stretch it
+    // The spring is shortened only if its own force exceeds the cone: including the dashpot's force would stretch it
     // without work.
     const T scaledStiffness = c.tangentialStiffness * law.squareScale;
     const T spring2 = scaledStiffness * scaledStiffness * dot(shear, shear);
     if (const auto beyond = slides & (spring2 > limit2); base::any(beyond))
       shear = base::select(beyond, shear * base::shareOf(scaledLimit, squareRoot(spring2)), shear);
   }
-  // A force at the rim of a sphere speeds the slip up by 1 + 5/2 of what it does to the centres: slip + 7/2 F h is the
-  // slip in the middle of the step.
+  // A force at the rim of a sphere accelerates the slip 1 + 5/2 times as much as the centres: slip + 7/2 F h is the
+  // mid-step slip.
   const T along = dot(tangential, slip), square = dot(slip, slip) + along * (Scalar(3.5) * halfStepPerMass);
   const T gained = Scalar(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
   reaction.damped += slides ? zero : c.tangentialDamping * square * dt;
@@ -282,8 +282,8 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
   return reaction;
 }
 
-/// Energy of the springs of a contact [J] minus the work of cohesion, zero at overlap 0. `state`: of an elastic-plastic
-/// contact; null for a new one.
+/// Stored energy of the springs of a contact [J] minus the work of cohesion; zero at zero overlap. `state`: history of
+/// an elastic-plastic contact; null for a new contact.
 template <class T> GROUSER_HD double storedEnergy(const BasicLaw<T>& law, double overlap, double effectiveRadius,
                                                   const base::Vec3<T>& shear,
                                                   const BasicPlasticState<double>* state = nullptr) {
@@ -293,7 +293,7 @@ template <class T> GROUSER_HD double storedEnergy(const BasicLaw<T>& law, double
   const double pull = (perRadius * effectiveRadius + perArea * effectiveRadius * effectiveRadius) * overlap;
   if (state && law.plastic.share > 0) {
     const BasicElasticSpring<double> spring{k, effectiveRadius, law.hertz};
-    const double sticks = law.hertz ? sqrt(effectiveRadius * overlap) : 1; // of k_t
+    const double sticks = law.hertz ? sqrt(effectiveRadius * overlap) : 1; // factor of k_t
     return plasticEnergy(law.plastic.template as<double>(), spring, overlap, *state) + 0.5 * kt * sticks * s2 - pull;
   }
   if (!law.hertz) return 0.5 * k * overlap * overlap + 0.5 * kt * s2 - pull;

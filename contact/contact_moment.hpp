@@ -7,9 +7,9 @@
 
 namespace grouser::contact {
 
-/// Sum over the contacts of one grain of force times lever arm, its symmetric part. Sums over the grains of a volume,
-/// divided by that volume, are its mean stress (Love 1927; Weber 1966, Cahiers du Groupe Francais de Rheologie 3:161):
-/// positive in tension.
+/// Contact moment of a grain: the symmetric part of the sum of contact force times lever arm. Summed over the grains of
+/// a volume and divided by that volume, it is the mean stress (Love 1927; Weber 1966, Cahiers du Groupe Francais de
+/// Rheologie 3:161), positive in tension.
 struct ContactMoment {
   double of[6] = {}; ///< xx, xy, xz, yy, yz, zz [N m]
   std::int32_t contacts = 0;
@@ -28,7 +28,7 @@ struct ContactMoment {
   }
 };
 
-/// Contact moments of grains against parts, as the grains' kernel reads them. `range` as in GrainLoadsView.
+/// Contact moments of grains against parts, as read by the grain kernel. `range` as in GrainLoadsView.
 struct PartMomentsView {
   const std::uint32_t* range{nullptr};
   const ContactMoment* moment{nullptr};

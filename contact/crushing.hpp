@@ -11,16 +11,16 @@
 ///   overlap - dent > y:  dent = overlap - y, which dissipates (F_c - pull) x the growth of the dent
 ///   overlap <= dent:     the surfaces are apart in the dent: no force, no energy
 ///
-/// (the pull is that of cohesion). The stored energy is that of the spring at e: a function of the state (overlap,
-/// dent), so that unloading from the cap returns the elastic energy only, along the same curve. Linear: unloading has
-/// the slope k, and an impact of relative energy E keeps the share F_c^2 / (2 k) / E. The dashpot adds to the spring
-/// force up to F_c.
+/// (pull: attraction of cohesion). The stored energy is that of the spring at e, a function of the state (overlap,
+/// dent): unloading from the cap returns only the elastic energy, along the same curve. Linear law: unloading has the
+/// slope k, and an impact of relative energy E retains the fraction F_c^2 / (2 k) / E. The dashpot acts in addition to
+/// the spring force, up to F_c.
 namespace grouser::contact {
 
 /// Crushing constants of one material, for its contacts with parts.
 struct Crushing {
   float strength;   ///< sigma_f [Pa]; 0: does not crush
-  float hertzYield; ///< y over the radius, of a Hertz contact [-]
+  float hertzYield; ///< y / radius for a Hertz contact [-]
 };
 
 inline Crushing crushingOf(double strength, const ContactLaw& law) {
@@ -34,14 +34,14 @@ inline Crushing crushingOf(double strength, const ContactLaw& law) {
 
 /// Effect of the force cap on a contact in one step.
 struct Yielded {
-  float overlap;    ///< elastic [m]; not positive where the surfaces are apart in the dent
-  float damping;    ///< share of the law's normal damping that acts [-]
+  float overlap;    ///< elastic overlap [m]; <= 0 if the surfaces are apart in the dent
+  float damping;    ///< active fraction of the law's normal damping [-]
   float dissipated; ///< [J]
   float cut;        ///< spring force removed by the cap [N]
   bool capped;
 };
 
-/// Lets the `dent` grow. `approach`: speed at which the surfaces approach [m/s]. The effective radius is the grain's.
+/// Increases the `dent`. `approach`: approach speed of the surfaces [m/s]. The effective radius is the grain's.
 template <unsigned kFeatures> GROUSER_HD Yielded yieldContact(const Crushing& crushing, const BasicLaw<float>& law,
                                                               float overlap, float approach, float dt, float mass,
                                                               float radius, float& dent) {
@@ -52,7 +52,7 @@ template <unsigned kFeatures> GROUSER_HD Yielded yieldContact(const Crushing& cr
     const float growth = y.overlap - most;
     dent = overlap - most;
     y.overlap = most, y.capped = true;
-    // A contact that has moved to another place of the part is deeper at once, without any work.
+    // A contact that has moved to another place of the part can deepen instantly, without any work.
     const float way = approach > 0 ? approach * dt : 0;
     y.dissipated = (cap - law.pull(radius)) * (growth > 1.5f * way ? way : growth);
     y.cut = coefficientsOf<kFeatures>(law, overlap, mass, radius).elastic - cap;

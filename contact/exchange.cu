@@ -15,7 +15,7 @@ constexpr int kTag = 11;
 
 struct Fields {
   ExchangeField field[Exchange::kMaxFields];
-  std::uint32_t count, words; ///< of fields; of one element, all fields together
+  std::uint32_t count, words; ///< number of fields; words per element, summed over all fields
 };
 
 Fields collect(std::span<const ExchangeField> fields) {
@@ -28,9 +28,9 @@ Fields collect(std::span<const ExchangeField> fields) {
 /// Copies one word of one element between its field and the buffer, in which elements are contiguous.
 template <bool kPack> struct MoveWord {
   Fields fields;
-  std::uint32_t first; ///< place in the plan of the first element of this launch
+  std::uint32_t first; ///< plan index of the first element of this launch
   const std::uint32_t* slots;
-  std::uint32_t* buffer; ///< from that element on
+  std::uint32_t* buffer; ///< starts at that element
   GROUSER_HD void operator()(int i) const {
     const std::uint32_t place = first + static_cast<std::uint32_t>(i) / fields.words;
     std::uint32_t word = static_cast<std::uint32_t>(i) % fields.words, f = 0;
@@ -45,8 +45,8 @@ template <bool kPack> struct MoveWord {
   }
 };
 
-/// Copies between fields and `buffer`, which begins with element `first`. Launches count in int: elements go in groups
-/// of at most `wordsAtATime` words.
+/// Copies between fields and `buffer`, which begins with element `first`. Launches count in int: each launch copies
+/// at most `wordsAtATime` words, but at least one element.
 template <bool kPack> void moveWords(const base::Exec& exec, const Fields& fields, const std::uint32_t* slots,
                                      std::size_t first, std::size_t elements, std::uint32_t* buffer,
                                      std::size_t wordsAtATime) {
@@ -58,7 +58,7 @@ template <bool kPack> void moveWords(const base::Exec& exec, const Fields& field
         MoveWord<kPack>{fields, static_cast<std::uint32_t>(first + done), slots, buffer + done * fields.words});
 }
 
-/// start[r] = first place whose rank is >= r, in sorted ranks.
+/// Sets start[r] to the first place with rank >= r in the sorted ranks.
 struct FindStarts {
   const std::uint64_t* ranks;
   std::uint32_t count;
@@ -138,15 +138,15 @@ void Exchange::renumber(const std::uint32_t* newSlot) {
     base::forEach(exec_, "renumber a plan", static_cast<std::int64_t>(slots->size()), Renumber{newSlot, slots->data()});
 }
 
-/// The buffer that `rank` packs the present run into, as seen from this rank; null where its memory is not visible.
+/// Buffer into which `rank` packs the current run, as mapped on this rank; null if not accessible.
 std::uint32_t* Exchange::packedBy(int rank) const {
   void* memory = rank == comm_.rank() ? packed_.own() : packed_.of(rank);
   if (!memory) return nullptr;
   return static_cast<std::uint32_t*>(memory) + (packed_.shares() ? bufferIndex_ * (packed_.size() / 8) : 0);
 }
 
-/// Calls `each(first, end, peer)` for ranks [first, end) that are reached the same way: one peer through its memory, or
-/// any number of others by messages.
+/// Calls `each(first, end, peer)` for ranges of ranks with the same transport: one peer by its memory, or any number of
+/// others by messages.
 template <class Each> void Exchange::forWays(const Each& each) const {
   for (int first = 0, end = 0; first < comm_.size(); first = end) {
     end = first + 1;
@@ -214,7 +214,7 @@ void Exchange::publish() {
 }
 
 void Exchange::discard() {
-  if (stage_ == Stage::sent) throw std::logic_error("an exchange is discarded whose messages are under way");
+  if (stage_ == Stage::sent) throw std::logic_error("cannot discard an exchange while its messages are in transit");
   stage_ = Stage::idle;
 }
 

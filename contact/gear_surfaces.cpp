@@ -14,7 +14,7 @@ using base::Vec3d;
 
 namespace {
 
-// Gauss and Legendre's points and weights on [-1, 1].
+// Gauss-Legendre points and weights on [-1, 1].
 constexpr double kGauss3[3] = {-0.7745966692414834, 0, 0.7745966692414834};
 constexpr double kWeight3[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 constexpr double kGauss4[4] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
@@ -58,8 +58,8 @@ GROUSER_SIMD_CLONES PressureLanes pressRims(const PatchLaw& law, double timeStep
   return sums;
 }
 
-/// Lanes hold columns of the face. Each column is integrated from the chamfer of the disc to the point where the face
-/// leaves the disc side, in two intervals: chamfer nearest, side nearest.
+/// Lanes contain columns of the face. Each column is integrated from the chamfer of the disc to the point where the
+/// face leaves the disc side, in two intervals: chamfer nearest, side nearest.
 GROUSER_SIMD_CLONES PatchPressure pressFace(const PatchLaw& law, double timeStep, const FaceAtDisc& f) {
   PressureLanes sums;
   sums.clear();
@@ -164,7 +164,7 @@ namespace {
 
 constexpr double kShallow = 0.25; ///< largest overlap [boss radius] for the closed-form limits
 
-/// One strip of a boss in one half of a gap. x is positive in that half.
+/// Strip of a boss in one half of a gap; x is positive in that half.
 struct HalfGap {
   const GapProfile& gap;
   double bossX, bossY, radius, width;
@@ -183,7 +183,7 @@ struct HalfGap {
 
   // seat() and flank() return false if they added nothing.
 
-  /// Contact with the seat, by rays from its centre that meet the boss at distance t.
+  /// Computes contact with the seat, by rays from its centre that reach the boss at distance t.
   GROUSER_SIMD bool seat(PressureLanes& sums) const {
     const double c2 = bossX * bossX + bossY * bossY, r = gap.seatRadius;
     if (!(c2 > (r - radius) * (r - radius)) || !(c2 < radius * radius)) return false;
@@ -202,7 +202,7 @@ struct HalfGap {
     return true;
   }
 
-  /// Contact with the flank: arc of the boss inside the flank circle, beyond the seat.
+  /// Computes contact with the flank: arc of the boss inside the flank circle, beyond the seat.
   GROUSER_SIMD bool flank(PressureLanes& sums) const {
     const double x = gap.flankX, y = gap.flankY, r = gap.flankRadius;
     const double mx = bossX - x, my = bossY - y, m2 = mx * mx + my * my, m = std::sqrt(m2);
@@ -237,21 +237,21 @@ struct HalfGap {
   GROUSER_SIMD Depth depth() const {
     const double most = kShallow * radius, r = gap.flankRadius, mx = bossX - gap.flankX, my = bossY - gap.flankY;
     const double m = std::sqrt(mx * mx + my * my), inFlank = r + radius - m;
-    const double towards = bossY > 0 ? bossX * gap.seatSin - bossY * gap.seatCos // the seat's end
+    const double towards = bossY > 0 ? bossX * gap.seatSin - bossY * gap.seatCos // end of the seat
                                      : std::sqrt(bossX * bossX + bossY * bossY);
     const double inSeat = towards - (gap.seatRadius - radius);
     if (!(inFlank > 0) && !(inSeat > 0)) return Depth::apart;
     if (!(inFlank < most) || !(inSeat < most)) return Depth::deep;
     if (!(inFlank > 0)) return Depth::shallow;
-    // End of the arc in the flank on the side of the tip.
+    // End of the arc in the flank, on the tip side.
     const double c = (m * m + radius * radius - r * r) / (2 * radius * m), w = std::sqrt(std::max(1 - c * c, 0.0));
     const double x = bossX - (c * mx - w * my) / m * radius, y = bossY - (c * my + w * mx) / m * radius;
     const double fromAxle = std::sqrt(x * x + (gap.pinRadius + y) * (gap.pinRadius + y));
     return gap.tipRadius - fromAxle > inFlank ? Depth::shallow : Depth::deep;
   }
 
-  /// Contact at any depth, by points fixed on the circumference of the boss, which makes the forces conservative. `x`,
-  /// `y`: profile components of two perpendicular axes of the boss.
+  /// Computes contact at any depth, by points fixed on the circumference of the boss, which makes the forces
+  /// conservative. `x`, `y`: profile components of two perpendicular axes of the boss.
   GROUSER_SIMD void whole(PressureLanes& sums, const base::Vec3d& x, const base::Vec3d& y) const {
     const PointLanes none = allLanes(0), tiny = allLanes(1e-12);
     const double share = 2 * base::kPi * radius / GapProfile::kAround;

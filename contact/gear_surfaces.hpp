@@ -6,8 +6,8 @@
 #include <array>
 
 /// Gear contacts from part shapes. Each function integrates the pressure of the elastic foundation (PatchLaw) over the
-/// part of surface A inside body B, by Gauss quadrature between the closed-form limits of the contact. Positions and
-/// moments refer to the centre of mass of A, in world axes [m].
+/// part of surface A inside body B, by Gauss quadrature between closed-form contact limits. Positions and moments are
+/// relative to the centre of mass of A, in world axes [m].
 namespace grouser::contact {
 
 /// Eight wheel rims, each on a plane rectangle of A. Idle lanes have zero width.
@@ -15,9 +15,9 @@ struct alignas(64) RimsOnPlates {
   Vec3P plate;                       ///< reference point of the rectangle: mid-length, across = 0
   Vec3P along, across;               ///< unit
   PointLanes halfLength, from, to;   ///< along; across [m]
-  Vec3P axle, axis;                  ///< a point of the wheel's axis; unit
-  PointLanes radius;                 ///< of the rim [m]
-  RelativeMotion<PointLanes> motion; ///< of A, relative to the wheel
+  Vec3P axle, axis;                  ///< a point on the wheel axis; unit axis
+  PointLanes radius;                 ///< rim radius [m]
+  RelativeMotion<PointLanes> motion; ///< motion of A relative to the wheel
 };
 
 /// Number of Gauss points across the plate (strips) and along the chord of each strip.
@@ -29,13 +29,13 @@ PressureLanes pressRims(const PatchLaw& law, double timeStep, const RimsOnPlates
 /// A plane trapezoid of A, such as the side of a guide horn, against the side of a disc with a chamfered edge.
 struct FaceAtDisc {
   base::Vec3d foot;              ///< middle of the longer edge
-  base::Vec3d along;             ///< unit, along the edges
-  base::Vec3d up;                ///< from there to the middle of the shorter edge, perpendicular to both edges [m]
+  base::Vec3d along;             ///< unit vector along the edges
+  base::Vec3d up;                ///< vector from `foot` to the middle of the shorter edge, perpendicular to both [m]
   double halfFoot, halfTip;      ///< half lengths of the edges [m]
   base::Vec3d axle;              ///< intersection of the disc side with its axis
   base::Vec3d axis;              ///< unit, into the disc
-  double radius, chamfer;        ///< of the disc; of the disc edge [m]
-  RelativeMotion<double> motion; ///< of A, relative to the disc
+  double radius, chamfer;        ///< disc radius; chamfer of its edge [m]
+  RelativeMotion<double> motion; ///< motion of A relative to the disc
 };
 PatchPressure pressFace(const PatchLaw& law, double timeStep, const FaceAtDisc& face);
 
@@ -47,32 +47,32 @@ public:
   static constexpr int kMostTeeth = 64;
   static constexpr int kAround = 128; ///< quadrature points around a boss deep inside a tooth
 
-  /// `teeth`: at most kMostTeeth; `pinRadius`: of the circle of seated pins [m]; `seatHalfAngle` [rad]; others as
-  /// vehicle::GearShapes.
+  /// `teeth`: at most kMostTeeth; `pinRadius`: pitch radius of the seated pins [m]; `seatHalfAngle` [rad]; other
+  /// parameters as in vehicle::GearShapes.
   GapProfile(int teeth, double pinRadius, double seatRadius, double seatHalfAngle, double flankRadius,
              double tipRadius);
 
   int teeth;
   double pinRadius, seatRadius, flankRadius, tipRadius;
-  double seatCos, seatSin;                                             ///< of the seat's half angle
+  double seatCos, seatSin;                                             ///< cosine and sine of the seat's half angle
   double flankX, flankY;                                               ///< centre of the flank's arc at x > 0
-  double seatStep;                                                     ///< angle per quadrature point of the seat [rad]
-  std::array<PointLanes, kSeatPoints / kPointLanes> sine, cosine;      ///< of the seat's points, from its bottom
+  double seatStep;                                                     ///< angle between seat points [rad]
+  std::array<PointLanes, kSeatPoints / kPointLanes> sine, cosine;      ///< angles of the seat's points from its bottom
   std::array<std::array<PointLanes, 2>, kAround / kPointLanes> around; ///< cosine and sine of points about a boss
   std::array<double, kMostTeeth> gapCos, gapSin;                       ///< directions of the gaps
 };
 
-/// A cylinder of A (the boss of a pin) in a sprocket gap.
+/// Cylinder of A (pin boss) in a sprocket gap.
 struct BossInGap {
   base::Vec3d boss;              ///< reference point on its axis
   base::Vec3d across;            ///< unit, along its axis
   base::Vec3d alongX, alongZ;    ///< unit axes of A perpendicular to it
   double radius, from, to;       ///< [m]; axial range inside the sprocket ring [m]
-  base::Vec3d axle, axis;        ///< a point of the sprocket's axis; unit
-  base::Vec3d x, z;              ///< unit, of the sprocket: gap 0 lies along x, the next ones turn towards z
-  RelativeMotion<double> motion; ///< of A, relative to the sprocket
+  base::Vec3d axle, axis;        ///< a point on the sprocket axis; unit axis
+  base::Vec3d x, z;              ///< unit axes of the sprocket: gap 0 lies along x, gap numbers increase towards z
+  RelativeMotion<double> motion; ///< motion of A relative to the sprocket
 };
-/// Returns two patches, one per half of the gap: x < 0 and x > 0.
+/// Returns the pressure of two patches, one per half of the gap: x < 0 and x > 0.
 std::array<PatchPressure, 2> pressBoss(const PatchLaw& law, double timeStep, const GapProfile& gap,
                                        const BossInGap& boss);
 

@@ -29,7 +29,7 @@ GROUSER_HD double distance2ToBox(const Vec3d& p, const Vec3d& low, const Vec3d& 
   return sum;
 }
 
-/// Counts (where `key` is null) or lists the parts near one grain.
+/// Counts (if `key` is null) or lists the parts near one grain.
 struct ListParts {
   static constexpr double kNanoseconds = 60;
   base::PositionScale scale;
@@ -76,7 +76,7 @@ struct RestorePatches {
   const Vec3f* oldAngle;
   Vec3f* angle; ///< null without rolling friction
   const float* oldDent;
-  float* dent; ///< null where no grain crushes
+  float* dent; ///< null if no grain crushes
   GROUSER_HD void operator()(int e) const {
     std::int64_t low = 0, high = oldCount;
     while (low < high) {
@@ -157,7 +157,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   for (std::size_t m = 0; crushes_ && m < materials.laws.size(); ++m)
     crushing.push_back(crushingOf(materials.crushing[m % materials.crushing.size()], materials.laws[m]));
   crushing_ = base::Array<Crushing>(exec, crushing);
-  std::vector<bool> isMet(sets.size()); // only parts that grains can touch need a table
+  std::vector<bool> isMet(sets.size()); // only parts in contact with grains need a table
   for (const GrainPart& part : parts)
     if (part.meets && part.surface >= 0) isMet[static_cast<std::size_t>(part.surface)] = true;
   std::vector<SurfaceGridView> views;
@@ -170,7 +170,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   for (GrainPart& part : parts) {
     auto [low, high] = part.surface < 0 ? Box{-halfExtent(part.shape), halfExtent(part.shape)}
                                         : boxOf(*sets[static_cast<std::size_t>(part.surface)]);
-    constexpr double kFarAway = 1e100; // its square is a number
+    constexpr double kFarAway = 1e100; // its square is finite
     if (!part.meets) low = high = {kFarAway, kFarAway, kFarAway};
     part.boxLow = low, part.boxHigh = high;
   }
@@ -202,10 +202,10 @@ std::vector<ExchangeField> GrainPartContacts::history() {
 
 void GrainPartContacts::migrate(const std::uint32_t* destination) {
   if (held_ == Held::everywhere) return;
-  // A second migration before a refresh: pairs that arrived have no slots yet by which to follow their grains, so every
-  // rank takes all pairs of the scene, as after a restore.
+  // Second migration before a refresh: received pairs have no slots yet to follow their grains, so every rank takes all
+  // pairs of the scene, as after a restore.
   if (held_ == Held::migrated) return restore(save());
-  // Few pairs, and at rebuilds only: plain messages are quick enough.
+  // Few pairs, and only at rebuilds: plain messages are fast enough.
   if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_, ExchangeOptions{.peers = base::PeerUse::never});
   const auto n = static_cast<std::int64_t>(pairs_);
   base::Array<std::uint32_t> leaves(exec_, pairs_), leaving(exec_);
@@ -217,8 +217,8 @@ void GrainPartContacts::migrate(const std::uint32_t* destination) {
                 ReadDestination{leaving.data(), slot_.data(), destination, ranks.data()});
   exchange_->setPlan(ranks, leaving, leaving.size());
   exchange_->start(history());
-  // Pairs that left stay in the arrays until the next refresh, which finds no grain for them; emptied, save() skips
-  // them.
+  // Sent pairs stay in the arrays until the next refresh, which finds no grain for them; they are emptied so that
+  // save() skips them.
   base::forEach(exec_, "forget pairs that leave", static_cast<std::int64_t>(leaving.size()),
                 Forget{exchange_->exportSlots(), memory_.data()});
   key_.resizeKeeping(pairs_ + exchange_->importCount());
@@ -232,7 +232,7 @@ void GrainPartContacts::migrate(const std::uint32_t* destination) {
 }
 
 void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<PartMotion>& motion) {
-  // The former list, sorted by key, to find history in.
+  // The former list, sorted by key, as the source of history.
   const std::size_t oldPairs = pairs_;
   key_.swap(oldKey_);
   memory_.swap(oldMemory_);
@@ -348,7 +348,7 @@ void GrainPartContacts::computeOnCleared(const base::Exec& exec, const GrainsVie
     base::forEachGroup<16>(exec, "grain-part contacts", groups,
                            NearPairForces<kFeatures>{forces, near, count, static_cast<std::uint32_t>(groups)});
   };
-  // Most beds are linear with friction, soils use Hertz' law; all else uses the general functions.
+  // Most beds are linear with friction, soils use Hertz's law; all others use the general functions.
   constexpr unsigned kSoil = kHertz | kFriction | kRollingFriction | kCohesion;
   if (allHertz_ && !(features_ & ~kSoil) && !crushes_)
     run.template operator()<kSoil>();

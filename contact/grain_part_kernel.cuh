@@ -14,12 +14,12 @@
 
 #include <type_traits>
 
-/// Contacts of one grain with one part: its patches, their springs, and the loads on both.
+/// Contacts of one grain with one part: the patches, their springs, and the loads on both.
 namespace grouser::contact {
 
-inline constexpr float kSameNormal = 0.9f; // cosine: contacts within 26 degrees are one patch
-inline constexpr float kSameFace = 0.97f;  // cosine: discs of one face are one patch
-inline constexpr float kSamePatch = 0.8f;  // cosine: a patch is the one it was in the step before
+inline constexpr float kSameNormal = 0.9f; // cosine: contacts within 26 degrees belong to one patch
+inline constexpr float kSameFace = 0.97f;  // cosine: discs of one face belong to one patch
+inline constexpr float kSamePatch = 0.8f;  // cosine: a patch is identified with one of the previous step
 inline constexpr float kOtherSide = -0.5f; // cosine: a patch on the far side of the part
 
 /// Key whose minimum selects the largest overlap over radius and, among equals, the first grain.
@@ -28,19 +28,19 @@ GROUSER_HD std::uint64_t pressKey(float share, std::uint32_t grain) {
 }
 inline constexpr std::uint64_t kNotPressed = ~std::uint64_t{0};
 
-/// One patch of the present step, before it is matched to those of the step before.
+/// Patch of the current step, before it is matched to the patches of the previous step.
 struct TouchedPatch {
   base::Vec3f normal; ///< outward from the part, in its frame
-  base::Vec3f face;   ///< plane normal of the disc that is deepest
+  base::Vec3f face;   ///< plane normal of the deepest disc
   float overlap;
 };
 
-/// Adds to the shared sums at once.
+/// Adds to the shared sums immediately.
 struct AddAtOnce {
   std::int64_t* sums;
   GROUSER_HD void add(int which, std::int64_t value) const { base::atomicAdd64(sums + which, value); }
 };
-/// Accumulates over many pairs first: frequent atomic additions to one address are slow.
+/// Accumulates over many pairs before adding: frequent atomics on one address are slow.
 struct AddLater {
   std::int64_t of[kPartSums] = {};
   GROUSER_HD void add(int which, std::int64_t value) { of[which] += value; }
@@ -60,14 +60,14 @@ template <unsigned kFeatures> struct GrainPartForces {
   const std::uint32_t* slot;
   PatchMemory* memory;
   base::Vec3f* angle;       ///< null without rolling friction
-  const Crushing* crushing; ///< by law; null where none crushes
-  float* dent;              ///< of each patch [m]; null too
-  std::int64_t* energyHeld; ///< in the springs of each pair [quanta]; null too
-  int endedAt;              ///< index behind the loads of the parts; its force.x counts crushed grains
+  const Crushing* crushing; ///< one per law; null if none crushes
+  float* dent;              ///< dent per patch [m]; null if none crushes
+  std::int64_t* energyHeld; ///< spring energy per pair [quanta]; null if none crushes
+  int endedAt;              ///< index after the loads of the parts; its force.x counts crushed grains
   GrainLoad* load;
   PartLoad* partLoad;
   std::int64_t* sums;       ///< [kPartSums]
-  std::uint64_t* pressed;   ///< by part, key of the grain with the largest overlap: see pressKey()
+  std::uint64_t* pressed;   ///< per part: key of the grain with the largest overlap: see pressKey()
   const std::uint32_t* off; ///< nonzero: cancelled, see base::Gate; null: never
 
   template <class Group> GROUSER_HD void operator()(int e, const Group& group) const {
@@ -76,7 +76,7 @@ template <unsigned kFeatures> struct GrainPartForces {
     run(e, group, shared);
   }
   GROUSER_HD bool calledOff() const { return off && *off; }
-  /// Returns true if the grain may touch the part.
+  /// True if the grain may be in contact with the part.
   GROUSER_HD bool isNear(int e) const {
     const PartMotion& part = motion[partOf(e)];
     const GrainPart& of = parts[partOf(e)];
@@ -90,13 +90,13 @@ template <unsigned kFeatures> struct GrainPartForces {
       if (!outOfReach(grid.disc[grid.entry[k]], c, ball.radius)) return true;
     return false;
   }
-  /// Clears history and load of a pair out of reach. Angles and dents of free places are never read.
+  /// Clears the history and load of a pair out of range. Angles and dents of free entries are never read.
   GROUSER_HD void release(int e) const {
     for (int k = 0; k < kPatches; ++k) memory[static_cast<std::int64_t>(e) * kPatches + k] = {};
     if (crushes()) energyHeld[e] = 0;
     load[e] = {};
   }
-  /// A thread's pairs on a CPU.
+  /// Processes a thread's pairs on a CPU.
   void runOnCpu(std::int64_t firstPair, std::int64_t endPair) const {
     AddLater kept;
     for (std::int64_t e = firstPair; e < endPair; ++e) run(static_cast<int>(e), base::ThreadGroup<1>{0}, kept);
@@ -114,7 +114,7 @@ protected:
     const GrainPart& of = parts[p];
     TouchedPatch patches[kPatches];
     const int found = touch(of, part.toPart(ball.x), ball.radius, group, patches);
-    if (group.rank != 0) return; // one thread does the rest
+    if (group.rank != 0) return; // one thread completes the pair
     PatchMemory* held = memory + static_cast<std::int64_t>(e) * kPatches;
     int former[kPatches];
     PairLoad sum;
@@ -139,7 +139,7 @@ protected:
     if (crushes()) {
       energyHeld[e] = model.energy.quantise(sum.elastic);
       if (share >= 1 && mayCrush(of.firstLaw + ball.material, ball)) {
-        // Crushed to its middle: the host removes the grain before the next step.
+        // Crushed to its centre: the host removes the grain before the next step.
         sum.onGrain.deepest = -sum.onGrain.deepest;
         base::atomicAdd64(&partLoad[endedAt].force.x, 1);
       }
@@ -161,27 +161,27 @@ protected:
     base::atomicMin64(pressed + p, pressKey(share, static_cast<std::uint32_t>(key[e] >> 16)));
   }
 
-  /// The grain of a pair.
+  /// Grain of a pair.
   struct Ball {
     base::Vec3d x, v, w;
     double radius, mass;
     int material;
-    bool fixed; ///< never moves, and does not crush
+    bool fixed; ///< fixed in place; does not crush
   };
-  /// The history of a patch, updated by its force.
+  /// History of a patch, updated by its force.
   struct Springs {
     base::Vec3f& shear;
     base::Vec3f& rolled; ///< rolling angle [rad]
-    float& dent;         ///< of a grain that crushes [m]
+    float& dent;         ///< dent of a crushing grain [m]
   };
   /// Sums over the patches of a pair.
   struct PairLoadOfStep {
     GrainLoad onGrain{};
     base::Vec3l torqueOnPart{};
-    double elastic = 0;          ///< held in springs [J]
-    float lost[4] = {};          ///< dissipated by dashpots, sliding, rolling resistance, change of stiffness [J]
+    double elastic = 0;          ///< stored in springs [J]
+    float lost[4] = {};          ///< dissipated by dashpots, sliding, rolling resistance, stiffness changes [J]
     double crushed = 0, cut = 0; ///< dissipated by crushing [J], force removed by the cap [N]
-    int capped = 0;              ///< patches
+    int capped = 0;              ///< number of patches
   };
   struct MeasuredPairLoad : PairLoadOfStep {
     ContactMoment moment;
@@ -205,7 +205,7 @@ protected:
               velocity.w < 0};
     if (!model.manyRadii) return ball;
     ball.material = static_cast<int>(spin.w);
-    const double r = fabs(static_cast<double>(velocity.w)); // less than 0: a fixed grain
+    const double r = fabs(static_cast<double>(velocity.w)); // negative for a fixed grain
     ball.radius = r, ball.mass = massPerCube[ball.material] * r * r * r;
     return ball;
   }
@@ -216,14 +216,14 @@ protected:
     base::atomicAdd64(&target.z, value.z);
   }
 
-  /// Finds the patches of a part in contact with a ball at `c` in the part's frame.
+  /// Finds the patches of a part in contact with a sphere centred at `c` in the part frame.
   template <class Group> GROUSER_HD int touch(const GrainPart& of, const base::Vec3d& c, double ballRadius,
                                               const Group& group, TouchedPatch* patches) const {
     return of.surface < 0 ? touchShape(of.shape, c, ballRadius, patches)
                           : findPatches(grids[of.surface], c, ballRadius, group, patches);
   }
 
-  /// A convex shape has one nearest point.
+  /// A convex shape has a single nearest point.
   GROUSER_HD static int touchShape(const SurfaceGeometry& shape, const base::Vec3d& c, double ballRadius,
                                    TouchedPatch* patches) {
     const SurfaceGap gap = gapTo(shape, c);
@@ -234,7 +234,7 @@ protected:
     return 1;
   }
 
-  /// The deepest contact first, then the deepest that belongs to none of the patches so far.
+  /// Finds the deepest contact first, then the deepest outside all patches found so far.
   template <class Group> GROUSER_HD int findPatches(const SurfaceGridView& grid, const base::Vec3d& c,
                                                     double ballRadius, const Group& group,
                                                     TouchedPatch* patches) const {
@@ -266,7 +266,7 @@ protected:
     return found;
   }
 
-  /// The patch whose normal lay closest in the last step; -1 where there is none.
+  /// Returns the patch of the previous step with the nearest normal; -1 if there is none.
   GROUSER_HD static int recall(const PatchMemory* held, const base::Vec3f& normal, unsigned& used) {
     int best = -1;
     float alignment = kSamePatch;
@@ -278,9 +278,9 @@ protected:
     return best;
   }
 
-  /// Matches the present patches to those of the last step, -1 where none. Returns the depth of a grain that has passed
-  /// through a thin part within this step (a deep new contact on the other side), which counts as pressed beyond its
-  /// middle; else 0.
+  /// Matches the current patches to those of the previous step (-1: no match). Returns the depth of a grain that has
+  /// passed through a thin part within this step (a deep new contact on the far side), which counts as pressed beyond
+  /// its centre; otherwise 0.
   GROUSER_HD static float recallAll(const PatchMemory* held, const TouchedPatch* patches, int found, float radius,
                                     int* former) {
     unsigned used = 0;
@@ -295,8 +295,8 @@ protected:
     return through;
   }
 
-  /// Reduces the overlap of a crushing contact to its elastic part. False: the surfaces are apart in the dent; the
-  /// energy of the tangential spring counts as sliding dissipation.
+  /// Reduces the overlap of a crushing contact to its elastic part. Returns false if the surfaces are apart in the
+  /// dent; the energy of the tangential spring then counts as sliding dissipation.
   GROUSER_HD static bool crush(const Crushing& crushing, ContactGeometry& touch, const Springs& springs, float dt,
                                BasicLaw<float>& law, PairLoad& sum) {
     const Yielded y = yieldContact<kFeatures>(crushing, law, touch.overlap, dot(touch.velocity, touch.normal), dt,
@@ -313,7 +313,7 @@ protected:
     return true;
   }
 
-  /// Force of one patch, in the part's frame like the history, then quantised in the world.
+  /// Computes the force of one patch in the part frame, like the history, then quantises it in world axes.
   GROUSER_HD void apply(const PartMotion& part, int lawIndex, const Ball& ball, const TouchedPatch& patch,
                         const Springs& springs, PairLoad& sum) const {
     if (patch.overlap > sum.onGrain.deepest) sum.onGrain.deepest = patch.overlap;
@@ -349,7 +349,7 @@ protected:
                                                springs.rolled, sum.lost[2], law->hertz ? &reaction.change : nullptr);
       const float k = rollingStiffness(*law, reaction.normalStiffness, radius);
       sum.elastic += 0.5 * static_cast<double>(k * dot(springs.rolled, springs.rolled));
-      // Quantised on both sides, so that angular momentum balances exactly except for the float torque of the grain.
+      // Quantised on both sides, so that angular momentum balances exactly except for the grain's float torque.
       const base::Vec3l turned = model.torque.quantise(part.rotation * torque.template as<double>());
       sum.onGrain.torque += model.torque.value(turned).template as<float>();
       sum.torqueOnPart -= turned;
@@ -385,8 +385,8 @@ struct MeasurePairs : GrainPartForces<kGeneral | kMeasured> {
   }
 };
 
-/// Lists the near pairs and clears all others. Each pair takes one thread with few registers: in fine soils most listed
-/// pairs are out of reach, and this test rejects them faster than the 16 threads a pair of GrainPartForces.
+/// Lists the near pairs and clears all others, with one thread and few registers per pair: in fine soils most listed
+/// pairs are out of range, and this test is cheaper than the 16 threads per pair of GrainPartForces.
 template <unsigned kFeatures> struct FindNearPairs {
   static constexpr double kNanoseconds = 100;
   GrainPartForces<kFeatures> forces;
@@ -400,7 +400,7 @@ template <unsigned kFeatures> struct FindNearPairs {
   }
 };
 
-/// The loads of the pairs in that list; `groups` work on it together.
+/// Computes the loads of the listed near pairs, one group of threads per pair.
 template <unsigned kFeatures> struct NearPairForces {
   static constexpr double kNanoseconds = GrainPartForces<kFeatures>::kNanoseconds;
   GrainPartForces<kFeatures> forces;

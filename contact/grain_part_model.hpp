@@ -13,11 +13,11 @@
 /// Parameters and history of contacts of grains with rigid parts.
 namespace grouser::contact {
 
-/// A grain's contact with one part merges into patches, one for each cluster of surface normals: one on a face, two in
-/// a corner or between two teeth.
+/// Maximum number of patches per grain and part. Contacts merge into one patch per cluster of surface normals: one on a
+/// face, two in a corner or between two teeth.
 inline constexpr int kPatches = 3;
 
-/// Tangential spring of a patch, in the part's frame so that it rotates with the part. A zero normal marks a free
+/// Tangential spring of a patch, in the part frame so that it rotates with the part. A zero normal marks an unused
 /// entry.
 struct PatchMemory {
   base::Vec3f normal, shear;
@@ -26,8 +26,8 @@ struct PatchMemory {
 /// A rigid part, for contacts with grains.
 struct GrainPart {
   int surface{};               ///< index of its unique sphere set; -1 for a closed-form shape
-  base::Vec3d boxLow, boxHigh; ///< of the set, in its frame [m]; far away if grains do not touch it
-  bool meets{true};            ///< whether grains touch it
+  base::Vec3d boxLow, boxHigh; ///< bounding box of the set, in its frame [m]; far away if grains do not contact it
+  bool meets{true};            ///< true: grains contact it
   int firstLaw{};              ///< index of the law of the first grain material against the part
   SurfaceGeometry shape{};     ///< closed-form shape, if it has no sphere set
 };
@@ -36,9 +36,9 @@ struct GrainPart {
 enum PartSum : int {
   kPatchesNow,    ///< patches in contact in this step
   kElasticNow,    ///< elastic energy
-  kSqueezedNow,   ///< pairs of grain and part deeper than kSqueezed
+  kSqueezedNow,   ///< pairs with an overlap above kSqueezed
   kCappedNow,     ///< patches at the crushing force
-  kDampedByParts, ///< since the start, like all that follow
+  kDampedByParts, ///< cumulative, like all sums below
   kSumsOfStep = kDampedByParts,
   kSlidingLossByParts,
   kRolledByParts,
@@ -51,22 +51,22 @@ enum PartSum : int {
 
 /// Constants of the contacts between grains and parts. Kernels take a copy. Forces are computed in single precision.
 struct GrainPartModel {
-  double radius{}, mass{}; ///< of a grain, or the largest grain [m], [kg]
+  double radius{}, mass{}; ///< radius and mass of the grains, or of the largest grain [m], [kg]
   double timeStep{};       ///< [s]
-  double margin{};         ///< parts may move this far relative to the grains before the pairs are listed again [m]
+  double margin{};         ///< maximum motion of parts relative to the grains before the pairs are listed again [m]
   ContactLaw law;
   base::PositionScale scale;
   base::FixedPoint force, torque, energy; ///< quanta of the sums
   bool manyRadii{false};                  ///< each grain has its own radius in velocity.w and material in spin.w
-  double gap{0};                          ///< largest gap of PartPatches [m]; 0 with penalty contacts
-  std::size_t searchFrom{0}; ///< least number of pairs for a search of near pairs; 0: 8192 on a GPU, never on a CPU
+  double gap{0};                          ///< maximum gap of PartPatches [m]; 0 with penalty contacts
+  std::size_t searchFrom{0}; ///< minimum number of pairs for a search of near pairs; 0: 8192 on a GPU, never on a CPU
 };
 
-/// For grains that differ, by material: law against the parts (instead of the model's) and mass over radius^3.
+/// Parameters by grain material, for grains that differ: laws against the parts (replace the model's) and masses.
 struct GrainPartMaterials {
-  std::vector<ContactLaw> laws;    ///< grain materials against the first material of parts, then the second...
-  std::vector<double> massPerCube; ///< [kg/m3]
-  std::vector<double> crushing{};  ///< crushing strength [Pa], 0: does not crush; empty: no material does
+  std::vector<ContactLaw> laws;    ///< all grain materials against the first part material, then the second...
+  std::vector<double> massPerCube; ///< mass / radius^3 [kg/m3]
+  std::vector<double> crushing{};  ///< crushing strength [Pa], 0: does not crush; empty: no material crushes
 
   bool crush() const {
     return std::any_of(crushing.begin(), crushing.end(), [](double strength) { return strength > 0; });

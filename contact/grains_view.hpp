@@ -15,8 +15,8 @@ struct GrainsView {
   const Motion* motion;
   const std::uint32_t* id;
   std::size_t count;                    ///< slots
-  const std::uint32_t* ghost = nullptr; ///< not 0 for grains of other ranks, whose loads are theirs to compute; null
-                                        ///< where there are none
+  const std::uint32_t* ghost = nullptr; ///< nonzero for ghosts, whose loads their own rank computes; null
+                                        ///< without ghosts
 };
 
 } // namespace grouser::contact

@@ -17,7 +17,7 @@ void HostPatches::press(std::size_t patch, const PatchLaw& law, const PartMotion
   if (!(pressure.area > 0)) return;
   elastic_ += quanta_.energy.quantise(pressure.elastic);
   states_[patch].dissipated += pressure.dissipated;
-  if (!(pressure.weight > 0)) return; // separates faster than the foundation relaxes
+  if (!(pressure.weight > 0)) return; // the surfaces separate faster than the foundation relaxes
   lastStep_[patch] = count_;
   pressed_.push_back(static_cast<std::uint32_t>(patch));
   PatchState& state = states_[patch];

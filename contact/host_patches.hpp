@@ -11,15 +11,15 @@
 namespace grouser::contact {
 
 /// Contact patches computed on the host, with their tangential springs. Single-threaded. Each patch is pressed at most
-/// once per step, in an order independent of other contacts.
+/// once per step; the order does not affect the result.
 class HostPatches {
 public:
   HostPatches(const PatchQuanta& quanta, double timeStep, std::size_t patches)
       : quanta_(quanta), timeStep_(timeStep), states_(patches), lastStep_(patches) {}
 
   void beginStep();
-  /// Adds pressure and friction of one patch to the loads of A and B (`b` < 0: there is no B).
-  /// `pressure`: in world axes, about A's centre of mass.
+  /// Adds pressure and friction of one patch to the loads of A and B (`b` < 0: no body B). `pressure`: in world axes,
+  /// about A's centre of mass.
   void press(std::size_t patch, const PatchLaw& law, const PartMotion* motion, int a, int b,
              const PatchPressure& pressure, PartLoad* loads);
   /// Ends contacts that were not pressed in this step.
@@ -28,15 +28,15 @@ public:
   double timeStep() const { return timeStep_; }
   PatchBuffers::Ledger ledger() const;
   SavedPatches save() const;
-  /// Throws InputError if the state is of other patches.
+  /// Throws InputError if the state belongs to other patches.
   void restore(const SavedPatches& saved);
 
 private:
   PatchQuanta quanta_;
   double timeStep_;
   std::vector<PatchState> states_;
-  std::vector<std::uint64_t> lastStep_;            ///< [patch] value of count_ when it was last pressed
-  std::vector<std::uint32_t> pressed_, hadSpring_; ///< patches pressed in this step; in the previous one
+  std::vector<std::uint64_t> lastStep_;            ///< [patch] value of count_ at its last press
+  std::vector<std::uint32_t> pressed_, hadSpring_; ///< patches pressed in this step; in the previous step
   std::uint64_t count_{0};
   std::int64_t elastic_{0}; ///< elastic energy of this step, in quanta
 };

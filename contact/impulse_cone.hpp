@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-/// The set of impulses of a unilateral contact with Coulomb friction, and projections onto it.
+/// Admissible impulses of a unilateral contact with Coulomb friction, and projections onto their cone.
 namespace grouser::contact {
 
-/// Force on side i of a contact and, with rolling resistance, torque, times the step.
+/// Impulse on side i of a contact: force and, with rolling resistance, torque, times the step.
 template <class T> struct Impulse {
   base::Vec3<T> linear;  ///< [N s]
   base::Vec3<T> rolling; ///< [N m s], in the tangent plane; zero without rolling resistance
@@ -34,21 +34,21 @@ template <class T> struct ImpulseMetric {
   T rolling; ///< [1/m2]
 };
 
-/// Squares in double: those of the impulses of micrometre grains are beyond a float.
+/// Norm computed in double: squared impulses of micrometre grains underflow a float.
 template <class T> GROUSER_HD T lengthOf(const base::Vec3<T>& v) {
   return static_cast<T>(base::norm(v.template as<double>()));
 }
 
-/// Shortens a vector to the length `most`.
+/// Limits a vector to the length `most`.
 template <class T> GROUSER_HD base::Vec3<T> cutTo(const base::Vec3<T>& v, T most) {
   const double size2 = norm2(v.template as<double>()), limit = static_cast<double>(most);
   if (!(size2 > limit * limit)) return v;
   return v * (most / static_cast<T>(sqrt(size2)));
 }
 
-/// Coulomb's own law, which is not the projection on its cone: keeps a pressing normal part, then limits the others by
-/// it. A fixed point of steps along the relative velocity fulfils Coulomb's law exactly, without dilation.
-/// `push`: unit normal towards side i.
+/// Clips to Coulomb's law, which is not the projection on its cone: keeps a compressive normal part, then limits the
+/// other parts by it. A fixed point of steps along the relative velocity satisfies Coulomb's law exactly, without
+/// dilation. `push`: unit normal towards side i.
 template <class T>
 GROUSER_HD Impulse<T> cutToCoulomb(const Impulse<T>& z, const base::Vec3<T>& push, const ImpulseCone<T>& cone) {
   const T along = dot(z.linear, push);
@@ -57,9 +57,9 @@ GROUSER_HD Impulse<T> cutToCoulomb(const Impulse<T>& z, const base::Vec3<T>& pus
   return {push * along + cutTo(shear, cone.friction * along), cutTo(z.rolling, cone.arm * along)};
 }
 
-/// The nearest impulse of the cone, in the norm of `metric`: the convex relaxation (Anitescu 2006, Math. Program.
-/// 105:113), under which a contact that slides parts with friction times its sliding speed. Where a part is beyond its
-/// limit, the normal part is a mean of the values at which these parts reach their limits and of its own.
+/// Projects an impulse onto the cone in the norm of `metric`: the convex relaxation (Anitescu 2006, Math. Program.
+/// 105:113), in which a sliding contact separates at friction times its sliding speed. If parts exceed their limits,
+/// the normal part is a weighted mean of its own value and those at which these parts reach their limits.
 template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, const base::Vec3<T>& push,
                                                        const ImpulseCone<T>& cone, const ImpulseMetric<T>& metric) {
   struct Limited {
@@ -69,7 +69,7 @@ template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, cons
   const base::Vec3<T> shear = z.linear - push * along;
   const Limited slides{lengthOf(shear), cone.friction, metric.shear};
   const Limited rolls{lengthOf(z.rolling), cone.arm, metric.rolling};
-  // First the part that exceeds its limit more: the other may then be within its own.
+  // Start with the part that exceeds its limit more; the other may then satisfy its own.
   const bool slidesFirst = slides.size * rolls.slope >= rolls.size * slides.slope;
   T asked = along, weights = 1, normal = along;
   for (int k = 0; k < 2; ++k) {
@@ -82,7 +82,7 @@ template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, cons
   return {push * normal + cutTo(shear, slides.slope * normal), cutTo(z.rolling, rolls.slope * normal)};
 }
 
-/// The impulse that a contact can carry in the place of `z`: by Coulomb's own law, or the nearest of the cone.
+/// Returns the admissible impulse for `z`: clipped by Coulomb's law, or projected on the cone.
 template <class T> GROUSER_HD Impulse<T> allowed(const Impulse<T>& z, const base::Vec3<T>& push,
                                                  const ImpulseCone<T>& cone, const ImpulseMetric<T>& metric,
                                                  bool associated) {

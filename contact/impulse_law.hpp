@@ -7,13 +7,13 @@
 
 #include <limits>
 
-/// A contact as one row of the complementarity problem of a step (Moreau 1988; Tasora and Anitescu 2011, Comput.
-/// Methods Appl. Mech. Eng. 200:439): with u the relative velocity at its end and x the impulse,
+/// Contact as one row of the complementarity problem of a step (Moreau 1988; Tasora and Anitescu 2011, Comput. Methods
+/// Appl. Mech. Eng. 200:439), with u the relative velocity at the end of the step and x the impulse:
 ///
 ///   K  >  x   perpendicular to   a = u + softness x + offset   > K*
 ///
-/// Compliant contacts are the penalty law by implicit Euler: the force k (overlap - h u_n) - c u_n makes the softness
-/// 1 / (h (h k + c)) and the offset -k overlap / (h k + c). Rigid contacts have no softness.
+/// Compliant contacts discretise the penalty law by implicit Euler: the force k (overlap - h u_n) - c u_n yields the
+/// softness 1 / (h (h k + c)) and the offset -k overlap / (h k + c). Rigid contacts have zero softness.
 namespace grouser::contact {
 
 enum class ImpulseFriction { coulomb, associated }; ///< see cutToCoulomb(), projectOnCone()
@@ -26,33 +26,33 @@ struct ComplementarityOptions {
   double residual{};   ///< tolerance of a step [m/s], > 0
   int iterations{200}; ///< maximum per step, > 0
   double recovery{};   ///< maximum separation speed of overlapping rigid contacts [m/s], >= 0
-  double impact{};     ///< approach [m/s] above which a new contact has Newton's restitution; slower ones have none
-  /// Largest gap of a pair at rest in the problem [m]; also limited to a share of the smallest radius.
+  double impact{};     ///< minimum approach speed [m/s] for Newton restitution of a new contact; below it none
+  /// Maximum gap of a pair at rest that enters the problem [m]; also limited to a fraction of the smallest radius.
   double reach = std::numeric_limits<double>::infinity();
-  bool strict{false}; ///< steps that exceed the residual end the run
+  bool strict{false}; ///< true: exceeding the residual ends the run
   bool operator==(const ComplementarityOptions&) const = default;
 };
 
-/// Options in the precision of a kernel.
+/// Options in a kernel's precision.
 template <class T> struct ImpulseRules {
   T timeStep, recovery, impact;
   T stiffness; ///< scale of keptImpulse() [N/m]
   bool rigid;
 };
 
-/// Two surfaces at the start of a step, seen from side i.
+/// Geometry and motion of two surfaces at the start of a step, seen from side i.
 template <class T> struct ImpulseTouch {
   base::Vec3<T> push;     ///< unit, from j to i
-  T gap;                  ///< [m], < 0 where they overlap
-  base::Vec3<T> velocity; ///< of contact point i relative to that of j [m/s]
-  base::Vec3<T> spin;     ///< of i relative to j [rad/s]
+  T gap;                  ///< [m], < 0: overlap
+  base::Vec3<T> velocity; ///< velocity of contact point i relative to j's [m/s]
+  base::Vec3<T> spin;     ///< angular velocity of i relative to j [rad/s]
   T freely;               ///< change of the separation speed in this step without contact forces [m/s]
   T effectiveMass, effectiveRadius;
   T rollingInertia;               ///< see RollingMotion
   T dampingShare;                 ///< see BasicContactGeometry
   T pullShare = 1;                ///< see BasicContactGeometry
   base::Vec3<T> shear{}, angle{}; ///< springs in the tangent plane [m], [rad]; rigid: see keptImpulse()
-  bool held{false};               ///< it overlapped or carried an impulse in the last step
+  bool held{false};               ///< the contact overlapped or transmitted an impulse in the last step
 };
 
 /// Constants of a row during a step.
@@ -64,12 +64,12 @@ template <class T> struct ImpulseRow {
   ImpulseCone<T> cone;
   T pull;                  ///< impulse of cohesion on each side, towards the other [N s]
   T damping, shearDamping; ///< dashpot coefficients [N s/m]; 0 for rigid contacts and impacts
-  bool impact;             ///< a new contact with Newton's restitution
-  Impulse<T> start;        ///< first impulse of the solver
+  bool impact;             ///< a new contact with Newton restitution
+  Impulse<T> start;        ///< initial impulse of the solver
 };
 
-/// The record of a rigid contact in the place of a spring: a length [m] that stands for the impulse with which the next
-/// step begins.
+/// Warm-start record of a rigid contact, stored in place of a spring: a length [m] that represents the initial
+/// impulse of the next step.
 template <class T> GROUSER_HD base::Vec3<T> keptImpulse(const base::Vec3<T>& impulse, const ImpulseRules<T>& rules) {
   return impulse * (T(-1) / (rules.timeStep * rules.stiffness));
 }
@@ -80,7 +80,7 @@ template <class T> GROUSER_HD base::Vec3<T> tangentOf(const base::Vec3<T>& v, co
 }
 } // namespace detail
 
-/// Makes the row of two surfaces that may close their gap in a step.
+/// Returns the row of two surfaces that may come into contact within a step.
 template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, const ImpulseTouch<T>& touch,
                                                        const ImpulseRules<T>& rules) {
   const T h = rules.timeStep, overlap = touch.gap < 0 ? -touch.gap : T(0);
@@ -101,14 +101,14 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
     if (touch.held) row.start = {touch.shear * (-h * rules.stiffness), touch.angle * (-h * rules.stiffness)};
     return row;
   }
-  // Hertz' law is linearised at the larger of the present and the predicted overlap.
+  // Hertz's law is linearised at the larger of the current and the predicted overlap.
   const T deep = law.hertz && closing > overlap ? closing : overlap;
   Coefficients<T> c = coefficientsOf<kGeneral>(law, deep, touch.effectiveMass, touch.effectiveRadius);
-  const T touches = touch.gap < 0 ? touch.dampingShare : T(0); // surfaces that are apart have no dashpot yet
+  const T touches = touch.gap < 0 ? touch.dampingShare : T(0); // no dashpot before contact
   c.damping *= touches, c.tangentialDamping *= touches;
   row.damping = c.damping, row.shearDamping = c.tangentialDamping;
   const T stiffness = c.normalStiffness, soft = h * stiffness + c.damping;
-  const T force = c.elastic - stiffness * (deep + touch.gap); // at rest, < 0 where they are apart
+  const T force = c.elastic - stiffness * (deep + touch.gap); // at rest; < 0 if the surfaces are apart
   row.softness = soft > 0 ? 1 / (h * soft) : T(0);
   row.offset = touch.push * (soft > 0 ? -force / soft : touch.gap / h);
   const T softShear = h * c.tangentialStiffness + c.tangentialDamping;

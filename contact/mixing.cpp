@@ -12,7 +12,7 @@ namespace grouser::contact {
 
 namespace {
 
-/// Two complete materials and the overrides of their pair.
+/// Two complete materials with the overrides of their pair.
 struct MixedPair {
   MaterialProperties a, b;
   const PairProperties& pair;
@@ -39,14 +39,14 @@ void setLinear(const MixedPair& m, std::optional<double> effectiveMass, ContactL
   if (effectiveMass) {
     const auto dampingAt = [&](double mass) {
       const double omega0 = std::sqrt(stiffness / mass);
-      // Smaller restitution means larger damping.
+      // Smaller restitution implies larger damping.
       return given ? dampingOf(m.pair.restitution, m.pair.damping, law.attraction, omega0)
                    : std::max(dampingOf(m.a.restitution, m.a.damping, law.attraction, omega0),
                               dampingOf(m.b.restitution, m.b.damping, law.attraction, omega0));
     };
     law.damping = dampingAt(*effectiveMass);
     law.tangentialDamping = law.damping * dampingRatio;
-    // Against a fixed grain the other's whole mass moves, twice that of two free ones.
+    // Against a fixed grain the full mass of the other one moves, twice the effective mass of two free grains.
     if (law.damping > 0) law.fixedShare = dampingAt(2 * *effectiveMass) / law.damping;
     return;
   }
@@ -66,7 +66,7 @@ void setLinear(const MixedPair& m, std::optional<double> effectiveMass, ContactL
   law.tangentialRootDamping = law.rootDamping * dampingRatio;
 }
 
-/// Rebound over impact speed [-]. Where only damping [1/s] is given, that of the scene's one mass; 0 among many masses.
+/// Rebound speed / impact speed [-]. If only damping [1/s] is given, for the scene's single mass; 0 for many masses.
 double restitutionOfPair(const MixedPair& m, const ContactLaw& law, std::optional<double> effectiveMass) {
   const auto& [a, b, pair, same] = m;
   if (pair.restitution) return *pair.restitution;
@@ -92,7 +92,7 @@ void setHertz(const MixedPair& m, ContactLaw& law) {
                               std::sqrt(law.tangentialStiffness);
 }
 
-/// Grain radius to which a pair's energies of adhesion refer, if they are proportional to it.
+/// Grain radius at which a pair's adhesion energies apply, if they are proportional to it.
 std::optional<double> adhesionRadius(const MixedPair& m) {
   const std::optional<double>&a = m.a.adhesionRadius, &b = m.b.adhesionRadius;
   return a && b ? m.geometricMean(*a, *b) : a ? a : b;
@@ -187,18 +187,18 @@ Coefficients<double> stiffest(const ContactLaw& law, double effectiveMass, doubl
   const double overlap =
       law.hertz ? hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).deepest : 0;
   auto c = coefficientsOf<kGeneral>(law, overlap, effectiveMass, effectiveRadius);
-  c.normalStiffness /= 1 - law.plastic.share; // of the unloading line
+  c.normalStiffness /= 1 - law.plastic.share; // stiffness of the unloading line
   return c;
 }
 
 double contactTime(const ContactLaw& law, double effectiveMass, double effectiveRadius, double speed) {
-  const double quicker = std::sqrt(1 - law.plastic.share); // on the unloading line
+  const double quicker = std::sqrt(1 - law.plastic.share); // factor for the unloading line
   if (!law.hertz) return quicker * base::kPi * std::sqrt(effectiveMass / law.stiffness);
   return quicker * hertzImpact(0.75 * law.stiffness, effectiveRadius, effectiveMass, speed).duration;
 }
 
 double restitutionOf(const ContactLaw& law, double effectiveMass, double movedMass) {
-  const double more = std::sqrt(effectiveMass / movedMass); // damping over that which is critical for the moved mass
+  const double more = std::sqrt(effectiveMass / movedMass); // critical damping: effective mass / moved mass
   if (law.hertz)
     return hertzRestitutionOf(more * law.rootDamping / (2 * std::sqrt(1.5 * law.stiffness)), law.attraction);
   const double zeta = law.rootDamping > 0 ? law.rootDamping / (2 * std::sqrt(law.stiffness))

@@ -18,11 +18,11 @@ using base::Position;
 namespace {
 
 constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
-constexpr std::uint32_t kMostOthers = 1024; // for spheres of several sizes
-constexpr std::uint32_t kWindow = 1024;     // spheres sorted among themselves
-constexpr std::size_t kSpare = 32;          // one spare place per so many for longer lists,
-constexpr std::size_t kMostSpare = 1 << 22; // at most this many
-constexpr std::size_t kSlotsRead = 8;       // beyond the last row, by SIMD loads on a CPU
+constexpr std::uint32_t kMostOthers = 1024; // neighbours of spheres of several sizes
+constexpr std::uint32_t kWindow = 1024;     // number of spheres sorted among themselves
+constexpr std::size_t kSpare = 32;          // one spare place per this many places,
+constexpr std::size_t kMostSpare = 1 << 22; // maximum number of spare places
+constexpr std::size_t kSlotsRead = 8;       // slots that SIMD loads on a CPU read beyond the last row
 
 void checkLength(std::uint32_t most, bool equal) {
   const std::uint32_t limit = equal ? kMostEqual : kMostOthers;
@@ -34,9 +34,9 @@ void checkLength(std::uint32_t most, bool equal) {
                                          "time step, a smaller skin or larger smallest grains"));
 }
 
-/// Cells about as wide as a grain where these are small; as wide as the largest reach while all are nearly alike.
+/// Cell width: about the grain size near small grains; the maximum reach if all grains are nearly equal.
 int timesFiner(std::int64_t diameter, std::int64_t smallest) {
-  constexpr double kTypical = 1.4; // of the smallest diameter
+  constexpr double kTypical = 1.4; // cell width / smallest diameter
   constexpr int kMost = 4;
   if (smallest <= 0) return 1;
   const double ratio = static_cast<double>(diameter) / (kTypical * static_cast<double>(smallest));
@@ -58,8 +58,8 @@ void NeighbourList::sort(const Position* position, std::size_t count, const std:
   if (!exec_.onCpu()) groupByContacts(rowOf);
 }
 
-/// A warp takes as long as its grain with the most contacts: grains near each other are reordered so that those in a
-/// warp have similar numbers of contacts and neighbours. Not needed on a CPU.
+/// A warp takes as long as its grain with the most contacts: nearby grains are reordered so that those in a warp have
+/// similar numbers of contacts and neighbours. Not needed on a CPU.
 void NeighbourList::groupByContacts(const std::uint32_t* rowOf) {
   const auto n = static_cast<std::int64_t>(sorted_);
   base::Array<std::uint64_t> key(exec_, sorted_);

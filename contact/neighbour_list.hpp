@@ -14,42 +14,42 @@ namespace grouser::contact {
 
 struct TouchingRows;
 
-/// Every pair of spheres whose surfaces are closer than the skin, listed from both sides, with contact history; from
-/// one side only where the other sphere never moves.
+/// Neighbour list of all pairs of spheres with a surface gap below the skin, with contact history. Each pair is listed
+/// from both sides, or only from the moving side if the other sphere is fixed.
 ///
-/// Valid while no grain has moved more than half the skin. Rows have variable length: no neighbour is dropped. Grains
-/// are re-sorted in space at every rebuild; history follows the pair of global ids. Forces do not depend on the time of
-/// rebuilds: neighbours that do not touch add nothing, and the order is that of the ids.
+/// The list is valid while no grain has moved more than half the skin. Rows have variable length: no neighbour is
+/// dropped. Each rebuild re-sorts the grains in space; history is matched by the global ids of a pair. Forces do not
+/// depend on the rebuild times: pairs out of contact contribute zero, and the summation order follows the ids.
 class NeighbourList {
 public:
-  /// `diameter` of the largest sphere and `skin` in units of the scene's position scale; `width`: history values per
-  /// contact, 0 for none. `period`: periodic boundaries, at least three diameters and skins apart, none along z.
+  /// `diameter` (largest sphere) and `skin` are in units of the scene's position scale; `width`: history values per
+  /// contact, 0 for none. `period`: periodic boundaries, at least three diameters plus skins apart, none along z.
   /// `smallest`: approximate diameter of the smallest sphere; 0: equal spheres.
   NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                 const base::Period& period = {}, std::int64_t smallest = 0);
 
-  /// Sorts `count` grains in space. Until build(), `order()[i]` is the old slot of the grain that belongs in slot i.
-  /// `rowOf`: by old slot, its row in the present list, or a higher number without one; null: that of the slot itself.
+  /// Sorts `count` grains in space. Until build(), `order()[i]` is the old slot of the grain that moves to slot i.
+  /// `rowOf`: by old slot, its row in the current list, or a higher number if it has none; null: equal to the slot.
   void sort(const base::Position* position, std::size_t count, const std::uint32_t* rowOf = nullptr);
   const std::uint32_t* order() const { return order_.data(); }
 
-  /// Lists the neighbours of grains already permuted by `order()`, and restores history from the last list.
-  /// `id` is ascending-comparable global id by new slot.
-  /// `origins`: with several ranks, else null; `radii`: for spheres of several sizes.
+  /// Lists the neighbours of grains already permuted by `order()`, and restores the history of the previous list. `id`:
+  /// global id by new slot, which defines the order in a row. `origins`: with several ranks, else null. `radii`: for
+  /// spheres of several sizes.
   void build(const base::Position* position, const std::uint32_t* id, const RowOrigins* origins = nullptr,
              const RadiiInW& radii = {});
 
-  /// Largest number of contacts of the grains in `slots` (device array).
+  /// Maximum number of contacts of the grains in `slots` (device array).
   std::uint32_t mostTouching(const std::uint32_t* slots, std::size_t count) const;
-  /// Writes the rows of these slots for other ranks.
+  /// Writes the rows of these slots for transfer to other ranks.
   void exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& travelling) const;
   /// Number of grains with a row; grains added since the last build have none.
   std::uint32_t rows() const { return haveRows_ ? static_cast<std::uint32_t>(count_.size()) : 0; }
 
-  /// The next list begins without history: other grains have taken the slots.
+  /// Discards the history, because other grains occupy the slots: the next list starts without it.
   void forget() { haveRows_ = false; }
 
-  /// Neighbours in all rows, each pair from both sides.
+  /// Number of listed neighbours, each pair counted from both sides.
   std::uint64_t listed() const;
 
   std::size_t places() const { return slot_.size(); } ///< in all rows, padding included
@@ -61,7 +61,7 @@ public:
   /// Contacts with history, for checkpoints and the state hash: arrays by slot, host side.
   struct HostCopy {
     std::vector<std::uint32_t> count, start, slot;
-    std::vector<float> history; ///< [slot][width]; empty where contacts have none
+    std::vector<float> history; ///< [slot][width]; empty without history
     std::vector<std::uint64_t> touching;
     std::int64_t stride{}, maskWords{};
     bool touched(std::size_t i, std::uint32_t k) const {
@@ -70,26 +70,26 @@ public:
     std::int64_t at(std::size_t i, std::uint32_t k) const { return start[i] + k * stride; }
   };
   HostCopy toHost() const;
-  /// Sets touching bits and history from a host copy of the present list.
+  /// Sets contact bits and history from a host copy of the current list.
   void setHistory(const HostCopy& copy);
 
 private:
   TouchingRows contacts() const;
-  /// The largest radius near each cell of a fine grid.
+  /// Maximum radius near each cell of a fine grid.
   base::Array<std::uint32_t> largestNear(const RadiiInW& radii) const;
   void groupByContacts(const std::uint32_t* rowOf);
 
   base::Exec exec_;
   std::int64_t diameter_, skin_;
-  int finer_; ///< cells per largest reach
+  int finer_; ///< cells per maximum reach
   base::Period period_;
   int width_;
-  std::size_t sorted_{0}; ///< grains of the next list
+  std::size_t sorted_{0}; ///< number of grains in the next list
   bool haveRows_{false};
   base::Array<std::uint32_t> count_, start_, slot_, reach_;
   base::Array<float> history_;
   base::Array<std::uint64_t> touching_;
-  base::Array<std::uint32_t> id_; ///< by slot, as at the build
+  base::Array<std::uint32_t> id_; ///< by slot, at the time of build()
   std::int64_t stride_{1}, maskWords_{1};
   base::Array<std::uint32_t> order_, cellStart_, slotAt_;
   CellGrid grid_;

@@ -10,7 +10,7 @@
 /// Layout of neighbour rows, and transfer of contact history from one list to the next.
 namespace grouser::contact {
 
-/// Rows read by one warp of the GPU are interleaved and padded to the longest.
+/// Number of rows per slice: rows read by one warp of the GPU are interleaved and padded to the longest.
 constexpr int kSlice = 32;
 
 struct LongestOfSlice {
@@ -31,10 +31,10 @@ struct StartInSlice {
   GROUSER_HD void operator()(int i) const { start[i] = sliceStart[i / kSlice] * kSlice + i % kSlice; }
 };
 
-/// A list's rows, for kernels that read contacts only.
+/// Rows of a list, for kernels that only read contacts.
 struct TouchingRows {
   NeighbourRows rows;
-  const std::uint32_t *count, *slot, *id; ///< id by slot, as at the build
+  const std::uint32_t *count, *slot, *id; ///< id by slot, at the time of build()
   const float* history;
   const std::uint64_t* touching;
   std::int64_t maskWords;
@@ -46,7 +46,7 @@ struct TouchingRows {
     for (std::int64_t w = 0; i < rowCount && w < maskWords; ++w) bits += base::bitsSet(touching[i * maskWords + w]);
     return bits;
   }
-  /// Copies ids (ascending) and histories of the touching neighbours. Returns their number.
+  /// Copies ids (ascending) and histories of the touching neighbours of slot `i`. Returns their number.
   GROUSER_HD std::uint32_t copy(std::uint32_t i, std::uint32_t* ids, void* histories) const {
     std::uint32_t n = 0;
     const std::size_t size = static_cast<std::size_t>(width) * sizeof(float);
@@ -80,7 +80,7 @@ struct ExportRow {
   }
 };
 
-/// Contacts of a list, kept while the next one is built in its memory: row behind row.
+/// Contacts of a list, cached while the next list is built in the same memory: rows stored consecutively.
 struct ContactCache {
   std::uint32_t* start; ///< [rows + 1]
   std::uint32_t* id;
@@ -97,18 +97,18 @@ struct KeepRow {
   }
 };
 
-/// Takes the history of pairs that touched in the former list.
+/// Restores the history of pairs that touched in the previous list.
 struct RestoreHistory {
   static constexpr double kNanoseconds = 60;
-  const std::uint32_t* origin; ///< former row of each new slot, or as in RowOrigins
+  const std::uint32_t* origin; ///< previous row of each new slot, or as in RowOrigins
   const std::uint32_t *id, *count, *slot;
   NeighbourRows rows;
   std::int64_t maskWords;
-  int width; ///< numbers of history of a contact
+  int width; ///< history values per contact
   float* history;
   std::uint64_t* touching;
   ContactCache kept;
-  std::uint32_t former; ///< rows in the former list; later ones are in `arrived`
+  std::uint32_t former; ///< number of rows in the previous list; higher indices refer to `arrived`
   TravellingRows arrived;
 
   GROUSER_HD void operator()(int i) const {

@@ -6,25 +6,25 @@
 #include "contact/neighbour_rows.cuh"
 #include "contact/neighbour_view.hpp"
 
-/// Neighbour search: spheres are sorted by grid cells. With cells as wide as the largest reach each sphere searches the
-/// 27 cells around its own; if small spheres are much smaller than the largest, cells are finer, and each sphere
-/// searches as far as the largest one near it requires.
+/// Neighbour search: spheres are sorted by grid cells. With cells as wide as the maximum reach, each sphere searches
+/// the 27 cells around it; if some spheres are much smaller than the largest, cells are finer, and each sphere searches
+/// as far as the largest sphere near it requires.
 namespace grouser::contact {
 
-/// Finds the spheres near one: those whose surfaces are closer than the skin.
+/// Finds the neighbours of a sphere: spheres with a surface gap below the skin.
 struct NearSpheres {
   CellGrid grid;
   const base::Position* position;
   const std::uint32_t* cellStart;
-  const std::uint32_t* slotAt; ///< by place in the cells; null where spheres lie in the order of these
+  const std::uint32_t* slotAt; ///< slot per place in the cells; null if spheres are sorted by cells
   std::int64_t reach2;
   RadiiInW radii;
   std::int64_t skin;
-  const std::uint32_t* ghost; ///< by slot: not 0 for one that needs no row; null where all have rows
-  /// By cell: largest radius of a sphere that may reach into it [units]; null if cells are as wide as that.
+  const std::uint32_t* ghost; ///< per slot: nonzero if it needs no row; null if all slots have rows
+  /// Maximum radius of spheres that may reach into each cell [units]; null if cells are as wide as the maximum reach.
   const std::uint32_t* largest;
 
-  /// Calls `visit(j)` for the slots near slot i, in the order of the cells.
+  /// Calls `visit(j)` for the slots near slot i, in cell order.
   template <class Visit> GROUSER_HD void each(int i, const Visit& visit) const {
     if ((ghost && ghost[i]) || radii.isFixed(i)) return;
     if (largest) return eachOfFine(i, visit);
@@ -63,7 +63,7 @@ private:
       if (base::squaredNorm(apart.as<std::int32_t>()) < (radii.sphere ? reach * reach : reach2)) visit(j);
     }
   }
-  /// True if the cell is in use along x or y; wraps around at periodic boundaries.
+  /// True if the cell is occupied along x or y; wraps around at periodic boundaries.
   GROUSER_HD bool besides(int axis, std::uint32_t& c) const {
     const std::uint32_t cells = grid.cells[axis];
     if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;
@@ -71,7 +71,7 @@ private:
   }
 };
 
-/// The largest radius in each cell [units].
+/// Computes the maximum radius in each cell [units].
 struct LargestInCell {
   RadiiInW radii;
   const std::uint32_t *cellStart, *slotAt;
@@ -86,7 +86,7 @@ struct LargestInCell {
   }
 };
 
-/// The largest number of the cells at most `reach` away along one axis.
+/// Computes the maximum over cells at most `reach` away along one axis.
 struct LargestAlong {
   CellGrid grid;
   int axis, reach;
@@ -110,11 +110,11 @@ struct LargestAlong {
 
 /// Sorts nearby spheres by number of contacts, then by row length: interleaved rows are padded to the longest.
 struct AssignContactKeys {
-  static constexpr std::uint64_t kMost = 255; ///< largest distinguished number of contacts and neighbours
+  static constexpr std::uint64_t kMost = 255; ///< maximum of the distinguished numbers of contacts and neighbours
   TouchingRows former;
-  const std::uint32_t* order; ///< former slots, in the order of the cells
-  const std::uint32_t* rowOf; ///< row of the former list by former slot; null: the slot's own
-  std::uint32_t window;       ///< spheres sorted among themselves
+  const std::uint32_t* order; ///< previous slots, in cell order
+  const std::uint32_t* rowOf; ///< row of the previous list by previous slot; null: equal to the slot
+  std::uint32_t window;       ///< number of spheres sorted among themselves
   std::uint64_t* key;
   GROUSER_HD void operator()(int k) const {
     const std::uint32_t slot = order[k], row = rowOf ? rowOf[slot] : slot;
@@ -124,7 +124,7 @@ struct AssignContactKeys {
   }
 };
 
-/// place[k]: in the order of the cells, of the sphere in slot k.
+/// Sets place[k]: position in cell order of the sphere in slot k.
 struct TakePlaces {
   const std::uint32_t *place, *byCell;
   std::uint32_t *order, *slotAt;
@@ -145,7 +145,7 @@ struct CountNear {
   }
 };
 
-/// Writes a row: the slots near one, in the order of their ids.
+/// Writes a row: the slots near one sphere, in ascending order of their ids.
 struct ListNear {
   static constexpr double kNanoseconds = 200;
   NearSpheres near;
@@ -163,7 +163,7 @@ struct ListNear {
   }
 };
 
-/// Stores the sum of both radii with each neighbour, to avoid scattered reads in each step.
+/// Stores the sum of both radii with each neighbour, to avoid scattered reads every step.
 struct ListReach {
   static constexpr double kNanoseconds = 25;
   RadiiInW radii;

@@ -13,7 +13,7 @@ struct PartMotion {
   base::Vec3d origin;   ///< [m]
   base::Mat3d rotation; ///< part frame to world
   base::Vec3d centre;   ///< [m]
-  base::Vec3d velocity; ///< of `centre` [m/s]
+  base::Vec3d velocity; ///< velocity of `centre` [m/s]
   base::Vec3d spin;     ///< [rad/s]
 
   GROUSER_HD base::Vec3d toPart(const base::Vec3d& p_W) const { return transposedTimes(rotation, p_W - origin); }
@@ -21,8 +21,8 @@ struct PartMotion {
   GROUSER_HD base::Vec3d velocityAt(const base::Vec3d& p_W) const { return velocity + cross(spin, p_W - centre); }
 };
 
-/// Sum of contact loads on one part about its centre of mass, in quanta of force and torque: exact, independent of
-/// order.
+/// Sum of contact loads on one part about its centre of mass, in quanta of force and torque: exact and
+/// order-independent.
 struct PartLoad {
   base::Vec3l force, torque;
 };

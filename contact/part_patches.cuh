@@ -5,8 +5,8 @@
 
 namespace grouser::contact {
 
-/// Interface of listed grain-part pairs for a solver of complementarity contacts: finds the patches of a pair with
-/// their gaps, stores their history, and sums their loads.
+/// Interface of listed grain-part pairs for the complementarity solver: finds the patches of a pair with their gaps,
+/// stores their history, and sums their loads.
 struct PartPatches : GrainPartForces<kGeneral> {
   const std::uint32_t* range; ///< by slot; see GrainLoadsView
   std::int64_t pairs;
@@ -14,10 +14,10 @@ struct PartPatches : GrainPartForces<kGeneral> {
   struct Found {
     int count = 0;
     TouchedPatch patch[kPatches]; ///< `overlap` < 0: a gap [m]
-    int former[kPatches];         ///< index in the memory of the last step; -1: new patch
+    int former[kPatches];         ///< index in the memory of the previous step; -1: new patch
     float through = 0;            ///< see recallAll() [m]
   };
-  /// Finds the patches of a pair with gaps below `gap` [m], at most GrainPartModel::gap.
+  /// Finds the patches of a pair with gaps below `gap` [m], which must not exceed GrainPartModel::gap.
   GROUSER_HD Found find(int e, double gap) const {
     const Ball ball = ballOf(static_cast<int>(slot[e]));
     Found found;
@@ -32,10 +32,10 @@ struct PartPatches : GrainPartForces<kGeneral> {
   GROUSER_HD std::uint32_t grain(int e) const { return static_cast<std::uint32_t>(key[e] >> 16); }
   GROUSER_HD base::Vec3d centre(int e) const { return ballOf(static_cast<int>(slot[e])).x; }
   GROUSER_HD int law(int e, int material) const { return parts[partOf(e)].firstLaw + material; }
-  /// Index of the first patch of a pair in memory and angles.
+  /// Index of a pair's first patch in the memory and angle arrays.
   GROUSER_HD static std::int64_t first(int e) { return static_cast<std::int64_t>(e) * kPatches; }
 
-  /// Adds the opposite of `quanta`, the force on a grain, and `torque` [N m] about its centre to a part.
+  /// Adds the opposite of `quanta`, the force on a grain, and of `torque` [N m] about its centre to a part.
   GROUSER_HD void loadPart(int e, const base::Vec3l& quanta, const base::Vec3d& torque) const {
     addTo(partLoad[partOf(e)].force, -quanta);
     addTo(partLoad[partOf(e)].torque, model.torque.quantise(torque));

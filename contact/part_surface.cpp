@@ -13,18 +13,18 @@ using base::Vec3f;
 
 namespace {
 
-constexpr float kSamePlane = 0.98f; // cosine between the normals of discs that count as one plane
+constexpr float kSamePlane = 0.98f; // cosine between the normals of discs that count as coplanar
 constexpr double kMostCells = 6e5;
 
-/// Discs of one cell, with what pruning needs.
+/// Disc of one cell, with the data for pruning.
 struct Candidate {
   std::uint32_t disc;
   DiscDistance at;
   double clear; ///< distance of the surface from the cell's centre [m]
 };
 
-/// Selects the candidates of one cell that are not farther than another disc of the same plane everywhere within
-/// `reach` of its centre.
+/// Selects the candidates of one cell, omitting those that are farther than another disc of the same plane everywhere
+/// within `reach` of its centre.
 ///
 /// Over the cell the difference of two distances changes by at most reach * |difference of their gradients|; the
 /// gradients are the unit directions, which turn by at most reach / distance each.
@@ -62,7 +62,7 @@ private:
       const double room = std::min(b.at.at.distance, c.at.distance) - reach_;
       if (room <= 0) return false;
       const double approach = 2 * reach_ / room;
-      if (behind <= reach_ * approach) return false; // whatever the directions
+      if (behind <= reach_ * approach) return false; // for all directions
       return behind > reach_ * (norm((c.at.normal - b.at.at.normal).as<double>()) + approach);
     });
   }
@@ -80,7 +80,7 @@ public:
         reach_(0.5 * std::sqrt(3.0) * edge * (1 + 1e-9)), pruning_(discs, reach_),
         row_(static_cast<std::size_t>(cells.y)), near_(static_cast<std::size_t>(cells.z)) {}
 
-  /// Disc indices, ascending within a cell, cells by y, then z; and how many each cell has, at `count`.
+  /// Disc indices, ascending within a cell, cells ordered by y, then z; number per cell at `count`.
   std::vector<std::uint32_t> of(int x, std::uint32_t* count) {
     for (auto& row : row_) row.clear();
     for (std::uint32_t k = 0; k < discs_.size(); ++k) {
@@ -101,7 +101,7 @@ public:
   }
 
 private:
-  /// A disc, and the cells along z that it may reach.
+  /// Disc with the range of cells along z that it may reach.
   struct Reaching {
     std::uint32_t disc;
     int from, to;
@@ -116,7 +116,7 @@ private:
             {clamped(to.x, cells_.x), clamped(to.y, cells_.y), clamped(to.z, cells_.z)}};
   }
 
-  /// The candidates of the cells of one x and y.
+  /// Candidates of the cells of one x and y.
   void gather(int x, int y) {
     for (auto& candidates : near_) candidates.clear();
     for (const Reaching& r : row_[static_cast<std::size_t>(y)]) {
@@ -137,10 +137,10 @@ private:
   Vec3d low_;
   double edge_, ballRadius_; ///< [m]
   base::Vec3i cells_;
-  double reach_; ///< from a cell's centre to its corners [m]
+  double reach_; ///< distance from a cell's centre to its corners [m]
   Pruning pruning_;
-  std::vector<std::vector<Reaching>> row_;   ///< by y
-  std::vector<std::vector<Candidate>> near_; ///< by z
+  std::vector<std::vector<Reaching>> row_;   ///< one per y
+  std::vector<std::vector<Candidate>> near_; ///< one per z
 };
 
 } // namespace

@@ -9,8 +9,8 @@
 namespace grouser::contact {
 
 /// Contact shape of a surface sphere: a disc of radius `flat` about `centre`, normal to `normal`, swept by a ball of
-/// `radius`. On a face its top is the mesh's own plane, without the bumps between spheres; next to an edge `flat` is 0
-/// and the sphere rounds the edge.
+/// `radius`. On a face its top coincides with the mesh plane, without bumps between spheres; next to an edge `flat` is
+/// 0 and the sphere rounds the edge.
 struct Disc {
   base::Vec3f centre;
   float radius;
@@ -18,7 +18,7 @@ struct Disc {
   float flat;
 };
 
-/// Distance from a ball's centre to a disc's core, and the outward direction there.
+/// Distance from a ball's centre to a disc's core, with the outward direction.
 struct DiscDistance {
   base::Vec3f normal; ///< from the part to the ball
   float distance;     ///< [m]; a ball of radius R overlaps by R + radius - distance
@@ -42,7 +42,7 @@ GROUSER_HD bool outOfReach(const Disc& disc, const base::Vec3d& point, double ba
   return norm2(point - disc.centre.as<double>()) > reach * reach;
 }
 
-/// Static look-up table of a part in its own frame: for each cell the discs that a ball centred in it may need.
+/// Static look-up table of a part in its own frame: lists for each cell the discs that a ball centred in it may touch.
 struct SurfaceGridView {
   const Disc* disc{nullptr};
   const std::uint32_t* start{nullptr}; ///< [cells + 1]
@@ -51,13 +51,13 @@ struct SurfaceGridView {
   double perEdge{};
   base::Vec3i cells;
 
-  /// Returns false if a ball lies outside the table and therefore has no contact.
+  /// False if a ball lies outside the table and therefore has no contact.
   GROUSER_HD bool reaches(const base::Vec3d& p, double radius) const {
     const base::Vec3d u = (p - low) * perEdge;
     const double r = radius * perEdge;
     return u.x > -r && u.y > -r && u.z > -r && u.x < cells.x + r && u.y < cells.y + r && u.z < cells.z + r;
   }
-  /// Index of the cell that holds `p`; -1 outside the table, where nothing can touch.
+  /// Index of the cell that contains `p`; -1 outside the table, where contact is impossible.
   GROUSER_HD std::int64_t cellAt(const base::Vec3d& p) const {
     const base::Vec3d u = (p - low) * perEdge;
     if (!(u.x >= 0 && u.y >= 0 && u.z >= 0 && u.x < cells.x && u.y < cells.y && u.z < cells.z)) return -1;
@@ -66,14 +66,14 @@ struct SurfaceGridView {
   }
 };
 
-/// The table for balls of radius up to `ballRadius`.
+/// Look-up table for balls of radius up to `ballRadius` [m].
 ///
-/// A disc is left out of a cell when another disc of the same plane is nearer for every ball centre in that cell: only
-/// the nearest disc of a plane makes contact, so the result is the same as without the table.
+/// A disc is omitted from a cell if another disc of the same plane is nearer for every ball centre in that cell: only
+/// the nearest disc of a plane makes contact, so the table does not change the result.
 class SurfaceGrid {
 public:
   SurfaceGrid() = default;
-  /// `cellEdge` [m] is widened where the table would have more than about 600,000 cells.
+  /// `cellEdge` [m] is increased if the table would exceed about 600,000 cells.
   SurfaceGrid(const base::Exec& exec, const base::SphereSet& set, double ballRadius, double cellEdge);
   SurfaceGridView view() const;
   std::size_t bytes() const { return disc_.bytes() + start_.bytes() + entry_.bytes(); }
@@ -87,7 +87,7 @@ private:
   base::Vec3i cells_;
 };
 
-/// Surface samples of a part, tested against other surfaces: each represents a share of the area.
+/// Surface sample of a part, tested against other surfaces; represents a share of the surface area.
 struct SurfaceSample {
   base::Vec3f centre;
   float radius;          ///< [m]
@@ -96,14 +96,14 @@ struct SurfaceSample {
 };
 
 inline constexpr int kClusters = 6;
-/// The cluster of a surface with this normal, in the part's frame.
+/// Returns the cluster of a surface with this normal, in the part frame.
 std::uint32_t mainDirection(const base::Vec3d& normal);
 
-/// Discs and samples of a sphere set, in its order.
+/// Returns the discs and samples of a sphere set, in its order.
 std::vector<Disc> discsOf(const base::SphereSet& set);
 std::vector<SurfaceSample> surfaceSamplesOf(const base::SphereSet& set);
 
-/// Radius about the frame's origin that encloses the set [m].
+/// Bounding radius of the set about the frame origin [m].
 double enclosingRadius(const base::SphereSet& set);
 
 } // namespace grouser::contact

@@ -10,8 +10,8 @@ namespace grouser::contact {
 
 namespace {
 
-/// Planes between `parts` slabs that hold nearly equal weights. Strictly ascending, so that no two planes fall together
-/// even where all of the weight lies in one bin.
+/// Planes between `parts` slabs of nearly equal weight. Strictly ascending, so that no two planes coincide even if all
+/// the weight is in one bin.
 std::vector<std::int64_t> migrate(int parts, std::int64_t low, std::int64_t high,
                                   const std::vector<std::int64_t>& weights) {
   std::int64_t total = 0;
@@ -24,7 +24,7 @@ std::vector<std::int64_t> migrate(int parts, std::int64_t low, std::int64_t high
     const std::int64_t wanted = total / parts * part;
     while (bin < bins && before + weights[static_cast<std::size_t>(bin)] <= wanted)
       before += weights[static_cast<std::size_t>(bin++)];
-    // Within the bin the weight counts as spread evenly.
+    // The weight is assumed uniform within the bin.
     const std::int64_t inBin = bin < bins ? weights[static_cast<std::size_t>(bin)] : 0;
     const double share = inBin > 0 ? static_cast<double>(wanted - before) / static_cast<double>(inBin) : 0.0;
     std::int64_t cut = low + bin * width + static_cast<std::int64_t>(share * static_cast<double>(width));

@@ -13,7 +13,7 @@ namespace grouser::contact {
 
 inline constexpr int kMostSubdomainsAnAxis = 64;
 
-/// Kernel view of a partition: the planes between subdomains, ascending on each axis.
+/// Kernel view of a partition: the planes between subdomains, ascending along each axis.
 struct PartitionView {
   int shape[3];
   std::int64_t cut[3][kMostSubdomainsAnAxis - 1]; ///< [units]
@@ -28,18 +28,18 @@ struct PartitionView {
   GROUSER_HD int ownerOf(const base::Vec3l& u) const { return rankAt(along(0, u.x), along(1, u.y), along(2, u.z)); }
 };
 
-/// Cuts space into a cubic lattice of subdomains, one per rank. The outer ones reach to infinity, so that every element
-/// has exactly one owner: the subdomain in which its centre lies.
+/// Partition of space into a Cartesian grid of subdomains, one per rank. The outer subdomains extend to infinity, so
+/// every element has exactly one owner: the subdomain that contains its centre.
 class Partition {
 public:
-  /// All of space is one subdomain.
+  /// Partition with a single subdomain.
   Partition() = default;
   /// `weights` [axis][bin]: work in equal bins from `low` to `high` on each axis; the cuts divide it evenly among the
   /// slabs of each axis.
   Partition(const std::array<int, 3>& shape, const base::Vec3l& low, const base::Vec3l& high,
             const std::array<std::vector<std::int64_t>, 3>& weights);
 
-  /// Partition with planes at these coordinates [units], ascending on each axis.
+  /// Partition with planes at these coordinates [units], ascending along each axis.
   explicit Partition(const std::array<std::vector<std::int64_t>, 3>& cuts);
 
   int count() const { return shape_[0] * shape_[1] * shape_[2]; }
@@ -53,8 +53,8 @@ private:
   std::array<std::vector<std::int64_t>, 3> cuts_;
 };
 
-/// The lattice of `ranks` subdomains with the least area of cuts through a box of this size (any unit), among all
-/// factorisations that fit `wanted`, where 0 leaves an axis free. Throws InputError where `wanted` does not make
+/// Returns the grid of `ranks` subdomains with the minimum cut area through a box of this size (any unit), among all
+/// factorisations that match `wanted` (0: any number on that axis). Throws InputError if `wanted` is incompatible with
 /// `ranks`.
 std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size,
                                 const std::array<int, 3>& wanted = {0, 0, 0});

@@ -11,14 +11,14 @@
 
 namespace grouser::contact {
 
-/// Some samples of one pair: the unit of work when samples are listed.
+/// Range of samples of one pair: the unit of work when samples are listed.
 struct SampleChunk {
   std::uint32_t pair, first, last; ///< samples [first, last)
 };
 
-/// Lists and sums of contacts of extended surfaces, for any counterpart.
+/// Lists and sums of contacts of extended surfaces, independent of the type of the other surface.
 struct PatchBuffers {
-  /// `sampledParts`: for each pair the part whose samples are tested against the other side.
+  /// `sampledParts`: for each pair the part whose samples are tested against the other surface.
   PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
                const std::vector<int>& setOfPart, const std::vector<int>& sampledParts);
 
@@ -34,7 +34,7 @@ struct PatchBuffers {
   base::Array<PatchSums> sums;
   base::Array<PatchState> states;
 
-  /// Energies [J] of all patches, and number of touching patches, in the last step.
+  /// Energies [J] of all patches and number of patches in contact, at the last step.
   struct Ledger {
     double elastic{}, dissipated{};
     std::int64_t patches{};
@@ -43,8 +43,8 @@ struct PatchBuffers {
     }
   };
   Ledger ledger(const PatchQuanta& quanta) const;
-  /// State for hashes and checkpoints. restore() throws InputError if the state is of other pairs; list the samples
-  /// afterwards.
+  /// State for hashes and checkpoints. restore() throws InputError if the state belongs to other pairs; list the
+  /// samples again afterwards.
   SavedPatches save() const;
   void restore(const SavedPatches& saved);
 };

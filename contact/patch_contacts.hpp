@@ -11,13 +11,13 @@
 
 namespace grouser::contact {
 
-/// A pair of parts that may touch; `a` is represented by its samples, `b` by its table of discs.
+/// Candidate pair of parts; `a` is represented by its samples, `b` by its table of discs.
 struct PartPair {
-  int a{}, b{}; ///< parts
+  int a{}, b{}; ///< part indices
 };
 
-/// The deepest contact of a ball at world point `x` with a part, whose discs are in `grid`: outward normal and overlap
-/// [m]. False where they do not touch. The threads of `group` share the search.
+/// Finds the deepest contact of a ball at world point `x` with a part, whose discs are in `grid`: outward normal and
+/// overlap [m]. Returns false without contact. The threads of `group` share the search.
 template <class Group> GROUSER_HD bool deepestDisc(const SurfaceGridView& grid, const PartMotion& part,
                                                    const base::Vec3d& x, double radius, const Group& group,
                                                    base::Vec3d& normal, double& overlap) {
@@ -41,28 +41,28 @@ template <class Group> GROUSER_HD bool deepestDisc(const SurfaceGridView& grid, 
   return true;
 }
 
-/// Contacts between rigid parts made of spheres: shoes against sprocket, wheels, rollers and idler.
+/// Contacts between rigid parts made of spheres: track shoes against sprocket, wheels, rollers and idler.
 class PartPartContacts {
 public:
   struct Model {
     PatchLaw law;
     PatchQuanta quanta;
     double timeStep{};
-    double margin{}; ///< largest gap of listed samples [m]
+    double margin{}; ///< maximum gap of listed samples [m]
   };
   /// `sets`: unique sphere sets; `setOfPart`: index of each part's set.
   PartPartContacts(const base::Exec& exec, const Model& model, const std::vector<const base::SphereSet*>& sets,
                    const std::vector<int>& setOfPart, const std::vector<PartPair>& pairs);
 
-  /// Lists the samples within the margin, at the parts' present poses.
+  /// Lists the samples within the margin, at the current poses of the parts.
   void refresh(const base::Array<PartMotion>& motion);
-  /// Adds this step's contact loads to `loads` (one a part). `travelled`: no two parts have moved more than this
-  /// relative to each other since the refresh [m]; at most the margin.
+  /// Adds this step's contact loads to `loads` (one per part). `travelled`: upper bound of the relative motion of any
+  /// two parts since the refresh [m]; at most the margin.
   void compute(const base::Array<PartMotion>& motion, const double* travelled, PartLoad* loads);
-  /// The same for work launched ahead, after clearing clearedSums(). `off`: see base::Gate.
+  /// Same, for work launched ahead, after clearing clearedSums(). `off`: see base::Gate.
   void computeOnCleared(const base::Exec& exec, const base::Array<PartMotion>& motion, const double* travelled,
                         PartLoad* loads, const std::uint32_t* off);
-  /// Device sums of the last compute: clear before the next one.
+  /// Device sums of the last compute; clear before the next one.
   base::Parcel clearedSums() { return {buffers_.sums.data(), nullptr, buffers_.sums.size() * sizeof(PatchSums)}; }
 
   std::size_t samplesListed() const { return buffers_.entries; }
@@ -70,12 +70,12 @@ public:
   SavedPatches save() const { return buffers_.save(); }
   void restore(const SavedPatches& saved) { buffers_.restore(saved); }
 
-  /// Surfaces of the pairs; plain data for kernels.
+  /// Surfaces of the pairs, as plain data for kernels.
   struct Target {
     const PartPair* pair;
     const SurfaceGridView* grids; ///< by set
     const int* setOfPart;
-    const double* reach; ///< by set: enclosing radius [m]
+    const double* reach; ///< by set: bounding radius [m]
     PatchLaw patchLaw;
     int pairs;
 

@@ -4,7 +4,7 @@
 #include "base/simd.hpp"
 #include "contact/patch_law.hpp"
 
-/// Eight contact points in SIMD lanes. They belong to one patch or to eight.
+/// Eight contact points in SIMD lanes, of one patch or of eight.
 namespace grouser::contact {
 
 inline constexpr int kPointLanes = 8;
@@ -16,7 +16,7 @@ GROUSER_SIMD Vec3P allLanes(const base::Vec3d& v) { return base::broadcast<Point
 GROUSER_SIMD PointLanes greater(const PointLanes& a, const PointLanes& b) { return a > b ? a : b; }
 GROUSER_SIMD PointLanes lesser(const PointLanes& a, const PointLanes& b) { return a < b ? a : b; }
 
-/// Contact pressure of one patch in one step, summed over its points. Positions and moments refer to one point of A.
+/// Contact pressure of one patch in one step, summed over its points. Moments are about a reference point of A.
 template <class T> struct PressureOf {
   T area, weight;        ///< contact area [m2]; sum of normal force magnitudes [N]
   base::Vec3<T> place;   ///< sum of normal force magnitude x position [N m]
@@ -69,12 +69,12 @@ struct PressureLanes : PressureOf<PointLanes> {
     return p.size;
   }
 
-  /// Returns the pressure of the patch in lane `l`.
+  /// Pressure of the patch in lane `l`.
   GROUSER_SIMD PatchPressure lane(int l) const {
     const auto at = [l](const Vec3P& v) { return base::Vec3d{v.x[l], v.y[l], v.z[l]}; };
     return {area[l], weight[l], at(place), at(force), at(torque), elastic[l], dissipated[l]};
   }
-  /// Returns the sum over all lanes, for a patch that fills them.
+  /// Sum over all lanes, for a patch that occupies all of them.
   GROUSER_SIMD PatchPressure sum() const {
     const auto over = [](const PointLanes& v) {
       return ((v[0] + v[1]) + (v[2] + v[3])) + ((v[4] + v[5]) + (v[6] + v[7]));

@@ -6,10 +6,10 @@
 
 namespace grouser::contact {
 
-/// Contact of extended surfaces: an elastic foundation (Winkler) with relaxation, so that the force does not depend on
-/// the number of spheres of a part.
+/// Contact of extended surfaces: an elastic (Winkler) foundation with relaxation, so the force does not depend on the
+/// number of spheres of a part.
 ///
-///   pressure = modulus (overlap + relaxation * closing speed), never pulling
+///   pressure = modulus (overlap + relaxation * closing speed), never tensile
 ///   friction = -k_t shear - relaxation k_t slip on each patch, k_t = ratio * modulus * area, within Coulomb's cone
 struct PatchLaw {
   double modulus{};         ///< [N/m3], > 0
@@ -18,12 +18,12 @@ struct PatchLaw {
   double tangentialRatio{}; ///< [-], >= 0
 };
 
-/// Quanta of the sums over samples, from the scene alone.
+/// Quanta of the sums over samples; they depend on the scene only.
 struct PatchQuanta {
-  base::FixedPoint force, torque, energy, area, moment; ///< [N], [N m], [J], [m2], [N m] of weighted places
+  base::FixedPoint force, torque, energy, area, moment; ///< [N], [N m], [J], [m2], [N m] (moment of `place`)
 };
 
-/// Sums over the samples of one patch in one step, in quanta; independent of order.
+/// Sums over the samples of one patch in one step, in quanta; order-independent.
 struct PatchSums {
   std::int64_t area, weight; ///< contact area; sum of normal force magnitudes
   base::Vec3l place;         ///< sum of magnitude * (position - centre of part A)
@@ -34,8 +34,8 @@ struct PatchSums {
 /// History of a patch: the tangential spring in world axes.
 struct PatchState {
   base::Vec3d shear; ///< [m]
-  double stiffness;  ///< its stiffness k_t [N/m], proportional to the contact area
-  double dissipated; ///< [J] since the start
+  double stiffness;  ///< spring stiffness k_t [N/m], proportional to the contact area
+  double dissipated; ///< cumulative [J]
 };
 
 /// Contact pressure at one point in one step.
@@ -44,8 +44,8 @@ template <class T> struct PointPressure {
   T elastic, dissipated; ///< [J]
 };
 
-/// `area` that the point represents [m2]; `overlap` [m], >= 0 or of zero area; `opening`: speed at which the surfaces
-/// separate [m/s]. T is a number or a SIMD vector.
+/// Returns the pressure on an `area` [m2]; `overlap` [m], >= 0 unless the area is zero; `opening`: separation speed of
+/// the surfaces [m/s]. T is a number or a SIMD vector.
 template <class T> GROUSER_HD PointPressure<T> pressureAt(const PatchLaw& law, double timeStep, const T& area,
                                                           const T& overlap, const T& opening) {
   const T stiffness = area * law.modulus, pressed = stiffness * (overlap - opening * law.relaxation);
@@ -68,8 +68,8 @@ GROUSER_HD PatchSlide slide(const PatchLaw& law, PatchState& state, const base::
   const base::Vec3d slip = relative - normal * dot(relative, normal);
   base::Vec3d shear = state.shear - normal * dot(state.shear, normal);
   const double stiffness = law.tangentialRatio * law.modulus * area;
-  // The contact area has changed: new area is unstrained, so the force stays; lost area keeps the strain and dissipates
-  // its energy. Neither adds energy.
+  // The contact area has changed: new area is unstrained, so the force is unchanged; lost area dissipates its strain
+  // energy. Neither adds energy.
   const double storedBefore = state.stiffness * dot(state.shear, state.shear);
   if (stiffness > state.stiffness) shear *= state.stiffness / stiffness;
   shear += slip * timeStep;
@@ -78,12 +78,12 @@ GROUSER_HD PatchSlide slide(const PatchLaw& law, PatchState& state, const base::
   const double limit = law.friction * weight, size = norm(force), spring = stiffness * norm(shear);
   if (size > limit) {
     force *= limit / size;
-    // Taking over the dashpot's force would stretch the spring without work.
+    // Including the dashpot's force would stretch the spring without work.
     if (spring > limit) shear *= limit / spring;
   }
   state.shear = shear, state.stiffness = stiffness;
   const double stored = stiffness * dot(shear, shear);
-  // Work input minus the spring's energy gain.
+  // Work input minus energy gain of the spring.
   return {force, 0.5 * stored, -(dot(force, slip) * timeStep + 0.5 * (stored - storedBefore))};
 }
 

@@ -25,9 +25,9 @@ void listSamples(PatchBuffers& buffers, const Target& target, const base::Array<
   if (buffers.entries) base::forEach(buffers.exec, "list samples", chunks, list);
 }
 
-/// Pressure on every listed sample, then friction on every patch; sums must be zero before. `travelled`: bound of the
-/// relative motion of any pair since the samples were listed [m], on the device. `off`: nonzero on the device cancels;
-/// may be null.
+/// Computes the pressure on every listed sample, then the friction of every patch; sums must be zero before.
+/// `travelled`: device pointer to the upper bound of the relative motion of any pair since the samples were listed [m].
+/// `off`: device pointer, may be null; nonzero cancels the work.
 template <class Target> void computePatches(const base::Exec& exec, PatchBuffers& buffers, const Target& target,
                                             const PatchQuanta& quanta, double timeStep, const double* travelled,
                                             const base::Array<PartMotion>& motion, PartLoad* loads,

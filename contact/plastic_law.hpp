@@ -16,22 +16,22 @@ namespace grouser::contact {
 ///
 ///   F = k2 (x^m - x_p^m),  at the turning point x_m equal to the elastic force: x_p^m = (1 - k1/k2) x_m^m
 ///
-/// Beyond the pull-off force P it follows an adhesive branch -a(x), and x_p decreases with it, so that reloading
-/// follows a steep line from the present point; a(x) starts at P and falls to zero at x = 0, where the contact ends.
-/// Two laws:
+/// Beyond the pull-off force P the force follows an adhesive branch -a(x), and x_p decreases with it, so that reloading
+/// follows a steep line from the current point; a(x) starts at P and decreases to zero at x = 0, where the contact
+/// ends. Two laws:
 ///
 /// - EEPA, the Edinburgh elasto-plastic adhesion model (Morrissey 2013; Thakur et al. 2014, Granular Matter 16:383):
-///   k2 is constant, k1/k2 = 1 - share; P = 1.5 pi gamma sqrt(2 x_p R_eff), at most half of what the steep line would
-///   pull at x = 0; a(x) = P (x / x_min)^chi, x_min the overlap at which the steep line meets -P.
-/// - Luding's (2008, Granular Matter 10:235): linear; k2 grows with the greatest overlap from k1 to k1 / (1 - share) at
-///   x* and beyond, x* in proportion to R_eff; a(x) = k_c x. On the adhesive branch the greatest overlap goes back to
-///   that from which the contact would have come there, and k2 with it.
+///   k2 is constant, k1/k2 = 1 - share; P = 1.5 pi gamma sqrt(2 x_p R_eff), at most half the attraction of the steep
+///   line at x = 0; a(x) = P (x / x_min)^chi, x_min the overlap at which the steep line reaches -P.
+/// - Luding (2008, Granular Matter 10:235): linear; k2 grows with the maximum overlap from k1 to k1 / (1 - share) at
+///   x* and beyond, x* proportional to R_eff; a(x) = k_c x. On the adhesive branch the maximum overlap is reduced to
+///   the value from which unloading would reach the current point, and k2 with it.
 ///
-/// These constants belong to the law; the state of a contact is below.
+/// The constants below belong to the law; the state of a contact follows.
 template <class T> struct BasicPlasticity {
-  T share{};       ///< lambda = 1 - k1/k2 [-], in [0, 1); Luding: the greatest; 0: the contact is elastic
+  T share{};       ///< lambda = 1 - k1/k2 [-], in [0, 1); Luding: its maximum; 0: elastic contact
   T depthShare{};  ///< x_p / x_m on the first loading: lambda^(1/m) [-] (EEPA)
-  T lossShare{};   ///< share of F x dissipated on the first loading since x = 0 [-] (EEPA)
+  T lossShare{};   ///< fraction of F x dissipated in first loading from x = 0 [-] (EEPA)
   T pull{};        ///< EEPA: P over sqrt(x_m R_eff) [N/m], >= 0
   T pullGrowth{};  ///< EEPA, adhesion that grows with the radius: P over sqrt(x_m R_eff) R_eff [Pa], >= 0
   T fullDepth{};   ///< Luding: x* / R_eff [-], > 0; 0: EEPA
@@ -44,16 +44,16 @@ template <class T> struct BasicPlasticity {
   }
 };
 
-/// History of an elastic-plastic contact; zeros for a new one.
+/// History of an elastic-plastic contact; zero-initialised for a new one.
 template <class T> struct BasicPlasticState {
-  T deepest{}; ///< overlap at which it last left the first loading, x_m [m]
+  T deepest{}; ///< overlap at the last departure from first loading, x_m [m]
   T origin{};  ///< elastic force at the plastic overlap, k1 x_p^m [N]
 };
 
-/// Size of that history.
+/// Number of history values.
 inline constexpr int kPlasticNumbers = 2;
 
-/// The normal spring of an elastic contact: F = k1 x^m, [N] at an overlap [m]. With SIMD numbers, of as many contacts.
+/// Normal spring of an elastic contact: F = k1 x^m [N] at an overlap [m]; with SIMD numbers, one contact per lane.
 template <class T> struct BasicElasticSpring {
   base::ScalarOf<T> stiffness; ///< linear: k [N/m];  Hertz: (4/3) E_eff [Pa]
   T effectiveRadius;           ///< [m]
@@ -62,7 +62,7 @@ template <class T> struct BasicElasticSpring {
   GROUSER_HD T force(T overlap) const {
     return hertz ? stiffness * base::squareRoot(effectiveRadius * overlap) * overlap : stiffness * overlap;
   }
-  /// x_a / x_b where the force at x_a is `ratio`, >= 0, times that at x_b.
+  /// x_a / x_b for a force at x_a that is `ratio` (>= 0) times that at x_b.
   GROUSER_HD T overlapRatio(T ratio) const {
     if (!hertz) return ratio;
     const T root = base::cubeRootOf(ratio);
@@ -72,14 +72,14 @@ template <class T> struct BasicElasticSpring {
 
 /// Normal force of an elastic-plastic contact at one overlap.
 template <class T> struct BasicPlasticForce {
-  T force;    ///< [N], negative where it pulls
-  T adhesion; ///< largest pull here [N], >= 0; friction is limited by the force plus this
+  T force;    ///< [N], negative: attraction
+  T adhesion; ///< maximum attraction at this overlap [N], >= 0; friction is limited by the force plus this
   T yielded;  ///< plastic work of this step [J], >= 0 except for rounding
 };
 
 namespace detail {
 
-/// k2 / k1 after a greatest overlap. SIMD types are allowed here and where stated below.
+/// k2 / k1 for a maximum overlap `deepest`. SIMD types are allowed here and where stated below.
 template <class T> GROUSER_HD T steepness(const BasicPlasticity<base::ScalarOf<T>>& p, T deepest, T radius) {
   using Scalar = base::ScalarOf<T>;
   const Scalar most = Scalar(1) / (Scalar(1) - p.share);
@@ -89,44 +89,44 @@ template <class T> GROUSER_HD T steepness(const BasicPlasticity<base::ScalarOf<T
   return Scalar(1) + (most - Scalar(1)) * (part < one ? part : one);
 }
 
-/// EEPA: plastic work of the first loading to this overlap [J], from where the steep line of `origin` meets the elastic
-/// law. With SIMD numbers, of as many contacts.
+/// EEPA: plastic work of first loading up to this overlap [J], from the intersection of the steep line of `origin` with
+/// the elastic law. With SIMD numbers, one contact per lane.
 template <class T> GROUSER_HD T yieldedSince(const BasicPlasticity<base::ScalarOf<T>>& p,
                                              const BasicElasticSpring<T>& spring, T overlap, T elastic, T origin) {
-  const T start = origin / p.share; // elastic force there
+  const T start = origin / p.share; // elastic force at the intersection
   return p.lossShare * overlap * (elastic - start * spring.overlapRatio(start / elastic));
 }
 
-/// EEPA: pull-off force P over sqrt(x_m R_eff) [N/m]; not above 0: nothing pulls.
+/// EEPA: pull-off force P / sqrt(x_m R_eff) [N/m]; <= 0: no attraction.
 template <class T> GROUSER_HD T pullPerRoot(const BasicPlasticity<base::ScalarOf<T>>& p, T effectiveRadius) {
   return p.pull + p.pullGrowth * effectiveRadius;
 }
 
-/// EEPA: the pull-off force after a greatest overlap, and where the steep line meets it.
+/// EEPA: pull-off force for a maximum overlap, and its intersection with the steep line.
 template <class T> struct PullOff {
   T force; ///< P [N]
   T turn;  ///< elastic force at x_min [N]
 };
 
-/// `perRoot`: pullPerRoot(), > 0. With SIMD numbers, of as many contacts.
+/// `perRoot`: pullPerRoot(), > 0. With SIMD numbers, one contact per lane.
 template <class T> GROUSER_HD PullOff<T> pullOff(const BasicPlasticity<base::ScalarOf<T>>& p,
                                                  const BasicElasticSpring<T>& spring, T steep, T perRoot, T deepest) {
-  const T origin = p.share * spring.force(deepest); // before any pull
+  const T origin = p.share * spring.force(deepest); // before any attraction
   const T half = base::ScalarOf<T>(0.5) * steep * origin;
   const T pull = perRoot * base::squareRoot(deepest * spring.effectiveRadius);
   const T most = pull < half ? pull : half;
   return {most, origin - most / steep};
 }
 
-/// Luding: k_c x where the steep line is above it, else where they meet [N]. With SIMD numbers too.
+/// Luding: k_c x where the steep line is above it, else the value at their intersection [N]. SIMD allowed.
 template <class T> GROUSER_HD T ludingPull(const BasicPlasticity<base::ScalarOf<T>>& p, T elastic, T steep, T origin) {
   const T most = steep * origin / (steep + p.adhesion);
   return p.adhesion * (elastic < most ? elastic : most);
 }
 
-/// The adhesive branch of a contact at an overlap.
+/// Adhesive branch of a contact at an overlap.
 template <class T> struct AdhesiveBranch {
-  T pull;  ///< a(x) before, P beyond the place where the steep line meets it [N], >= 0
+  T pull;  ///< a(x) before its intersection with the steep line, P beyond it [N], >= 0
   T slope; ///< d ln a / d ln F_elastic
 };
 
@@ -138,7 +138,7 @@ template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasti
   if (perRoot <= 0) return {T(0), T(1)};
   const auto [most, turn] = pullOff(p, spring, steep, perRoot, state.deepest);
   if (elastic >= turn) return {most, T(0)};
-  // (x / x_min)^chi by the root of the ratio of forces that is the root of x / x_min.
+  // (x / x_min)^chi from the square root of x / x_min, itself a power of the force ratio.
   const T ratio = elastic / turn;
   T root = base::squareRoot(ratio), share = 1;
   if (spring.hertz) root = base::cubeRoot(ratio);
@@ -146,8 +146,8 @@ template <class T> GROUSER_HD AdhesiveBranch<T> adhesiveBranch(const BasicPlasti
   return {most * share, T(p.exponent) / T(spring.hertz ? 3 : 2)};
 }
 
-/// State after the first loading to this overlap, and plastic work since the steep line of `before` met the elastic law
-/// [J]. `steepBefore`, `steepNow`: steepness() before and after. With SIMD numbers too.
+/// State after first loading to this overlap, and plastic work since the intersection of the steep line of `before`
+/// with the elastic law [J]. `steepBefore`, `steepNow`: steepness() before and after. SIMD allowed.
 template <class T> struct Loading {
   BasicPlasticState<T> state;
   T yielded;
@@ -163,7 +163,7 @@ template <class T> GROUSER_HD Loading<T> firstLoading(const BasicPlasticity<base
           Scalar(0.5) * (elastic * overlap * lost - spring.force(from) * from * (Scalar(1) - Scalar(1) / steepBefore))};
 }
 
-/// Luding: the greatest overlap from which a contact comes to -k_c x at this one.
+/// Luding: maximum overlap for which unloading reaches -k_c x at this overlap.
 template <class T> GROUSER_HD T deepestBehind(const BasicPlasticity<T>& p, T overlap, T radius) {
   const T most = T(1) / (T(1) - p.share), full = p.fullDepth * radius;
   const T beyond = (most + p.adhesion) / (most - T(1)) * overlap;
@@ -172,7 +172,7 @@ template <class T> GROUSER_HD T deepestBehind(const BasicPlasticity<T>& p, T ove
   return half + base::squareRoot(half * half + (T(1) + p.adhesion) * overlap * full / (most - T(1)));
 }
 
-/// Luding: energy dissipated while the greatest overlap decreases along the adhesive branch. `former`, `present`: k2 /
+/// Luding: energy dissipated while the maximum overlap decreases along the adhesive branch. `former`, `present`: k2 /
 /// k1 before and after.
 template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T stiffness, T overlap,
                                                  const BasicPlasticState<T>& before, T former, T present) {
@@ -183,9 +183,9 @@ template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T 
 
 } // namespace detail
 
-/// Force at `overlap` > 0 of a contact with p.share > 0; updates its state. Plastic work from -dU/dx_p^m of the elastic
-/// energy U: in closed form on the first loading and Luding's branch, by the trapezoidal rule over the step on EEPA's
-/// adhesive branch.
+/// Returns the force at `overlap` > 0 of a contact with p.share > 0 and updates its state. The plastic work is
+/// -dU/dx_p^m of the elastic energy U: in closed form on first loading and Luding's branch, by the trapezoidal rule
+/// over the step on EEPA's adhesive branch.
 template <class T> GROUSER_HD BasicPlasticForce<T>
 plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T overlap, BasicPlasticState<T>& state) {
   const T radius = spring.effectiveRadius, elastic = spring.force(overlap);
@@ -206,7 +206,7 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
     return {-branch.pull, branch.pull, detail::yieldedByPulling(p, spring.stiffness, overlap, before, steep, steepNow)};
   }
   state.origin = elastic + branch.pull / steep;
-  // Point where it left the steep line, or of the last step: one Newton step from here.
+  // Start at the departure from the steep line, or at the previous step: one Newton step from here.
   T start = elastic - (line + branch.pull) / (steep + branch.slope * branch.pull / elastic);
   start = start < before.origin ? start : before.origin;
   const auto place = [&](T force) { return overlap * spring.overlapRatio(force / elastic); };
@@ -214,12 +214,12 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
   return {-branch.pull, branch.pull, T(0.5) * steep * stretched * (before.origin - state.origin)};
 }
 
-/// The same for one contact of a SIMD batch: not inlined, and so not compiled for processors that may not be present.
+/// Same for one contact of a SIMD batch: not inlined, hence not compiled for unsupported instruction sets.
 BasicPlasticForce<float> plasticForceAlone(const BasicPlasticity<float>& p, const BasicElasticSpring<float>& spring,
                                            float overlap, BasicPlasticState<float>& state);
 
-/// Elastic energy of such a contact [J] plus its plastic work if it moved to this overlap now: the energy that it can
-/// still release.
+/// Releasable energy of an elastic-plastic contact [J]: its elastic energy plus the plastic work of a move to this
+/// overlap.
 template <class T> GROUSER_HD T plasticEnergy(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring,
                                               T overlap, BasicPlasticState<T> state) {
   const T yielded = plasticForce(p, spring, overlap, state).yielded;

@@ -7,12 +7,12 @@
 
 namespace grouser::contact {
 
-/// Parameters that all points of one part share while they touch one fixed surface. Vectors are in the part frame;
-/// moments refer to its origin.
+/// Parameters shared by all points of one part in contact with one fixed surface. Vectors are in the part frame;
+/// moments are about its origin.
 struct PointPress {
   const PatchLaw& law;
   double timeStep;               ///< [s]
-  RelativeMotion<double> motion; ///< of the part
+  RelativeMotion<double> motion; ///< motion of the part
 };
 
 /// Adds the contact pressure of a block's points. `normal`: outward unit normals of the surface; `overlap` [m].

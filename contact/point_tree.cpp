@@ -56,7 +56,7 @@ void PointTree::split(std::vector<SurfaceSample>& samples, std::size_t from, std
     std::stable_sort(
         samples.begin() + static_cast<std::ptrdiff_t>(from), samples.begin() + static_cast<std::ptrdiff_t>(to),
         [axis](const SurfaceSample& a, const SurfaceSample& b) { return along(a, axis) < along(b, axis); });
-    // The left child gets full blocks, which keeps few lanes idle.
+    // The left child receives full blocks, which minimises idle lanes.
     const std::size_t half = (to - from) / 2, left = std::max<std::size_t>(half / kPointLanes, 1) * kPointLanes;
     split(samples, from, from + left);
     split(samples, from + left, to);

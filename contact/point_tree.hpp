@@ -13,15 +13,15 @@ namespace grouser::contact {
 /// Up to eight neighbouring surface points of a part, in the part frame. Idle lanes have zero area.
 struct alignas(64) PointBlock {
   Vec3P place;       ///< [m]
-  PointLanes radius; ///< radius of the ball of a point [m]; 0: the surface itself
+  PointLanes radius; ///< radius of the point's ball [m]; 0: a point on the surface itself
   PointLanes area;   ///< [m2]
-  int count;         ///< lanes that are not idle
+  int count;         ///< number of active lanes
 };
 
 /// Bounding-box tree of the surface points of a part, for contact with rigid surfaces on the host.
 class PointTree {
 public:
-  /// Bounding box of some points and their balls. Nodes are stored depth first.
+  /// Bounding box of a group of points with their balls. Nodes are stored depth first.
   struct Node {
     base::Vec3d centre, half; ///< [m]
     std::uint32_t behind;     ///< index of the next node if this box is skipped
@@ -34,10 +34,10 @@ public:
   const std::vector<Node>& nodes() const { return nodes_; }
   const PointBlock& block(std::int32_t i) const { return blocks_[static_cast<std::size_t>(i)]; }
   std::size_t blocks() const { return blocks_.size(); }
-  /// Cluster c (SurfaceSample::cluster) has the nodes [firstNode(c), firstNode(c + 1)).
+  /// Cluster c (SurfaceSample::cluster) consists of the nodes [firstNode(c), firstNode(c + 1)).
   std::uint32_t firstNode(int cluster) const { return first_[static_cast<std::size_t>(cluster)]; }
   double reach() const { return reach_; }   ///< bounding radius about the origin of the part frame [m]
-  double widest() const { return widest_; } ///< largest radius of a point [m]
+  double widest() const { return widest_; } ///< maximum point radius [m]
 
 private:
   void split(std::vector<SurfaceSample>& samples, std::size_t from, std::size_t to);

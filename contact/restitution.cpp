@@ -21,7 +21,7 @@ double clampedDuration(double zeta) {
   return base::log((zeta + s) / (zeta - s)) / s;
 }
 
-/// Argument at which `restitutionAt`, which falls steadily, is `restitution`; to the given accuracy or to the last bit.
+/// Argument at which the decreasing function `restitutionAt` is `restitution`, to the given accuracy or the last bit.
 template <class F> double ratioFor(double restitution, const F& restitutionAt, double accuracy) {
   double low = 0, high = 1;
   while (restitutionAt(high) > restitution) high *= 2;
@@ -33,14 +33,14 @@ template <class F> double ratioFor(double restitution, const F& restitutionAt, d
   return 0.5 * (low + high);
 }
 
-/// Restitution that a dashpot without attraction can have.
+/// Largest restitution of a dashpot without attraction.
 double reachable(double restitution) { return restitution > 0 ? restitution : kLeastDashpotRestitution; }
 
 struct UnitImpact {
   double restitution, deepest;
 };
 
-/// One clamped Hertz impact at unit speed, in units where x'' = -x^(3/2) - c x^(1/4) x'; or only its loading phase.
+/// One clamped Hertz impact at unit speed, in units with x'' = -x^(3/2) - c x^(1/4) x'; or only its loading phase.
 UnitImpact clampedHertzImpact(double beta, bool wayInOnly) {
   const double c = 2 * beta * std::sqrt(1.5);
   const auto acceleration = [c](double x, double v) {
@@ -51,7 +51,7 @@ UnitImpact clampedHertzImpact(double beta, bool wayInOnly) {
   constexpr double kStep = 3.2 / 4000;
   double x = 0, v = 1, deepest = 0;
   for (int i = 0; i < 1000000; ++i) {
-    // Runge and Kutta, order 4.
+    // Fourth-order Runge-Kutta.
     const double h = kStep;
     const double a1 = acceleration(x, v), v2 = v + 0.5 * h * a1;
     const double a2 = acceleration(x + 0.5 * h * v, v2), v3 = v + 0.5 * h * a2;
@@ -62,7 +62,7 @@ UnitImpact clampedHertzImpact(double beta, bool wayInOnly) {
     if (x > deepest) deepest = x;
     if (v < 0 && (wayInOnly || x <= 0 || acceleration(x, v) == 0)) return {-v, deepest};
   }
-  return {0, deepest}; // creeps back: c is huge
+  return {0, deepest}; // overdamped return: c is very large
 }
 
 double clampedHertzRestitution(double beta) { return clampedHertzImpact(beta, false).restitution; }
@@ -116,7 +116,7 @@ HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double 
 }
 
 double hertzDepthShare(double beta) {
-  // Elastic: v^2 / 2 = (2/5) x^(5/2) at the deepest.
+  // Elastic: v^2 / 2 = (2/5) x^(5/2) at maximum overlap.
   return beta <= 0 ? 1 : clampedHertzImpact(beta, true).deepest / base::pow(1.25, 0.4);
 }
 

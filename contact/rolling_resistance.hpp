@@ -5,18 +5,18 @@
 
 namespace grouser::contact {
 
-/// Rolling motion of two surfaces in contact, seen from side i.
+/// Relative rolling motion of two surfaces in contact, seen from side i.
 template <class T> struct RollingMotion {
   base::Vec3<T> normal; ///< unit, from i to j
-  base::Vec3<T> spin;   ///< of i relative to j [rad/s]
-  T radius;             ///< R_r = R_i R_j / (R_i + R_j); R_i against a wall [m]
-  T inertia;            ///< I_r: of both about the contact point, in series [kg m2]
+  base::Vec3<T> spin;   ///< angular velocity of i relative to j [rad/s]
+  T radius;             ///< R_r = R_i R_j / (R_i + R_j); against a wall R_i [m]
+  T inertia;            ///< I_r: inertias of both about the contact point, in series [kg m2]
 };
 
 /// Rolling inertia of a sphere on a fixed surface.
 template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return ScalarOf<T>(1.4) * mass * radius * radius; }
-/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2). The product of both inertias can overflow
-/// or underflow a float; this form does neither. Swapping i and j changes no bit.
+/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2), in a form whose products neither overflow nor
+/// underflow a float. Swapping i and j changes no bit.
 template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T radiusJ) {
   const T i = rollingInertia(massI, radiusI), j = rollingInertia(massJ, radiusJ);
   const T larger = i > j ? i : j, smaller = i > j ? j : i;
@@ -29,25 +29,25 @@ template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<ScalarOf<T>>& la
   return ScalarOf<T>(2.25) * normalStiffness * (arm * arm);
 }
 
-/// Elastic-plastic spring-dashpot, type C of Ai, Chen, Rotter and Ooi (2011), Powder Technol. 206:269, in space:
+/// Elastic-plastic spring-dashpot, type C of Ai, Chen, Rotter and Ooi (2011), Powder Technol. 206:269, in 3-D:
 ///
 ///   M = -k_r angle - c_r spin    with k_r = 2.25 k_n (mu_r R_r)^2,  |M| <= mu_r R_r F_n
 ///
-/// The angle [rad] is the history of the relative spin in the tangent plane; where the spring is at the limit it is
-/// shortened to fit and the dashpot is off. Below, the dashpot may at most fill the torque up to the limit: in the
-/// paper it may exceed it many times, so that a fast ball loses percents of its energy in the moment of touch. Spin
-/// about the normal is not resisted. `pressing`, `normalStiffness` and `change` are the reaction's; `change`: null
-/// where k_n is constant. With Hertz' law k_r is proportional to k_n, and the spring adapts as the tangential one does:
-/// it adds no energy. Returns the torque on i [N m]; on j it is the exact opposite. Adds the dissipation: of the
-/// dashpot, with the spin in the middle of the step as if this torque acted alone; at the limit all work except the
-/// spring's gain; and the loss by the change of stiffness. T as in contactForce(): one source for the kernels of both
-/// devices and for many contacts at a time.
+/// The angle [rad] is the accumulated relative rotation in the tangent plane; at the limit the spring is shortened to
+/// the limit and the dashpot is off. Below, the dashpot may at most raise the torque to the limit: in the paper it may
+/// exceed it many times, so that a fast ball loses several percent of its energy at the instant of contact. Spin about
+/// the normal is not resisted. `pressing`, `normalStiffness` and `change` are those of the reaction; `change`: null if
+/// k_n is constant. With Hertz's law k_r is proportional to k_n, and the spring adapts like the tangential one, without
+/// adding energy. Returns the torque on i [N m]; j receives exactly the opposite. Adds to the dissipation: the dashpot,
+/// with the mid-step spin as if this torque acted alone; at the limit all work except the energy gain of the spring;
+/// and the loss by the stiffness change. T as in contactForce(): one source for the kernels of both devices and for
+/// many contacts at once.
 template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarOf<T>>& law, const RollingMotion<T>& m,
                                                           T pressing, T normalStiffness, ScalarOf<T> dt,
                                                           base::Vec3<T>& angle, T& dissipated,
                                                           const StiffnessChange<T>* change = nullptr) {
   using Scalar = ScalarOf<T>;
-  const Scalar scale = law.squareScale; // multiplies the torques and energies below
+  const Scalar scale = law.squareScale; // scales the torques and energies below
   const T zero{};
   if (law.rollingFriction <= 0) return angle = {};
   const base::Vec3<T> rolling = m.spin - m.normal * dot(m.spin, m.normal);
@@ -61,12 +61,12 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarO
   const T limit = law.rollingFriction * m.radius * (pressing > zero ? pressing : zero) * scale;
   const T limit2 = limit * limit, size2 = dot(spring, spring);
   const auto slides = size2 > limit2;
-  // Below the limit the dashpot fills the torque up to it.
+  // Below the limit the dashpot raises the torque at most to it.
   base::Vec3<T> torque = spring - rolling * (Scalar(2) * law.rollingDamping * squareRoot(inertia * stiffness));
   const T both2 = dot(torque, torque);
   if (const auto beyond = both2 > limit2; base::any(beyond))
     torque = base::select(beyond, torque * base::shareOf(limit, squareRoot(both2)), torque);
-  // About their centres spheres are 7/2 times easier to turn than about the point of contact.
+  // The inertia of a sphere about its centre is 7/2 times smaller than about the contact point.
   const base::Vec3<T> middle = rolling + torque * (Scalar(1.75) * dt / inertia);
   T given = dot(torque - spring, middle) * dt;
   if (base::any(slides)) {

@@ -15,21 +15,21 @@ using base::Vec3d;
 
 namespace {
 
-constexpr int kCellsOfEdge = 24, kLeastCells = 4, kMostCells = 48; ///< between two edges
-constexpr int kAround = 512;                                       ///< points round a cylinder
-constexpr int kRings = 12;                                         ///< of points on the end of a cylinder
+constexpr int kCellsOfEdge = 24, kLeastCells = 4, kMostCells = 48; ///< cells between two edges
+constexpr int kAround = 512;                                       ///< points around a cylinder
+constexpr int kRings = 12;                                         ///< rings of points on the end of a cylinder
 constexpr int kLatitudes = 96;                                     ///< rings of points on a sphere
 
-/// Points on an edge stand this far within their face, so that a face does not press along its edges where another one
-/// lies on a plane [half of the face].
+/// Inset of edge points within their face [half of the face], so that a face does not press along its edges while an
+/// adjacent face lies on a plane.
 constexpr double kInset = 0.005;
 
-/// Cells of a stretch between two edges, and the share of node k of them: half at either end (trapezoidal rule).
+/// Cells of an interval between two edges, and weight of node k: half at either end (trapezoidal rule).
 int cellsOf(double length, double spacing) {
   return std::clamp(static_cast<int>(std::ceil(length / spacing - 1e-9)), kLeastCells, kMostCells);
 }
 double shareOf(int k, int cells) { return (k == 0 || k == cells ? 0.5 : 1.0) / cells; }
-double nodeOf(int k, int cells) { return (1 - kInset) * (2.0 * k / cells - 1); } ///< place of node k [half the stretch]
+double nodeOf(int k, int cells) { return (1 - kInset) * (2.0 * k / cells - 1); } ///< position of node k [half interval]
 
 class Points {
 public:
@@ -53,7 +53,7 @@ public:
     }
   }
 
-  /// The side of a cylinder or cone about z, of radius `low` at its lower and `high` at its upper end.
+  /// Side of a cylinder or cone about z, with radius `low` at its lower and `high` at its upper end.
   void side(double low, double high, double half) {
     const double slant = std::sqrt((low - high) * (low - high) + 4 * half * half);
     const int cells = cellsOf(slant, std::max(low, high) / 8);
@@ -69,7 +69,7 @@ public:
     }
   }
 
-  /// The end of a cylinder or cone about z, at the height z.
+  /// End of a cylinder or cone about z, at height z.
   void end(double radius, double z) {
     if (!(radius > 0)) return;
     const double step = radius / kRings;

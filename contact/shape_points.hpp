@@ -11,12 +11,12 @@
 namespace grouser::contact {
 
 /// Surface points of a closed-form solid (box, cylinder, cone, capsule) in its own frame, each with its share of the
-/// area [m2]. The spacing is a share of the shape's size: about 1/24 of the longest edge of a box, 1/80 of a turn or
-/// finer where the shape is round. Edges of boxes and cylinders have points of both faces that meet there, 0.5 % of
-/// half the face within it.
+/// area [m2]. The spacing is relative to the size of the shape: about 1/24 of the longest edge of a box, at most
+/// 1/80 of a turn on round shapes. Edges of boxes and cylinders have points of both adjacent faces, inset by 0.5 % of
+/// half the face.
 std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape);
 
-/// Coarsest point spacing of a mesh [m]: a fortieth of the diagonal of its bounding box, of half edges `half` [m].
+/// Maximum point spacing of a mesh [m]: 1/40 of the diagonal of its bounding box, of half edges `half` [m].
 inline double meshSpacing(const base::Vec3d& half) { return norm(half) / 20; }
 
 /// Surface points of a mesh in its own frame, each with its share of the area [m2]: corners of triangles with edges up

@@ -5,10 +5,10 @@
 
 namespace grouser::contact {
 
-/// Two spheres that overlap; with SIMD numbers, as many pairs as there are lanes.
+/// Two overlapping spheres; with SIMD numbers, one pair per lane.
 template <class T> struct SpherePair {
   base::Vec3<T> normal; ///< unit, from i to j
-  T distance, overlap;  ///< of the centres, and of the surfaces [m]
+  T distance, overlap;  ///< distance of the centres; overlap of the surfaces [m]
 };
 
 /// Computes the overlap (D^2 - d^2) / (D + d) from exact integer squares, without cancellation. `apart`: from i to j;
@@ -17,7 +17,7 @@ template <class T> struct SpherePair {
 template <class T, class Reach> GROUSER_HD SpherePair<T> spherePair(const base::Vec3<T>& apart, const T& distance2,
                                                                     const T& missing2, const Reach& reach,
                                                                     base::ScalarOf<T> unit) {
-  // Whole numbers of units: from 1 to some 2^60.
+  // Whole numbers of units, from 1 to about 2^60.
   const T distance = base::moderateRoot(distance2);
   return {apart * base::moderateInverse(distance), distance * unit,
           base::moderateQuotient(missing2, reach + distance) * unit};

@@ -20,7 +20,7 @@ GROUSER_HD bool isSlave(const std::uint32_t* role, int i) {
   return role && role[i] == static_cast<std::uint32_t>(Role::slave);
 }
 
-/// Finds the rank that owns each element now.
+/// Finds the rank that owns each element at its current position.
 struct FindOwner {
   PartitionView partition;
   base::Period period;
@@ -37,9 +37,9 @@ struct FindOwner {
   }
 };
 
-/// Closes the gaps: pairs each slot below `kept` whose element leaves with one at or above `kept` that stays.
+/// Closes the gaps: pairs each leaving slot below `kept` with a staying one at or above `kept`.
 struct PairMoves {
-  const std::uint32_t *stays, *staysBefore; ///< by slot: whether it stays; how many before it do
+  const std::uint32_t *stays, *staysBefore; ///< by slot: 1 if it stays; number of staying slots before it
   std::uint32_t kept;
   std::uint32_t *from, *to;
   GROUSER_HD void operator()(int i) const {
@@ -55,7 +55,7 @@ struct ReadRanks {
   GROUSER_HD void operator()(int k) const { ranks[k] = destination[slots[k]]; }
 };
 
-/// Counts the other subdomains within range of an element, or lists them where `ranks` is not null.
+/// Counts the other subdomains within range of an element, or lists them if `ranks` is not null.
 struct FindGhostTargets {
   PartitionView partition;
   base::Period period;
@@ -108,7 +108,7 @@ private:
   }
 };
 
-/// Roles by slot before sorting: owned elements are masters where another rank needs them, else uniques; then ghosts.
+/// Roles by slot before sorting: owned elements are masters if another rank needs them, else uniques; then ghosts.
 struct AssignRoles {
   const std::uint32_t* ghostTargets;
   std::uint32_t owned;
@@ -156,7 +156,7 @@ constexpr std::int64_t kBias = std::int64_t{1} << 41; // makes coordinates posit
 struct FindExtent {
   const Position* position;
   const std::uint32_t* role;
-  std::uint64_t* extent; ///< [6] least u + bias, then least bias - u
+  std::uint64_t* extent; ///< [6] minimum of u + bias, then of bias - u
   GROUSER_HD void operator()(int i) const {
     if (isSlave(role, i)) return;
     const Vec3l u = base::toUnits(position[i]);
@@ -290,7 +290,7 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
   base::Array<std::int64_t> bins(exec_, 3 * kPartitionBins);
   base::forEach(exec_, "count elements in bins", n, CountInBins{position, role, low, width, bins.data()});
   std::vector<std::int64_t> weight = bins.toHost();
-  // Whole numbers, so that all ranks get the same sums: costs in 1/1024 of the dearest.
+  // Whole numbers, so that all ranks have the same sums: costs in 1/1024 of the maximum.
   double dearest = costEach;
   comm_.maximum(&dearest, 1);
   const auto cost = std::max<std::int64_t>(1, static_cast<std::int64_t>(1024 * costEach / dearest));

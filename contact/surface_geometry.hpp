@@ -8,19 +8,19 @@
 
 namespace grouser::contact {
 
-/// Shapes of rigid surfaces whose nearest point has a closed form. Each lies about the origin of its own frame S.
+/// Rigid surface shapes whose nearest point has a closed form. Each is centred at the origin of its own frame S.
 enum class SurfaceShape : std::int32_t {
   plane,    ///< half-space z < 0
   box,      ///< solid, |x|, |y|, |z| <= half
   cylinder, ///< solid about the z axis, with flat ends
-  tube,    ///< a wall without thickness, rho = radius and |z| <= half: in contact from inside and outside, open at both
-           ///< ends
-  capsule, ///< solid: all points within radius of the segment x = y = 0, |z| <= half; a sphere where half is 0
-  cone,    ///< solid about the z axis, truncated: its radius falls linearly from the base at z = -half to the tip at
-           ///< z = half, with flat ends
+  tube,     ///< thin wall, rho = radius and |z| <= half: contact from inside and outside, open at both
+            ///< ends
+  capsule,  ///< solid: all points within radius of the segment x = y = 0, |z| <= half; a sphere if half is 0
+  cone,     ///< solid about the z axis, truncated: its radius falls linearly from the base at z = -half to the tip at
+            ///< z = half, with flat ends
 };
 
-/// Shape and size; constant.
+/// Shape and size of a surface; constant.
 struct SurfaceGeometry {
   SurfaceShape shape{};
   base::Vec3d half; ///< box: half of its edges; cylinder, tube: x the radius, z half of the length; capsule: x the
@@ -28,17 +28,17 @@ struct SurfaceGeometry {
                     ///< z half of the length [m]
 };
 
-/// Distance from a point to the nearest point of a surface, and the direction there.
+/// Distance from a point to the nearest point of a surface, with the direction of the gap.
 struct SurfaceGap {
   base::Vec3d normal; ///< unit, out of the solid
-  double distance;    ///< [m]; negative within the solid
+  double distance;    ///< [m]; negative inside the solid
 };
 
 namespace detail {
 
 GROUSER_HD SurfaceGap gapToBox(const base::Vec3d& half, const base::Vec3d& p) {
-  base::Vec3d out;       // from the nearest point of the box, where p is outside
-  double least = -1e300; // the shallowest face, where it is within
+  base::Vec3d out;       // vector from the nearest point of the box, if p is outside
+  double least = -1e300; // distance of the nearest face, if p is inside
   int face = 0;
   bool outside = false;
   for (int a = 0; a < 3; ++a) {
@@ -58,7 +58,7 @@ GROUSER_HD SurfaceGap gapToBox(const base::Vec3d& half, const base::Vec3d& p) {
 }
 
 /// Gap to the rim of a round surface, from the distances to its wall (`side`) and to its end (`end`) in the plane that
-/// holds the axis and the point.
+/// contains the axis and the point.
 GROUSER_HD SurfaceGap roundedGap(const base::Vec3d& across, double side, const base::Vec3d& along, double end) {
   const double distance = sqrt(side * side + end * end);
   if (!(distance > 0)) return {across, 0};
@@ -111,7 +111,7 @@ GROUSER_HD SurfaceGap gapToCone(const base::Vec3d& half, const base::Vec3d& p) {
 
 } // namespace detail
 
-/// Exact gap; both in the surface's frame.
+/// Exact gap; point and result in the surface frame.
 GROUSER_HD SurfaceGap gapTo(const SurfaceGeometry& g, const base::Vec3d& p_S) {
   if (g.shape == SurfaceShape::plane) return {{0, 0, 1}, p_S.z};
   if (g.shape == SurfaceShape::box) return detail::gapToBox(g.half, p_S);
@@ -120,19 +120,19 @@ GROUSER_HD SurfaceGap gapTo(const SurfaceGeometry& g, const base::Vec3d& p_S) {
   return detail::gapToRound(g, p_S);
 }
 
-/// Half of the edges of the box about its frame's axes that holds it [m]; not of a plane.
+/// Half edges [m] of the bounding box aligned with the surface frame; not defined for a plane.
 inline base::Vec3d halfExtent(const SurfaceGeometry& g) {
   if (g.shape == SurfaceShape::box) return g.half;
   return {g.half.x, g.half.x, g.half.z + (g.shape == SurfaceShape::capsule ? g.half.x : 0)};
 }
 
-/// The shortest half extent of a shape that has an end [m].
+/// Minimum half extent of a bounded shape [m].
 inline double thinnest(const SurfaceGeometry& g) {
   const base::Vec3d half = halfExtent(g);
   return fmin(half.x, fmin(half.y, half.z));
 }
 
-/// Largest p . d over the points p of a surface [m], for a unit vector d in its frame; not of a plane.
+/// Support function: largest p . d of the points p of a surface [m], for a unit vector d in its frame; not of a plane.
 inline double farthestAlong(const SurfaceGeometry& g, const base::Vec3d& d) {
   const double up = fabs(d.z) * g.half.z, across = sqrt(d.x * d.x + d.y * d.y);
   if (g.shape == SurfaceShape::box) return fabs(d.x) * g.half.x + fabs(d.y) * g.half.y + up;

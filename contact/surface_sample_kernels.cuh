@@ -7,21 +7,21 @@
 #include "contact/patch_law.hpp"
 
 /// Kernel bodies of contacts between extended surfaces. Part A is represented by its samples; the other side is a
-/// Target: another part's table of discs, or the ground. A patch is all touching samples of one pair whose normals fall
-/// into one cluster.
+/// Target: another part's table of discs, or the ground. A patch consists of all touching samples of one pair whose
+/// normals belong to one cluster.
 ///
-/// A Target offers
+/// Members required of a Target:
 ///   int pairs                                   number of pairs
-///   int partA(pair), partB(pair)                 indices into the motions; partB < 0: does not move
-///   bool near(pair, motion, margin)              may anything touch?
+///   int partA(pair), partB(pair)                 indices into the motions; partB < 0: fixed
+///   bool near(pair, motion, margin)              true if contact is possible
 ///   bool findContact(pair, motion, x, radius, group, normal, overlap)   world point x: outward normal of B, overlap >
 ///   0 PatchLaw law(pair)
 namespace grouser::contact {
 
-/// Covers the rounding of distances in single precision [m].
+/// Bound of the rounding error of distances in single precision [m].
 inline constexpr double kGapSlack = 1e-6;
 
-/// Marks pairs that may be near each other.
+/// Marks pairs that may be in contact.
 template <class Target> struct MarkNearPairs {
   static constexpr double kNanoseconds = 20;
   Target target;
@@ -31,10 +31,10 @@ template <class Target> struct MarkNearPairs {
   GROUSER_HD void operator()(int pair) const { near[pair] = target.near(pair, motion, margin) ? 1u : 0u; }
 };
 
-/// Counts (where `entry` is null) or lists the samples of one chunk that are within `margin` of touching, each with its
-/// gap: until the two surfaces have moved that far relative to each other it cannot touch and is skipped.
+/// Counts (if `entry` is null) or lists the samples of one chunk within `margin` of contact, each with its gap: a
+/// sample is skipped until the two surfaces have moved by its gap relative to each other.
 template <class Target> struct ListSamples {
-  static constexpr double kNanoseconds = 60; ///< most chunks belong to pairs that are not near
+  static constexpr double kNanoseconds = 60; ///< most chunks belong to distant pairs
   Target target;
   const SurfaceSample* samples;
   const SampleChunk* chunks;
@@ -46,7 +46,7 @@ template <class Target> struct ListSamples {
   float* gap;           ///< [m], a lower bound
 
   GROUSER_HD void operator()(int item) const {
-    if (entry && count[item] == 0) return; // as counted
+    if (entry && count[item] == 0) return; // as counted before
     const SampleChunk chunk = chunks[item];
     const int pair = static_cast<int>(chunk.pair);
     std::uint32_t found = 0;
@@ -88,7 +88,7 @@ GROUSER_HD void applyToBoth(const PatchQuanta& quanta, const PartMotion* motion,
   addTo(loads[b].torque, quanta.torque.quantise(cross(x - motion[b].centre, -f)));
 }
 
-/// Pressure on one sample.
+/// Computes the pressure on one sample.
 template <class Target> struct SamplePressure {
   static constexpr double kNanoseconds = 100;
   Target target;
@@ -97,7 +97,7 @@ template <class Target> struct SamplePressure {
   const PartMotion* motion;
   const std::uint64_t* entry;
   const float* gap;
-  const double* travelled; ///< bound of the relative motion of any pair since the list was made [m]
+  const double* travelled; ///< upper bound of the relative motion of any pair since the samples were listed [m]
   PatchSums* patches;      ///< [pair * kClusters + cluster]
   PartLoad* loads;
   double timeStep;
@@ -113,7 +113,7 @@ template <class Target> struct SamplePressure {
     base::Vec3d normal;
     double overlap;
     if (!target.findContact(pair, motion, centre, static_cast<double>(sample.radius), group, normal, overlap)) return;
-    if (group.rank != 0) return; // one thread does the rest
+    if (group.rank != 0) return; // one thread completes the sample
     const base::Vec3d x = centre - normal * (static_cast<double>(sample.radius) - 0.5 * overlap);
     base::Vec3d relative = motion[a].velocityAt(x);
     if (b >= 0) relative -= motion[b].velocityAt(x);
@@ -131,7 +131,7 @@ template <class Target> struct SamplePressure {
   }
 };
 
-/// Friction of one patch, at the centre of its pressure.
+/// Computes the friction of one patch, at its centre of pressure.
 template <class Target> struct PatchFriction {
   static constexpr double kNanoseconds = 10;
   Target target;

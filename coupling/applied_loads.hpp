@@ -10,17 +10,17 @@
 
 namespace grouser::coupling {
 
-/// External forces and torques on bodies, and their work: in each step with the mean of the velocities before and after
-/// it, as in the bodies' energy accounting.
+/// External forces and torques on bodies, and their work. The work of a step uses the mean of the velocities before and
+/// after it, as in the energy accounting of the bodies.
 class AppliedLoads {
 public:
-  /// Sets the loads among `inputs`; targets are bodies of the model.
+  /// Sets the body loads from `inputs`; targets are bodies of the model.
   void set(const Inputs& inputs);
-  /// Adds them to `loads`, for a step that begins at `state`.
+  /// Adds the external loads to `loads`, for a step that begins at `state`.
   void add(const multibody::State& state, multibody::Loads& loads);
   /// Adds the work of the step of `dt` [s] that ended at `state`.
   void accountWork(const multibody::State& state, double dt);
-  double work() const { return work_; } ///< since the start [J]
+  double work() const { return work_; } ///< work since the start [J]
 
   std::vector<double> save() const { return {work_.sum, work_.lost}; }
   void restore(const std::vector<double>& saved);
@@ -29,7 +29,7 @@ private:
   struct Load {
     std::size_t body;
     multibody::Wrench wrench;
-    multibody::Twist before; ///< of the body as the step began
+    multibody::Twist before; ///< twist of the body at the start of the step
   };
   std::vector<Load> loads_;
   multibody::CompensatedSum work_;

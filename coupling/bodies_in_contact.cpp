@@ -73,7 +73,7 @@ Vec3d BodiesInContact::meanForceOn(std::size_t obstacle) const {
 
 void BodiesInContact::enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const {
   const ContactLedger contacts = contacts_ ? contacts_->ledger() : ContactLedger{};
-  // The grains' own residual lacks the impulse of the parts.
+  // The residual of the grains lacks the impulse of the parts.
   bodies.linearLeftOver -= contacts.bed.impulseOnGrains, bodies.angularLeftOver += contacts.angularOnParts;
   enterBodies(ledger, bodies);
   enterGrainParts(ledger, contacts.bed);

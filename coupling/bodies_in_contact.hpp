@@ -19,7 +19,7 @@ namespace grouser::coupling {
 
 struct MechanismSetup;
 
-/// Bodies whose parts may touch grains, ground and surfaces: those of a vehicle, or of a mechanism with shapes.
+/// Bodies with parts in contact with grains, ground and surfaces: those of a vehicle, or of a mechanism with shapes.
 class BodiesInContact {
 public:
   BodiesInContact() = default;
@@ -31,72 +31,72 @@ public:
   void setSurfacePoses() { contacts_->setPoses(state_); }
   void refreshLists(bool groundListsEnded) { contacts_->refreshLists(groundListsEnded); }
   void computeContacts(StepObserver* observer) { contacts_->compute(observer); }
-  /// Sums the contact loads after the device has computed them. solveContacts() adds those of complementarity contacts.
+  /// Sums the contact loads computed by the device; complementarity contacts follow in solveContacts().
   void collectLoads();
   /// Adds drive, towing, and applied loads of this step.
   virtual void actuate() = 0;
-  /// Solves complementarity contacts with the grains, after all other loads are known. No effect with penalty contacts.
+  /// Solves complementarity contacts with the grains, after all other loads are known. No effect for penalty contacts.
   void solveContacts();
   virtual void advance() = 0; ///< multibody step
 
   virtual const multibody::Model& model() const = 0;
   virtual const multibody::Solver& solver() const = 0;
-  virtual multibody::Solver& stepSolver() = 0; ///< for use within a step
+  virtual multibody::Solver& stepSolver() = 0; ///< for use during a step
   const multibody::State& state() const { return state_; }
   multibody::Balance bodiesBalance() const { return multibody::balance(model(), state_, loads_); }
 
-  /// Present state of a drive.
+  /// Current state of a drive.
   struct DriveReading {
     double value = 0;  ///< imposed speed, position or torque [rad/s, rad, N m, or m/s, m, N]
     double torque = 0; ///< [N m] or [N]
     double power = 0;  ///< [W]
   };
   DriveReading drive(int index) const;
-  /// Force [N] or torque [N m] of a spring on an axis at its present position and rate, stops left out.
+  /// Force [N] or torque [N m] of an axis spring at its current position and rate, without end stops.
   double axisSpringForce(int index) const;
-  std::vector<bool> touchingBodies() const; ///< [body] whether it has a surface that touches something
-  /// [body] force of all contacts, mean since the last row [N]; zero without.
+  std::vector<bool> touchingBodies() const; ///< [body] true if it has a surface in contact with anything
+  /// [body] total contact force, mean since the last output row [N]; zero without contacts.
   std::vector<base::Vec3d> contactForces() const { return meanForces(rowMeans_, model().bodies().size()); }
-  multibody::Loads& stepLoads() { return loads_; } ///< between collectLoads() and advance(), to add to
+  multibody::Loads& stepLoads() { return loads_; } ///< valid between collectLoads() and advance(), for additional loads
   const PartContacts& contacts() const { return *contacts_; }
   PartContacts& stepContacts() { return *contacts_; } ///< for StepsAhead
-  /// Force of the bodies on an obstacle of the scene, mean since the last row [N].
+  /// Force of the bodies on an obstacle of the scene, mean since the last output row [N].
   base::Vec3d meanForceOn(std::size_t obstacle) const;
 
   const std::vector<spheredecomp::CutReport>& bodyCuts() const { return bodyCuts_; } ///< sphere cuts of body meshes
 
 protected:
   /// Adds the shapes of the bodies to the contact parts and converts their meshes to spheres; `kept` as in
-  /// VehicleParts.
+  /// VehicleParts. Call it once, before the contacts are created.
   void addBodies(const MechanismSetup& setup, const multibody::Model& model, const GroundTraits& ground,
                  SphereSets* kept);
 
-  /// Sums over steps of the force of ground and surfaces on each contact part, then of that on each surface: whole
-  /// quanta, so that a checkpoint keeps them exactly.
+  /// Sums over steps of the force of ground and surfaces on each contact part, then of that on each surface, in whole
+  /// quanta, so that checkpoints are exact.
   struct ForceMeans {
     std::vector<base::Vec3l> sums;
     std::int64_t steps{0};
     void restart() { sums.assign(sums.size(), {}), steps = 0; }
   };
 
-  /// Sums to which the loads of each step are added; null if unused.
+  /// Sums that accumulate the loads of each step; null if unused.
   virtual std::array<ForceMeans*, 3> means() = 0;
   /// [body] mean force on its parts [N].
   std::vector<base::Vec3d> meanForces(const ForceMeans& means, std::size_t bodies) const;
-  /// Adds the bodies' energies and momenta and those of their contacts. `bodies`: with the work of all other loads as
-  /// drive work; `potential`, `elastic`: energies for the ledger [J].
+  /// Adds energies and momenta of the bodies and their contacts. `bodies`: its drive work includes the work of all
+  /// other loads; `potential`, `elastic`: energies for the ledger [J].
   void enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const;
 
   virtual double timeStep() const = 0; ///< [s]
 
   multibody::State state_;
   multibody::Loads loads_;
-  ReplicatedWork replicated_;             ///< for the multibody step and its responses
-  ForceMeans rowMeans_;                   ///< since the last row
+  ReplicatedWork replicated_;             ///< for the multibody step and its impulse responses
+  ForceMeans rowMeans_;                   ///< since the last output row
   std::vector<base::SphereSet> bodySets_; ///< spheres of the distinct body meshes
   std::vector<spheredecomp::CutReport> bodyCuts_;
   ContactParts contactParts_;
-  std::unique_ptr<PartContacts> contacts_; ///< null where the bodies touch nothing
+  std::unique_ptr<PartContacts> contacts_; ///< null if the bodies have no contacts
 
 private:
   void addToMeans();

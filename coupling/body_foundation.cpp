@@ -22,16 +22,16 @@ namespace {
 bool isRound(const SurfaceGeometry& g) { return g.shape != SurfaceShape::box; }
 bool isBall(const SurfaceGeometry& g) { return g.shape == SurfaceShape::capsule && g.half.z == 0; }
 
-/// Stiffness of a shape about its rest on the least of its faces, strips and caps [N/m]. Forces at the overlap x, by
-/// the volume that is pressed in: box K A x, sphere pi K R x^2, strip of a cylinder 4/3 K L sqrt(2 R) x^(3/2).
+/// Minimum stiffness of a shape about its rest over its faces, strips and caps [N/m]. Forces at the overlap x follow
+/// from the indented volume: box K A x, sphere pi K R x^2, strip of a cylinder 4/3 K L sqrt(2 R) x^(3/2).
 double restingStiffness(const SurfaceGeometry& g, double modulus, double load) {
   const double x = restingOverlap(g, modulus, load), r = g.half.x, length = 2 * g.half.z;
   if (!isRound(g)) return load / x;
   return isBall(g) ? 2 * base::kPi * modulus * r * x : 2 * modulus * length * std::sqrt(2 * r * x);
 }
 
-/// Geometric mean of the stiffness at rest on the least patch and on the largest one, so that both are close to the
-/// intended damping [N/m].
+/// Geometric mean of the rest stiffness on the smallest and the largest patch, so that the damping on both is close to
+/// the intended one [N/m].
 double meanStiffness(const SurfaceGeometry& g, double modulus, double load) {
   const double least = restingStiffness(g, modulus, load);
   if (isBall(g)) return least;
@@ -56,7 +56,7 @@ double restingOverlap(const SurfaceGeometry& g, double modulus, double load) {
 }
 
 contact::PatchLaw patchLaw(const contact::Foundation& f, const SurfaceGeometry& shape, double mass, double gravity) {
-  constexpr double kNominal = 9.81; // [m/s2] in scenes without gravity
+  constexpr double kNominal = 9.81; // [m/s2] for scenes without gravity
   const double load = mass * (gravity > 0 ? gravity : kNominal);
   const double omega = std::sqrt(meanStiffness(shape, f.modulus, load) / mass);
   return {f.modulus, 2 * contact::dampingRatioFor(f.restitution, false) / omega, f.friction, f.tangentialRatio};

@@ -10,12 +10,12 @@
 
 namespace grouser::coupling {
 
-/// Foundations between the materials of bodies and of all rigid surfaces that they may touch.
+/// Contact foundations between the materials of bodies and of all rigid surfaces they may touch.
 struct FoundationTable {
-  std::vector<std::string> materials;    ///< those of the bodies first, in the order of BodyShape::material
+  std::vector<std::string> materials;    ///< bodies' materials first, in the order of BodyShape::material
   std::vector<contact::Foundation> laws; ///< [material of a body * materials.size() + any material]
-  int ground{-1};                        ///< material of rigid terrain; -1: there is none
-  std::vector<double> onVehicle; ///< [material of a body] friction on parts of the vehicle [-]; empty without one
+  int ground{-1};                        ///< material of rigid terrain; -1: none
+  std::vector<double> onVehicle; ///< [material of a body] friction on parts of the vehicle [-]; empty without a vehicle
 
   const contact::Foundation& between(int body, int other) const {
     return laws[static_cast<std::size_t>(body) * materials.size() + static_cast<std::size_t>(other)];
@@ -23,16 +23,16 @@ struct FoundationTable {
   int indexOf(const std::string& material) const; ///< the material must be in the table
 };
 
-/// Largest area that a shape can lay on a plane [m2]: a face of a box, the end or a strip of a cylinder, a cap of a
+/// Maximum contact area of a shape on a plane [m2]: a face of a box, the end or a strip of a cylinder, a cap of a
 /// sphere. Strips and caps are those at an overlap of `overlap` [m].
 double largestPatch(const contact::SurfaceGeometry& shape, double overlap);
 
-/// Overlap at which `load` [N] presses a shape on a plane, on the least of its faces, strips and caps [m].
+/// Maximum overlap [m] of a shape on a plane under `load` [N], over its faces, strips and caps.
 double restingOverlap(const contact::SurfaceGeometry& shape, double modulus, double load);
 
-/// Law of a shape with a mass [kg] of its own. The relaxation gives the law's restitution to small bounces of the free
-/// shape about its rest on a plane under `gravity` [m/s2], on a patch of mean stiffness: larger faces and harder blows
-/// on curved shapes lose more, strips, edges and corners less.
+/// Contact law of a shape with its own mass [kg]. The relaxation reproduces the restitution for small bounces of the
+/// free shape about its rest on a plane under `gravity` [m/s2], on a patch of mean stiffness: larger faces and stronger
+/// impacts on curved shapes dissipate more, strips, edges and corners less.
 contact::PatchLaw patchLaw(const contact::Foundation& foundation, const contact::SurfaceGeometry& shape, double mass,
                            double gravity);
 

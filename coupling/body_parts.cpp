@@ -11,7 +11,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Volume of the box that holds a shape [m3].
+/// Volume of the bounding box of a shape [m3].
 double volumeAbout(const contact::SurfaceGeometry& g) {
   const base::Vec3d h = halfExtent(g);
   return 8 * h.x * h.y * h.z;
@@ -20,7 +20,7 @@ double volumeAbout(const contact::SurfaceGeometry& g) {
 /// Laws of the bodies' shapes against materials.
 struct BodyLaws {
   FoundationTable foundations;
-  std::vector<double> mass; ///< [body] [kg]; 1 of fixed bodies
+  std::vector<double> mass; ///< [body] mass [kg]; 1 for fixed bodies
   double gravity;           ///< [m/s2]
 
   BodyLaws(const MechanismSetup& setup, const multibody::Model& model)
@@ -33,7 +33,7 @@ struct BodyLaws {
   contact::PatchLaw on(int other, const BodyShape& s) const { return on(other, s.shape, s.material, s.body); }
 };
 
-/// Finds the pairs of shapes and vehicle parts that may touch.
+/// Finds the candidate pairs of shapes and vehicle parts.
 class PartPairs {
 public:
   PartPairs(const MechanismSetup& setup, const multibody::Model& model, const BodyLaws& laws)
@@ -41,7 +41,7 @@ public:
     for (const multibody::Joint& joint : model.joints()) tied_.insert(std::minmax(joint.bodyA, joint.bodyB));
   }
 
-  /// The points of the smaller shape touch the larger one. The law is that of the moving body; if both move, the one
+  /// Uses the points of the smaller shape on the larger one. The law is that of the moving body; if both move, the one
   /// with the shorter relaxation time.
   void addAmongShapes(ContactParts& all, std::size_t first) const {
     for (std::size_t i = 0; i < shapes_.size(); ++i)
@@ -57,7 +57,7 @@ public:
       }
   }
 
-  /// The points of the vehicle's shoes, and of all parts cut into spheres, touch the shapes.
+  /// Uses the points of the vehicle's shoes, and of all parts cut into spheres, on the shapes.
   void addOnVehicle(ContactParts& all, std::size_t first) const {
     for (std::size_t part = 0; part < first; ++part) {
       const ContactPart& p = all.parts[part];
@@ -81,7 +81,7 @@ private:
   const std::vector<BodyShape>& shapes_;
   const std::vector<multibody::Body>& bodies_;
   const BodyLaws& laws_;
-  std::set<std::pair<int, int>> tied_; ///< bodies that a joint ties
+  std::set<std::pair<int, int>> tied_; ///< bodies connected by a joint
 };
 
 } // namespace
@@ -91,7 +91,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
   const std::size_t first = all.parts.size(), firstSet = all.pointSets;
   const BodyLaws laws(setup, model);
   const int ground = setup.foundations.ground;
-  // Materials of the parts: that of the vehicle, if there is one, then those of the shapes.
+  // Materials of the parts: that of the vehicle, if present, then those of the shapes.
   const int ofVehicle = first > 0 ? 1 : 0;
   std::size_t shown = 0; // number of vehicle parts in the frames
   for (const ContactPart& part : all.parts) shown = std::max(shown, part.shown + 1);

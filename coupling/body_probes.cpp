@@ -22,7 +22,7 @@ std::vector<double> grainMassIn(const std::vector<BodyProbe>& probes, const mult
     return base::sphereMass(density[rows.material.empty() ? 0 : rows.material[k]],
                             rows.radius.empty() ? model.radius : double{rows.radius[k]});
   };
-  // Integer quanta, so that the sum does not depend on the order: the largest grain has 2^30 of them.
+  // Integer quanta make the sum order-independent: the largest grain has 2^30 of them.
   const double quantum = std::ldexp(1.0, std::ilogb(model.mass) - 30);
   std::vector<std::int64_t> sums(probes.size());
   for (std::size_t k = 0; k < rows.rows(); ++k) {

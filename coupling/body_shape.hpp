@@ -17,38 +17,38 @@ namespace grouser::coupling {
 /// A closed mesh whose bounding box is centred at the origin.
 struct BodyMesh {
   std::shared_ptr<const spheredecomp::MeshQuery> query;
-  double sphereRadius{};    ///< of the spheres that replace it for grains [m]
-  bool sphereRadiusGiven{}; ///< set in the scene; otherwise a cut may choose a finer one
-  double halfThickness{};   ///< mean value: volume over area [m]
+  double sphereRadius{};    ///< radius of the spheres that represent the mesh in grain contacts [m]
+  bool sphereRadiusGiven{}; ///< radius set in the scene; otherwise a cut may choose a finer one
+  double halfThickness{};   ///< mean half thickness: volume / area [m]
   double facingArea{};      ///< largest projected area, front plus back [m2]
 };
 
-/// A surface by which a body touches grains, rigid surfaces and other bodies.
+/// Contact surface of a body for grains, rigid surfaces and other bodies.
 struct BodyShape {
   std::size_t body{};                     ///< index into the model's bodies
-  base::Pose pose_B;                      ///< pose of the shape's frame in the body's frame
+  base::Pose pose_B;                      ///< pose of the shape frame in the body frame
   contact::SurfaceGeometry shape;         ///< closed-form surface, or the bounding box of a mesh
-  int material{};                         ///< index of its material among those of all shapes
+  int material{};                         ///< index of its material in the list for all shapes
   std::string place;                      ///< prefix of messages: "scene.toml:14: body.0"
   std::string key{};                      ///< section of a mesh in messages: "body.0.shape.0"
   std::shared_ptr<const BodyMesh> mesh{}; ///< null for closed-form shapes
 };
 
-/// `query`: a closed mesh whose bounding box is centred at the origin; `given`: the scene sets `sphereRadius` [m].
+/// Creates a body mesh. `query`: closed mesh, bounding box centred at the origin; `given`: radius set in the scene.
 BodyMesh bodyMesh(std::shared_ptr<const spheredecomp::MeshQuery> query, double sphereRadius, bool given);
 
 /// Distance of a point from the surface, in the shape's frame [m]; negative inside.
 double distanceFrom(const BodyShape& shape, const base::Vec3d& p_S);
-/// Smallest half thickness of a shape, at most half the mean thickness of a mesh [m].
+/// Minimum half thickness of a shape, at most half the mean thickness of a mesh [m].
 double halfThickness(const BodyShape& shape);
-/// Smallest contact feature [m]: the half thickness; for a mesh, the smaller of this and its sphere diameter. A shape
-/// that moves by more than half of it in one step could pass through another.
+/// Minimum contact feature [m]: the half thickness; for a mesh, at most its sphere diameter. A shape that moves by more
+/// than half of it in one step could pass through another.
 double leastFeature(const BodyShape& shape);
 /// Support function: largest p . d over the surface points p [m], for a unit vector d in the shape's frame.
 double farthestAlong(const BodyShape& shape, const base::Vec3d& d);
 /// Sample points for contact with rigid surfaces.
 std::vector<contact::SurfaceSample> surfacePoints(const BodyShape& shape);
-/// Returns true if two shapes have the same surface and sphere radius.
+/// True if two shapes have the same surface and sphere radius.
 bool sameSurface(const BodyShape& a, const BodyShape& b);
 
 /// Indices of the shapes with distinct meshes. Shapes with equal meshes share one sphere set.

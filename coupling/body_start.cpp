@@ -14,7 +14,7 @@ using base::Vec3d;
 
 namespace {
 
-/// A shape in the world at the start of the mechanism.
+/// Shape in the world at the start of the mechanism.
 struct PlacedShape {
   const BodyShape& shape;
   base::Pose pose;
@@ -24,7 +24,7 @@ struct PlacedShape {
 /// Throws if points of `a` lie too deep in the surface measured by `overlap` [m]. `other`: its name.
 void checkDepth(const PlacedShape& a, const std::string& body, const std::string& other, double thickness,
                 const std::function<double(const Vec3d&)>& overlap) {
-  constexpr double kMost = 0.02; // [-] of half the thickness
+  constexpr double kMost = 0.02; // [-] fraction of half the thickness
   double deepest = 0;
   Vec3d place;
   for (const contact::SurfaceSample& s : a.points) {

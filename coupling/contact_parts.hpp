@@ -21,34 +21,34 @@ class MeshQuery;
 
 namespace grouser::coupling {
 
-/// A rigid contact surface fixed to a body: a part of a vehicle, or a shape of a [[body]].
+/// Rigid contact surface fixed to a body: a part of a vehicle, or a shape of a [[body]].
 struct ContactPart {
-  std::string name;                 ///< in messages: "left shoe 12"
+  std::string name;                 ///< name in messages: "left shoe 12"
   std::size_t body{};               ///< index of its body in the multibody model
-  base::Pose pose_B;                ///< pose of the surface's frame P in the body's frame: X_BP
+  base::Pose pose_B;                ///< pose of the surface frame P in the body frame: X_BP
   int surface{};                    ///< index into ContactParts::surfaces; -1: the closed-form `shape`
   contact::SurfaceGeometry shape{}; ///< geometry of a [[body.shape]]; its bounding box if `surface` >= 0
-  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< of a [[body.shape]]; null for closed-form shapes
+  std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< mesh of a [[body.shape]]; null for closed-form shapes
   int points{-1};                 ///< index of its surface points for contact with rigid surfaces; -1: none
-  contact::PatchLaw foundation{}; ///< on rigid ground
-  int material{};                 ///< index of its material among those of all parts
-  double reach{};                 ///< farthest point of the surface from its body's centre of mass [m]
-  bool meetsGrains = true;        ///< whether it touches grains
-  bool meetsGround{};             ///< whether it touches rigid ground as a foot; a hull touches it with the obstacles
-  bool fixed{};                   ///< its body never moves, so it touches no resting surface
+  contact::PatchLaw foundation{}; ///< law of contacts with rigid ground
+  int material{};                 ///< index of its material in the list for all parts
+  double reach{};                 ///< bounding radius of the surface about its body's centre of mass [m]
+  bool meetsGrains = true;        ///< true: in contact with grains
+  bool meetsGround{};             ///< true: in contact with rigid ground as a foot; a hull touches it as an obstacle
+  bool fixed{};                   ///< immovable body: no contact with surfaces at rest
   bool ofBody{};                  ///< belongs to a [[body]], not to the vehicle
-  bool isHull{};                  ///< whether it touches rigid ground with the obstacles
-  std::size_t shown{};            ///< its place among the parts of the results' frames
+  bool isHull{};                  ///< true: in contact with rigid ground as an obstacle
+  std::size_t shown{};            ///< index among the parts in the frames of the results
 };
 
-/// Acceleration that turns a total mass into the scale of loads, whatever the scene's gravity is [m/s2].
+/// Acceleration that converts total mass to the scale of the loads, independent of the scene's gravity [m/s2].
 inline constexpr double kLoadScale = 9.81;
 
 struct Obstacle;
 
-/// All parts with contacts, and their surfaces. Must outlive the contacts made from it.
+/// All parts with contacts, and their surfaces. Must outlive the contacts created from it.
 struct ContactParts {
-  /// A part whose points touch the closed-form shape or the spheres of another.
+  /// Pair of parts: surface points of one against the closed-form shape or spheres of the other.
   struct Pair {
     int part{}, other{};
     contact::PatchLaw law;
@@ -60,17 +60,17 @@ struct ContactParts {
   /// Surface points of a set, for contact with rigid ground, obstacles and shapes.
   std::function<contact::PointTree(int set)> points;
   std::vector<Pair> pairs;
-  /// Elastic foundation of a part on an obstacle.
+  /// Elastic foundation between a part and an obstacle.
   std::function<contact::PatchLaw(const ContactPart&, const Obstacle&)> onObstacle;
-  double contactSize{}; ///< smallest feature at which parts and obstacles meet [m]
-  double weight{};      ///< total weight [N], which scales the load quanta
+  double contactSize{}; ///< smallest contact feature of parts and obstacles [m]
+  double weight{};      ///< total weight [N], which sets the scale of the load quanta
 
   std::size_t count() const { return parts.size(); }
   /// [part] index of its surface.
   std::vector<int> surfaceOfPart() const;
   /// [part] index of its surface points.
   std::vector<int> pointsOfPart() const;
-  /// [set] points of those that a part of `touching` has; the others are empty.
+  /// [set] surface points used by the parts in `touching`; the other sets are empty.
   std::vector<contact::PointTree> pointsOf(const std::vector<int>& touching) const;
   contact::PartMotion motionOf(std::size_t part, const multibody::State& state) const;
 };

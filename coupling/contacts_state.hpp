@@ -10,16 +10,16 @@
 
 namespace grouser::coupling {
 
-/// History of all contacts of the parts of a vehicle or of bodies, as PartContacts saves it.
+/// History of all contacts of the parts of a vehicle or of bodies, as saved by PartContacts.
 struct ContactsState {
   contact::SavedPatches track;    ///< shoes with sprocket, wheels, rollers and idler
   contact::SavedPatches ground;   ///< feet with rigid ground; empty without it
-  contact::SavedGrainPatches bed; ///< parts with grains; empty without them
+  contact::SavedGrainPatches bed; ///< parts with grains; empty without grains
   contact::SavedPatches surfaces; ///< parts with fixed surfaces, and the hull with rigid ground
-  base::Vec3l impulseOnParts;     ///< since the start, over the time step
-  base::Vec3d angularOnParts;     ///< since the start [N m s]
+  base::Vec3l impulseOnParts;     ///< cumulative impulse / time step
+  base::Vec3d angularOnParts;     ///< cumulative [N m s]
 
-  /// For the hash: what the next step depends on.
+  /// Words of the state hash: the data that the next step depends on.
   std::vector<std::uint32_t> words() const;
 };
 

@@ -11,7 +11,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Energy error below which there is no alarm [J]: rounding, a small share of the whole run, and errors hidden by
+/// Energy error that never raises an alarm [J]: rounding, a small fraction of the whole run, and errors hidden by
 /// springs.
 double neverAlarms(const Ledger& now, double held, double hidden) {
   return EnergyGuard::kRounding * held + EnergyGuard::kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
@@ -49,10 +49,10 @@ std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) co
 }
 
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
-  if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding grains dissipate what steps create
+  if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding grains dissipate energy of steps
   const Exchange x = since(now, held);
-  // The elastic energy of a large bed varies before a vehicle has dissipated much; its dashpots then seem to create
-  // what parts dissipate.
+  // The elastic energy of a large bed varies before a vehicle has dissipated much; its dashpots then seem to create the
+  // energy that parts dissipate.
   if (-x.lost > kMostMade * (x.heat + x.lost) + x.neverAlarms)
     return fmt::format("time integration created {:.3g} J of the {:.3g} J dissipated since the last check (at most {} "
                        "steps ago)",

@@ -10,70 +10,70 @@
 
 namespace grouser::coupling {
 
-/// Energy error found by the guard; the state itself is valid.
+/// Energy error detected by the guard; the state itself is valid.
 class EnergyAlarm : public base::SimulationError {
 public:
   explicit EnergyAlarm(const std::string& message) : SimulationError(message, base::Cause::unstableContacts) {}
 };
 
-/// Checks whether time steps are short enough: compares the energy that time integration creates or loses with the
-/// energy exchanged since the last check: work on each body in each step, dissipation, and work of drives. It checks at
-/// fixed step numbers, so its verdict does not depend on rows of output, devices, batches or ranks.
+/// Checks that time steps are short enough: compares the energy created or lost by time integration with the energy
+/// exchanged since the last check: absolute work on each body in each step, dissipation, and work of drives. It checks
+/// at fixed step numbers, so its result does not depend on output rows, devices, batches or ranks.
 ///
-/// docs/steps.md#energy-ledger gives the errors of sound runs. Too long steps create a tenth and more, and let dampers
-/// create energy, since their force then outlasts the motion that it opposes.
+/// docs/steps.md#energy-ledger lists the errors of valid runs. Steps that are too long create a tenth and more, and
+/// make dampers create energy, since their force then outlasts the motion that it opposes.
 class EnergyGuard {
 public:
-  static constexpr std::int64_t kInterval = 512;  ///< steps between two checks; whole batches of grains alone
+  static constexpr std::int64_t kInterval = 512;  ///< steps between two checks; whole batches of pure grain steps
   static constexpr std::int64_t kOneContact = 20; ///< steps per contact; minimum number of steps for a check
-  // Shares of the energy exchanged [-].
-  /// Energy created in bodies and springs. For contacts of vehicle parts also as a share of the true dissipation:
-  /// energy created in an unresolved contact is dissipated at once by its dashpot and friction, and however small
-  /// beside the work on the vehicle, it is an error of the dissipation.
+  // Thresholds as fractions of the energy exchanged [-].
+  /// Energy created in bodies and springs. For contacts of vehicle parts also relative to the true dissipation: energy
+  /// created in an unresolved contact is dissipated at once by its dashpot and friction, and although small beside the
+  /// work on the vehicle, it is an error of the dissipation.
   static constexpr double kMostMade = 0.1;
-  /// Energy created and dissipated at once: sliding contacts of grains with high restitution reach an eighth at their
-  /// limit step, where the motion is still correct.
+  /// Energy created and dissipated at once: sliding contacts of grains with high restitution reach 1/8 at their limit
+  /// step, where the motion is still correct.
   static constexpr double kMaxSpuriousDissipation = 0.15;
   static constexpr double kMostLost = 0.3;
   static constexpr double kMostGiven = 0.02; ///< energy created by dampers
-  /// Share of all energy exchanged so far that is never an alarm [-]: at rest almost nothing is exchanged.
+  /// Fraction of all energy exchanged so far that never raises an alarm [-]: at rest almost nothing is exchanged.
   static constexpr double kQuiet = 1e-3;
 
-  /// Share of the energy stored or released by springs that may appear as created, lost, or dissipated [-]: a contact
-  /// under the load of others accounts for its dashpot loss as if it were alone, wrong by gamma dt / 2 of the energy
-  /// stored in its spring, until that is released. At the limit of stability that is zeta / (2 zeta + sqrt(4 zeta^2 +
-  /// 1)) of damping ratio zeta, a quarter at most. Since the start: contacts of grains with each other, floor and
+  /// Fraction of the energy stored or released by springs that may appear as created, lost, or dissipated [-]. A
+  /// contact loaded by others accounts for its dashpot loss as if it were isolated, with an error of gamma dt / 2
+  /// times its spring energy until that is released. At the stability limit this is zeta / (2 zeta + sqrt(4
+  /// zeta^2 + 1)) for damping ratio zeta, at most 1/4. Cumulative: contacts of grains with each other, floor and
   /// walls.
   static constexpr double kSpringShare = 0.25;
-  /// Share of the dissipation of vehicle parts since the start [-], above which a bed's springs hide at most
+  /// Fraction of the dissipation of vehicle parts since the start [-] above which springs of a bed may hide at most
   /// kElasticTolerance of the largest change of their elastic energy.
   static constexpr double kMostHidden = 0.25, kElasticTolerance = 0.01;
 
-  /// Share of the energy of bodies and contacts, and of m g radius of all grains [-], that steps may have created since
-  /// the start while less than that has been dissipated.
+  /// Fraction of the energy of bodies and contacts, and of m g radius of all grains [-], that steps may have created
+  /// since the start as long as less than that has been dissipated.
   static constexpr double kAtTheStart = 1e-4;
 
-  /// Rounding as a share [-] of the energy of bodies and contacts, and of m g radius of all grains: positions have a
-  /// resolution of 1e-8 of a diameter.
+  /// Rounding error as a fraction [-] of the energy of bodies and contacts, and of m g radius of all grains: positions
+  /// have a resolution of 1e-8 of a diameter.
   static constexpr double kRounding = 1e-6;
 
-  /// Energies since the last check [J].
+  /// Energies exchanged since the last check [J].
   struct Exchange {
-    double moved{};       ///< work on bodies, dissipation and work of drives, without signs
+    double moved{};       ///< absolute work on bodies, dissipation and absolute work of drives
     double lost{};        ///< by time integration; negative: created
     double gained{};      ///< created by time integration and not dissipated; negative: lost
     double given{};       ///< created by dampers and not lost by time integration; negative if they dissipate
     double taken{};       ///< dissipated
-    double heat{};        ///< the same, without negative dissipation of grains
+    double heat{};        ///< as `taken`, without negative dissipation of grains
     double neverAlarms{}; ///< rounding, a small share of the whole run, and errors hidden by springs
-    /// Share of `energy` above neverAlarms in the exchanged energy [-].
+    /// `energy` in excess of neverAlarms / exchanged energy [-].
     double share(double energy) const { return moved > 0 && energy > neverAlarms ? (energy - neverAlarms) / moved : 0; }
   };
-  /// `held`: energy of bodies and contacts, and m g radius of all grains [J].
+  /// Computes the exchange since the last check. `held`: energy of bodies and contacts, m g radius of all grains [J].
   Exchange since(const Ledger& now, double held) const;
-  /// Describes an energy error since the last check; empty if there is none. `implicit`: energy losses are no error.
+  /// Describes an energy error since the last check; empty if there is none. `implicit`: energy losses are accepted.
   std::string judge(const Ledger& now, double held, bool implicit = false) const;
-  /// Remembers `now` for the next judgement.
+  /// Stores `now` as reference of the next check.
   void look(const Ledger& now);
 
   std::vector<double> save() const {
@@ -84,7 +84,7 @@ public:
   void restore(const std::vector<double>& saved);
 
 private:
-  /// Describes energy created in contacts of parts and dissipated; empty if it is small.
+  /// Describes energy created and dissipated in contacts of parts; empty if it is small.
   std::string judgeHeat(const Ledger& now, double held) const;
 
   struct Look {

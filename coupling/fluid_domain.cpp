@@ -12,7 +12,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr std::size_t kNumbers = 18; ///< numbers saved for a body
+constexpr std::size_t kNumbers = 18; ///< numbers saved per body
 
 fluid::Fluid makeFluid(const fluid::FluidSetup& setup, const FluidDomainState* former, const base::Exec& exec,
                        contact::PartitionOptions ranks, const base::Comm& comm) {
@@ -22,7 +22,7 @@ fluid::Fluid makeFluid(const fluid::FluidSetup& setup, const FluidDomainState* f
 
 } // namespace
 
-/// Vectors of a saved body.
+/// Vectors saved per body.
 template <class Follower> static auto numbersOf(Follower& f) {
   return std::array{&f.acceleration, &f.angularAcceleration, &f.before.v, &f.before.w, &f.sum.v, &f.sum.w};
 }

@@ -13,46 +13,46 @@
 
 namespace grouser::coupling {
 
-/// The fluid of a simulation and its coupling with rigid bodies.
+/// Fluid of a simulation and its coupling with rigid bodies.
 ///
-/// A step of the fluid is one or several of the bodies' (FluidDomainSetup::stepsPerStep): contacts of a vehicle need
-/// shorter steps than a fluid. Loads on bodies are those at the start of a fluid step, as for all contacts; the fluid
-/// receives the opposite integers in two half kicks, at the start and end of its step.
+/// A fluid step spans one or several steps of the bodies (FluidDomainSetup::stepsPerStep), since contacts of a vehicle
+/// need shorter steps than a fluid. Loads on bodies are those at the start of a fluid step, as for all contacts; the
+/// fluid receives the opposite integers in two half kicks, at the start and end of its step.
 ///
-/// Pressures of markers depend on the acceleration of their body, which depends on these pressures: with the
-/// acceleration of the last step the loop has the gain M_g / m of ghost inertia and mass, and diverges above 1. So it
-/// is relaxed by 1 / (1 + gain): it converges for any gain, and a constant acceleration is reached exactly.
+/// Marker pressures depend on the acceleration of their body, which depends on these pressures (added mass): with the
+/// acceleration of the last step the loop has the gain M_g / m of ghost inertia and mass, and diverges above 1.
+/// Relaxation by 1 / (1 + gain) makes it converge for any gain; a constant acceleration is exact in the limit.
 class FluidDomain {
 public:
-  /// `model`, `bodies`: null without bodies; `former`: a saved state to continue from, or null. Throws base::InputError
-  /// if that belongs to another scene. `setup` must outlive this object.
+  /// `model`, `bodies`: null without bodies; `former`: saved state to resume, or null. Throws base::InputError if it
+  /// belongs to another scene. `setup` must outlive this object.
   FluidDomain(const FluidDomainSetup& setup, const multibody::Model* model, const multibody::State* bodies,
               const base::Exec& exec, const base::Comm& comm = {}, const FluidDomainState* former = nullptr);
   FluidDomainState save() const;
 
-  /// Adds the loads of the fluid on the bodies at their present poses. Returns the sum of their forces [N].
+  /// Adds the fluid loads on the bodies at their current poses. Returns the sum of their forces [N].
   base::Vec3d addLoads(multibody::Loads& loads) const;
-  /// One step of the simulation, with the bodies now at `bodies`; null without bodies. The last of stepsPerStep steps
-  /// advances the fluid.
+  /// Advances one step of the simulation, with the bodies now at `bodies`; null without bodies. Every stepsPerStep-th
+  /// call advances the fluid.
   void advance(const multibody::State* bodies);
 
   const fluid::Fluid& fluid() const { return fluid_; }
   std::vector<fluid::BodyLoad> bodyLoads() const { return fluid_.bodyLoads(); } ///< [N], [N m] about the centre of mass
-  /// Columns of the output (BodyInFluid::column), in the order of their first bodies.
+  /// Output columns (BodyInFluid::column), in the order of their first bodies.
   const std::vector<std::string>& columns() const { return columns_; }
-  /// Sum of the loads of each column, torques about the present centres of mass of BodyInFluid::about.
+  /// Sum of the loads of each column, with torques about the current centres of mass of BodyInFluid::about.
   std::vector<fluid::BodyLoad> columnLoads(const multibody::State* bodies) const;
   /// Totals after the last step, computed at the first call.
   const fluid::FluidTotals& totals();
 
-  /// Values of the probes, in the order of the setup [Pa], [m].
+  /// Probe values, in the order of the setup [Pa], [m].
   std::vector<double> probe();
 
 private:
   struct Follower {
     std::size_t body, about, column;
-    double relaxation;              ///< 1 / (1 + gain) [-]
-    multibody::Twist before, sum{}; ///< at the last step of the fluid, and summed over the steps since
+    double relaxation;                                 ///< 1 / (1 + gain) [-]
+    multibody::Twist before, sum{};                    ///< twist at the last fluid step; sum over the steps since
     base::Vec3d acceleration{}, angularAcceleration{}; ///< relaxed [m/s2], [rad/s2]
   };
   fluid::FluidSetup withBodies(const multibody::Model* model, const multibody::State* bodies,
@@ -63,8 +63,8 @@ private:
   std::vector<Follower> followers_;
   std::vector<std::string> columns_;
   fluid::Fluid fluid_;
-  std::int64_t waited_{0};                   ///< steps of the simulation since the last step of the fluid
-  std::optional<fluid::FluidTotals> totals_; ///< empty until they are read after a step
+  std::int64_t waited_{0};                   ///< simulation steps since the last fluid step
+  std::optional<fluid::FluidTotals> totals_; ///< empty until requested after a step
 };
 
 } // namespace grouser::coupling

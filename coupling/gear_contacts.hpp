@@ -8,20 +8,20 @@
 
 namespace grouser::coupling {
 
-/// Contacts of grains with a vehicle at one time: pairs of grain and part by the part's kind, and single grains.
+/// Contacts of grains with a vehicle at one time: grain-part pairs by kind of part, and single grains.
 struct GearContacts {
   std::int64_t shoes{}, sprockets{}, roadWheels{}, rollers{}, idlers{}, hull{};
-  std::int64_t stones{};  ///< grains that touch a sprocket, road wheel, roller or idler
-  std::int64_t pinched{}; ///< those of them that touch a shoe too
+  std::int64_t stones{};  ///< grains in contact with a sprocket, road wheel, roller or idler
+  std::int64_t pinched{}; ///< stones also in contact with a shoe
 };
 
-/// A grain that touches a part of an assembly.
+/// Grain in contact with a part of an assembly.
 struct TouchedPart {
   std::uint32_t grain{};
   vehicle::PartKind kind{};
 };
 
-/// `touches`: ascending by grain.
+/// Counts the contacts. `touches`: ascending by grain.
 GearContacts countGear(const std::vector<TouchedPart>& touches);
 
 } // namespace grouser::coupling

@@ -21,7 +21,7 @@ contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::
   double pressed = 0;
   for (const contact::ContactLaw& law : setup.partLaws.laws)
     pressed = std::max(pressed, contact::strongestForce(law, bed.radius, contact::kForcePress));
-  // Impulses are summed over the whole run in these quanta: 2^27 steps of a fully pressed contact.
+  // Impulses are summed over the whole run in these quanta: 2^27 steps of a contact at maximum force.
   model.force = base::fixedPointFor(pressed, 36);
   model.torque = base::fixedPointFor(pressed * contact::leverScale(bed.radius), 36);
   model.energy = base::fixedPointFor(pressed * bed.radius, 36);

@@ -7,8 +7,8 @@
 
 namespace grouser::coupling {
 
-/// Constants of the contacts between grains and rigid parts made of spheres. `margin`: largest travel of parts before
-/// pairs are searched again [m].
+/// Constants of the contacts between grains and rigid parts made of spheres. `margin`: maximum travel of parts between
+/// two pair searches [m].
 contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::Grains& grains, double margin);
 
 } // namespace grouser::coupling

@@ -15,11 +15,11 @@
 
 namespace grouser::coupling {
 
-/// Contacts of grains with the parts of a vehicle and of bodies. Each rank computes those of its own grains.
+/// Contacts of grains with the parts of a vehicle and of bodies. Each rank computes the contacts of its own grains.
 class GrainsOnParts {
 public:
-  /// `grains` must outlive it, and it must outlive their steps: on several ranks it registers with their migration, as
-  /// MeshContacts does.
+  /// `grains` must outlive this object, and this object must outlive their steps: on several ranks it registers with
+  /// their migration, like MeshContacts.
   GrainsOnParts(const PartsOnGround& parts, const GrainsSetup& setup, terrain::Grains& grains, const base::Exec& exec);
   GrainsOnParts(const GrainsOnParts&) = delete;
   GrainsOnParts& operator=(const GrainsOnParts&) = delete;
@@ -27,18 +27,18 @@ public:
   contact::GrainPartContacts& contacts() { return contacts_; }
   const LoadQuanta& quanta() const { return quanta_; }
   void refresh(const base::Array<contact::PartMotion>& motion);
-  /// Loads for the grains' step; valid until the next refresh().
+  /// Loads for the grain step; valid until the next refresh().
   const contact::GrainLoadsView& loads() const { return loads_; }
 
-  /// Names of the parts that overlap a grain, with the overlap [m]; all ranks call it.
+  /// Names of the parts that overlap a grain, with the overlap [m]; collective.
   std::vector<std::pair<std::string, double>> pressing(std::uint32_t grain) const;
-  /// Sets the number of pairs of grain and part that ended in this step, of all ranks.
+  /// Sets the number of grain-part pairs that ended in this step, over all ranks.
   void countEnded(std::int64_t pairs) { ended_ = pairs; }
-  /// Ids of the grains crushed to their centre in this step, of all ranks, which all call it.
+  /// Ids of the grains crushed to their centre in this step, over all ranks; collective.
   std::vector<std::uint32_t> endedGrains() const;
   void takeOut(const std::vector<std::uint32_t>& grains) { contacts_.takeOut(grains); }
-  GearContacts gearContacts() const; ///< of the last step and all ranks, which all call it; for rows, not for steps
-  /// Since resetDeepestOverlap(); of all ranks, which all call it.
+  GearContacts gearContacts() const; ///< counts of the last step, over all ranks, for output rows; collective
+  /// Deepest overlap since resetDeepestOverlap(), over all ranks; collective.
   DeepestPartOverlap deepestPartOverlap() const;
   void resetDeepestOverlap() { contacts_.resetDeepestOverlap(); }
 

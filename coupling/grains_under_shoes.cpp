@@ -15,8 +15,8 @@ using base::Vec3d;
 
 constexpr double kNodes = 6;       // nodes per grain radius, for the heights of stones
 constexpr double kReach = 0.75;    // [node distance]: each stone is within reach of at least one node
-constexpr double kClear = 1e-3;    // extra lift [radius]: accuracy of heights below tilted pads
-constexpr double kLooksDown = 0.5; // least cosine between the vertical and the tread of a shoe [-]
+constexpr double kClear = 1e-3;    // additional lift [radius]: accuracy of heights below tilted pads
+constexpr double kLooksDown = 0.5; // minimum cosine between the vertical and the tread of a shoe [-]
 
 struct Shoe {
   base::Pose pose; ///< X_WP

@@ -6,10 +6,10 @@
 
 namespace grouser::coupling {
 
-/// Extra lift of an assembled vehicle so that no grain overlaps a downward shoe [m]; 0 if none does. The surface of a
-/// bed, on which it is placed, is smooth: single stones reach above it. The highest point of each grain counts, and of
-/// one beside a pad the part under it, so that the lift may be some tenths of a millimetre too large. The same on all
-/// ranks.
+/// Additional lift of an assembled vehicle so that no grain overlaps a downward shoe [m]; 0 if none does. The bed
+/// surface that supports the vehicle is smooth: single stones protrude from it. Uses the highest point of each grain,
+/// or for a grain beside a pad the part under it, so the lift may be some tenths of a millimetre too large. Equal on
+/// all ranks.
 double liftOffGrains(const vehicle::Assembly& assembly, const terrain::Grains& grains);
 
 } // namespace grouser::coupling

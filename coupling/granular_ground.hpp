@@ -7,10 +7,10 @@
 
 namespace grouser::coupling {
 
-/// Grains: a bed under a vehicle, or grains in a container, in a mixer, or alone. Each rank has those of its subdomain.
+/// Granular ground: a bed under a vehicle, or grains in a container, in a mixer, or alone. Divided among the ranks.
 class GranularGround : public Ground {
 public:
-  /// `laid`, which must have grains, and `setup` must outlive it.
+  /// `laid`, which must contain grains, and `setup` must outlive this object.
   GranularGround(LaidGround& laid, const GroundSetup& setup, const base::Exec& exec)
       : laid_(laid), setup_(setup), exec_(exec) {}
 
@@ -39,10 +39,10 @@ public:
   void save(SimulationState& state) const override;
   void saveContacts(ContactsState& state) const override { onParts_->save(state); }
 
-  // Functions that other kinds of ground lack.
+  // Functions specific to granular ground.
   terrain::Grains& grains() const { return *laid_.grains; }
   GrainsOnParts* onParts() const { return onParts_.get(); } ///< null until meet() is called
-  /// Loads of the meshes among the scene's surfaces, which outlive it; null without meshes.
+  /// Sets the loads of the scene's meshes, which must outlive this object; null without meshes.
   void meetMeshes(const contact::GrainLoadsView* loads) { onMeshes_ = loads; }
 
 private:

@@ -32,43 +32,43 @@ struct ContactsState;
 struct Ledger;
 struct SimulationState;
 
-/// Constants of a ground that the vehicle's assembly depends on.
+/// Properties of a ground that the assembly of the vehicle depends on.
 struct GroundTraits {
-  base::Comm comm;                                 ///< ranks that share the ground; one: each rank has all of it
+  base::Comm comm;                                 ///< ranks that share the ground; a single rank: each has all of it
   ReplicatedWork replicated;                       ///< for work that every rank repeats
-  double smallestGrain = base::kInfinity;          ///< radius [m], which limits how coarsely parts are cut
-  const terrain::HeightField* hullMeets = nullptr; ///< an elastic foundation for the hull, computed with the obstacles
+  double smallestGrain = base::kInfinity;          ///< radius [m]; limits the sphere radius of parts
+  const terrain::HeightField* hullMeets = nullptr; ///< rigid surface for the hull, computed with the obstacles
   bool onHost = false;                             ///< contacts are computed by computeOnHost() instead of compute()
-  bool deforms = false;                            ///< has fieldsNow(), and energies of its own in the ledger
+  bool deforms = false;                            ///< implements fieldsNow(), and has its own energies in the ledger
   bool solves = false;                             ///< complementarity contacts: solve() computes them
-  bool hasMomentum = false; ///< whether the ledger includes the momentum of the ground; true only for grains
+  bool hasMomentum = false;                        ///< the ledger includes the momentum of the ground; only for grains
 };
 
-/// The parts of a vehicle and of bodies for a ground. Its references must outlive the ground's steps.
+/// Parts of a vehicle and of bodies in contact with a ground. Its references must outlive the ground's steps.
 struct PartsOnGround {
   const ContactParts& parts;        ///< their surfaces and contact parameters
   const vehicle::Assembly* vehicle; ///< null in scenes without a vehicle
-  contact::PatchQuanta quanta;      ///< quanta of their other contacts: loads up to 1e4 times the total weight fit
+  contact::PatchQuanta quanta;      ///< quanta of their other contacts, for loads up to 1e4 times the total weight
   double timeStep{};                ///< [s]
-  double margin{};                  ///< largest travel of parts between two calls of refreshContacts() [m]
+  double margin{};                  ///< maximum travel of parts between two calls of refreshContacts() [m]
 };
 
-/// Units of the integer sums in which a ground returns its loads on parts.
+/// Quanta of the integer sums in which a ground returns its loads on parts.
 struct LoadQuanta {
   base::FixedPoint force, torque; ///< [N], [N m]
 };
 
-/// Candidates for contact.
+/// Number of contact candidates.
 struct ListedContacts {
-  std::size_t samples{};    ///< of parts with parts and rigid surfaces
-  std::size_t grainPairs{}; ///< of grain and part
+  std::size_t samples{};    ///< samples of parts near other parts and rigid surfaces
+  std::size_t grainPairs{}; ///< grain-part pairs
 };
 
-/// A ground that a vehicle drives on. Derive from it to add a ground model (CONTRIBUTING.md#adding-a-ground has an
-/// example). Vehicle and step loop access a ground model only through this class. SI units.
+/// Ground under a vehicle. Derive from it to add a ground model (CONTRIBUTING.md#adding-a-ground has an example).
+/// Vehicle and step loop access a ground model only through this class. SI units.
 ///
-/// The functions are listed in the order of their calls. All ranks call all of them, in the same order. A ground that
-/// is not divided among ranks is computed by every rank, with the same bits.
+/// Functions are listed in call order. All are collective, in the same order on all ranks. A ground that is not divided
+/// among ranks is computed by every rank, with identical bits.
 class Ground {
 public:
   Ground() = default;
@@ -78,81 +78,81 @@ public:
 
   // Before the first step.
 
-  /// Restores the state of save(), in a resumed simulation; before all functions below. Throws base::InputError if the
-  /// state belongs to another ground.
+  /// Restores the state written by save() in a resumed simulation, before all functions below. Throws base::InputError
+  /// if the state belongs to another ground.
   virtual void restore(const SimulationState&) {}
-  /// Height of the undisturbed surface at (x, y) [m]; valid as long as the ground. The vehicle is placed on it, and
-  /// sinkage is measured from it. Null if there is none.
+  /// Height of the undisturbed surface at (x, y) [m]; valid as long as the ground. Reference for vehicle placement and
+  /// sinkage. Null if there is none.
   virtual std::function<double(double x, double y)> surface() const = 0;
-  /// Called several times, always with the same result.
+  /// Called several times; must always return the same result.
   virtual GroundTraits traits() const { return {}; }
-  /// Extra height of the assembled vehicle above surface(), so that it starts without contact [m]. Not called when a
-  /// simulation is resumed.
+  /// Additional height of the assembled vehicle above surface() for a start without contact [m]. Not called for a
+  /// resumed simulation.
   virtual double clearance(const vehicle::Assembly&) const { return 0; }
-  /// Receives the parts of the vehicle, once; without a vehicle this and the contact functions are never called, and
-  /// use no memory. Returns the units of compute()'s sums.
+  /// Receives the parts of the vehicle, once. Without a vehicle neither this nor the contact functions are called, and
+  /// they use no memory. Returns the quanta of compute()'s sums.
   virtual LoadQuanta meet(const PartsOnGround& parts) = 0;
-  /// Restores the history of contacts with the parts from saveContacts().
+  /// Restores the history of contacts with the parts, from saveContacts().
   virtual void restoreContacts(const ContactsState&) {}
 
   // One step, in this order.
 
-  /// Rebuilds the ground's own lists if they have expired. True: refreshContacts() is due, however little parts moved.
+  /// Rebuilds the ground's own lists if they have expired. Returns true if refreshContacts() must follow.
   virtual bool refreshLists() { return false; }
-  /// Lists the possible contacts of the parts at these poses until one has moved by the margin. Not in every step.
-  /// `motion`: one per contact part, on the device, as in compute().
+  /// Lists the candidate contacts of the parts at these poses, valid until a part has moved by the margin. Not called
+  /// in every step. `motion`: one per contact part, on the device, as in compute().
   virtual void refreshContacts(const base::Array<contact::PartMotion>&) {}
-  /// Queues work that does not depend on vehicle poses; it may run concurrently with compute().
+  /// Enqueues work that does not depend on vehicle poses; it may run concurrently with compute().
   virtual void beginUncoupled() {}
-  /// Identifies the memory that compute() reads, such as one of two buffers: work is recorded and replayed for each
-  /// value. Null: always the same memory.
+  /// Identifies the memory read by compute(), such as one of two buffers: work is recorded and replayed for each value.
+  /// Null: always the same memory.
   virtual const void* buffer() const { return nullptr; }
-  /// Queues the contacts of this step on the device, without waiting for it; recorded as a graph on a GPU, so launches
-  /// must be the same in every step between two calls of refreshContacts(). Adds to loads[c] force and torque on
-  /// contact part c about its centre of mass, in integers, whose sums do not depend on their order. loads[number of
-  /// parts] is the ground's own. `exec`: a stream besides that of the track's contacts. `travelled`, on the device:
-  /// largest travel of a part since refreshContacts() [m].
+  /// Enqueues the contacts of this step on the device, without waiting. Recorded as a graph on a GPU, so launches must
+  /// be the same in every step between two calls of refreshContacts(). Adds to loads[c] force and torque on contact
+  /// part c about its centre of mass, as order-independent integer sums. loads[number of parts] belongs to the ground
+  /// itself. `exec`: another stream than that of the track contacts. `travelled`, on the device: maximum travel of a
+  /// part since refreshContacts() [m].
   virtual void compute(const base::Exec&, const base::Array<contact::PartMotion>&, const double* /*travelled*/,
                        contact::PartLoad* /*loads*/) {
     throw std::logic_error("a ground without onHost must override compute()");
   }
-  /// Called instead of compute() if the ground has the trait onHost. Computes the contacts of this step on one thread
-  /// in host memory; refreshContacts() is then not called, and every rank computes all loads.
+  /// Called instead of compute() for grounds with the trait onHost. Computes the contacts of this step on one thread in
+  /// host memory; refreshContacts() is then not called, and every rank computes all loads.
   virtual void computeOnHost(const contact::PartMotion*, contact::PartLoad* /*loads*/) {
     throw std::logic_error("a ground with onHost must override computeOnHost()");
   }
-  /// Solves contacts and motion of the ground in this step together with the bodies. With `solves`, compute() adds no
-  /// loads; solve() adds them to the same memory.
+  /// Solves contacts and motion of the ground in this step together with the bodies. With `solves`, solve() instead of
+  /// compute() adds the loads, to the same memory.
   virtual void solve(contact::BodyResponse&) { throw std::logic_error("a ground with solves must override solve()"); }
-  /// Receives the ground's own sum of compute(), over all ranks of traits().comm.
+  /// Receives the ground's own load from compute(), summed over all ranks of traits().comm.
   virtual void collect(const contact::PartLoad&) {}
-  /// Queues the ground's motion or change of shape under these contacts; the host solves the vehicle meanwhile.
+  /// Enqueues the motion or deformation of the ground under these contacts; the host solves the vehicle meanwhile.
   virtual void beginStep() {}
-  /// Waits for beginStep(). Throws base::SimulationError at a fault.
+  /// Waits for beginStep(). Throws base::SimulationError on a fault.
   virtual void endStep() {}
-  /// Sets gravity for the following steps, between two steps [m/s2].
+  /// Sets gravity [m/s2] for the following steps; called between steps.
   virtual void setGravity(const base::Vec3d&) {}
 
-  // Output. None of it changes the state.
+  // Output. These functions must not change the state.
 
-  /// Adds energies [J] and momenta of the ground itself.
+  /// Adds energies [J] and momenta of the ground.
   virtual void addTo(Ledger&) {}
-  /// Adds energies of the contacts with parts [J] and their number: current elastic energy, and dissipation since the
-  /// start. Also called before the first step.
+  /// Adds energies [J] and number of the contacts with parts: current elastic energy, and dissipation since the start.
+  /// Also called before the first step.
   virtual void addContactsTo(ContactLedger&) const {}
   virtual ListedContacts listed() const { return {}; }
-  /// Present heights of the surface [m] at the nodes of the undisturbed one; empty if it does not change.
+  /// Current surface heights [m] at the nodes of the undisturbed surface; empty for an unchanging surface.
   virtual std::vector<double> surfaceNow() const { return {}; }
-  /// Present surface and stresses of deformable soil; empty on other grounds.
+  /// Current surface and stresses of deformable soil; empty for other grounds.
   virtual std::optional<GroundFields> fieldsNow() const { return {}; }
-  /// Restarts means and maxima: called after every row of output.
+  /// Restarts means and maxima; called after every output row.
   virtual void restartMeans() {}
 
   // State: everything that later steps depend on, for hash and checkpoint.
 
-  /// Writes the ground's own state: grains to `grains`, other kinds as plain numbers to `ground`.
+  /// Writes the ground's own state: grains to `grains`, other kinds as an array of numbers to `ground`.
   virtual void save(SimulationState&) const {}
-  /// Writes the history of contacts with the parts: `ground` or `bed`; other kinds may write it in save().
+  /// Writes the history of contacts with the parts to `ground` or `bed`; other kinds may write it in save().
   virtual void saveContacts(ContactsState&) const {}
 };
 

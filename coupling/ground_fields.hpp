@@ -9,19 +9,19 @@
 
 namespace grouser::coupling {
 
-/// A node of deformable soil that has been loaded or moved.
+/// Node of deformable soil that has been loaded or moved.
 struct SoilNode {
   std::int32_t i{}, j{};
-  double sinkage{};     ///< vertical depth of the present surface below the undisturbed one [m]; negative above it
-  double pressure{};    ///< [Pa] now, mean over the square of the node
-  double maxPressure{}; ///< [Pa] since the start
-  base::Vec3d shear;    ///< stress on the soil [Pa] now
+  double sinkage{};     ///< vertical depth of the current surface below the undisturbed one [m]; negative above it
+  double pressure{};    ///< current pressure [Pa], averaged over the node's square
+  double maxPressure{}; ///< maximum pressure since the start [Pa]
+  base::Vec3d shear;    ///< current shear stress on the soil [Pa]
 };
 
-/// Present deformable soil, for output. All other nodes are undisturbed and unloaded.
+/// Current fields of deformable soil, for output. All other nodes are undisturbed and unloaded.
 struct GroundFields {
   scm::SoilConstants constants;
-  double spacing{};            ///< node (i, j) lies at x = i spacing, y = j spacing [m]
+  double spacing{};            ///< node (i, j) is at x = i spacing, y = j spacing [m]
   std::vector<SoilNode> nodes; ///< by j, then i
 };
 

@@ -8,8 +8,8 @@
 
 namespace grouser::coupling {
 
-/// The ground of a scene: of the kind in `setup`, else grains if there are any, else rigid ground; null if there is
-/// neither. Both arguments must outlive it.
+/// Creates the ground of a scene: of the kind in `setup`, else granular if there are grains, else rigid; null if there
+/// is neither. Both arguments must outlive it.
 std::unique_ptr<Ground> makeGround(LaidGround& laid, const GroundSetup& setup, const base::Exec& exec);
 
 } // namespace grouser::coupling

@@ -9,7 +9,7 @@
 
 namespace grouser::coupling {
 
-/// Makes `grains` refuse entering grains that would overlap others: InputError before the first step, SimulationError
+/// Makes `grains` reject entering grains that would overlap others: InputError before the first step, SimulationError
 /// later, both with the name of the source. `surfaces`: names of the grains' surfaces.
 void guardInsertion(terrain::Grains& grains, const Sources& sources, const std::vector<std::string>& surfaces);
 

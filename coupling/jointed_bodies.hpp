@@ -13,7 +13,7 @@ namespace grouser::coupling {
 /// Response of the bodies of a vehicle or mechanism to impulses of grains, through all joints (Solver::respond()).
 class JointedBodies : public contact::BodyResponse {
 public:
-  /// The arguments must outlive it.
+  /// The arguments must outlive this object.
   JointedBodies(const ContactParts& parts, const multibody::Model& model, multibody::Solver& solver,
                 const ReplicatedWork& replicated);
 
@@ -30,11 +30,11 @@ private:
   multibody::Solver& solver_;
   ReplicatedWork replicated_;
   std::vector<std::uint32_t> bodyOfPart_;
-  std::vector<std::size_t> bodies_; ///< index in the model
+  std::vector<std::size_t> bodies_; ///< indices in the model
   std::vector<Inverse> inverses_;
   std::vector<base::Mat3d> inverseInertia_; ///< body axes [1/(kg m2)]
   std::vector<multibody::Twist> freeTwists_,
-      change_;                              ///< by body of the model: without grain contacts, and their effect
+      change_;                              ///< by body of the model: motion without grain contacts, and its change
   std::vector<multibody::Wrench> impulses_; ///< by body of the model
 };
 

@@ -23,7 +23,7 @@ bool isTaken(const GroundSetup& setup, const base::Vec3d& centre, double radius)
 
 namespace {
 
-/// Lays the bed around surfaces that stand in it.
+/// Places the bed around existing surfaces.
 std::vector<terrain::GrainSpec> laidGrains(const GroundSetup& setup, const BedSetup& bed) {
   std::vector<terrain::GrainSpec> start;
   for (const terrain::Seed& seed : terrain::layBed(*setup.surface, bed.options))
@@ -78,7 +78,7 @@ terrain::BedStructure structureOf(const LaidGround& ground) {
 }
 
 void checkStructure(const BedSetup& bed, const terrain::BedStructure& structure) {
-  constexpr std::int64_t kEnough = 200; // grains; with fewer the porosity is too uncertain
+  constexpr std::int64_t kEnough = 200; // minimum number of grains; the porosity of fewer is too uncertain
   if (!bed.densest || structure.grains < kEnough || 1 - structure.porosity <= *bed.densest) return;
   throw base::SimulationError(
       fmt::format("the settled bed has a solid fraction of {:.4f}, but disordered grains of these radii reach at most "

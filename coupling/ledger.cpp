@@ -7,7 +7,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Calls visit(number) for all that is counted.
+/// Calls visit(number) for all accumulated values.
 template <class Self, class Visit> void forCounted(Self& l, const Visit& visit) {
   visit(l.driveWork), visit(l.kinetic), visit(l.potential), visit(l.elastic), visit(l.grainElastic);
   for (const DissipationCause& cause : kDissipationCauses) visit(l.dissipated.*cause.heat);

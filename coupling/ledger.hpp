@@ -10,11 +10,11 @@
 
 namespace grouser::coupling {
 
-/// Dissipation since the start by mechanism [J].
+/// Cumulative dissipation by mechanism [J].
 struct Dissipated {
   double damping{};       ///< dashpots of grain contacts, with grains and surfaces
   double friction{};      ///< sliding of grains
-  double microSlip{};     ///< tangential springs of Hertz contacts as their stiffness changes
+  double microSlip{};     ///< tangential springs of Hertz contacts due to stiffness changes
   double rolling{};       ///< rolling resistance of grains
   double yielding{};      ///< plastic work in grain contacts
   double crushing{};      ///< crushing of grains against parts
@@ -22,14 +22,14 @@ struct Dissipated {
   double joints{};        ///< dampers and end stops of joints and springs
   double soil{};          ///< deformable soil, by all causes of scm::SoilEnergy
   double fluid{};         ///< fluid: viscosity, density diffusion, walls
-  double stabilisation{}; ///< complementarity contacts that push overlaps apart: energy added, so at most 0
+  double stabilisation{}; ///< energy added by complementarity contacts that separate overlaps, as a negative number
 
   double ofGrains() const { return damping + friction + microSlip + rolling + yielding + crushing; }
-  double ofParts() const { return parts + soil; } ///< contacts of parts, except with grains
+  double ofParts() const { return parts + soil; } ///< contacts of parts, except those with grains
   double total() const { return ofGrains() + parts + joints + soil + fluid + stabilisation; }
 };
 
-/// A mechanism by its word in the names of results, with its help text.
+/// Dissipation mechanism: its word in result names, and its help text.
 struct DissipationCause {
   const char *word, *help;
   double Dissipated::*heat;
@@ -46,7 +46,7 @@ inline constexpr DissipationCause kDissipationCauses[] = {
     {"joints", "by dampers and end stops of joints and springs", &Dissipated::joints},
 };
 
-/// An energy of deformable soil by its word in the names of results, with its help text.
+/// Energy of deformable soil: its word in result names, and its help text.
 struct SoilEnergyEntry {
   const char *word, *help;
   double scm::SoilEnergy::*energy;
@@ -64,39 +64,39 @@ inline constexpr SoilEnergyEntry kSoilEnergies[] = {
      &scm::SoilEnergy::edges},
     {"coupling", "change of the elastic shear energy with the pressure", &scm::SoilEnergy::coupling},
 };
-inline constexpr std::size_t kElasticSoilEnergies = 2; ///< the first of them; the others are dissipated
+inline constexpr std::size_t kElasticSoilEnergies = 2; ///< number of elastic energies, listed first; others: dissipated
 
-/// Energies [J] and momenta of a whole simulation, counted from its first step. With steps of finite length
+/// Energies [J] and momenta of a whole simulation, counted from its first step. For finite steps
 ///
 ///   kinetic + potential + elastic + dissipated + integrationError = driveWork + residual
 ///
-/// Work follows the identity that symplectic Euler and RATTLE obey exactly: a step changes the kinetic energy by
-/// F . (v_old + v_new) / 2 dt, whatever the force. Elastic and potential energy are functions of the state. The work of
-/// the forces on the bodies and the decrease of these functions differ by the integration error, which falls with the
-/// step. The residual is the state's kinetic energy less the accumulated work: rounding, or else a mistake.
+/// Work uses the identity that symplectic Euler and RATTLE satisfy exactly: a step changes the kinetic energy by F .
+/// (v_old + v_new) / 2 dt, for any force. Elastic and potential energy are functions of the state. The work of the
+/// forces on the bodies and the decrease of these functions differ by the integration error, which decreases with the
+/// step. The residual is the state's kinetic energy minus the accumulated work: rounding, or a program error.
 struct Ledger {
   double driveWork{}, kinetic{}, potential{}, elastic{};
   double grainElastic{}; ///< part of elastic: contacts of grains with each other, floor and walls
   Dissipated dissipated;
-  scm::SoilEnergy soil; ///< elastic energies now, and dissipation since the start; not counted from another start
-  double work{};        ///< of all forces on all bodies
-  double turnover{};    ///< sum of its magnitudes per body and step, the scale of the errors
+  scm::SoilEnergy soil; ///< current elastic energies, and dissipation since the start; not affected by countFrom()
+  double work{};        ///< work of all forces on all bodies
+  double turnover{};    ///< sum of the absolute work per body and step, reference of the errors
   double integrationError{}, residual{};
 
-  base::Vec3d momentum, angularMomentum;         ///< now [N s], [N m s] about the origin of the world
-  base::Vec3d momentumResidual, angularResidual; ///< these less the impulses of gravity, ground and surfaces: rounding
-  base::Vec3d impulseResidual;                   ///< on vehicle plus on bed [N s]
+  base::Vec3d momentum, angularMomentum;         ///< current values [N s], [N m s] about the world origin
+  base::Vec3d momentumResidual, angularResidual; ///< momentum minus impulses of gravity, ground and surfaces: rounding
+  base::Vec3d impulseResidual;                   ///< impulses on vehicle plus bed [N s]
 
   std::int64_t grainContacts{}, boundaryContacts{}, partContacts{}, patches{};
-  /// Contacts deeper than a fifth of the grain's radius: of two grains; with planes, floor and surfaces; with parts.
+  /// Number of overlaps above a fifth of the grain radius: grain-grain; with planes, floor and surfaces; with parts.
   std::int64_t squeezedPairs{}, squeezedAtBoundaries{}, squeezedByParts{};
-  std::int64_t cappedNow{};                ///< contacts with parts at the crushing force of the grain
-  double cutImpulse{};                     ///< impulse cut off by crushing since the start [N s]
+  std::int64_t cappedNow{};                ///< current number of contacts with parts at the crushing force of the grain
+  double cutImpulse{};                     ///< cumulative impulse removed by the crushing force cap [N s]
   double deepestOverlap{}, fastestGrain{}; ///< [m], [m/s]
 
   /// Subtracts `start`, and computes integrationError and residual.
   void countFrom(const Ledger& start);
-  /// Shifts a start by the change between two ledgers without a step: grains that enter.
+  /// Shifts the start by the change between two ledgers without a step, e.g. when grains enter.
   void move(const Ledger& before, const Ledger& after);
 
   /// Accumulated values in a fixed order, for checkpoints.

@@ -7,7 +7,7 @@
 #include "multibody/readings.hpp"
 #include "terrain/grain_model.hpp"
 
-/// Entries of the ledger from the rooms below.
+/// Ledger entries of the coupled components of a simulation.
 namespace grouser::fluid {
 struct FluidTotals;
 }
@@ -16,20 +16,20 @@ namespace grouser::coupling {
 
 /// Elastic energy and dissipation of the contacts of parts.
 struct ContactLedger {
-  contact::PatchBuffers::Ledger rigid;    ///< of parts with each other and with rigid surfaces
-  contact::GrainPartContacts::Ledger bed; ///< of parts with grains
-  scm::SoilEnergy soil;                   ///< of parts with deformable soil
-  base::Vec3d impulseOnParts;             ///< since the start, from a ground with momentum [N s]
-  base::Vec3d angularOnParts;             ///< about the origin of the world, from such a ground since the start [N m s]
-  double elastic() const { return rigid.elastic + bed.elastic + soil.held(); } ///< held now [J]
+  contact::PatchBuffers::Ledger rigid;    ///< contacts of parts with each other and with rigid surfaces
+  contact::GrainPartContacts::Ledger bed; ///< contacts of parts with grains
+  scm::SoilEnergy soil;                   ///< contacts of parts with deformable soil
+  base::Vec3d impulseOnParts;             ///< cumulative impulse from a ground with momentum [N s]
+  base::Vec3d angularOnParts;             ///< cumulative angular impulse from it about the world origin [N m s]
+  double elastic() const { return rigid.elastic + bed.elastic + soil.held(); } ///< current elastic energy [J]
 };
 
 void enterGrains(Ledger& ledger, const terrain::GrainLedger& grains);
-/// Enters contacts of grains with parts, without their elastic energy.
+/// Adds contacts of grains with parts, without their elastic energy.
 void enterGrainParts(Ledger& ledger, const contact::GrainPartContacts::Ledger& contacts);
-/// Enters a fluid. Its kinetic energy is entered as work too, since it keeps no record of the work on its particles.
+/// Adds a fluid. Its kinetic energy also counts as work, since the work on particles is not recorded.
 void enterFluid(Ledger& ledger, const fluid::FluidTotals& fluid);
-/// Enters bodies without their potential and elastic energies, which the caller adds from its own start.
+/// Adds bodies without their potential and elastic energies, which the caller counts from another start.
 void enterBodies(Ledger& ledger, const multibody::Balance& bodies);
 
 } // namespace grouser::coupling

@@ -16,9 +16,9 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// The longest stable step is proportional to the inverse root of the tension. It is computed again when the largest
-/// force reaches kTensionShare of the limit of the present step, but not before it has grown kLeastGrowth times (an
-/// unstable oscillation soon does), and when it has grown kMostGrowth times at the latest, since poses change too [-].
+/// The longest stable step is proportional to 1 / sqrt(tension). It is recomputed when the largest force reaches
+/// kTensionShare of the limit of the current step, but not before it has grown by kLeastGrowth (an unstable oscillation
+/// soon does), and at the latest when it has grown by kMostGrowth, since poses change too [-].
 constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
 
 /// Steps per bounce off an end stop, as chosen by "auto" [-].
@@ -83,7 +83,7 @@ void Mechanism::advance() {
     throw base::SimulationError(tensionStepWarning_.empty() ? error.what()
                                                             : fmt::format("{}; {}", error.what(), tensionStepWarning_),
                                 error.cause());
-  } catch (const base::InputError& error) { // the step was stable at the start and no longer is
+  } catch (const base::InputError& error) { // the step was stable at the start, but is no longer
     fail(base::Cause::growingSwings, error.what());
   }
   ++steps_;
@@ -93,7 +93,7 @@ void Mechanism::advance() {
   if (steps_ % kJudgeInterval == 0) judge();
 }
 
-/// A surface that moves half the radius of a grain, or a quarter of the thickness of a shape, in a step could pass
+/// A surface that moves half the radius of a grain, or a quarter of the thickness of a shape, in one step could pass
 /// through it without contact.
 void Mechanism::checkTravel() const {
   const double way = contacts_->lastTravel();
@@ -153,9 +153,9 @@ void Mechanism::judgeTension() {
            SwingGrowth::kMost, r, part, tensionStepWarning_, base::roundedDown(0.5 * timeStep_ / r, 4)));
 }
 
-/// Growing forces in joints and springs lower the longest stable step. That is noted, and checked from the next check
-/// on: a peak may pass before any oscillation has grown. The first tension above the limit is kept, not the largest:
-/// later ones contain the forces of the oscillation itself.
+/// Growing forces in joints and springs reduce the longest stable step. The limit is recorded, and enforced from the
+/// next check on: a peak may pass before any oscillation has grown. The first tension above the limit is kept, not the
+/// largest, since later ones contain the forces of the oscillation itself.
 void Mechanism::watchTension() {
   double force = 0;
   for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));
@@ -167,7 +167,7 @@ void Mechanism::watchTension() {
       force * std::clamp(kTensionShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
 }
 
-/// The longest step that is stable under the present tension [s].
+/// Longest stable step under the current tension [s].
 double Mechanism::checkTension() {
   std::string part;
   const double most = stableStepUnderTension(&part);

@@ -20,11 +20,11 @@
 
 namespace grouser::coupling {
 
-/// A moving mechanism of a scene: model, state and solver, with drives that follow their laws over time.
+/// Moving mechanism of a scene: model, state and solver, with drives that follow their laws over time.
 class Mechanism : public BodiesInContact {
 public:
-  /// `ground`: touches the bodies' shapes and must outlive it; null without. `obstacles`: surfaces at rest that the
-  /// shapes touch. `kept` as in VehicleParts.
+  /// `ground`: in contact with the bodies' shapes, must outlive it; null without. `obstacles`: surfaces at rest in
+  /// contact with the shapes. `kept` as in VehicleParts.
   Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec = base::cpuExec(1),
             Ground* ground = nullptr, const std::vector<Obstacle>& obstacles = {}, SphereSets* kept = nullptr);
 
@@ -32,12 +32,12 @@ public:
 
   /// Throws base::InputError if the mechanism does not have this input.
   void require(const Input& input) const;
-  /// Sets the acting inputs for the following steps; all have passed require().
+  /// Applies the active inputs to the following steps; all have passed require().
   void command(const Inputs& inputs, const base::Vec3d& gravity);
 
   void actuate() override;
-  /// One step, after actuate(). Throws base::SimulationError, also if the motion is too fast for the step: every
-  /// kJudgeInterval steps the rotation of each body and the tension of joints and springs are checked.
+  /// Advances one step, after actuate(). Throws base::SimulationError, also if the motion is too fast for the step: the
+  /// rotation of each body and the tension of joints and springs are checked every kJudgeInterval steps.
   void advance() override;
   static constexpr std::int64_t kJudgeInterval = 50;
 
@@ -47,26 +47,26 @@ public:
 
   void addTo(Ledger& ledger) const;
 
-  /// Kinetic energy added by the drives at the start, if the velocities of the scene do not match theirs [J].
+  /// Kinetic energy added by the drives at the start [J], if the initial velocities of the scene do not match theirs.
   double startBlow() const { return startBlow_; }
 
   /// Longest step for which transverse oscillations under the tension of joints and springs do not grow [s]; infinite
-  /// without. `part`, if given, receives the name of the joint or spring with the largest contribution.
+  /// without tension. `part`, if given, receives the name of the joint or spring that contributes most.
   double stableStepUnderTension(std::string* part = nullptr) {
     return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
-  /// Text of the time and place at which the tension of joints and springs first needed a shorter step, and its length;
-  /// empty: never, nor now.
+  /// Message with the time and place at which the tension of joints and springs first required a shorter step, and the
+  /// length of that step; empty: never so far.
   const std::string& tensionStepWarning();
-  /// Text on an end stop with too few steps per bounce; empty: none, or error-controlled steps.
+  /// Message about an end stop with too few steps per bounce; empty: none, or error-controlled steps.
   std::string bounceNote();
 
   /// Constraint errors of the joints.
   struct Drift {
-    double position = 0;   ///< largest since the last call of restartMeans() [m, rad]
-    double velocity = 0;   ///< now [m/s, rad/s]
-    int iterations = 0;    ///< most of a step since then
-    int singularSteps = 0; ///< steps through a singular position since then
+    double position = 0;   ///< maximum since the last restartMeans() [m, rad]
+    double velocity = 0;   ///< current value [m/s, rad/s]
+    int iterations = 0;    ///< maximum number of iterations per step since then
+    int singularSteps = 0; ///< number of steps through a singular position since then
   };
   Drift drift() const;
   void restartMeans() { worst_ = {}, rowMeans_.restart(); }
@@ -96,14 +96,14 @@ private:
   double startBlow_;
   Drift worst_;
   std::int64_t steps_ = 0;
-  double boundedTension_ = 0; ///< largest force in joints and springs for which the step is short enough [N]
+  double boundedTension_ = 0; ///< maximum force in joints and springs for which the step is short enough [N]
   std::string tensionStepWarning_;
-  bool overTension_ = false; ///< the tension exceeded the limit of the step at the last check
+  bool overTension_ = false; ///< the tension exceeded the step's limit at the last check
   SwingGrowth swings_;
   std::unique_ptr<StepController> controller_; ///< null: fixed steps
-  std::vector<double> startTurn_;              ///< of each body in the first step [rad]
+  std::vector<double> startTurn_;              ///< rotation of each body in the first step [rad]
   AppliedLoads applied_;                       ///< external loads, if bodies have contacts
-  double mostTravel_ = 0;                      ///< largest travel of a surface point in a step [m]
+  double mostTravel_ = 0;                      ///< maximum travel of a surface point in a step [m]
 };
 
 } // namespace grouser::coupling

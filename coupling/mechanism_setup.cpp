@@ -7,7 +7,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Velocities that open joints faster than this at the start are rounded input, and are corrected [m/s].
+/// Joint opening speed below which initial velocities count as rounded input, and are corrected [m/s].
 constexpr double kRoundedRate = 1e-12;
 
 } // namespace

@@ -42,11 +42,11 @@ MeshContacts::MeshContacts(const GroundSetup& setup, const base::Exec& exec, ter
   if (auto* ranks = grains.distribution())
     ranks->onMigrate([this](const std::uint32_t* destination) { contacts_->migrate(destination); });
   motion_ = base::Mirrored<contact::PartMotion>(exec, sets_.size());
-  sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size() + 1); // and the number of crushed grains
+  sums_ = base::Mirrored<contact::PartLoad>(exec, sets_.size() + 1); // plus the number of crushed grains
   loads_.resize(sets_.size());
 }
 
-/// Depends on the motions alone, so the same on all ranks.
+/// Depends only on the motions, so it is equal on all ranks.
 bool MeshContacts::haveLeft(const std::vector<contact::PartMotion>& motions) const {
   if (listedAt_.empty()) return true;
   for (std::size_t k = 0; k < motions.size(); ++k) {

@@ -12,31 +12,31 @@
 
 namespace grouser::coupling {
 
-/// Options of the cut of a mesh for contact with bodies of `contactSize` [m] and larger.
+/// Options of the sphere cut of a mesh for contact with bodies of at least `contactSize` [m].
 PartCut meshCut(const SurfaceSetup& surface, double contactSize);
 
-/// Contacts of grains with the [[mesh]]es of a scene, which are cut into spheres like the parts of a vehicle. All have
-/// one material.
+/// Contacts of grains with the [[mesh]]es of a scene, which are cut into spheres like the parts of a vehicle. All
+/// meshes share one material.
 class MeshContacts {
 public:
   /// Registers with the grains' migration, so that history follows them to other ranks; must outlive their steps.
-  /// `kept`: source of sphere sets; null: all are cut.
+  /// `kept`: source of sphere sets; null: all meshes are cut.
   MeshContacts(const GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;
 
-  /// One step: contacts with the meshes; one motion per mesh.
+  /// Computes the contacts with the meshes for one step; one motion per mesh.
   void computeContacts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                        bool slotsChanged);
   /// Returns the meshes for the complementarity solver. Call collect() after the grains' step.
   terrain::ImpulseParts parts(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                               bool slotsChanged, contact::BodyResponse& response);
-  /// Downloads the loads and sums them over the ranks, which all call it.
+  /// Downloads the loads and sums them over the ranks; collective.
   void collect();
-  /// Contact moments of the grains in the coming step; see GrainPartContacts::measure().
+  /// Contact moments of the grains for the next step; see GrainPartContacts::measure().
   contact::PartMomentsView measure(const terrain::Grains& grains, const std::vector<contact::PartMotion>& motions,
                                    bool slotsChanged);
-  /// Loads for the grains' step, after computeContacts().
+  /// Loads for the grain step, after computeContacts().
   const contact::GrainLoadsView* grainLoads() const { return &grainLoads_; }
   /// Loads on each mesh about its centre, summed over the ranks; valid after computeContacts() or collect().
   const std::vector<terrain::SurfaceLoad>& loads() const { return loads_; }
@@ -44,13 +44,13 @@ public:
   contact::GrainPartContacts::Ledger ledger() const { return contacts_->ledger(); }
   std::size_t spheres() const;
   const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; }
-  /// The meshes that overlap a grain; all ranks call it.
+  /// Meshes that overlap a grain; collective.
   std::vector<contact::GrainPartContacts::Press> pressing(std::uint32_t grain) const {
     return contacts_->pressing(grain);
   }
   std::optional<contact::GrainPartContacts::MostPressed> mostPressed() const { return contacts_->mostPressed(); }
   void resetDeepestOverlap() { contacts_->resetDeepestOverlap(); }
-  /// Ids of the grains crushed to their centre in this step, of all ranks, which all call it.
+  /// Ids of the grains crushed to their centre in this step, over all ranks; collective.
   std::vector<std::uint32_t> endedGrains() const {
     return (sums_.host() + sets_.size())->force.x == 0 ? std::vector<std::uint32_t>{} : contacts_->ended();
   }
@@ -65,8 +65,8 @@ private:
   base::Exec exec_;
   base::Comm comm_;
   std::vector<base::SphereSet> sets_;
-  std::vector<spheredecomp::CutReport> cutReports_; ///< one a mesh
-  std::vector<double> reach_;                       ///< radius about each frame's origin [m]
+  std::vector<spheredecomp::CutReport> cutReports_; ///< one per mesh
+  std::vector<double> reach_;                       ///< bounding radius about each frame origin [m]
   std::unique_ptr<contact::GrainPartContacts> contacts_;
   base::Mirrored<contact::PartMotion> motion_;
   base::Mirrored<contact::PartLoad> sums_;
@@ -74,7 +74,7 @@ private:
   contact::GrainLoadsView grainLoads_;
   std::vector<terrain::SurfaceLoad> loads_;
   std::vector<contact::PartMotion> listedAt_; ///< empty: the lists must be built
-  double room_;                               ///< travel of a mesh between two lists [m]
+  double room_;                               ///< allowed travel of a mesh between two lists [m]
 };
 
 } // namespace grouser::coupling

@@ -74,9 +74,9 @@ namespace {
 
 constexpr double kMostLift = 0.1; // [m]
 constexpr double kClear = 1e-4;   // [m] gap between the two
-constexpr int kMostTries = 1000;  // more lifts mean that the vehicle stands beside a wall
+constexpr int kMostTries = 1000;  // more lifts indicate that the vehicle is beside a wall
 
-/// An assembled part in the world.
+/// Assembled part in the world.
 struct Placed {
   base::Pose pose; ///< X_WP
   const base::SphereSet* set;
@@ -96,7 +96,7 @@ std::vector<Placed> placedParts(const multibody::Model& model, const ContactPart
   return placed;
 }
 
-/// Deepest overlap of a part's surface with an obstacle [m], the part lifted by `lift`; 0 if they do not touch.
+/// Deepest overlap of a part's surface with an obstacle [m], with the part raised by `lift`; 0 without contact.
 double depthIn(const Placed& part, const SurfaceSetup& surface, double lift) {
   const Vec3d up{0, 0, lift};
   const base::Pose& at = surface.start;

@@ -14,22 +14,22 @@
 
 namespace grouser::coupling {
 
-/// Contacts of parts with rigid surfaces besides the ground of their feet: surfaces at rest, which all parts touch,
-/// rigid ground for the hull, and the shapes of other parts (ContactParts::pairs).
+/// Contacts of parts with rigid surfaces other than the ground of their feet: surfaces at rest (all parts), rigid
+/// ground (hull), and the shapes of other parts (ContactParts::pairs).
 class ObstacleContacts {
 public:
   struct Model {
     contact::PatchQuanta quanta;
     double timeStep{};
   };
-  /// `kept`: source of sphere sets of meshes; null: they are cut. `hullOn`: rigid ground for the hull; may be null.
-  /// Returns null if there are no contacts.
+  /// Creates the contacts; null if there are none. `kept`: source of sphere sets of meshes; null: they are cut.
+  /// `hullOn`: rigid ground for the hull; may be null.
   static std::unique_ptr<ObstacleContacts> make(const ContactParts& parts, const std::vector<Obstacle>& obstacles,
                                                 const terrain::HeightField* hullOn, const Model& model,
                                                 const base::Comm& comm, SphereSets* kept);
 
-  /// Number of surfaces: those of the scene, in its order, then the ground of the hull. Their motions follow those of
-  /// the contact parts.
+  /// Number of surfaces: those of the scene, in order, then the ground of the hull. Their motions follow those of the
+  /// contact parts.
   std::size_t surfaces() const { return motions_.size(); }
   const std::vector<contact::PartMotion>& motions() const { return motions_; }
 
@@ -44,14 +44,14 @@ public:
 private:
   ObstacleContacts() = default;
 
-  std::vector<base::SphereSet> sets_; ///< of the meshes among them
+  std::vector<base::SphereSet> sets_; ///< sphere sets of the meshes among the surfaces
   std::vector<spheredecomp::CutReport> cutReports_;
   std::vector<contact::PartMotion> motions_;
   std::unique_ptr<terrain::RigidContacts> contacts_;
 };
 
-/// Extra lift of a vehicle so that no part overlaps an obstacle [m]; 0 if none does. Throws InputError with the
-/// obstacle's place in the scene if it exceeds 10 cm.
+/// Additional lift of a vehicle so that no part overlaps an obstacle [m]; 0 if none does. Throws InputError with the
+/// obstacle's location in the scene if it exceeds 10 cm.
 double liftOffObstacles(const multibody::Model& model, const ContactParts& parts,
                         const std::vector<Obstacle>& obstacles);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr double kNoTop = -std::numeric_limits<double>::infinity();
 constexpr double kOnGround = 0.05; // [m]
 
-/// The part of a vertical line that lies within |p + t d| <= half along one axis, cut from [low, high].
+/// Intersects [low, high] of a vertical line with the slab |p + t d| <= half along one axis.
 void cutSlab(double p, double d, double half, double& low, double& high) {
   if (d == 0) {
     if (std::fabs(p) > half) low = 1, high = 0;
@@ -25,7 +25,7 @@ void cutSlab(double p, double d, double half, double& low, double& high) {
   low = std::max(low, std::min(a, b)), high = std::min(high, std::max(a, b));
 }
 
-/// The same within a cylinder about the z axis.
+/// Same for a cylinder about the z axis.
 void cutRound(const Vec3d& p, const Vec3d& d, double radius, double& low, double& high) {
   const double a = d.x * d.x + d.y * d.y, b = p.x * d.x + p.y * d.y, c = p.x * p.x + p.y * p.y - radius * radius;
   if (a < 1e-12) {
@@ -49,7 +49,7 @@ double topOfMesh(const SurfaceSetup& surface, double x, double y) {
     for (std::size_t k = 0; k < 3; ++k) v[k] = surface.start.toWorld(mesh.vertices[mesh.indices[t + k]]);
     // Barycentric coordinates of (x, y) in the triangle seen from above.
     const double area = (v[1].x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (v[1].y - v[0].y);
-    if (!(area > 0)) continue; // looks down, or stands upright
+    if (!(area > 0)) continue; // faces downward, or is vertical
     const double s = ((x - v[0].x) * (v[2].y - v[0].y) - (v[2].x - v[0].x) * (y - v[0].y)) / area;
     const double u = ((v[1].x - v[0].x) * (y - v[0].y) - (x - v[0].x) * (v[1].y - v[0].y)) / area;
     if (s >= 0 && u >= 0 && s + u <= 1) top = std::max(top, v[0].z + s * (v[1].z - v[0].z) + u * (v[2].z - v[0].z));
@@ -62,7 +62,7 @@ double topOfMesh(const SurfaceSetup& surface, double x, double y) {
 double topOf(const SurfaceSetup& surface, double x, double y) {
   if (surface.mesh) return topOfMesh(surface, x, y);
   const base::Mat3d turned = surface.start.orientation.matrix();
-  const Vec3d d{turned.m[2][0], turned.m[2][1], turned.m[2][2]}; // upwards, in the surface's frame
+  const Vec3d d{turned.m[2][0], turned.m[2][1], turned.m[2][2]}; // upward direction in the surface frame
   const Vec3d p = surface.start.toBody({x, y, 0});
   const Vec3d& half = surface.geometry.half;
   double low = kNoTop, high = -kNoTop;

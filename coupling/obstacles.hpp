@@ -10,19 +10,19 @@
 
 namespace grouser::coupling {
 
-/// A surface at rest for contact with the parts of a vehicle and bodies.
+/// Surface at rest for contact with the parts of a vehicle and bodies.
 struct Obstacle {
   SurfaceSetup surface;
-  double friction{};                        ///< [-] of shoes, wheels and hull on it; bodies have a FoundationTable
-  std::optional<std::size_t> amongSurfaces; ///< its place among surfacesOf(); empty: a plane that is a wall for grains
+  double friction{};                        ///< [-] with shoes, wheels and hull; bodies have a FoundationTable
+  std::optional<std::size_t> amongSurfaces; ///< index in surfacesOf(); empty: a plane that is a wall for grains
 };
 
 /// Height of the upper side of a plane, box, solid cylinder or mesh over (x, y) [m]; -infinity beside it, and for
-/// hollow cylinders and planes that do not face up.
+/// hollow cylinders and planes that do not face upward.
 double topOf(const SurfaceSetup& surface, double x, double y);
 
-/// Heights of a ground including the tops of obstacles that stand on it or in it: with their lowest point at most 5 cm
-/// above the ground at their middle. Higher ones are not ground.
+/// Ground heights including the tops of obstacles that stand on or in the ground: those with their lowest point at most
+/// 5 cm above the ground at their middle.
 std::function<double(double, double)> withObstacles(const std::function<double(double, double)>& ground,
                                                     const std::vector<Obstacle>& obstacles);
 

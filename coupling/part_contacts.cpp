@@ -17,8 +17,8 @@ using base::Vec3d;
 namespace {
 
 constexpr double kTrackMargin = 0.004;  // [m] gap at which a sample is listed
-constexpr double kGroundMargin = 0.008; // [m] the same for ground and obstacles
-constexpr double kAhead = 0.0005;       // [m] least travel allowed in a step launched ahead
+constexpr double kGroundMargin = 0.008; // [m] same for ground and obstacles
+constexpr double kAhead = 0.0005;       // [m] minimum travel permitted in a step launched ahead
 
 } // namespace
 
@@ -29,11 +29,11 @@ PartContacts::PartContacts(const ContactParts& parts, const RunningGear* gear, c
   if (ground_) traits_ = ground_->traits();
   const std::size_t n = parts.count();
   travelled_ = base::Mirrored<double>(exec_, 2);
-  // Loads beyond ten thousand times the total weight on one part do not occur in a valid run.
+  // Loads above 1e4 times the total weight on one part do not occur in a valid run.
   const double largest = 1e4 * parts.weight;
   quanta_.force = base::fixedPointFor(largest, 46);
   quanta_.torque = quanta_.moment = base::fixedPointFor(largest, 46);
-  quanta_.energy = base::fixedPointFor(1e3, 50); // of one sample in one step: these sums are of one step only
+  quanta_.energy = base::fixedPointFor(1e3, 50); // energy of one sample in one step: these sums cover one step only
   quanta_.area = base::fixedPointFor(1, 40);
   groundQuanta_ = {quanta_.force, quanta_.torque};
   if (running_) makeTrack();
@@ -76,7 +76,7 @@ void PartContacts::setPoses(const multibody::State& state) {
   for (std::size_t c = 0; c < parts_.count(); ++c) motion_.host()[c] = parts_.motionOf(c, state);
 }
 
-/// Two parts approach each other at most as fast as both move relative to the hull.
+/// Upper bound of the approach of two parts: the sum of both motions relative to the hull.
 bool PartContacts::trackHasLeft() const { return track_ && 2 * relativeTravel_ > kTrackMargin; }
 bool PartContacts::groundHasLeft() const { return ground_ && !traits_.onHost && absoluteTravel_ > kGroundMargin; }
 
@@ -112,7 +112,7 @@ void PartContacts::compute(StepObserver* observer) {
   computeOnHost();
 }
 
-/// The same sequentially, without graph and side stream, so that an observer can time each.
+/// Computes the contacts sequentially, without graph and side stream, so that an observer can time each kind.
 void PartContacts::computeInParts(StepObserver& observer) {
   if (usesDevice()) uploadPoses();
   observer.after(Stage::posesUploaded);
@@ -130,8 +130,8 @@ void PartContacts::computeOnHost() {
   computeRigid();
 }
 
-/// Writes the travel into the pinned memory that uploadPoses() copies from. Not within the graph, whose host code runs
-/// only when it is recorded.
+/// Writes the travel to the pinned memory copied by uploadPoses(). Not part of the graph, whose host code runs only
+/// during recording.
 void PartContacts::noteTravel() { travelled_.host()[0] = 2 * relativeTravel_, travelled_.host()[1] = absoluteTravel_; }
 
 void PartContacts::uploadPoses() {
@@ -202,7 +202,7 @@ void PartContacts::solve(contact::BodyResponse& bodies, multibody::Loads& loads)
   for (std::size_t c = 0; c < parts_.count(); ++c) addGroundLoad(c, loads.external[parts_.parts[c].body]);
 }
 
-/// Integer sums are the same on all ranks, in any order: every rank moves the vehicle identically.
+/// Integer sums are identical on all ranks, in any order: every rank moves the vehicle identically.
 void PartContacts::sumGroundLoads() {
   const std::size_t n = parts_.count();
   contact::PartLoad* const ground = groundLoads();
@@ -258,7 +258,7 @@ void PartContacts::trackTravel(const multibody::State& state) {
   absoluteTravel_ += lastAbsolute_;
 }
 
-/// In a step launched ahead a part may move four times as far as in the step before.
+/// In a step launched ahead a part may move up to four times as far as in the previous step.
 bool PartContacts::listsHold(bool ahead) const {
   if (!ahead) return !trackHasLeft() && !groundHasLeft();
   const bool track = !track_ || 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin;

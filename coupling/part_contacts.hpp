@@ -28,17 +28,17 @@ class GrainsOnParts;
 
 /// Contacts of the parts of a vehicle and of bodies: shoes with the running gear, all parts with the ground and with
 /// the fixed surfaces of the scene. The device, if any, computes contacts with grains and, in the samples model, gear
-/// contacts. The host computes gear contacts from shapes and all contacts with rigid surfaces at the same time. A
-/// ground that is divided among MPI ranks is computed in parts; every rank repeats all other contacts.
+/// contacts. The host concurrently computes gear contacts from shapes and all contacts with rigid surfaces. Contacts
+/// with a ground divided among MPI ranks are divided as well; every rank repeats all other contacts.
 class PartContacts {
 public:
-  /// A vehicle; its parts are the first contact parts.
+  /// Running gear of a vehicle; its parts are the first contact parts.
   struct RunningGear {
     const vehicle::Assembly& assembly;
     const VehicleParts& parts;
   };
-  /// `parts`, `gear` and `ground` must outlive it. `gear`: the running gear whose parts touch each other; null without.
-  /// `ground`: touches the parts; null without. `kept` as in VehicleParts.
+  /// `parts`, `gear` and `ground` must outlive it. `gear`: running gear with contacts between its parts; null without.
+  /// `ground`: ground in contact with the parts; null without. `kept` as in VehicleParts.
   PartContacts(const ContactParts& parts, const RunningGear* gear, const std::vector<Obstacle>& obstacles,
                const base::Exec& exec, double timeStep, Ground* ground, SphereSets* kept);
   PartContacts(const PartContacts&) = delete;
@@ -46,38 +46,38 @@ public:
 
   // One step, in this order.
   void setPoses(const multibody::State& state);
-  /// `groundListsEnded`: as Ground::refreshLists() returned.
+  /// `groundListsEnded`: result of Ground::refreshLists().
   void refreshLists(bool groundListsEnded);
-  /// Queues the contacts on the device, without waiting, and computes those of the host. `observer`: called after each
-  /// kind of contacts.
+  /// Enqueues the contacts on the device, without waiting, and computes those of the host. `observer`: called after
+  /// each kind of contact.
   void compute(StepObserver* observer);
-  /// Applies the loads, summed over all ranks, to the bodies, after the device has finished. solve() adds those of
-  /// complementarity contacts.
+  /// Applies the loads, summed over all ranks, to the bodies, after the device has finished. Complementarity contacts
+  /// follow in solve().
   void collect(multibody::Loads& loads);
   /// Solves complementarity contacts with the ground and adds their loads to `loads`, which contains all other loads.
   void solve(contact::BodyResponse& bodies, multibody::Loads& loads);
   bool solves() const { return traits_.solves; }
-  /// Contact moments of the grains at the poses last set, for which the lists hold, without change of state.
+  /// Contact moments of the grains at the last poses, which the lists must cover. No side effects.
   contact::PartMomentsView measure(GrainsOnParts& onGrains, const contact::GrainsView& grains);
   /// Updates the bound on the travel of the parts after the step to `state`.
   void trackTravel(const multibody::State& state);
 
-  // A step on grains that is launched ahead of its poses; see StepsAhead.
-  /// Queues walls, floor and the grains without a listed part; behind the gate the part contacts, then the other
-  /// grains; sends the loads, then the flags of the grains to the host.
+  // Grain step launched ahead of its poses; see StepsAhead.
+  /// Enqueues walls, floor and the grains without listed parts; behind the gate the part contacts, then the other
+  /// grains; then copies the loads and the flags of the grains to the host.
   void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnParts& onGrains);
-  /// Before the gate opens: sets the data that the device reads besides the poses.
+  /// Call before the gate opens: sets the data read by the device in addition to the poses.
   void noteTravel();
-  /// After the gate opens: computes the host contacts.
+  /// Call after the gate opens: computes the host contacts.
   void computeOnHost();
-  /// Whether the lists are valid for the current poses; `ahead`: for those of the next step too, unless a part is
-  /// thrown.
+  /// True if the lists are valid for the current poses; `ahead`: also for those of the next step, unless a part is
+  /// thrown off.
   bool listsHold(bool ahead = false) const;
-  double lastTravel() const { return lastAbsolute_; } ///< bound on the travel of any surface point in the last step [m]
+  double lastTravel() const { return lastAbsolute_; } ///< upper bound of the travel of surface points in the last step
   std::int64_t listings() const { return listings_; }
 
   bool onGround() const { return ground_ != nullptr; }
-  /// Number of surfaces at rest, and rigid ground for the hull; see ObstacleContacts.
+  /// Number of surfaces at rest, including rigid ground for the hull; see ObstacleContacts.
   std::size_t surfaces() const { return obstacles_ ? obstacles_->surfaces() : 0; }
   /// Force of ground and surfaces on a contact part in the last step, in quanta of groundForceQuantum(). Indices beyond
   /// the contact parts: force of the parts on the surfaces.
@@ -85,10 +85,10 @@ public:
   const base::FixedPoint& groundForceQuantum() const { return groundQuanta_.force; }
 
   ContactLedger ledger() const;
-  ListedContacts listed() const; ///< now
+  ListedContacts listed() const; ///< current candidates
 
   void save(ContactsState& state) const;
-  /// Marks the lists as outdated: the next step rebuilds them.
+  /// Restores the state and marks the lists as outdated: the next step rebuilds them.
   void restore(const ContactsState& state);
 
 private:
@@ -99,7 +99,7 @@ private:
   void addGroundLoad(std::size_t part, multibody::Wrench& wrench);
   void makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept);
 
-  // Whether parts have moved beyond the margin of the lists.
+  // True if parts have moved beyond the margin of the lists.
   bool trackHasLeft() const;
   bool groundHasLeft() const;
   // Stages of compute().
@@ -112,36 +112,36 @@ private:
   bool usesDevice() const { return track_ || (ground_ && !traits_.onHost); }
   base::Vec3l inGroundQuanta(const base::Vec3l& force) const;
   void downloadLoads();
-  contact::PartLoad* groundLoads(); ///< of all contact parts, and the ground's own
+  contact::PartLoad* groundLoads(); ///< loads on all contact parts, and the ground's own
 
   const ContactParts& parts_;
   const RunningGear* running_; ///< null in scenes without a vehicle
   base::Exec exec_;
   base::SideStream side_;
-  base::DoubleBufferedGraph graph_; ///< of a step's contacts, by the ground's buffer
-  Ground* ground_;                  ///< null: the parts touch no ground
+  base::DoubleBufferedGraph graph_; ///< graph of a step's contacts, for each buffer of the ground
+  Ground* ground_;                  ///< null: no contact with ground
   GroundTraits traits_;
   double timeStep_;
 
   contact::PatchQuanta quanta_;
   LoadQuanta groundQuanta_;
-  base::Mirrored<contact::PartMotion> motion_; ///< of the contact parts, then of the surfaces, which rest
-  base::Mirrored<double> travelled_; ///< relative and absolute travel since the lists were made [m], for the device
-  /// Loads from the device: gear loads of all contact parts, then their ground loads, then the load on the ground.
+  base::Mirrored<contact::PartMotion> motion_; ///< motions of the contact parts, then of the surfaces at rest
+  base::Mirrored<double> travelled_; ///< relative and absolute travel since the lists were built [m], for the device
+  /// Loads from the device: gear loads of all contact parts, then their ground loads, then the ground's own load.
   base::Mirrored<contact::PartLoad> loadSums_;
   // Loads from the host.
   std::vector<contact::PartLoad> gearLoads_;         ///< [contact part] from shapes
   std::vector<contact::PartLoad> groundLoads_;       ///< [contact part], then the load on the ground
   std::vector<contact::PartLoad> surfaceLoads_;      ///< [contact part], then [surface]
-  std::unique_ptr<contact::PartPartContacts> track_; ///< by samples; null where `gear_` has shapes
+  std::unique_ptr<contact::PartPartContacts> track_; ///< contacts by samples; null if `gear_` has shapes
   std::unique_ptr<ShapedGear> gear_;
   std::unique_ptr<ObstacleContacts> obstacles_;
-  static constexpr double kNeverListed = 1e9; ///< [m] farther than any margin
+  static constexpr double kNeverListed = 1e9; ///< [m] larger than any margin
   double relativeTravel_{kNeverListed}, absoluteTravel_{kNeverListed};
-  double lastRelative_{0}, lastAbsolute_{0}; ///< [m] of the last step
+  double lastRelative_{0}, lastAbsolute_{0}; ///< [m] travel in the last step
   std::int64_t listings_{0};
   base::Vec3l impulseOnParts_{};
-  base::Vec3d angularOnParts_; ///< from the ground [N m s]
+  base::Vec3d angularOnParts_; ///< angular impulse from the ground [N m s]
 };
 
 /// Cuts of the meshes among the vehicle's obstacles.

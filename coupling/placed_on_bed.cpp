@@ -18,14 +18,14 @@ using terrain::GrainState;
 
 namespace {
 
-/// Allowed overlap of a surface on a bed with a grain as a share of its radius, from rounded input.
+/// Allowed overlap of a surface on a bed with a grain / grain radius: tolerance for rounded input.
 constexpr double kPressed = 0.01;
 
 constexpr double kNoGrain = -1e300;
 
 std::string pointOf(const Vec3d& p) { return fmt::format("({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
 
-/// A grain of this rank's rows.
+/// Grain of this rank.
 struct Row {
   std::uint32_t id;
   Vec3d position; ///< [m]
@@ -40,7 +40,7 @@ std::vector<Row> rowsOf(const terrain::Grains& bed) {
   return rows;
 }
 
-/// Whether a ball reaches into [low, high] along x or y, or one of its images beyond periodic boundaries does.
+/// True if a ball, or one of its images beyond periodic boundaries, overlaps [low, high] along x or y.
 bool isOver(int axis, double place, double radius, const SurfaceBounds& b, const terrain::PeriodicBoundaries& sides) {
   const auto reaches = [&](double x) { return x + radius > b.low[axis] && x - radius < b.high[axis]; };
   const auto& periodic = sides[static_cast<std::size_t>(axis)];
@@ -49,7 +49,7 @@ bool isOver(int axis, double place, double radius, const SurfaceBounds& b, const
   return reaches(place) || reaches(place + period) || reaches(place - period);
 }
 
-/// Highest point of the grains under these bounds, on any rank [m]; kNoGrain if there is none.
+/// Highest point of the grains below these bounds, over all ranks [m]; kNoGrain if there is none.
 double topUnder(const std::vector<Row>& rows, const SurfaceBounds& bounds, const terrain::PeriodicBoundaries& sides,
                 const base::Comm& comm) {
   double top = kNoGrain;
@@ -60,7 +60,7 @@ double topUnder(const std::vector<Row>& rows, const SurfaceBounds& bounds, const
   return top;
 }
 
-/// Lift of an object with these bounds so that its lowest point is `above` the highest grain under it [m].
+/// Lift of an object with these bounds so that its lowest point is `above` the highest grain below it [m].
 double liftOf(const std::vector<Row>& rows, const SurfaceBounds& bounds, double above,
               const terrain::PeriodicBoundaries& sides, const std::string& place, const base::Comm& comm) {
   const double top = topUnder(rows, bounds, sides, comm);
@@ -100,14 +100,14 @@ SurfaceBounds boundsOf(const std::vector<terrain::GrainSpec>& grains) {
   return b;
 }
 
-/// The grain with the deepest overlap.
+/// Grain with the deepest overlap.
 struct Deepest {
-  double share = kNoGrain, depth = 0; ///< of the radius [-], [m]
+  double share = kNoGrain, depth = 0; ///< overlap / radius [-]; overlap [m]
   Row grain{};
 };
 
-/// Finds the grain with the deepest overlap on any rank; the lowest id wins among equal ones. `depthOf`: overlap of a
-/// row [m].
+/// Finds the grain with the deepest overlap over all ranks; among equal ones the lowest id. `depthOf`: overlap of a row
+/// [m].
 template <class DepthOf>
 Deepest deepestOf(const std::vector<Row>& rows, const base::Comm& comm, const DepthOf& depthOf) {
   Deepest deepest;
@@ -158,7 +158,7 @@ void requireRoomFor(const PlacedGrains& section, const GroundSetup& scene) {
   }
 }
 
-/// The grains of a state, all of them on every rank.
+/// All grains of a state, on every rank.
 std::vector<terrain::GrainSpec> specsOf(const GrainState& rows, const terrain::GrainModel& model,
                                         const base::PositionScale& scale, const std::vector<int>& materials,
                                         const base::Comm& comm) {
@@ -186,8 +186,8 @@ void makeGrains(LaidGround& ground, const GroundSetup& scene, const std::vector<
   guardInsertion(*ground.grains, g.sources, namesOfShapes(scene));
 }
 
-/// The place of each of the bed's boundaries among those of the scene: walls, places of the floor, then surfaces.
-/// With larger grains a floor may have more places than before.
+/// Index of each boundary of the bed among those of the scene: walls, floor contacts, then surfaces. With larger grains
+/// a floor may have more contacts per grain than before.
 std::vector<std::size_t> boundariesInScene(const GroundSetup& scene, const terrain::GrainLayout& alone,
                                            const terrain::GrainLayout& layout) {
   std::size_t surfaces = 0, later = 0;
@@ -205,7 +205,7 @@ std::vector<std::size_t> boundariesInScene(const GroundSetup& scene, const terra
   return places;
 }
 
-/// Copies velocities and springs of the bed's grains to rows in the order of `bed`.
+/// Copies velocities and springs of the bed's grains to rows ordered like `bed`.
 void takeMotion(const GrainState& bed, bool sameUnits, GrainState& scene) {
   scene.velocity = bed.velocity, scene.spin = bed.spin, scene.remainders = bed.remainders;
   if (!sameUnits)
@@ -239,7 +239,7 @@ void takeBoundaries(const GrainState& bed, const std::vector<std::size_t>& place
     }
 }
 
-/// Copies the normals that identify contacts with a floor of several places.
+/// Copies the normals that identify contacts on a floor with several contacts per grain.
 void takeFloorNormals(const GrainState& bed, const terrain::Boundaries& boundaries, const base::PositionScale& scale,
                       GrainState& scene) {
   const auto places = static_cast<std::size_t>(scene.layout.places);
@@ -266,7 +266,7 @@ std::vector<double> liftsOnto(const terrain::Grains& bed, const GroundSetup& sce
 
 void lift(GroundSetup& scene, const std::vector<double>& lifts) {
   GrainsSetup& grains = *scene.grains;
-  if (lifts.size() < scene.surfaces.size() + grains.onBed.size()) // that of a mechanism may follow
+  if (lifts.size() < scene.surfaces.size() + grains.onBed.size()) // a lift of the mechanism may follow
     throw base::InputError("the checkpoint belongs to another scene; resume with the scene that was run");
   for (Obstacle& o : scene.obstacles)
     if (o.amongSurfaces) o.surface.lift(lifts[*o.amongSurfaces]);
@@ -335,7 +335,7 @@ void extendBedToScene(LaidGround& ground, const GroundSetup& scene, const base::
     materials[k] = static_cast<int>(std::find(all.materials.begin(), all.materials.end(), alone.materials[k]) -
                                     all.materials.begin());
   const std::vector<terrain::GrainSpec> start = specsOf(bed, alone.model, scale, materials, comm);
-  ground.grains.reset(); // memory may not hold both
+  ground.grains.reset(); // frees memory, which may not suffice for both
   makeGrains(ground, scene, start, exec, comm);
   GrainState rows = ground.grains->state();
   takeMotion(bed, scale.unit == ground.grains->scale().unit, rows);

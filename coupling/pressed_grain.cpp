@@ -16,8 +16,8 @@ using base::Vec3d;
 
 namespace {
 
-/// Contacts with normals at a cosine below kAgainst pinch the grain; a velocity at a cosine above kDownwards to gravity
-/// is a fall.
+/// Contacts with normals at a cosine below kAgainst pinch the grain; a velocity at a cosine to gravity above kDownwards
+/// counts as a fall.
 constexpr double kAgainst = -0.3, kDownwards = 0.8;
 
 /// A sphere on some rank.
@@ -40,7 +40,7 @@ std::optional<Found> findGrain(const terrain::Grains& grains, const terrain::Gra
   return std::nullopt;
 }
 
-/// The nearest image of the offset `apart` [m].
+/// Nearest image of the offset `apart` [m].
 Vec3d nearestImage(Vec3d apart, const terrain::PeriodicBoundaries& sides) {
   for (int a = 0; a < 2; ++a)
     if (sides[static_cast<std::size_t>(a)]) {
@@ -50,7 +50,7 @@ Vec3d nearestImage(Vec3d apart, const terrain::PeriodicBoundaries& sides) {
   return apart;
 }
 
-/// Contact of a grain of this rank's block with the grain found.
+/// Contact of a grain of this rank's block with the given grain.
 struct Neighbour {
   std::uint64_t id;
   double overlap;

@@ -7,12 +7,12 @@
 
 namespace grouser::coupling {
 
-/// Runs work that every rank repeats (bodies and track of the vehicle) and reports its duration, which the load balance
-/// subtracts from the rank's busy time: no cut between subdomains could move such work. On one rank it only runs it.
+/// Runs work repeated by every rank (bodies and track of the vehicle) and reports its duration, which the load balance
+/// subtracts from the rank's busy time, since no subdomain cut could move it. On a single rank it only runs the work.
 class ReplicatedWork {
 public:
   ReplicatedWork() = default;
-  /// `ranks`: of the grains, must outlive it; null on one rank.
+  /// `ranks`: distribution of the grains, must outlive this object; null on a single rank.
   explicit ReplicatedWork(terrain::GrainDistribution* ranks) : ranks_(ranks) {}
 
   template <class Work> void run(const Work& work) const {
@@ -23,7 +23,7 @@ public:
   }
 
 private:
-  terrain::GrainDistribution* ranks_{nullptr}; ///< null on one rank
+  terrain::GrainDistribution* ranks_{nullptr}; ///< null on a single rank
 };
 
 } // namespace grouser::coupling

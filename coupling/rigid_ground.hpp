@@ -7,7 +7,7 @@
 
 namespace grouser::coupling {
 
-/// Rigid ground that follows a height-map: an elastic foundation under each shoe. The hull touches it as an obstacle.
+/// Rigid ground with the surface of a height map: an elastic foundation under each shoe; an obstacle for the hull.
 class RigidGround : public Ground {
 public:
   /// `laid` must have a rigid height-field and outlive it.

@@ -13,18 +13,18 @@ namespace grouser::coupling {
 struct ScmSetup {
   scm::SoilConstants soil;
   scm::Displacement displacement;
-  double spacing{}; ///< of the nodes [m]
-  double deepest{}; ///< sinkage up to which the pressure is tabulated [m]
+  double spacing{}; ///< spacing of the nodes [m]
+  double deepest{}; ///< maximum sinkage of the pressure table [m]
 
-  /// Maximum unloading slope under a loaded area of this width [Pa/m], for sinkages of 0.1 mm to 0.1 m.
+  /// Maximum unloading stiffness under a loaded area of width `breadth` [Pa/m], for sinkages of 0.1 mm to 0.1 m.
   double stiffest(double breadth) const;
 };
 
-/// Deformable soil under the shoes of tracks and under bodies, with ruts that remain. The undisturbed surface is rigid
-/// for the hull.
+/// Deformable soil under track shoes and bodies, with persistent ruts. For the hull the undisturbed surface is rigid.
+/// See the folder scm/ for the soil model.
 class ScmGround : public Ground {
 public:
-  /// `surface`: initial surface, must outlive it.
+  /// `surface`: initial surface; must outlive this object.
   ScmGround(const ScmSetup& setup, const terrain::HeightField& surface);
 
   std::function<double(double, double)> surface() const override;
@@ -37,7 +37,7 @@ public:
   void restore(const SimulationState& state) override;
   void save(SimulationState& state) const override;
 
-  const scm::SoilContacts& contacts() const { return *contacts_; } ///< after meet()
+  const scm::SoilContacts& contacts() const { return *contacts_; } ///< valid after meet()
 
 private:
   ScmSetup setup_;

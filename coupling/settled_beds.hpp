@@ -15,7 +15,7 @@ public:
   SettledBeds& operator=(const SettledBeds&) = default;
   SettledBeds& operator=(SettledBeds&&) = default;
   virtual ~SettledBeds() = default;
-  /// The ground that settledGround() returns, bit for bit. All ranks call it.
+  /// Returns the same ground as settledGround(), bit for bit. Collective.
   virtual SettledGround settle(const GroundSetup& setup, const base::Exec& exec, const SettleProgress& progress,
                                const base::Comm& comm) = 0;
 };

@@ -10,7 +10,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// The settled grains of a tile. Throws SimulationError if they do not settle. Every rank has all of them.
+/// Settled grains of a tile. Throws SimulationError if they do not settle. Every rank has all of them.
 std::unique_ptr<terrain::Grains> settledTile(const TileSetup& tile, const base::Exec& exec,
                                              const SettleProgress& progress, const FoundFrictions* found) {
   LaidGround ground = buildGround(*tile.ground, exec);
@@ -37,7 +37,7 @@ LaidGround buildGround(const GroundSetup& setup, const base::Exec& exec, const b
   const TiledBed tiles(*bed->tile, *settledTile(*bed->tile, exec, progress, found), *setup.surface);
   const std::vector<terrain::GrainSpec> start = tiledGrains(setup, *bed, tiles);
   LaidGround ground = layGround(setup, exec, comm, &start);
-  tiles.bringToRest(*ground.grains, setup.grains->boundaries.walls.size()); // the floor follows the walls
+  tiles.bringToRest(*ground.grains, setup.grains->boundaries.walls.size()); // the floor is listed after the walls
   return ground;
 }
 

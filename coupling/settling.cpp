@@ -15,16 +15,16 @@ namespace grouser::coupling {
 
 namespace {
 
-constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 is a different law
-constexpr double kPreparedPull = 1e-4;                     // of cohesion and adhesion [-]; 0 is a different law
-constexpr double kClose = 0.002;                           // of porosities [-]
+constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another law
+constexpr double kPreparedPull = 1e-4;                     // factor of cohesion and adhesion [-]; 0 is a different law
+constexpr double kClose = 0.002;                           // tolerance of porosities [-]
 constexpr double kOff = 0.01; // tolerance of porosities beyond the ends of the bisection [-]
 constexpr int kTrials = 10;
-constexpr double kSteep = 1;          // slope of the floor [-] above which every bed slides, whatever its friction
-constexpr double kStep = 4;           // [radii] lower height differences do not matter
+constexpr double kSteep = 1;          // slope of the floor [-] above which every bed slides, for any friction
+constexpr double kStep = 4;           // [radii] smaller height differences are ignored
 constexpr double kLookEvery = 0.02;   // [s] interval of the checks for rest
-constexpr std::size_t kCalmLooks = 5; // successive checks at rest
-constexpr double kStillPrepared = 10; // times the energy of rest: with little friction grains keep rocking
+constexpr std::size_t kCalmLooks = 5; // number of successive checks at rest
+constexpr double kStillPrepared = 10; // factor of the rest energy: with little friction grains keep rocking
 
 /// Porosity of the small bed settled with this friction.
 double porosityAt(const PreparationSetup& preparation, double friction, const base::Exec& exec,
@@ -52,7 +52,7 @@ void measureHeight(const LaidGround& ground, SettleReport& report) {
   const terrain::Rectangle& w = *ground.walls;
   const terrain::BedSurface surface(exec, *ground.grains, ground.rigid->view(), w);
   report.meanHeight = terrain::heightsOf(extentOf(ground, surface)).mean;
-  // From a corner all are near enough.
+  // Length of this diagonal covers the whole bed.
   const terrain::NodeGrid corners{2, 2, w.width(), w.length(), w.xMin, w.yMin};
   const double all = w.width() + w.length();
   report.highest = terrain::highestTops(exec, *ground.grains, corners, all).front();
@@ -82,7 +82,7 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
     report.steps += checkEvery;
     report.time = static_cast<double>(report.steps) * dt;
     if (wanted.forceRatio)
-      forceRatio = terrain::forceRatio(grains.system()); // before anything else is done with the step
+      forceRatio = terrain::forceRatio(grains.system()); // before any other operation, as it requires a step
     const terrain::GrainLedger ledger = grains.ledger();
     report.agitation = (ledger.kinetic + (wanted.spins ? ledger.rotational : 0)) / unit;
     progress(report.time, report.agitation);
@@ -113,15 +113,15 @@ void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double fri
                         SettleReport& report) {
   const terrain::GrainModel own = grains.model();
   terrain::GrainModel prepared = own;
-  // Cohesive grains settle more loosely than any soil that machines have passed over.
+  // Cohesive grains settle more loosely than any soil compacted by traffic.
   const auto prepare = [friction](contact::ContactLaw& law) {
     law = law.pulling(kPreparedPull);
     if (law.friction > 0) law.friction = friction;
   };
   prepare(prepared.law);
   for (contact::ContactLaw& law : prepared.materials.grains) prepare(law);
-  // A bed with so little friction would flow under inclined gravity: it is vertical until the grains have their own
-  // friction again.
+  // A bed with so little friction would flow under inclined gravity: gravity is vertical until the grains have their
+  // own friction.
   prepared.gravity = {0, 0, -norm(own.gravity)};
   grains.replaceLaws(prepared);
   SettleSetup nearly = bed.settle;

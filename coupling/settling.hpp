@@ -17,38 +17,38 @@ struct SettleProgress {
   requires std::invocable<const Tell&, double, double> SettleProgress(Tell f) : tell(std::move(f)) {}
   void operator()(double time, double agitation) const { tell(time, agitation); }
 
-  /// Called at intervals: simulated time [s], kinetic energy per grain over m g radius [-].
+  /// Called at intervals: simulated time [s], kinetic energy per grain / (m g radius) [-].
   std::function<void(double time, double agitation)> tell;
-  /// Called before a SimulationError is thrown, with the present bed and the message. May be empty; must not throw.
+  /// Called before a SimulationError is thrown, with the current bed and the message. May be empty; must not throw.
   std::function<void(const terrain::Grains& bed, const std::string& message, base::Cause cause)> failed{};
 };
 
-/// Frictions found by trials, stored from run to run.
+/// Store of frictions determined by trials, for reuse in later runs.
 class FoundFrictions {
 public:
   FoundFrictions() = default;
   FoundFrictions(const FoundFrictions&) = delete;
   FoundFrictions& operator=(const FoundFrictions&) = delete;
   virtual ~FoundFrictions() = default;
-  /// Empty if none is stored for that origin (PreparationSetup).
+  /// Returns the friction stored for that origin (PreparationSetup); empty if there is none.
   virtual std::optional<double> find(const std::string& origin) const = 0;
   virtual void keep(const std::string& origin, double friction) const = 0;
 };
 
 /// Result of settling.
 struct SettleReport {
-  double time{};      ///< simulated [s]
-  double agitation{}; ///< mean kinetic energy per grain over m g radius [-]
+  double time{};      ///< simulated time [s]
+  double agitation{}; ///< mean kinetic energy per grain / (m g radius) [-]
   std::int64_t steps{};
-  double friction{}; ///< [-] used for preparation; 0: the grains' own
+  double friction{}; ///< friction of the preparation [-]; 0: the material's own
   /// Top of the highest grain, and mean surface height as in BedStructure [m].
   double highest{}, meanHeight{};
 };
 
-/// Settles the grains to the criteria `wanted`: until the mean kinetic energy per grain (of spin too, if wanted) is
-/// below that share of m g radius, and the mean resultant force below that share of the weight, if given, for a tenth
-/// of a second, but at least for the time of a fall by `fall` [m]. Adds to `report`. Throws SimulationError after the
-/// time limit, or at a fault of the grains.
+/// Settles the grains until they satisfy the criteria `wanted` for 0.1 s, but at least for the duration of a free fall
+/// by `fall` [m]: the mean kinetic energy per grain (with spin, if wanted) is below its fraction of m g radius, and the
+/// mean resultant force, if given, below its fraction of the weight. Adds to `report`. Throws SimulationError after the
+/// time limit, or on a fault of the grains.
 void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Grains& grains, double fall,
                      const SettleProgress& progress, SettleReport& report);
 
@@ -57,14 +57,14 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
 void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double friction, const SettleProgress& progress,
                         SettleReport& report);
 
-/// Prepares the bed, if the scene gives a porosity, and settles it under gravity. Throws SimulationError after the
-/// scene's time limit, or at a fault of the grains: the message mentions the settling. `found`: see frictionFor().
+/// Prepares the bed, if the scene specifies a porosity, and settles it under gravity. Throws SimulationError after the
+/// scene's time limit, or on a fault of the grains; the message mentions the settling. `found`: see frictionFor().
 SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleProgress& progress,
                     const FoundFrictions* found = nullptr);
 
-/// Friction during settling for the wanted porosity: by bisection on small beds, to within 0.002. The same on every
-/// device and rank. Throws InputError with the range of porosities if the wanted one is outside. `found`: lookup and
-/// storage of results; null: none, as on several ranks, each of which does all trials.
+/// Friction during settling that yields the target porosity: by bisection on small beds, to within 0.002. Identical on
+/// every device and rank. Throws InputError with the range of porosities if the target is outside. `found`: store of
+/// earlier results; null: none, as on several ranks, where each rank runs all trials.
 double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress,
                    const FoundFrictions* found = nullptr);
 

@@ -15,7 +15,7 @@ namespace {
 
 Vec3d column(const base::Mat3d& m, int i) { return {m.m[0][i], m.m[1][i], m.m[2][i]}; }
 
-/// Smallest cosine of the angle between the y axis of a shoe and a wheel axis for contact.
+/// Minimum cosine of the angle between the y axis of a shoe and a wheel axis for contact.
 constexpr double kLeastTurn = 0.5;
 
 /// Upper bound by which misalignment shortens the distance to a wheel axis, at the lateral offset `across` [m] from the
@@ -58,7 +58,7 @@ ShapedGear::ShapedGear(const vehicle::Assembly& assembly, const VehicleParts& pa
 void ShapedGear::compute(const PartMotion* motion, contact::PartLoad* loads) {
   motion_ = motion, loads_ = loads;
   patches_.beginStep();
-  // Largest distance between a wheel axle and the centre of a touching shoe.
+  // Maximum distance between a wheel axle and the centre of a touching shoe.
   const double height = plateTop_ + hornHeight_, reach = std::sqrt(halfLength_ * halfLength_ + height * height);
   const double boss = pin_ + shapes_.bossRadius;
   for (const Track& track : tracks_)
@@ -99,7 +99,7 @@ ShapedGear::Near ShapedGear::nearby(const PartMotion* motion, int shoePart, cons
 }
 
 void ShapedGear::meetWheel(const Near& near) {
-  // Most nearby wheels touch only the plates. Compare the height and offset of the axle with the rim radius.
+  // Most nearby wheels touch only the plates. Compare height and offset of the axle with the rim radius.
   const Vec3d apart = near.axle - near.origin;
   const double x = dot(apart, near.x), radius = near.of.radius;
   const double turn = dot(near.y, near.axis);

@@ -12,8 +12,8 @@
 namespace grouser::coupling {
 
 /// Contacts within the running gear, computed from part shapes (vehicle::GearShapes): plates on wheel rims, horns
-/// against disc sides, bosses in sprocket gaps. Runs on the host. There are no contact lists; each step finds the shoes
-/// near a wheel from their positions.
+/// against disc sides, bosses in sprocket gaps. Runs on the host, without contact lists; each step finds the shoes near
+/// a wheel from their positions.
 class ShapedGear {
 public:
   struct Model {
@@ -21,10 +21,10 @@ public:
     contact::PatchQuanta quanta;
     double timeStep{};
   };
-  /// `assembly`: its spec must have shapes; must outlive it.
+  /// `assembly`: its spec must have shapes; must outlive this object.
   ShapedGear(const vehicle::Assembly& assembly, const VehicleParts& parts, const Model& model);
 
-  /// Adds this step's loads, opposite ones to shoe and wheel.
+  /// Adds this step's loads, opposite for shoe and wheel.
   void compute(const contact::PartMotion* motion, contact::PartLoad* loads);
 
   contact::PatchBuffers::Ledger ledger() const { return patches_.ledger(); }
@@ -36,23 +36,23 @@ private:
   enum Patch { kPlates = 0, kHornSides = 2, kHornTip = 4, kBosses = 0, kPatches = 6 };
   struct Wheel {
     int part;      ///< contact part
-    double radius; ///< [m]; of a sprocket that of its tips
+    double radius; ///< [m]; for a sprocket, its tip radius
     bool isSprocket;
   };
   struct Track {
     std::vector<int> shoes;  ///< contact parts
     std::vector<Wheel> gear; ///< in the order of the assembly's parts
-    std::size_t firstPair{}; ///< its place among the assembly's pairs
+    std::size_t firstPair{}; ///< index of its first shoe-wheel pair
   };
-  /// A shoe near a wheel, with the geometry of the current step.
+  /// Shoe near a wheel, with the geometry of the current step.
   struct Near {
     const contact::PartMotion &shoe, &wheel;
     int shoePart;
     const Wheel& of;
     std::size_t patches;
     base::Vec3d x, y, z;      ///< axes of the shoe
-    base::Vec3d origin, axle; ///< of their frames, from the shoe's centre of mass
-    base::Vec3d axis;         ///< of the wheel
+    base::Vec3d origin, axle; ///< centres of shoe and wheel, relative to the shoe's centre of mass
+    base::Vec3d axis;         ///< axis of the wheel
     contact::RelativeMotion<double> motion;
   };
 

@@ -58,7 +58,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
 
 Simulation::~Simulation() = default;
 
-/// Calls `advance`; extends the message of a grain fault by the cause found from energies and parts.
+/// Calls `advance`; adds the cause found from energies and parts to the message of a grain fault.
 template <class Advance> void Simulation::namingCause(const Advance& advance) {
   try {
     advance();
@@ -91,7 +91,7 @@ void Simulation::step(StepObserver* observer) {
   if (surfaces_) surfaces_->computeContacts(*laid_.grains, steps_, listsEnded);
   if (ground_) ground_->beginStep();
   done(Stage::grainStep);
-  // The device works on the ground while the host solves vehicle or mechanism.
+  // The device computes the ground while the host solves vehicle or mechanism.
   BodiesInContact* const bodies = movingBodies();
   if (bodies && !solved) bodies->actuate();
   if (bodies) bodies->advance();
@@ -128,7 +128,7 @@ void Simulation::stepAhead(bool last) {
         base::Cause::thrownPart);
   }
   ahead_->begin();
-  // After an alarm the state of this step must remain available.
+  // After an alarm the state of this step must still be available.
   const bool mayAlarm = (steps_ + 1) % VehicleRig::kAlarmInterval == 0;
   if (!last && !mayAlarm) ahead_->launchNext();
   ahead_->computeOnHost();
@@ -142,7 +142,7 @@ void Simulation::stepAhead(bool last) {
   afterStep();
 }
 
-/// Whether a step involves only grains and vehicle, so that work can be launched ahead.
+/// True if a step involves only grains and vehicle, so that work can be launched ahead.
 bool Simulation::canStepAhead() const {
   return vehicle_ && granular_ && !fluid_ && !surfaces_ && vehicle_->contacts().surfaces() == 0 && !mechanism_ &&
          setup_.ground.grains->sources.empty() && !setup_.crushes() && terrain::GrainsAhead::canLaunch(*laid_.grains);
@@ -183,7 +183,7 @@ void Simulation::makeActingGround() {
   granular_ = dynamic_cast<GranularGround*>(ground_.get());
 }
 
-/// `lift` as in VehicleRig.
+/// Creates the vehicle; `lift` as in VehicleRig.
 void Simulation::makeVehicle(SphereSets* spheres, std::optional<double> lift) {
   const auto bare = ground_ ? ground_->surface() : std::function<double(double, double)>{};
   vehicle_ = std::make_unique<VehicleRig>(setup_, exec_, ground_.get(), withObstacles(bare, setup_.ground.obstacles),
@@ -213,15 +213,15 @@ void Simulation::addFluidLoads() {
   if (vehicle_) vehicle_->setFluidForce(force);
 }
 
-/// Throws InputError where a body of the mechanism overlaps something at the start.
+/// Throws InputError if a body of the mechanism initially overlaps something.
 void Simulation::requireRoomForBodies() {
   const multibody::Model& model = vehicle_ ? vehicle_->model() : mechanism_->model();
   if (laid_.grains) requireRoom(*laid_.grains, *setup_.mechanism, model, comm_);
   requireApart(*setup_.mechanism, model, setup_.ground.obstacles, laid_.rigid ? &*laid_.rigid : nullptr);
 }
 
-/// Makes the surfaces and gives the grains their poses of this step. The grains were built with the poses of t = 0, so
-/// in a resumed run this comes before any contact is computed.
+/// Creates the surfaces and passes the poses of this step to the grains. The grains were created with the poses of t =
+/// 0, so in a resumed run this precedes any contact computation.
 void Simulation::makeSurfaces(const SurfaceStates* former) {
   if (!laid_.grains || setup_.ground.surfaces.empty()) return;
   surfaces_ = std::make_unique<Surfaces>(setup_.ground, setup_.gravity, setup_.timeStep);
@@ -235,8 +235,8 @@ void Simulation::makeMeshContacts(SphereSets* spheres) {
   granular_->meetMeshes(surfaces_->grainLoads());
 }
 
-/// Adds the grains of the sources that enter before the next step. Their energies are added to the ledger's start, so
-/// that they do not count as a change.
+/// Adds grains of the sources that enter before the next step. Their energies are added to the ledger's start, so that
+/// they do not count as a change.
 void Simulation::addGrains() {
   if (!laid_.grains || setup_.ground.grains->sources.empty()) return;
   const std::vector<terrain::GrainSpec> entering = setup_.ground.grains->sources.enteringAt(steps_);
@@ -246,8 +246,8 @@ void Simulation::addGrains() {
   start_.move(before, wholeLedger());
 }
 
-/// Removes the grains crushed to their centre in this step, so that none passes through a part. The elastic energy of
-/// their contacts with parts is dissipated; the ledger keeps their other energies.
+/// Removes grains crushed to their centre in this step, so that none passes through a part. The elastic energy of their
+/// contacts with parts counts as dissipated; the ledger keeps their other energies.
 void Simulation::takeOutCrushed() {
   if (!setup_.crushes()) return;
   GrainsOnParts* onParts = granular_->onParts();
@@ -288,7 +288,7 @@ Ledger Simulation::ledger() {
   return l;
 }
 
-/// Sets poses and lists as at the start of step().
+/// Sets poses and lists, as at the start of step().
 terrain::SoilFields fieldsOf(Simulation& s, const terrain::FieldGrid& grid) {
   if (!s.granular_) throw std::logic_error("soil fields require grains");
   terrain::Grains& grains = *s.laid_.grains;
@@ -301,7 +301,7 @@ terrain::SoilFields fieldsOf(Simulation& s, const terrain::FieldGrid& grid) {
   return terrain::fieldsOf(grains, grid, onParts);
 }
 
-/// The grain that has stopped the run, and its contacts, including vehicle and meshes.
+/// Returns the grain that has stopped the run, with its contacts, including vehicle and meshes.
 PressedGrain Simulation::pressed(std::uint32_t grain) {
   PressedGrain pressed = pressedGrain(
       *laid_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
@@ -355,7 +355,7 @@ base::Alarm Simulation::alarmOf(const terrain::GrainFault& fault) {
           base::Cause::pressedGrain};
 }
 
-/// Ledger and guard, after each step.
+/// Updates ledger and guard after each step.
 void Simulation::afterStep() {
   // Elastic energy of part contacts is known for the start of the last step: after the first one, for the start.
   if (steps_ == 1) start_.elastic += partsElastic();
@@ -373,7 +373,7 @@ double Simulation::partsElastic() const {
 void Simulation::checkEnergy() {
   if (fluid_) return;
   const Ledger now = ledger();
-  // Within a grain contact the energy error oscillates: the gain of a few steps is lost in the next ones.
+  // Within a grain contact the energy error oscillates: the gain of a few steps is lost in the following ones.
   const bool early =
       (!mechanism_ || mechanism_->touches()) && steps_ % EnergyGuard::kInterval < EnergyGuard::kOneContact;
   if (early && std::isfinite(now.integrationError) && std::isfinite(now.turnover)) return;
@@ -384,7 +384,7 @@ double Simulation::energyHeld(const Ledger& now) const {
   return std::fabs(start_.kinetic + now.kinetic) + std::fabs(start_.elastic + now.elastic) + weightHeld();
 }
 
-/// Grains at rest on stiff contacts have almost no energy, but their weight does work on the resolution of positions.
+/// Grains at rest on stiff contacts have almost no energy, but the position resolution makes their weight do work.
 double Simulation::weightHeld() const {
   if (!laid_.grains) return 0;
   const terrain::GrainModel& model = laid_.grains->model();

@@ -30,15 +30,15 @@ namespace grouser::coupling {
 
 class FluidDomain;
 
-/// A running scene: grains, vehicle, or both, or a mechanism. The constructor settles the bed; `step()` contains all
-/// physics. All ranks have one and make the same calls; each has its share of the grains, and the whole vehicle.
+/// Running scene: grains, a vehicle, both, or a mechanism. The constructor settles the bed; `step()` contains all
+/// physics. All members are collective; each rank has its share of the grains, and the whole vehicle.
 class Simulation {
 public:
-  /// `beds`, `spheres`: sources of settled beds and sphere sets; null: settles, or cuts, itself.
+  /// `beds`, `spheres`: sources of settled beds and sphere sets; null: the simulation creates them itself.
   Simulation(SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress, const base::Comm& comm = {},
              SettledBeds* beds = nullptr, SphereSets* spheres = nullptr);
-  /// Continues from a saved state of the same scene, with the same bits as an uninterrupted run. Throws InputError if
-  /// the state belongs to another scene.
+  /// Resumes a saved state of the same scene, bitwise identical to an uninterrupted run. Throws InputError if the state
+  /// belongs to another scene.
   Simulation(SimulationSetup setup, const base::Exec& exec, const SimulationState& state, const base::Comm& comm = {},
              SphereSets* spheres = nullptr);
   ~Simulation();
@@ -46,32 +46,32 @@ public:
   Simulation& operator=(const Simulation&) = delete;
   SimulationState save() const;
 
-  /// One step of length timeStep(). Throws SimulationError at a fault.
+  /// Advances one step of length timeStep(). Throws SimulationError on a fault.
   void step(StepObserver* observer = nullptr);
-  /// At least one step, at most `most`: as many as can be launched as one graph, or ahead of each other. Returns the
-  /// number of steps. If it throws, some may have been taken.
+  /// Advances at least one step and at most `most`: as many as can be launched as one graph, or ahead of each other.
+  /// Returns the number of steps. If it throws, some steps may have been completed.
   std::int64_t advance(std::int64_t most);
 
-  /// Sets inputs for the following steps, whatever their `step`: all or, if it throws, none. They are stored in
-  /// checkpoints, and in the state hash as long as they act. All ranks call it with the same inputs. Throws
-  /// base::InputError if the scene lacks the input, or a value is not finite or out of range.
+  /// Sets inputs for the following steps, regardless of their `step`: all or, if it throws, none. They are stored in
+  /// checkpoints, and in the state hash while active. Collective, with the same inputs. Throws base::InputError if the
+  /// scene lacks the input, or a value is not finite or out of range.
   void set(std::vector<Input> inputs);
   const Inputs& inputs() const { return inputs_; }
 
   const SimulationSetup& setup() const { return setup_; }
   double timeStep() const { return setup_.timeStep; }
   std::int64_t steps() const { return steps_; }
-  double time() const { return static_cast<double>(steps_) * setup_.timeStep; } ///< since the bed has settled [s]
+  double time() const { return static_cast<double>(steps_) * setup_.timeStep; } ///< since the end of settling [s]
 
   const base::Comm& comm() const { return comm_; }
-  const LaidGround& ground() const { return laid_; } ///< height-map, floor and present grains
-  /// The ground under the vehicle, or grains alone; null if the vehicle hangs, and for a mechanism.
+  const LaidGround& ground() const { return laid_; } ///< height map, floor and current grains
+  /// Ground under the vehicle, or grains alone; null if the vehicle hangs, and for a mechanism.
   const Ground* actingGround() const { return ground_.get(); }
-  const GranularGround* granularGround() const { return granular_; } ///< the same if it is granular; else null
+  const GranularGround* granularGround() const { return granular_; } ///< actingGround() if granular, else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
   const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
-  /// Restarts the means of the observers: Means::rows after every row. Only a vehicle has Means::watch.
+  /// Restarts the means of the observers: Means::rows after every output row. Only a vehicle has Means::watch.
   void restartMeans(Means of = Means::rows) {
     if (vehicle_) vehicle_->restartMeans(of);
     if (of == Means::watch) return;
@@ -79,19 +79,19 @@ public:
     if (surfaces_) surfaces_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
   }
-  const TakenOut& takenOut() const { return taken_; } ///< since the start
-  /// By a part or mesh since restartMeans(); empty if grains touch none. All ranks call it.
+  const TakenOut& takenOut() const { return taken_; } ///< grains removed since the start because they were crushed
+  /// Deepest overlap with a part or mesh since restartMeans(); empty without grains in contact. Collective.
   std::optional<DeepestPartOverlap> deepestPartOverlap() const;
   const SettleReport& settled() const { return settled_; }
 
-  /// Counted from the first step. All ranks call it.
+  /// Ledger counted from the first step. Collective.
   Ledger ledger();
 
-  /// Throws SimulationError if time integration creates or loses too much energy, with the likely cause. Steps call it
-  /// every EnergyGuard::kInterval; call it at the end of a run, which may fall in between.
+  /// Throws SimulationError, with the likely cause, if time integration creates or loses too much energy. Steps call it
+  /// every EnergyGuard::kInterval; call it also at the end of a run, which may be between two checks.
   void checkEnergy();
 
-  /// Hash over the state sorted by id, as 16 hexadecimal digits: equal bits, equal hash.
+  /// Hash of the state sorted by id, as 16 hexadecimal digits: equal states have equal hashes.
   std::string stateHash() const;
 
 private:
@@ -105,7 +105,7 @@ private:
   void addGrains();
   void takeOutCrushed();
   void afterStep();
-  /// Since the grains, bodies and surfaces were created.
+  /// Ledger since the creation of grains, bodies and surfaces.
   Ledger wholeLedger();
   double partsElastic() const;
   std::string energyVerdict(const Ledger& now) const;
@@ -125,47 +125,47 @@ private:
   void makeSurfaces(const SurfaceStates* former);
   void makeMeshContacts(SphereSets* spheres);
   bool hasBed() const { return setup_.ground.grains && setup_.ground.grains->bed; }
-  /// Whether the bed settles alone, and the rest of the scene is added afterwards.
+  /// True if the bed settles alone, and the rest of the scene is added afterwards.
   bool isPutOnBed() const { return hasBed() && setup_.ground.grains->bed->alone; }
-  /// The ground in which the bed settles.
+  /// Ground in which the bed settles.
   const GroundSetup& bedGround() const { return isPutOnBed() ? *setup_.ground.grains->bed->alone : setup_.ground; }
 
-  SimulationSetup setup_; ///< constant once things are placed on the settled bed
+  SimulationSetup setup_; ///< constant once objects are placed on the settled bed
   base::Exec exec_;
   base::Comm comm_;
   LaidGround laid_;
   std::unique_ptr<Ground> ground_;    ///< null without; refers to laid_
   GranularGround* granular_{nullptr}; ///< ground_ if it is granular
   SettleReport settled_;
-  std::vector<double> lifts_;          ///< of objects placed on a settled bed; see liftsOnto()
+  std::vector<double> lifts_;          ///< lifts of objects placed on a settled bed; see liftsOnto()
   std::unique_ptr<Surfaces> surfaces_; ///< null without
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
   std::unique_ptr<FluidDomain> fluid_; ///< null without
-  BodiesInContact* touching_{nullptr}; ///< vehicle, or mechanism with shapes; null without
-  std::unique_ptr<StepsAhead> ahead_;  ///< of steps that can be launched ahead; made by the first
+  BodiesInContact* touching_{nullptr}; ///< vehicle, or mechanism with shapes; else null
+  std::unique_ptr<StepsAhead> ahead_;  ///< steps launched ahead; created by the first of them
   EnergyGuard guard_;
-  Inputs inputs_;       ///< from outside
-  base::Vec3d gravity_; ///< now [m/s2]
+  Inputs inputs_;       ///< external inputs
+  base::Vec3d gravity_; ///< current gravity [m/s2]
   std::int64_t steps_{0};
   TakenOut taken_;
-  Ledger start_; ///< before the first step; the ledger counts from here
+  Ledger start_; ///< ledger before the first step, which is the reference
 };
 
-/// Throws base::InputError if Simulation::set() would refuse the input. Not collective: one rank may call it alone.
+/// Throws base::InputError if Simulation::set() would reject the input. Not collective: one rank may call it alone.
 void require(const Simulation& simulation, const Input& input);
 
-/// Place of a body among those of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the
-/// nearest name.
+/// Index of a body of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the nearest name.
+/// The index is InputKind::bodyLoad's target.
 std::int32_t bodyIndex(const Simulation& simulation, const std::string& name);
 
 /// The fluid of a simulation; null without.
 FluidDomain* fluidOf(const Simulation& simulation);
 
-/// Cuts of the meshes of vehicle and scene; parts without contacts have no entry.
+/// Sphere cuts of the meshes of vehicle and scene; parts without contacts have no entry.
 std::vector<spheredecomp::CutReport> cutReports(const Simulation& simulation);
 
-/// Present soil fields of a scene with grains; see terrain::measureFields(). All ranks call it.
+/// Current soil fields of a scene with grains; see terrain::measureFields(). Collective.
 terrain::SoilFields fieldsOf(Simulation& simulation, const terrain::FieldGrid& grid);
 
 } // namespace grouser::coupling

@@ -75,7 +75,7 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Simu
   if (ground_) ground_->restore(state);
   makeMeshContacts(spheres);
   if (setup_.vehicle) {
-    // The vehicle is assembled at its start, as in an uninterrupted run; then it is moved.
+    // The vehicle is assembled at its initial pose, as in an uninterrupted run, then moved.
     makeVehicle(spheres, state.vehicle->lift);
     vehicle_->restore(*state.vehicle);
   }

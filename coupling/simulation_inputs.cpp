@@ -70,13 +70,13 @@ void Simulation::set(std::vector<Input> inputs) {
   for (const Input& input : inputs) inputs_.set(input);
   const auto isGravity = [](const Input& i) { return i.kind == InputKind::gravity; };
   if (std::none_of(inputs.begin(), inputs.end(), isGravity)) return command();
-  // Potential energies use the acting gravity: their change here is not work of the simulation.
+  // Potential energies use the current gravity: their change here is not work of the simulation.
   const Ledger before = wholeLedger();
   command();
   start_.move(before, wholeLedger());
 }
 
-/// Passes the acting inputs to vehicle, mechanism, surfaces and ground.
+/// Passes the active inputs to vehicle, mechanism, surfaces and ground.
 void Simulation::command() {
   const auto g = inputs_.now(InputKind::gravity);
   const base::Vec3d gravity = g ? base::Vec3d{(*g)[0], (*g)[1], (*g)[2]} : setup_.gravity;
@@ -86,7 +86,7 @@ void Simulation::command() {
   gravity_ = gravity;
   if (surfaces_) surfaces_->setGravity(gravity), surfaces_->place(*laid_.grains, steps_);
   if (ground_) ground_->setGravity(gravity);
-  ahead_.reset(); // its graphs hold the former one
+  ahead_.reset(); // its graphs contain the former gravity
 }
 
 std::int32_t bodyIndex(const Simulation& simulation, const std::string& name) {

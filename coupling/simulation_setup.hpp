@@ -21,7 +21,7 @@ struct SimulationSetup {
 
   bool crushes() const {
     return ground.grains && ground.grains->partLaws.crush();
-  } ///< whether grains crush against parts
+  } ///< true if grains crush against parts
 };
 
 } // namespace grouser::coupling

@@ -21,26 +21,26 @@ struct TakenOut {
   base::Vec3d momentum;    ///< [N s]
 };
 
-/// State of a simulation that later steps or later output depend on. Independent of device, threads and lists.
+/// Simulation state that later steps or output depend on. Independent of device, threads and lists.
 struct SimulationState {
   std::int64_t steps{};
-  std::vector<double> surface; ///< nodes of the undisturbed bed [m]; empty without one
+  std::vector<double> surface; ///< node heights of the undisturbed bed [m]; empty without a bed
   SettleReport settled;
-  std::optional<terrain::BedStructure> bed; ///< before anything touched it
-  std::vector<double> ledgerAtStart;        ///< Ledger::counted(): the ledger counts from here
+  std::optional<terrain::BedStructure> bed; ///< structure of the bed before any contact
+  std::vector<double> ledgerAtStart;        ///< Ledger::counted() at the reference time of the ledger
   std::vector<double> guard;                ///< EnergyGuard::save()
   std::optional<terrain::GrainState> grains;
-  std::optional<std::vector<double>> ground; ///< of a ground that is neither granular nor rigid, in its own form
+  std::optional<std::vector<double>> ground; ///< state of a ground that is neither granular nor rigid, in its format
   std::optional<SurfaceStates> surfaces;
   std::optional<VehicleState> vehicle;
   std::optional<MechanismState> mechanism;
   std::optional<FluidDomainState> fluid;
-  std::vector<double> lifts;  ///< of objects placed on a settled bed [m]; empty without
-  TakenOut taken;             ///< since the start
+  std::vector<double> lifts;  ///< lifts of objects placed on a settled bed [m]; empty without such objects
+  TakenOut taken;             ///< grains removed since the start
   std::vector<double> inputs; ///< Inputs::save(); empty without inputs
 
-  /// 16 hexadecimal digits over the data that the next step depends on: equal bits, equal hash, on any number of ranks,
-  /// all of which call it.
+  /// Hash of the data that the next step depends on, as 16 hexadecimal digits: equal bits, equal hash, for any
+  /// number of ranks. Collective.
   std::string hash(const base::Comm& comm = {}) const;
 };
 

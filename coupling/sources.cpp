@@ -13,8 +13,8 @@ namespace grouser::coupling {
 namespace {
 
 constexpr std::uint64_t kSourcePurpose = base::purpose("source.place");
-constexpr int kSourceTries = 2000; // attempts to find a free place for one grain
-constexpr double kRoom = 2.002;    // [radii] between centres that enter together
+constexpr int kSourceTries = 2000; // attempts to find a free position for one grain
+constexpr double kRoom = 2.002;    // [radii] minimum distance of centres that enter together
 
 } // namespace
 
@@ -52,7 +52,7 @@ std::optional<std::int64_t> Sources::nextEntry(std::int64_t step) const {
   return next;
 }
 
-/// Grains of batch `number`: random in the box, without overlap.
+/// Grains of batch `number`: random positions in the box, without overlap.
 std::vector<terrain::GrainSpec> Sources::batch(const SourceSetup& s, std::int64_t number) const {
   const std::int64_t count = std::min(s.number, s.total - number * s.number);
   std::vector<terrain::GrainSpec> grains;

@@ -11,20 +11,20 @@
 
 namespace grouser::coupling {
 
-/// One [[source]]: grains that enter a box during the run.
+/// One [[source]]: grains that enter in a box during the run.
 struct SourceSetup {
-  std::string place;                     ///< in messages: "scene.toml:14: source.0"
-  base::Vec3d low, high;                 ///< corners of the box of their centres [m]
+  std::string place;                     ///< location for messages: "scene.toml:14: source.0"
+  base::Vec3d low, high;                 ///< corners of the box that contains their centres [m]
   base::Vec3d velocity, spin;            ///< [m/s], [rad/s]
   double radius{};                       ///< [m]
-  int material{};                        ///< among those of the scene's grains
+  int material{};                        ///< index in the scene's grain materials
   std::int64_t number{}, total{};        ///< per batch; in total
   std::int64_t every{}, first{}, last{}; ///< [steps]
   std::uint64_t seed{};
 };
 
 /// The [[source]]s of a scene: the grains that enter at each step. A pure function of the scene and the step number, so
-/// that checkpoints need not save it.
+/// it is not saved in checkpoints.
 class Sources {
 public:
   Sources() = default;
@@ -34,16 +34,16 @@ public:
   /// Grains that enter at the beginning of this step (the first is step 0).
   std::vector<terrain::GrainSpec> enteringAt(std::int64_t step) const;
   bool empty() const { return sources_.empty(); }
-  std::int64_t total() const; ///< number of grains that enter
+  std::int64_t total() const; ///< total number of entering grains
   const SourceSetup& source(std::size_t i) const { return sources_[i]; }
 
-  /// Grains of one source at a step.
+  /// Grains of one source at one step.
   struct Batch {
-    std::size_t source{}; ///< among the scene's
+    std::size_t source{}; ///< index in the scene
     std::vector<terrain::GrainSpec> grains;
   };
   std::vector<Batch> batchesAt(std::int64_t step) const; ///< in the order of enteringAt()
-  /// The first step, not before `step`, at which grains enter.
+  /// First step, not before `step`, at which grains enter.
   std::optional<std::int64_t> nextEntry(std::int64_t step) const;
 
 private:
@@ -53,7 +53,7 @@ private:
   terrain::PeriodicBoundaries sides_;
 };
 
-/// Seed for the positions of a source's grains, from the seed of the run and the source's number in the scene.
+/// Seed for the grain positions of a source, from the seed of the run and the index of the source in the scene.
 std::uint64_t sourceSeed(std::uint64_t seed, std::uint64_t source);
 
 } // namespace grouser::coupling

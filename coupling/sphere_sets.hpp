@@ -11,10 +11,10 @@
 
 namespace grouser::coupling {
 
-/// A part to be cut; `mesh` must outlive the cut.
+/// Part to be cut into spheres; `mesh` must outlive the cut.
 struct PartCut {
   const base::TriangleMesh* mesh;
-  std::string name; ///< of the set, and in errors
+  std::string name; ///< name of the set, also in errors
   spheredecomp::DecompositionOptions options;
   std::optional<spheredecomp::ProtrusionLimit> limit{}; ///< empty: the set is not measured
   std::string key{};                                    ///< scene key of the radius
@@ -30,16 +30,16 @@ public:
   SphereSets& operator=(const SphereSets&) = default;
   SphereSets& operator=(SphereSets&&) = default;
   virtual ~SphereSets() = default;
-  /// The set that cutPart() returns, bit for bit; `protrusion` as there.
+  /// Returns the same set as cutPart(), bit for bit; `protrusion` as in cutPart().
   virtual base::SphereSet cut(const PartCut& part, spheredecomp::Protrusion* protrusion) = 0;
 };
 
-/// Cuts a part; with a limit so that it is kept, and `protrusion` receives the measured values. Throws as
-/// spheredecomp::decompose() or decomposeWithin() do.
+/// Cuts a part into spheres; with a limit the protrusion satisfies it, and `protrusion` receives the measured values.
+/// Throws like spheredecomp::decompose() or decomposeWithin().
 base::SphereSet cutPart(const PartCut& part, spheredecomp::Protrusion& protrusion);
 
-/// Sphere sets of all parts, on all ranks, which share the work. `kept` may be null: then all are cut. Throws as
-/// decompose() does, or with a limit decomposeWithin(); `reports` receives an entry for each part.
+/// Cuts all parts on all ranks, which share the work. `kept`: source of stored sets, or null to cut all. Throws like
+/// decompose(), or with a limit like decomposeWithin(); `reports` receives an entry for each part.
 std::vector<base::SphereSet> cutParts(const std::vector<PartCut>& parts, SphereSets* kept, const base::Comm& comm,
                                       std::vector<spheredecomp::CutReport>* reports = nullptr);
 

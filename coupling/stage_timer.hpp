@@ -9,7 +9,7 @@
 
 namespace grouser::coupling {
 
-/// Steps a simulation and times each stage, waiting for the device after it: the same bits, slower.
+/// Steps a simulation and times each stage, waiting for the device after it: the same results, but slower.
 class StageTimer : private StepObserver {
 public:
   StageTimer(Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}
@@ -22,7 +22,7 @@ public:
   const std::array<Part, kStages>& parts() const { return parts_; }
   const Part& part(Stage stage) const { return parts_[static_cast<std::size_t>(stage)]; }
   std::int64_t steps() const { return steps_; }
-  std::int64_t rebuilds() const { return rebuilds_; } ///< of the neighbour list, while measured
+  std::int64_t rebuilds() const { return rebuilds_; } ///< rebuilds of the neighbour list, while measured
 
 private:
   void after(Stage stage) override;
@@ -42,7 +42,7 @@ private:
                                     {"flags to host"},
                                     {"alarm"}}};
   std::int64_t steps_ = 0, rebuilds_ = 0;
-  std::int64_t last_ = 0; ///< end of the stage before [ns]
+  std::int64_t last_ = 0; ///< end of the previous stage [ns]
 };
 
 } // namespace grouser::coupling

@@ -13,16 +13,16 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Ratio of the next stretch to the last [-]: safety factor, least and largest ratio.
+/// Ratio of the next interval to the last [-]: safety factor, minimum and maximum ratio.
 constexpr double kAim = 0.9, kLeast = 0.2, kMost = 2;
-/// Negligible remaining time, and the shortest stretch, as shares of the time [-].
+/// Negligible remaining time, and the shortest interval, relative to the time [-].
 constexpr double kNoTime = 1e-12, kShortest = 1e-13;
-/// Round-off error of a stretch per metre of coordinates and per radian [-].
+/// Round-off error of an interval per metre of coordinates and per radian [-].
 constexpr double kRoundOff = 1e-14;
 
 } // namespace
 
-/// Longest stretch allowed by drives and rotations of bodies [s].
+/// Longest interval permitted by drives and rotations of bodies [s].
 double StepController::longest(const multibody::State& state) const {
   double rate = 0;
   for (const multibody::Twist& V : state.twist) rate = std::max(rate, norm(V.w));
@@ -41,14 +41,14 @@ double StepController::error(double h) const {
   return most / 3;
 }
 
-/// Round-off error of a stretch [m, rad].
+/// Round-off error of an interval [m, rad].
 double StepController::roundOff() const {
   double scale = 1;
   for (const base::Pose& X : once_.pose) scale = std::max(scale, norm(X.position));
   return kRoundOff * scale;
 }
 
-/// Integrates a stretch from twice_ (a copy of the state) in one and in two steps; returns whether the solver
+/// Integrates an interval from twice_ (a copy of the state) in one and in two steps; returns true if the solver
 /// succeeded.
 bool StepController::tryStretch(multibody::Solver& solver, const multibody::Loads& loads, double h) {
   once_ = twice_;
@@ -66,7 +66,7 @@ void StepController::advance(multibody::Solver& solver, multibody::State& state,
                              double until, const std::function<void()>& each) {
   while (until - state.time > kNoTime * until) {
     const double left = until - state.time, wanted = std::min(record_.next, longest(state));
-    // The rest in equal stretches, so that the last is not much shorter.
+    // Divide the remaining time equally, so that the last interval is not much shorter.
     const double pieces = std::max(1.0, std::ceil(left / wanted - 1e-9)), h = left / pieces;
     twice_ = state;
     const bool solved = tryStretch(solver, loads, h);
@@ -83,7 +83,7 @@ void StepController::advance(multibody::Solver& solver, multibody::State& state,
                       "raise it, or check for an impact at this time",
                       state.time, record_.next, control_.tolerance));
     }
-    // A stretch shortened by the end does not limit the next ones.
+    // An interval shortened by the end does not limit the next ones.
     record_.next = factor >= 1 && pieces == 1 ? std::max(h * factor, record_.next) : h * factor;
     record_.smallest = record_.taken == 0 ? 0.5 * h : std::min(record_.smallest, 0.5 * h);
     record_.largest = std::max(record_.largest, 0.5 * h);

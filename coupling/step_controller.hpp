@@ -10,27 +10,27 @@
 
 namespace grouser::coupling {
 
-/// Error-controlled steps of a mechanism. Each stretch h is done in one step and in two of h / 2; a third of their
-/// difference is the error of the two (RATTLE is of order 2), and they are kept if for every body
+/// Error-controlled steps of a mechanism. Each interval h is computed in one step and in two steps of h / 2; a third of
+/// their difference is the error of the two (RATTLE is of order 2), which are accepted if for every body
 ///   |dp| + h |dv|  and  |dphi| + h |dw|   are at most   tolerance h + round-off      [m], [rad]:
-/// the error of positions and rotations per second. The next h is 0.9 sqrt(tolerance h / error) of the last, within
-/// [0.2, 2]. No step is longer than drives and rotations allow (time_scales.hpp). Decisions depend on the state alone,
-/// so resumed runs have the same bits.
+/// the error of positions and rotations per second. The next h is 0.9 sqrt(tolerance h / error) of the last, limited to
+/// [0.2, 2]. No step is longer than drives and rotations permit (time_scales.hpp). Decisions depend only on the state,
+/// so resumed runs are bitwise identical.
 class StepController {
 public:
   StepController(const StepControl& control, double largestTurn)
       : control_(control), largestTurn_(largestTurn), record_{control.first, 0, 0, 0, 0} {}
 
-  /// Advances `state` to the time `until` [s]; calls `each` after every accepted stretch. Throws base::SimulationError
-  /// if no step meets the tolerance.
+  /// Advances `state` to the time `until` [s]; calls `each` after every accepted interval. Throws base::SimulationError
+  /// if no step satisfies the tolerance.
   void advance(multibody::Solver& solver, multibody::State& state, const multibody::Loads& loads, double until,
                const std::function<void()>& each);
 
-  /// Statistics of the whole run. A stretch counts as two steps, a rejected one as three.
+  /// Statistics of the whole run. An accepted interval counts as two steps, a rejected one as three.
   struct Record {
-    double next = 0; ///< stretch [s]
+    double next = 0; ///< next interval [s]
     std::int64_t taken = 0, rejected = 0;
-    double smallest = 0, largest = 0; ///< accepted step [s]
+    double smallest = 0, largest = 0; ///< smallest and largest accepted step [s]
   };
   const Record& record() const { return record_; }
   void restore(const Record& record) { record_ = record; }
@@ -44,7 +44,7 @@ private:
   const StepControl control_;
   const double largestTurn_;
   Record record_;
-  multibody::State once_, twice_; ///< after the stretch in one step and in two
+  multibody::State once_, twice_; ///< states after the interval in one step and in two
 };
 
 } // namespace grouser::coupling

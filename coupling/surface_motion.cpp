@@ -12,7 +12,7 @@ using base::Vec3d;
 
 namespace {
 
-/// The angle of `turns` in [0, 2 pi): base::sin requires a bounded angle.
+/// Angle of `turns` in [0, 2 pi): base::sin requires a bounded argument.
 double angleOf(double turns) { return 2 * base::kPi * (turns - std::floor(turns)); }
 
 } // namespace

@@ -7,7 +7,7 @@
 
 namespace grouser::coupling {
 
-/// The constants of a prescribed motion; see SurfaceMotion.
+/// Constants of a prescribed motion; see SurfaceMotion.
 struct SurfaceMotionLaw {
   base::Vec3d pivot;                                     ///< [m] centre of rotation
   base::Vec3d velocity, spin, amplitude;                 ///< [m/s], [rad/s], [m]
@@ -16,10 +16,10 @@ struct SurfaceMotionLaw {
   double until{std::numeric_limits<double>::infinity()}; ///< [s]
 };
 
-/// Prescribed motion of a rigid surface: closed functions of time, so that no error accumulates and a resumed run has
-/// the same bits.
+/// Prescribed motion of a rigid surface: closed functions of time, so that errors do not accumulate and resumed runs
+/// are bitwise identical.
 ///
-/// With s the time since `start`, held at `until`:
+/// With s the time since `start`, constant after `until`:
 ///   pivot(s) = pivot + velocity s + amplitude (sin(2 pi frequency s + phase) - sin(phase))
 ///   turn(s)  = |spin| s about spin,   centre(s) = pivot(s) + turn(s) (centre - pivot)
 class SurfaceMotion {
@@ -29,16 +29,16 @@ public:
 
   struct State {
     base::Vec3d centre;         ///< [m]
-    base::Quat turned;          ///< since the start
-    base::Vec3d velocity, spin; ///< of the centre [m/s], [rad/s]
+    base::Quat turned;          ///< rotation since the start
+    base::Vec3d velocity, spin; ///< velocity of the centre [m/s], angular velocity [rad/s]
     base::Vec3d pivot;          ///< [m]
   };
   State at(double time) const;
-  void lift(double way) { law_.pivot.z += way; } ///< the whole motion, upwards [m]
+  void lift(double way) { law_.pivot.z += way; } ///< raises the whole motion [m]
 
 private:
   SurfaceMotionLaw law_;
-  base::Vec3d arm_; ///< from the pivot to the centre at the start [m]
+  base::Vec3d arm_; ///< vector from the pivot to the initial centre [m]
 };
 
 } // namespace grouser::coupling

@@ -10,24 +10,24 @@
 
 namespace grouser::coupling {
 
-/// State of a rigid surface besides its prescribed motion.
+/// State of a rigid surface in addition to its prescribed motion.
 struct SurfaceState {
-  double offset{}, speed{}; ///< of a force-driven surface, along its axis [m], [m/s]
-  double work{};            ///< of its drive, since the start [J]
-  double turnover{};        ///< of a force-driven surface: sum of its absolute work per step, since the start [J]
-  base::Vec3d impulse, angularImpulse; ///< on the grains since the start [N s], [N m s about the origin of the world]
-  base::Vec3d force, torque;           ///< sums over the steps since the last row [N], [N m]
-  base::Vec3d pivotTorque;             ///< the same of the torque about the pivot [N m]
-  double power{};                      ///< the same [W]
+  double offset{}, speed{};            ///< displacement and speed of a force-driven surface along its axis [m], [m/s]
+  double work{};                       ///< cumulative work of its drive [J]
+  double turnover{};                   ///< cumulative absolute work per step of a force-driven surface [J]
+  base::Vec3d impulse, angularImpulse; ///< cumulative, on the grains [N s], [N m s about the world origin]
+  base::Vec3d force, torque;           ///< sums over the steps since the last output row [N], [N m]
+  base::Vec3d pivotTorque;             ///< sum of the torque about the pivot since the last output row [N m]
+  double power{};                      ///< sum of the drive power since the last output row [W]
 };
 
-/// All surfaces of a scene.
+/// States of all surfaces of a scene.
 struct SurfaceStates {
   std::vector<SurfaceState> surfaces;
   std::int64_t meanSteps{};           ///< number of steps in those sums
-  contact::SavedGrainPatches patches; ///< of grains on meshes
+  contact::SavedGrainPatches patches; ///< contacts of grains with meshes
 
-  /// For the hash: the data that the next step depends on.
+  /// Words of the state hash: the data that the next step depends on.
   std::vector<std::uint32_t> words() const {
     std::vector<std::uint32_t> words;
     for (const SurfaceState& s : surfaces)

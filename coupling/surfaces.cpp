@@ -111,7 +111,7 @@ void Surfaces::checkSpeed(std::size_t i, std::int64_t step, double smallestRadiu
                                           step, static_cast<double>(step) * timeStep_, surfaces_[i].name, speed, most));
 }
 
-/// Meshes have many corners: these are checked only at intervals.
+/// Meshes have many corners, which are checked only at intervals.
 void Surfaces::checkPlace(std::size_t i, std::int64_t step) const {
   constexpr std::int64_t kInterval = 50;
   const terrain::PeriodicBoundaries& sides = setup_.grains->boundaries.periodic;
@@ -133,7 +133,7 @@ void Surfaces::advance(terrain::Grains& grains, std::int64_t step) {
     const Vec3d centre = law.centre + freeAxis(i) * s.offset;
     double power = -dot(load.force, law.velocity) - dot(load.torque, law.spin);
     if (const auto& free = surfaces_[i].free) {
-      // Symplectic Euler, as the grains.
+      // Symplectic Euler, as for the grains.
       const double mass = free->mass, given = free->loadAt(time), before = s.speed;
       s.speed += (dot(load.force + gravity_ * mass, freeAxis(i)) + given) / mass * timeStep_;
       s.offset += s.speed * timeStep_;

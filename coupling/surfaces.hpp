@@ -14,7 +14,7 @@
 
 namespace grouser::coupling {
 
-/// Response of meshes to impulses of grains: prescribed motion, or one free axis.
+/// Response of meshes to grain impulses: prescribed motion, or one free axis.
 class MovedMeshes : public contact::BodyResponse {
 public:
   void begin(std::vector<terrain::SurfacePose> poses);
@@ -24,34 +24,34 @@ public:
                std::vector<contact::BodyVelocity>& velocities) override;
 
 private:
-  std::vector<terrain::SurfacePose> poses_; ///< at the start of the step
+  std::vector<terrain::SurfacePose> poses_; ///< poses at the start of the step
   std::vector<std::uint32_t> bodyOfPart_;
   std::vector<Inverse> inverses_;
 };
 
-/// The moving surfaces of a scene: their poses at each step, their drive loads, and the motion of force-driven ones.
-/// The same on all ranks.
+/// Moving surfaces of a scene: poses at each step, drive loads, and motion of force-driven surfaces. Identical on all
+/// ranks.
 class Surfaces {
 public:
-  /// `setup` must outlive it.
+  /// `setup` must outlive this object.
   Surfaces(const GroundSetup& setup, const base::Vec3d& gravity, double timeStep);
   Surfaces(const Surfaces&) = delete;
   Surfaces& operator=(const Surfaces&) = delete;
 
-  /// Creates the contacts of meshes; after grains have been restored, before the first computeContacts().
+  /// Creates the mesh contacts; call after grains are restored and before the first computeContacts().
   void makeMeshContacts(const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
 
-  /// Computes contacts of grains with meshes in step `step`; complementarity contacts are computed in the grains' step.
+  /// Computes contacts of grains with meshes in step `step`; complementarity contacts are part of the grain step.
   void computeContacts(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
-  /// Contact moments of grains with meshes in step `step`, without change of state; nothing without meshes.
+  /// Contact moments of grains with meshes in step `step`, without side effects; empty without meshes.
   contact::PartMomentsView measure(const terrain::Grains& grains, std::int64_t step, bool slotsChanged);
-  /// Loads for the grains' step; null without meshes.
+  /// Loads for the grain step; null without meshes.
   const contact::GrainLoadsView* grainLoads() const { return meshes_ ? meshes_->grainLoads() : nullptr; }
-  /// Passes the poses at step `step` to the grains.
+  /// Sets the surface poses of the grains for step `step`.
   void place(terrain::Grains& grains, std::int64_t step) const;
-  /// Adds the loads of the grains in step `step`, moves force-driven surfaces, and sets all poses for the next step.
-  /// Throws SimulationError if a surface moves so fast that it could pass through a grain in one step, or reaches a
-  /// periodic boundary, beyond which it has no contacts.
+  /// Adds the grain loads of step `step`, moves force-driven surfaces, and sets all poses for the next step. Throws
+  /// SimulationError if a surface moves so fast that it could pass through a grain in one step, or reaches a periodic
+  /// boundary, beyond which it has no contacts.
   void advance(terrain::Grains& grains, std::int64_t step);
 
   void setGravity(const base::Vec3d& gravity) { gravity_ = gravity; } ///< [m/s2]
@@ -59,19 +59,19 @@ public:
   const SurfaceSetup& surface(std::size_t i) const { return surfaces_[i]; }
   base::Pose pose(std::size_t i, std::int64_t step) const;
 
-  /// Loads of the grains about the centre, and the power of the surface's drive: means since restartMeans().
+  /// Grain loads about the centre, and power of the surface's drive: means since restartMeans().
   struct Observation {
     base::Vec3d force, torque; ///< [N], [N m]
     base::Vec3d pivotTorque;   ///< about the pivot [N m]
     double power{};            ///< [W]
-    base::Vec3d position;      ///< of the centre now [m]
+    base::Vec3d position;      ///< current position of the centre [m]
   };
   Observation observe(std::size_t i, std::int64_t step) const;
   void restartMeans();
-  /// Names of the meshes that overlap a grain, with the overlap [m]; all ranks call it.
+  /// Names of the meshes that overlap a grain, with the overlap [m]; collective.
   std::vector<std::pair<std::string, double>> meshesPressing(std::uint32_t grain) const;
 
-  /// Ids of the grains crushed to their centre by a mesh in this step; all ranks call it.
+  /// Ids of the grains crushed to their centre by a mesh in this step; collective.
   std::vector<std::uint32_t> endedGrains() const {
     return meshes_ ? meshes_->endedGrains() : std::vector<std::uint32_t>{};
   }
@@ -87,7 +87,7 @@ public:
   double meshElastic() const { return meshes_ ? meshes_->ledger().elastic : 0.0; } ///< in contacts with meshes [J]
 
   SurfaceStates save() const;
-  /// Throws InputError if they belong to other surfaces.
+  /// Throws InputError if the states belong to other surfaces.
   void restore(const SurfaceStates& states);
 
 private:

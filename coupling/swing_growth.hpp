@@ -9,14 +9,14 @@
 namespace grouser::coupling {
 
 /// Bound on the growth of transverse oscillations of tensioned joints while the tension exceeds the limit of the step.
-/// At r times the longest stable step an oscillation grows (r + sqrt(r^2 - 1))^2 times a step. The smaller growth of
-/// this check and the last counts, so that a peak between them, or at one of them, does not.
+/// At r times the longest stable step an oscillation grows by (r + sqrt(r^2 - 1))^2 per step. The smaller growth of
+/// this check and the last one applies, so that single peaks have no effect.
 class SwingGrowth {
 public:
-  /// Constraint errors of joints, 1e-10 m at most, grow to 0.1 mm by this factor [-].
+  /// Maximum growth factor [-]: constraint errors of joints, at most 1e-10 m, grow to 0.1 mm.
   static constexpr double kMost = 1e6;
 
-  /// A check, `steps` after the last one; r: the step over the longest stable one. False if the growth is too large.
+  /// Records a check, `steps` after the last one; r: step / longest stable step. Returns false for too large a growth.
   bool bears(double r, std::int64_t steps) {
     if (!(r > 1)) {
       rate_ = grown_ = 1;
@@ -32,7 +32,7 @@ public:
   void restore(double rate, double grown) { rate_ = rate, grown_ = grown; }
 
 private:
-  double rate_ = 1, grown_ = 1; ///< per step at the last check, and since it first exceeded 1
+  double rate_ = 1, grown_ = 1; ///< growth per step at the last check; total growth since it first exceeded 1
 };
 
 } // namespace grouser::coupling

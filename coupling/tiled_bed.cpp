@@ -9,7 +9,7 @@ namespace grouser::coupling {
 TiledBed::TiledBed(const TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface)
     : periodic_(tile.periodic), copies_(tile.copies), scale_(settled.scale()), radius_(settled.model().radius),
       period_(settled.system().constants.period), tile_(settled.state()) {
-  // The tile lies in [0, size x] and [-size y / 2, size y / 2], as every terrain does.
+  // The tile covers [0, size x] and [-size y / 2, size y / 2], like every terrain.
   lift_ = base::toUnits(scale_.fromMetres(
       {0, 0.5 * tile.size[1] - 0.5 * tile.terrainSize[1], tile.floorHeight - tile.ground->rigid->bounds().lowest}));
 

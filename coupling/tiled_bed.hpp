@@ -10,24 +10,24 @@
 
 namespace grouser::coupling {
 
-/// A bed made of copies of one settled tile.
+/// Bed composed of copies of one settled tile.
 ///
-/// A piece of the bed of about terrain.tile, with periodic boundaries on level ground, is laid and settled alone, then
-/// copied over the terrain with the springs of its contacts, so that the copies are in balance across their seams.
-/// Grains that would overlap a wall are left out, and, on uneven ground, those with their centre above the height-map;
-/// their neighbours must settle again. Every rank makes the same tile.
+/// A level piece of the bed of about terrain.tile, with periodic boundaries, is built and settled alone, then copied
+/// over the terrain with its contact springs, so that the copies are in equilibrium across their seams. Grains that
+/// would overlap a wall are omitted, and, on uneven ground, grains with centres above the height map; their neighbours
+/// must settle again. Every rank creates the same tile.
 class TiledBed {
 public:
-  /// `settled`: the grains of tile.ground, at rest; `surface`: of the whole terrain.
+  /// `settled`: the grains of tile.ground, at rest; `surface`: height field of the whole terrain.
   TiledBed(const TileSetup& tile, const terrain::Grains& settled, const terrain::HeightField& surface);
 
   /// Initial grains, by id.
   std::vector<terrain::GrainSpec> start(int material) const;
-  /// Sets velocities and springs of these grains; `floor`: index of the floor among their boundaries.
+  /// Sets velocities and contact springs of these grains; `floor`: index of the floor among their boundaries.
   void bringToRest(terrain::Grains& grains, std::size_t floor) const;
 
 private:
-  /// A grain of the tile in one of the copies.
+  /// Grain of the tile in one of the copies.
   struct Copy {
     std::array<std::int64_t, 2> tile;
     std::size_t grain; ///< row of the tile's state
@@ -42,12 +42,12 @@ private:
   std::array<bool, 2> periodic_{};
   std::array<std::int64_t, 2> copies_{};
   base::PositionScale scale_;
-  double radius_;       ///< where all are alike [m]
-  base::Period period_; ///< of the tile
-  base::Vec3l lift_{};  ///< from the tile's own place to the first copy
+  double radius_;       ///< radius of all grains, if equal [m]
+  base::Period period_; ///< periodicity of the tile
+  base::Vec3l lift_{};  ///< shift from the settled tile to the first copy
   terrain::GrainState tile_;
-  std::vector<Copy> grains_;     ///< by id
-  std::vector<std::int64_t> id_; ///< [copies x][copies y][grains of the tile]; -1: left out
+  std::vector<Copy> grains_;     ///< sorted by id
+  std::vector<std::int64_t> id_; ///< [copies x][copies y][grains of the tile]; -1: omitted
 };
 
 } // namespace grouser::coupling

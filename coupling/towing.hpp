@@ -13,22 +13,22 @@
 
 namespace grouser::coupling {
 
-/// Values of a hitch in a row. Means are since restartMeans(), and 0 before the first step after it.
+/// Output values of a hitch. Means are over the time since restartMeans(); they are 0 before the first step after it.
 struct HitchObservation {
-  base::Vec3d force;   ///< on the vehicle, mean [N]: forward along the heading, left, up
-  double pull{};       ///< of the vehicle on it, mean, forward along the heading [N]; Observation::drawbarPull is along
-                       ///< the direction of motion
-  double speed{};      ///< of the hitch point along the heading, mean [m/s]
-  double power{};      ///< absorbed from the vehicle, mean [W]
-  double work{};       ///< done on the vehicle since the start [J]; negative if the hitch resists it
-  double towedWay{};   ///< of sled or carriage [m]
+  base::Vec3d force;   ///< mean force on the vehicle [N]: forward along the heading, left, up
+  double pull{};       ///< mean pull of the vehicle, forward along the heading [N]; Observation::drawbarPull is
+                       ///< along the direction of motion
+  double speed{};      ///< mean speed of the hitch point along the heading [m/s]
+  double power{};      ///< mean power absorbed from the vehicle [W]
+  double work{};       ///< work done on the vehicle since the start [J]; negative if the hitch resists it
+  double towedWay{};   ///< distance travelled by sled or carriage [m]
   double towedSpeed{}; ///< [m/s]
 };
 
-/// Two sets of means: for the rows of results, and for callers that step the simulation.
+/// Two sets of means: for output rows, and for callers that step the simulation.
 enum class Means { rows, watch };
 
-/// Force and work of a vehicle's hitch. Computed on the host from the bodies' state alone.
+/// Force and work of a vehicle's hitch, computed on the host from the state of the bodies.
 class Towing {
 public:
   explicit Towing(const vehicle::HitchOptions& options) : hitch_(options) {}
@@ -39,28 +39,28 @@ public:
   /// Adds the hitch's force to the hull's loads, for a step of `dt` [s] that begins at `state`.
   void pull(const vehicle::Assembly& vehicle, const multibody::State& state, const vehicle::Driver& driver, double dt,
             const base::Vec3d& gravity, multibody::Loads& loads);
-  /// Adds the work of that step, with the mean of the velocities before and after it, as in the bodies' ledger.
+  /// Adds the work of that step, using the mean of the velocities before and after it, as in the bodies' ledger.
   void accountWork(const vehicle::Assembly& vehicle, const multibody::State& state, double dt);
 
   HitchObservation observe(Means of = Means::rows) const;
   void restartMeans(Means of = Means::rows) { sumsOf(of) = {}; }
-  double work() const { return work_; } ///< on the vehicle since the start [J]
+  double work() const { return work_; } ///< work on the vehicle since the start [J]
 
-  std::vector<double> save() const { return hitch_.save(); } ///< what later steps depend on
-  std::vector<double> saveSums() const;                      ///< what later rows depend on
+  std::vector<double> save() const { return hitch_.save(); } ///< state required by later steps
+  std::vector<double> saveSums() const;                      ///< sums required by later rows
   static double workOf(const std::vector<double>& sums);     ///< work() of saveSums() [J]
   void restore(const std::vector<double>& state, const std::vector<double>& sums);
 
 private:
   vehicle::Hitch hitch_;
-  multibody::Wrench wrench_; ///< of the present step, on the hull's centre of mass
-  multibody::Twist before_;  ///< of the hull, at its start
-  base::Vec3d ahead_;        ///< its heading then, level
-  base::Vec3d lever_;        ///< of the hitch point
-  /// Summed over steps.
+  multibody::Wrench wrench_; ///< load of the current step on the hull's centre of mass
+  multibody::Twist before_;  ///< twist of the hull at the start of the step
+  base::Vec3d ahead_;        ///< horizontal heading of the hull at that time
+  base::Vec3d lever_;        ///< lever arm of the hitch point
+  /// Sums over steps.
   struct Sums {
     base::Vec3d forces;           ///< [N]
-    double speeds = 0, taken = 0; ///< of the speed [m/s] and of the work taken from the vehicle [W]
+    double speeds = 0, taken = 0; ///< sum of speeds [m/s], and of power absorbed from the vehicle [W]
     std::int64_t steps = 0;
   };
   Sums& sumsOf(Means of) { return of == Means::rows ? rows_ : watch_; }

@@ -11,7 +11,7 @@ namespace {
 
 using vehicle::SprocketDrive;
 
-/// Throws unless `right`; `drive` names the required kind of drive.
+/// Throws unless `right` is true; `drive` names the required kind of drive.
 void requireDrive(bool right, const char* what, const char* drive) {
   if (!right)
     throw base::InputError(fmt::format("{} cannot be set with this driver; set driver.drive = {}", what, drive));

@@ -40,7 +40,7 @@ VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup
     else
       addContactPart(p);
   }
-  // After the others, so that these have the same indices with and without it.
+  // Last, so that the indices of the others do not depend on it.
   if (setup.hullTouches)
     for (const std::size_t hull : hulls) addContactPart(hull);
   cut(touching, hulls.empty() ? meshes_.size() : meshOfPart_[hulls.front()], setup,

@@ -14,20 +14,20 @@
 
 namespace grouser::coupling {
 
-/// Surfaces of a vehicle's parts: meshes and their sphere sets, one for each kind of part. Contact parts are all parts
+/// Surfaces of a vehicle's parts: meshes and their sphere sets, one per kind of part. Contact parts are all parts
 /// except the hull, which is last if requested.
 class VehicleParts {
 public:
-  /// Reads and cuts the meshes; the ranks share the work. `kept`: source of sphere sets; null: all are cut.
-  /// `smallestGrain`: radius of the smallest grain that touches them [m]; infinity without. `shapesAlone`: contacts use
-  /// spheres of the hull only, so that no other part is cut. Throws InputError for unusable meshes.
+  /// Reads the meshes and cuts them into spheres; the ranks share the work. `kept`: source of sphere sets; null: all
+  /// are cut. `smallestGrain`: radius of the smallest grain in contact [m]; infinity without grains. `shapesAlone`:
+  /// contacts use spheres of the hull only, so no other part is cut. Throws InputError for unusable meshes.
   VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup& setup, const base::Comm& comm, SphereSets* kept,
                double smallestGrain, bool shapesAlone);
 
-  /// Smallest contact feature of a vehicle's parts, ground and obstacles [m]: a quarter of a pitch.
+  /// Minimum contact feature of a vehicle's parts, ground and obstacles [m]: a quarter of a pitch.
   static double contactSize(const vehicle::VehicleSpec& spec) { return 0.25 * spec.shoe.pitch; }
 
-  const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one a kind of part
+  const std::vector<base::TriangleMesh>& meshes() const { return meshes_; } ///< one per kind of part
   std::size_t meshOfPart(std::size_t part) const { return meshOfPart_[part]; }
 
   struct SetFigures {
@@ -39,23 +39,23 @@ public:
   std::size_t totalSpheres() const;
   const std::vector<spheredecomp::CutReport>& cutReports() const {
     return cutReports_;
-  } ///< cuts of the meshes that touch
+  } ///< cuts of the meshes with contacts
 
   std::size_t contactParts() const { return contactParts_.size(); }
   /// Index of a contact part among the assembly's parts.
   std::size_t partOf(std::size_t contactPart) const { return static_cast<std::size_t>(contactParts_[contactPart]); }
   /// Index of an assembly part among the contact parts; -1 for a hull without contacts.
   int contactIndex(int part) const { return contactIndex_[static_cast<std::size_t>(part)]; }
-  /// The contact parts of `assembly`, which refer to this object. `shoesAlone`: grains touch no other part.
+  /// Contact parts of `assembly`, which refer to this object. `shoesAlone`: only shoes are in contact with grains.
   ContactParts touching(const vehicle::Assembly& assembly, bool shoesAlone) const;
-  /// Returns true if gear contacts use part shapes instead of mesh samples.
+  /// True if gear contacts use part shapes instead of mesh samples.
   bool shapes() const { return shapes_; }
 
 private:
   /// Surface points of a set for contact with rigid surfaces.
   contact::PointTree points(std::size_t set) const;
   void addContactPart(std::size_t part);
-  /// `hull`: its mesh; contacts need only its surface.
+  /// `hull`: index of its mesh; contacts use only its surface.
   void cut(const std::vector<std::size_t>& meshes, std::size_t hull, const VehicleSetup& setup, double contactSize,
            SphereSets* kept, const base::Comm& comm);
 
@@ -68,7 +68,7 @@ private:
   std::vector<double> reach_;
   vehicle::VehicleSpec spec_;
   bool shapes_;
-  double pointSpacing_; ///< between points of shapes [m]
+  double pointSpacing_; ///< point spacing on shapes [m]
 };
 
 } // namespace grouser::coupling

@@ -26,7 +26,7 @@ vehicle::Assembly assembled(const VehicleSetup& setup, const std::function<doubl
   return assembleAt(setup, pose_W);
 }
 
-/// Adds the bodies of the scene; hitched bodies move with the vehicle to its place.
+/// Adds the bodies of the scene; hitched bodies move with the vehicle to its position.
 vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<MechanismSetup>& bodies) {
   if (!bodies) return assembly;
   const base::Pose chassis = assembly.model.bodies()[static_cast<std::size_t>(assembly.chassis)].pose;
@@ -34,7 +34,7 @@ vehicle::Assembly withBodies(vehicle::Assembly assembly, const std::optional<Mec
   return assembly;
 }
 
-/// Mass of the vehicle and of all moving bodies beside it [kg].
+/// Mass of the vehicle and of all other moving bodies [kg].
 double massOf(const vehicle::Assembly& assembly, const std::optional<MechanismSetup>& bodies) {
   double mass = assembly.mass;
   for (std::size_t b = bodies ? bodies->ofVehicle.bodies : assembly.model.bodies().size();
@@ -45,7 +45,7 @@ double massOf(const vehicle::Assembly& assembly, const std::optional<MechanismSe
 
 GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() : GroundTraits{}; }
 
-/// Returns true if contacts need spheres of the hull only.
+/// True if contacts need spheres of the hull only.
 bool shapesAlone(const SimulationSetup& setup) {
   const GroundSetup& ground = setup.ground;
   return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty();
@@ -62,17 +62,17 @@ double liftFor(const SimulationSetup& setup, const Ground* ground, const Vehicle
   return lift + liftOffObstacles(assembly.model, parts.touching(assembly, false), setup.ground.obstacles);
 }
 
-/// A shoe at the edge of the terrain, and its position.
+/// Shoe at the edge of the terrain, with its position.
 struct ShoeAtEdge {
   const vehicle::Part* shoe;
   Vec3d place;
 };
-/// Distances of a place from the four edges of the terrain [m]; negative beyond them.
+/// Distances of a point from the four edges of the terrain [m]; negative outside.
 std::array<double, 4> marginsOf(const terrain::Rectangle& area, const Vec3d& p) {
   return {p.x - area.xMin, area.xMax - p.x, p.y - area.yMin, area.yMax - p.y};
 }
 
-/// The first shoe closer to an edge of the terrain than `within`, given for each edge.
+/// First shoe closer to an edge of the terrain than `within`, given for each edge.
 std::optional<ShoeAtEdge> shoeAtEdge(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                                      const multibody::State& state, const std::array<double, 4>& within) {
   if (!area) return {};
@@ -86,11 +86,11 @@ std::optional<ShoeAtEdge> shoeAtEdge(const std::optional<terrain::Rectangle>& ar
   return {};
 }
 
-/// Distance of a shoe from each edge at which `edge` ends the run: a vehicle placed closer than `edge` must come closer
-/// still.
+/// Distance of a shoe from each edge at which the stop condition `edge` ends the run: a vehicle placed closer than
+/// `edge` must come even closer.
 std::array<double, 4> edgesToMeet(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                                   double edge) {
-  constexpr double kNearer = 0.05; // [m] more than the position of shoes varies at the ends of a loop
+  constexpr double kNearer = 0.05; // [m] more than the variation of the shoe positions at the ends of a loop
   std::array<double, 4> edges{edge, edge, edge, edge};
   for (const int index : assembly.groundParts) {
     const auto body = static_cast<std::size_t>(assembly.parts[static_cast<std::size_t>(index)].body);
@@ -100,7 +100,7 @@ std::array<double, 4> edgesToMeet(const std::optional<terrain::Rectangle>& area,
   return edges;
 }
 
-/// Message on a shoe that has left the terrain; empty if none has.
+/// Message about a shoe that has left the terrain; empty if none has.
 std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                        const multibody::State& state) {
   const std::optional<ShoeAtEdge> at = shoeAtEdge(area, assembly, state, {});
@@ -135,7 +135,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);
 }
 
-/// The driver's commands in this step; without a course and without engines a function of time alone.
+/// Driver commands in this step; without a course and without engines they depend on time only.
 vehicle::Controls VehicleRig::controls() {
   vehicle::Controls controls = driver_.course()
                                    ? driver_.step(state_.time, timeStep_, vehicle::hullMotion(assembly_, state_))
@@ -184,7 +184,7 @@ vehicle::Observation VehicleRig::observe(Means of) const {
   if (towing_) {
     seen.drawbarPull = 0.0 - seen.along.of(towing_->observe(watched ? Means::watch : Means::rows).force);
   } else {
-    // The ground's force less the share that holds the weight on a slope.
+    // Ground force minus the component that balances the weight on a slope.
     const double c = base::cos(seen.heading), s = base::sin(seen.heading);
     const Vec3d weight = gravity_ * (assembly_.mass * driver_.at(state_.time).weight);
     seen.drawbarPull += seen.along.of({weight.x * c + weight.y * s, 0, weight.z});
@@ -210,7 +210,7 @@ Vec3d VehicleRig::groundForce(const ForceMeans& means) const {
   return sum;
 }
 
-/// Informs a waiting driver whether the vehicle is at rest.
+/// Reports to a waiting driver whether the vehicle is at rest.
 std::string VehicleRig::judgeRest() {
   if (!driver_.waits() || !contacts_->onGround()) return {};
   const double g = norm(gravity_);
@@ -219,7 +219,7 @@ std::string VehicleRig::judgeRest() {
                        g > 0 ? -dot(groundForce(alarmMeans_) + fluidForce_, down) / (carried_ * g) : 0.0);
 }
 
-/// As for mechanisms: parts with a large rotation per step pass teeth and plates without contact.
+/// As for mechanisms: parts with a large rotation per step could pass teeth and plates without contact.
 std::string VehicleRig::judgeTurns() const {
   std::size_t quickest = 0;
   double rate = 0;
@@ -244,7 +244,7 @@ std::string VehicleRig::judgeTension() {
                      SwingGrowth::kMost, r, part, base::roundedDown(0.5 * timeStep_ / r, 4));
 }
 
-/// Whether every track whose sprocket turns moves the hull at less than a twentieth of its speed.
+/// True if every track with a turning sprocket moves the hull at less than a twentieth of its speed.
 bool VehicleRig::stalls() const {
   constexpr double kShare = 0.05, kTurns = 0.01; // [-], [m/s]
   const std::optional<double> start = driver_.driveStart();
@@ -260,7 +260,7 @@ bool VehicleRig::stalls() const {
   return driven;
 }
 
-/// Depends on the state alone, so that a resumed run ends at the same step.
+/// Depends only on the state, so that a resumed run ends at the same step.
 std::string VehicleRig::judgeEnd() const {
   const auto origin = [](const base::Pose& hull, const Vec3d& centre) { return hull.toWorld(-centre); };
   const auto hull = static_cast<std::size_t>(assembly_.chassis);
@@ -284,7 +284,7 @@ std::string VehicleRig::judgeEnd() const {
 
 base::Alarm VehicleRig::alarm(std::int64_t step) {
   using base::Cause;
-  // Both before the track check: their faults can throw the track.
+  // Checked before the track: these faults can throw the track.
   base::Alarm alarm{step % kTensionInterval == 0 ? judgeTension() : "", Cause::growingSwings};
   if (alarm.empty()) alarm = {judgeTurns(), Cause::fastTurn};
   if (alarm.empty()) alarm = observer_->alarm(state_, groundLoads(alarmMeans_));

@@ -25,11 +25,11 @@
 
 namespace grouser::coupling {
 
-/// The vehicle of a scene: bodies and joints, driver, contacts of its parts, and observers.
+/// Vehicle of a scene: bodies and joints, driver, contacts of its parts, and observers.
 class VehicleRig : public BodiesInContact {
 public:
-  /// Reads the meshes, cuts them into spheres, and places the vehicle on the ground, raised by `lift` [m]; if not
-  /// given, so that it touches nothing. `ground` must outlive it; null if the vehicle hangs. `kept` as in VehicleParts.
+  /// Reads the meshes, cuts them into spheres, and places the vehicle on the ground, raised by `lift` [m]; without
+  /// `lift` just free of contact. `ground` must outlive it; null if the vehicle hangs. `kept` as in VehicleParts.
   VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Ground* ground,
              const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
              std::optional<double> lift = {});
@@ -37,8 +37,8 @@ public:
 
   void actuate() override;
   void advance() override;
-  /// Sets the force of a fluid on all bodies in this step [N]: it counts as support when the rig judges whether the
-  /// vehicle is at rest.
+  /// Sets the fluid force on all bodies in this step [N]; it counts as support in the rest check of the vehicle.
+  /// Call it before alarm().
   void setFluidForce(const base::Vec3d& force) { fluidForce_ = force; }
 
   const multibody::Model& model() const override { return assembly_.model; }
@@ -47,34 +47,34 @@ public:
   const vehicle::Assembly& assembly() const { return assembly_; }
   const VehicleParts& parts() const { return *parts_; }
 
-  /// Throws base::InputError if this vehicle does not have this input.
+  /// Throws base::InputError if the vehicle does not have this input.
   void require(const Input& input) const;
-  /// Sets the acting inputs for the following steps; all have passed require().
+  /// Applies the active inputs to the following steps; all have passed require().
   void command(const Inputs& inputs, const base::Vec3d& gravity);
 
-  /// Ground loads are means since the last restartMeans() of the same kind: on grains single steps scatter. Those of
-  /// Means::watch start with its first restart.
+  /// Returns an observation. Ground loads are means since the last restartMeans() of the same kind, since single steps
+  /// fluctuate on grains. Means of Means::watch start with its first restart.
   vehicle::Observation observe(Means of = Means::rows) const;
   void restartMeans(Means of = Means::rows);
   const Towing* towing() const { return towing_ ? &*towing_ : nullptr; } ///< null without a hitch
-  /// Sum over all parts, mean since restartMeans() [N].
+  /// Mean ground force on all parts since restartMeans() [N].
   base::Vec3d meanGroundForce() const { return groundForce(rowMeans_); }
-  /// Start time of the drive [s]; empty while it waits for the vehicle to rest.
+  /// Start time of the drive [s]; empty until the vehicle is at rest.
   std::optional<double> driveStart() const { return driver_.driveStart(); }
-  /// Steps between two calls of alarm(), and between two checks of the track tension, which take a millisecond.
+  /// Interval of alarm(), and of the track tension check, which takes a millisecond [steps].
   static constexpr std::int64_t kAlarmInterval = 50, kTensionInterval = 2000;
-  /// Message on a thrown or skipped track, a part with too large a rotation per step, a track tension too high for the
-  /// step, a shoe that has left the terrain, or a vehicle that does not come to rest; else empty. Uses the loads since
-  /// the last call, also to decide when a vehicle at rest starts to drive: must be called at fixed steps.
+  /// Message about a thrown or skipping track, an excessive part rotation per step, a track tension too high for the
+  /// step, a shoe beyond the terrain, or a vehicle that does not come to rest; else empty. Uses the loads since the
+  /// last call, also to decide when a vehicle at rest starts to drive: call it at fixed step intervals.
   base::Alarm alarm(std::int64_t step);
 
-  /// Message on the condition of the scene's [stop] that ended the run, found by alarm(). Empty: the run continues.
+  /// Message with the [stop] condition that ended the run, found by alarm(). Empty: the run continues.
   const std::string& ended() const { return ended_; }
 
   /// Adds the bodies' energies and momenta, and those of contacts of parts with parts and ground.
   void addTo(Ledger& ledger) const;
 
-  /// Bodies, contact history and sums, for hash and checkpoint.
+  /// Returns bodies, contact history and sums, for hash and checkpoint.
   VehicleState save() const;
   /// Throws InputError if the state belongs to another vehicle.
   void restore(const VehicleState& state);
@@ -100,26 +100,26 @@ private:
   double timeStep_, largestTurn_;
   StopSetup stop_;
   base::Vec3d gravity_;
-  std::optional<terrain::Rectangle> area_; ///< of the terrain, which the vehicle must not leave
+  std::optional<terrain::Rectangle> area_; ///< extent of the terrain; the vehicle must stay inside
   std::function<double(double, double)> surfaceHeight_;
   std::unique_ptr<VehicleParts> parts_;
   double lift_; ///< [m]
   vehicle::Assembly assembly_;
   std::unique_ptr<multibody::Solver> solver_;
   vehicle::Driver driver_;
-  vehicle::Commands commands_; ///< external
-  AppliedLoads applied_;       ///< the same
-  vehicle::Controls asked_;    ///< of the last step
+  vehicle::Commands commands_; ///< external commands
+  AppliedLoads applied_;       ///< external loads on bodies
+  vehicle::Controls asked_;    ///< controls of the last step
   std::optional<Towing> towing_;
   double thickestStone_, heading_; ///< for observers [m], [rad]
   std::unique_ptr<vehicle::Observer> observer_;
   std::optional<Watch> watch_;
-  double carried_;         ///< mass that the ground carries at rest [kg]: the vehicle and the bodies beside it
-  base::Vec3d fluidForce_; ///< force of the fluid on all bodies in this step [N]
+  double carried_;         ///< mass supported by the ground at rest [kg]: vehicle and bodies connected to it
+  base::Vec3d fluidForce_; ///< fluid force on all bodies in this step [N]
   vehicle::BlowMeter blows_;
   PartContacts::RunningGear gear_;
   ForceMeans alarmMeans_;
-  SwingGrowth swings_;          ///< of track and arms
+  SwingGrowth swings_;          ///< oscillations of track and arms
   std::int64_t stalledSteps_{}; ///< steps in which driven tracks have not moved the hull
   std::string ended_;
 };

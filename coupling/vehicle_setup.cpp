@@ -12,7 +12,7 @@ base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, dou
   const vehicle::GroundPlane ground = vehicle::groundPlane(spec, place.x, place.y, c, s, surfaceHeight);
   if (ground.ahead == 0 && ground.left == 0)
     return vehicle::placeOnGround(spec, place.x, place.y, ground.top + clearance, 0, place.heading);
-  // The plane through the highest point, at the origin.
+  // Plane through the highest point, at the origin.
   return vehicle::placeOnSlope(spec, place.x, place.y, ground.height + ground.highest, clearance, place.heading,
                                ground.ahead, ground.left);
 }

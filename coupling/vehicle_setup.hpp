@@ -14,51 +14,51 @@ namespace grouser::coupling {
 
 /// Initial position of a vehicle.
 struct Placement {
-  double x{}, y{};  ///< of the middle between the sprockets [m]
+  double x{}, y{};  ///< midpoint between the sprocket axles [m]
   double heading{}; ///< from the x axis towards y [rad]
 };
 
 /// Pose of a vehicle placed on the ground: pitch and roll are those of the least-squares plane of the heights under
-/// both tracks, and the lowest grousers are `clearance` [m] above the highest point, normal to that plane.
+/// both tracks; the lowest grousers are `clearance` [m] above the highest point, normal to that plane.
 base::Pose setDown(const vehicle::VehicleSpec& spec, const Placement& place, double clearance,
                    const std::function<double(double, double)>& surfaceHeight);
 
 struct VehicleSetup;
 
-/// The vehicle assembled with its frame at `pose_W`.
+/// Assembles the vehicle with its frame at `pose_W`.
 vehicle::Assembly assembleAt(const VehicleSetup& setup, const base::Pose& pose_W);
-/// Assembles the vehicle on level ground of height 0, which the lowest grousers touch.
+/// Assembles the vehicle on level ground of height 0, with its lowest grousers on it.
 vehicle::Assembly assembleOnLevelGround(const VehicleSetup& setup);
 
-/// Conditions that end a run early; empty: none.
+/// Stop conditions of a run; empty: none.
 struct StopSetup {
-  std::optional<double> distance; ///< [m] from the start
-  std::optional<double> edge;     ///< [m] between a shoe and the edge of the terrain
-  std::optional<double> immobile; ///< [s] of drive without motion
+  std::optional<double> distance; ///< [m] distance from the start
+  std::optional<double> edge;     ///< [m] distance between a shoe and the edge of the terrain
+  std::optional<double> immobile; ///< [s] driving time without motion
 };
 
-/// A vehicle, its initial position, and its driver.
+/// Vehicle of a scene, with its initial position and driver.
 struct VehicleSetup {
   vehicle::VehicleSpec spec;
   Placement place;
-  double clearance{}; ///< between the lowest grouser and the ground at the start [m]
-  bool onTerrain{};   ///< else it hangs at height 0
-  bool fixChassis{};  ///< as on a bench
+  double clearance{}; ///< initial gap between the lowest grousers and the ground [m]
+  bool onTerrain{};   ///< false: the vehicle hangs at height 0
+  bool fixChassis{};  ///< true: immovable chassis, as on a test bench
   vehicle::HullGuide guide = vehicle::HullGuide::none;
   bool single = false;         ///< one track instead of two
-  double sphereRadius{};       ///< of the parts' sphere sets [m]
-  bool sphereRadiusGiven{};    ///< set in the scene; else it may become finer
+  double sphereRadius{};       ///< radius of the parts' sphere sets [m]
+  bool sphereRadiusGiven{};    ///< true: radius set in the scene; false: it may be refined
   double sphereRefinement{1};  ///< [-] divides all radii and the limits of automatic ones
   bool shapes{};               ///< gear contacts use spec.shapes, which must exist
-  bool soilTouchesShoesOnly{}; ///< and no other part
-  bool hullTouches{};          ///< ground, grains and obstacles
-  double hullSphereRadius{};   ///< of its set then [m]
+  bool soilTouchesShoesOnly{}; ///< true: only shoes are in contact with soil
+  bool hullTouches{};          ///< true: the hull is in contact with ground, grains and obstacles
+  double hullSphereRadius{};   ///< radius of the hull's sphere set, with hullTouches [m]
   bool hullSphereRadiusGiven{};
   vehicle::DriverOptions driver;
   std::optional<vehicle::HitchOptions> hitch;
   StopSetup stop;
-  double thickestStone{}; ///< thickest grain between wheels and plates [m]: the largest one, if soil touches them
-  double largestTurn = std::numeric_limits<double>::infinity(); ///< of a body in a step [rad]
+  double thickestStone{}; ///< maximum grain size between wheels and plates [m]: largest grain, if soil contacts them
+  double largestTurn = std::numeric_limits<double>::infinity(); ///< maximum rotation of a body per step [rad]
 };
 
 } // namespace grouser::coupling

@@ -15,7 +15,7 @@
 namespace grouser::fluid {
 
 namespace {
-constexpr double kGreatestShift = 0.1; ///< in a step [spacings]
+constexpr double kGreatestShift = 0.1; ///< maximum shift per step [spacings]
 } // namespace
 
 Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec, const contact::PartitionOptions& ranks)
@@ -105,7 +105,7 @@ Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec&
   steps_ = state.steps;
   if (state.bodyLoads.size() != 2 * bodyLoad_.size())
     throw base::InputError("the state belongs to a fluid with other bodies; resume with the scene that was run");
-  // Forces are those at the velocities of the middle of the last step.
+  // Forces are evaluated at the mid-step velocities of the last step.
   std::vector<Losses> losses(slots_);
   std::vector<base::Vec3l> force(slots_);
   const std::vector<std::uint32_t> id = id_.toHost(), ghost = ghostMarks() ? base::toHost(exec_, ghostMarks(), slots_)
@@ -189,7 +189,7 @@ void Fluid::placeBodies(double before) {
   base::forEach(exec_, "place markers", static_cast<std::int64_t>(bodyOf_.size()), PlaceMarkers{view(), before});
 }
 
-/// Applies the motion of a step, and rebuilds the lists if they would expire before its end.
+/// Applies the body motion of a step, and rebuilds the lists if they would expire before its end.
 void Fluid::advanceBodies(const std::vector<BodyMotion>& bodies) {
   if (bodies.size() != bodyName_.size()) throw std::logic_error("one motion per body of the fluid is required");
   const double most = 0.5 * model_.skin();

@@ -16,13 +16,13 @@
 
 namespace grouser::fluid {
 
-/// Energies [J] (per metre in two dimensions), momentum, and losses since the start.
+/// Energies [J] (in two dimensions per metre), momentum, and losses since the start.
 struct FluidTotals {
-  double kinetic{}, potential{}, internal{}; ///< potential: zero at the origin
+  double kinetic{}, potential{}, internal{}; ///< potential: relative to the origin
   double viscousLoss{}, diffusionLoss{}, wallLoss{};
   base::Vec3d momentum{};  ///< [kg m/s]
-  base::Vec3d wallForce{}; ///< fluid on all markers, last step [N]
-  double fastest{};        ///< greatest speed [m/s]
+  base::Vec3d wallForce{}; ///< fluid force on all markers in the last step [N]
+  double fastest{};        ///< maximum speed [m/s]
   double total() const { return kinetic + potential + internal + viscousLoss + diffusionLoss + wallLoss; }
 };
 
@@ -32,51 +32,51 @@ struct FluidSnapshot {
   std::vector<double> compression;             ///< [-]
 };
 
-/// A weakly compressible fluid of particles (smoothed particle hydrodynamics) between fixed walls: Wendland kernel,
-/// density diffusion, walls by extrapolation, one sweep of forces a step.
+/// Weakly compressible fluid of particles (smoothed particle hydrodynamics) between fixed walls: Wendland kernel,
+/// density diffusion, wall pressure by extrapolation, one force evaluation per step.
 ///
-/// A step: half a kick; half a drift; compression from the velocities at mid-step; half a drift; pressures of the
-/// walls; forces; half a kick. Second order in time, but for diffusion, which is of first order. The
-/// state is the same on any device and number of threads and ranks.
+/// Sequence of a step: half kick; half drift; compression from the mid-step velocities; half drift; wall pressures;
+/// forces; half kick. Second order in time, except for the diffusion, which is first order. The state is bitwise
+/// identical on any device and for any number of threads and ranks.
 ///
-/// On several ranks each integrates the particles of its subdomain, and sends those near a border to others twice a
-/// step. All ranks have all markers and bodies, and make the same calls.
+/// On several ranks each rank integrates the particles of its subdomain, and sends those near a border to other ranks
+/// twice per step. All ranks have all markers and bodies; all members are collective.
 class Fluid {
 public:
   /// Throws InputError for values out of range.
   Fluid(const FluidSetup& setup, const base::Exec& exec, const contact::PartitionOptions& ranks = {});
-  /// Continues from the state of save(), with the bodies of `setup`. Throws InputError if the state belongs to another
-  /// fluid.
+  /// Restores the state returned by save(), with the bodies of `setup`. Throws InputError if the state belongs to
+  /// another fluid.
   Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec& exec,
         const contact::PartitionOptions& ranks = {});
   FluidState save() const;
 
-  /// `bodies`: motion of each over this step. Throws SimulationError if the speed, compression or distance of a
-  /// particle exceeds its range, or a body moves too far in a step.
+  /// Advances one step. `bodies`: motion of each body over this step. Throws SimulationError if the speed, compression
+  /// or distance of a particle is out of range, or a body moves too far in a step.
   void step(const std::vector<BodyMotion>& bodies = {});
   std::int64_t steps() const { return steps_; }
   double time() const { return static_cast<double>(steps_) * model_.timeStep; } ///< [s]
 
   const FluidModel& model() const { return model_; }
-  std::size_t particles() const { return particles_; } ///< on all ranks together
+  std::size_t particles() const { return particles_; } ///< total over all ranks
   std::size_t markers() const { return markerForce_.size(); }
   FluidTotals totals();
   FluidSnapshot snapshot() const;
-  /// State hash, the same on every device.
+  /// State hash, identical on every device.
   std::uint64_t hash() const;
-  /// Force of the fluid on each marker [N], in the order of FluidSetup.
+  /// Fluid force on each marker [N], in the order of FluidSetup.
   std::vector<base::Vec3d> markerForces() const;
-  /// Loads of the fluid on the bodies at the end of the last step.
+  /// Fluid loads on the bodies at the end of the last step.
   std::vector<BodyLoad> bodyLoads() const;
-  /// Pressure of the fluid at these points [Pa], extrapolated as to a marker at rest; 0 where no particle is near.
+  /// Fluid pressure at these points [Pa], extrapolated as for a marker at rest; 0 without particles nearby.
   std::vector<double> pressuresAt(const std::vector<base::Vec3d>& points);
-  /// Levels at vertical wires that stand on `feet` [m]: the foot's z plus the length below `top` along which particles
-  /// fill half of the kernel, without air gaps.
+  /// Water levels at vertical wave gauges with their lower ends at `feet` [m]: the z of the foot plus the length below
+  /// `top` along which particles fill at least half of the kernel, without air gaps.
   std::vector<double> levelsAt(const std::vector<base::Vec3d>& feet, double top);
-  /// Exact sum of the forces between particles and from walls, in quanta: zero.
+  /// Exact sum of particle-particle and wall forces in quanta; must be zero.
   base::Vec3l forceBalance() const;
-  std::int64_t rebuilds() const { return rebuilds_; } ///< neighbour lists made since the start
-  std::int64_t bytesSent() const;                     ///< by this rank since the start
+  std::int64_t rebuilds() const { return rebuilds_; } ///< neighbour lists built since the start
+  std::int64_t bytesSent() const;                     ///< sent by this rank since the start
 
 private:
   FluidView view();
@@ -104,8 +104,8 @@ private:
   double surfaceDivergence_;
   base::Comm comm_;
   bool rebalances_;
-  std::unique_ptr<contact::Subdomain> subdomain_; ///< null on one rank
-  std::size_t particles_, slots_{0};              ///< particles of all ranks; particles and ghosts of this one
+  std::unique_ptr<contact::Subdomain> subdomain_; ///< null on a single rank
+  std::size_t particles_, slots_{0};              ///< particles of all ranks; particles and ghosts of this rank
   FluidLists lists_;
   base::Array<base::Position> position_, reference_;
   base::Array<base::Vec4f> motion_;
@@ -119,8 +119,8 @@ private:
   base::Array<base::Vec3l> markerForce_;
   std::uint32_t fixedMarkers_;
   std::vector<std::string> bodyName_;
-  std::vector<double> bodyReach_; ///< greatest distance of a marker from the body's origin [m]
-  double bodiesMoved_{0};         ///< upper bound since the lists were made [m]
+  std::vector<double> bodyReach_; ///< maximum distance of a marker from the body's origin [m]
+  double bodiesMoved_{0};         ///< upper bound of the body motion since the lists were built [m]
   base::Mirrored<BodyMotion> body_;
   base::Array<std::uint32_t> bodyOf_;
   base::Array<float> bodyContact_;

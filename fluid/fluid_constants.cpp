@@ -11,10 +11,10 @@ namespace grouser::fluid {
 
 namespace {
 
-/// A pair term of at most `largest` takes at most 2^30 quanta.
+/// Quantum for which a pair term of at most `largest` is at most 2^30 quanta.
 base::FixedPoint pairTerms(double largest) { return base::fixedPointFor(largest, 30); }
 
-/// Height below all fixed walls and particles at the start [m].
+/// Minimum initial height of fixed walls and particles [m].
 double lowestOf(const FluidSetup& setup) {
   if (setup.markers.empty()) return -base::kInfinity;
   double lowest = base::kInfinity;
@@ -45,7 +45,7 @@ FluidConstants fluidConstants(const FluidSetup& setup) {
   k.artificial = static_cast<float>(model.artificialViscosity * h * c);
   k.laminar = static_cast<float>(2 * model.viscosity / model.density);
   k.central = model.centralViscosity ? static_cast<float>(model.dimensions + 2) : 0.0f;
-  // A point between markers of a plane layer is 0.5 spacings away from the nearest in two dimensions, 0.71 in three.
+  // The centre between markers of a plane layer is 0.5 spacings from the nearest in two dimensions, 0.71 in three.
   const double contact = model.dimensions == 2 ? 0.7 : 0.85; // spacings; undisturbed particles are one or more away
   k.contact = static_cast<float>(contact * model.spacing);
   k.diffusion = static_cast<float>(-2 * model.diffusion * h * c);
@@ -53,7 +53,7 @@ FluidConstants fluidConstants(const FluidSetup& setup) {
   const double near = kernel.value(model.spacing) / kernel.atCentre(), near2 = near * near;
   k.shiftSeed = static_cast<float>(0.2 / (near2 * near2));
 
-  // Largest pair terms: |F| r and |F| at their greatest, compressions and speeds at their limits.
+  // Largest pair terms: |F| r and |F| at their maxima, compressions and speeds at their limits.
   const double steep = volume * kernel.steepest(), centre = -volume * kernel.slopeAtCentre();
   const double apart = 2 * model.greatestSpeed(), most = kGreatestCompression;
   const double stress = most / ((1 - most) * (1 - most)), spread = (1 + stress) * (1 + stress);

@@ -9,7 +9,7 @@
 namespace grouser::fluid {
 
 /// Constants of the kernels in single precision, and quanta of the integer sums. Pair terms are rounded to 32-bit
-/// integers, so that their sums do not depend on an order and opposite terms cancel exactly.
+/// integers, so that sums are order-independent and opposite terms cancel exactly.
 struct FluidConstants {
   base::PositionScale scale;
   base::Period period;
@@ -21,7 +21,7 @@ struct FluidConstants {
   float artificial{};              ///< alpha h c [m2/s]
   float laminar{};                 ///< twice the kinematic viscosity [m2/s]
   float central{};                 ///< factor d + 2 of the central operator; 0: Morris operator [-]
-  float contact{};                 ///< distance within which markers repel particles [m]
+  float contact{};                 ///< distance below which markers repel particles [m]
   float diffusion{};               ///< -2 delta h c [m2/s]
   base::Vec3f gravityOverSound2{}; ///< [1/m]
   float shiftSeed{};               ///< 0.2/W(spacing)^4, in units of W(0) [-]
@@ -33,7 +33,7 @@ struct FluidConstants {
   base::FixedPoint gradient, divergence;               ///< shifting: V grad W [1/m], V r.grad W [-]
 
   double greatestSpeed{}; ///< [m/s]
-  double lowest{};        ///< height below which a particle has left the walls; minus infinity without [m]
+  double lowest{};        ///< height below which a particle has left the walls [m]; minus infinity: no limit
 };
 
 FluidConstants fluidConstants(const FluidSetup& setup);

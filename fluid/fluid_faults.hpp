@@ -8,13 +8,13 @@
 
 namespace grouser::fluid {
 
-/// The model of a setup. Throws InputError for values out of range.
+/// Returns the model of a setup after checks. Throws InputError for values out of range.
 const FluidModel& checkedModel(const FluidSetup& setup);
 
-/// Message on a fault of FluidFlags, with step, time, particle and remedy. `particle`: its present state.
+/// Message for a fault in FluidFlags, with step, time, particle and remedy. `particle`: its current state.
 std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t step, const FluidParticle& particle);
 
-/// Message on a body that would move by `way` [m] in the step after step number `step`, too far for the neighbour
+/// Message for a body that would move by `way` [m] in the step after step number `step`, too far for the neighbour
 /// lists.
 std::string bodyFaultText(const std::string& name, double way, const FluidModel& model, std::int64_t step);
 

@@ -7,11 +7,11 @@
 
 #include <cmath>
 
-/// Kernel bodies of a step of the fluid. Every pair term is an exact function of the pair, the opposite of its
-/// partner's, and is rounded once to an integer: sums are the same in any order, on every device.
+/// Kernel bodies of a fluid step. Every pair term is an exact function of the pair, opposite to that of its partner,
+/// and rounded once to an integer, so sums are identical in any order, on every device.
 namespace grouser::fluid {
 
-/// Nearest integer. A pair term lies within its range (FluidConstants) until a fault ends the run.
+/// Rounds to the nearest integer. A pair term is within its range (FluidConstants) until a fault ends the run.
 GROUSER_HD std::int64_t rounded(float quanta) {
 #if defined(__CUDA_ARCH__)
   return __float2int_rn(quanta);
@@ -22,7 +22,7 @@ GROUSER_HD std::int64_t rounded(float quanta) {
 
 GROUSER_HD base::Vec3l roundedVector(const base::Vec3f& v) { return {rounded(v.x), rounded(v.y), rounded(v.z)}; }
 
-/// The same for terms beyond 32 bits.
+/// Same for terms beyond 32 bits.
 GROUSER_HD std::int64_t roundedLong(float quanta) {
 #if defined(__CUDA_ARCH__)
   return __float2ll_rn(quanta);
@@ -34,7 +34,7 @@ GROUSER_HD base::Vec3l roundedLong(const base::Vec3f& v) {
   return {roundedLong(v.x), roundedLong(v.y), roundedLong(v.z)};
 }
 
-/// A pair within the kernel's support.
+/// Pair of points within the kernel support.
 struct Pair {
   base::Vec3f d; ///< from the neighbour to this point [m]
   float r2;      ///< [m2]
@@ -47,7 +47,7 @@ struct Pair {
   GROUSER_HD float weight() const { return taper * taper * (taper * taper) * (1 + 2 * q); }
 };
 
-/// The pair at a distance from neighbour to point, in units; within the support where q < 2.
+/// Returns the pair at a given distance from neighbour to point [units]; inside the support if q < 2.
 GROUSER_HD Pair pairAt(const FluidConstants& k, const base::Vec3f& units) {
   Pair pair;
   pair.d = units * k.metresPerUnit;
@@ -57,7 +57,7 @@ GROUSER_HD Pair pairAt(const FluidConstants& k, const base::Vec3f& units) {
   return pair;
 }
 
-/// Calls visit(pair, j) for the neighbours within the support at the places [first, last) of row i.
+/// Calls visit(pair, j) for the neighbours within the support among the places [first, last) of row i.
 template <class Visit>
 GROUSER_HD void eachNeighbour(const FluidView& f, int i, std::uint32_t first, std::uint32_t last, const Visit& visit) {
   const FluidConstants& k = f.constants;
@@ -71,11 +71,11 @@ GROUSER_HD void eachNeighbour(const FluidView& f, int i, std::uint32_t first, st
     if (pair.q < 2) visit(pair, j);
   }
 }
-/// Fluid neighbours of the particle or marker in slot i.
+/// Visits the fluid neighbours of the particle or marker in slot i.
 template <class Visit> GROUSER_HD void eachFluidNeighbour(const FluidView& f, int i, const Visit& visit) {
   eachNeighbour(f, i, 0, f.rows.fluidCount[i], visit);
 }
-/// Markers near particle i.
+/// Visits the markers near particle i.
 template <class Visit> GROUSER_HD void eachMarkerNeighbour(const FluidView& f, int i, const Visit& visit) {
   eachNeighbour(f, i, f.rows.fluidCount[i], f.rows.count[i], visit);
 }
@@ -87,21 +87,21 @@ GROUSER_HD void raiseFault(FluidFlags* flags, FluidFault fault, std::uint32_t id
   base::atomicMin64(&flags->fault, static_cast<std::uint64_t>(fault) << 32 | id);
 }
 
-/// Acceleration of particle i by its pair terms, gravity and attraction [m/s2].
+/// Acceleration of particle i [m/s2]: pair terms, gravity and central attraction.
 GROUSER_HD base::Vec3d accelerationOf(const FluidView& f, int i) {
   base::Vec3d a = f.constants.acceleration.value(f.force[i]) + f.gravity;
   if (f.attraction != 0) a -= f.attraction * f.constants.scale.toMetres(f.position[i]);
   return a;
 }
 
-/// Distance of particle i from its place when the lists were made [m].
+/// Displacement of particle i since the lists were built [m].
 GROUSER_HD double movedSinceListed(const FluidView& f, int i) {
   const base::Vec3l d = f.constants.period.apart(f.reference[i], f.position[i]);
   return norm(d.as<double>()) * f.constants.scale.unit;
 }
 
-/// v += a dt/2. At the end of a step (`greatestMove` above 0) it requests new lists if the next step, which drifts at
-/// v + a dt/2, would move a particle more than `greatestMove` [m] from its place in the present ones.
+/// v += a dt/2. At the end of a step (`greatestMove` > 0) it requests new lists if the next step, drifting at v + a
+/// dt/2, would move a particle more than `greatestMove` [m] from its listed position.
 struct Kick {
   static constexpr double kNanoseconds = 15;
   FluidView f;
@@ -125,13 +125,13 @@ struct Kick {
 
 /// r += move [m].
 GROUSER_HD void moveBy(const FluidView& f, int i, const base::Vec3d& move) {
-  constexpr double kRange = 0x1p41; // units that a position holds
+  constexpr double kRange = 0x1p41; // units, range of positions
   const base::PositionScale& scale = f.constants.scale;
   const auto units = [&scale](double metres) {
     return static_cast<std::int64_t>(floor(metres * scale.perMetre + 0.5));
   };
   const auto inRange = [](std::int64_t u) { return fabs(static_cast<double>(u)) < kRange; };
-  if (norm(move) * scale.perMetre < kRange) { // and is a number
+  if (norm(move) * scale.perMetre < kRange) { // false for NaN
     const base::Vec3l to = base::toUnits(f.position[i]) + base::Vec3l{units(move.x), units(move.y), units(move.z)};
     if (inRange(to.x) && inRange(to.y) && inRange(to.z) &&
         scale.unit * static_cast<double>(to.z) > f.constants.lowest) {
@@ -142,12 +142,12 @@ GROUSER_HD void moveBy(const FluidView& f, int i, const base::Vec3d& move) {
   raiseFault(f.flags, FluidFault::range, f.id[i]);
 }
 
-/// From the origin of its body to marker n of the bodies [m], world components.
+/// Vector from the origin of its body to marker n of the bodies [m], world components.
 GROUSER_HD base::Vec3d armOf(const FluidView& f, std::uint32_t n) {
   return rotate(f.body[f.bodyOf[n]].pose.orientation, f.bodyPoint[n]);
 }
 
-/// Moves slot i to a place [m] within the range of positions.
+/// Sets the position of slot i to a place [m] within the range of positions.
 GROUSER_HD void setPosition(const FluidView& f, std::uint32_t i, const base::Vec3d& place) {
   f.position[i] = base::fromUnits(f.constants.period.wrapped(base::toUnits(f.constants.scale.fromMetres(place))));
 }
@@ -161,14 +161,14 @@ struct Drift {
   }
 };
 
-/// Adds the change of compression, then r += v dt/2 and shifting.
+/// Adds the compression change, then r += v dt/2 and shifting.
 struct CompressAndDrift {
   static constexpr double kNanoseconds = 30;
   FluidView f;
   double skin;            ///< [m]
   double shiftFactor;     ///< shifting x h x dt [m s]
   double greatestShift;   ///< [m]
-  double leastDivergence; ///< no shifting below it [-]
+  double leastDivergence; ///< no shifting below this value [-]
 
   GROUSER_HD void operator()(int i) const {
     if (f.isGhost(i)) return;
@@ -186,7 +186,7 @@ private:
     const double mean = compression + 0.5 * (change.flow + change.diffusion);
     compression += change.flow + change.diffusion;
     if (change.limit < kGreatestCompression) limitCompression(i, change.limit);
-    // Internal energy by diffusion: p/rho^2 drho.
+    // Internal energy change due to diffusion: p/rho^2 drho.
     f.losses[i].diffusion -= static_cast<double>(f.constants.sound2) * stress(mean) * change.diffusion;
     f.motion[i].w = static_cast<float>(compression);
     if (!(fabs(compression) < kGreatestCompression)) raiseFault(f.flags, FluidFault::compression, f.id[i]);
@@ -254,8 +254,8 @@ private:
   }
 };
 
-/// Pressure of a marker, extrapolated from the fluid (Adami et al. 2012, eq. 27), and its ghost velocity for no slip at
-/// the wall: 2 u_w minus the mean velocity of the fluid.
+/// Marker pressure, extrapolated from the fluid (Adami et al. 2012, eq. 27), and ghost velocity for no slip at the
+/// wall: 2 u_w minus the mean fluid velocity.
 struct Extrapolate {
   static constexpr double kNanoseconds = 500;
   FluidView f;
@@ -301,7 +301,7 @@ private:
   }
 };
 
-/// Moves markers with their bodies, to the places and velocities `before` [s] ahead of the end of the step.
+/// Moves markers with their bodies, to positions and velocities `before` [s] earlier than the end of the step.
 struct PlaceMarkers {
   static constexpr double kNanoseconds = 40;
   FluidView f;
@@ -317,15 +317,15 @@ struct PlaceMarkers {
   }
 };
 
-/// Stores stress in place of compression, for the sums of forces.
+/// Stores stress in place of compression for the force sums.
 struct StoreStress {
   static constexpr double kNanoseconds = 4;
   FluidView f;
   GROUSER_HD void operator()(int i) const { f.motion[i].w = stress(f.motion[i].w); }
 };
 
-/// Acceleration of particle i by a pair [m/s2]: pressure -m (p_i/rho_i^2 + p_j/rho_j^2) grad W, artificial viscosity
-/// (Monaghan 1992) and laminar viscosity (FluidModel). `slip`: relative velocity for the last.
+/// Acceleration of particle i due to a pair [m/s2]: pressure -m (p_i/rho_i^2 + p_j/rho_j^2) grad W, artificial
+/// viscosity (Monaghan 1992) and laminar viscosity (FluidModel). `slip`: relative velocity for the laminar term.
 struct PairForce {
   base::Vec3f pressure, viscous;
 };
@@ -334,7 +334,7 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   const float slope = pair.slope(k), stresses = own.w + other.w;
   PairForce force{pair.d * (-k.sound2 * stresses * slope), {}};
   const float approach = dot(own.xyz() - other.xyz(), pair.d);
-  if (artificial && approach < 0) // 1/rho of the pair, to first order
+  if (artificial && approach < 0) // 1/rho of the pair, first order
     force.viscous = pair.d * (k.artificial * approach / (pair.r2 + k.eta2) * (1 - 0.5f * stresses) * slope);
   if (k.laminar > 0) {
     const float viscosity = k.laminar * (1 - stresses) * slope;
@@ -344,12 +344,12 @@ GROUSER_HD PairForce pairForce(const FluidConstants& k, const Pair& pair, const 
   return force;
 }
 
-/// Acceleration of a particle by a marker that is nearer than its contact range [m/s2], from the potential 3 c^2 (1 -
-/// r/range)^2: walls let nothing pass where the fluid's own pressure is small, as in thin jets. The barrier between
-/// markers is 0.34 c^2 in three dimensions, 0.49 c^2 in two, above the 0.3 c^2 of fluid at the greatest compression.
+/// Acceleration of a particle due to a marker within its contact range [m/s2], from the potential 3 c^2 (1 -
+/// r/range)^2. It prevents leaks through walls where the fluid pressure is small, as in thin jets. The barrier between
+/// markers is 0.34 c^2 in three dimensions, 0.49 c^2 in two, above the 0.3 c^2 of fluid at the maximum compression.
 ///
-/// `apart`: relative velocity times pair.d, above 0 if they separate [m2/s]. Steps do not resolve the contact of a jet
-/// that hits markers at an edge: the force on particles that separate faster than 0.15 c is reduced, to a tenth above
+/// `apart`: relative velocity times pair.d, > 0 if they separate [m2/s]. Time steps do not resolve the impact of a
+/// jet on markers at an edge: the force on particles that separate faster than 0.15 c is reduced, to a tenth above
 /// 0.25 c.
 GROUSER_HD base::Vec3f contactForce(const FluidView& f, const Pair& pair, std::uint32_t marker, float apart) {
   const FluidConstants& k = f.constants;
@@ -361,7 +361,7 @@ GROUSER_HD base::Vec3f contactForce(const FluidView& f, const Pair& pair, std::u
   return pair.d * (6 * k.sound2 * (range - r) / (range * range * r) * fmaxf(0.1f, fminf(1.0f, share)));
 }
 
-/// Sums of the accelerations of a particle: of all pairs, of viscous forces, and of the pressure of markers.
+/// Sums the accelerations of a particle: all pairs, viscous forces, and marker pressure.
 struct Force {
   static constexpr double kNanoseconds = 900;
   FluidView f;
@@ -373,7 +373,7 @@ struct Force {
     const auto perAcceleration = static_cast<float>(k.acceleration.perUnit);
     const auto perPower = static_cast<float>(k.power.perUnit);
     base::Vec3l sum{}, viscous{}, wall{};
-    std::int64_t dragPower = 0, wallPower = 0; // marker forces times marker velocity
+    std::int64_t dragPower = 0, wallPower = 0; // marker force times marker velocity
     const auto add = [&](const PairForce& force) {
       sum += roundedVector((force.pressure + force.viscous) * perAcceleration);
       viscous += roundedVector(force.viscous * perAcceleration);
@@ -396,7 +396,7 @@ struct Force {
       dragPower += rounded(dot(force.viscous, other.xyz()) * perPower);
     });
     f.force[i] = sum;
-    // Work in both half kicks, at their mean velocity, the one at the end of the step.
+    // Work in both half kicks at their mean velocity, which is the end-of-step velocity.
     const base::Vec3d end = f.precise[i].velocity + 0.5 * f.timeStep * accelerationOf(f, i);
     const auto loss = [&](const base::Vec3l& force, std::int64_t power) {
       return f.timeStep * (k.power.value(power) - dot(k.acceleration.value(force), end));
@@ -406,8 +406,8 @@ struct Force {
   }
 };
 
-/// Force of the fluid on a marker: the integers of Force with opposite sign. Markers of bodies add it to the load.
-/// Torques are rounded for each pair, so that ranks may share the pairs of a marker.
+/// Fluid force on a marker: the integers of Force with opposite sign. Markers of bodies add it to the body load.
+/// Torques are rounded per pair, so that ranks may share the pairs of a marker.
 struct WallForce {
   static constexpr double kNanoseconds = 500;
   FluidView f;
@@ -424,7 +424,7 @@ struct WallForce {
     const base::Vec3d arm = ofBody ? armOf(f, m - f.fixedMarkers) * perSpacing : base::Vec3d{};
     BodyLoadQuanta sum{};
     eachFluidNeighbour(f, slot, [&](const Pair& pair, std::uint32_t j) {
-      if (f.isGhost(j)) return; // another rank adds it
+      if (f.isGhost(j)) return; // added by another rank
       const base::Vec4f other = f.motion[j];
       const base::Vec3f slip = f.ghostVelocity ? f.ghostVelocity[m] - other.xyz() : base::Vec3f{};
       const PairForce force = pairForce(k, pair, own, other, slip, false);

@@ -17,7 +17,7 @@ struct AddOffset {
   GROUSER_HD void operator()(int k) const { slot[k] += offset; }
 };
 
-/// Neighbours of a slot: those among the particles, and of a particle those among the markers.
+/// Finds the neighbours of a slot: particles, and for a particle also markers.
 struct CountPoints {
   static constexpr double kNanoseconds = 2000;
   NearSpheres particles, markers;

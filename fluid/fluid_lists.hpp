@@ -10,22 +10,22 @@
 
 namespace grouser::fluid {
 
-/// Neighbours of particles and markers within the kernel's support and a skin. Sums do not depend on their order, nor
-/// on when the lists are rebuilt.
+/// Neighbour lists of particles and markers within the kernel support plus a skin. Sums depend neither on the list
+/// order nor on the rebuild times.
 class FluidLists {
 public:
-  /// `reach`: support and skin [units].
+  /// `reach`: support plus skin [units].
   FluidLists(const base::Exec& exec, std::int64_t reach, const base::Period& period);
 
-  /// Sorts the particles in space, which precede the markers in `position`: slot i receives slot order()[i].
+  /// Sorts the particles, which precede the markers in `position`, in space: slot i receives slot order()[i].
   void sort(const base::Position* position, std::size_t particles, std::size_t markers);
   const std::uint32_t* order() const { return order_.data(); }
-  /// Lists the neighbours of particles that were permuted by order(), but those of ghosts (marks; null without).
+  /// Lists the neighbours of particles permuted by order(), except ghosts (marks; null without ghosts).
   void build(const base::Position* position, const std::uint32_t* ghost);
   std::int64_t reach() const { return reach_; } ///< [units]
 
   FluidRows rows() const;
-  /// Markers with a fluid neighbour.
+  /// Markers with at least one fluid neighbour.
   const base::Array<std::uint32_t>& wetMarkers() const { return wet_; }
 
 private:

@@ -7,20 +7,20 @@
 namespace grouser::fluid {
 
 /// Constants of a weakly compressible fluid of particles. SI units.
-///
-/// The state of a particle is its velocity and its compression s = rho/rho0 - 1. All particles have the mass
+/// The state of a particle is its velocity and its compression s = rho/rho0 - 1. All particles have the mass rho0
+/// spacing^d. Pressure p = c^2 (rho - rho0) = c^2 rho0 s.
 /// rho0 spacing^d. Pressure p = c^2 (rho - rho0) = c^2 rho0 s.
 struct FluidModel {
-  int dimensions = 3;     ///< 2: all particles share one coordinate, and masses count per metre
-  double spacing = 0;     ///< initial distance of particles [m]
-  double smoothing = 1.3; ///< smoothing length over spacing [-]
+  int dimensions = 3;     ///< 2: all particles have the same y coordinate, and masses are per metre
+  double spacing = 0;     ///< initial particle spacing [m]
+  double smoothing = 1.3; ///< smoothing length / spacing [-]
   double density = 1000;  ///< at zero pressure [kg/m3]
-  double soundSpeed = 0;  ///< numerical, far below that of water [m/s]
+  double soundSpeed = 0;  ///< numerical sound speed, far below that of water [m/s]
   double viscosity = 0;   ///< dynamic [Pa s]
-  /// Viscosity by the central operator of Monaghan and Gingold (1983), which keeps angular momentum and is right at
-  /// free surfaces (Colagrossi et al. 2011); else by the Morris operator (1997), which is more accurate at walls.
+  /// true: central viscosity operator of Monaghan and Gingold (1983), which conserves angular momentum and is correct
+  /// at free surfaces (Colagrossi et al. 2011); false: Morris operator (1997), more accurate at walls.
   bool centralViscosity = false;
-  double artificialViscosity = 0.02; ///< alpha of Monaghan (1992) between fluid particles that approach [-]
+  double artificialViscosity = 0.02; ///< alpha of Monaghan (1992) between approaching fluid particles [-]
   double diffusion = 0.1;            ///< delta of the density diffusion of Fourtakas et al. (2019) [-]
   double shifting = 0;               ///< factor of Fickian shifting (Lind et al. 2012) away from free surfaces; 0: off
   base::Vec3d gravity{};             ///< [m/s2]
@@ -30,37 +30,37 @@ struct FluidModel {
   Wendland kernel() const { return {smoothing * spacing, dimensions}; }
   double volume() const; ///< particle volume V0 at zero pressure [m^d]
   double mass() const;   ///< particle mass [kg], per metre in two dimensions
-  double skin() const;   ///< by which neighbour lists reach beyond the kernel's support [m]
-  double greatestSpeed() const { return soundSpeed; } ///< a faster particle is a fault [m/s]
+  double skin() const;   ///< extension of the neighbour lists beyond the kernel support [m]
+  double greatestSpeed() const { return soundSpeed; } ///< a higher particle speed is a fault [m/s]
 };
 
-/// A compression beyond this, of either sign, is a fault: integer sums are scaled for it [-]. Jets that hit a wall at v
-/// are compressed by v/c, more than the 1 % of the flow.
+/// Compression magnitude beyond which a fault is raised [-]; integer sums are scaled for it. Jets that hit a wall at v
+/// are compressed by v/c, more than the 1 % of the bulk flow.
 inline constexpr double kGreatestCompression = 0.3;
-/// Beside bodies that touch others compression goes no farther than this, twice that of the flow; what flow would add
-/// is a loss to walls [-].
+/// Maximum compression beside bodies that touch others [-], twice that of the flow; the excess compression counts as a
+/// loss to walls.
 inline constexpr double kPinchedCompression = 0.02;
 
-/// Largest sound time steps of an explicit scheme, each by one cause [s].
+/// Stability limits of the explicit time step by cause [s].
 struct StepLimits {
-  double sound;   ///< h/4 over (sound speed + expected speed)
+  double sound;   ///< h/4 / (sound speed + expected speed)
   double force;   ///< sqrt(h/acceleration)/4
-  double viscous; ///< h^2/8 over kinematic viscosity; infinite without viscosity
+  double viscous; ///< h^2/8 / kinematic viscosity; infinite without viscosity
   double least() const;
 };
 
-/// `speed`: the greatest expected [m/s]; `acceleration`: the greatest expected [m/s2], at least that of gravity.
+/// `speed`: maximum expected [m/s]; `acceleration`: maximum expected [m/s2], at least gravity.
 StepLimits stepLimits(const FluidModel& model, double speed, double acceleration);
 
-/// Sound speed for a flow with this speed [m/s] under this pressure [Pa]: density varies by about 1 %.
+/// Sound speed [m/s] for a flow with this maximum speed [m/s] and pressure [Pa], so that density varies by about 1 %.
 double soundSpeedFor(double speed, double pressure, double density);
 
-/// Pressure [Pa] at a compression [-], and the inverse.
+/// Pressure [Pa] at a compression [-], and the inverse function.
 double pressureAt(const FluidModel& model, double compression);
 double compressionAt(const FluidModel& model, double pressure);
-/// Energy of compression per mass, c^2 (ln(1 + s) + 1/(1 + s) - 1) [J/kg]; `sound2`: c^2 [m2/s2].
+/// Compression energy per mass, c^2 (ln(1 + s) + 1/(1 + s) - 1) [J/kg]; `sound2`: c^2 [m2/s2].
 GROUSER_HD double internalEnergy(double sound2, double compression) {
-  // -ln(1 - u) - u with u = s/(1 + s), by its series: the closed form cancels for small u.
+  // Series of -ln(1 - u) - u with u = s/(1 + s): the closed form suffers cancellation for small u.
   const double u = compression / (1 + compression);
   double sum = 0;
   for (int n = 18; n >= 2; --n) sum = sum * u + 1.0 / n;

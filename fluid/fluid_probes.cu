@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pressure at points and height of the surface on lines: each particle adds to the probes near it, in integers.
+// Pressure at points and surface height on lines: each particle adds to nearby probes, in integers.
 #include "fluid/fluid.hpp"
 #include "fluid/fluid_kernels.cuh"
 
@@ -10,13 +10,13 @@ namespace grouser::fluid {
 
 namespace {
 
-/// Sums of the particles near a point, in the quanta of a marker's.
+/// Adds the sums of the particles near a point, in the quanta of a marker's sums.
 struct PointSums {
   std::int64_t weight, compression;
   base::Vec3l moment;
 };
 
-/// The pair of particle i with a place [units].
+/// Pair of particle i with a point [units].
 GROUSER_HD Pair pairWith(const FluidView& f, int i, const base::Vec3l& place) {
   return pairAt(f.constants, f.constants.period.apart(f.position[i], base::fromUnits(place)).as<float>());
 }
@@ -48,8 +48,8 @@ struct AddToLines {
   static constexpr double kNanoseconds = 30;
   FluidView f;
   const base::Vec3l* foot; ///< [lines] units
-  int lines, places;       ///< places on each line
-  std::int64_t gap;        ///< between those [units]
+  int lines, places;       ///< sample points on each line
+  std::int64_t gap;        ///< spacing of the sample points [units]
   std::int64_t* sums;      ///< [lines, places]
   GROUSER_HD void operator()(int i) const {
     if (f.isGhost(i)) return;
@@ -115,11 +115,11 @@ std::vector<double> Fluid::levelsAt(const std::vector<base::Vec3d>& feet, double
   for (std::size_t n = 0; n < feet.size(); ++n) {
     const std::int64_t* line = all.data() + n * static_cast<std::size_t>(places);
     const auto filled = [&](int m) { return share * constants_.weight.value(line[m]); };
-    // Places nearer to a floor than the smoothing length are filled less than the fluid above them.
+    // Within a smoothing length of a floor the kernel support is truncated: sample points there appear less filled.
     int lowestWet = 0;
     while (lowestWet < places && filled(lowestWet) < 0.5) ++lowestWet;
     const int first = lowestWet * step <= model_.kernel().length() ? lowestWet : std::max(0, lowestWet - 1);
-    double wet = first == lowestWet ? first : 0; // places
+    double wet = first == lowestWet ? first : 0; // sample points
     for (int m = first; m + 1 < places; ++m) {
       const double high = std::max(filled(m), filled(m + 1)), low = std::min(filled(m), filled(m + 1));
       wet += low >= 0.5 ? 1 : high >= 0.5 ? (high - 0.5) / (high - low) : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A fluid on several ranks: each integrates the particles of its subdomain and holds ghosts of those within twice the
-// reach of its lists, so that the pressures of all markers beside its particles follow from fluid that it knows.
+// Fluid on several ranks: each rank integrates the particles of its subdomain and stores ghosts within twice the
+// reach of its lists, so that the pressures of all markers near its particles can be computed locally.
 #include "base/algorithms.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/fluid_kernels.cuh"
@@ -20,7 +20,7 @@ template <class T> struct CloseGaps {
   GROUSER_HD void operator()(int k) const { array[to[k]] = array[from[k]]; }
 };
 
-/// Copy of the records of an array from place `from` on.
+/// Copies the records of an array from index `from` on.
 template <class T> base::Array<T> tailOf(const base::Exec& exec, const base::Array<T>& array, std::size_t from) {
   auto tail = base::Array<T>::unset(exec, array.size() - from);
   base::copyOnDevice(exec, tail.data(), array.data() + from, tail.size() * sizeof(T));
@@ -44,7 +44,7 @@ std::vector<std::uint32_t> Fluid::divide(const std::vector<base::Position>& posi
   std::vector<std::uint32_t> mine(positions.size());
   std::iota(mine.begin(), mine.end(), 0U);
   if (ranks.comm.alone()) return mine;
-  // A marker beside a particle of this rank takes its pressure from all fluid within its own reach.
+  // The pressure of a marker near a particle of this rank depends on all fluid within its own reach.
   subdomain_ = std::make_unique<contact::Subdomain>(exec_, ranks, 2 * lists_.reach(), constants_.period);
   subdomain_->setPartition(contact::startingPartition(positions, ranks, constants_.scale));
   const contact::PartitionView partition = subdomain_->partition().view();
@@ -53,8 +53,8 @@ std::vector<std::uint32_t> Fluid::divide(const std::vector<base::Position>& posi
   return mine;
 }
 
-/// Sends the particles that have left the subdomain, receives others, and makes the ghosts. Markers, which follow the
-/// particles, are stored elsewhere meanwhile.
+/// Migrates particles that have left the subdomain, and creates the ghosts. Markers, which follow the particles in the
+/// arrays, are stored elsewhere meanwhile.
 void Fluid::migrate() {
   if (rebalances_ && rebuilds_ > 0 && rebuilds_ % kBalanceEvery == 0)
     subdomain_->setPartition(subdomain_->balanced(position_.data(), slots_, 1));
@@ -81,7 +81,7 @@ void Fluid::migrate() {
   slots_ = owned + subdomain_->ghosts();
   eachOwned([&]<class T>(base::Array<T>& array) {
     array.resizeKeeping(slots_);
-    base::setZero(exec_, array.data() + owned, subdomain_->ghosts() * sizeof(T)); // sorted with the others
+    base::setZero(exec_, array.data() + owned, subdomain_->ghosts() * sizeof(T)); // sorted with the other slots
   });
   change_.resize(slots_), reference_.resize(slots_);
   if (model_.shifting > 0) shift_.resize(slots_), divergence_.resize(slots_);
@@ -95,7 +95,7 @@ void Fluid::updateGhosts() {
   subdomain_->haloExchange().run(fields);
 }
 
-/// Shifting is scaled by the fastest particle of all ranks.
+/// Shifting is scaled by the maximum particle speed of all ranks.
 void Fluid::agreeOnSpeed() {
   if (!subdomain_ || !(model_.shifting > 0)) return;
   flags_.download();
@@ -104,7 +104,7 @@ void Fluid::agreeOnSpeed() {
   flags_.upload();
 }
 
-/// Combines flags and loads on bodies over all ranks.
+/// Combines flags and body loads over all ranks.
 void Fluid::agree() {
   if (!subdomain_) return;
   FluidFlags& flags = *flags_.host();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Energies, momentum and losses: exact sums of integers, the same in any order, on any device and number of ranks.
+// Energies, momentum and losses: exact integer sums, identical in any order, on any device and number of ranks.
 #include "base/summed_banks.hpp"
 #include "fluid/fluid.hpp"
 #include "fluid/fluid_kernels.cuh"
@@ -24,7 +24,7 @@ struct AddTotals {
     place = momentum + 3,
     kSums = place + 3
   };
-  static constexpr int kBanks = 16; ///< copies of the sums: threads that add at the same time rarely use the same one
+  static constexpr int kBanks = 16; ///< copies of the sums, to reduce conflicts of concurrent threads
 
   FluidView f;
   base::FixedPoint energy; ///< [J/kg]

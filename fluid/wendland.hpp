@@ -12,12 +12,12 @@ public:
   Wendland(double length, int dimensions);
 
   double length() const { return length_; }
-  double support() const { return 2 * length_; } ///< W = 0 from here on [m]
+  double support() const { return 2 * length_; } ///< radius of the support, W = 0 beyond [m]
   double value(double r) const;                  ///< W [1/m^d]
   double slope(double r) const;                  ///< F = (dW/dr)/r [1/m^(d+2)], <= 0
   double atCentre() const { return norm_; }      ///< W(0) [1/m^d]
-  double slopeAtCentre() const;                  ///< F(0), the greatest |F|
-  double steepest() const;                       ///< greatest |dW/dr| [1/m^(d+1)], at q = 1/2
+  double slopeAtCentre() const;                  ///< F(0), the maximum of |F|
+  double steepest() const;                       ///< maximum |dW/dr| [1/m^(d+1)], at q = 1/2
 
 private:
   double length_, norm_;

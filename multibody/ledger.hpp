@@ -5,9 +5,9 @@
 
 namespace grouser::multibody {
 
-/// Compensated sum: the error of a million small terms is that of one. The rounding error of each addition is computed
-/// exactly (Knuth 1997, The Art of Computer Programming 2, 4.2.2, theorem B) and summed separately (Neumaier 1974, ZAMM
-/// 54:39). `sum` alone is the plain sum.
+/// Compensated sum: the error of a million small terms equals that of one. The rounding error of each addition is
+/// computed exactly (Knuth 1997, The Art of Computer Programming 2, 4.2.2, theorem B) and summed separately (Neumaier
+/// 1974, ZAMM 54:39). The member `sum` is the plain sum.
 struct CompensatedSum {
   double sum = 0, lost = 0;
 
@@ -33,32 +33,32 @@ struct CompensatedVector {
 
 /// Energy and momentum ledger of a mechanism since its first step [J, N s, N m s].
 ///
-/// An impulse p changes the kinetic energy of a body by exactly p . (v_before + v_after) / 2, and so does one of
-/// torque with the angular velocities: kineticWork is the sum of that over all impulses of all steps, those of
-/// constraints and the gyroscopic ones among them. It must equal the kinetic energy gain of the bodies; a difference is
-/// rounding, or an unrecorded change of the state. Potential and elastic energy are functions of positions. So
+/// An impulse p changes the kinetic energy of a body by exactly p . (v_before + v_after) / 2, likewise an impulse of
+/// torque with the angular velocities. kineticWork sums this over all impulses of all steps, including constraint and
+/// gyroscopic impulses. It must equal the kinetic energy gain of the bodies; any difference is rounding or an
+/// unrecorded change of the state. Potential and elastic energy are functions of positions. So
 ///   integration error = drives + external loads - dissipated - potential - elastic - kineticWork
 /// is the error of conservative forces, workless constraints and gyroscopic terms. See balance() in readings.hpp. New
 /// kinds of forces must be recorded in detail/euler_ledger.cpp and detail/rattle_ledger.cpp.
 struct Ledger {
-  /// kSymplecticEuler: impulse times the mean of the rates before and after the step. kRattle: gravity and springs the
-  /// loss of their energies, drives and dampers force times path over each stage, external loads as kSymplecticEuler.
+  /// kSymplecticEuler: impulse times the mean rate over the step. kRattle: energy decrease for gravity and springs,
+  /// force times path per stage for drives and dampers; external loads as in kSymplecticEuler.
   CompensatedSum gravityWork, externalWork, driveWork;
-  CompensatedSum springWork; ///< of elastic forces and preloads
-  CompensatedSum dissipated; ///< the sum of the three below, rounded differently
+  CompensatedSum springWork; ///< work of elastic forces and preloads
+  CompensatedSum dissipated; ///< sum of the three damping terms below, rounded differently
 
   CompensatedSum kineticWork;
-  CompensatedSum potentialGain, elasticGain; ///< between the ends of each step, at the loads of that step
+  CompensatedSum potentialGain, elasticGain; ///< sums of each step's gain at constant loads of that step
   CompensatedSum jointDamping, springDamping, stopDamping;
-  /// Reference for relative errors: sum of the absolute values of all works, and the kinetic energy at the start.
-  /// Constraints count by their total work on both bodies (kSymplecticEuler), or by the total of all constraints on a
-  /// body (kRattle).
+  /// Reference for relative errors: sum of the absolute values of all works plus the initial kinetic energy.
+  /// Constraints count by their total work on both bodies (kSymplecticEuler), or by the total work of all constraints
+  /// on a body (kRattle).
   CompensatedSum turnover;
-  /// Impulses of gravity, external loads and immovable bodies, and their moments about the world's origin.
+  /// Impulses of gravity, external loads and immovable bodies, and their moments about the world origin.
   CompensatedVector linearImpulse, angularImpulse;
 
-  /// Set before the first step.
-  double begun = 0; ///< 1 from then on
+  /// Reference values, set before the first step.
+  double begun = 0; ///< 1 once the reference values are set
   double startKinetic = 0;
   base::Vec3d startLinear, startAngular;
 
@@ -68,7 +68,7 @@ struct Ledger {
 /// Contribution of one step, or one stage, to the ledger.
 struct StepLedger {
   double kinetic = 0, turnover = 0;
-  base::Vec3d linear, angular; ///< impulses from outside
+  base::Vec3d linear, angular; ///< external impulses
   double jointDamping = 0, springDamping = 0, stopDamping = 0;
   double external = 0, potential = 0, elastic = 0;
 

@@ -122,7 +122,7 @@ int Model::addBody(const Body& body) {
   checkPose(what, "pose", body.pose);
   if (!finite(body.v_WB) || !finite(body.w_WB)) refuse(what, "velocity", "is not finite");
   if (body.point && (body.fixed || !(body.w_WB == Vec3d{})))
-    refuse(what, "is a point body, which cannot be fixed or rotate; remove that, or give it an inertia");
+    refuse(what, "is a point body, which cannot be fixed or rotate; remove that, or set an inertia");
   if (!body.fixed) {
     if (!(std::isfinite(body.mass) && body.mass > 0))
       refuse(what, "mass", "= " + text(body.mass) + " [kg] must be > 0");
@@ -171,7 +171,7 @@ void Model::checkPoint(const PartName& what, int body, const Vec3d& point_B, boo
   if (!mayTurnFreely || !(point_B == Vec3d{}))
     refuse(what, "'" + bodyName(body) +
                      "' is a point body: only spherical joints, distance joints and point springs may "
-                     "hold it, at its own origin; give it an inertia for anything else");
+                     "attach to it, at its own origin; set an inertia for other elements");
 }
 
 int Model::addJoint(const Joint& given) {

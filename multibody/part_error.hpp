@@ -8,7 +8,7 @@
 
 namespace grouser::multibody {
 
-/// Name of a part in messages: joint 'hip'.
+/// Name of a part in messages, e.g. joint 'hip'.
 struct PartName {
   std::string kind; ///< body, joint, spring, bushing, drive, coupling
   std::string name;
@@ -16,17 +16,17 @@ struct PartName {
 };
 
 /// Error in one part of a mechanism. The message reads `joint 'hip': damping = -1 [N s/m] must be ...`; file readers
-/// prepend the place of the part.
+/// prepend the part's location in the file.
 class PartError : public base::InputError {
 public:
-  /// `key`: the wrong member of the part's struct; empty if there is no single one. `fault`: description.
+  /// `key`: the invalid member of the part's struct, or empty; `fault`: description of the error.
   PartError(PartName part, std::string key, std::string fault)
       : InputError(part.text() + ": " + withKey(key, fault)), part_(std::move(part)), key_(std::move(key)),
         fault_(std::move(fault)) {}
   const PartName& part() const { return part_; }
   const std::string& key() const { return key_; }
   const std::string& fault() const { return fault_; }
-  /// The message without the part's name.
+  /// Message without the part's name.
   std::string text() const { return withKey(key_, fault_); }
 
 private:

@@ -6,10 +6,10 @@
 
 namespace grouser::multibody {
 
-/// Position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint's axis; kOnly if there is one axis.
+/// Returns position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint axis; kOnly for single-axis joints.
 AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis = JointAxis::kOnly);
-/// Force [N] or torque [N m] that a drive exerted on B along its axis in the last step; and the drive's power [W],
-/// positive when it puts energy into the mechanism.
+/// Force [N] or torque [N m] exerted by a drive on B along its axis in the last step; and power of the drive [W],
+/// positive if it adds energy to the mechanism.
 double driveForce(const Model& model, const State& state, int drive);
 double drivePower(const Model& model, const State& state, int drive);
 
@@ -19,7 +19,7 @@ struct Totals {
   double gravity = 0; ///< -sum m g.p
   double elastic = 0; ///< springs, preloads (as constant forces relative to freePosition or restLength) and stops
   Vec3d linearMomentum;
-  Vec3d angularMomentum; ///< about the world's origin
+  Vec3d angularMomentum; ///< about the world origin
 };
 Totals totals(const Model& model, const State& state, const Loads& loads);
 /// Elastic energy only [J].
@@ -27,21 +27,21 @@ double elasticEnergy(const Model& model, const State& state, const Loads& loads)
 
 /// Balance of the ledger of a state (ledger.hpp) since its first step [J, N s, N m s]:
 ///   kineticGain + potentialGain + elasticGain + dissipated() + integrationError = driveWork + externalWork + leftOver
-/// Energy input by changing loads (ramps of springs and of gravity) counts neither as stored nor as work: gains are
-/// summed at the loads of each step.
+/// Energy added by changing loads (ramps of springs and of gravity) counts neither as stored energy nor as work: gains
+/// are summed at the loads of each step.
 struct Balance {
-  Totals now; ///< of the state itself
+  Totals now; ///< totals of the current state
   double driveWork = 0, externalWork = 0;
   double kineticGain = 0, potentialGain = 0, elasticGain = 0;
-  double jointDamping = 0;  ///< lost by the dampers of joints
-  double springDamping = 0; ///< of axis springs, point springs and bushings
-  double stopDamping = 0;   ///< of end stops
+  double jointDamping = 0;  ///< dissipated by joint dampers
+  double springDamping = 0; ///< dissipated by axis springs, point springs and bushings
+  double stopDamping = 0;   ///< dissipated by end stops
   double dissipated() const { return jointDamping + springDamping + stopDamping; }
-  double integrationError = 0; ///< falls with the step
+  double integrationError = 0; ///< decreases with the step
   double leftOver = 0;         ///< kinetic energy residual: rounding
-  double turnover = 0;         ///< sum of absolute works and the kinetic energy of the start
+  double turnover = 0;         ///< sum of absolute works plus initial kinetic energy
   Vec3d linearLeftOver;        ///< momentum residual: rounding
-  Vec3d angularLeftOver;       ///< angular momentum residual about the world's origin
+  Vec3d angularLeftOver;       ///< angular momentum residual about the world origin
 };
 Balance balance(const Model& model, const State& state, const Loads& loads);
 /// Initialises the ledger of a state; the solver calls it before its first step.

@@ -35,7 +35,7 @@ SolverOptions resolved(const SolverOptions& given) {
     throw base::InputError("multibody: momentLength must be >= 0 [m]");
   if (o.maxIterations < 1) throw base::InputError("multibody: maxIterations must be >= 1");
   if (o.order != 2 && o.order != 4 && o.order != 6 && o.order != 8)
-    throw base::InputError("multibody: order = " + std::to_string(o.order) + " is none of 2, 4, 6, 8");
+    throw base::InputError("multibody: order = " + std::to_string(o.order) + " must be 2, 4, 6 or 8");
   return o;
 }
 
@@ -81,7 +81,7 @@ struct Solver::Impl {
   SolverOptions options;
   ConstraintSystem system;
   Redundancy redundancy;
-  std::vector<double> start; ///< of the drives
+  std::vector<double> start; ///< start positions of the drives
   int freedom = 0;
   std::string text;
   StepReport last;
@@ -89,10 +89,10 @@ struct Solver::Impl {
 
   double checkedStep = 0;                   ///< largest step found stable since the last check
   double checkedDampers = 0;                ///< largest step that the dampers allow
-  std::vector<AxisLaw> laws;                ///< one an axis
-  std::vector<double> stiffness;            ///< or damping, one an axis
-  std::vector<Vector6> x;                   ///< one a node
-  std::vector<Frame> frames;                ///< one a body, the world last
+  std::vector<AxisLaw> laws;                ///< one per axis
+  std::vector<double> stiffness;            ///< stiffness or damping, one per axis
+  std::vector<Vector6> x;                   ///< one per node
+  std::vector<Frame> frames;                ///< one per body, the world last
   std::unique_ptr<ReactionSharing> sharing; ///< created on the first request for reactions of redundant joints
 };
 
@@ -149,7 +149,7 @@ void Solver::Impl::checkFits(const State& state, const Loads& loads) const {
     throw base::InputError("multibody step: state or loads belong to another model; use makeState and makeLoads");
 }
 
-/// Highest frequency [rad/s] of `stiffness` (one an axis) against the constrained masses.
+/// Highest frequency [rad/s] of `stiffness` (one per axis) against the constrained masses.
 double Solver::Impl::highestRate(const State& state, const Loads& loads, std::string* spring) {
   system.place(state.pose, frames);
   imposedLaws(system, model, loads, state.time, laws);
@@ -223,7 +223,7 @@ void Solver::Impl::checkStable(const State& state, const Loads& loads, double dt
   constexpr long long kInterval = 512;
   if (options.integrator != Integrator::kRattle || options.springs != Springs::kExplicit) return;
   if (model.axisSprings().empty() && model.pointSprings().empty() && model.bushings().empty()) return;
-  // By time, not by a step counter, so that a resumed run checks the same steps.
+  // The check depends on time, not on a step counter, so that a resumed run checks the same steps.
   if (dt <= checkedStep && std::llround(state.time / dt) % kInterval != 0) return;
   std::string spring;
   const double limit = stableStep(state, loads, &spring);

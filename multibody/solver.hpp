@@ -11,82 +11,82 @@
 
 namespace grouser::multibody {
 
-/// Advances a mechanism; the schemes are described in the integrators' sources. Deterministic, one thread, no
-/// allocation in step().
+/// Time integrator of a mechanism; the schemes are described in the integrators' sources. Deterministic and
+/// single-threaded; step() does not allocate.
 ///
-/// With kSymplecticEuler a start velocity belongs to the start pose, half a step before the first mean velocity: the
-/// first step applies a full step of load instead of half (a shift in time of dt / 2, the scheme's only first-order
-/// error for smooth motions), and needs half the centripetal constraint force.
+/// With kSymplecticEuler the initial velocity belongs to the initial pose, half a step before the first mean velocity:
+/// the first step applies the load of a full step instead of half (a time shift of dt / 2, the scheme's only
+/// first-order error for smooth motions), and requires half the centripetal constraint force.
 class Solver {
 public:
-  /// Orders the elimination, finds redundant constraints, and checks the start. The model must outlive the solver and
-  /// not change. Throws base::InputError if at the start joints are not closed (naming the joint and its gap),
-  /// velocities break a constraint (naming joint and rate), a drive or coupling contradicts the others or a closed loop
-  /// (naming it), a driven axis is not where its law begins, or an option is out of its range.
+  /// Determines the elimination order, finds redundant constraints, and checks the initial state. The model must
+  /// outlive the solver and not change. Throws base::InputError if joints are initially open (states joint and gap),
+  /// velocities violate a constraint (states joint and rate), a drive or coupling contradicts the others or a closed
+  /// loop (states its name), a driven axis is not at the start of its law, or an option is out of range.
   explicit Solver(const Model& model, const SolverOptions& options = {});
   ~Solver();
   Solver(Solver&&) noexcept;
   Solver& operator=(Solver&&) noexcept;
 
-  /// One step of size dt [s], > 0. Throws base::SimulationError (naming step time and joint or body) when the position
-  /// solve fails or a state is not finite; base::InputError when dt is beyond the stability limit of explicit springs
-  /// (naming spring, limit and remedy).
+  /// Advances the state by dt [s], > 0. Throws base::SimulationError (states step time and joint or body) if the
+  /// position solve fails or a state is not finite; base::InputError if dt exceeds the stability limit of explicit
+  /// springs (states spring, limit and remedy).
   void step(State& state, const Loads& loads, double dt);
 
-  /// Makes the twists of a state fit the constraints and drives by the smallest change in the norm of kinetic energy
-  /// (as a shock would). Returns the kinetic energy taken out [J].
+  /// Projects the twists of a state onto the constraints and drives by the smallest change in the kinetic energy norm
+  /// (like an impact). Returns the kinetic energy removed [J].
   double projectVelocities(State& state, const Loads& loads);
 
-  /// Prepares impulse responses for a step of kSymplecticEuler. Computes the twists at its end under `loads`, one per
+  /// Prepares impulse responses for a step of kSymplecticEuler: computes the end-of-step twists under `loads`, one per
   /// body, to first order in the gaps that the step opens in curved joints. Does not affect step(). Throws
-  /// std::logic_error with kRattle, and base::SimulationError where a twist is not finite or turns a body too far.
+  /// std::logic_error with kRattle, and base::SimulationError if a twist is not finite or rotates a body too far.
   void startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists);
-  /// Computes the change of these twists by further impulses [N s, N m s], one per body. The response includes joints,
-  /// drives, and implicit springs; it is linear and symmetric, and at most that of free bodies.
+  /// Computes the change of these twists due to further impulses [N s, N m s], one per body. The response includes
+  /// joints, drives, and implicit springs; it is linear, symmetric, and bounded by that of free bodies.
   void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change);
 
-  /// Largest step for which explicit springs are stable at a state's poses [s]: 2 / omega, omega the highest frequency
-  /// of all springs against the constrained masses (the factor 2 is another for orders above 2, see kExplicit);
-  /// infinite without springs. `spring`, if given, receives the name of the spring with the greatest part in it.
+  /// Maximum stable step of explicit springs at a state's poses [s]: 2 / omega, with the highest frequency omega of all
+  /// springs against the constrained masses (another factor for orders above 2, see kExplicit); infinite without
+  /// springs. `spring`, if given, receives the name of the spring that contributes most.
   double stableStep(const State& state, const Loads& loads, std::string* spring = nullptr);
 
-  /// Highest frequency [rad/s] of the end stops against the constrained masses at a state's poses, as if all of them
-  /// were touched at once; 0 without stops. A bounce off one takes pi over it at least. `stop`, if given, receives the
-  /// name of the one with the greatest part in it.
+  /// Highest frequency [rad/s] of the end stops against the constrained masses at a state's poses, as if all were in
+  /// contact; 0 without stops. A bounce lasts at least pi / rate. `stop`, if given, receives the name of the stop that
+  /// contributes most.
   double stopRate(const State& state, const Loads& loads, std::string* stop = nullptr);
 
-  /// Highest rate [1/s] of the dampers, those of joints and end stops with them, against the constrained masses: a
-  /// velocity that only they brake dies away in 1 / this. 0 without any. kRattle takes them by the midpoint: from a
-  /// step of 2 / this on the velocity changes its sign in every step and hardly dies away; kSymplecticEuler takes any
-  /// step. `damper`, if given, receives the name of the one with the greatest part in it.
+  /// Highest decay rate [1/s] of the dampers, including joints and end stops, against the constrained masses: a
+  /// velocity damped by them alone decays in 1 / rate. 0 without dampers. kRattle uses the midpoint rule: for steps
+  /// above 2 / rate the velocity changes sign in every step and hardly decays; kSymplecticEuler permits any step.
+  /// `damper`, if given, receives the name of the damper that contributes most.
   double dampingRate(const State& state, const Loads& loads, std::string* damper = nullptr);
 
-  /// Fastest rate [rad/s] at which geometric stiffness moves bodies at a state: under tension joints, springs,
-  /// couplings and drives let them swing across it, under compression they let them buckle
-  /// (detail/geometric_stiffness.hpp). All schemes need dt < stabilityLimit() / rate; beyond that a swing grows. 0
-  /// where there are no forces. `part`, if given, receives the name of what has the greatest part in it.
+  /// Fastest rate [rad/s] of the motion due to geometric stiffness at a state: transverse oscillation of joints,
+  /// springs, couplings and drives under tension, buckling under compression (detail/geometric_stiffness.hpp). All
+  /// schemes need dt < stabilityLimit() / rate; beyond that oscillations grow. 0 without forces. `part`, if given,
+  /// receives the name of the element that contributes most.
   double geometricStiffnessRate(const State& state, const Loads& loads, std::string* part = nullptr);
 
-  /// Largest omega dt [rad] of a swing that the scheme takes explicitly: 2 (2.72, 2.53, 3.10 with order 4, 6, 8).
+  /// Stability limit of omega dt [rad] for explicit oscillations: 2 (2.72, 2.53, 3.10 with order 4, 6, 8).
   double stabilityLimit() const;
 
-  /// Force and torque in every joint in the last step, as in JointReading, except for redundantly constrained joints.
-  /// Their reactions are not determined by the equations of motion; the readings of a State are one solution, with
-  /// zeros for dropped rows; this function returns the solution of least norm, sum of |force|^2 + |moment / L|^2 with L
-  /// of SolverOptions::momentLength, so that equal joints share loads equally. For outputs: costs about as much as a
-  /// few steps if rows are redundant, else nothing, and has no effect on the motion.
+  /// Force and torque of every joint in the last step, as in JointReading. Reactions of redundantly constrained joints
+  /// are not determined by the equations of motion: a State contains one solution, with zeros for dropped rows; this
+  /// function returns the one of minimum norm, sum of |force|^2 + |moment / L|^2 with L = SolverOptions::momentLength,
+  /// so that equal joints share loads equally. For output: costs as much as a few steps if rows are redundant, else
+  /// nothing, and does not affect the motion.
   std::vector<JointReaction> reactions(const State& state) const;
 
   const StepReport& lastStep() const;
-  /// max |J v| over the hard rows at a state's poses [m/s, rad/s]. With kRattle it is met to round-off. With
-  /// kSymplecticEuler the twist is the mean over the step that led there and meets the constraints over that step to
-  /// positionTolerance / dt; at its end it leaves them by O(dt |w|^2 size).
+  /// max |J v| over the hard rows at a state's poses [m/s, rad/s]. With kRattle the constraints are satisfied to
+  /// round-off. With kSymplecticEuler the twist is the mean over the last step and satisfies the constraints over that
+  /// step to positionTolerance / dt; at the end of the step the violation is O(dt |w|^2 size).
   double velocityError(const State& state) const;
-  /// Size of the problem, independent parts, and redundant rows.
+  /// Text report: problem size, independent parts, and redundant rows.
   const std::string& report() const;
-  /// Rows dropped as redundant: "joint 'pin 7': rotation about x".
+  /// Names of the rows dropped as redundant: "joint 'pin 7': rotation about x".
   std::vector<std::string> redundantRowNames() const;
-  /// Degrees of freedom left by joints and couplings (drives not counted), accounting for redundancy.
+  /// Degrees of freedom remaining with joints and couplings (ignoring drives); redundancy is considered.
   int degreesOfFreedom() const;
 
 private:

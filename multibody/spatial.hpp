@@ -7,7 +7,7 @@ namespace grouser::multibody {
 
 /// Velocity of a rigid body, world components.
 struct Twist {
-  base::Vec3d v; ///< of the centre of mass [m/s]
+  base::Vec3d v; ///< velocity of the centre of mass [m/s]
   base::Vec3d w; ///< angular velocity [rad/s]
 };
 

@@ -10,28 +10,28 @@
 
 namespace grouser::multibody {
 
-/// Readings of a joint in the last step. Forces: mean over the step with kSymplecticEuler, values at its end with
+/// Readings of a joint in the last step. Forces are means over the step with kSymplecticEuler and end values with
 /// kRattle.
 struct JointReading {
-  Vec3d force; ///< on B from A, hard rows and axis force together, world components [N]; for a shoe joint the track
+  Vec3d force; ///< force of A on B: hard rows plus axis force, world components [N]; for a shoe joint the track
                ///< tension
   Vec3d
-      torque; ///< on B from A about the joint point (origin of B's frame), axis torque included, world components [N m]
-  double position = 0;    ///< angle [rad], unwrapped over turns, or slide [m]; 0 where the type has no axis; the angle
-                          ///< of a cylindrical, whose slide is in State::slide
+      torque; ///< torque of A on B about the joint point (origin of frame B), with axis torque, world components [N m]
+  double position = 0;    ///< angle [rad], unwrapped over full turns, or slide [m]; 0 if the type has no axis; for a
+                          ///< cylindrical joint the angle (slide: State::slide)
   double rate = 0;        ///< [rad/s] or [m/s]
-  double axisForce = 0;   ///< damping, spring, stops and drive along the free axis, on B [N] or [N m]
-  double driveForce = 0;  ///< the drive's part of it [N] or [N m]
-  double springForce = 0; ///< the springs' part of it, with their dampers and stops [N] or [N m]
+  double axisForce = 0;   ///< sum of damping, spring, stops and drive along the free axis, on B [N] or [N m]
+  double driveForce = 0;  ///< contribution of the drive to axisForce [N] or [N m]
+  double springForce = 0; ///< contribution of springs to axisForce, with their dampers and stops [N] or [N m]
 };
 
 /// Force and torque of a joint, as in JointReading.
 struct JointReaction {
   Vec3d force;  ///< [N]
-  Vec3d torque; ///< about the joint point [N m]
+  Vec3d torque; ///< torque about the joint point [N m]
 };
 
-/// Readings of the second axis of a joint, the slide of a cylindrical one, in the last step. As in JointReading.
+/// Readings of the slide of a cylindrical joint in the last step; members as in JointReading.
 struct AxisReading {
   double position = 0;    ///< [m]
   double rate = 0;        ///< [m/s]
@@ -42,73 +42,73 @@ struct AxisReading {
 
 /// Readings of a bushing in the last step.
 struct BushingReading {
-  Vec3d force;       ///< on B at the origin of its frame, world components [N]
-  Vec3d torque;      ///< on B, world components [N m]
+  Vec3d force;       ///< force on B at the origin of its frame, world components [N]
+  Vec3d torque;      ///< torque on B, world components [N m]
   Vec3d translation; ///< d, in the axes of A's frame [m]
   Vec3d rotation;    ///< phi, in the axes of A's frame [rad]
 };
 
 /// Readings of a coupling in the last step.
 struct CouplingReading {
-  double force = 0; ///< generalised force on axis 2 along +axis; axis 1 feels -ratio times it [N m] or [N]
+  double force = 0; ///< generalised force on axis 2 along +axis; axis 1 receives -ratio times it [N m] or [N]
 };
 
 /// Readings of a point spring in the last step.
 struct SpringReading {
-  double force = 0;  ///< positive pushes apart [N]
+  double force = 0;  ///< positive: repulsive [N]
   double length = 0; ///< [m]
 };
 
-/// All state variables. After a step of Integrator::kRattle `pose` and `twist` are both at `time`. After one of
-/// Integrator::kSymplecticEuler they are staggered, as in any kick-drift scheme: `pose` is at `time`, `twist` is the
-/// mean twist over the step that led there.
+/// State variables of a mechanism. After a step of Integrator::kRattle `pose` and `twist` are both at `time`. After a
+/// step of Integrator::kSymplecticEuler they are staggered, as in any kick-drift scheme: `pose` is at `time`, `twist`
+/// is the mean twist over the last step.
 struct State {
   double time = 0;
-  std::vector<Pose> pose;             ///< X_WB, one a body
-  std::vector<Twist> twist;           ///< one a body
+  std::vector<Pose> pose;             ///< X_WB, one per body
+  std::vector<Twist> twist;           ///< one per body
   std::vector<Vec3d> angularMomentum; ///< angular momentum about the centre of mass, world components [kg m2/s]
-  std::vector<JointReading> joint;    ///< one a joint
-  std::vector<SpringReading> spring;  ///< one a point spring
+  std::vector<JointReading> joint;    ///< one per joint
+  std::vector<SpringReading> spring;  ///< one per point spring
   Ledger ledger;
-  std::vector<AxisReading> slide; ///< one a joint if the model has cylindrical joints (others' stay 0), else empty
+  std::vector<AxisReading> slide; ///< one per joint if the model has cylindrical joints (0 for other types), else empty
   std::vector<BushingReading> bushing;
   std::vector<CouplingReading> coupling;
 
-  /// The complete dynamic state as a flat array: a run resumed from it gives the same bits as one straight through.
+  /// Returns the complete dynamic state as a flat array; a run resumed from it is bitwise equal to an unbroken one.
   std::vector<double> save() const;
-  /// Number of trailing ledger values, on which no step depends: a hash of the state excludes them.
+  /// Number of trailing ledger values, excluded from state hashes because no step depends on them.
   static constexpr std::size_t kBooks = 39;
-  /// Inverse of save(); throws base::InputError if the length does not fit this state's model.
+  /// Inverse of save(); throws base::InputError if the length does not match this state's model.
   void restore(const std::vector<double>& flat);
 };
 
-/// Scale factors of one spring [-], to ramp it in.
+/// Scale factors of one spring [-], for ramping.
 struct SpringControl {
-  double loadFactor = 1;      ///< of the preload
-  double stiffnessFactor = 1; ///< of the stiffness
+  double loadFactor = 1;      ///< scales the preload
+  double stiffnessFactor = 1; ///< scales the stiffness
 };
 
 struct DriveControl {
   bool on = true;
-  double speed = 0; ///< of a speed drive without a law [rad/s] or [m/s]
-  double force = 0; ///< of a force drive without a law [N m] or [N]
+  double speed = 0; ///< speed of a speed drive without a law [rad/s] or [m/s]
+  double force = 0; ///< force of a force drive without a law [N m] or [N]
 };
 
 /// External inputs of one step.
 struct Loads {
   Vec3d gravity{0, 0, -9.81};             ///< [m/s2]
-  std::vector<Wrench> external;           ///< one a body
-  std::vector<SpringControl> axisSprings; ///< one an axis spring
+  std::vector<Wrench> external;           ///< one per body
+  std::vector<SpringControl> axisSprings; ///< one per axis spring
   std::vector<SpringControl> pointSprings;
   std::vector<DriveControl> drives;
-  std::vector<SpringControl> bushings; ///< one a bushing; loadFactor is not used
+  std::vector<SpringControl> bushings; ///< one per bushing; loadFactor is ignored
 };
 
-/// The model's state at the start; joint readings hold positions and rates, no forces yet.
+/// Returns the model's initial state; joint readings contain positions and rates, but no forces yet.
 State makeState(const Model& model);
-/// No wrenches, all factors 1, drives as in the model.
+/// Returns default loads: no wrenches, all factors 1, drives as in the model.
 Loads makeLoads(const Model& model);
-/// Sets a body's velocity (its angular momentum follows).
+/// Sets a body's velocity and its angular momentum consistently.
 void setTwist(const Model& model, State& state, int body, const Twist& twist);
 
 } // namespace grouser::multibody

@@ -7,13 +7,13 @@
 
 namespace grouser::multibody {
 
-/// A number over time, the sum of
+/// Function of time: the sum of
 ///   polynomial    c[0] + c[1] t + c[2] t^2 + ...
 ///   harmonics     amplitude sin(frequency t + phase)
-///   table         cubic spline through (times, values) that begins and ends at rest; before the first and after the
-///                 last time the value stays: the rate never jumps. It may overshoot between unequal steps.
-///   ramps         straight lines through (times, values), constant outside: for speeds and forces. A time given twice
-///                 is a jump, at which the first of its two values holds.
+///   table         cubic spline through (times, values) with zero end rates; constant before the
+///                 first and after the last time: the rate never jumps. May overshoot with unequal intervals.
+///   ramps         piecewise linear through (times, values), constant outside: for speeds and forces. A repeated time
+///                 is a jump; at that time the first of the two values applies.
 /// Empty terms are 0. Evaluated by base/math.hpp: bitwise identical on all machines.
 struct TimeLaw {
   struct Harmonic {
@@ -23,7 +23,7 @@ struct TimeLaw {
   };
   struct Table {
     std::vector<double> times;  ///< [s], increasing, of ramps with jumps
-    std::vector<double> values; ///< as many
+    std::vector<double> values; ///< same number as times
   };
 
   std::vector<double> polynomial{}; ///< unit of the value over s^i
@@ -40,8 +40,8 @@ struct TimeLaw {
   static TimeLaw constant(double value) { return {{value}, {}, {}, {}}; }
 };
 
-/// Index of the first time of a table that does not increase, 0 if there is none. With `jumps` a time may occur twice:
-/// the value jumps there.
+/// Index of the first time of a table that does not increase, 0 if there is none. With `jumps` a time may occur twice,
+/// which marks a jump of the value.
 inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     const bool jump = jumps && times[i] == times[i - 1] && !(i > 1 && times[i - 1] == times[i - 2]);
@@ -50,8 +50,8 @@ inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps)
   return 0;
 }
 
-/// Error in a law, or empty: a number is not finite, a table's times do not increase, or a table has fewer than two
-/// points or unequal numbers of times and values.
+/// Returns the error in a law, or an empty string: a number is not finite, times do not increase, or a table has fewer
+/// than two points or unequal numbers of times and values.
 std::string timeLawFault(const TimeLaw& law);
 
 } // namespace grouser::multibody

@@ -7,9 +7,9 @@
 GROUSER_BUILD=(
   g++ cmake ninja-build pkg-config git ca-certificates python3
   libeigen3-dev libassimp-dev libstb-dev libpng-dev libhdf5-openmpi-dev libopenmpi-dev libthrust-dev
-  libcli11-dev libtomlplusplus-dev libfmt-dev nlohmann-json3-dev pybind11-dev python3-dev)
+  libcli11-dev libtomlplusplus-dev libfmt-dev nlohmann-json3-dev pybind11-dev python3-dev fonts-dejavu-core)
 GROUSER_RUN=(
-  python3 python3-numpy python3-h5py python3-matplotlib openmpi-bin fonts-dejavu-core libjs-three libjs-dygraphs)
+  python3 python3-numpy python3-h5py python3-matplotlib openmpi-bin libjs-three libjs-dygraphs)
 GROUSER_TESTS=(libgtest-dev clang-format-14)
 # Tests of what a browser shows, and of the site, are left out without them.
 GROUSER_PAGES=(chromium-headless-shell mkdocs)

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kSettled = 1e-4; // [m] excess height of a pair below which it counts as at rest
 
-/// Loose soil that was compacted under a body becomes loose soil of its present thickness.
+/// Converts loose soil compacted under a body to loose soil of its current thickness.
 void loosen(Node& node) {
   if (!(node.loose.stiffness > 0)) return;
   node.looseQuanta -= static_cast<std::int64_t>(std::ceil(node.loose.rebound() / node.cosine / kHeightQuantum));
@@ -41,7 +41,7 @@ void Berms::deposit(Node& from, double x, double y, double dx, double dy) {
 void Berms::slide() {
   if (active_.empty()) return;
   std::set<Place> next;
-  // Pairs in four classes, so that no two of a class share a node: the order within a class has no effect.
+  // Pairs are in four classes; no two of a class share a node, so the order within a class has no effect.
   for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{0, 1}})
     for (int parity = 0; parity < 2; ++parity)
       for (const auto& [tileJ, tileI] : active_)

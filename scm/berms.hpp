@@ -11,19 +11,19 @@ namespace grouser::scm {
 
 class NumberStream;
 
-/// Loose soil beside ruts. Soil that moves aside is deposited next to the body, and slides down slopes steeper than the
-/// angle of repose. Thicknesses are integers, so that transport conserves volume exactly. Soil under bodies rests, and
-/// walls of firm soil stand.
+/// Loose soil beside ruts. Soil displaced sideways is deposited next to the body, and slides down slopes steeper than
+/// the angle of repose. Thicknesses are integers, so that transport conserves volume exactly. Soil under bodies does
+/// not slide, and walls of firm soil are stable.
 class Berms {
 public:
   /// `repose`: tangent of the angle of repose.
   Berms(SoilMap& map, double repose) : map_(map), steepest_(repose * map.spacing()) {}
 
   /// Moves the displaced soil of a node outward from (x, y) along the horizontal unit vector (dx, dy), to the nearest
-  /// node without contact. Without one within kFarthest nodes the soil waits.
+  /// node without contact. If there is none within kFarthest nodes, the soil remains pending.
   void deposit(Node& from, double x, double y, double dx, double dy);
-  /// One sweep over the tiles in which soil has moved. Each pair of neighbours halves its excess over the slope of
-  /// repose.
+  /// Performs one sweep over the tiles with moved soil. Each pair of neighbours halves its height excess over the
+  /// slope of repose.
   void slide();
 
   double moved() const {
@@ -42,7 +42,7 @@ private:
   SoilMap& map_;
   double steepest_;        ///< height between neighbours at the angle of repose [m]
   std::set<Place> active_; ///< tiles to sweep
-  std::int64_t moved_ = 0; ///< deposited since the start [kHeightQuantum]
+  std::int64_t moved_ = 0; ///< total deposited since the start [kHeightQuantum]
 };
 
 } // namespace grouser::scm

@@ -10,13 +10,13 @@ namespace grouser::scm {
 
 namespace {
 
-/// Cover of a node's square by the underside of a body.
+/// Coverage of a node's square by the underside of a body.
 struct Cover {
   double share{}; ///< [-]
-  Underside mean; ///< of the covered points, at the node: each point stands for its tangent plane
+  Underside mean; ///< mean of the covered points at the node, each extrapolated by its tangent plane
 };
 
-/// Parts of the body above `ceiling` [m] do not count.
+/// Ignores parts of the body above `ceiling` [m].
 Cover coverAt(const Undersides& undersides, double x, double y, double h, double ceiling) {
   constexpr int kSide = 4; // points along a side of the square
   const auto corner = [&](double u, double v) {
@@ -74,7 +74,7 @@ void BodyContacts::gather(std::size_t body, const contact::PartMotion& motion) {
       const double top = node.height + node.looseThickness() + kNear;
       if (top < bottom) continue;
       const Cover cover =
-          coverAt(undersides, h * i, h * j, h, top + 2.5 * h); // no surface in contact rises more within h
+          coverAt(undersides, h * i, h * j, h, top + 2.5 * h); // no contact surface rises more than that within h
       if (!(cover.share > 0) || -cover.mean.normal.z < kSteepest) continue;
       const double gap = node.height - cover.mean.z;
       if (cover.mean.z > top) continue;
@@ -114,7 +114,7 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
       releaseShear(energy, K, strengthBefore, norm2(before->shear));
       continue;
     }
-    // Rotate the stress into the present tangent plane, then add the shear displacement of the step.
+    // Rotate the stress into the current tangent plane, then add the shear displacement of the step.
     const Vec3d flat = before->shear - c.up * dot(before->shear, c.up);
     const double size = norm(flat);
     const Vec3d turned = size > 0 ? flat * (norm(before->shear) / size) : Vec3d{};

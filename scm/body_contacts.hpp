@@ -9,22 +9,22 @@
 
 namespace grouser::scm {
 
-/// Load of a body.
+/// Soil load on a body.
 struct BodyLoad {
   Vec3d force, torque; ///< [N], [N m] about the part's centre of mass
-  double area{};       ///< in contact [m2]
-  double sinkage{};    ///< maximum [m]
+  double area{};       ///< contact area [m2]
+  double sinkage{};    ///< maximum sinkage [m]
 };
 
 /// Contacts of rigid bodies of any shape with deformable soil: wheels, plates, stones. The underside of a body is
 /// sampled along the vertical through each node. Pressure acts along the normal of the body; each contact of body and
-/// node has a shear stress of its own, which starts at zero when the node touches the body. Squares of nodes that the
-/// body covers in part count by the covered share of 16 points.
+/// node has its own shear stress, initially zero. Node squares partly covered by the body are weighted by the covered
+/// fraction of 16 sample points.
 class BodyContacts {
 public:
   BodyContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Solid> solids);
 
-  // As PadContacts.
+  // Stages of a step, as in PadContacts.
   void gather(const contact::PartMotion* motion);
   void press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy);
   template <class Move> void pushAside(const Move& move) const;
@@ -32,16 +32,16 @@ public:
   void save(NumberStream& numbers) const;
   void restore(NumberStream& numbers);
 
-  const std::vector<BodyLoad>& loads() const { return loads_; } ///< one a solid
+  const std::vector<BodyLoad>& loads() const { return loads_; } ///< one per solid
   const std::vector<Solid>& solids() const { return solids_; }
 
 private:
   struct Contact : NodeContact {
-    double z{};        ///< of the contact point [m]
-    Vec3d up;          ///< into the body, world
+    double z{};        ///< height of the contact point [m]
+    Vec3d up;          ///< unit normal into the body, world
     double pressure{}; ///< [Pa]
     double strength{}; ///< tau_m [Pa]
-    Vec3d shear;       ///< direction and mobilised share, world, in the tangent plane [-]
+    Vec3d shear;       ///< direction and mobilised fraction, world, in the tangent plane [-]
   };
   struct Last {
     contact::PartMotion motion;

@@ -7,8 +7,8 @@
 
 namespace grouser::scm {
 
-/// A node in contact in this step. Loose soil carries the load until the pressure of the firm soil below it is higher;
-/// then it counts as compacted into the firm soil. `offset` is the depth at which the sinkage of that layer begins.
+/// Node in contact in this step. Loose soil carries the load until the pressure of the firm soil below exceeds it; then
+/// it counts as compacted into the firm soil. `offset` is the depth of the surface of the loaded layer.
 struct LoadedNode {
   Node* node{};
   double deepest{};  ///< maximum depth of the bodies below the undisturbed surface, along its normal [m]
@@ -16,16 +16,16 @@ struct LoadedNode {
   Compaction before; ///< state of the loaded layer before the step
   double offset{};   ///< depth minus sinkage of the layer [m]
   bool onLoose{};    ///< the loaded layer is the loose soil
-  bool yields{};     ///< the layer is in virgin loading
-  double slip{};     ///< maximum shear displacement of the step [m]
+  bool yields{};     ///< true: virgin loading of the layer
+  double slip{};     ///< maximum shear displacement in the step [m]
 
   const Compaction& state() const { return onLoose ? node->loose : node->state; }
 };
 
-/// The nodes in contact in a step. Bodies add theirs; then advance() updates the soil, once for all bodies.
+/// Nodes in contact in a step. Bodies add their nodes; then advance() updates the soil once for all bodies.
 class LoadedNodes {
 public:
-  /// `displaced`: share of the sunk volume that moves aside [-].
+  /// `displaced`: fraction of the sunk volume that is displaced sideways [-].
   LoadedNodes(const SoilConstants& soil, double deepest, double displaced)
       : soil_(soil), curve_(soil.exponent, deepest), displaced_(displaced) {}
 
@@ -33,7 +33,7 @@ public:
   const PressureCurve& curve() const { return curve_; }
   const LoadedNode& operator[](int index) const { return nodes_[static_cast<std::size_t>(index)]; }
 
-  /// Adds a node, or a body to it, and returns its index. `depth` as LoadedNode::deepest [m].
+  /// Adds a node, or another body to it, and returns its index. `depth`: as LoadedNode::deepest [m].
   int add(Node& node, double depth, double modulus) {
     if (node.touched < 0) {
       node.touched = static_cast<int>(nodes_.size());
@@ -44,14 +44,14 @@ public:
     }
     return node.touched;
   }
-  /// Chooses the loaded layer of each node and compresses it.
+  /// Selects the loaded layer of each node and compresses it.
   void advance();
-  /// Reports a shear displacement under a body [m].
+  /// Records a shear displacement under a body [m].
   void slip(int index, double displacement) {
     LoadedNode& t = nodes_[static_cast<std::size_t>(index)];
     t.slip = std::max(t.slip, displacement);
   }
-  /// Lowers the firm soil by the sinkage that the shear displacements cause at constant pressure, and ends the step.
+  /// Lowers the firm soil by the slip sinkage due to the shear displacements at constant pressure, and ends the step.
   void finish();
 
 private:

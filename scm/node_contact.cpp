@@ -10,12 +10,12 @@ double press(NodeContact& contact, const NodeContact* former, const LoadedNodes&
   const double pressure = sinkage > 0 ? state.pressureAt(sinkage) : 0;
   contact.offset = t.offset, contact.onLoose = t.onLoose, contact.elastic = state.elastic(pressure);
   energy.elastic += contact.area * contact.elastic;
-  if (former && former->onLoose != t.onLoose) release(*former, energy), former = nullptr; // another layer carries
+  if (former && former->onLoose != t.onLoose) release(*former, energy), former = nullptr; // loaded layer has changed
   double before = 0;                                                                      // area in the last step
   if (former) {
     before = former->area;
     double elastic = former->elastic;
-    if (former->offset != t.offset) { // the soil has sunk away from the body
+    if (former->offset != t.offset) { // the soil has moved away from the body
       elastic = t.before.elastic(t.before.pressureAt(former->depth - t.offset));
       energy.slipSinkage += before * (former->elastic - elastic);
     }

@@ -15,7 +15,7 @@ public:
   explicit NumberStream(const std::vector<double>& numbers) : numbers_(copy_), copy_(numbers), writes_(false) {}
 
   template <class... T> void operator()(T&... values) { (one(values), ...); }
-  /// Writes or reads the size of a list; a size beyond the numbers that are left counts as an early end.
+  /// Writes or reads the size of a list; a size beyond the remaining numbers counts as a premature end.
   template <class T> void size(std::vector<T>& list) {
     auto count = static_cast<double>(list.size());
     (*this)(count);
@@ -23,7 +23,7 @@ public:
     if (!(count >= 0 && count <= static_cast<double>(numbers_.size() - at_))) isShort_ = true, count = 0;
     list.resize(static_cast<std::size_t>(count));
   }
-  bool isShort() const { return isShort_; } ///< more was read than there is
+  bool isShort() const { return isShort_; } ///< true after reading past the end
   bool isAtEnd() const { return at_ == numbers_.size(); }
 
 private:

@@ -8,16 +8,16 @@ namespace grouser::scm {
 
 namespace {
 
-/// Share of a node's square within a pad along one axis; `perWidth`: 1 / width of the square along that axis [1/m].
+/// Fraction of a node's square inside a pad along one axis; `perWidth`: 1 / width of the square along that axis [1/m].
 double shareOf(double place, double half, double perWidth) {
   return std::clamp((half - std::fabs(place)) * perWidth + 0.5, 0.0, 1.0);
 }
-/// Number of the piece along one axis; `perHalf`: pieces per half side [1/m].
+/// Index of the piece along one axis; `perHalf`: pieces per half side [1/m].
 int pieceOf(double place, double half, double perHalf, int count) {
   return std::clamp(static_cast<int>((place + half) * perHalf), 0, count - 1);
 }
 
-/// Stress s of the last step in the present plane of the pad, of the same size.
+/// Rotates the stress s of the last step into the current plane of the pad, preserving its magnitude.
 Shear turned(const Shear& s, const Vec3d& lastU, const Vec3d& lastV, const Vec3d& u, const Vec3d& v) {
   const Vec3d stress = lastU * s.x + lastV * s.y;
   const double x = dot(stress, u), y = dot(stress, v), now = ::sqrt(x * x + y * y);
@@ -39,8 +39,8 @@ PadContacts::PadContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Pad> pad
   }
 }
 
-/// b of each pad: of a track the smaller of its width and the length of the run of pads in contact that it belongs to
-/// or will lengthen.
+/// Width b of each pad: in a track the smaller of its width and the length of the run of pads in contact that contains
+/// the pad or would be extended by it.
 void PadContacts::updateBreadths() {
   for (std::size_t first = 0, end = 0; first < pads_.size(); first = end) {
     for (end = first + 1; end < pads_.size() && pads_[first].track >= 0 && pads_[end].track == pads_[first].track;)
@@ -78,7 +78,7 @@ void PadContacts::gather(std::size_t pad, const contact::PartMotion& motion) {
   const Vec3d up = cross(u, v);
   if (up.z < kSteepest) return;
   const Vec3d centre = motion.toWorld(p.centre);
-  // Widths of a node's square across the pad's sides.
+  // Widths of a node's square along the pad's axes.
   const double h = map_.spacing();
   const double widthU = h * (std::fabs(u.x) + std::fabs(u.y)), widthV = h * (std::fabs(v.x) + std::fabs(v.y));
   const double halfU = p.halfLength + 0.5 * widthU, halfV = p.halfWidth + 0.5 * widthV;
@@ -188,7 +188,7 @@ void PadContacts::shearPieces(std::size_t pad, const contact::PartMotion& motion
     if (c.pressure > 0) loaded_.slip(c.loaded, slipped[static_cast<std::size_t>(c.piece)]);
 }
 
-/// Sides that push soil: the resistance is mobilised with the lateral displacement as the shear stress is.
+/// Computes the bulldozing sides: the resistance is mobilised with the lateral displacement like the shear stress.
 void PadContacts::resistAside(std::size_t pad, const contact::PartMotion& motion, const Pose& pose,
                               SoilEnergy& energy) {
   const Pad& p = pads_[pad];

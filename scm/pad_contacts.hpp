@@ -14,32 +14,32 @@ namespace grouser::scm {
 
 using base::Vec3d;
 
-/// A flat rectangle on a part that contacts the soil: the plate of a track shoe.
+/// Flat rectangle of a part in contact with the soil: the plate of a track shoe.
 struct Pad {
   int part{};                       ///< index of its part
-  Vec3d centre;                     ///< in the part's frame [m]
-  Vec3d along, across;              ///< unit vectors of its sides; along x across points away from the soil
+  Vec3d centre;                     ///< centre in the part's frame [m]
+  Vec3d along, across;              ///< unit vectors of its sides; along x across points out of the soil
   double halfLength{}, halfWidth{}; ///< along, across [m]
-  double breadth{};                 ///< b of Bekker's relation [m]; in a track the largest, of a long run of shoes
-  /// Pads of one track follow each other in the order of the closed loop; b is that of the run of pads in contact.
+  double breadth{};                 ///< b of Bekker's relation [m]; in a track its maximum, for a long run of shoes
+  /// Pads of one track are in the order of the closed loop; b is that of the run of pads in contact.
   int track = -1;                     ///< -1: no track
-  double pitch{};                     ///< distance of neighbours in the track [m]
-  std::optional<Grousers> grousers{}; ///< none: a rough plate, on which the soil reaches its own strength
+  double pitch{};                     ///< distance of neighbouring pads in the track [m]
+  std::optional<Grousers> grousers{}; ///< empty: a rough plate, with the soil's own shear strength
 };
 
-/// Load of one pad on its part.
+/// Soil load of one pad on its part.
 struct PadLoad {
   Vec3d force, torque; ///< [N], [N m] about the part's centre of mass
   double pressed{};    ///< normal force [N]
-  double area{};       ///< in contact [m2]
-  double sinkage{};    ///< maximum [m]
+  double area{};       ///< contact area [m2]
+  double sinkage{};    ///< maximum sinkage [m]
 };
 
-/// Contacts of pads with deformable soil. Each node under a pad has a pressure along the normal of the pad; each of
-/// eight pieces of a pad has a shear stress, and each lateral side a bulldozing resistance. Loads depend on the poses
-/// of the step; node states and shear advance once a step, from the previous poses.
+/// Contacts of pads with deformable soil. Each node under a pad has a pressure along the pad normal; each of the eight
+/// pieces of a pad has a shear stress, and each lateral side a bulldozing resistance. Loads are evaluated at the step's
+/// poses; node states and shear advance once per step, from the previous poses.
 ///
-/// A node is weighted by the share of its square that the pad covers, clamp((half - |u|) / width + 1/2) along each
+/// A node is weighted by the fraction of its square covered by the pad, clamp((half - |u|) / width + 1/2) along each
 /// side, so that area and forces vary continuously with the position on the grid.
 class PadContacts {
 public:
@@ -50,14 +50,14 @@ public:
   // One step, in this order; `motion`: indexed by part.
   void gather(const contact::PartMotion* motion); ///< adds the nodes under the pads to the loaded nodes
   void press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy); ///< computes the loads
-  /// Calls move(node, x, y, dx, dy) for the nodes under pads: (x, y) outside the side of the pad next to the node, and
-  /// the unit vector away from the pad.
+  /// Calls move(node, x, y, dx, dy) for the nodes under pads: (x, y) is outside the pad side nearest to the node, (dx,
+  /// dy) the unit vector away from the pad.
   template <class Move> void pushAside(const Move& move) const;
 
-  const std::vector<PadLoad>& loads() const { return loads_; } ///< one a pad
+  const std::vector<PadLoad>& loads() const { return loads_; } ///< one per pad
   const std::vector<Pad>& pads() const { return pads_; }
 
-  /// Calls look(NodeStress) for each node that a pad presses, pad by pad.
+  /// Calls look(NodeStress) for each node pressed by a pad, pad by pad.
   template <class Look> void forEachLoaded(const Look& look) const;
 
   void save(NumberStream& numbers) const;
@@ -66,8 +66,8 @@ public:
 private:
   static constexpr int kPieces = kAlong * kAcross;
   struct Contact : NodeContact {
-    int piece{};       ///< of the pad
-    double u{}, v{};   ///< on the pad [m]
+    int piece{};       ///< index of the piece of the pad
+    double u{}, v{};   ///< position on the pad [m]
     double pressure{}; ///< [Pa]
   };
   struct Pose {
@@ -78,17 +78,17 @@ private:
   /// Normal loads of the pieces of a pad.
   struct Pieces {
     std::array<double, kPieces> pressed{};  ///< [N]
-    std::array<double, kPieces> touching{}; ///< [m2]
+    std::array<double, kPieces> touching{}; ///< contact areas [m2]
     std::array<Vec3d, kPieces>
         moment{}; ///< first moments of the forces about the centre, in the plane of the pad [N m]
   };
-  /// State of a pad after a step.
+  /// State of a pad at the end of a step.
   struct Last {
     Pose pose;
     std::array<Shear, kPieces> shear;
     std::array<double, kPieces> strength{}; ///< tau_m times area [N]
-    std::array<double, kPieces> area{};     ///< in contact [m2]
-    std::array<double, 2> side{};           ///< mobilised share of the resistance at +v, -v [-]
+    std::array<double, kPieces> area{};     ///< contact area [m2]
+    std::array<double, 2> side{};           ///< mobilised fraction of the resistance at +v, -v [-]
     std::array<double, 2> sideStrength{};   ///< [N]
     std::vector<Contact> contacts;
     bool touches = false;
@@ -108,7 +108,7 @@ private:
   LoadedNodes& loaded_;
   SideResistance sides_;
   std::vector<Pad> pads_;
-  std::vector<ShoeStrength> strengths_; ///< one a pad
+  std::vector<ShoeStrength> strengths_; ///< one per pad
   std::vector<double> moduli_;          ///< k of each pad in this step [N/m^(n+2)]
   std::vector<Last> last_;
   std::vector<std::vector<Contact>> now_;

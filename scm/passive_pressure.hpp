@@ -8,7 +8,7 @@
 
 namespace grouser::scm {
 
-/// Strength of a contact against shear, [N] = cohesion [Pa] * area + friction [-] * normal force.
+/// Shear strength of a contact, [N] = cohesion [Pa] * area + friction [-] * normal force.
 struct ShearStrength {
   double cohesion{}, friction{};
 
@@ -20,14 +20,14 @@ struct Grousers {
   int count{};
   double height{}; ///< [m]
 
-  static constexpr double kSteel = 2.0 / 3; ///< friction angle and adhesion of soil on steel over phi and c of the soil
+  static constexpr double kSteel = 2.0 / 3; ///< soil-steel friction angle / phi, and adhesion / c [-]
 };
 
-/// Strengths of a shoe of these sides [m]. The shoe shears at the lower of both.
+/// Shear strengths of a shoe with these side lengths [m]. The lower one applies.
 struct ShoeStrength {
-  /// Soil shears on itself in the plane of the grouser tips and along the sides of the shoe (Bekker 1956).
+  /// Internal shear of the soil in the plane of the grouser tips and along the sides of the shoe (Bekker 1956).
   ShearStrength block;
-  /// Soil slides on the plate, and each grouser face pushes with Rankine's passive pressure.
+  /// Sliding of soil on the plate, plus Rankine's passive pressure on each grouser face.
   ShearStrength plate;
 
   double of(double area, double force) const { return std::min(block.of(area, force), plate.of(area, force)); }
@@ -47,8 +47,8 @@ inline ShoeStrength shoeStrength(const SoilConstants& soil, const Grousers& grou
   return s;
 }
 
-/// Bulldozing resistance per length of a vertical side that pushes into soil of depth h [N/m] (Hegedus 1960): D1 (c h +
-/// D2 gamma h^2 / 2) with X = 45 deg - phi / 2, D1 = cot X + tan(X + phi), D2 = cot X + cot^2 X tan phi.
+/// Bulldozing resistance per length of a vertical side pushing into soil of depth h [N/m] (Hegedus 1960): D1 (c h + D2
+/// gamma h^2 / 2) with X = 45 deg - phi / 2, D1 = cot X + tan(X + phi), D2 = cot X + cot^2 X tan phi.
 class SideResistance {
 public:
   explicit SideResistance(const SoilConstants& soil) {

@@ -8,15 +8,15 @@
 
 namespace grouser::scm {
 
-/// z^n tabulated as a piecewise linear function g(z) with its exact integral: the step needs no powers, and energies
-/// match pressures to rounding. Knots lie at deepest (i / kIntervals)^2, so the relative error n (n - 1) / (2 i^2)
-/// decreases with depth: 1e-4 beyond a thousandth of the depth at n = 0.8. The last line continues beyond the deepest
-/// knot.
+/// z^n tabulated as a piecewise linear function g(z) with its exact integral, so that steps need no powers and energies
+/// match pressures to rounding. Knots are at deepest (i / kIntervals)^2, so the relative error n (n - 1) / (2 i^2)
+/// decreases with depth: 1e-4 beyond a thousandth of the depth at n = 0.8. The last segment is extrapolated beyond the
+/// deepest knot.
 class PressureCurve {
 public:
   static constexpr int kIntervals = 1024;
 
-  /// n > 0; `deepest` [m] > 0.
+  /// `exponent`: n > 0; `deepest` [m] > 0.
   PressureCurve(double exponent, double deepest);
 
   /// g(z) [m^n], and its integral from 0 [m^(n+1)]; z >= 0 [m].
@@ -42,7 +42,7 @@ private:
   }
 
   double deepest_;
-  std::vector<Knot> knots_; ///< one an interval: its left end
+  std::vector<Knot> knots_; ///< one per interval, at its left end
 };
 
 } // namespace grouser::scm

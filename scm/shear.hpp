@@ -6,10 +6,10 @@
 
 namespace grouser::scm {
 
-/// Direction and mobilised share of the shear stress under a piece of a pad, tau = tau_m s, |s| <= 1, in the plane of
-/// the pad. K ds = dj - s |dj| for a shear displacement dj: straight motion gives Janosi's 1 - exp(-j / K) (Janosi,
-/// Hanamoto 1961). After a turn or a reversal s follows with delay, whereas a scalar path length would turn the stress
-/// at once.
+/// Direction and mobilised fraction of the shear stress under a piece of a pad, tau = tau_m s, |s| <= 1, in the
+/// plane of the pad. K ds = dj - s |dj| for a shear displacement dj: for straight motion this is Janosi's 1 - exp(-j /
+/// K) (Janosi, Hanamoto 1961). After a turn or a reversal s follows with a delay, whereas a scalar path length would
+/// rotate the stress instantly.
 struct Shear {
   double x{}, y{}; ///< [-]
 
@@ -21,7 +21,7 @@ struct ShearWork {
   double work{}, loss{};
 };
 
-/// exp(-x), x >= 0; of short steps by Pade's fraction, whose relative error is x^5 / 720.
+/// exp(-x), x >= 0; for small x by a Pade approximant with relative error x^5 / 720.
 inline double decay(double x) {
   if (x > 0.02) return base::exp(-x);
   const double square = x * x * (1.0 / 12);
@@ -29,14 +29,14 @@ inline double decay(double x) {
 }
 
 /// Advances s by a straight shear displacement (dx, dy) [m], exactly for any length: s' = d + (s - d) exp(-l / K), with
-/// its unit vector d and length l.
+/// unit vector d and length l.
 inline ShearWork advance(Shear& s, double dx, double dy, double K) {
   const double l = ::sqrt(dx * dx + dy * dy);
   if (!(l > 0)) return {};
   const double ux = dx / l, uy = dy / l, along = s.x * ux + s.y * uy, before = s.square();
   const double kept = decay(l / K);
   s.x = ux + (s.x - ux) * kept, s.y = uy + (s.y - uy) * kept;
-  // Work: the integral of s . d over the displacement. Loss: work less the change of the elastic energy K s^2 / 2.
+  // Work: the integral of s . d over the displacement. Loss: work minus the change of the elastic energy K s^2 / 2.
   const double work = l - (1 - along) * K * (1 - kept);
   return {work, work - 0.5 * K * (s.square() - before)};
 }

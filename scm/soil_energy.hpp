@@ -3,16 +3,16 @@
 
 namespace grouser::scm {
 
-/// Elastic energies now, and energies dissipated since the start [J].
+/// Current elastic energies, and cumulative dissipation by cause [J].
 struct SoilEnergy {
-  double elastic{};      ///< of pressure
-  double elasticShear{}; ///< of shear and of the sides of shoes
-  double compaction{};   ///< plastic sinkage
-  double shear{};        ///< plastic shear, and soil that sides of shoes push
-  double slipSinkage{};  ///< sinkage by shear
+  double elastic{};      ///< elastic energy under normal pressure
+  double elasticShear{}; ///< elastic energy of shear, including the sides of shoes
+  double compaction{};   ///< dissipated by plastic sinkage
+  double shear{};        ///< dissipated by plastic shear, and by bulldozing at the sides of shoes
+  double slipSinkage{};  ///< dissipated by slip sinkage
   double damping{};
-  double edges{}; ///< elastic energy of soil that leaves a body sideways or loses contact; negative where soil enters
-  double coupling{}; ///< change of elastic shear energy with the pressure
+  double edges{}; ///< elastic energy of soil that leaves a body sideways or loses contact; negative for entering soil
+  double coupling{}; ///< change of elastic shear energy due to pressure changes
 
   double held() const { return elastic + elasticShear; }
   double lost() const { return compaction + shear + slipSinkage + damping + edges + coupling; }

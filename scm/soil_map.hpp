@@ -18,19 +18,19 @@ namespace grouser::scm {
 /// Unit of the thickness of loose soil [m]: transport between nodes conserves volume exactly.
 inline constexpr double kHeightQuantum = 1.0 / (1 << 30);
 
-/// A node of the grid, which stands for a square of soil around it.
+/// Node of the soil grid, which represents a square of soil around it.
 struct Node {
-  double height{};      ///< of the undisturbed surface [m]
-  double cosine = 1;    ///< between the normal of that surface and the vertical [-]
-  Compaction state;     ///< sinkage is measured along the normal, from the undisturbed surface lowered by slipSinkage
-  double slipSinkage{}; ///< additional sinkage by shear [m]
-  Compaction loose;     ///< of the loose soil, below its own surface
-  std::int64_t looseQuanta{}; ///< thickness of loose soil as deposited, vertical [kHeightQuantum]
-  double displaced{};         ///< soil still to be moved aside, as a vertical thickness [m]
+  double height{};            ///< height of the undisturbed surface [m]
+  double cosine = 1;          ///< cosine of the angle between the normal of that surface and the vertical [-]
+  Compaction state;           ///< firm soil; sinkage is along the normal, from the surface lowered by slipSinkage
+  double slipSinkage{};       ///< additional sinkage by shear [m]
+  Compaction loose;           ///< compaction state of the loose soil, below its own surface
+  std::int64_t looseQuanta{}; ///< vertical thickness of loose soil as deposited [kHeightQuantum]
+  double displaced{};         ///< pending displaced soil, as a vertical thickness [m]
   int touched = -1;           ///< index among the nodes in contact within a step; not saved
 
   bool isLoaded() const { return state.stiffness > 0 || looseQuanta != 0 || slipSinkage > 0; }
-  /// Depth of the unloaded firm soil below the undisturbed surface, along the normal [m].
+  /// Depth of the unloaded firm soil surface below the undisturbed surface, along the normal [m].
   double firmDepth() const { return slipSinkage + state.rebound(); }
   double looseThickness() const { return static_cast<double>(looseQuanta) * kHeightQuantum; } ///< as deposited [m]
   /// Depth of the unloaded surface below the undisturbed one, vertical [m]; negative in a berm.
@@ -38,7 +38,7 @@ struct Node {
   double surface() const { return height - rut(); } ///< height of the unloaded surface [m]
 };
 
-/// Value at (x, y) of a grid of this spacing, linear between nodes; `valueAt`: of node (i, j).
+/// Interpolates a grid of this spacing bilinearly at (x, y); `valueAt`: value of node (i, j).
 template <class Value> double interpolate(double x, double y, double spacing, const Value& valueAt) {
   const auto i = static_cast<std::int32_t>(std::floor(x / spacing)),
              j = static_cast<std::int32_t>(std::floor(y / spacing));
@@ -47,8 +47,8 @@ template <class Value> double interpolate(double x, double y, double spacing, co
          v * ((1 - u) * valueAt(i, j + 1) + u * valueAt(i + 1, j + 1));
 }
 
-/// A grid of soil nodes in square tiles, allocated when a contact first approaches: memory grows with the touched
-/// ground, not with the terrain.
+/// Grid of soil nodes in square tiles, allocated when a contact first approaches: memory grows with the touched area,
+/// not with the terrain.
 class SoilMap {
 public:
   static constexpr int kTile = 16; ///< nodes along a side of a tile
@@ -63,18 +63,18 @@ public:
     Tile& tile = tileOf(i >> kShift, j >> kShift);
     return tile.nodes[placeInTile(i, j)];
   }
-  /// Adds loose soil to a node, or removes it [kHeightQuantum]; the only way to change it.
+  /// Adds loose soil to a node, or removes it [kHeightQuantum]. All changes must use this function.
   void addLoose(Node& node, std::int64_t quanta) {
     node.looseQuanta += quanta, mostLoose_ = std::max(mostLoose_, node.looseThickness());
   }
-  /// Upper bound of the surface at the nodes i0 ... i1, j0 ... j1 [m].
+  /// Upper bound of the surface height at the nodes i0 ... i1, j0 ... j1 [m].
   double topOf(std::int32_t i0, std::int32_t i1, std::int32_t j0, std::int32_t j1);
   /// Depth of the unloaded surface below the undisturbed one at (x, y) [m], linear between nodes; negative in a berm.
   double rutAt(double x, double y) const;
   /// Height of the unloaded surface at (x, y) [m], linear between nodes.
   double surfaceAt(double x, double y);
   static std::int32_t tileAt(std::int32_t index) { return index >> kShift; } ///< row or column of the tile of a node
-  /// Calls look(i, j, node) for all nodes, in an order that depends on their positions only.
+  /// Calls look(i, j, node) for all nodes, in an order that depends only on their positions.
   void forEach(const std::function<void(std::int32_t, std::int32_t, const Node&)>& look) const;
 
 private:

@@ -9,7 +9,7 @@
 namespace grouser::scm {
 
 double breadthOf(const Solid& solid, const contact::PartMotion& motion) {
-  int upright = 0; // the axis next to the vertical
+  int upright = 0; // the axis closest to the vertical
   for (int a = 1; a < 3; ++a)
     if (std::fabs(motion.rotation.m[2][a]) > std::fabs(motion.rotation.m[2][upright])) upright = a;
   const double one = solid.half[(upright + 1) % 3], other = solid.half[(upright + 2) % 3];
@@ -26,7 +26,7 @@ Undersides::Undersides(const Solid& solid, const contact::PartMotion& motion)
 }
 
 std::optional<Underside> Undersides::lowestAt(double x, double y, double ceiling, double* clearance) const {
-  constexpr int kSteps = 200; // a line that grazes the surface needs more, and counts as a miss
+  constexpr int kSteps = 200; // a grazing line needs more steps, and counts as a miss
   const double bottom = motion_.origin.z - half_.z, height = std::min(2 * half_.z, ceiling - bottom);
   const Vec3d start = motion_.toPart({x, y, bottom});
   double climbed = 0, nearest = base::kInfinity;
@@ -36,7 +36,7 @@ std::optional<Underside> Undersides::lowestAt(double x, double y, double ceiling
     if (gap.distance <= near_) return Underside{bottom + climbed, motion_.rotation * gap.normal};
     climbed += gap.distance;
   }
-  if (clearance) *clearance = 0.5 * nearest; // between two points of a line the distance is half of the second at least
+  if (clearance) *clearance = 0.5 * nearest; // at least half the last distance between two points of a line
   return {};
 }
 

@@ -24,28 +24,28 @@ using detail::OuterSurface;
 using detail::PointGrid;
 using detail::SurfaceSample;
 
-/// A disc reaches a little over half the diagonal of a lattice square [spacing].
+/// Disc radius limit: a little over half the diagonal of a lattice square [spacing].
 constexpr double kFlatReach = 0.74;
-/// Lattice spheres whose centres are nearer than this after the move are merged [spacing].
+/// Distance below which lattice spheres are merged after the move [spacing].
 constexpr double kMerge = 0.5;
-/// Surface samples lie about this far apart [spacing].
+/// Distance between surface samples [spacing].
 constexpr double kSampleStep = 0.33;
-/// Sample distance for thin parts, in which a gap between discs is a hole [spacing].
+/// Sample distance for thin parts, where a gap between discs is a hole [spacing].
 constexpr double kThinSampleStep = 0.2;
 
-/// Samples whose spheres are fitted in parallel.
+/// Number of samples whose spheres are fitted in parallel.
 constexpr std::size_t kBlock = 2048;
 /// Block size for thin parts, whose fits are expensive.
 constexpr std::size_t kThinBlock = 128;
 
-/// Runs body(i) for i in [0, count) on all threads; each i writes its own entry, so the order does not matter.
+/// Runs body(i) for i in [0, count) on all threads; each i writes only its own entry, so the order does not matter.
 template <class Body> void parallel(std::size_t count, Body&& body) {
 #pragma omp parallel for schedule(dynamic, 32)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) body(static_cast<std::size_t>(i));
 }
 
-/// Points of a cubic lattice, centred on the mesh's bounding box, its outer planes `radius` to `radius + spacing/2`
-/// deep.
+/// Cubic lattice centred on the mesh's bounding box, with its outer planes at depths of `radius` to `radius +
+/// spacing/2`.
 struct Lattice {
   Vec3d first;
   double spacing;
@@ -55,7 +55,7 @@ struct Lattice {
     const auto [low, high] = bounds(mesh);
     for (int k = 0; k < 3; ++k) {
       const double extent = high[k] - low[k], room = extent - 2 * radius;
-      // A billionth of a spacing absorbs the rounding of extents that are whole multiples.
+      // A relative 1e-9 absorbs the rounding of extents that are whole multiples.
       const double intervals = room > 0 ? std::floor(room / step + 1e-9) : 0;
       first[k] = low[k] + 0.5 * (extent - intervals * step);
       count[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(intervals) + 1;
@@ -66,7 +66,7 @@ struct Lattice {
   }
 };
 
-/// A lattice point inside, with the nearest surface point if near.
+/// Inner lattice point, with the nearest surface point if near.
 struct LatticePoint {
   Vec3d point;
   ClosestPoint near;
@@ -93,7 +93,7 @@ std::vector<LatticePoint> pointsInside(const OuterSurface& outer, const Lattice&
   return points;
 }
 
-/// Builds the surface spheres of a set, and tests whether the surface is covered.
+/// Builds the surface spheres of a set, and tests the coverage of the surface.
 class SurfaceBuilder {
 public:
   SurfaceBuilder(const OuterSurface& outer, double radius, double spacing, const DecompositionOptions& options)
@@ -112,8 +112,8 @@ public:
     parallel(spheres_.size(), [&](std::size_t i) { setFlat(spheres_[i]); });
   }
 
-  /// Adds spheres under samples where the surface still dips too far. Works in blocks of fixed size: the fits of a
-  /// block run in parallel, then its spheres are added in order and reduce the next block's fits.
+  /// Adds spheres under samples with too large a dip. Works in blocks of fixed size: the fits of a block run in
+  /// parallel, then its spheres are added in order and reduce the fits of the next block.
   void closeHoles(const std::vector<SurfaceSample>& samples) {
     std::vector<SetSphere> fitted;
     const std::size_t block = options_.thin ? kThinBlock : kBlock;
@@ -158,7 +158,7 @@ private:
     return centres_.any(p, distance,
                         [&](std::uint32_t i) { return norm2(spheres_[i].centre - p) < distance * distance; });
   }
-  /// Tests only the spheres near the place of the sample's own sphere: the common case, at a fraction of the cost.
+  /// Tests only spheres near the lattice point of the sample's own sphere: the common case, at a fraction of the cost.
   bool coveredBeneath(const SurfaceSample& sample) const {
     return centres_.any(sample.point - sample.normal * radius_, 0.5 * spacing_, [&](std::uint32_t i) {
       return detail::discDistance(spheres_[i], sample.point) <= options_.maxDip * radius_;
@@ -179,7 +179,7 @@ private:
       const double score = norm2(s.centre + s.normal * s.radius - sample.point) + unlike;
       if (score < bestScore || (score == bestScore && i < best)) bestScore = score, best = i;
     };
-    // The search widens until a sphere of similar normal is found.
+    // The search radius grows until a sphere of similar normal is found.
     const Vec3d beneath = sample.point - sample.normal * radius_;
     for (const double reach : {0.75 * spacing_, 2 * spacing_, 2 * (radius_ + spacing_)}) {
       centres_.each(beneath, reach, consider);
@@ -274,11 +274,11 @@ void check(const std::string& name, const DecompositionOptions& o) {
   if (o.radius != 0) range("radius", o.radius, kSmallestRadius, kLargestRadius, "m");
 }
 
-/// Rejects spheres as wide as the part is long.
+/// Rejects spheres as large as the part.
 void checkFits(const TriangleMesh& mesh, const std::string& name, double radius) {
   const auto [low, high] = bounds(mesh);
   const double half = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-  // A millionth absorbs the rounding of coordinates read as floats.
+  // A relative 1e-6 absorbs the rounding of coordinates read as floats.
   if (radius > half * (1 + 1e-6))
     throw base::InputError(fmt::format("{}: radius = {:.6g} m is above {:.6g} m, half the part's longest side; use a "
                                        "smaller radius (and check that the mesh is in metres)",
@@ -288,7 +288,7 @@ void checkFits(const TriangleMesh& mesh, const std::string& name, double radius)
 } // namespace
 
 std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options) {
-  // All options, except the sphere limit: sets within the limit do not depend on it, and others are not kept.
+  // All options except the sphere limit: sets within the limit do not depend on it, and others are not stored.
   [[maybe_unused]] const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, smallest, thin, most,
                                 interior] = options;
   base::StateHash hash;

@@ -27,7 +27,7 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> target;
   target.reserve(mesh.vertices.size());
   for (const Vec3d& v : mesh.vertices) {
-    // + 0.0 makes -0 and 0 one key.
+    // Adding +0.0 gives -0 and 0 the same key.
     const auto next = static_cast<std::uint32_t>(welded.vertices.size());
     const auto [it, added] = seen.try_emplace({v.x + 0.0, v.y + 0.0, v.z + 0.0}, next);
     if (added) welded.vertices.push_back(v);
@@ -153,8 +153,8 @@ std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance) {
 
 namespace {
 
-/// Rounding differences between equal vertices [largest coordinate]: floats keep about seven digits, texts of "%.6f"
-/// often five.
+/// Tolerance for equal vertices [largest coordinate]: floats have about seven digits, texts of "%.6f" often five.
+/// Used by weldOpenEdges().
 constexpr double kWeldTolerances[] = {4e-6, 2e-5};
 
 double largestCoordinate(const TriangleMesh& mesh) {
@@ -180,7 +180,7 @@ void closeByWelding(TriangleMesh& mesh, const std::string& path, std::string* no
   }
 }
 
-/// A damaged file may refer to vertices that are not there: assimp's later steps and append() trust the indices.
+/// A damaged file may refer to missing vertices: assimp's later steps and append() trust the indices.
 void checkIndices(const aiScene& scene, const std::string& path) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
@@ -210,7 +210,7 @@ bool assimpTriangulates(const aiScene& scene) {
     const aiMesh& part = *scene.mMeshes[m];
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const unsigned count = part.mFaces[f].mNumIndices;
-      if (count == 0) return false; // assimp counts it as a polygon, and aborts where it finds no other
+      if (count == 0) return false; // assimp counts it as a polygon, and aborts if it finds no other
       if (count <= 3) continue;
       const std::vector<Vec3d> corners = cornersOf(part, part.mFaces[f]);
       if (!detail::isConvex(corners) && (count > 4 || detail::triangulate(corners).empty())) return false;
@@ -242,12 +242,12 @@ const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
   return *scene;
 }
 
-/// The faces of one assimp mesh as triangles, appended.
+/// Appends the faces of one assimp mesh as triangles.
 void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (unsigned v = 0; v < part.mNumVertices; ++v)
     mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
-  checkFinite(mesh, path); // before faces are cut and vertices welded: a NaN is equal to anything
+  checkFinite(mesh, path); // before faces are cut and vertices welded, since NaN breaks comparisons
   for (unsigned f = 0; f < part.mNumFaces; ++f) {
     const aiFace& face = part.mFaces[f];
     if (face.mNumIndices < 3) continue; // a point or a line

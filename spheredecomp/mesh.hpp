@@ -11,35 +11,35 @@ namespace grouser::spheredecomp {
 using base::TriangleMesh;
 using base::Vec3d;
 
-/// Reads a mesh by assimp (OBJ, STL, PLY, glTF, ... any format it knows), cuts faces of more than three corners into
-/// triangles and welds vertices of equal position; where that leaves it open, also those at open edges that differ by
-/// rounding, see weldOpenEdges. Several closed shells may overlap or touch: inside is where the winding number is not
-/// zero.
+/// Reads a mesh by assimp (OBJ, STL, PLY, glTF and its other formats), triangulates polygons and welds
+/// vertices of equal position; if the mesh is then still open, also vertices at open edges that differ by rounding, see
+/// weldOpenEdges. Several closed shells may overlap or touch: the inside is where the winding number is
+/// nonzero.
 /// @param path  file; coordinates in metres
 /// @param note receives a note on welded vertices that differ; may be null Throws base::InputError: no such file,
 /// unknown format, no triangles, a face that crosses itself, not watertight, inside out.
 TriangleMesh importMesh(const std::string& path, std::string* note = nullptr);
 
-/// Throws base::InputError, naming `name` and an open edge, unless every directed edge has its opposite, all
-/// coordinates are finite and the signed volume is positive.
+/// Checks that every directed edge has its opposite, all coordinates are finite and the signed volume is positive.
+/// Throws base::InputError otherwise, with `name` and an open edge.
 void checkClosed(const TriangleMesh& mesh, const std::string& name);
 
-/// Merges vertices of exactly equal position and drops triangles that this makes degenerate.
+/// Merges vertices of exactly equal position and drops triangles that become degenerate.
 TriangleMesh weld(const TriangleMesh& mesh);
 
-/// Merges vertices of open edges within `tolerance` [m] of each other, which differ by rounding in files written by
-/// several programs. Merges nothing if two of them share an edge, since a thin part would collapse. Returns the number
-/// of removed vertices.
+/// Merges vertices of open edges within `tolerance` [m] of each other, which some programs write with rounding
+/// differences. Merges nothing if two of them share an edge, since a thin part would collapse. Returns the number of
+/// removed vertices.
 std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance);
 
-/// Enclosed volume by the divergence theorem [m3]; where shells overlap, the common part counts as often as it is
-/// covered.
+/// Enclosed volume by the divergence theorem [m3]; overlaps of shells count once for each shell.
+/// Positive for outward orientation.
 double signedVolume(const TriangleMesh& mesh);
 
 /// Sum of all triangle areas [m2].
 double area(const TriangleMesh& mesh);
 
-/// Lower and upper corner of the bounding box [m].
+/// Lower and upper corners of the bounding box [m].
 std::pair<Vec3d, Vec3d> bounds(const TriangleMesh& mesh);
 
 } // namespace grouser::spheredecomp

@@ -11,7 +11,7 @@ namespace grouser::spheredecomp {
 namespace {
 
 constexpr std::uint32_t kLeafSize = 4;
-/// Depth of the traversal stack: the tree halves its triangles, so 64 levels hold any mesh.
+/// Depth of the traversal stack: each level halves the triangles, so 64 levels suffice for any mesh.
 constexpr std::size_t kStack = 64;
 
 /// Squared distance from a point to a box, 0 inside.
@@ -32,7 +32,7 @@ Vec3d closestOnSegment(const Vec3d& a, const Vec3d& b, const Vec3d& p) {
   return t <= 0 ? a : t >= 1 ? b : a + ab * t;
 }
 
-/// Nearest point of the triangle abc: the foot of the perpendicular where it falls inside, else on the nearest edge.
+/// Nearest point of the triangle abc: the foot of the perpendicular if it is inside, else on the nearest edge.
 Vec3d closestOnTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& p) {
   const Vec3d ab = b - a, ac = c - a, n = cross(ab, ac);
   const double n2 = norm2(n);
@@ -48,8 +48,8 @@ Vec3d closestOnTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Ve
   return edges[best];
 }
 
-/// Twice the signed area of (a, b, (x, y)) in the x-y plane, never of sign 0: a point on the line counts as moved by
-/// (e, e^2). Evaluated from the vertex of lower index, so that two triangles get exact opposites along their common
+/// Twice the signed area of (a, b, (x, y)) in the x-y plane, never zero: a point on the line is perturbed by (e, e^2).
+/// Evaluated from the vertex of lower index, so that two triangles have exactly opposite values along their common
 /// edge.
 double side(const Vec3d& a, std::uint32_t ia, const Vec3d& b, std::uint32_t ib, double x, double y, bool& positive) {
   if (ia > ib) {

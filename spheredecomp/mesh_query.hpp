@@ -10,33 +10,33 @@ namespace grouser::spheredecomp {
 
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu; ///< no triangle
 
-/// The point of a mesh nearest to a query point.
+/// Nearest point of a mesh to a query point.
 struct ClosestPoint {
   Vec3d point;              ///< [m]
   double distance{};        ///< [m], >= 0
-  std::uint32_t triangle{}; ///< index of the triangle it lies on; the lowest index of equally near ones
+  std::uint32_t triangle{}; ///< index of its triangle; the lowest index among equally near ones
 };
 
-/// One crossing of a vertical line with the mesh.
+/// Crossing of a vertical line with the mesh.
 struct Crossing {
   double z{}; ///< [m]
-  int step{}; ///< change of the winding number when the crossing is passed downwards: +1 enters through an upper face
+  int step{}; ///< change of the winding number when passed downwards: +1 enters through an upper face
 };
 
-/// Distance and inside/outside queries on a triangle mesh, by a tree of boxes. Constant after construction:
+/// Distance and inside/outside queries on a triangle mesh, by a bounding-box tree. Immutable after construction, hence
 /// thread-safe.
 class MeshQuery {
 public:
-  /// The mesh is copied. It needs to be closed for the winding number, not for distances.
+  /// Copies the mesh, which must be closed for winding numbers, but not for distances.
   explicit MeshQuery(TriangleMesh mesh);
 
-  /// Nearest point of the surface within `limit` [m]; `triangle` is kNone and `distance` is `limit` if there is none.
+  /// Returns the nearest surface point within `limit` [m]; if none, `triangle` is kNone and `distance` is `limit`.
   ClosestPoint closest(const Vec3d& p, double limit = 1e300) const;
 
-  /// True if any point of the surface is nearer than `distance` [m]; stops at the first found.
+  /// True if any surface point is nearer than `distance` [m]; stops at the first one found.
   bool within(const Vec3d& p, double distance) const;
 
-  /// All crossings of the vertical line through (x, y), from above downwards, appended to `crossings` (cleared first).
+  /// Writes all crossings of the vertical line through (x, y) to `crossings`, from top to bottom; clears it first.
   void column(double x, double y, std::vector<Crossing>& crossings) const;
 
   /// Winding number of the mesh about `p`: number of enclosing shells. Counted by signed crossings of a vertical ray,

@@ -17,9 +17,9 @@ namespace {
 using base::SetSphere;
 using base::Vec3d;
 
-constexpr int kAround = 24;      // points of a ring about a disc's centre
-constexpr int kMostTries = 4;    // finer cuts, each of half the radius
-constexpr double kForced = 0.25; // radius of a sphere that fits nowhere [permitted]
+constexpr int kAround = 24;      // points per ring about a disc's centre
+constexpr int kMostTries = 4;    // finer cuts, each with half the radius
+constexpr double kForced = 0.25; // radius of a sphere where none fits [permitted]
 
 /// Protrusion of the balls of a rounded disc, <= 0 if inside the mesh [m].
 double standsOut(const detail::OuterSurface& outer, const SetSphere& s) {
@@ -51,7 +51,7 @@ double dipWhereThin(const SphereSet& set, const DecompositionOptions& options) {
 /// Approximate number of spheres that cover a mesh, up to a quarter more in thin sheets.
 double countOf(double area, double radius) { return 1.25 * area / (radius * radius); }
 
-/// Why and where the default decomposition is insufficient.
+/// Message with the reason and location of an insufficient default decomposition.
 struct Cause {
   Vec3d place;
   std::string fault;
@@ -112,7 +112,7 @@ SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, con
   fine.maxDip = 0.02;
   fine.flatTolerance = 0.005;
   fine.most = static_cast<std::size_t>(kSphereBudget);
-  // If spheres of the contact size would be too many, use fewer, up to twice as large.
+  // If the contact size would require too many spheres, use larger ones, up to twice the size.
   const double cheapest = std::sqrt(countOf(meshArea, 1) / kSphereBudget);
   fine.radius = std::min(options.radius, std::clamp(cheapest, limit.contactSize, 2 * limit.contactSize));
   for (int tries = 0; tries < kMostTries; ++tries) {
@@ -125,7 +125,7 @@ SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, con
     fine.radius *= 0.5;
   }
   refuseWith(fmt::format("spheres of {:.3g} m still protrude by {:.3g} m", set.radius, protrusion.distance));
-  return set; // not reached
+  return set; // unreachable
 }
 
 std::string protrusionLine(const CutReport& r) {

@@ -6,36 +6,36 @@
 
 namespace grouser::spheredecomp {
 
-/// Largest protrusion of a set's surface from its mesh.
+/// Maximum protrusion of a set's surface from its mesh.
 struct Protrusion {
   double distance{}; ///< [m], >= 0
   base::Vec3d place; ///< centre of the sphere, in the mesh's frame [m]
 };
 
-/// Permitted protrusion of a part's spheres, and the contact size.
+/// Permitted protrusion of a part's spheres, with the contact size.
 struct ProtrusionLimit {
   double permitted{};                   ///< [m], > 0
   double contactSize{};                 ///< [m], > 0: size of the smallest contact partner
-  double permittedDip{base::kInfinity}; ///< depth of the set below the surface where spheres shrink, that of the
-                                        ///< default cut leaves it [m]
-  bool automatic{}; ///< the radius is the default: a finer cut may replace it. Otherwise only measured
+  double permittedDip{base::kInfinity}; ///< permitted depth of the set below the surface at small spheres; default:
+                                        ///< that of the default cut [m]
+  bool automatic{}; ///< true: default radius, which a finer cut may replace; false: protrusion is only measured
 };
 
-/// Maximum number of spheres of a finer cut; beyond, a default radius is rejected.
+/// Maximum number of spheres of a finer cut; above it, a default radius is rejected.
 inline constexpr double kSphereBudget = 1e5;
 
-/// The largest protrusion of a set. Exact for spheres under a flat or convex surface, an upper bound where the surface
-/// is concave: of balls about points of each disc (its centre, its rim and a ring half-way), their radius less the
+/// Returns the maximum protrusion of a set. Exact for spheres under a flat or convex surface, an upper bound where the
+/// surface is concave: for balls at points of each disc (centre, rim, and a ring half-way), their radius minus the
 /// depth of the point.
 Protrusion largestProtrusion(const TriangleMesh& mesh, const SphereSet& set);
 
-/// decompose() with a measurement of the protrusion. With an automatic radius, a mesh whose set protrudes more than
-/// permitted (thin sheets, wedges, tips) is cut again by spheres no larger than the contact size, which shrink where
-/// the part is thin. Throws base::InputError if that needs more than kSphereBudget spheres.
+/// Runs decompose() and measures the protrusion. With an automatic radius, a mesh whose set protrudes more than
+/// permitted (thin sheets, wedges, tips) is decomposed again into spheres no larger than the contact size, which shrink
+/// at thin places. Throws base::InputError if this requires more than kSphereBudget spheres.
 SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options,
                           const ProtrusionLimit& limit, Protrusion& protrusion);
 
-/// True if decomposeWithin() returns the cut of decompose().
+/// True if the result of decompose() is acceptable without a finer cut.
 bool meets(const ProtrusionLimit& limit, const SphereSet& set, const DecompositionOptions& options,
            const Protrusion& protrusion);
 
@@ -49,12 +49,12 @@ struct CutReport {
   ProtrusionLimit limit;
 };
 
-/// "shoe.obj: 600 spheres of 0.02 m, largest protrusion 0.16 mm at (...) m, permitted 0.77 mm".
+/// Report line: "shoe.obj: 600 spheres of 0.02 m, largest protrusion 0.16 mm at (...) m, permitted 0.77 mm".
 std::string protrusionLine(const CutReport& report);
-/// Warning for an explicit radius whose protrusion exceeds the limit; else empty.
+/// Warning if an explicit radius exceeds the protrusion limit; else empty.
 std::string protrusionWarning(const CutReport& report);
 
-/// Inputs of the result beside cutOrigin(), as text.
+/// Inputs of the result in addition to cutOrigin(), as text.
 std::string limitOrigin(const ProtrusionLimit& limit);
 
 } // namespace grouser::spheredecomp

@@ -22,12 +22,12 @@ using detail::OuterSurface;
 using detail::PointGrid;
 using detail::SurfaceSample;
 
-/// Points of the set's surface deeper than this belong to the inner side of a hollow shell [radius].
+/// Depth beyond which points of the set's surface belong to the inner side of a hollow shell [radius].
 constexpr double kInnerSide = 0.75;
-/// Sampled directions per sphere.
+/// Number of sampled directions per sphere.
 constexpr int kDirections = 96;
 
-/// Surface spheres of a set with spatial search.
+/// Surface spheres of a set, with spatial search.
 struct Shape {
   const SphereSet& set;
   bool discs; ///< rounded discs, or plain spheres
@@ -44,7 +44,7 @@ struct Shape {
   double distance(std::uint32_t i, const Vec3d& p) const {
     return discs ? detail::discDistance(set.spheres[i], p) : detail::ballDistance(set.spheres[i], p);
   }
-  /// Distance from p to the union [m], negative inside. The search widens until the nearest is certain.
+  /// Distance from p to the union [m], negative inside. The search radius grows until the nearest is certain.
   double distance(const Vec3d& p) const {
     for (double range = 0.125 * set.radius;; range *= 4) {
       double best = 1e300;
@@ -60,7 +60,7 @@ struct Shape {
   }
 };
 
-/// Evenly spread directions (Fibonacci spiral).
+/// Uniformly distributed directions (Fibonacci spiral).
 std::vector<Vec3d> directions() {
   std::vector<Vec3d> result;
   const double golden = base::kPi * (3 - std::sqrt(5.0));

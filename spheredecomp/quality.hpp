@@ -11,12 +11,12 @@ namespace grouser::spheredecomp {
 using base::SphereSet;
 using base::TriangleMesh;
 
-/// Distances between two surfaces A (the mesh's outer surface) and B (the set's) [m].
+/// Distances between surface A (outer surface of the mesh) and surface B (of the set) [m].
 struct SurfaceDistance {
-  double meshToSet{};  ///< greatest distance from a point of the mesh to the set's surface (one-sided Hausdorff)
-  double setToMesh{};  ///< greatest distance from a point of the set's surface to the mesh
+  double meshToSet{};  ///< maximum distance from a point of the mesh to the set's surface (one-sided Hausdorff)
+  double setToMesh{};  ///< maximum distance from a point of the set's surface to the mesh
   double rms{};        ///< root mean square of meshToSet over the mesh's area
-  double protrusion{}; ///< greatest distance of a point of the set's surface outside the mesh
+  double protrusion{}; ///< maximum distance of a point of the set's surface outside the mesh
   double hausdorff() const { return meshToSet > setToMesh ? meshToSet : setToMesh; }
 };
 
@@ -30,11 +30,11 @@ struct Quality {
   double areaRatio{};      ///< sum of SetSphere::area / outer area of the mesh [-]
 };
 
-/// Measures by deterministic sampling; the samples lie about a third of the spacing apart, so that the distances are
-/// lower bounds, short of the supremum by a few hundredths of the radius.
+/// Measures the accuracy by deterministic sampling at about a third of the spacing, so that the distances are lower
+/// bounds, below the supremum by a few hundredths of the radius.
 Quality measure(const TriangleMesh& mesh, const SphereSet& set);
 
-/// The figures as text, a few lines with units.
+/// Text report of the figures, a few lines with units.
 std::string report(const SphereSet& set, const Quality& quality);
 
 } // namespace grouser::spheredecomp

@@ -10,7 +10,7 @@
 
 namespace grouser::terrain {
 
-/// Arrangement of a bed: in layers or at random, on a floor that is smooth or rough.
+/// Options of a bed: layered or random arrangement, smooth or rough floor.
 struct BedOptions {
   std::variant<LayerOptions, RandomBedOptions> grains;
   std::optional<FloorGrainOptions> floorGrains;
@@ -20,11 +20,11 @@ struct BedOptions {
   double meanVolume() const;                            ///< by number, at the surface [m3]
 };
 
-/// As the overloads of LayerOptions and RandomBedOptions; `grains` counts those that move.
+/// Same as planBed() for LayerOptions and RandomBedOptions; `grains` counts the movable grains.
 BedPlan planBed(const HeightField& surface, const BedOptions& options);
 /// Number of fixed grains on the floor.
 std::int64_t fixedGrains(const BedPlan& plan, const BedOptions& options);
-/// All grains of the bed; fixed grains of the floor first.
+/// Returns all grains of the bed, the fixed grains of the floor first.
 std::vector<Seed> layBed(const HeightField& surface, const BedOptions& options);
 
 } // namespace grouser::terrain

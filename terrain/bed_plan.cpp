@@ -13,10 +13,10 @@ double clearHeight(const HeightField& floor, double x, double y, double z, doubl
   const HeightFieldBounds around = floor.boundsOver({x - radius, x + radius, y - radius, y + radius});
   const double safe = around.highest + radius;
   if (z >= safe) return z;
-  // In a hollow tighter than the sphere the foot point is not unique: stay above all of it.
+  // In a hollow tighter than the sphere the foot point is not unique: stay above the whole hollow.
   if (around.valleyCurvature * radius >= 1) return safe;
 
-  // Newton on the distance, whose derivative along z is the normal's z component.
+  // Newton's method on the distance, whose derivative along z is the z component of the normal.
   const HeightFieldView view = floor.view();
   const SurfaceJet s = view.jet(x, y);
   double contact = s.h + radius * std::sqrt(1 + s.hx * s.hx + s.hy * s.hy);

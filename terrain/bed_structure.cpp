@@ -18,15 +18,15 @@ using base::Vec3d;
 
 constexpr std::uint64_t kPoints = base::purpose("terrain.bed_structure.points");
 constexpr int kPointsInBulk = 200'000, kProfileBins = 40, kPointsABin = 8'000;
-constexpr double kOff = 2;         // mean diameters from floor, surface and walls
-constexpr double kFarthest = 3;    // of the radial distribution, in mean diameters
-constexpr int kDistances = 60;     // its bins
-constexpr double kNear = 1.4;      // of the sum of radii: neighbours
-constexpr double kAlike = 0.7;     // of the normalised product of two order vectors
-constexpr int kAlikeOfCrystal = 7; // neighbours
+constexpr double kOff = 2;         // excluded margin at floor, surface and walls, in mean diameters
+constexpr double kFarthest = 3;    // range of the radial distribution, in mean diameters
+constexpr int kDistances = 60;     // bins of the radial distribution
+constexpr double kNear = 1.4;      // maximum distance of neighbours / sum of their radii
+constexpr double kAlike = 0.7;     // two grains are alike if the normalised product of their order vectors exceeds this
+constexpr int kAlikeOfCrystal = 7; // minimum number of connected neighbours of a crystalline grain
 constexpr double kMostGrains = 60'000;
 
-/// Grains by cells, to find those near a place.
+/// Bins grains into cells, to find the grains near a point.
 class NearGrains {
 public:
   NearGrains(const std::vector<LyingGrain>& grains, double edge) : grains_(grains), edge_(edge) {
@@ -44,7 +44,7 @@ public:
     sorted_.resize(grains.size());
     for (std::size_t g = 0; g < grains.size(); ++g) sorted_[next[indexOf(cellOf(grains[g].centre))]++] = g;
   }
-  /// Calls visit(grain) for all whose centres may be nearer than `reach`; until it returns false.
+  /// Calls visit(grain) for every grain whose centre may be nearer than `reach`, until a call returns false.
   template <class Visit> void visit(const Vec3d& p, double reach, const Visit& visit) const {
     base::Vec3<int> from, to;
     for (int a = 0; a < 3; ++a) {
@@ -94,7 +94,7 @@ double legendre6(double x) {
   return (((231 * s - 315) * s + 105) * s - 5) / 16;
 }
 
-/// The part of the bed that is `off` away from all walls; the middle fifth of a side where that is empty.
+/// Part of the bed at least `off` away from all walls; the middle fifth of a side if that is empty.
 Rectangle inset(const BedExtent& e, double off) {
   const Rectangle& r = e.walls;
   const double x = e.periodic[0] ? 0 : std::min(off, 0.4 * r.width()),
@@ -102,7 +102,7 @@ Rectangle inset(const BedExtent& e, double off) {
   return {r.xMin + x, r.xMax - x, r.yMin + y, r.yMax - y};
 }
 
-/// The middle of the bed.
+/// Central part of the bed.
 struct Core {
   const BedExtent& extent;
   double off; ///< [m] from floor and surface
@@ -129,7 +129,7 @@ std::vector<LyingGrain> withImages(std::vector<LyingGrain> grains, const BedExte
   return grains;
 }
 
-/// Share of `points` random places, at heights drawn by height(x, y, number), that lie in no grain.
+/// Fraction of `points` random points, at heights given by height(x, y, number), that are outside all grains.
 template <class Height> double voids(const NearGrains& near, const Rectangle& area, double largest, int points,
                                      std::uint64_t id, const Height& height) {
   int empty = 0;
@@ -161,8 +161,8 @@ void measurePorosity(const NearGrains& near, const Core& core, double largest, B
 /// Contacts, radial distribution and order of the grains in the core.
 class Pairs {
 public:
-  /// The first `count` grains are those of the bed, the others images. `far`: where all that is counted of the radial
-  /// distribution lies in the bed.
+  /// The first `count` grains belong to the bed, the others are images. `far`: part in which grains have the whole
+  /// range of their radial distribution inside the bed.
   Pairs(const std::vector<LyingGrain>& grains, std::size_t count, const NearGrains& near, const Core& core,
         const Core& far, double largest)
       : grains_(grains), near_(near), far_(far), largest_(largest), bonds_(grains.size()), own_(grains.size(), -1) {
@@ -208,7 +208,7 @@ private:
     for (const std::size_t g : inside_) sum += base::sphereVolume(grains_[g].radius);
     return sum / static_cast<double>(inside_.size());
   }
-  /// Directions to the neighbours of a grain, found once.
+  /// Directions to the neighbours of a grain, computed once.
   struct Bonds {
     std::vector<std::size_t> to;
     std::vector<Vec3d> direction;
@@ -226,7 +226,7 @@ private:
     own_[g] = product(b, b);
     return b;
   }
-  /// q6 . q6 of two grains, by the addition theorem of spherical harmonics.
+  /// Scalar product q6 . q6 of two grains, by the addition theorem of spherical harmonics.
   static double product(const Bonds& a, const Bonds& b) {
     double sum = 0;
     for (const Vec3d& u : a.direction)
@@ -250,7 +250,7 @@ private:
   const Core& far_;
   double largest_;
   std::vector<Bonds> bonds_;
-  std::vector<double> own_; ///< squared norm of the order vector; negative: not known yet
+  std::vector<double> own_; ///< squared norm of the order vector; negative: not computed yet
   std::vector<std::size_t> inside_;
 };
 
@@ -296,7 +296,7 @@ BedStructure measureBed(const std::vector<LyingGrain>& grains, const BedExtent& 
 }
 
 BedStructure measureBed(const Grains& grains, const BedExtent& extent) {
-  // A column through the middle.
+  // Restricts the measurement to a column through the middle.
   const double share =
       std::min(1.0, std::sqrt(kMostGrains / static_cast<double>(std::max<std::size_t>(1, grains.count()))));
   BedExtent part = extent;
@@ -315,7 +315,7 @@ BedStructure measureBed(const Grains& grains, const BedExtent& extent) {
   for (const std::vector<LyingGrain>& some : grains.system().comm.gatherAll(mine))
     all.insert(all.end(), some.begin(), some.end());
   BedStructure s = measureBed(all, part);
-  take(heightsOf(extent), s); // of all of it
+  take(heightsOf(extent), s); // heights of the whole bed
   return s;
 }
 

@@ -13,10 +13,10 @@ namespace {
 
 using base::InputError;
 
-/// Lowest value within `reach` of each node; what lies outside the grid does not count.
+/// Computes the minimum within `reach` of each node; points outside the grid are ignored.
 std::vector<double> lowestWithin(const NodeGrid& grid, const std::vector<double>& values, double reach) {
   std::vector<double> result(values.size());
-  // A little more than the reach, so that round-off does not decide about nodes at exactly that distance.
+  // Slightly larger than the reach, so that rounding does not decide about nodes at exactly that distance.
   const double slack = 1e-9 * reach;
   for (int j = 0; j < grid.rows; ++j)
     for (int i = 0; i < grid.columns; ++i) {
@@ -28,7 +28,7 @@ std::vector<double> lowestWithin(const NodeGrid& grid, const std::vector<double>
   return result;
 }
 
-/// (1 2 1)/4 along one axis; the end nodes keep their value, as they would on a line.
+/// Applies (1 2 1)/4 along one axis; end nodes are unchanged, as for linear data.
 void smooth(std::vector<double>& values, std::size_t lines, std::size_t lineStride, int n, std::size_t stride) {
   for (std::size_t l = 0; l < lines; ++l) {
     double* v = values.data() + l * lineStride;
@@ -46,7 +46,7 @@ void smooth(std::vector<double>& values, std::size_t lines, std::size_t lineStri
 void BedSurface::layGrid(double diameter) {
   if (!(diameter > 0 && std::isfinite(diameter)))
     throw InputError(fmt::format("surface of the bed: grain diameter = {} m must be positive", diameter));
-  // Nodes a radius apart, or a little less so that they meet the border.
+  // Node spacing: one radius, or slightly less to match the border.
   columns_ = 1 + std::max(1, static_cast<int>(std::ceil(area_.width() / (diameter / 2))));
   rows_ = 1 + std::max(1, static_cast<int>(std::ceil(area_.length() / (diameter / 2))));
   dx_ = area_.width() / (columns_ - 1), dy_ = area_.length() / (rows_ - 1);
@@ -90,7 +90,7 @@ void BedSurface::shape(std::vector<double> tops, const HeightFieldView& floor, d
 }
 
 double BedSurface::height(double x, double y) const {
-  // A NaN goes to the first node: the surface itself is defined everywhere.
+  // Maps NaN to the first node: the surface itself is defined everywhere.
   const auto locate = [](double v, double from, double d, int n, int& i) {
     const double u = (v - from) / d;
     const double inside = u > 0 ? std::min(u, double(n - 1)) : 0.0;

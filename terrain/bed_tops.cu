@@ -13,8 +13,8 @@ using base::Vec3d;
 
 namespace {
 
-/// Words that fall as numbers rise, so that the least word is the highest number whatever thread comes first. None of
-/// them is the word with all bits set, which stands for "no grain".
+/// Order-reversing words: the minimum word corresponds to the maximum number, whatever the thread order. None of them
+/// is the word with all bits set, which denotes "no grain".
 GROUSER_HD std::uint64_t wordOf(double height) {
   const auto bits = base::bitsAs<std::uint64_t>(height);
   const std::uint64_t rising = bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
@@ -27,7 +27,7 @@ double heightOf(std::uint64_t word) {
   return base::bitsAs<double>(rising >> 63 ? rising & ~(std::uint64_t{1} << 63) : ~rising);
 }
 
-/// Centres and radii of grains on the host, and of a running bed.
+/// Centres and radii of grains on the host, and of a bed during a run.
 struct OfSeeds {
   const Seed* seeds;
   GROUSER_HD Vec3d centre(int g) const { return seeds[g].centre; }
@@ -38,13 +38,13 @@ struct OfGrains {
   const base::Position* position;
   base::PositionScale scale;
   double grainRadius;
-  const Motion* radiusInW;    ///< in velocity.w; null where all have grainRadius
-  const std::uint32_t* ghost; ///< null where there are none
+  const Motion* radiusInW;    ///< radius in velocity.w; null if all have grainRadius
+  const std::uint32_t* ghost; ///< null without ghosts
   GROUSER_HD Vec3d centre(int g) const { return scale.toMetres(position[g]); }
   GROUSER_HD double radius(int g) const {
     return radiusInW ? std::fabs(static_cast<double>(radiusInW[g].velocity.w)) : grainRadius;
   }
-  /// Slaves are left out: they may be one step behind, and their masters count on their own ranks.
+  /// Slaves are skipped: they may lag one step behind, and their masters count on their own ranks.
   GROUSER_HD bool counts(int g) const { return !(ghost && ghost[g]); }
 };
 

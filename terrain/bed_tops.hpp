@@ -12,7 +12,7 @@
 
 namespace grouser::terrain {
 
-/// Nodes over a bed seen from above, row by row, row 0 at the smallest y.
+/// Regular grid of nodes in plan view of a bed, row by row, row 0 at the smallest y.
 struct NodeGrid {
   int columns{}, rows{};
   double dx{}, dy{}, xMin{}, yMin{}; ///< [m]
@@ -22,7 +22,7 @@ struct NodeGrid {
   GROUSER_HD double y(int j) const { return yMin + j * dy; }
   std::size_t size() const { return static_cast<std::size_t>(columns) * rows; }
 
-  /// Calls f(node) for the nodes within `reach` of (px, py) in the plane.
+  /// Calls f(node) for the nodes within the horizontal distance `reach` of (px, py).
   template <class F> GROUSER_HD void forEachWithin(double px, double py, double reach, F&& f) const {
     const int i0 = firstNode(px - reach, xMin, dx, columns), i1 = lastNode(px + reach, xMin, dx, columns);
     const int j0 = firstNode(py - reach, yMin, dy, rows), j1 = lastNode(py + reach, yMin, dy, rows);
@@ -44,10 +44,10 @@ private:
   }
 };
 
-/// Highest grain top (centre + radius) [m] within `reach` of each node; minus infinity where there is none. Computed
-/// on the grains' device; a maximum does not depend on the order. On several ranks, over the grains of all.
+/// Highest grain top (centre + radius) [m] within `reach` of each node; minus infinity if there is none. Computed on
+/// the grains' device; a maximum does not depend on the order. Includes the grains of all ranks.
 std::vector<double> highestTops(const base::Exec& exec, const Grains& grains, const NodeGrid& grid, double reach);
-/// The same for grains on the host. InputError: a position that is not finite.
+/// Same for grains on the host. Throws InputError if a position is not finite.
 std::vector<double> highestTops(std::span<const Seed> grains, const NodeGrid& grid, double reach);
 
 } // namespace grouser::terrain

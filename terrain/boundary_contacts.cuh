@@ -9,8 +9,8 @@
 
 namespace grouser::terrain {
 
-/// Forces of walls, floor and surfaces on the grains near them. A separate kernel: the search on the floor needs many
-/// registers, and only one layer of grains needs it.
+/// Forces of walls, floor and surfaces on the grains near them. A separate kernel, because the foot search on the floor
+/// requires many registers and only one layer of grains needs it.
 template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<kFeatures, Real> {
   static constexpr double kNanoseconds = 100;
   using Kernel = GrainKernel<kFeatures, Real>;
@@ -20,20 +20,20 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   using Load =
       std::conditional_t<(kFeatures & contact::kMeasured) != 0, MeasuredBoundaryLoad<Real>, BoundaryLoad<Real>>;
 
-  /// One grain of the list.
+  /// Grain near a boundary.
   struct Grain {
-    int place; ///< in the list
+    int place; ///< index in the list
     base::Vec3d x;
     Vec v, w;
     GrainSize<Real> size;
-    std::uint32_t before; ///< boundaries that it touched in the last step
+    std::uint32_t before; ///< boundaries in contact in the last step
   };
-  /// Dissipation by dashpots, sliding, rolling resistance, change of stiffness and yielding [J].
+  /// Dissipation by dashpots, sliding, rolling resistance, stiffness changes and plastic work [J].
   struct Losses {
     Real damped = 0, rubbed = 0, rolled = 0, slipped = 0, yielded = 0;
   };
   struct Reaction {
-    Vec force, rolling; ///< on the grain [N], torque of rolling resistance [N m]
+    Vec force, rolling; ///< force on the grain [N], torque of rolling resistance [N m]
   };
 
   GROUSER_HD void operator()(int k) const {
@@ -41,7 +41,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     run(k, accumulator);
   }
 
-  /// Adds work and impulses of walls and floor to `accumulator`.
+  /// Computes the load of list entry k; adds work and impulses of walls and floor to `accumulator`.
   GROUSER_HD Load run(int k, WallAccumulator& accumulator) const {
     if (Kernel::ended()) return {};
     const int i = static_cast<int>(d.nearBoundary[k]);
@@ -49,7 +49,7 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
     const Vec v = velocity.xyz().template as<Real>(), w = d.motion[i].spin.xyz().template as<Real>();
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
     const Grain grain{k, x, v, w, Kernel::sizeOf(i), d.boundaryContactMask[i]};
-    // A fixed grain acts on surfaces only: the ground holds it.
+    // Only surfaces act on a fixed grain; the ground supports it.
     const bool held = has(kSurfaces) && isFixed(velocity);
     const double radius = static_cast<double>(grain.size.radius);
     Load sum{};
@@ -83,14 +83,14 @@ template <unsigned kFeatures, class Real> struct BoundaryContacts : GrainKernel<
   }
 
 private:
-  /// Accounts for force of walls and floor and its torque about the origin of the world.
+  /// Accounts for the force of walls and floor and its torque about the world origin.
   GROUSER_HD void accountWalls(const Grain& grain, const BoundaryLoad<Real>& sum, WallAccumulator& accumulator) const {
     const base::Vec3d force = sum.force.template as<double>();
     const base::Vec3d torque = cross(grain.x, force) + sum.torque.template as<double>();
     accumulator.addForce(force, torque, d.ledgerScale);
   }
 
-  /// The ground balances the load of surfaces on a fixed grain.
+  /// Accounts for the ground reaction to the load of surfaces on a fixed grain.
   GROUSER_HD void accountFixedGrain(const Grain& grain, const base::Vec3d& pressed, const BoundaryLoad<Real>& sum,
                                     WallAccumulator& accumulator) const {
     accumulator.addForce(-pressed, -(cross(grain.x, pressed) + sum.torque.template as<double>()), d.ledgerScale);
@@ -107,7 +107,7 @@ private:
       accumulator.add(kMicroSlipDissipation, wholeQuanta(q * static_cast<double>(lost.slipped)));
   }
 
-  /// `share`: of dashpots and cohesion, if this contact is part of one [-].
+  /// `share`: factor of dashpots and cohesion, if the contact is one of several merged feet [-].
   GROUSER_HD void touchFixed(const Grain& grain, int boundary, const Vec& outward, Real overlap, Load& sum,
                              Losses& lost, Real share = 1) const {
     const Vec normal = -outward; // from the grain to the wall
@@ -121,7 +121,7 @@ private:
     if (has(contact::kRollingFriction)) sum.torque += reaction.rolling;
   }
 
-  /// Contacts with a floor with hollows tighter than the grain: each has its own springs.
+  /// Computes contacts with a floor that has hollows tighter than the grain; each contact has its own springs.
   GROUSER_HD std::uint32_t touchHollows(const Grain& grain, double radius, Load& sum, Losses& lost) const {
     if (d.floor.clearOf(grain.x, radius)) return 0;
     float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
@@ -144,7 +144,7 @@ private:
     return now;
   }
 
-  /// Contacts with moving surfaces. The force on the grain is whole quanta, that on the surface exactly the opposite.
+  /// Computes contacts with moving surfaces. Forces on the grain are whole quanta; the surface receives the opposite.
   GROUSER_HD std::uint32_t touchSurfaces(int k, const Grain& grain, Load& sum, Losses& lost) const {
     std::uint32_t now = 0;
     base::Vec3d force;

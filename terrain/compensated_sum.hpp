@@ -7,56 +7,56 @@
 #include <cmath>
 #include <cstdint>
 
-/// Sums over many steps without accumulated rounding: `v += g dt` in plain float is wrong by 2 % of g at a step of
-/// 1e-6 s, because every step rounds the same way.
+/// Sums over many steps without accumulated rounding errors: `v += g dt` in single precision has an error of 2 % of g
+/// at a step of 1e-6 s, because every step rounds in the same direction.
 namespace grouser::terrain {
 
-/// Remainders of one grain: for each axis 16 bits of the velocity's, 16 of the spin's; then 3 x 10 of the position's.
+/// Rounding remainders of one grain: per axis 16 bits for velocity and 16 for spin; 3 x 10 bits for position.
 struct alignas(16) Remainders {
   std::uint32_t axis[3];
   std::uint32_t position;
 };
 
-/// A velocity's remainder counts in this part of the power of two below |v|.
+/// Quantum of a velocity remainder, relative to the power of two below |v|.
 inline constexpr double kRemainderOfBinade = 0x1p-39;
-/// As the bits of a float: 2^-100; below that nothing matters.
+/// Lower limit 2^-100 of |v|, as float bits; smaller values are irrelevant.
 inline constexpr std::int32_t kLeastBinade = 27 << 23;
 inline constexpr int kLeastRemainder = -32768, kMostRemainder = 32767;
-/// A position's remainder counts in this part of a unit.
+/// Quanta of a position remainder per position unit, and its range.
 inline constexpr int kPlacesPerUnit = 1024, kLeastPlace = -512, kMostPlace = 511;
-/// Units of one step beyond which a speed is a fault, and no integer is made of it.
+/// Displacement per step [units] that raises a speed fault, before conversion to an integer.
 inline constexpr double kMostUnitsPerStep = 1e9;
 
-/// The bits of the power of two below |v|.
+/// Float bits of the power of two below |v|.
 GROUSER_HD std::int32_t binadeOf(float v) {
   const std::int32_t bits = base::bitsAs<std::int32_t>(v) & 0x7F800000;
   return bits < kLeastBinade ? kLeastBinade : bits;
 }
 
-/// Quantum of a velocity's remainder: 2^-39 of the power of two below |v|, which is 2^-16 of the float's last place.
+/// Quantum of a velocity remainder: 2^-39 of the power of two below |v|, i.e. 2^-16 of the float's last place.
 GROUSER_HD double remainderQuantum(float v) {
   return static_cast<double>(base::bitsAs<float>(binadeOf(v))) * kRemainderOfBinade;
 }
-/// Its inverse.
+/// Inverse of remainderQuantum().
 GROUSER_HD double perRemainderQuantum(float v) {
   return static_cast<double>(base::bitsAs<float>((254 << 23) - binadeOf(v))) * (1 / kRemainderOfBinade);
 }
 
-/// The number plus its remainder.
+/// Returns the value plus its remainder.
 GROUSER_HD double withRemainder(float value, std::int16_t remainder) {
   return static_cast<double>(value) + remainder * remainderQuantum(value);
 }
 
-/// A new sum in double, and how much the stored number with its remainder exceeds it: both exact.
+/// New sum in double, and the excess of the stored value with remainder over it; both exact.
 struct CompensatedStep {
   double sum, rounding;
 };
 
-/// value + remainder += increment.
+/// Computes value + remainder += increment.
 GROUSER_HD CompensatedStep addCompensated(float& value, std::int16_t& remainder, double increment) {
   const double sum = withRemainder(value, remainder) + increment;
   value = static_cast<float>(sum);
-  // Dividing by a power of two is multiplying by its inverse, to the last bit.
+  // Dividing by a power of two equals multiplying by its inverse, bit for bit.
   const double rest = (sum - static_cast<double>(value)) * perRemainderQuantum(value);
   double r = floor(rest + 0.5);
   r = r > kMostRemainder ? kMostRemainder : r < kLeastRemainder ? kLeastRemainder : r;
@@ -71,12 +71,12 @@ GROUSER_HD std::uint32_t packRemainders(std::int16_t low, std::int16_t high) {
          static_cast<std::uint32_t>(static_cast<std::uint16_t>(high)) << 16;
 }
 
-/// Remainder that advanceKeeping() has kept along an axis [units].
+/// Remainder stored by advanceKeeping() for an axis [units].
 GROUSER_HD double placesKept(std::uint32_t word, int axis) {
   return (static_cast<std::int32_t>(word << (22 - 10 * axis)) >> 22) * (1.0 / kPlacesPerUnit);
 }
 
-/// Whole units of a displacement given in units; the rest, in 1/1024 units, stays in 10 bits of `word`.
+/// Returns the whole units of a displacement [units]; stores the rest, in 1/1024 units, in 10 bits of `word`.
 GROUSER_HD std::int64_t advanceKeeping(double displacement, std::uint32_t& word, int axis) {
   const double wanted = displacement + placesKept(word, axis);
   const double whole = floor(wanted + 0.5);

@@ -11,12 +11,12 @@
 
 namespace grouser::terrain {
 
-/// Returns a plane of the world in the frame of a part.
+/// Transforms a world plane to the frame of a part.
 inline Plane inPart(const Plane& plane, const contact::PartMotion& part) {
   return {transposedTimes(part.rotation, plane.normal), plane.height - dot(plane.normal, part.origin)};
 }
 
-/// Returns true if the box of a node is above the plane. Both are in the frame of the part.
+/// True if the box of a node is above the plane. Both are in the part frame.
 inline bool clearOf(const Plane& plane, const contact::PointTree::Node& node) {
   const Vec3d &n = plane.normal, &h = node.half;
   return dot(n, node.centre) - plane.height > std::fabs(n.x) * h.x + std::fabs(n.y) * h.y + std::fabs(n.z) * h.z;
@@ -41,7 +41,7 @@ public:
     return false;
   }
 
-  /// Returns the plane of the face that is the nearest one to all points of the node.
+  /// Returns the plane of a face if this face is the nearest one for all points of the node.
   std::optional<Plane> faceFor(const contact::PointTree::Node& node) const {
     const auto [centre, extent] = place(node);
     for (int k = 0; k < 3; ++k) {

@@ -12,15 +12,15 @@
 
 namespace grouser::terrain {
 
-/// Marks of cells in HeightFieldView::marks.
-inline constexpr std::uint8_t kNearHollow = 1; ///< a hollow tighter than the sphere lies within its radius
+/// Cell flags in HeightFieldView::marks.
+inline constexpr std::uint8_t kNearHollow = 1; ///< a hollow tighter than the sphere is within its radius
 inline constexpr std::uint8_t kInHollow = 2;   ///< the cell is part of such a hollow
 
-/// All places where a sphere touches a height field.
+/// All contact points (feet) of a sphere on a height field.
 struct Feet {
   static constexpr int kMost = 8;
-  FootPoint foot[kMost]; ///< the first `count`; of more than kMost those with the highest rises between them
-  /// Largest distance of the centre from the ground on the straight way from one foot to another [m].
+  FootPoint foot[kMost]; ///< the first `count` are valid; of more than kMost feet, those separated by the highest rises
+  /// Maximum distance of the centre from the ground on the straight line between two feet [m].
   double between[kMost][kMost];
   int count{0};
 
@@ -32,13 +32,13 @@ struct Feet {
   }
 };
 
-/// Loads of the feet. Feet between which the ground leaves the sphere are contacts of their own. Where the ground
-/// between two feet stays inside the sphere they are one contact that has two lowest points (a gentle valley, the steps
-/// of an 8-bit map): both together then bear what one would bear at that rise less. So the normal force is the slope of
-/// an energy, sum of u(overlap of each foot) - sum of u(overlap where two contacts become one), and has no jumps.
+/// Loads of the feet. Two feet are separate contacts if the ground between them leaves the sphere. If the ground stays
+/// inside, they form one contact with two minima (a gentle valley, steps in an 8-bit map), whose force is the sum of
+/// both forces minus the force at the overlap of the rise between them. The normal force thus derives from an energy,
+/// sum of u(overlap of each foot) - sum of u(overlap where contacts merge), and is continuous.
 class FeetLoads {
 public:
-  /// `hertz`: whether forces grow with the overlap's power 1.5; else they are linear.
+  /// `hertz`: true if forces grow with overlap^1.5; otherwise they are linear.
   GROUSER_HD FeetLoads(const Feet& feet, double radius, bool hertz) : hertz_(hertz) {
     int contact[Feet::kMost];
     for (int k = 0; k < feet.count; ++k)
@@ -63,16 +63,16 @@ public:
 
   GROUSER_HD double share(int foot) const {
     return share_[foot];
-  } ///< fraction of the force that its overlap alone would cause [-]
+  } ///< force relative to that of its overlap in isolation [-]
   GROUSER_HD double overlap(int foot) const { return overlap_[foot]; } ///< overlap that causes the shared force [m]
   GROUSER_HD int merges() const { return merges_; }
-  GROUSER_HD double merged(int merge) const { return merged_[merge]; } ///< overlap where two contacts become one [m]
+  GROUSER_HD double merged(int merge) const { return merged_[merge]; } ///< overlap at which two contacts merge [m]
 
 private:
   GROUSER_HD double force(double overlap) const { return hertz_ && overlap > 0 ? overlap * sqrt(overlap) : overlap; }
 
-  /// Subtracts the force at `overlap`, where contacts `a` and `b` become one, from both, in proportion to the roots of
-  /// their forces beyond it: in a crease the sum points from its bottom, and a vanishing contact bears nothing.
+  /// Subtracts the force at `overlap`, where contacts `a` and `b` merge, from both, in proportion to the roots of their
+  /// forces beyond it: in a crease the sum points away from its bottom, and a vanishing contact has no force.
   GROUSER_HD void merge(int (&contact)[Feet::kMost], int a, int b, int count, double overlap) {
     const double common = force(overlap);
     double of[2] = {};
@@ -94,16 +94,16 @@ private:
   double overlap_[Feet::kMost], force_[Feet::kMost], share_[Feet::kMost], merged_[Feet::kMost];
 };
 
-/// Finds the local minima of the distance between a sphere's centre and the surface that are less than the radius. Away
-/// from hollows tighter than the sphere there is one, which HeightFieldView::closestPoint() finds. Near them every cell
-/// in reach is searched: a cell without such a hollow from its centre, others from four places, by damped Newton steps
-/// that stay near the cell. A centre below the surface has the nearest point alone.
+/// Finds the local minima, below the radius, of the distance between a sphere centre and the surface. Away from hollows
+/// tighter than the sphere there is one, found by HeightFieldView::closestPoint(). Near them every cell in reach is
+/// searched: cells outside such hollows from their centre, others from four points, by damped Newton steps that stay
+/// near the cell. For a centre below the surface only the nearest point is used.
 class FeetSearch {
 public:
   GROUSER_HD FeetSearch(const HeightFieldView& surface, const Vec3d& centre, double radius)
       : v_(surface), p_(centre), radius_(radius), same_(0.01 * smaller(surface.dx, surface.dy)) {}
 
-  /// Not inlined on a GPU: kernels for ground without such hollows keep their registers.
+  /// Not inlined on a GPU: keeps the register count low in kernels for ground without such hollows.
   GROUSER_HD_CALL void run(Feet& feet) {
     const bool near = v_.marks && v_.marks[cell(v_.cellX(p_.x), v_.cellY(p_.y))] & kNearHollow;
     const FootPoint first = v_.closestPoint(p_);
@@ -111,7 +111,7 @@ public:
       if (first.distance < radius_) feet.foot[feet.count++] = first;
       return;
     }
-    // Where other feet are possible, only a true minimum counts.
+    // Where other feet are possible, only true minima count.
     const Vec3d aside = p_ - first.point - first.normal * first.distance;
     if (v_.interpolation != Interpolation::bilinear && first.distance < radius_ && base::norm(aside) < same_)
       put(first, feet.count++, feet);
@@ -130,7 +130,7 @@ private:
   };
   static constexpr double kFar = 1e30; // [m]
 
-  /// A sphere that overlaps the ground touches it, also when sunk by more than its radius: then the run must stop.
+  /// An overlapping sphere counts as in contact even if it sank by more than its radius: the run must then stop.
   GROUSER_HD void keep(FootPoint foot, Feet& feet) const {
     const Vec3d gap = p_ - foot.point;
     const double away = base::norm(gap);
@@ -141,13 +141,13 @@ private:
 
   GROUSER_HD static double smaller(double a, double b) { return a < b ? a : b; }
   GROUSER_HD std::int64_t cell(int i, int j) const { return static_cast<std::int64_t>(j) * (v_.columns - 1) + i; }
-  /// Extent of a cell along one axis; the outermost cells extend beyond the border.
+  /// Extent of a cell along one axis; the outermost cells extend to infinity.
   GROUSER_HD static Range rangeOf(int i, int cells, double from, double d) {
     return {i == 0 ? -kFar : from + i * d, i == cells - 1 ? kFar : from + (i + 1) * d};
   }
   GROUSER_HD static double clamped(double x, const Range& r) { return x < r.low ? r.low : x > r.high ? r.high : x; }
 
-  /// Whether a point of the cell may lie in the sphere.
+  /// True if a point of the cell may be inside the sphere.
   GROUSER_HD bool reaches(int i, int j) const {
     const Range x = rangeOf(i, v_.columns - 1, v_.xMin, v_.dx), y = rangeOf(j, v_.rows - 1, v_.yMin, v_.dy);
     const double awayX = p_.x - clamped(p_.x, x), awayY = p_.y - clamped(p_.y, y);
@@ -170,8 +170,8 @@ private:
       }
   }
 
-  /// Range of a descent from `x` along one axis: on bilinear ground the cell; on smooth ground twice the width that is
-  /// searched from there, `share` of the cell. Unlimited beyond the border.
+  /// Search range from `x` along one axis: the cell on bilinear ground; on smooth ground twice the searched width,
+  /// `share` of the cell. Unlimited beyond the border.
   GROUSER_HD Range rangeAbout(double x, int i, int cells, double from, double d, double share) const {
     const Range cell = rangeOf(i, cells, from, d);
     if (v_.interpolation == Interpolation::bilinear) return cell;
@@ -185,12 +185,12 @@ private:
   GROUSER_HD double squaredDistance(double x, double y, double z) const {
     return (x - p_.x) * (x - p_.x) + (y - p_.y) * (y - p_.y) + (z - p_.z) * (z - p_.z);
   }
-  /// Whether a coordinate at the end of its range would descend beyond it.
+  /// True if a coordinate is at the end of its range and would descend beyond it.
   GROUSER_HD static bool held(double x, double slope, const Range& r) {
     return (x <= r.low && slope > 0) || (x >= r.high && slope < 0);
   }
 
-  /// Newton's step of HeightFieldView::closestPoint(), in the coordinates that are not held.
+  /// Newton step of HeightFieldView::closestPoint(), restricted to the free coordinates.
   GROUSER_HD void newtonStep(const SurfaceJet& s, double gx, double gy, bool heldX, bool heldY, double& stepX,
                              double& stepY) const {
     const double e = s.h - p_.z;
@@ -202,7 +202,7 @@ private:
     stepX = heldX ? 0 : (b * gy - c * gx) / det, stepY = heldY ? 0 : (b * gx - a * gy) / det;
   }
 
-  /// Descends from a place in cell (i, j) to a minimum. False: there is none in the cell, or it is too far.
+  /// Descends from a point in cell (i, j) to a minimum. Returns false if the cell has none, or it is too far.
   GROUSER_HD bool descend(int i, int j, double x, double y, double share, FootPoint& foot) const {
     constexpr int kIterations = 40;
     const bool bilinear = v_.interpolation == Interpolation::bilinear;
@@ -216,7 +216,7 @@ private:
       if (fresh) {
         const double gx = x - p_.x + (s.h - p_.z) * s.hx, gy = y - p_.y + (s.h - p_.z) * s.hy;
         heldX = held(x, gx, rangeX), heldY = held(y, gy, rangeY);
-        if ((heldX || heldY) && !bilinear) return false; // minima beyond are found from there
+        if ((heldX || heldY) && !bilinear) return false; // minima beyond are found from another cell
         newtonStep(s, gx, gy, heldX, heldY, stepX, stepY);
       }
       done = stepX * stepX + stepY * stepY <= converged * converged;
@@ -228,14 +228,14 @@ private:
       else
         stepX *= 0.25, stepY *= 0.25;
     }
-    // At the edge of the range lies no minimum of a smooth surface, of a creased one where it is one of all cells
-    // there.
+    // At the edge of the range a smooth surface has no minimum; a creased one has a minimum only if no adjacent cell
+    // descends from it.
     const bool atEdge = heldX || heldY;
     if (atEdge && (!bilinear || !isLowestAround(i, j, x, y))) return false;
     return measure(x, y, s, atEdge, foot);
   }
 
-  /// Whether no cell that meets cell (i, j) at a point of its edge falls away from the minimum there.
+  /// True if no cell adjacent to an edge point of cell (i, j) descends from that point.
   GROUSER_HD bool isLowestAround(int i, int j, double x, double y) const {
     const double u = (x - v_.xMin) / v_.dx - i, w = (y - v_.yMin) / v_.dy - j, slack = 1e-6 * same_;
     const int acrossX = u < 1e-9 ? -1 : u > 1 - 1e-9 ? 1 : 0, acrossY = w < 1e-9 ? -1 : w > 1 - 1e-9 ? 1 : 0;
@@ -245,7 +245,7 @@ private:
         if ((a == 0 && b == 0) || ci < 0 || cj < 0 || ci > v_.columns - 2 || cj > v_.rows - 2) continue;
         const SurfaceJet s = v_.jetInCell(ci, cj, x, y);
         const double gx = x - p_.x + (s.h - p_.z) * s.hx, gy = y - p_.y + (s.h - p_.z) * s.hy;
-        // Into that cell.
+        // Slopes into that cell.
         if ((a ? acrossX : -acrossX) * gx < -slack || (b ? acrossY : -acrossY) * gy < -slack) return false;
       }
     return true;
@@ -266,13 +266,13 @@ private:
     return side_ * foot.distance < radius_;
   }
 
-  /// Squared distance at `share` of the straight line from one point to another [m2].
+  /// Squared distance [m2] at the fraction `share` of the line between two points.
   GROUSER_HD double squaredDistanceAt(const Vec3d& from, const Vec3d& way, double share) const {
     const Vec3d at = from + way * share;
     return squaredDistance(at.x, at.y, v_.height(at.x, at.y));
   }
 
-  /// Samples places along the line, then narrows the largest down by thirds.
+  /// Samples points along the line, then refines the maximum by ternary search.
   GROUSER_HD double largestBetween(const FootPoint& a, const FootPoint& b) const {
     constexpr int kPlaces = 16, kThirds = 12;
     const Vec3d way = b.point - a.point;
@@ -292,7 +292,7 @@ private:
     return sqrt(most);
   }
 
-  /// Keeps the nearer one of two feet in one place, and of all feet below the ground.
+  /// Keeps the nearer of two coincident feet; below the ground keeps only the nearest foot.
   GROUSER_HD void add(const FootPoint& found, Feet& feet) const {
     for (int k = 0; k < feet.count; ++k)
       if (side_ < 0 || base::norm(found.point - feet.foot[k].point) < same_) {
@@ -311,10 +311,10 @@ private:
       if (k != place) feet.between[k][place] = feet.between[place][k] = largestBetween(found, feet.foot[k]);
   }
 
-  /// Drops the foot with the lowest rise to one that is nearer, which may be the new one.
+  /// Drops the foot with the lowest rise to a nearer one; this may be the new foot.
   GROUSER_HD void replaceLeast(const FootPoint& found, Feet& feet) const {
     double toFound[Feet::kMost], least = 1e300;
-    int dropped = -1; // the new one
+    int dropped = -1; // the new foot
     for (int k = 0; k < feet.count; ++k) {
       toFound[k] = largestBetween(found, feet.foot[k]);
       if (feet.foot[k].distance <= found.distance && toFound[k] - found.distance < least)
@@ -335,10 +335,10 @@ private:
   const HeightFieldView& v_;
   Vec3d p_;
   double radius_, same_;
-  double side_{1}; ///< side of the surface on which the centre lies
+  double side_{1}; ///< side of the surface that contains the centre
 };
 
-/// The nearest point of a surface to a sphere that touches it, and whether it does.
+/// Finds the nearest surface point to a sphere; returns true if they are in contact.
 GROUSER_HD bool deepestFoot(const HeightFieldView& surface, const Vec3d& centre, double radius, FootPoint& foot) {
   if (!surface.marks) {
     foot = surface.closestPoint(centre);
@@ -351,12 +351,12 @@ GROUSER_HD bool deepestFoot(const HeightFieldView& surface, const Vec3d& centre,
   return true;
 }
 
-/// A bit for each place of a floor.
+/// Bit mask of the contact entries of a floor.
 inline constexpr std::uint32_t kFloorBits = (1u << Feet::kMost) - 1;
 
-/// Assigns feet to places of the floor, so that a contact keeps its springs from step to step: pairs with the least
-/// difference of normals first, at most 60 degrees. `held`: a bit for each place that had a foot in the last step, with
-/// normals `normals` [3 * place]; null without springs. Returns the bits of places whose contact continues.
+/// Assigns feet to the contact entries of the floor, so that a contact keeps its springs between steps: pairs with the
+/// least difference of normals first, at most 60 degrees. `held`: bit mask of entries with a foot in the last step,
+/// with normals `normals` [3 * entry]; null without springs. Returns the bit mask of continuing contacts.
 GROUSER_HD std::uint32_t takePlaces(const Feet& feet, std::uint32_t held, const float* normals,
                                     int (&place)[Feet::kMost]) {
   std::uint32_t taken = 0;
@@ -384,7 +384,7 @@ GROUSER_HD std::uint32_t takePlaces(const Feet& feet, std::uint32_t held, const 
   return goOn;
 }
 
-/// The feet of a sphere, each with its place, as takePlaces() finds it. `goOn`: bits of places whose contact goes on.
+/// Feet of a sphere with the entries assigned by takePlaces(). `goOn`: bit mask of entries whose contact continues.
 struct PlacedFeet {
   Feet feet;
   int place[Feet::kMost];

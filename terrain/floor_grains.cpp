@@ -13,10 +13,10 @@ namespace {
 constexpr std::uint64_t kFloorPlace = base::purpose("terrain.floor_grains.place");
 constexpr std::uint64_t kFloorRadius = base::purpose("terrain.floor_grains.radius");
 constexpr double kPitch = 2.0; // in mean radii
-constexpr double kShift = 0.3; // to each side, of the pitch
-constexpr double kSunk = 0.5;  // of the radius, at most
+constexpr double kShift = 0.3; // maximum shift in each direction / pitch
+constexpr double kSunk = 0.5;  // maximum depth of a centre below the floor / radius
 
-/// Places along one axis.
+/// Lattice positions along one axis.
 struct Row {
   double start, pitch;
   std::int64_t count;

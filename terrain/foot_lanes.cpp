@@ -117,19 +117,19 @@ GROUSER_SIMD_CLONES unsigned FootLanes::find(const Vec3P& p, const PointLanes& r
   if (nodes_.empty()) return 0;
   const PointLanes none = allLanes(0);
   const double shorter = std::min(view_.dx, view_.dy), converged = 1e-12 * shorter * shorter;
-  // Beyond the border the field continues along its tangents, whose slope has no bound.
+  // Beyond the border the field is extrapolated along its tangents, whose slope is unbounded.
   const double xMax = view_.xMin + (view_.columns - 1) * view_.dx, yMax = view_.yMin + (view_.rows - 1) * view_.dy;
   const Mask border = ~((p.x - radius >= none + view_.xMin) & (p.x + radius <= none + xMax) &
                         (p.y - radius >= none + view_.yMin) & (p.y + radius <= none + yMax));
   Mask failed = border;
   PointLanes x = p.x, y = p.y;
   Jet s = jetOf(view_, nodes_.data(), x, y, failed);
-  // A sphere higher above the surface under its centre is clear of a surface no steeper than the bound.
+  // A sphere high enough above the surface under its centre cannot touch a surface of bounded slope.
   const Mask near = p.z - s.h <= radius * std::sqrt(1 + view_.slopeBound * view_.slopeBound);
   const Mask below = p.z < s.h;
   Mask open = near & ~failed;
   PointLanes squared = (s.h - p.z) * (s.h - p.z);
-  // The Newton iteration of HeightFieldView::closestPoint(), undamped.
+  // Newton iteration of HeightFieldView::closestPoint(), undamped.
   for (int k = 0; k < kIterations && base::any(open); ++k) {
     const PointLanes e = s.h - p.z, gx = x - p.x + e * s.hx, gy = y - p.y + e * s.hy;
     const PointLanes a = s.hx * s.hx + e * s.hxx + 1.0, b = s.hx * s.hy + e * s.hxy, c = s.hy * s.hy + e * s.hyy + 1.0;
@@ -138,7 +138,7 @@ GROUSER_SIMD_CLONES unsigned FootLanes::find(const Vec3P& p, const PointLanes& r
     failed |= open & ~convex, open &= convex;
     const PointLanes inverse = 1.0 / (convex ? det : none + 1.0);
     const PointLanes dx = open ? (b * gy - c * gx) * inverse : none, dy = open ? (b * gx - a * gy) * inverse : none;
-    // The last step extrapolates along the derivatives.
+    // The last step is linearised.
     const Mask last = open & (dx * dx + dy * dy <= none + converged);
     x += dx, y += dy;
     s.h = last ? s.h + s.hx * dx + s.hy * dy : s.h;

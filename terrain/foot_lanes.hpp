@@ -8,11 +8,11 @@
 
 namespace grouser::terrain {
 
-/// Searches foot points on a smooth or monotone height-field for eight spheres at a time. Results agree with
+/// Foot point search on a smooth or monotone height field for eight spheres at a time. Results agree with
 /// HeightFieldView::closestPoint() to rounding.
 class FootLanes {
 public:
-  /// Height [m] and slopes per cell [m] of a node, side by side in memory.
+  /// Height [m] and slopes per cell [m] of a node, adjacent in memory.
   struct Node {
     double h, x, y, xy;
   };
@@ -22,8 +22,8 @@ public:
   explicit FootLanes(const HeightFieldView& view);
 
   /// Finds outward normals and overlaps [m] of spheres at `centre` [m] with `radius` [m]; an overlap <= 0 means no
-  /// contact. Returns the lanes (bit mask) that were found. The others need the scalar search: near hollows, at the
-  /// border, and where the iteration fails.
+  /// contact. Returns the bit mask of solved lanes. The others need the scalar search: near hollows, at the border, and
+  /// where the iteration fails.
   unsigned find(const contact::Vec3P& centre, const contact::PointLanes& radius, contact::Vec3P& normal,
                 contact::PointLanes& overlap) const;
 

@@ -29,7 +29,7 @@ template <class T> struct Move {
   }
 };
 
-/// A field missing in all() would be left out of growth, sorting and migration. A test checks that none is there twice.
+/// A field missing in all() would be skipped by growth, sorting and migration. A test checks that none is listed twice.
 template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&...>*) {
   return (sizeof(Fields) + ...);
 }
@@ -74,8 +74,8 @@ void GrainArrays::append(const EnteringGrains& grains) {
   const std::size_t before = slots_, fresh = grains.id.size();
   slots_ += fresh;
   forEach([&]<class T>(GrainField<T>& field) {
-    if (!field.has(kMigrates)) return; // made with the next list
-    // Exactly what is needed at the start; in leaps for grains that enter later.
+    if (!field.has(kMigrates)) return; // rebuilt with the next list
+    // Exact size at the start; geometric growth for grains that enter later.
     const auto grow = [&](base::Array<T>& array) {
       before == 0 ? array.resize(slots_ * field.width) : array.resizeKeeping(slots_ * field.width);
       base::setZero(exec_, array.data() + before * field.width, fresh * field.width * sizeof(T));
@@ -120,7 +120,7 @@ void GrainArrays::permute(const std::uint32_t* order) {
     field.now.swap(field.next);
     field.next = base::Array<T>(exec_);
   });
-  // Through one temporary buffer for all of them and back, so that each array keeps its memory from rebuild to rebuild.
+  // Copies all fields through one temporary buffer and back, so that each array keeps its memory between rebuilds.
   base::Array<std::byte> place = base::Array<std::byte>::unset(exec_, most);
   forEach([&]<class T>(GrainField<T>& field) {
     if (!field.has(kSorted) || field.has(kBuffered) || field.now.empty()) return;

@@ -10,28 +10,28 @@ namespace grouser::terrain {
 
 struct GrainKernelData;
 
-/// The fields of the grains. Each is declared here with its uses; growth, sorting, migration, ghosts and memory counts
-/// loop over all of them, and checkpoints over those that are saved unchanged.
+/// Fields of the grains, each declared with its uses. Growth, sorting, migration, ghosts and memory counts loop over
+/// all fields, checkpoints over those saved unchanged.
 struct GrainFields {
-  /// With the widths that scenes of this layout need; nothing is allocated.
+  /// Sets the field widths required by this layout; does not allocate.
   explicit GrainFields(const GrainLayout& scene);
 
   GrainField<base::Position> position{kBuffered | kSorted | kMigrates | kGhosted | kUpdated, &GrainState::position};
   GrainField<Motion> motion{kBuffered | kSorted | kMigrates | kGhosted | kUpdated};
   GrainField<Remainders> remainders{kSorted | kMigrates, &GrainState::remainders};
   GrainField<std::uint32_t> id{kSorted | kMigrates | kGhosted, &GrainState::id};
-  /// A bit for each wall, floor or surface in touch.
+  /// Bit mask of walls, floor and surfaces in contact.
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
-  /// Motion before the last step while the grains are sorted between steps; otherwise that is motion.next, and the
-  /// width is 0.
+  /// Motion before the last step, stored while grains are sorted between steps; at other times it is motion.next, and
+  /// the width is 0.
   GrainField<Motion> formerMotion{kSorted | kMigrates};
-  /// Low words of the positions when the neighbours were listed.
+  /// Low words of the positions when the neighbours were last listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
-  /// 1 + place in the list of grains near boundaries, and so of their springs there, until the next such list; 0 for
-  /// all others. Undefined for ghosts until then.
+  /// 1 + index in the list of grains near boundaries, and of their springs, until the next such list; 0 for all other
+  /// grains. Undefined for ghosts until then.
   GrainField<std::uint32_t> boundaryOf{kSorted | kMigrates};
-  /// On several ranks, from migration to list: see contact::RowOrigins. Of width 0 before the first migration.
+  /// Row origins, on several ranks, from migration to list: see contact::RowOrigins. Width 0 until first migration.
   GrainField<std::uint32_t> rowOrigin{kSorted};
 
   template <class Self> static auto all(Self& f) {
@@ -39,20 +39,20 @@ struct GrainFields {
                     f.reference, f.boundaryOf, f.rowOrigin);
   }
 
-  /// Device memory of one grain.
+  /// Device memory per grain [B].
   std::size_t bytesPerGrain() const;
-  /// Part of it that is released while grains are sorted and lists rebuilt.
+  /// Part of that memory released while grains are sorted and lists rebuilt [B].
   std::size_t bytesMadeAnew() const;
 };
 
-/// Grains that enter on this rank, one an element.
+/// Grains that enter on this rank, one per element.
 struct EnteringGrains {
   std::vector<base::Position> position;
   std::vector<Motion> motion;
   std::vector<std::uint32_t> id;
 };
 
-/// The state of this rank's grains on its device, by slot; those of other ranks that it needs (ghosts) lie among them.
+/// State of this rank's grains on its device, by slot, including ghosts of other ranks' grains.
 class GrainArrays {
 public:
   GrainArrays(const base::Exec& exec, const GrainConstants& constants);
@@ -68,33 +68,33 @@ public:
     std::apply([&](const auto&... field) { (visit(field), ...); }, GrainFields::all(fields_));
   }
 
-  void setGravityStep(const base::Vec3d& step) { gravityStep_ = step; } ///< g dt [m/s], for grains that enter
-  /// Fills slots behind the others; missing values are zero. Entering grains count as having fallen freely until now.
+  void setGravityStep(const base::Vec3d& step) { gravityStep_ = step; } ///< g dt [m/s], for entering grains
+  /// Appends grains after the existing slots; missing values are zero. Entering grains count as in free fall before.
   void append(const EnteringGrains& grains);
-  /// For a loaded state: the caller sets its fields.
+  /// Sets the number of slots for a loaded state; the caller sets the fields.
   void setSlots(std::size_t slots);
-  /// Before grains migrate and are sorted: releases memory that is rebuilt afterwards (the `next` of fields,
-  /// references), so that lists may use it meanwhile. No step may be taken between the two calls.
+  /// Call before grains migrate and are sorted: releases memory that is rebuilt afterwards (`next` of fields,
+  /// references) for use by the lists. No step may run before endRebuild().
   void beginRebuild();
-  /// The neighbours are listed at the present positions; allocates the memory again.
+  /// Call after the neighbours are listed at the current positions: allocates the memory again.
   void endRebuild();
-  /// Moves slot order[i] (device array) to slot i. Within a rebuild.
+  /// Moves slot order[i] (device array) to slot i. Only during a rebuild.
   void permute(const std::uint32_t* order);
-  /// After a step: swaps `next` and `now`; the state before it stays in `next`.
+  /// Swaps `next` and `now` after a step; the previous state remains in `next`.
   void swapBuffers();
 
-  /// The fields of one use (kMigrates, kGhosted, kUpdated), for an exchange between ranks. `written`: the `next` of
-  /// each, which the step just launched writes, since the buffers are not swapped yet.
+  /// Fields of one use (kMigrates, kGhosted, kUpdated), for an exchange between ranks. `written`: uses `next`, which
+  /// the launched step writes, since the buffers are not swapped yet.
   std::vector<contact::ExchangeField> exchanged(FieldUse use, bool written = false);
-  /// Moves slot from[k] to slot to[k], for k < count (device arrays); nothing moves from any of `to`.
+  /// Moves slot from[k] to slot to[k], for k < count (device arrays); the two sets must be disjoint.
   void move(const std::uint32_t* from, const std::uint32_t* to, std::size_t count);
-  /// Keeps the slots that fit; further slots are undefined. Within a rebuild.
+  /// Changes the number of slots, keeping those that fit; new slots are undefined. Only during a rebuild.
   void resizeKeeping(std::size_t slots);
 
-  /// Motion before the last step, on the device, by slot; null unless a step came last.
+  /// Motion before the last step, on the device, by slot; null unless the last operation was a step.
   const Motion* formerMotion() const { return hasFormer_ ? fields_.motion.next.data() : nullptr; }
-  bool knowsFormerMotion() const { return hasFormer_; } ///< a rank without grains too, whose array has no address
-  /// Between these two calls the grains may be sorted and migrate without the loss of formerMotion().
+  bool knowsFormerMotion() const { return hasFormer_; } ///< also true on a rank without grains, whose array is null
+  /// Preserves formerMotion() while grains are sorted and migrate, between these two calls.
   void holdFormer();
   void releaseFormer();
   /// Sets velocities and spins to zero.

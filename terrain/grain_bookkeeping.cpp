@@ -13,11 +13,11 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Quanta per unit: `most` is 2^50 of them.
+/// Quanta per unit for which `most` is 2^50 quanta.
 double quantaPer(double most) { return base::fixedPointFor(most, 50).perUnit; }
 
-/// A step's work on one grain lies far below that of the strongest force along a radius, a force of walls below eight
-/// of the strongest, its torque about the origin below that at the ends of the scene's range.
+/// Upper bounds per step: a grain's work is far below that of the strongest force along one radius, a wall force below
+/// eight strongest forces, and its torque about the origin below that of these forces at the ends of the scene's range.
 LedgerScale scaleOf(const GrainConstants& c) {
   double force = 0;
   const auto consider = [&](const contact::ContactLaw& law) {
@@ -80,7 +80,7 @@ std::vector<std::int64_t> GrainEnergyAccounting::save(const base::Comm& comm) co
 }
 
 void GrainEnergyAccounting::restore(const std::vector<std::int64_t>& saved, const base::Comm& comm) {
-  // Files from versions without complementarity contacts lack the last sum.
+  // Files of versions without complementarity contacts lack the last sum.
   if (saved.size() != words() && !(kept() && saved.size() == 2 * std::size_t{kStabilisation}))
     throw base::InputError(
         "the checkpoint has another energy accounting of the grains; resume with the scene that was run");

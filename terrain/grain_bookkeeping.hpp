@@ -14,7 +14,7 @@ namespace grouser::terrain {
 struct GrainConstants;
 struct GrainKernelData;
 
-/// Energy accounting of a scene's grains since the start; empty if the model has no ledger. Each rank has a share.
+/// Energy accounting of a scene's grains since the start; empty if the model has no ledger. Each rank has partial sums.
 class GrainEnergyAccounting {
 public:
   GrainEnergyAccounting(const base::Exec& exec, const GrainConstants& constants);
@@ -22,20 +22,20 @@ public:
   void describe(GrainKernelData& d);
   bool kept() const { return !sums_.empty(); }
 
-  /// Sums of all ranks, which all call totals().
+  /// Sums over all ranks; totals() is collective.
   struct Totals {
     double work{}, turnover{}, damped{}, rubbed{}, rolled{}, slipped{}, yielded{}, stabilised{}; ///< [J]
     double mass{};                     ///< sum over steps and grains [kg]
-    base::Vec3d moment;                ///< sum over steps and grains of mass times place [kg m]
-    base::Vec3d wallForce, wallTorque; ///< sums over steps [N], [N m about the origin]
+    base::Vec3d moment;                ///< sum over steps and grains of mass times position [kg m]
+    base::Vec3d wallForce, wallTorque; ///< sums over steps [N], [N m] about the world origin
   };
   Totals totals(const base::Comm& comm) const;
 
   /// Number of words in a checkpoint: two per sum.
   std::size_t words() const { return kept() ? 2 * std::size_t{kLedgerSums} : 0; }
-  /// The sums as two words each, low and high, of all ranks; for checkpoints. Empty without a ledger.
+  /// Returns the sums of all ranks as two words each, low and high, for checkpoints. Empty without a ledger.
   std::vector<std::int64_t> save(const base::Comm& comm) const;
-  /// Throws InputError if only one of the two has a ledger.
+  /// Throws InputError if only one of the checkpoint and the model has a ledger.
   void restore(const std::vector<std::int64_t>& saved, const base::Comm& comm);
 
 private:

@@ -10,44 +10,44 @@
 #include <cmath>
 #include <cstdint>
 
-/// Energy accounting of the grains' steps. Symplectic Euler changes the kinetic energy of a grain in a step by exactly
-/// F . (v_old + v_new) / 2 dt + T . (w_old + w_new) / 2 dt. That work is summed here, step by step, from the forces,
-/// velocities and remainders that make the new state; the kinetic energy itself is computed from the state, so that the
-/// two check each other. All sums are of integers: order-free, the same for any device, threads and ranks.
+/// Energy accounting of grain steps. Symplectic Euler changes the kinetic energy of a grain in a step by exactly F .
+/// (v_old + v_new) / 2 dt + T . (w_old + w_new) / 2 dt. This work is summed step by step, from the same forces,
+/// velocities and remainders as the new state; the kinetic energy itself is computed from the state, which provides a
+/// check. All sums are integers: order-independent, identical for any device, threads and ranks.
 namespace grouser::terrain {
 
-/// The sums. Kernels of grains add to the first kGrainSums and, with fixed grains, to the wall forces; those of walls,
-/// floor and surfaces to kFirstOfWalls and all after it.
+/// Indices of the sums. Grain kernels add to the first kGrainSums and, with fixed grains, to the wall forces;
+/// kernels of walls, floor and surfaces add to kFirstOfWalls and all that follow.
 enum LedgerSum : int {
   kWork,     ///< work of all forces on the grains
-  kTurnover, ///< sum of its magnitudes per grain and step
-  kMass,     ///< mass of the grains per step, for the impulse of gravity
+  kTurnover, ///< sum of |work| per grain and step
+  kMass,     ///< sum of grain masses per step, for the impulse of gravity
   kMoment,   ///< x, y, z: mass times position per step, for the torque of gravity
   kFirstOfWalls = kMoment + 3,
-  kDashpotDissipation = kFirstOfWalls, ///< by dashpots of contacts
-  kSlidingDissipation,                 ///< by sliding
-  kRollingDissipation,                 ///< by rolling resistance
-  kMicroSlipDissipation,               ///< by tangential springs of Hertz contacts as their stiffness changes
+  kDashpotDissipation = kFirstOfWalls, ///< dissipated by contact dashpots
+  kSlidingDissipation,                 ///< dissipated by sliding
+  kRollingDissipation,                 ///< dissipated by rolling resistance
+  kMicroSlipDissipation,               ///< dissipated by tangential springs of Hertz contacts due to stiffness changes
   kGrainSums,
-  /// x, y, z: force of walls, floor and fixed grains on the grains, and of the ground on fixed grains loaded by
-  /// surfaces and parts; per step
+  /// x, y, z, summed over steps: force of walls, floor and fixed grains on the grains, and of the ground on fixed
+  /// grains loaded by surfaces and parts
   kWallForce = kGrainSums,
-  kWallTorque = kWallForce + 3,          ///< about the origin of the world
-  kPlasticDissipation = kWallTorque + 3, ///< by elastic-plastic contacts
-  kStabilisation,                        ///< added by complementarity contacts that push overlaps apart
+  kWallTorque = kWallForce + 3,          ///< about the world origin
+  kPlasticDissipation = kWallTorque + 3, ///< dissipated by elastic-plastic contacts
+  kStabilisation,                        ///< added by complementarity contacts that separate overlaps
   kLedgerSums
 };
 
-/// Quanta of the mass of the largest grain.
+/// Quanta that represent the mass of the largest grain.
 inline constexpr std::int64_t kMassQuanta = 1 << 30;
 
-/// Quanta of the sums: a grain adds at most 2^51 of them in a step, or the run is unstable.
+/// Quanta of the sums: a grain adds at most 2^51 quanta per step unless the run is unstable.
 struct LedgerScale {
-  double perEnergy{1}, perMoment{1}, perForce{1}, perTorque{1}; ///< quanta a unit; powers of two
+  double perEnergy{1}, perMoment{1}, perForce{1}, perTorque{1}; ///< quanta per unit; powers of two
 };
 
-/// Nearest whole number of |quanta| < 2^51, ties to even, without a call; larger values and NaN are clamped to the end
-/// of the range.
+/// Rounds `quanta` to the nearest integer, ties to even, without a function call. Clamps values beyond +-2^51 to the
+/// limit, and NaN to -2^51.
 GROUSER_HD std::int64_t wholeQuanta(double quanta) {
   constexpr double kMost = 0x1p51, kShift = 0x1.8p52;
   const double within = !(quanta > -kMost) ? -kMost : quanta < kMost ? quanta : kMost;
@@ -59,12 +59,12 @@ struct Lost {
   double damped, rubbed, rolled, slipped;
 };
 
-/// Contributions of several grains to the sums from kBegin to kEnd.
+/// Partial sums over several grains, from kBegin to kEnd.
 template <int kBegin, int kEnd> struct EnergyAccumulator {
   static constexpr int kFirst = kBegin, kCount = kEnd - kBegin;
   std::int64_t of[kCount] = {};
   GROUSER_HD void add(int sum, std::int64_t quanta) { of[sum - kFirst] += quanta; }
-  /// Adds a force of fixed surroundings on a grain [N], [N m about the origin].
+  /// Adds a force of fixed surroundings on a grain [N], and torque [N m] about the world origin.
   GROUSER_HD void addForce(const base::Vec3d& force, const base::Vec3d& torque, const LedgerScale& scale) {
     for (int a = 0; a < 3; ++a) {
       add(kWallForce + a, wholeQuanta(scale.perForce * force[a]));
@@ -72,7 +72,7 @@ template <int kBegin, int kEnd> struct EnergyAccumulator {
     }
   }
 };
-/// Without kMicroSlipDissipation for linear contacts. `kHolds`: with forces of fixed grains.
+/// Accumulator of grain kernels; linear contacts need no kMicroSlipDissipation. `kHolds`: with forces of fixed grains.
 template <bool kSlips, bool kHolds> using GrainAccumulatorFor = EnergyAccumulator<0, kHolds   ? kPlasticDissipation
                                                                                      : kSlips ? kGrainSums
                                                                                               : kMicroSlipDissipation>;
@@ -80,16 +80,16 @@ using GrainAccumulator = GrainAccumulatorFor<true, true>;
 using WallAccumulator = EnergyAccumulator<kFirstOfWalls, kPlasticDissipation>;
 using RareAccumulator = EnergyAccumulator<kPlasticDissipation, kLedgerSums>;
 
-/// Change of half the square of a velocity in a step that adds `faster` to it: faster (v_old + v_new) / 2, plus the
-/// effect of rounding, whose square is below the precision of a double.
+/// Change of half the squared velocity in a step that adds `faster`: faster (v_old + v_new) / 2, plus the effect of
+/// rounding, whose square is below double precision.
 GROUSER_HD double halfSquareGained(double faster, const CompensatedStep& now) {
   return faster * (now.sum - 0.5 * faster) + now.rounding * now.sum;
 }
 
-/// The sums are replicated, so that concurrent threads rarely collide: [kLedgerBanks][kLedgerSums].
+/// The sums are replicated in banks, so that concurrent threads rarely collide: [kLedgerBanks][kLedgerSums].
 inline constexpr int kLedgerBanks = 64;
 
-/// Adds to one of the banks; `item`: number of the caller.
+/// Adds to one of the banks, selected by `item`, the index of the caller.
 template <class Accumulator> GROUSER_HD void addToBank(base::WideSum* sums, int item, const Accumulator& some) {
   base::WideSum* const bank = sums + (item % kLedgerBanks) * kLedgerSums + Accumulator::kFirst;
 #if defined(__CUDA_ARCH__)
@@ -100,7 +100,7 @@ template <class Accumulator> GROUSER_HD void addToBank(base::WideSum* sums, int 
 #endif
 }
 
-/// A kernel with energy accounting for the grains of one task. `Body` has run(k, accumulator).
+/// Kernel with energy accounting for the grains of one task. `Body` requires run(k, accumulator).
 template <class Body> struct WithEnergyAccounting {
   static constexpr int kBlocksTogether = base::blocksTogether<Body>();
   static constexpr int kOnCpu = 32;

@@ -15,14 +15,14 @@ using base::Vec3d;
 namespace {
 
 /// Marks the grains that may touch a wall, the floor or a surface before a grain moves half the skin or a surface
-/// leaves its room.
+/// exceeds its allowed travel.
 struct MarkNearBoundary {
   static constexpr double kNanoseconds = 20;
   GrainKernelData d;
-  double reach; ///< what grains may move, and the radius where all have one [m]
+  double reach; ///< maximum displacement of a grain, plus the radius if all radii are equal [m]
   bool manyRadii;
-  double way;                 ///< that surfaces may move before the next list [m]
-  const std::uint32_t* ghost; ///< null where there are none
+  double way;                 ///< maximum displacement of a surface before the next list [m]
+  const std::uint32_t* ghost; ///< null without ghosts
   std::uint32_t* mark;
   GROUSER_HD void operator()(int i) const {
     if (ghost && ghost[i]) {
@@ -31,10 +31,10 @@ struct MarkNearBoundary {
     }
     const Vec3d x = base::toUnits(d.position[i]).as<double>() * d.unitLength;
     const double within = reach + (manyRadii ? fabs(static_cast<double>(d.motion[i].velocity.w)) : 0.0);
-    // Walls and floor do not act on a fixed grain; it acts on surfaces.
+    // Walls and floor do not act on a fixed grain; it only interacts with surfaces.
     const bool moves = !(d.features & kFixed) || !isFixed(d.motion[i].velocity);
-    // A grain in touch is listed wherever it is now: the next step takes the bits of contacts that have ended from it,
-    // and until then its springs have a place.
+    // A grain in contact is listed wherever it is: the next step clears the bits of ended contacts, and until then its
+    // springs need storage.
     bool near = d.boundaryContactMask[i] != 0 || (moves && (d.features & kFloor) && !d.floor.clearOf(x, within));
     for (int b = 0; moves && b < d.wallCount; ++b)
       near = near || dot(d.walls[b].normal, x) - d.walls[b].offset < within;
@@ -56,8 +56,8 @@ GROUSER_HD void copySprings(const float* source, std::uint32_t from, float* targ
     target[std::int64_t{to} * width + w] = from > 0 ? source[(std::int64_t{from} - 1) * width + w] : 0.0f;
 }
 
-/// From the counts before each slot to places: the list, and the place of each slot in it. Springs go from the former
-/// places to the new ones.
+/// Converts counts before each slot to indices: the list, and each slot's index in it. Moves springs from the former to
+/// the new indices.
 struct ListNearBoundary {
   const std::uint32_t* before;
   std::int64_t count;
@@ -86,9 +86,9 @@ struct ExportSprings {
   }
 };
 
-/// Grains that have arrived in a row of slots have their springs in a row of places.
+/// Sets the indices of received grains: consecutive slots have their springs at consecutive indices.
 struct NumberArrived {
-  std::uint32_t place; ///< of the first
+  std::uint32_t place; ///< index of the first one
   std::uint32_t* placeOf;
   GROUSER_HD void operator()(int k) const { placeOf[k] = place + 1 + static_cast<std::uint32_t>(k); }
 };
@@ -105,7 +105,7 @@ GrainBoundaries::GrainBoundaries(const base::Exec& exec, const GrainConstants& c
 
 void GrainBoundaries::makeSurfaces(const GrainModel& model, const std::vector<RigidSurface>& surfaces) {
   std::vector<SurfacePose> start;
-  // The strongest contact is 2^40 quanta: a surface may have eight million of them.
+  // The strongest contact is 2^40 quanta: a sum has room for eight million of them per surface.
   double pressed = 0;
   const auto consider = [&](const contact::ContactLaw& law) {
     pressed = std::max(pressed, contact::strongestForce(law, model.radius, contact::kForcePress));
@@ -146,8 +146,8 @@ void GrainBoundaries::list(const GrainConstants& c, const GrainKernelData& d, Gr
   const std::size_t slots = arrays.slots();
   const auto n = static_cast<std::int64_t>(slots);
   auto before = base::Array<std::uint32_t>::unset(exec_, slots); // marks, then the marks before each
-  // A list made between rebuilds, on account of surfaces, starts from grains that may be half the skin from their
-  // reference already, and may end half the skin on its other side.
+  // Surfaces may require a list between rebuilds. Its grains may already be half the skin from their reference, and may
+  // end half the skin on the other side.
   const double skin = (hasSurfaces() ? 1.0 : 0.5) * c.model.skin * c.smallestRadius;
   const double margin = static_cast<double>(c.marginUnits) * d.unitLength;
   const double reach = (c.manyRadii() ? 0 : c.model.radius) + skin + margin + d.unitLength;

@@ -14,7 +14,7 @@
 
 namespace grouser::terrain {
 
-/// Walls, floor and surfaces on the device, the list of grains near them, and the loads between them in a step.
+/// Walls, floor and surfaces on the device, the list of grains near them, and the contact loads of a step.
 class GrainBoundaries {
 public:
   GrainBoundaries(const base::Exec& exec, const GrainConstants& constants, const Boundaries& boundaries);
@@ -24,40 +24,40 @@ public:
 
   /// Sets the poses of the surfaces for the next step, one per surface; the same on all ranks.
   void setSurfacePoses(const std::vector<SurfacePose>& poses);
-  /// Loads of all grains on the surfaces in the last step: order-free sums, opposite to the loads on the grains.
+  /// Loads of all grains on the surfaces in the last step: order-independent sums, opposite to the loads on the grains.
   const std::vector<SurfaceLoad>& surfaceLoads() const { return surfaceLoads_; }
 
   std::span<const SurfacePose> surfacePoses() const { return {poses_.host(), geometries_.size()}; }
   double strongest() const { return strongest_; } ///< upper bound of the force of a contact with a surface [N]
 
-  /// Whether the list of grains near surfaces must be rebuilt. Depends on the poses alone, so the same on all ranks.
+  /// True if the list of grains near surfaces must be rebuilt. Depends only on the poses, so it is equal on all ranks.
   bool surfacesHaveLeft() const;
-  /// Lists the grains that may touch a boundary before the next list, and those in touch with one; springs go along.
-  /// `d`: of the grains in their present slots; `ghosts`: not 0 for those that need no list, null where there are none.
+  /// Lists the grains that may reach a boundary before the next list, and those in contact, with their springs. `d`:
+  /// kernel data of the grains in their current slots; `ghosts`: nonzero for those to skip; null without ghosts.
   void list(const GrainConstants& constants, const GrainKernelData& d, GrainArrays& arrays,
             const std::uint32_t* ghosts);
   std::size_t grainsListed() const { return near_.size(); }
 
-  // Springs of walls, floor and surfaces: of the grains on the list alone, by their places there.
+  // Springs of walls, floor and surfaces: only for listed grains, by list index.
 
-  std::size_t springsWidth() const { return springsWidth_; } ///< numbers a grain; 0 without friction
+  std::size_t springsWidth() const { return springsWidth_; } ///< values per grain; 0 without friction
   const base::Array<float>& springs() const { return springs_; }
-  /// Sets the springs of a loaded state: rows that the field boundaryOf counts from 1, until the next list.
+  /// Sets the springs of a loaded state: rows that boundaryOf counts from 1, until the next list.
   void setSprings(const std::vector<float>& springs) { springs_.assign(springs); }
-  /// Copies the springs of the grains in `slots` (device array) for other ranks, one after the other.
+  /// Copies the springs of the grains in `slots` (device array) for other ranks, contiguously.
   base::Array<float> exportSprings(const GrainFields& fields, const std::uint32_t* slots, std::size_t count) const;
-  /// Room behind all springs for those of `count` grains that come from other ranks; null without friction.
+  /// Extends the springs by `count` grains received from other ranks and returns their address; null without friction.
   float* makeRoomForSprings(std::size_t count);
-  /// Numbers the springs of the `count` slots starting at `first` after their arrival.
+  /// Sets the spring indices of the `count` received slots starting at `first`.
   void numberArrived(GrainFields& fields, std::size_t first, std::size_t count) const;
 
-  std::int64_t listings() const { return listings_; } ///< made so far in scenes with surfaces
+  std::int64_t listings() const { return listings_; } ///< number of lists built in scenes with surfaces
 
   // The loads of a step.
-  void clearSurfaceLoads();                         ///< before the step, on the device
-  void downloadSurfaceLoads();                      ///< after it, without waiting
-  void collectSurfaceLoads(const base::Comm& comm); ///< sums over the ranks, after synchronize(); all ranks call it
-  /// Loads of walls, floor and surfaces on a grain, by place in the list.
+  void clearSurfaceLoads();                         ///< call before the step; runs on the device
+  void downloadSurfaceLoads();                      ///< call after the step; does not wait
+  void collectSurfaceLoads(const base::Comm& comm); ///< sums over the ranks; call after synchronize(); collective
+  /// Loads of walls, floor and surfaces on the grains, by list index.
   template <class Real> BoundaryLoad<Real>* loads() {
     if constexpr (std::is_same_v<Real, float>)
       return singleLoads_.data();
@@ -65,7 +65,7 @@ public:
       return doubleLoads_.data();
   }
 
-  /// The surface that a sphere [m] overlaps by more than `allowed` [m], and the overlap; empty if there is none.
+  /// Surface that a sphere [m] overlaps by more than `allowed` [m], with the overlap; empty if there is none.
   struct Overlap {
     std::size_t surface;
     double depth; ///< [m]
@@ -79,8 +79,8 @@ private:
   void makeSurfaces(const GrainModel& model, const std::vector<RigidSurface>& surfaces);
 
   base::Exec exec_;
-  int count_;   ///< walls, floor and surfaces
-  double room_; ///< that surfaces may move between two lists [m]
+  int count_;   ///< number of walls, floor contacts and surfaces
+  double room_; ///< maximum motion of surfaces between two lists [m]
 
   base::Array<Wall> walls_;
   SearchedHeightField floor_;
@@ -88,7 +88,7 @@ private:
   std::vector<SurfaceGeometry> geometries_;
   base::Array<SurfaceGeometry> surfaces_;
   base::Mirrored<SurfacePose> poses_;
-  std::vector<SurfacePose> listedAt_; ///< the surfaces when the grains near them were listed
+  std::vector<SurfacePose> listedAt_; ///< poses of the surfaces at the last list
   base::Mirrored<contact::PartLoad> surfaceSums_;
   base::FixedPoint surfaceForce_, surfaceTorque_;
   std::vector<SurfaceLoad> surfaceLoads_;
@@ -98,7 +98,7 @@ private:
   base::Array<std::uint32_t> near_; ///< slots
   int floorPlaces_;
   std::size_t springsWidth_;
-  base::Array<float> springs_; ///< [place in near_][as GrainKernelData::boundaryHistory says]
+  base::Array<float> springs_; ///< [list index][as in GrainKernelData::boundaryHistory]
   base::Array<base::Vec3d> fromSurfaces_;
   base::Array<BoundaryLoad<float>> singleLoads_;
   base::Array<BoundaryLoad<double>> doubleLoads_;

@@ -22,7 +22,7 @@ Vec3f vectorAt(const std::vector<float>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
 }
 
-/// History of contacts as it lies on the device: spring, rolling angle and plastic state of each, one after the other.
+/// Contact history in device layout: spring, rolling angle and plastic state of each contact in sequence.
 std::vector<float> historyOf(const std::vector<Vec3f>& shear, const std::vector<Vec3f>& rolling,
                              const std::vector<float>& deepest, const std::vector<float>& origin) {
   std::vector<float> history;
@@ -39,7 +39,7 @@ Vec3i signedUnits(const Words3& travelled) {
           static_cast<std::int32_t>(travelled.z)};
 }
 
-/// Slots of the grains that this rank integrates, in the order of their ids.
+/// Slots of the grains integrated by this rank, sorted by id.
 std::vector<std::uint32_t> ownSlots(const GrainSystem& system) {
   constexpr std::uint32_t kElsewhere = ~std::uint32_t{0};
   const std::vector<std::uint32_t> id = system.arrays.fields().id.now.toHost(), ghost = system.ghostsOnHost();
@@ -61,7 +61,7 @@ std::vector<int> blocksOf(const GrainSystem& system, const std::vector<std::uint
   return block;
 }
 
-/// Calls visit(value) for these slots of a field.
+/// Calls visit(value) for the values of a field in these slots.
 template <class T, class Visit>
 void forSlots(const GrainField<T>& field, const std::vector<std::uint32_t>& slots, const Visit& visit) {
   const std::vector<T> values = field.now.toHost();
@@ -96,7 +96,7 @@ void saveTravelled(const GrainSystem& system, const std::vector<std::uint32_t>& 
   });
 }
 
-/// Springs of boundaries out of touch are never read again.
+/// Springs of boundaries without contact are never read again.
 void saveBoundarySprings(const GrainSystem& system, const std::vector<std::uint32_t>& slots, GrainState& s) {
   const std::size_t width = static_cast<std::size_t>(system.constants.historyWidth),
                     boundaries = static_cast<std::size_t>(system.constants.boundaryCount);
@@ -147,7 +147,7 @@ void saveContacts(const GrainSystem& system, const std::vector<std::uint32_t>& s
   }
 }
 
-/// Snapshot values of each grain, as rows that are sent to the rank with their block of ids.
+/// Snapshot values of each grain, as rows sent to the rank with their block of ids.
 struct SnapshotRows {
   bool manyRadii{}, someFixed{}, contactForces{};
   std::vector<std::uint32_t> id;
@@ -245,7 +245,7 @@ Position GrainCheckpoint::placeAtList(const GrainState& s, std::size_t k) const 
 }
 
 void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
-  system.finishGhostUpdate(); // else it would overwrite loaded grains with the ghosts of the old ones
+  system.finishGhostUpdate(); // otherwise it would overwrite loaded grains with the former ghosts
   system.count = static_cast<std::size_t>(own_.total) + own_.gone.size(), system.gone = own_.gone;
   system.fixedCount =
       static_cast<std::size_t>(system.comm.sumOf(std::count(own_.fixed.begin(), own_.fixed.end(), std::uint32_t{1})));
@@ -269,7 +269,7 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
   std::vector<std::int64_t> sums = own_.books;
-  // A state of penalty contacts has no totals of the solver.
+  // A state of penalty contacts has no solver totals.
   if (system.impulses && sums.size() == system.accounting.words() + ImpulseTotals::kWords) {
     system.impulses->setTotals(sums.data() + sums.size() - ImpulseTotals::kWords);
     sums.resize(sums.size() - ImpulseTotals::kWords);
@@ -277,7 +277,7 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   system.accounting.restore(sums, system.comm);
 }
 
-/// Assigns places for the springs of grains in contact, for the next list of grains near boundaries.
+/// Assigns storage for the springs of grains in contact, for the next list of grains near boundaries.
 void GrainCheckpoint::loadBoundarySprings(GrainSystem& system) const {
   if (!system.boundaries.any()) return;
   const std::vector<float> all = historyOf(own_.wallShear, own_.wallRolling, own_.wallDeepest, own_.wallOrigin);
@@ -307,16 +307,16 @@ bool GrainCheckpoint::loadAsSaved(GrainSystem& system) const {
   const bool listHasEnded = asThen_ && system.comm.maximumOf(beyond ? 1 : 0) > 0;
   loadContacts(system, id);
   system.rebuilds = own_.rebuilds;
-  return !listHasEnded && own_.rebuilds > 0; // at 0 the saved run had made no list yet
+  return !listHasEnded && own_.rebuilds > 0; // at 0 the saved run had not built a list yet
 }
 
-/// The row of a grain; rows() for a ghost.
+/// Row of a grain; rows() for a ghost.
 std::size_t GrainCheckpoint::rowOf(std::uint32_t id) const {
   const auto row = std::lower_bound(own_.id.begin(), own_.id.end(), id);
   return row != own_.id.end() && *row == id ? static_cast<std::size_t>(row - own_.id.begin()) : own_.rows();
 }
 
-/// Returns whether a grain has moved more than half the skin since it was listed.
+/// True if a grain has moved more than half the skin since it was listed.
 bool GrainCheckpoint::loadPlaces(GrainSystem& system, const std::vector<std::uint32_t>& id) const {
   base::Array<Position>& array = system.arrays.fields().position.now;
   std::vector<Position> position = array.toHost();
@@ -343,7 +343,7 @@ void GrainCheckpoint::loadContacts(GrainSystem& system, const std::vector<std::u
   const std::vector<std::uint32_t> ghost = system.ghostsOnHost();
   for (std::size_t i = 0; i < id.size(); ++i) {
     if (ghost[i]) continue;
-    // Both ascend in the neighbours' ids.
+    // Both lists ascend in the neighbours' ids.
     const std::size_t row = rowOf(id[i]), end = first[row + 1];
     std::size_t c = first[row];
     for (std::uint32_t k = 0; k < lists.count[i] && c < end; ++k) {

@@ -5,24 +5,24 @@
 
 namespace grouser::terrain {
 
-/// Saves and restores the state of the grains on the host, independent of slots, devices and lists. All ranks call
-/// every function here.
+/// Saves and restores the state of the grains on the host, independent of slots, devices and lists. All functions are
+/// collective.
 class GrainCheckpoint {
 public:
-  /// State of all grains; on several ranks of this rank's block of ids.
+  /// Returns the state of all grains; on several ranks that of this rank's block of ids.
   static GrainState state(const GrainSystem& system);
-  /// x, y, z [m] of this rank's grains in the order of their ids, to memory for three numbers each.
+  /// Writes x, y, z [m] of this rank's grains, sorted by id, to memory for three numbers each.
   static void readPositions(const GrainSystem& system, double* xyz);
   static GrainSnapshot snapshot(const GrainSystem& system, const SnapshotOptions& options);
 
-  /// Sends each row to the rank that owns its grain. Throws InputError if the rows belong to other grains.
-  /// `grows`: the state may have more grains than the scene.
+  /// Sends each row to the rank that owns its grain. Throws InputError if the rows belong to other grains. `grows`: the
+  /// state may have more grains than the scene.
   GrainCheckpoint(const GrainState& saved, const GrainSystem& system, bool grows);
 
-  // The neighbour list is built at the positions of the saved run's last list, so that it expires at the same step. So
-  // the state is loaded in two parts, and the neighbours are listed in between.
+  // The neighbour list is built at the positions of the saved run's last list, so that it expires at the same step. The
+  // state is therefore loaded in two parts, with the listing in between.
   void loadAsListed(GrainSystem& system) const;
-  /// Returns whether the list is valid for the next step. Throws InputError if it lacks saved contacts.
+  /// Returns true if the list is valid for the next step. Throws InputError if it lacks saved contacts.
   bool loadAsSaved(GrainSystem& system) const;
 
 private:
@@ -32,8 +32,8 @@ private:
   void loadContacts(GrainSystem& system, const std::vector<std::uint32_t>& id) const;
   std::size_t rowOf(std::uint32_t id) const;
 
-  bool asThen_;    ///< same skin as the saved run: the list is built at the places of its last rebuild
-  GrainState own_; ///< rows of this rank's grains, in the order of their ids
+  bool asThen_;    ///< same skin as the saved run: the list is built at the positions of its last rebuild
+  GrainState own_; ///< rows of this rank's grains, sorted by id
 };
 
 } // namespace grouser::terrain

@@ -30,7 +30,7 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
   unsigned features = 0;
   bool linear = false;
   for (const contact::ContactLaw& law : laws) features |= law.features(), linear = linear || !law.hertz;
-  if (linear && features & contact::kHertz) features |= contact::kGeneral; // each contact decides
+  if (linear && features & contact::kHertz) features |= contact::kGeneral; // selected per contact at run time
   if (manyRadii) features |= kManyRadii;
   if (model.materials.count() > 0) features |= kManyMaterials;
   if (!boundaries.walls.empty() || boundaries.floor) features |= kBoundaries;
@@ -75,14 +75,14 @@ GrainModel withFixedGrains(GrainModel model, const std::vector<GrainSpec>& start
   return model;
 }
 
-/// The nearest radius [m] that is both a float and a whole number of units.
+/// Nearest radius [m] that is both a float and a whole number of units.
 float nearestStored(double radius, const base::PositionScale& scale) {
   const auto nearest = static_cast<float>(radius);
   return static_cast<float>(std::floor(static_cast<double>(nearest) * scale.perMetre + 0.5) * scale.unit);
 }
 
-/// Periodic boundaries in whole units. A grain must not touch two images of another: three cells of the search fit in
-/// between.
+/// Periodic boundaries in whole units. A grain must not touch two images of another: at least three search cells must
+/// fit in between.
 base::Period periodOf(const Boundaries& boundaries, const base::PositionScale& scale, std::int64_t reach) {
   base::Period period;
   for (int a = 0; a < 2; ++a) {
@@ -115,7 +115,7 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
       historyWidth(contact::historyWidth(features)), wallCount(static_cast<int>(boundaries.walls.size())),
       floorPlaces(boundaries.floorPlaces(model.radius)), boundaryCount(boundaries.count(model.radius)),
       period(periodOf(boundaries, scale, listRange())) {
-  // Overlaps are whole units: those of a grain a thousand times smaller would be resolved to 1e-5 of its size only.
+  // Overlaps are whole units: those of a grain a thousand times smaller are resolved only to 1e-5 of its size.
   if (smallestRadius < 1e-3 * model.radius)
     throw base::InputError(
         fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be at most 1000 times "

@@ -15,8 +15,8 @@ using contact::TravellingRows;
 
 namespace {
 
-/// For each slot after the migration, before sorting: the row of its grain in the former neighbour list (or among those
-/// that arrived), as if all remaining grains had kept their slots.
+/// For each slot after the migration, before sorting: the row of its grain in the former neighbour list (or among the
+/// received rows), as if all remaining grains had kept their slots.
 struct NoteOrigins {
   std::uint32_t kept, owned, former;
   std::uint32_t* origin;
@@ -29,7 +29,7 @@ struct NoteOrigins {
   }
 };
 
-/// The same of grains that were moved to another slot to close a gap.
+/// Same for grains moved to another slot to close a gap.
 struct NoteMovedOrigins {
   const std::uint32_t *from, *to;
   std::uint32_t former;
@@ -37,8 +37,8 @@ struct NoteMovedOrigins {
   GROUSER_HD void operator()(int k) const { origin[to[k]] = from[k] < former ? from[k] : contact::RowOrigins::kNone; }
 };
 
-constexpr double kImbalance = 1.15; // busy time of the busiest rank over the mean, above which cuts are moved [-]
-constexpr std::int64_t kBalanceEvery = 200; // steps, at least
+constexpr double kImbalance = 1.15;         // load imbalance (maximum / mean busy time) above which cuts are moved [-]
+constexpr std::int64_t kBalanceEvery = 200; // minimum number of steps between two balances
 
 } // namespace
 
@@ -56,7 +56,7 @@ void GrainDistribution::onMigrate(OnMigrate onMigrate) {
 
 void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& neighbours, GrainBoundaries& boundaries,
                                 std::int64_t step) {
-  finishGhostUpdate(exec_, arrays); // else it would be unpacked into slots that get other grains below
+  finishGhostUpdate(exec_, arrays); // otherwise it would be unpacked into slots reassigned below
   if (rebalances_) rebalance(arrays, step);
   subdomain_.findLeaving(arrays.fields().position.now.data(), arrays.slots());
   if (onMigrate_) onMigrate_(subdomain_.destination());
@@ -75,7 +75,7 @@ void GrainDistribution::migrate(GrainArrays& arrays, contact::NeighbourList& nei
   origins_ = {nullptr, nullptr, rows};
 }
 
-/// Packs the contacts of the grains that leave, as ids and springs, to be sent with them.
+/// Packs the contacts of leaving grains, as ids and springs, to be sent with them.
 TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neighbours,
                                              base::Array<std::uint32_t>& leaving) {
   const Exchange& exchange = subdomain_.migration();
@@ -88,8 +88,8 @@ TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neigh
   return rows;
 }
 
-/// Sends leaving grains, closes the gaps, and appends arriving grains. The gaps may be filled while the messages
-/// travel: start() returns when all leaving grains are packed into separate buffers.
+/// Sends leaving grains, closes the gaps, and appends received grains. The gaps may be filled while the messages are in
+/// flight: start() returns when all leaving grains are packed into separate buffers.
 void GrainDistribution::moveFields(GrainArrays& arrays, GrainBoundaries& boundaries, const TravellingRows& leaving) {
   Exchange& exchange = subdomain_.migration();
   const auto springs = static_cast<std::uint32_t>(boundaries.springsWidth());
@@ -108,7 +108,7 @@ void GrainDistribution::moveFields(GrainArrays& arrays, GrainBoundaries& boundar
   const std::size_t owned = staying.kept + exchange.importCount();
   arrays.resizeKeeping(std::max(arrays.slots(), owned));
   exchange.setImportSlots(staying.kept);
-  // The field boundaryOf comes with the others, from the list of another rank: it is numbered behind them.
+  // The field boundaryOf arrives with values of another rank's list: set the indices after the local ones.
   float* const room = boundaries.makeRoomForSprings(exchange.importCount());
   exchange.finish(withRows(arrivedRows_.data(), room));
   boundaries.numberArrived(arrays.fields(), staying.kept, exchange.importCount());
@@ -145,9 +145,9 @@ void GrainDistribution::finishGhostUpdate(const base::Exec& exec, GrainArrays& a
 
 void GrainDistribution::updateGhosts(GrainArrays& arrays) { subdomain_.haloExchange().run(arrays.exchanged(kUpdated)); }
 
-/// Moves the cuts where the busiest rank exceeds the mean by kImbalance. Busy is the wall time since the last look,
-/// less waiting for other ranks and less work that all ranks repeat. Measured times differ from run to run, and so do
-/// the cuts; no bit of the answer depends on them.
+/// Moves the cuts if the busiest rank exceeds the mean by kImbalance. Busy time is the wall time since the last check,
+/// minus waiting for other ranks and minus replicated work. Measured times differ between runs, and so do the cuts, but
+/// not a single bit of the results.
 void GrainDistribution::rebalance(const GrainArrays& arrays, std::int64_t step) {
   const base::Comm& comm = subdomain_.comm();
   const Clock::time_point now = Clock::now();

@@ -53,7 +53,7 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
 
 namespace {
 
-/// Whether all positions have different hashes. If not, which is rare, the positions are compared.
+/// True if all positions have different hashes. If not, which is rare, the positions are compared.
 bool hashesDiffer(const base::Exec& exec, const std::vector<Position>& position) {
   constexpr std::uint64_t kPurpose = base::purpose("terrain.places");
   std::vector<std::uint64_t> hash(position.size());

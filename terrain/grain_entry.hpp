@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-/// Checks and conversion of entering grains.
+/// Validation and conversion of entering grains.
 namespace grouser::terrain {
 
 struct GrainSystem;
@@ -14,25 +14,25 @@ struct GrainSystem;
 /// Number of fixed grains.
 std::size_t fixedAmong(const std::vector<GrainSpec>& grains);
 
-/// Integer positions of grains; the first has the id `first`. Throws InputError if a grain lies outside the range of
-/// positions or the periodic boundaries, or if a fixed one has a velocity.
+/// Returns the integer positions of grains; the first has the id `first`. Throws InputError if a grain is outside the
+/// range of positions or the periodic boundaries, or a fixed grain has a velocity.
 std::vector<base::Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c);
 
-/// Throws InputError if two grains have the same position: no direction would push them apart. Uses the threads of
-/// `exec`, for a GPU those of its host.
+/// Throws InputError if two grains have the same position, since the contact normal would be undefined. Uses the
+/// threads of `exec`, for a GPU those of its host.
 void checkDistinct(const base::Exec& exec, const std::vector<base::Position>& position,
                    const std::vector<std::uint32_t>& id);
 
 /// Overlap of an entering grain with another grain or a surface that exceeds the model's limit.
 struct InsertionOverlap {
-  std::size_t entering{};             ///< its place in the list of those that enter
+  std::size_t entering{};             ///< index in the list of entering grains
   double overlap{};                   ///< [m]
-  std::optional<std::uint32_t> grain; ///< id of the other one; none: it is a surface
-  base::Vec3d position;               ///< of that grain [m]
-  std::size_t surface{};              ///< or the place of that surface among those of the boundaries
+  std::optional<std::uint32_t> grain; ///< id of the other grain; empty: a surface
+  base::Vec3d position;               ///< position of the other grain [m]
+  std::size_t surface{};              ///< index of the surface in the boundaries, if `grain` is empty
 };
 
-/// The first overlap with a surface, or the deepest with a grain. All ranks call it.
+/// Returns the first overlap with a surface, or the deepest with a grain. Collective.
 std::optional<InsertionOverlap> insertionOverlapOf(const std::vector<GrainSpec>& entering, const GrainSystem& system);
 
 } // namespace grouser::terrain

@@ -12,9 +12,9 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
   const auto id = static_cast<std::uint32_t>(key & 0xFFFFFFFFFFFFFFull);
   const GrainConstants& c = system.constants;
   const GrainFields& f = system.arrays.fields();
-  // Only the rank that owns the grain fills in its place; the maximum over the ranks brings it to all.
+  // Only the owner of the grain sets its position; the maximum over the ranks distributes it.
   const std::vector<std::uint32_t> ids = f.id.now.toHost(), ghost = system.ghostsOnHost();
-  double found[4] = {-1e300, -1e300, -1e300, -1e300}; // place and speed
+  double found[4] = {-1e300, -1e300, -1e300, -1e300}; // position and speed
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (ids[i] != id || ghost[i]) continue;
     const base::Vec3d x = c.scale.toMetres(f.position.now.at(i));

@@ -12,7 +12,7 @@ namespace grouser::terrain {
 
 struct GrainSystem;
 
-/// A grain that stops the run. Callers with more information may name the cause.
+/// Error of a grain that stops the run. Callers with more information may state the cause.
 class GrainFault : public base::SimulationError {
 public:
   GrainFault(Fault which, std::uint32_t grain, const std::string& what, const std::string& remedy)
@@ -23,7 +23,7 @@ public:
   std::string fact; ///< step, time, grain, position and fault, without a remedy
 };
 
-/// Throws GrainFault with step, time, grain, place and remedy. `fault`: as StepFlags has it. All ranks call it.
+/// Throws GrainFault with step, time, grain, position and remedy. `key`: as in StepFlags::fault. Collective.
 [[noreturn]] void stopFor(std::uint64_t key, const GrainSystem& system);
 
 } // namespace grouser::terrain

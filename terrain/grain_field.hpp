@@ -10,31 +10,31 @@
 
 namespace grouser::terrain {
 
-/// Uses of a field of the grains. A field without any is rebuilt with each list of neighbours or boundaries.
+/// Uses of a grain field. A field without uses is rebuilt with each neighbour or boundary list.
 enum FieldUse : unsigned {
-  kSorted = 1u << 0,   ///< moves when the grains are sorted in space
-  kMigrates = 1u << 1, ///< moves with the grain to another rank
+  kSorted = 1u << 0,   ///< permuted when the grains are sorted in space
+  kMigrates = 1u << 1, ///< transferred with the grain to another rank
   kGhosted = 1u << 2,  ///< copied from the master to a new ghost
-  kUpdated = 1u << 3,  ///< ... and again after every step
-  kBuffered = 1u << 4, ///< a step reads `now` and writes `next`, for neighbours still read `now`
+  kUpdated = 1u << 3,  ///< also copied after every step
+  kBuffered = 1u << 4, ///< double-buffered: a step reads `now`, as neighbours do, and writes `next`
 };
 
-/// One field of the grains: `width` values of T by slot, on the device.
+/// Grain field: `width` values of T per slot, on the device.
 template <class T> struct GrainField {
   using StateMember = std::vector<T> GrainState::*;
-  /// `as`: member of GrainState for checkpoints and the state hash; null if GrainCheckpoint converts the values, or if
+  /// `as`: member of GrainState for checkpoints and the state hash; null if GrainCheckpoint converts the values, or
   /// they can be recomputed.
   explicit GrainField(unsigned uses, StateMember as = nullptr) : use(uses), savedAs(as) {}
 
   unsigned use; ///< sum of FieldUse
   StateMember savedAs;
-  std::size_t width{1}; ///< 0: this scene has no such field
+  std::size_t width{1}; ///< values per slot; 0: not used in this scene
   base::Array<T> now;
-  base::Array<T> next; ///< of kBuffered: what the step writes; between steps, the state before the last step
+  base::Array<T> next; ///< kBuffered: values written by the step; between steps, the previous state
 
   bool has(FieldUse which) const { return width > 0 && (use & which) != 0; }
-  /// For an exchange between ranks of `now`, or of `next` if `written`. The step that writes `next` may still be
-  /// running: the exchange packs behind it in stream order.
+  /// Field for an exchange between ranks: `now`, or `next` if `written`. The step that writes `next` may still be
+  /// running: packing follows it in stream order.
   contact::ExchangeField exchanged(bool written = false) {
     contact::ExchangeField field = contact::fieldOf(written ? next : now);
     field.words *= static_cast<std::uint32_t>(width);

@@ -10,11 +10,11 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Adds up the change of velocity that each grain had in the last step.
+/// Computes the velocity change of each grain in the last step.
 struct AddVelocityChange {
   const Motion *now, *before;
-  const std::uint32_t* ghost; ///< null where there are none
-  base::FixedPoint scale;     ///< of one grain's [m/s]
+  const std::uint32_t* ghost; ///< null without ghosts
+  base::FixedPoint scale;     ///< quanta of one grain's change [m/s]
   std::int64_t* sum;
   GROUSER_HD void operator()(int i) const {
     if ((ghost && ghost[i]) || isFixed(now[i].velocity)) return;
@@ -26,14 +26,14 @@ struct AddVelocityChange {
 struct MeasureContactForce {
   static constexpr double kNanoseconds = 200;
   const Motion *now, *before;
-  const Remainders* remainders; ///< of `now`
+  const Remainders* remainders; ///< remainders of `now`
   base::Vec3d gravityStep;      ///< g dt [m/s]
   double timeStep;
-  double mass;               ///< of every grain [kg], or 0
-  const double* massPerCube; ///< else [materials] mass over radius^3
+  double mass;               ///< mass of every grain [kg], or 0
+  const double* massPerCube; ///< if mass is 0: [materials] mass / radius^3
   base::Vec3f* force;
   GROUSER_HD void operator()(int i) const {
-    if (isFixed(now[i].velocity)) { // its load is not summed
+    if (isFixed(now[i].velocity)) { // the step does not sum the load of fixed grains
       force[i] = {};
       return;
     }

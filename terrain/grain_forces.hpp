@@ -3,17 +3,17 @@
 
 #include "terrain/grain_system.hpp"
 
-/// Forces on grains, from the change of their velocities in the last step: valid only directly after a step.
+/// Forces on grains from their velocity change in the last step; valid only directly after a step.
 namespace grouser::terrain {
 
-/// Mean over the moving grains of the resultant force on a grain over its weight [-], in the last step: 1 in free fall,
-/// 0 in balance; 0 without gravity. All ranks call it.
+/// Mean resultant force / weight [-] of the moving grains in the last step: 1 in free fall, 0 in equilibrium; 0 without
+/// gravity. Collective.
 double forceRatio(const GrainSystem& system);
 
-/// Resultant of all contact forces on each grain in the last step, by slot [N]: m (v after - v before) / dt - m g. Of
-/// the velocity before only the float is known, not its remainder, so the error is at most m ulp(v) / (2 dt). That of a
-/// ghost is undefined; of a grain that has entered since it is 0. Throws std::logic_error where something else than a
-/// step came last.
+/// Resultant contact force on each grain in the last step, by slot [N]: m (v after - v before) / dt - m g. The
+/// velocity before the step is known as float without its remainder, so the error is at most m ulp(v) / (2 dt).
+/// Undefined for ghosts; 0 for grains that have entered since. Throws std::logic_error unless the last operation was a
+/// step.
 std::vector<base::Vec3f> contactForces(const GrainSystem& system);
 
 } // namespace grouser::terrain

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The grain kernels: compiled for the lists of detail/kernel_lists.hpp, chosen by kernel_choice.hpp.
+// Grain kernels, compiled for the lists of detail/kernel_lists.hpp, selected by kernel_choice.hpp.
 #include "terrain/grain_kernels.cuh"
 
 #include "terrain/boundary_contacts.cuh"
@@ -22,10 +22,10 @@ template <unsigned... kSets> struct KernelList {};
 
 template <const auto& kList, std::size_t... kPlace>
 KernelList<kList[kPlace]..., kGeneral> kernelsIn(std::index_sequence<kPlace...>);
-/// The kernels of a list, and the general one.
+/// Kernels of a list, plus the general kernel.
 template <const auto& kList> using KernelsOf = decltype(kernelsIn<kList>(std::make_index_sequence<kList.size()>{}));
 
-/// Calls run<kSet>() for the set of features that is `wanted`.
+/// Calls run<kSet>() for the feature set `wanted`.
 template <unsigned... kSets, class Run> void runChosen(KernelList<kSets...>, unsigned wanted, const Run& run) {
   const bool found = ((kSets == wanted && (run.template operator()<kSets>(), true)) || ...);
   if (!found) throw std::logic_error("no grain kernel is compiled for the chosen features");
@@ -59,7 +59,7 @@ template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, 
 }
 template <> void runGrainStep(const base::Exec& exec, const GrainKernelData& d, const ForceData<double>& f,
                               std::int64_t count, const GrainModel&) {
-  runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count); // in double no other is compiled
+  runBody<GrainStep, kGeneral>(exec, "grain step", d, f, count); // the only kernel compiled in double
 }
 
 template <> void runBoundaryContacts(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f,

@@ -12,7 +12,7 @@ struct GrainKernelData;
 template <class Real> struct ForceData;
 template <class Real> struct BoundaryLoad;
 
-/// The laws of grains and their boundaries on the device, in the precision of the forces.
+/// Contact laws of grains and boundaries on the device, in the force precision.
 class GrainLaws {
 public:
   /// `boundaries`: as returned by boundaryLaws().
@@ -22,10 +22,10 @@ public:
   /// Updates the laws between materials from the model.
   void replacePairs(const base::Exec& exec, const GrainConstants& constants);
 
-  /// Kernel arguments without the loads of boundaries. `Real` must match the precision.
+  /// Kernel arguments without the boundary loads. `Real` must match the precision.
   template <class Real> ForceData<Real> forceData(const GrainConstants& constants) const;
   void describe(GrainKernelData& d) const;
-  /// [materials] mass over radius^3 [kg/m3], on the device.
+  /// [materials] mass / radius^3 [kg/m3], on the device.
   const double* massPerCube() const { return massPerCube_.data(); }
 
 private:
@@ -39,8 +39,8 @@ private:
 
   Laws<float> single_; ///< one of the two is empty
   Laws<double> double_;
-  base::Array<double> massPerCube_; ///< [materials] mass over radius^3 [kg/m3]
-  double first_{};                  ///< of the first material
+  base::Array<double> massPerCube_; ///< [materials] mass / radius^3 [kg/m3]
+  double first_{};                  ///< mass / radius^3 of the first material [kg/m3]
 };
 
 } // namespace grouser::terrain

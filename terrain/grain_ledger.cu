@@ -39,14 +39,14 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     kSqueezedAtBoundary,
     kSums
   };
-  static constexpr int kBanks = 64; // so that threads rarely add to the same sums at a time
+  static constexpr int kBanks = 64; // reduces conflicts between threads
 
   base::FixedPoint energy, momentum, angular;
   base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching and squeezed pairs twice
-  /// Complements of the deepest overlap [units] and the largest speed [nm/s]; the first sum whose range a grain
-  /// exceeds.
+  /// Complements of the deepest overlap [units] and the maximum speed [nm/s]; index of the first sum whose range a
+  /// grain exceeds.
   std::uint64_t* extremes;
-  const std::uint32_t* ghost; ///< null where there are none
+  const std::uint32_t* ghost; ///< null without ghosts
 
   struct Held {
     double elastic = 0, deepest = 0;
@@ -55,7 +55,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
 
   GROUSER_HD void operator()(int i) const {
     if (ghost && ghost[i]) return;
-    // With remainders, as in the energy accounting.
+    // Includes remainders, as in the energy accounting.
     Vec3d v, w;
     const Remainders kept = d.remainders[i];
     const auto [speed, spin] = d.motion[i];
@@ -78,7 +78,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
     std::int64_t share[kSums];
     share[kKinetic] = energy.quantise(0.5 * m * dot(v, v));
     share[kRotational] = energy.quantise(0.5 * inertia * dot(w, w));
-    // Potential energy follows the unwrapped position: a grain that has crossed a periodic boundary has fallen farther.
+    // Potential energy follows the unwrapped position: a grain that crossed a periodic boundary has fallen farther.
     Vec3d way = x;
     if (has(kPeriodic)) {
       way.x += d.crossings[i].x * (static_cast<double>(d.period.length.x) * d.unitLength);
@@ -118,7 +118,7 @@ private:
       const float* history =
           touched && Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
       const double mi = static_cast<double>(own.mass), mj = static_cast<double>(other.mass);
-      // Half of it belongs to the neighbour, unless that is fixed.
+      // The other half belongs to the neighbour, unless it is fixed.
       const bool alone = has(kFixed) && isFixed(d.motion[j].velocity);
       held.elastic +=
           (alone ? 1 : 0.5) * stored(law, overlap, ri * rj / (ri + rj), alone ? mi : mi * mj / (mi + mj), history);
@@ -167,7 +167,7 @@ private:
     return contact::storedEnergy(law, overlap, radius, base::Vec3<Real>{});
   }
 
-  /// `touched`: bits of the boundaries whose contacts have a history.
+  /// `touched`: bit mask of the boundaries whose contacts have a history.
   GROUSER_HD void measureBoundary(int i, int b, std::uint32_t touched, double overlap, const GrainSize<Real>& size,
                                   Held& held) const {
     if (overlap <= 0) return;
@@ -189,7 +189,7 @@ private:
     return gapTo(d.surfaces[surface], d.placements[surface].motion.toPart(x)).distance;
   }
 
-  /// `history`: null where the contact has none yet.
+  /// `history`: null if the contact has none yet.
   GROUSER_HD double stored(const Law& law, double overlap, double effectiveRadius, double effectiveMass,
                            const float* history) const {
     const Vec3f shear = history ? loadVector(history) : Vec3f{};
@@ -226,7 +226,7 @@ namespace {
 
 using Sums = MeasureGrain<float>;
 
-/// Sums over all ranks. All ranks call it.
+/// Sums over all ranks; collective.
 std::array<double, Sums::kSums> summed(const base::Array<base::WideSum>& banks, const base::Comm& comm) {
   const std::vector<base::WideSum> all = base::summedBanks(banks.toHost(), Sums::kSums, comm);
   std::array<double, Sums::kSums> values{};

@@ -5,8 +5,8 @@
 
 namespace grouser::terrain {
 
-/// Energies and counts of the grains as they are now; the neighbour list must be valid, ghosts up to date. All ranks
-/// call it.
+/// Measures current energies and counts of the grains; requires a valid neighbour list and up-to-date ghosts.
+/// Collective.
 GrainLedger measureLedger(GrainSystem& system);
 
 } // namespace grouser::terrain

@@ -8,8 +8,8 @@
 
 namespace grouser::terrain {
 
-/// Removes grains between steps; `ids` ascend. The others keep their history and ids. Slow, since it goes through the
-/// host. Returns the mass of the removed grains [kg]. All ranks call it.
+/// Removes grains between steps; `ids` must be ascending. The remaining grains keep their history and ids. Slow, since
+/// it uses host copies. Returns the mass of the removed grains [kg]. Collective.
 double removeGrains(Grains& grains, const std::vector<std::uint32_t>& ids);
 
 } // namespace grouser::terrain

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rows of the grains' state: the words of their hash, and moving them between the ranks that own the grains and those
-// that write them to files.
+// Rows of the grain state: hash words, and transfer between the ranks that own the grains and those that write
+// files.
 #include "terrain/grain_state.hpp"
 #include "terrain/row_exchange.hpp"
 
@@ -11,7 +11,7 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Visitor that appends the data that the next step depends on: of boundaries only the springs in contact.
+/// Visitor that appends the data that the next step depends on; for boundaries only springs in contact.
 class HashedWords {
 public:
   explicit HashedWords(std::vector<std::uint32_t>& words) : words_(words) {}
@@ -101,7 +101,7 @@ std::uint32_t placeAmong(const std::vector<std::uint32_t>& gone, std::uint32_t i
 
 std::vector<std::uint32_t> idsFrom(const std::vector<std::uint32_t>& gone, std::uint64_t first, std::size_t count) {
   std::vector<std::uint32_t> ids;
-  // The id at a place is the place plus the number of removed grains before that id.
+  // The id at an index is the index plus the number of removed grains with smaller ids.
   std::uint64_t before = 0;
   for (std::uint64_t place = first; ids.size() < count; ++place) {
     while (before < gone.size() && gone[before] <= place + before) ++before;
@@ -114,7 +114,7 @@ GrainState redistribute(const base::Comm& comm, const GrainState& rows, const st
   return comm.alone() ? rows : redistributeRows(comm, rows, destination);
 }
 
-/// Each rank continues the hash that the rank before it has sent.
+/// Each rank continues the hash received from the rank before it.
 base::StateHash hashOf(const GrainState& grains, const base::Comm& comm) {
   const std::vector<std::uint32_t> words = grains.words();
   std::uint64_t value = 0;

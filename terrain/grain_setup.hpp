@@ -9,25 +9,25 @@
 #include <optional>
 #include <vector>
 
-/// Initial grains and surroundings of a scene, besides the GrainModel.
+/// Initial grains and surroundings of a scene, in addition to the GrainModel.
 namespace grouser::terrain {
 
-/// Initial state of one grain; its id is its place in the list.
+/// Initial state of one grain; its id is its index in the list.
 struct GrainSpec {
   base::Vec3d position; ///< [m]
   base::Vec3d velocity; ///< [m/s]
   base::Vec3d spin;     ///< [rad/s]
   double radius{0};     ///< [m], at most the model's; 0: the model's
-  int material{0};      ///< among the model's
-  /// Never moves, whatever acts on it, and has neither mass nor weight: rough ground from which others bounce. Its
-  /// velocity and spin must be zero. Fixed grains may overlap each other.
+  int material{0};      ///< index in the model's materials
+  /// Fixed grain: never moves, without mass or weight; models rough ground. Velocity and spin must be zero. Fixed
+  /// grains may overlap each other.
   bool fixed{false};
 };
 
 /// Positions [m] of the lower and upper periodic boundary along x and y. Grains that leave through one enter through
-/// the other, and touch across them.
+/// the other, and interact across them.
 using PeriodicBoundaries = std::array<std::optional<std::array<double, 2>>, 2>;
-/// Vector between two positions, or between one and the nearest image of the other.
+/// Reduces the vector between two positions to that of the nearest image.
 inline base::Vec3d toNearestImage(const PeriodicBoundaries& sides, base::Vec3d way) {
   for (std::size_t a = 0; a < 2; ++a) {
     if (!sides[a]) continue;
@@ -38,17 +38,17 @@ inline base::Vec3d toNearestImage(const PeriodicBoundaries& sides, base::Vec3d w
   return way;
 }
 
-/// Rigid surroundings of the grains: plane walls, a height-field floor, and surfaces that may move; at most 32
-/// together.
+/// Rigid surroundings of the grains: plane walls, a height-field floor, and movable surfaces; at most 32 in
+/// total.
 struct Boundaries {
   std::vector<Wall> walls;
   std::optional<HeightField> floor;
-  PeriodicBoundaries periodic{}; ///< walls, floor and surfaces have no images: they must look alike at both
+  PeriodicBoundaries periodic{}; ///< walls, floor and surfaces are not replicated: they must match at both boundaries
   std::vector<RigidSurface> surfaces{};
 
-  /// Contacts that one grain may have with the floor: several where that has hollows tighter than `radius` [m].
+  /// Maximum floor contacts of a grain of `radius` [m]: several if the floor has tighter hollows.
   int floorPlaces(double radius) const;
-  /// Boundaries that grains have springs with: walls, places of the floor, surfaces. `radius` [m]: the largest grain's.
+  /// Number of boundaries with contact springs: walls, floor contacts, surfaces. `radius`: of the largest grain [m].
   int count(double radius) const { return static_cast<int>(walls.size() + surfaces.size()) + floorPlaces(radius); }
 };
 

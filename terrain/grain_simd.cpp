@@ -24,7 +24,7 @@ struct GrainBlockTask {
   const ForceData<float>& f;
   std::int64_t count;
   int atATime;
-  double each; ///< of a grain [ns]
+  double each; ///< estimated time per grain [ns]
   double nanoseconds() const { return each * atATime; }
   void operator()(int k) const {
     const std::int64_t first = std::int64_t{k} * atATime;

@@ -5,24 +5,24 @@
 
 namespace grouser::terrain {
 
-/// One step of `count` grains on the CPU, `width` > 1 contacts at a time (KernelChoice::lanes); the bits are those of
+/// Runs one step of `count` grains on the CPU, `width` > 1 contacts at a time (KernelChoice::lanes); bitwise equal to
 /// GrainStep.
 void runGrainSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t count,
                   int width);
 
-/// Forces of planes on the `near` grains that are listed near boundaries; the bits are those of BoundaryContacts.
+/// Computes the forces of planes on the `near` grains listed near boundaries; bitwise equal to BoundaryContacts.
 void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceData<float>& f, std::int64_t near,
                  int width);
 
 namespace detail {
 
 using LaneStep = void(const GrainKernelData& d, const ForceData<float>& f, int first, int last);
-/// Grains [first, last) of a launch. One file per instruction set, named after it.
+/// Steps grains [first, last) of a launch. One source file per instruction set, named after it.
 LaneStep stepSse, stepAvx2, stepAvx512;
-/// Places [first, last) of the list of grains near boundaries.
+/// Processes entries [first, last) of the list of grains near boundaries.
 LaneStep wallsSse, wallsAvx2, wallsAvx512;
 
-/// GrainStep's functions for one grain, for rare cases.
+/// GrainStep's functions for a single grain, for rare cases.
 void advanceGrain(const GrainKernelData& d, const ForceData<float>& f, int i, const base::Vec3d& force,
                   const base::Vec3d& torque, float deepest, const Lost& lost, GrainAccumulator& accumulator);
 void addLoadsOf(const GrainKernelData& d, const ForceData<float>& f, int i, base::Vec3d& force, base::Vec3d& torque);

@@ -11,25 +11,25 @@
 
 namespace grouser::terrain {
 
-/// Fields of a scene's grains.
+/// Layout of a scene's grain fields.
 struct GrainLayout {
   std::int64_t ledger{};     ///< 1: energy accounting
   std::int64_t boundaries{}; ///< planes and floor together
   std::int64_t friction{};   ///< 1: contacts have springs
-  std::int64_t rolling{};    ///< 1: contacts have rolling angles too
-  std::int64_t radii{};      ///< 1: each grain has its own
-  std::int64_t materials{};  ///< of the grains; 0: one
+  std::int64_t rolling{};    ///< 1: contacts also have rolling angles
+  std::int64_t radii{};      ///< 1: each grain has its own radius
+  std::int64_t materials{};  ///< number of materials; 0: one
   std::int64_t periodic{};   ///< 1: some boundaries are periodic
   std::int64_t fixed{};      ///< 1: some grains are fixed
   std::int64_t plastic{};    ///< 1: contacts have a plastic state
-  std::int64_t places{};     ///< contacts that a grain may have with the floor, where several; normals tell them apart
+  std::int64_t places{};     ///< maximum floor contacts of a grain, if several, distinguished by their normals
   bool operator==(const GrainLayout&) const = default;
-  /// Numbers of history of a contact: contact::historyWidth().
+  /// History values per contact: contact::historyWidth().
   std::int64_t historyWidth() const { return 3 * (friction + rolling) + 2 * plastic; }
 };
 
-/// State of the grains that later steps or later output depend on, by id, for checkpoints and the hash. Independent of
-/// slots, devices and list layouts. Lists are left out; they can be rebuilt. On several ranks each has some of the
+/// Grain state required by later steps or output, by id, for checkpoints and the hash. Independent of slots, devices
+/// and list layouts. Lists are not included, since they can be rebuilt. On several ranks each rank has some of the
 /// rows.
 struct GrainState {
   GrainLayout layout;
@@ -40,38 +40,38 @@ struct GrainState {
   std::vector<base::Vec3f> velocity;       ///< [rows] [m/s]
   std::vector<base::Vec3f> spin;           ///< [rows] [rad/s]
   std::vector<Remainders> remainders;      ///< [rows]
-  std::vector<float> radius;               ///< [rows] [m]; empty where all are alike
-  std::vector<std::uint32_t> material;     ///< [rows]; empty where there is one
-  std::vector<std::uint32_t> fixed;        ///< [rows] 1 for a grain that never moves; empty where all may
-  std::vector<Crossings> crossings;        ///< [rows] of periodic boundaries; empty without them
-  std::vector<std::uint32_t> wallBits;     ///< [rows] bit a wall or floor in touch; empty without them
-  std::vector<base::Vec3f> wallShear;      ///< [rows][walls and floor] [m], zero out of touch; empty without friction
-  std::vector<std::uint32_t> contacts;     ///< [rows] neighbours in touch
-  std::vector<std::uint32_t> neighbour;    ///< ids of those, ascending for each grain, grain by grain
-  std::vector<base::Vec3f> contactShear;   ///< [m], one a neighbour; empty without friction
+  std::vector<float> radius;               ///< [rows] [m]; empty if all are equal
+  std::vector<std::uint32_t> material;     ///< [rows]; empty for a single material
+  std::vector<std::uint32_t> fixed;        ///< [rows] 1 for a fixed grain; empty if none is fixed
+  std::vector<Crossings> crossings;        ///< [rows] crossings of periodic boundaries; empty without them
+  std::vector<std::uint32_t> wallBits;     ///< [rows] bit mask of walls and floor in contact; empty without them
+  std::vector<base::Vec3f> wallShear;      ///< [rows][walls and floor] [m], 0 without contact; empty without friction
+  std::vector<std::uint32_t> contacts;     ///< [rows] number of neighbours in contact
+  std::vector<std::uint32_t> neighbour;    ///< their ids, ascending for each grain, grain by grain
+  std::vector<base::Vec3f> contactShear;   ///< [m], one per neighbour in contact; empty without friction
   std::vector<base::Vec3f> wallRolling;    ///< as wallShear [rad]; empty without rolling friction
   std::vector<base::Vec3f> contactRolling; ///< as contactShear [rad]; empty without rolling friction
   std::vector<float> wallDeepest, wallOrigin;       ///< as wallShear [m], [N]: contact::BasicPlasticState; else empty
   std::vector<float> contactDeepest, contactOrigin; ///< as contactShear
-  std::vector<base::Vec3f> floorNormal;             ///< [rows][places] of the last step, zero out of touch; else empty
+  std::vector<base::Vec3f> floorNormal;             ///< [rows][floor contacts] of the last step, 0 without contact
 
-  /// Energy accounting since the start (GrainEnergyAccounting), if there is a ledger; then, with complementarity
-  /// contacts, the totals of their solver (ImpulseTotals).
+  /// Energy accounting since the start (GrainEnergyAccounting), if there is a ledger; with complementarity contacts
+  /// followed by the totals of their solver (ImpulseTotals).
   std::vector<std::int64_t> books;
 
-  // When the neighbour list was built, so that a resumed run builds the next one at the same step.
-  std::vector<base::Vec3<std::uint32_t>> travelled; ///< [rows] since then [units], as wrapping words
-  double skin{};                                    ///< [-] share of the radius
+  // State at the last neighbour list, so that a resumed run builds the next list at the same step.
+  std::vector<base::Vec3<std::uint32_t>> travelled; ///< [rows] displacement since then [units], as wrapping words
+  double skin{};                                    ///< [-] skin / radius
   std::int64_t rebuilds{};
 
   std::size_t rows() const { return position.size(); }
-  /// For the hash: the data that the next step depends on, grain by grain.
+  /// Words of the state hash: the data that the next step depends on, grain by grain.
   std::vector<std::uint32_t> words() const;
   GrainState withoutRows() const;
-  /// Removes grains and the contacts of others with them; `ids` ascend, and are of all ranks.
+  /// Removes grains and the contacts of others with them; `ids` must be ascending, from all ranks.
   void remove(const std::vector<std::uint32_t>& ids);
 
-  // All columns but `id`, twice: in the order of the state hash and in that of files, neither of which may change.
+  // All columns except `id`, twice: in the order of the state hash and in the order of files; neither may change.
 
   /// Visits the columns of the layout in the order of a row's words in the state hash; see row_exchange.hpp for the
   /// visitor.
@@ -93,8 +93,8 @@ struct GrainState {
     if (l.periodic) visitor.unhashed(s.crossings);
   }
 
-  /// Under the names and in the order that they have in files: perGrain(name, column), columns of boundaries with
-  /// several values a grain; then perContact(name, column). Those that the layout lacks are empty.
+  /// Visits the columns with their names and order in files: perGrain(name, column), with several values per grain for
+  /// boundaries, then perContact(name, column). Columns absent from the layout are empty.
   template <class Self, class PerGrain, class PerContact>
   static void visitColumns(Self& s, const PerGrain& perGrain, const PerContact& perContact) {
     perGrain("position", s.position), perGrain("velocity", s.velocity), perGrain("spin", s.spin);
@@ -110,36 +110,36 @@ struct GrainState {
   }
 };
 
-/// The grains of a scene on the host, by id, for output: all of them, or on several ranks this rank's block of ids.
+/// Host copy of the grains of a scene, by id, for output: all grains, or on several ranks this rank's block of ids.
 struct GrainSnapshot {
-  std::uint64_t first{}, total{};    ///< place of the first among them; grains present in the scene
+  std::uint64_t first{}, total{};    ///< index of the first grain among all present; number of grains present
   std::vector<std::uint32_t> id;     ///< ascending
   std::vector<base::Vec3d> position; ///< [m]
   std::vector<base::Vec3f> velocity; ///< [m/s]
   std::vector<base::Vec3f> spin;     ///< [rad/s]
-  std::vector<float> radius;         ///< [m]; empty where all are the model's
-  std::vector<std::uint32_t> fixed;  ///< 1 for grains that never move; empty where all may
-  /// Resultant of all contact forces in the last step [N], those of rigid parts among them; of fixed grains 0; empty
-  /// unless asked for.
+  std::vector<float> radius;         ///< [m]; empty if all equal the model's radius
+  std::vector<std::uint32_t> fixed;  ///< 1 for fixed grains; empty if none is fixed
+  /// Resultant contact force in the last step [N], including rigid parts; 0 for fixed grains; empty unless requested.
+  /// Ordered like `id`.
   std::vector<base::Vec3f> contactForce;
 };
 
 /// Optional data of a snapshot.
 struct SnapshotOptions {
-  bool contactForces = false; ///< only after a step, and before restore() or stop()
+  bool contactForces = false; ///< valid only after a step, and before restore() or stop()
 };
 
-/// Moves row k to rank `destination[k]`; the result is in the order of ids. All ranks call it.
+/// Moves row k to rank `destination[k]`; the result is sorted by id. Collective.
 GrainState redistribute(const base::Comm& comm, const GrainState& rows, const std::vector<int>& destination);
-/// Hash over the words of all rows, as if one rank had them; rows lie in blocks of ids. All ranks call it.
+/// Hash over the words of all rows, independent of the number of ranks; rows must be in blocks of ids. Collective.
 base::StateHash hashOf(const GrainState& rows, const base::Comm& comm);
-/// The rank of grain `id` of `total` if rows are distributed by id, in blocks: for files.
+/// Rank of grain `id` of `total` for rows distributed in blocks of ids, as in files.
 int blockOf(const base::Comm& comm, std::int64_t total, std::uint32_t id);
-/// Place of a grain among those present, by id.
+/// Index of a grain among those present, by id.
 std::uint32_t placeAmong(const std::vector<std::uint32_t>& gone, std::uint32_t id);
-/// Ids of `count` present grains, starting at place `first` among them.
+/// Returns the ids of `count` present grains, starting with the one at index `first`.
 std::vector<std::uint32_t> idsFrom(const std::vector<std::uint32_t>& gone, std::uint64_t first, std::size_t count);
-/// First id of a rank's block; that of rank `size` is `total`.
+/// First id of a rank's block; `total` for rank = number of ranks.
 std::uint64_t blockStart(const base::Comm& comm, std::int64_t total, int rank);
 
 } // namespace grouser::terrain

@@ -9,12 +9,12 @@
 
 namespace grouser::terrain {
 
-/// One grain, one step: gather its contacts in the order of the neighbours' ids, then advance it by symplectic Euler.
-/// The scene's features are template parameters, so that absent features cost nothing.
+/// One step of one grain: sums its contacts in the order of the neighbours' ids, then advances it by symplectic Euler.
+/// The scene's features are template parameters, so absent features have no cost.
 template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatures, Real> {
   static constexpr double kNanoseconds = 200;
-  /// Limits a thread to 96 registers where Hertz' law would take up to 114: a few are spilled, but one more block fits
-  /// on a multiprocessor.
+  /// Limits a thread to 96 registers; Hertz's law would otherwise use up to 114. A few are spilled, but one more block
+  /// fits on a multiprocessor.
   static constexpr int kBlocksTogether =
       std::is_same_v<Real, float> && (kFeatures & (contact::kHertz | contact::kPlastic)) == contact::kHertz ? 5 : 0;
   using Kernel = GrainKernel<kFeatures, Real>;
@@ -24,7 +24,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
                         kMayHold = kFeatures & (kFixed | contact::kGeneral);
   using Accumulator = GrainAccumulatorFor<kMaySlip, kMayHold>;
 
-  /// Load of fixed grains: part of the sum.
+  /// Load of fixed grains, a part of the total.
   struct Held {
     Vec force, torque;
     bool any = false;
@@ -41,7 +41,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   };
   using Sum = std::conditional_t<(kFeatures & contact::kMeasured) != 0, MeasuredSum, StepSum>;
 
-  /// One of two grains in contact.
+  /// State of one of two grains in contact.
   struct Side {
     GrainSize<Real> size;
     Vec velocity, spin;
@@ -51,9 +51,9 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   /// History of a contact.
   struct History {
     float* at;          ///< null where the laws need none
-    bool held;          ///< whether it is that of this contact, and not of an earlier one
-    base::Vec3f spring; ///< its first three numbers, or 0
-    base::Vec3f angle;  ///< the next three where grains resist rolling, or 0
+    bool held;          ///< true: history of this contact; false: of an earlier one
+    base::Vec3f spring; ///< first three values, or 0
+    base::Vec3f angle;  ///< next three values for rolling resistance, or 0
   };
 
   GROUSER_HD void operator()(int k) const {
@@ -65,8 +65,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
   GROUSER_HD void run(int k, Accumulator& accumulator) const {
     if (Kernel::ended()) {
       if (k == 0)
-        // Each step of a batch reads only the flags of the previous step: a skipped step raises its own, so that all
-        // later ones are skipped too.
+        // Each step of a batch reads only the flags of the previous step: a skipped step raises its own flag, so that
+        // all later steps are skipped too.
         base::raise(&d.flags->stale);
       return;
     }
@@ -80,7 +80,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (has(kFixed) && isFixed(v)) return stay(i, p, m, accumulator);
     const GrainSize<Real> size = Kernel::sizeOf(v.w, w.w);
     gatherGrains(i, p, {size, v.xyz().template as<Real>(), w.xyz().template as<Real>()}, sum);
-    // Loaded ahead of the stores below: the compiler may not move a load across a store that might alias it.
+    // Loaded before the stores below: the compiler may not move a load across a store that might alias it.
     const Remainders kept = d.remainders[i];
     const base::Vec3<std::uint32_t> reference = d.reference[i];
     if (has(kFixed) && sum.held.any) accountFixedGrain(p, sum.held, accumulator);
@@ -94,7 +94,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     advance(i, {p, m, kept, reference}, size, force, torque, sum.deepest, lost, accumulator);
   }
 
-  /// The state that a step replaces.
+  /// State before the step.
   struct State {
     base::Position position;
     Motion motion;
@@ -102,17 +102,17 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     base::Vec3<std::uint32_t> reference;
   };
 
-  /// Finds the touching neighbours first, then computes the contacts. In a single pass each thread of a warp would wait
-  /// for the others' contacts, which rarely sit at the same list positions.
+  /// Finds the touching neighbours first, then computes the contacts. In a single pass the threads of a warp would wait
+  /// for each other's contacts, which are rarely at the same list positions.
   GROUSER_HD void gatherGrains(int i, const base::Position& p, const Side& own, Sum& sum) const {
     const std::uint32_t n = d.neighbours.count[i];
-    // 64 neighbours a word; of equal spheres no more can be near.
+    // 64 neighbours per word; equal spheres cannot have more.
     std::uint64_t* touching = d.neighbours.touching + (has(kManyRadii) ? i * d.neighbours.maskWords : i);
     for (std::uint32_t first = 0; first == 0 || first < n; first += 64) {
       const std::uint32_t count = has(kManyRadii) && n - first > 64 ? 64 : n - first;
       const std::int64_t row = d.neighbours.at(i, first);
       const std::uint64_t before = *touching, now = findTouching(p, row, count, sum);
-      // The next neighbour's slot is loaded ahead: its contact need not wait for it.
+      // The next slot is loaded early, to hide its latency.
       const auto slotOf = [&](std::uint64_t bits) {
         return d.neighbours.slot[row + base::lowestBit(bits) * d.neighbours.stride];
       };
@@ -130,7 +130,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     }
   }
 
-  /// Returns which of `count` listed neighbours touch, a bit each.
+  /// Returns the bit mask of touching spheres among `count` listed neighbours.
   GROUSER_HD std::uint64_t findTouching(const base::Position& p, std::int64_t row, std::uint32_t count,
                                         Sum& sum) const {
     constexpr std::uint32_t kTogether = 4; // loads issued before the first result is used
@@ -148,7 +148,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
         const std::int64_t distance2 = base::squaredNorm(Kernel::apart(p, there[k]));
         const std::int64_t reach2 = has(kManyRadii) ? squareOf(reach[k]) : d.diameterUnits2;
         if (distance2 >= reach2 || first + k >= count) continue;
-        if (distance2 == 0) // no direction to push in: the overlap alarm
+        if (distance2 == 0) // undefined normal: the overlap alarm stops the run
           sum.deepest = d.diameter;
         else
           touching |= std::uint64_t{1} << (first + k);
@@ -157,22 +157,22 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     return touching;
   }
 
-  /// In one multiplication, of 32 bits to 64.
+  /// Square by one 32-bit to 64-bit multiplication.
   GROUSER_HD static std::int64_t squareOf(std::uint32_t units) {
     return static_cast<std::int64_t>(std::uint64_t{units} * units);
   }
 
-  /// History of the contact at place `at` of the list; null if the laws have none.
+  /// History of the contact at list entry `at`; null if the laws have none.
   GROUSER_HD float* historyAt(std::int64_t at) const {
     return Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
   }
 
-  /// The contact with neighbour j, at place `at` of the list. `heldBefore`: it was there in the last step.
+  /// Computes the contact with neighbour j at list entry `at`. `heldBefore`: in contact in the last step.
   GROUSER_HD void touchNeighbour(float* kept, std::int64_t at, std::uint32_t j, bool heldBefore,
                                  const base::Position& p, const Side& own, Sum& sum) const {
     History history{kept, Kernel::hasHistory() && heldBefore, {}, {}};
-    // Loaded whether held or not, together with the neighbour's state: a branch would put one wait for memory behind
-    // the other.
+    // Loaded unconditionally, together with the neighbour's state: a branch would serialise the two memory latencies.
+    // An unused value is discarded.
     if (Kernel::hasHistory()) history.spring = loadVector(history.at);
     if (has(contact::kRollingFriction)) history.angle = loadVector(history.at + 3);
     if (!history.held) history.spring = history.angle = {};
@@ -204,7 +204,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const contact::BasicLaw<Real>& law =
         has(kManyMaterials) ? f.pairLaws[own.size.material * d.materials + other.size.material] : f.law;
     if (onGround) touch.effectiveMass = own.size.mass, touch.dampingShare = law.fixedShare;
-    // Both lever arms meet in one point, so that angular momentum balances too: each sphere gives half the overlap.
+    // Both lever arms end at the same point, which conserves angular momentum: each sphere takes half the overlap.
     Real arm = Real(0.5) * pair.distance;
     if (has(kManyRadii)) {
       const GrainSize<Real>&a = own.size, &b = other.size;
@@ -222,7 +222,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
         contact::contactForce<Kernel::kLaw>(law, touch, f.timeStep, shear, has(contact::kPlastic) ? &plastic : nullptr);
     if (Kernel::hasHistory()) storeVector(history.at, shear.template as<float>());
     if (has(contact::kPlastic)) storePlastic(Kernel::plasticIn(history.at), plastic);
-    // The other half belongs to the neighbour, unless that is fixed.
+    // The other half belongs to the neighbour, unless it is fixed.
     const Real share = onGround ? Real(1) : Real(0.5);
     Vec torque{};
     if (has(contact::kFriction)) torque = cross(normal * arm, reaction.force);
@@ -252,7 +252,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (onGround) sum.held.any = true, sum.held.force += reaction.force, sum.held.torque += torque;
   }
 
-  /// Copies the state of a fixed grain. The ground balances the loads of parts on it.
+  /// Copies the state of a fixed grain, and accounts for the ground reaction to loads of parts.
   GROUSER_HD void stay(int i, const base::Position& p, const Motion& m, Accumulator& accumulator) const {
     d.nextPosition[i] = p, d.nextMotion[i] = m;
     if (!has(kLoads) || d.loads.range[i] == 0) return;
@@ -261,7 +261,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     accountFixedGrain(p, {(-force).template as<Real>(), (-torque).template as<Real>()}, accumulator);
   }
 
-  /// Impulses of fixed grains count as those of walls. Few grains have any.
+  /// Adds impulses of fixed grains to those of walls. Few grains have any.
   GROUSER_HD void accountFixedGrain(const base::Position& p, const Held& held, Accumulator& accumulator) const {
     if (!has(kLedger)) return;
     const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
@@ -285,7 +285,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     if (const std::uint32_t place = d.boundaryOf[i]) force += d.fromSurfaces[place - 1];
   }
 
-  /// Forces from rigid parts come as integers and are added as such: the parts receive exactly their opposite.
+  /// Adds the forces of rigid parts as integers, since the parts receive exactly the opposite.
   GROUSER_HD void addLoads(int i, const GrainSize<Real>& size, base::Vec3d& force, base::Vec3d& torque) const {
     const std::uint32_t range = d.loads.range[i];
     if (range == 0) return;
@@ -295,7 +295,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       const contact::GrainLoad& load = d.loads.load[first + k];
       quanta += load.force;
       torque += load.torque.template as<double>();
-      // Stones can be caught between tooth and track: a part may overlap a grain more than another grain may, but not
+      // Stones can be jammed between tooth and track: a part may overlap a grain more than another grain may, but not
       // beyond its centre.
       if (load.deepest > static_cast<float>(size.radius)) raise(Fault::through, i);
     }
@@ -303,7 +303,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     for (int a = 0; a < 3; ++a) base::atomicAdd64(d.loads.received + a, quanta[a]);
   }
 
-  /// Accounts for a grain's step. `work`: on the grain; `massShare`: of the mass of the model.
+  /// Accounts for a grain's step. `work`: on the grain; `massShare`: mass / model mass.
   GROUSER_HD void account(const base::Position& place, double work, double massShare, const Lost& lost,
                           Accumulator& accumulator) const {
     const double q = d.ledgerScale.perEnergy;
@@ -321,8 +321,8 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       accumulator.of[kMoment + a] += has(kManyRadii) ? wholeQuanta(massShare * static_cast<double>(u[a])) : u[a];
   }
 
-  /// Wraps a grain that has left through a periodic boundary to the opposite one. Its reference place (where it was
-  /// listed) is shifted by the same period, so that the way it has gone since, and the neighbour list, stay valid.
+  /// Wraps a grain that has left through a periodic boundary to the opposite side. Its reference position (at the last
+  /// list) is shifted by the same period, so that its displacement since then, and the neighbour list, remain valid.
   GROUSER_HD void crossSides(int i, base::Vec3l& place, base::Vec3<std::uint32_t>& reference) const {
     for (int a = 0; a < 2; ++a) {
       const int periods = d.period.periodsBack(a, place[a]);
@@ -335,12 +335,12 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     }
   }
 
-  /// v += a dt, x += v dt, w += alpha dt, each with its remainder kept.
+  /// Advances v += a dt, x += v dt, w += alpha dt, each with its remainder.
   GROUSER_HD void advance(int i, const State& now, const GrainSize<Real>& size, const base::Vec3d& force,
                           const base::Vec3d& torque, float deepest, const Lost& lost, Accumulator& accumulator) const {
     base::Vec3f v = now.motion.velocity.xyz(), w = now.motion.spin.xyz();
     double stepPerMass = d.stepPerMass, stepPerInertia = d.stepPerInertia;
-    base::Vec3d gained, turned; // changes of half squares
+    base::Vec3d gained, turned; // changes of half squared velocities
     double massShare = 1, inertia = d.inertia;
     float maxOverlap = d.maxOverlap;
     if (has(kManyRadii)) {
@@ -364,7 +364,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       }
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed.sum * d.unitsPerSpeed;
-      // A speed that is no number must not reach the integer conversion.
+      // A NaN speed must not reach the integer conversion.
       if (displacement > -kMostUnitsPerStep && displacement < kMostUnitsPerStep)
         moved[a] += advanceKeeping(displacement, kept.position, a);
     }

@@ -68,7 +68,7 @@ bool GrainStepper::canLaunchAhead(const GrainSystem& system) const {
   return base::Gate::canWait(exec_) && !system.distribution && !system.boundaries.hasSurfaces() && !system.impulses;
 }
 
-/// Place of the flags of a step that is launched ahead: by the buffer that holds the state.
+/// Index of the flags of a step launched ahead: that of the buffer with its initial state.
 int GrainStepper::placeAhead(const GrainSystem& system) {
   const auto& position = system.arrays.fields().position;
   return std::less<>()(position.next.data(), position.now.data()) ? 1 : 0;
@@ -90,7 +90,7 @@ void GrainStepper::launchUncoupled(GrainSystem& system, const contact::GrainLoad
   const Launch step = ahead(system, nullptr);
   aside_.fork();
   computeBoundaryContacts(aside_.exec(), step);
-  aside_.join(); // the queue waits for the boundaries, not for the grains behind them
+  aside_.join(); // waits for the boundaries, but not for the grains queued after them
   advanceUnless(aside_.exec(), step, loads.range);
 }
 
@@ -104,7 +104,7 @@ base::Parcel GrainStepper::flagsAfter(const GrainSystem& system) {
 }
 
 StepOutcome GrainStepper::endAhead(GrainSystem& system, int further) {
-  // The buffers have been exchanged once for this step and once for each further one.
+  // The buffers have been swapped once for this step and once for each later step.
   const StepFlags flags = flags_.host()[(placeAhead(system) + 1 + further) % 2];
   if (flags.raised()) {
     base::synchronize(exec_);
@@ -138,15 +138,15 @@ void GrainStepper::launchImpulses(const Launch& step) {
   s.arrays.swapBuffers();
 }
 
-/// Main stream: the uniques, which have no ghost among their neighbours. Side stream, of higher priority: wait for the
-/// ghosts' states and unpack them into their slots, advance the masters, which read them, and pack the masters' new
+/// Main stream: the uniques, which have no ghost among their neighbours. Side stream, of higher priority: waits for the
+/// ghosts' states and unpacks them into their slots, advances the masters, which read them, and packs the new master
 /// states for other ranks. The two streams write different slots.
 void GrainStepper::launchSubdomain(const Launch& step) {
   GrainSystem& s = step.system;
   const Subdomain& subdomain = s.distribution->subdomain();
   side_.fork();
-  // On a CPU over the list of uniques, in SIMD. On a GPU over all slots, where threads of masters and slaves return
-  // early: a slot read from the list first would put one more wait for memory before every other load.
+  // On a CPU: over the list of uniques, in SIMD. On a GPU: over all slots, with early return for masters and slaves,
+  // since reading the slot from a list would add one memory latency before every other load.
   if (exec_.onCpu())
     advanceListed(exec_, step, {subdomain.uniques().data(), subdomain.uniques().size()});
   else
@@ -182,8 +182,8 @@ bool GrainStepper::canBatchSteps(const GrainSystem& s) const {
          (s.distribution->subdomain().stepsTogether() && s.distribution->subdomain().haloExchange().underWay());
 }
 
-/// On several ranks the GPUs reduce the flags after each step (base::PeerReduction), so that all of them skip what is
-/// behind the same step.
+/// On several ranks the GPUs reduce the flags after each step (base::PeerReduction), so that all of them skip the same
+/// steps.
 StepOutcome GrainStepper::runBatch(GrainSystem& system) {
   Subdomain* const subdomain = system.distribution ? &system.distribution->subdomain() : nullptr;
   if (subdomain) subdomain->haloExchange().arrive();
@@ -198,8 +198,8 @@ StepOutcome GrainStepper::runBatch(GrainSystem& system) {
     flags_.download();
   });
   const StepOutcome outcome = readFlags(kStepsPerGraph);
-  // A batch swaps the buffers an even number of times, but skipped steps have advanced no grain: after an odd number of
-  // steps taken the newest state is in `next`.
+  // A batch swaps the buffers an even number of times, but skipped steps do not advance grains: after an odd number of
+  // executed steps the newest state is in `next`.
   if ((kStepsPerGraph - outcome.taken) % 2 != 0) system.arrays.swapBuffers();
   if (subdomain) {
     subdomain->haloExchange().countRuns(outcome.taken - (outcome.listEnded ? 1 : 0));
@@ -213,8 +213,8 @@ void GrainStepper::clearFlags() {
   flags_.upload();
 }
 
-/// Waits for the steps launched and counts those taken: up to the first that has raised a flag (its list has ended, or
-/// a fault). Raised flags are cleared on the device for the next launch.
+/// Waits for the launched steps and counts the executed ones: up to the first that raised a flag (expired list, or
+/// fault). Clears raised flags on the device for the next launch.
 StepOutcome GrainStepper::readFlags(int steps) {
   base::synchronize(exec_);
   const StepFlags* const flag = flags_.host();

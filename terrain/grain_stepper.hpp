@@ -10,59 +10,59 @@
 
 namespace grouser::terrain {
 
-/// Outcome of the steps launched, the same on all ranks.
+/// Outcome of the launched steps, identical on all ranks.
 struct StepOutcome {
-  int taken{};           ///< steps, at least one
+  int taken{};           ///< number of steps taken, at least one
   bool listEnded{};      ///< a grain has moved half the skin: the next step needs a new list
-  std::uint64_t fault{}; ///< as StepFlags has it; kNoFault where there is none
+  std::uint64_t fault{}; ///< as in StepFlags; kNoFault if there is none
 };
 
-/// Takes steps: launches the kernels on two streams, so that communication and boundaries overlap with the grains, and
-/// reads the flags that the kernels have raised.
+/// Time stepper of the grains: launches the kernels on several streams, so that communication and boundaries overlap
+/// with the grain step, and reads the flags raised by the kernels.
 class GrainStepper {
 public:
   explicit GrainStepper(const base::Exec& exec);
 
   static constexpr int kStepsPerGraph = 16;
 
-  /// Launches contacts with walls and floor on a side stream that begin() joins. They read the grains' present state
-  /// and write loads, masks and springs by slot, so slots must not change in between. Does nothing with surfaces, whose
-  /// poses for this step may not be known yet: then begin() computes the contacts.
+  /// Launches contacts with walls and floor on a side stream, joined by begin(). They read the current grain state and
+  /// write loads, masks and springs by slot, so slots must not change in between. Does nothing in scenes with
+  /// surfaces, whose poses for this step may be unknown yet: begin() then computes the contacts.
   void beginBoundaries(GrainSystem& system);
   bool boundariesBegun() const { return boundariesBegun_; }
-  /// Launches one step, without waiting. `loads`: of rigid parts; null without them.
+  /// Launches one step without waiting. `loads`: loads of rigid parts; null without parts.
   void begin(GrainSystem& system, const contact::GrainLoadsView* loads);
   /// Waits for the step launched by begin() and reduces its flags across ranks.
   StepOutcome end(GrainSystem& system);
 
-  // A step that is launched ahead of its loads; see GrainsAhead. Each has flags of its own, by the buffer that holds
-  // the state it begins with, and does nothing where the step before it has raised one.
+  // Steps launched ahead of their loads; see GrainsAhead. Each step has its own flags, by the buffer of its initial
+  // state, and is skipped if the previous step has raised a flag.
   bool canLaunchAhead(const GrainSystem& system) const;
   base::Watch flagsBefore(const GrainSystem& system) const;
-  /// Launches walls, floor and the grains without a listed part.
+  /// Launches walls, floor and the grains without listed parts.
   void launchUncoupled(GrainSystem& system, const contact::GrainLoadsView& loads);
   /// Launches all other grains.
   void launchGrains(GrainSystem& system, const contact::GrainLoadsView& loads);
   void joinGrains() { aside_.join(); }
   base::Parcel flagsAfter(const GrainSystem& system);
-  /// Outcome of the copied flags. `further`: steps launched since. If a flag is raised, waits for the device, which has
-  /// cancelled them, and swaps their buffers back.
+  /// Returns the outcome of the copied flags. `further`: steps launched since. If a flag is raised, waits for the
+  /// device, which has cancelled those steps, and swaps their buffers back.
   StepOutcome endAhead(GrainSystem& system, int further);
 
-  /// Whether kStepsPerGraph steps can be launched as one graph, without the host in between.
+  /// True if kStepsPerGraph steps can be launched as one graph, without the host in between.
   bool canBatchSteps(const GrainSystem& system) const;
-  /// Launches kStepsPerGraph steps as one graph; fewer are taken if a list expires or a fault is raised.
+  /// Launches kStepsPerGraph steps as one graph; fewer are executed if a list expires or a fault is raised.
   StepOutcome runBatch(GrainSystem& system);
-  /// Must be called when slots or lists change: the graph holds their pointers and counts, so it is recorded again.
+  /// Call when slots or lists change: the graph contains their pointers and counts, and must be recorded again.
   void forgetGraph() { stepGraph_.forget(); }
 
 private:
-  /// One of several steps launched together: kernels do nothing if the previous step has raised a flag.
+  /// One of several steps launched together; its kernels do nothing if the previous step has raised a flag.
   struct Launch {
     GrainSystem& system;
     const contact::GrainLoadsView* loads;
-    int place = 0;   ///< of its flags
-    int former = -1; ///< of those of the step before it; -1: none
+    int place = 0;   ///< index of the step's flags
+    int former = -1; ///< index of the previous step's flags; -1: none
   };
 
   GrainKernelData kernelData(const Launch& step);
@@ -70,9 +70,9 @@ private:
   void launchImpulses(const Launch& step);
   void launchSubdomain(const Launch& step);
   void computeBoundaryContacts(const base::Exec& exec, const Launch& step);
-  /// Advances the grains of `slots`; equal slots are side by side and count once.
+  /// Advances the grains of `slots`; duplicates must be adjacent and count once.
   void advanceListed(const base::Exec& exec, const Launch& step, std::span<const std::uint32_t> slots);
-  /// Advances all grains but those with a nonzero entry in `excluded`, by slot; null excludes none.
+  /// Advances all grains except those with a nonzero entry in `excluded`, by slot; null excludes none.
   void advanceUnless(const base::Exec& exec, const Launch& step, const std::uint32_t* excluded);
   static void advance(const base::Exec& exec, GrainSystem& s, const GrainKernelData& d, std::int64_t count);
   Launch ahead(GrainSystem& system, const contact::GrainLoadsView* loads);
@@ -84,10 +84,10 @@ private:
                                          "began, and a recorded batch can follow itself");
 
   base::Exec exec_;
-  base::Mirrored<StepFlags> flags_; ///< of each step of a batch
+  base::Mirrored<StepFlags> flags_; ///< flags of each step of a batch
   base::DoubleBufferedGraph stepGraph_;
-  base::SideStream side_;  ///< highest priority: ghosts, and masters, which read them
-  base::SideStream aside_; ///< lowest priority: walls and floor, and grains without a listed part
+  base::SideStream side_;  ///< highest priority: ghosts, and masters, which depend on them
+  base::SideStream aside_; ///< lowest priority: walls and floor, and grains without listed parts
   bool boundariesBegun_{false};
 };
 

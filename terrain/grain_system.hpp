@@ -11,9 +11,9 @@
 
 namespace grouser::terrain {
 
-/// Data of the scene's grains on this rank. GrainStepper, GrainCheckpoint and others work on it, called by Grains.
+/// Data of the scene's grains on this rank, shared by Grains, GrainStepper, GrainCheckpoint and others.
 struct GrainSystem {
-  /// `start`: all grains of the scene, on every rank. Throws InputError as Grains does.
+  /// `start`: all grains of the scene, on every rank. Throws InputError like Grains.
   GrainSystem(const base::Exec& exec, const GrainModel& model, const Boundaries& boundaries,
               const std::vector<GrainSpec>& start, const PartitionOptions& partition);
 
@@ -25,26 +25,26 @@ struct GrainSystem {
   GrainEnergyAccounting accounting;
   GrainBoundaries boundaries;
   contact::NeighbourList neighbours;
-  std::unique_ptr<GrainDistribution> distribution; ///< null on one rank
-  std::unique_ptr<ImpulseSolver> impulses;         ///< null where contacts are springs
-  std::size_t count;                               ///< ids given so far
-  std::vector<std::uint32_t> gone;                 ///< those of removed grains, ascending
-  std::size_t fixedCount{0};                       ///< those of them that never move
-  std::int64_t steps{0}, rebuilds{0};              ///< steps taken; neighbour lists made
+  std::unique_ptr<GrainDistribution> distribution; ///< null on a single rank
+  std::unique_ptr<ImpulseSolver> impulses;         ///< null with penalty contacts
+  std::size_t count;                               ///< number of ids assigned so far
+  std::vector<std::uint32_t> gone;                 ///< ids of removed grains, ascending
+  std::size_t fixedCount{0};                       ///< number of fixed grains
+  std::int64_t steps{0}, rebuilds{0};              ///< steps taken; neighbour lists built
 
   std::size_t present() const { return count - gone.size(); } ///< grains present in the scene
-  /// By slot: not 0 for ghosts; null where there are none.
+  /// By slot: nonzero for ghosts; null if there are none.
   const std::uint32_t* ghosts() const { return distribution ? distribution->subdomain().ghostMarks() : nullptr; }
-  /// The same on the host, zeros where there are none.
+  /// Host copy of ghosts(); zeros if there are none.
   std::vector<std::uint32_t> ghostsOnHost() const;
-  /// The rank whose subdomain contains this position; at most a period outside.
+  /// Rank whose subdomain contains this position, which is at most one period outside.
   int ownerOf(const base::Position& place) const {
     return distribution
                ? distribution->subdomain().partition().view().ownerOf(constants.period.wrapped(base::toUnits(place)))
                : 0;
   }
-  /// Entering grains of this rank; their ids follow the existing ones. Throws InputError if two have the same position
-  /// (both then have the same owner).
+  /// Returns the entering grains of this rank; their ids follow the existing ones. Throws InputError if two have the
+  /// same position (both then belong to the same owner).
   EnteringGrains entering(const std::vector<GrainSpec>& grains, const std::vector<base::Position>& places) const;
   void finishGhostUpdate() {
     if (distribution) distribution->finishGhostUpdate(exec, arrays);
@@ -52,7 +52,7 @@ struct GrainSystem {
 
   /// Grain radii for the neighbour list; `sphere` is unset if all radii are equal, `fixed` if no grain is fixed.
   contact::RadiiInW radii() const;
-  /// All but loads of rigid parts, and flags.
+  /// Returns the kernel data, except the flags and the loads of rigid parts.
   GrainKernelData kernelData();
   template <class Real> ForceData<Real> forceData();
   std::size_t deviceBytes() const;

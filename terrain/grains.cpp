@@ -21,7 +21,7 @@ contact::GrainsView Grains::view() const {
 }
 
 void Grains::add(const std::vector<GrainSpec>& more) {
-  system_.finishGhostUpdate(); // into the slots that it was sent for, before the list ends
+  system_.finishGhostUpdate(); // into the slots it was sent for, before the list expires
   const std::vector<base::Position> places = placesOf(more, system_.count, system_.constants);
   if (insertionOverlapAlarm_)
     if (const std::optional<InsertionOverlap> overlap = insertionOverlapOf(more, system_))
@@ -65,7 +65,7 @@ void Grains::listNearBoundaries() {
   system_.boundaries.list(system_.constants, system_.kernelData(), system_.arrays, system_.ghosts());
 }
 
-/// Counts the steps taken and notes whether the list has ended. Throws at a fault.
+/// Counts the executed steps and records whether the list has expired. Throws on a fault.
 void Grains::take(const StepOutcome& outcome) {
   system_.steps += outcome.taken;
   if (outcome.listEnded) listEnded_ = true;
@@ -75,11 +75,11 @@ void Grains::take(const StepOutcome& outcome) {
 void Grains::endStep() {
   take(stepper_.end(system_));
   system_.boundaries.collectSurfaceLoads(system_.comm);
-  if (system_.distribution && !listEnded_) system_.distribution->sendGhosts(); // a rebuild makes the ghosts anew
+  if (system_.distribution && !listEnded_) system_.distribution->sendGhosts(); // a rebuild recreates the ghosts
 }
 
 std::int64_t Grains::advance(std::int64_t most) {
-  // refreshNeighbours() reports a change of slots once: keep it for the caller's own next call.
+  // refreshNeighbours() reports a change of slots only once: preserve it for the caller's next call.
   if (refreshNeighbours()) slotsChanged_ = true;
   if (most < GrainStepper::kStepsPerGraph || !stepper_.canBatchSteps(system_)) {
     step();

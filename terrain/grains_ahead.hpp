@@ -5,10 +5,10 @@
 
 namespace grouser::terrain {
 
-/// Steps of grains launched before their loads are known; coupling::StepsAhead lets them wait. flagsBefore(),
-/// launchUncoupled(), launchGrains(), joinGrains() and flagsAfter() make up one step and may be recorded;
-/// exchangeBuffers() follows its launch, end() the copy of its flags to the host. Meanwhile the next step may be
-/// launched, and only view() may be called on the grains.
+/// Grain steps launched before their loads are known; coupling::StepsAhead makes them wait. flagsBefore(),
+/// launchUncoupled(), launchGrains(), joinGrains() and flagsAfter() form one step and may be recorded; call
+/// exchangeBuffers() after its launch and end() after the flags are copied to the host. Before end() the next step may
+/// be launched, and only view() of the grains may be called.
 class GrainsAhead {
 public:
   /// `grains` must outlive this object.
@@ -17,22 +17,22 @@ public:
   static bool canLaunch(const Grains& grains) { return grains.stepper_.canLaunchAhead(grains.system_); }
 
   contact::GrainsView view() const { return grains_.view(); }
-  /// Flags of the previous step: if raised, this one does nothing.
+  /// Flags of the previous step: if one is raised, this step does nothing.
   base::Watch flagsBefore() const { return grains_.stepper_.flagsBefore(grains_.system_); }
-  /// Launches walls, floor and the grains without a listed part. Later queued work waits for walls and floor; the
-  /// grains run concurrently with all that is queued before joinGrains().
+  /// Launches walls, floor and the grains without listed parts. Work queued later waits for walls and floor; the grains
+  /// run concurrently with work queued before joinGrains().
   void launchUncoupled(const contact::GrainLoadsView& loads) {
     grains_.stepper_.launchUncoupled(grains_.system_, loads);
   }
-  /// Queues the step of all other grains.
+  /// Launches the step of all other grains.
   void launchGrains(const contact::GrainLoadsView& loads) { grains_.stepper_.launchGrains(grains_.system_, loads); }
   void joinGrains() { grains_.stepper_.joinGrains(); }
   /// Flags to be copied to the host after the step.
   base::Parcel flagsAfter() { return grains_.stepper_.flagsAfter(grains_.system_); }
-  /// Makes the result of the step the state; a second call reverts that.
+  /// Makes the result of the step the current state; a second call reverts it.
   void exchangeBuffers() { grains_.system_.arrays.swapBuffers(); }
-  /// As Grains::endStep(). `further`: steps launched since, 0 or 1. False if they have been cancelled on the device;
-  /// also cancelled if it throws.
+  /// Same as Grains::endStep(). `further`: steps launched since, 0 or 1. Returns false if these have been cancelled on
+  /// the device; they are also cancelled if it throws.
   bool end(int further) {
     const StepOutcome outcome = grains_.stepper_.endAhead(grains_.system_, further);
     grains_.take(outcome);

@@ -23,7 +23,7 @@ std::array<double, 4> controlPoints(const std::array<double, 4>& h) {
 
 using Net = std::array<std::array<double, 4>, 4>; ///< [along y][along x]
 
-/// Control net of the bicubic cell whose lower left node is (i, j); nodes beyond the border continue linearly.
+/// Control net of the bicubic cell with lower left node (i, j); nodes beyond the border are extrapolated linearly.
 Net controlNet(const std::vector<double>& heights, int columns, int rows, int i, int j) {
   const auto node = [&](int a, int b) { return heights[static_cast<std::size_t>(b) * columns + a]; };
   const auto inRow = [&](int a, int b) {
@@ -48,7 +48,7 @@ Net controlNet(const std::vector<double>& heights, int columns, int rows, int i,
   return net;
 }
 
-/// Control net of a cell from values and slopes of its nodes; without slopes of the bilinear patch.
+/// Control net of a cell from values and slopes of its nodes; without slopes that of the bilinear patch.
 Net controlNetOf(const HeightFieldView& v, int i, int j) {
   Net net;
   for (int b = 0; b < 2; ++b)
@@ -67,7 +67,7 @@ Net controlNetOf(const HeightFieldView& v, int i, int j) {
   return net;
 }
 
-/// Whether the surface of bilinear cells bends in one, or along its edges.
+/// True if the surface of bilinear cells is concave inside a cell or along its edges.
 bool isCreased(const HeightFieldView& v, int i, int j) {
   const auto h = [&](int a, int b) { return v.heights[static_cast<std::size_t>(b) * v.columns + a]; };
   const double dx = h(i + 1, j) - h(i, j), dy = h(i, j + 1) - h(i, j);

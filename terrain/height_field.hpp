@@ -30,25 +30,25 @@ struct SurfaceJet {
 struct FootPoint {
   Vec3d point;       ///< on the surface [m]
   Vec3d normal;      ///< unit, outward (up) at `point`
-  double distance{}; ///< signed [m], positive above; a sphere of radius R there has the overlap R - distance
+  double distance{}; ///< signed [m], positive above; a sphere of radius R centred there has the overlap R - distance
 };
 
-/// A rigid surface z = h(x, y) through heights on a grid: tensor product of Catmull-Rom cubics (Catmull, Rom 1974), of
-/// cubics with limited slopes, or bilinear. Plain pointers and scalars, passed to kernels by value; their targets must
-/// outlive it. Beyond the border the surface continues along its tangent.
+/// Rigid surface z = h(x, y) through heights on a grid: tensor product of Catmull-Rom cubics (Catmull, Rom 1974), of
+/// cubics with limited slopes, or bilinear. Non-owning view of plain pointers and scalars, passed to kernels by value;
+/// the data must outlive it. Beyond the border the surface is extrapolated along its tangent.
 struct HeightFieldView {
   const double* heights{};    ///< [columns * rows] [m], row by row, row 0 at the smallest y
-  const NodeSlopes* slopes{}; ///< [columns * rows] of monotone interpolation; null otherwise
+  const NodeSlopes* slopes{}; ///< [columns * rows] for monotone interpolation; else null
   int columns{}, rows{};      ///< >= 2
   double xMin{}, yMin{};      ///< position of heights[0] [m]
   double dx{}, dy{};          ///< spacing [m]
-  double slopeBound{};        ///< largest |gradient| within the grid, from above [-]
+  double slopeBound{};        ///< upper bound of |gradient| within the grid [-]
   Interpolation interpolation{Interpolation::smooth};
-  /// [(columns - 1) * (rows - 1)] for FeetSearch; null where no hollow is tighter than the spheres that come here.
+  /// [(columns - 1) * (rows - 1)] for FeetSearch; null if no hollow is tighter than the spheres in use.
   const std::uint8_t* marks{};
-  const double* tops{}; ///< likewise: highest point of each cell, from above [m]
+  const double* tops{}; ///< [(columns - 1) * (rows - 1)] upper bound of the height of each cell [m]
 
-  static constexpr int kFootIterations = 16; ///< at most; 2 or 3 are usual
+  static constexpr int kFootIterations = 16; ///< maximum; usually 2 or 3
 
   GROUSER_HD SurfaceJet jet(double x, double y) const {
     if (interpolation != Interpolation::smooth) return jetInCell(cellX(x), cellY(y), x, y);
@@ -69,7 +69,7 @@ struct HeightFieldView {
     return perMetre(s);
   }
 
-  /// Height of the surface [m]; the same bits as jet().h.
+  /// Height of the surface [m]; bitwise equal to jet().h.
   GROUSER_HD double height(double x, double y) const {
     if (interpolation != Interpolation::smooth) return jet(x, y).h;
     const CubicWeights cx = cubicWeights((x - xMin) / dx, columns);
@@ -84,18 +84,18 @@ struct HeightFieldView {
     return h;
   }
 
-  /// The cell that a place lies in, or the nearest one.
+  /// Index of the cell that contains a coordinate, or of the nearest cell.
   GROUSER_HD int cellX(double x) const { return cellAt((x - xMin) / dx, columns - 1); }
   GROUSER_HD int cellY(double y) const { return cellAt((y - yMin) / dy, rows - 1); }
 
-  /// Jet of the patch of cell (i, j), also beyond the cell; not for smooth interpolation.
+  /// Jet of the patch of cell (i, j), also valid beyond the cell; not for smooth interpolation.
   GROUSER_HD SurfaceJet jetInCell(int i, int j, double x, double y) const {
     const double u = (x - xMin) / dx, v = (y - yMin) / dy;
     const CellWeights cx = slopes ? hermiteWeights(u, i, columns - 1) : lineWeights(u, i);
     const CellWeights cy = slopes ? hermiteWeights(v, j, rows - 1) : lineWeights(v, j);
     SurfaceJet s;
     for (int b = 0; b < 2; ++b) {
-      // Along the row: of the heights, and of the slopes across it.
+      // Along the row: interpolate the heights, and the slopes across it.
       double w = 0, d = 0, dd = 0, wAcross = 0, dAcross = 0, ddAcross = 0;
       for (int a = 0; a < 2; ++a) {
         const std::int64_t node = static_cast<std::int64_t>(cy.first + b) * columns + cx.first + a;
@@ -113,23 +113,23 @@ struct HeightFieldView {
     return perMetre(s);
   }
 
-  /// True when a sphere of `radius` [m] about `p` surely does not touch the surface: one look-up instead of the search.
-  /// A surface no steeper than L keeps the distance (p.z - h) / sqrt(1 + L^2); near the border the bound is not used.
+  /// Conservative test that a sphere of `radius` [m] at `p` does not touch the surface: one look-up instead of a
+  /// search. A point is at least (p.z - h) / sqrt(1 + L^2) from a surface of maximum slope L; not used near the border.
   GROUSER_HD bool clearOf(const Vec3d& p, double radius) const {
     const bool inside = p.x - radius >= xMin && p.x + radius <= xMin + (columns - 1) * dx && p.y - radius >= yMin &&
                         p.y + radius <= yMin + (rows - 1) * dy;
     return inside && p.z - height(p.x, p.y) > radius * sqrt(1 + slopeBound * slopeBound);
   }
 
-  /// The foot point of `p`: a minimum of the distance, reached downhill from the point below (or above) `p`. It is the
-  /// nearest point of all while |distance| is less than the surface's smallest radius of curvature on the side of `p`.
+  /// Foot point of `p`: a local minimum of the distance, found by descent from the point below (or above) `p`. It is
+  /// the global minimum if |distance| is less than the smallest radius of curvature on the side of `p`.
   ///
   /// Minimises q = |(x, y, h(x, y)) - p|^2 / 2 by damped Newton steps; the gradient of q is
   ///   (x - px + e hx, y - py + e hy), e = h - pz, and its Hessian I + grad h grad h^T + e hess h.
-  /// Its last term is left out where it would spoil positive definiteness (Gauss-Newton). A step that does not lower q
-  /// is quartered. A step below 1e-6 of a cell is the last, and taken along the derivatives at hand: q no longer feels
-  /// it. The error of `distance` is of second order in the error of the foot. On ground too rough for the search
-  /// (hollows tighter than |distance|) `distance` still has the right sign and is never more than the height
+  /// The last term is omitted if it would make the Hessian indefinite (Gauss-Newton). A step that does not reduce q
+  /// is quartered. A step below 1e-6 of a cell is the last one and is linearised, since its effect on q is
+  /// negligible. The error of `distance` is of second order in the error of the foot point. On ground too rough for
+  /// the search (hollows tighter than |distance|) `distance` still has the correct sign and never exceeds the height
   /// difference.
   GROUSER_HD FootPoint closestPoint(const Vec3d& p) const {
     const double converged = 1e-6 * (dx < dy ? dx : dy);
@@ -165,7 +165,7 @@ struct HeightFieldView {
     const Vec3d gap = p - foot.point;
     foot.distance = base::dot(gap, foot.normal);
 
-    // Not perpendicular, or on the wrong side: no foot point, but the nearest that was found.
+    // Not perpendicular, or on the wrong side: not a foot point, but the nearest point found.
     const double length = base::norm(gap);
     if (length > 10 * converged && side * foot.distance < 0.9 * length) {
       foot.distance = side * length;
@@ -176,11 +176,11 @@ struct HeightFieldView {
 
 private:
   GROUSER_HD static int clamp(int i, int n) { return i < 0 ? 0 : i < n ? i : n - 1; }
-  /// A value beyond the range of integers, or NaN, must not reach the conversion.
+  /// Clamped first: values beyond the integer range, or NaN, must not be converted.
   GROUSER_HD static int cellAt(double u, int cells) {
     return !(u > 0) ? 0 : u < cells ? static_cast<int>(u) : cells - 1;
   }
-  /// Derivatives by metres from those by cells.
+  /// Converts derivatives per cell to derivatives per metre.
   GROUSER_HD SurfaceJet perMetre(SurfaceJet s) const {
     s.hx /= dx, s.hy /= dy;
     s.hxx /= dx * dx, s.hxy /= dx * dy, s.hyy /= dy * dy;
@@ -191,31 +191,31 @@ private:
   }
 };
 
-/// Bounds of a height field over its grid, from the control net of each bicubic cell: never too small; on smooth ground
-/// too large by 5 (slope) to 20 (curvature) per cent, on noise up to threefold. The tangent continuation beyond the
-/// border is not included.
+/// Bounds of a height field over its grid, from the control net of each bicubic cell. Never too small; on smooth ground
+/// overestimated by 5 (slope) to 20 (curvature) per cent, on noise up to threefold. The tangent extrapolation beyond
+/// the border is not included.
 struct HeightFieldBounds {
   double lowest{}, highest{}; ///< [m]
   double slope{};             ///< |gradient| [-]
-  /// Largest curvature of the hollows [1/m]; a sphere larger than 1 / this may touch in several places. Infinite at
-  /// creases of bilinear ground, hollow or not.
+  /// Maximum curvature of the hollows [1/m]; spheres larger than its inverse may have several contacts. Infinite at
+  /// creases of bilinear ground, concave or not.
   double valleyCurvature{};
 };
 
-/// Heights of a surface over a rectangle. Immutable.
+/// Immutable height field over a rectangle.
 class HeightField {
 public:
-  /// `heights`: columns x rows, row by row, row 0 at `area.yMin` [m]; the nodes of the border lie on the rectangle's
-  /// sides. InputError: fewer than 2 nodes a side, a rectangle without area, a height that is no finite number.
-  /// Where all heights lie in a plane all interpolations are one surface, and the smooth one computes it.
+  /// `heights`: columns x rows, row by row, row 0 at `area.yMin` [m]; the border nodes are on the sides of the
+  /// rectangle. Throws InputError for fewer than 2 nodes per side, an empty rectangle, or a height that is not finite.
+  /// If all heights are in one plane, all interpolations coincide and the smooth one is used.
   HeightField(const Rectangle& area, int columns, int rows, std::vector<double> heights,
               Interpolation interpolation = Interpolation::smooth);
 
   /// Level surface at `z` [m].
   static HeightField flat(const Rectangle& area, double z);
-  /// Plane h = z + slopeX x + slopeY y, where x = y = 0 is the world's origin.
+  /// Plane h = z + slopeX x + slopeY y, with x = y = 0 at the world origin.
   static HeightField plane(const Rectangle& area, double z, double slopeX, double slopeY);
-  /// Nodes from a function h(x, y) [m].
+  /// Samples the nodes from a function h(x, y) [m].
   template <class F> static HeightField sample(const Rectangle& area, int columns, int rows, F&& h) {
     std::vector<double> heights;
     for (int j = 0; j < rows; ++j)
@@ -224,22 +224,22 @@ public:
     return HeightField(area, columns, rows, std::move(heights));
   }
 
-  /// The same surface, `dz` [m] higher.
+  /// Returns the same surface raised by `dz` [m].
   HeightField raised(double dz) const;
 
-  /// For kernels; valid while this object lives and is not moved from.
+  /// View for kernels; valid while this object exists and is not moved from.
   HeightFieldView view() const;
   const Rectangle& area() const { return area_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   const std::vector<double>& heights() const { return heights_; }
-  Interpolation interpolation() const { return interpolation_; }    ///< smooth where all nodes lie in a plane
+  Interpolation interpolation() const { return interpolation_; }    ///< smooth if all nodes are in one plane
   bool isPlane() const { return isPlane_; }                         ///< true if all nodes lie in one plane
   const std::vector<NodeSlopes>& slopes() const { return slopes_; } ///< empty unless monotone
   const HeightFieldBounds& bounds() const { return bounds_; }
-  /// Bounds of one cell.
+  /// Returns the bounds of one cell.
   HeightFieldBounds boundsOfCell(int i, int j) const;
-  /// Bounds over the cells that `part` touches.
+  /// Returns the bounds over all cells that overlap `part`.
   HeightFieldBounds boundsOver(const Rectangle& part) const;
 
   double height(double x, double y) const { return view().height(x, y); }

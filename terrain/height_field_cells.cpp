@@ -19,7 +19,7 @@ struct Slopes {
   double h, hx, hy;
 };
 
-/// A bicubic patch is planar if heights, slopes and mixed derivatives of its four corners are those of a plane.
+/// True if heights, slopes and mixed derivatives of the four corners of a bicubic patch are those of a plane.
 std::optional<Slopes> planarCell(const HeightFieldView& v, int i, int j) {
   const bool smooth = v.interpolation == Interpolation::smooth;
   std::optional<Slopes> first;
@@ -53,7 +53,7 @@ HeightFieldCells::HeightFieldCells(const HeightField& field)
     }
 }
 
-/// Returns the index of the plane through `corner` with these slopes; -1 if too many others are listed.
+/// Returns the index of the plane through `corner` with these slopes; -1 if the list is full.
 std::int32_t HeightFieldCells::listed(const Vec3d& corner, double hx, double hy) {
   constexpr std::size_t kMostPlanes = 64;
   const Vec3d normal = base::normalized(Vec3d{-hx, -hy, 1});
@@ -70,7 +70,7 @@ bool HeightFieldCells::contains(double x0, double x1, double y0, double y1) cons
   return x0 >= area_.xMin && y0 >= area_.yMin && x1 <= area_.xMax && y1 <= area_.yMax;
 }
 
-/// Range of cells that a rectangle within the border covers.
+/// Range of cells covered by a rectangle within the border.
 HeightFieldCells::Range HeightFieldCells::rangeOf(double x0, double x1, double y0, double y1) const {
   const auto cell = [](double x, double from, double inverse, int cells) {
     return std::min(static_cast<int>((x - from) * inverse), cells - 1);

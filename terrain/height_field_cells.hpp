@@ -8,28 +8,28 @@
 
 namespace grouser::terrain {
 
-/// The plane normal . x = height.
+/// Plane normal . x = height.
 struct Plane {
   Vec3d normal;  ///< unit, outward
   double height; ///< [m]
 };
 
-/// Height bounds and planes of the cells of a height-field, for tests of boxes on the host.
+/// Height bounds and planes of the cells of a height field, for box tests on the host.
 class HeightFieldCells {
 public:
   HeightFieldCells() = default;
   explicit HeightFieldCells(const HeightField& field);
 
-  /// Returns true if a box in world axes may reach below the height bounds of the cells under it. Always true beyond
-  /// the border, where the height-field continues along its slope, and for a box over many cells that does not clear
-  /// the highest of all.
+  /// True if a box in world axes may reach below the height bounds of the cells under it. Always true beyond the
+  /// border, where the height field is extrapolated along its slope, and for a box over many cells that is not above
+  /// the highest of them.
   bool near(const Vec3d& low, const Vec3d& high) const;
 
   struct Under {
-    const Plane* plane; ///< contains the nearest surface point of every point in the box; null if there is none
+    const Plane* plane; ///< contains the nearest surface points of all points in the box; null: no such plane
     double curvature;   ///< upper bound of the largest eigenvalue of the height's Hessian under the box, >= 0 [1/m]
   };
-  /// Returns what is under a box in world axes.
+  /// Returns the plane and curvature bound of the surface under a box in world axes.
   Under under(const Vec3d& low, const Vec3d& high) const;
 
 private:
@@ -48,10 +48,10 @@ private:
   }
 
   Rectangle area_;
-  int columns_{}, rows_{};            ///< of cells
+  int columns_{}, rows_{};            ///< number of cells along x and y
   std::vector<double> tops_;          ///< [cell] upper bound of the height [m]
   std::vector<double> curvatures_;    ///< [cell] as Under::curvature [1/m]
-  std::vector<std::int32_t> planeOf_; ///< [cell] index of the plane of a planar cell; -1: curved, or of no listed plane
+  std::vector<std::int32_t> planeOf_; ///< [cell] plane index of a planar cell; -1: curved, or no listed plane
   std::vector<Plane> planes_;
   double highest_{0};                ///< upper bound of all heights [m]
   double inverseDx_{}, inverseDy_{}; ///< [1/m]

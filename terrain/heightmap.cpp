@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-// The decoder is compiled in this file only. No vector code: its JPEG transform would round differently. Only formats
-// whose truncation can be detected.
+// Only this file compiles the decoder. It excludes vector code, whose JPEG transform rounds differently, and formats
+// without a way to detect truncation.
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
@@ -34,7 +34,7 @@ using base::InputError;
 
 constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;
 
-/// Frees pixels of the decoder.
+/// Deleter for pixels allocated by the decoder.
 struct FreePixels {
   void operator()(void* pixels) const { stbi_image_free(pixels); }
 };
@@ -58,14 +58,14 @@ bool isPng(const std::vector<stbi_uc>& bytes) {
          std::equal(std::begin(kSignature), std::end(kSignature), bytes.begin());
 }
 
-/// Four bytes, the highest first.
+/// Reads four bytes, big-endian.
 std::uint32_t wordAt(const std::vector<stbi_uc>& bytes, std::size_t at) {
   std::uint32_t word = 0;
   for (std::size_t k = at; k < at + 4; ++k) word = word << 8 | bytes[k];
   return word;
 }
 
-// Places in a PNG: its first chunk must be the header, IHDR.
+// Offsets in a PNG, whose first chunk must be the header, IHDR.
 constexpr std::size_t kHeaderTypeAt = 12, kWidthAt = 16, kHeightAt = 20, kDepthAt = 24, kColourTypeAt = 25,
                       kInterlacedAt = 28;
 
@@ -81,7 +81,7 @@ bool isPngWithoutHeader(const std::vector<stbi_uc>& bytes) {
   return isPng(bytes) && (bytes.size() < kWidthAt || chunkType(bytes, kHeaderTypeAt) != "IHDR");
 }
 
-/// Columns and rows in the header of a PNG (the decoder gives no reason for rejecting large ones); 0 for other files.
+/// Columns and rows in a PNG header (the decoder gives no reason for rejecting large ones); 0 for other files.
 std::pair<std::int64_t, std::int64_t> sizeOfPng(const std::vector<stbi_uc>& bytes) {
   if (bytes.size() < kDepthAt || !isPng(bytes)) return {0, 0};
   constexpr std::uint32_t kMost = 0x7FFFFFFF; // the format's limit
@@ -100,7 +100,7 @@ std::uint32_t crcOf(const stbi_uc* bytes, std::size_t count) {
   return ~crc;
 }
 
-/// " (bad file)": the decoder's reason for its last failure; empty if it gives none.
+/// Reason of the decoder's last failure, as " (bad file)"; empty if unknown.
 std::string decodersReason() {
   const char* reason = stbi_failure_reason();
   return reason && *reason ? fmt::format(" ({})", reason) : "";
@@ -110,13 +110,13 @@ std::string decodersReason() {
 struct PngPixels {
   std::vector<char> stream;      ///< data of all IDAT chunks, in zlib's format
   std::size_t colours{0};        ///< entries of the palette
-  std::size_t transparencyAt{0}; ///< byte where the type of chunk tRNS stands; 0: there is none
+  std::size_t transparencyAt{0}; ///< offset of the type of chunk tRNS; 0: no such chunk
 };
 
-/// Size of a PNG's unpacked pixels: a filter byte and the samples of each row; interlaced files hold seven pictures.
+/// Size of the uncompressed pixels of a PNG: a filter byte and the samples of each row; seven passes if interlaced.
 std::int64_t unpackedBytes(const std::vector<stbi_uc>& bytes) {
   struct Part {
-    std::int64_t x, y, dx, dy; ///< first column and row, and the distances to the next
+    std::int64_t x, y, dx, dy; ///< first column and row, and increments
   };
   constexpr Part kParts[] = {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4},
                              {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}, {0, 0, 1, 1}};
@@ -132,15 +132,15 @@ std::int64_t unpackedBytes(const std::vector<stbi_uc>& bytes) {
   return total;
 }
 
-/// The decoder copies colours beyond the palette from uninitialised memory. With the colour type changed to grey it
-/// decodes the indices of the colours instead.
+/// Makes the decoder return palette indices, by changing the colour type to grey: it would copy colours beyond the
+/// palette from uninitialised memory.
 std::string paletteFault(std::vector<stbi_uc> bytes, const PngPixels& pixels) {
   constexpr int kGrey = 0, kPalette = 3;
   const int most = (1 << bytes[kDepthAt]) - 1;
   if (bytes[kColourTypeAt] != kPalette || pixels.colours > static_cast<std::size_t>(most)) return {};
   bytes[kColourTypeAt] = kGrey;
   if (pixels.transparencyAt > 0)
-    bytes[pixels.transparencyAt] = 'x'; // renames the palette's chunk, which grey must not have
+    bytes[pixels.transparencyAt] = 'x'; // renames the palette chunk, which is invalid for grey
   int columns = 0, rows = 0, channels = 0;
   const std::unique_ptr<stbi_uc, FreePixels> levels(
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &columns, &rows, &channels, 1));
@@ -172,8 +172,8 @@ std::string pixelFault(const std::vector<stbi_uc>& bytes, const PngPixels& pixel
   return paletteFault(bytes, pixels);
 }
 
-/// The fault of a damaged PNG, since the decoder checks no checksums: " (wrong checksum of chunk IDAT at byte 41)".
-/// Empty for sound files and other formats. The header must be one that the decoder accepts.
+/// Error of a damaged PNG, since the decoder verifies no checksums: " (wrong checksum of chunk IDAT at byte 41)". Empty
+/// for valid files and other formats. The decoder must have accepted the header.
 std::string pngFault(const std::vector<stbi_uc>& bytes) {
   constexpr std::size_t kAround = 12; // length, type and checksum of a chunk
   if (!isPng(bytes)) return {};
@@ -196,7 +196,7 @@ std::string pngFault(const std::vector<stbi_uc>& bytes) {
   return " (no end mark)";
 }
 
-/// Returns true if the end-of-image marker is missing: the decoder silently fills the missing part of a JPEG with grey.
+/// True if the end-of-image marker is missing: the decoder silently fills the missing part of a JPEG with grey.
 bool isCutShort(const std::vector<stbi_uc>& bytes) {
   const std::size_t n = bytes.size();
   const bool jpeg = n >= 2 && bytes[0] == 0xFF && bytes[1] == 0xD8;

@@ -4,7 +4,7 @@
 #include "terrain/grain_step.cuh"
 #include "terrain/impulse_iteration.cuh"
 
-/// End of a step with complementarity contacts: moves the grains by their impulses and stores the springs.
+/// End of a step with complementarity contacts: advances the grains by their impulses and stores the springs.
 namespace grouser::terrain {
 
 template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Real> {
@@ -19,11 +19,11 @@ template <class Real> struct AdvanceByImpulses : GrainStep<contact::kGeneral, Re
   /// Sums over the rows of a grain.
   struct Total {
     base::Vec3d force, torque;         ///< [N], [N m]
-    base::Vec3d heldForce, heldTorque; ///< exerted by walls, floor and fixed grains, about the centre
+    base::Vec3d heldForce, heldTorque; ///< exerted by walls, floor and fixed grains, about the grain's centre
     Lost lost{};
     double stabilised = 0; ///< [J]
     float deepest = 0;
-    std::uint32_t touching = 0; ///< boundaries
+    std::uint32_t touching = 0; ///< bit mask of boundaries in contact
   };
 
   GROUSER_HD void operator()(int i) const {
@@ -119,7 +119,7 @@ private:
     if (total.touching != d.boundaryContactMask[i]) d.boundaryContactMask[i] = total.touching;
   }
 
-  /// The parts receive exactly the opposite of the forces on the grain.
+  /// Ends the rows with parts, which receive exactly the opposite of the forces on the grain.
   GROUSER_HD void endPartRows(int i, const base::Position& p, const GrainSize<Real>& size, Total& total) const {
     const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
     forPartRowsOf(s, i, [&](int e, std::int64_t at) {
@@ -166,7 +166,7 @@ private:
     if (held) total.heldForce += force, total.heldTorque += torque;
   }
 
-  /// Rounds a force on a grain to whole quanta, and puts exactly the opposite on the surface.
+  /// Rounds a force on a grain to whole quanta, and applies exactly the opposite to the surface.
   GROUSER_HD base::Vec3d pushSurface(int surface, std::int64_t at, const base::Vec3d& force, base::Vec3d torque) const {
     const base::Vec3l quanta = d.surfaceForce.quantise(force);
     if (s.bounds.rolling) torque -= forceOf(s.bounds.turning[s.now][at]);
@@ -174,8 +174,8 @@ private:
     return d.surfaceForce.value(quanta);
   }
 
-  /// Accounts for the energies of a row and stores its springs. `share`: of its losses that counts for this grain [-].
-  /// Returns whether the contact is closed.
+  /// Accounts for the energies of a row and stores its springs. `share`: fraction of its losses assigned to this grain
+  /// [-]. Returns true if the contact is closed.
   GROUSER_HD bool endRow(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                          const Relative& start, const Relative& end, float* history, const base::Mat3d* turned,
                          double share, Total& total) const {
@@ -188,8 +188,8 @@ private:
     const double first = static_cast<double>(dot(start.velocity, row.push)),
                  last = static_cast<double>(dot(end.velocity, row.push)), normal = static_cast<double>(along);
     const bool impact = row.place & kImpactBit;
-    // Friction dissipates by the slip at the end of the step. Rigid contacts have no springs, so that all tangential
-    // work, which the mean velocity determines, is friction.
+    // Friction dissipation uses the slip at the end of the step. Rigid contacts have no springs, so all tangential
+    // work, which the mean velocity determines, is frictional.
     const Real mean = impact || s.rules.rigid ? Real(0.5) : Real(0);
     const Vec sped = contact::detail::tangentOf(end.velocity - start.velocity, row.push) * mean;
     total.lost.rubbed -= share * static_cast<double>(dot(shear, slip - sped));
@@ -220,7 +220,7 @@ private:
       spring = contact::keptImpulse(rows.impulse[s.now][at], s.rules);
       if (rows.rolling) angle = contact::keptImpulse(rows.turning[s.now][at], s.rules);
     } else if (!(row.place & kImpactBit)) {
-      // The spring stretches by the tangential displacement without slip.
+      // The spring stretches by the tangential displacement minus the slip.
       if (row.shearSoftness > 0) spring = turnedSpring<Real>(history, turned) + way * h;
       if (rows.rolling)
         angle = turnedSpring<Real>(history + 3, turned) +

@@ -11,7 +11,7 @@
 
 namespace grouser::terrain {
 
-/// Sums counts over the ranks, which all call it.
+/// Sums counts over the ranks; collective.
 inline void sumCounts(base::Array<std::uint32_t>& counts, const base::Comm& comm) {
   if (comm.alone()) return;
   const std::vector<std::uint32_t> mine = counts.toHost();
@@ -20,14 +20,14 @@ inline void sumCounts(base::Array<std::uint32_t>& counts, const base::Comm& comm
   counts.assign(std::vector<std::uint32_t>(all.begin(), all.end()));
 }
 
-/// Velocities of bodies among the grains in the iterations of a step. The host computes them from integer sums of the
-/// impulses, so that all ranks have the same bits.
+/// Velocities of the rigid bodies in the iterations of a step. The host computes them from integer sums of the
+/// impulses, so all ranks have identical bits.
 template <class Real> class ImpulseBodies {
 public:
   explicit ImpulseBodies(const base::Exec& exec)
       : laws_(exec), bodyOfPart_(exec), inverses_(exec), rows_(exec), pushes_(exec), motion_(exec) {}
 
-  /// Begins a step with the velocities that the bodies have without grain contacts.
+  /// Starts a step with the body velocities without grain contacts.
   void begin(contact::BodyResponse& bodies, const contact::GrainPartContacts& contacts, double timeStep) {
     bodies_ = &bodies;
     const std::size_t count = bodies.inverses().size();
@@ -36,7 +36,7 @@ public:
       std::vector<contact::BasicLaw<Real>> laws;
       for (const contact::ContactLaw& law : contacts.laws()) laws.push_back(law.as<Real>());
       laws_.assign(laws), bodyOfPart_.assign(bodies.bodyOfPart());
-      // Same resolution as forces of penalty contacts.
+      // Same resolution as the forces of penalty contacts.
       const contact::GrainPartModel& model = contacts.model();
       push_ = base::fixedPointFor(model.force.quantum * timeStep * 0x1p40, 40);
       turn_ = base::fixedPointFor(model.torque.quantum * timeStep * 0x1p40, 40);
@@ -60,10 +60,10 @@ public:
   /// Sums the row counts over the ranks. Collective.
   void sumRows(const base::Comm& comm) { sumCounts(rows_, comm); }
 
-  /// Returns true if any body can move.
+  /// True if any body can move.
   bool anyMovable() const { return anyMovable_; }
   void clearPushes() { pushes_.zero(); }
-  /// Computes the velocities from the impulses of all ranks. Collective.
+  /// Computes the body velocities from the impulses of all ranks. Collective.
   void move(const base::Comm& comm) {
     std::vector<std::int64_t> pushes = pushes_.toHost();
     comm.sum(pushes.data(), pushes.size());

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-/// Step size, restart, and stopping rules of the iterations, with the same bits on host and device.
+/// Step size, restart, and stopping criteria of the iterations, with identical bits on host and device.
 namespace grouser::terrain {
 
 /// Sums of an iteration over all rows and ranks.
@@ -15,8 +15,8 @@ struct IterationSums {
 
 /// State of the iterations of a step.
 template <class Real> struct ImpulseControl {
-  /// Limits of tau. The metric bounds the curvature at tau = 1; larger values cover bodies that respond more than free
-  /// ones.
+  /// Limits of tau. The metric bounds the curvature at tau = 1; larger values are needed for bodies with a larger
+  /// response than free bodies.
   static constexpr double kMostTau = 16, kLeastTau = 1e-3, kLongerStep = 0.97;
   static constexpr int kPatience = 100; ///< iterations within which the residual must halve
 
@@ -25,19 +25,19 @@ template <class Real> struct ImpulseControl {
   bool associated{false};
   bool relaxed{false}; ///< switched from Coulomb's law to the relaxation
   bool done{false};
-  int now = 0, before = 0, tried = 2; ///< buffers of rows
+  int now = 0, before = 0, tried = 2; ///< indices of row buffers
   int iterations = 0, halvedAt = 0, evaluations = 0;
   Real ahead = 0, tau = 1; ///< extrapolation; inverse step size over that of the metric
   double theta = 1, halved = 0;
   IterationSums last{};
 
-  /// Starts from the sums of the first impulses.
+  /// Initialises the control from the sums of the initial impulses.
   GROUSER_HD void begin(const IterationSums& sums) {
     last = sums, halved = sums.worst, evaluations = 1;
     done = !(last.worst > residual);
   }
 
-  /// Accepts a trial, or shortens the step if its curvature is too high. Switches to the relaxation if Coulomb's law,
+  /// Accepts a trial, or shortens the step if the curvature is too high. Switches to the relaxation if Coulomb's law,
   /// which has no potential, does not converge.
   GROUSER_HD void take(const IterationSums& sums) {
     ++evaluations;

@@ -3,12 +3,12 @@
 
 #include "terrain/impulse_setup.cuh"
 
-/// An iteration has two kernels: each grain takes a step in its own rows and adds them to its velocity; then it
-/// computes the gradient of its rows from the velocities of all grains.
+/// An iteration has two kernels: first each grain takes a step in its own rows and adds their impulses to its velocity;
+/// then it computes the gradient of its rows from the velocities of all grains.
 namespace grouser::terrain {
 
-/// Adds the impulses of a grain to its velocity. `kTry`: first a gradient step from the extrapolated impulses; else the
-/// current impulses.
+/// Adds the impulses of a grain to its velocity. `kTry`: after a gradient step from the extrapolated impulses;
+/// otherwise the current impulses.
 template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 150;
   using Base = ImpulseKernel<Real>;
@@ -16,7 +16,7 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   using typename Base::Kernel, typename Base::Vec;
 
   GROUSER_HD void operator()(int i) const {
-    if (s.control->done || (s.ghost && s.ghost[i] != 0)) return; // the halo exchange sets ghosts
+    if (s.control->done || (s.ghost && s.ghost[i] != 0)) return; // ghosts are set by the halo exchange
     if (hasNoRows(d, s, i)) {
       s.motion[i] = {}; // fixed
       return;
@@ -48,7 +48,7 @@ template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
   }
 
 private:
-  /// Adds the opposite of an impulse on a grain to that on a body.
+  /// Adds the opposite of an impulse on a grain to the impulse on a body.
   GROUSER_HD void pushBody(const PartRowRecord<Real>& on, const Vec& impulse, const Vec& rolling) const {
     const base::Vec3l linear = s.bodyPush.quantise(-impulse.template as<double>()),
                       angular = s.bodyTurn.quantise(-(cross(on.arm, impulse) + rolling).template as<double>());
@@ -80,8 +80,8 @@ template <class Real> GROUSER_HD double perUnitOf(const ImpulseData<Real>& s, in
   return sum == kContacts ? 1.0 : sum == kSquares ? s.perSquare : s.perEnergy;
 }
 
-/// Computes the gradient of each row from the velocities, and the sums that control the next iteration. `kTry` as
-/// above.
+/// Computes the gradient of each row from the velocities, and the sums that control the next iteration. `kTry` as in
+/// MoveByImpulses.
 template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 150;
   using Base = ImpulseKernel<Real>;
@@ -164,14 +164,14 @@ private:
     if constexpr (kTry) addProducts(rows, at, row, x, a, sums);
   }
 
-  /// Natural map: the change of the impulse by a projected step along the gradient, in units of velocity.
+  /// Natural map residual: change of the impulse by a projected gradient step, in units of velocity.
   GROUSER_HD void addResidual(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                               const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, RowSums& sums) const {
     contact::Impulse<Real> z{x.linear - a.linear * (Real(1) / row.mobility), {}};
     contact::ImpulseMetric<Real> metric{Real(1), Real(0)};
     if (rows.rolling) {
       const Real arm = row.armOwn > row.armOther ? row.armOwn : row.armOther;
-      metric.rolling = Real(2.5) / (arm * arm); // of a solid sphere: mass over moment of inertia
+      metric.rolling = Real(2.5) / (arm * arm); // mass / moment of inertia of a solid sphere
       z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * metric.rolling));
     }
     const contact::Impulse<Real> off =
@@ -181,14 +181,14 @@ private:
                           (norm2(off.linear.template as<double>()) +
                            static_cast<double>(metric.rolling) * norm2(off.rolling.template as<double>()));
     sums.of[kSquares] += square, sums.of[kContacts] += 1;
-    const bool sound = square + 0 * norm2(a.linear.template as<double>()) == square; // a NaN would be cut to zero
+    const bool sound = square + 0 * norm2(a.linear.template as<double>()) == square; // a NaN would be projected to zero
     const float residual = sound ? static_cast<float>(sqrt(square)) : kNoResidual;
     if (residual > sums.worst) sums.worst = residual;
   }
 
-  /// Curvature d N d and squared length of the step d from y to x, and its product with the change since the last
-  /// iteration, in the metric. A negative product restarts the extrapolation (O'Donoghue and Candes 2015, Found.
-  /// Comput. Math. 15:715; the step replaces the gradient, which Coulomb's law does not follow).
+  /// Adds the curvature d N d and squared length of the step d from y to x, and its product with the change since the
+  /// last iteration, in the metric. A negative product restarts the extrapolation (O'Donoghue and Candes 2015, Found.
+  /// Comput. Math. 15:715; with the step instead of the gradient, which Coulomb's law does not follow).
   GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
                               const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, RowSums& sums) const {
     const auto [y, gy] = Base::ahead(rows, at);
@@ -210,7 +210,7 @@ private:
   }
 };
 
-/// Adds up the banks of an iteration and clears them.
+/// Sums the banks of an iteration and clears them.
 template <class Real> struct SumBanks {
   static constexpr int kCount = kImpulseSums * kSumSizes;
   ImpulseData<Real> s;
@@ -225,7 +225,7 @@ template <class Real> struct SumBanks {
   }
 };
 
-/// Converts the totals of an iteration. `worst`: see ImpulseData.
+/// Converts the sums of an iteration to real numbers. `worst`: see ImpulseData.
 template <class Real>
 GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::WideSum* totals, std::uint32_t worst) {
   const auto sum = [&](int which) {
@@ -237,7 +237,7 @@ GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::W
           sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(worst))};
 }
 
-/// Updates the control on the device.
+/// Updates the iteration control on the device.
 template <class Real> struct Decide {
   ImpulseData<Real> s;
   const base::WideSum* totals;

@@ -5,7 +5,7 @@
 
 namespace grouser::terrain {
 
-/// Makes the rows of a listed grain-part pair. Springs rotate with the part.
+/// Creates the rows of a listed grain-part pair. Springs rotate with the part.
 template <class Real> struct MakePartRows : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 400;
   using Base = ImpulseKernel<Real>;
@@ -21,7 +21,7 @@ template <class Real> struct MakePartRows : ImpulseKernel<Real> {
     const double speed = Base::speedOf(i) + 2 * norm(d.gravityStep) + norm(part.velocityAt(x));
     const contact::PartPatches::Found found =
         patches.find(e, static_cast<double>(Base::marginFor(speed)) * d.unitLength);
-    // Fixed grains have no rows: a part that reaches one is a fault.
+    // Fixed grains have no rows: contact between a part and a fixed grain is a fault.
     const int rows = hasNoRows(d, s, i) ? 0 : found.count;
     for (int k = rows; k < found.count; ++k)
       if (found.patch[k].overlap > 0) Base::raise(Fault::through, i);
@@ -43,7 +43,7 @@ template <class Real> struct MakePartRows : ImpulseKernel<Real> {
   }
 
 private:
-  /// Adds the row of a patch. Returns the energy in its springs [J].
+  /// Adds the row of a patch. Returns its spring energy [J].
   GROUSER_HD double add(int e, int k, const base::Vec3d& x, const GrainSize<Real>& size,
                         const contact::PartPatches::Found& found, contact::PatchMemory& kept,
                         base::Vec3f& keptAngle) const {

@@ -7,26 +7,26 @@
 #include "terrain/grain_kernel_data.cuh"
 #include "terrain/impulse_control.hpp"
 
-/// Rows of the complementarity problem of a step, as its kernels see them. Each grain of a pair has a row of its own,
-/// and both have opposite impulses with the same bits: a grain adds up its rows in the order of its neighbours' ids,
-/// and writes no others.
+/// Rows of the complementarity problem of a step, as seen by its kernels. Each grain of a pair has its own row, with
+/// opposite impulses that are bitwise equal: a grain sums its rows in the order of its neighbours' ids, and writes only
+/// these.
 namespace grouser::terrain {
 
-inline constexpr std::uint32_t kFixedPartner = ~0u; ///< a wall, floor, surface or fixed grain
+inline constexpr std::uint32_t kFixedPartner = ~0u; ///< denotes a wall, floor, surface or fixed grain
 
 /// Constants of a row during a step.
 template <class Real> struct ImpulseRowRecord {
-  base::Vec3<Real> push;   ///< unit, towards the grain
-  base::Vec3<Real> offset; ///< [m/s], prescribed velocities included
+  base::Vec3<Real> push;   ///< unit normal towards the grain
+  base::Vec3<Real> offset; ///< [m/s], including prescribed velocities
   Real softness, shearSoftness;
   Real friction;
-  Real armOwn, armOther; ///< centre to contact point [m]
+  Real armOwn, armOther; ///< distance from centre to contact point [m]
   Real weight;           ///< weight in the metric, the inverse of the step size [1/kg]
   Real mobility;         ///< sum of the inverse masses and the softness [1/kg]: scales residuals to velocities
   std::uint32_t other;   ///< slot, or kFixedPartner
   std::uint32_t place;   ///< index in the neighbour list, boundary, or patch, with two flags
 };
-/// Flags of ImpulseRowRecord::place. `kCountsBit`: this side of the pair, with the smaller id, enters the sums.
+/// Flags of ImpulseRowRecord::place. `kCountsBit`: this side of the pair (smaller id) contributes to the sums.
 inline constexpr std::uint32_t kImpactBit = 1u << 31, kCountsBit = 1u << 30, kPlaceBits = kCountsBit - 1;
 
 /// Constants of the rolling resistance of a row.
@@ -35,19 +35,19 @@ template <class Real> struct RollingRowRecord {
   Real softness, arm, weight;
 };
 
-/// Constants of a row for the end of the step.
+/// Constants of a row used at the end of the step.
 template <class Real> struct ImpulseRowEnd {
   Real overlap;               ///< at the start of the step [m]; < 0: gap
   Real pull;                  ///< impulse of cohesion [N s]
   Real damping, shearDamping; ///< dashpot coefficients [N s/m]
 };
 
-/// Velocities of a grain in an iteration; element of the halo exchange.
+/// Velocities of a grain in an iteration; exchanged with other ranks.
 template <class Real> struct ImpulseMotion { base::Vec3<Real> velocity, spin; };
 
 /// Body that a row acts on.
 template <class Real> struct PartRowRecord {
-  base::Vec3<Real> arm; ///< from its centre of mass to the contact point [m]
+  base::Vec3<Real> arm; ///< from the body's centre of mass to the contact point [m]
   std::uint32_t body;
 };
 
@@ -57,21 +57,21 @@ template <class Real> struct BodyMotion {
   GROUSER_HD base::Vec3<Real> at(const base::Vec3<Real>& arm) const { return velocity + cross(spin, arm); }
 };
 
-/// Rows of one kind, device arrays by place. Impulses and gradients are triple-buffered: current iteration, previous
-/// one and trial.
+/// Rows of one kind in device arrays, by place. Impulses and gradients are triple-buffered: current, previous and trial
+/// iteration.
 template <class Real> struct ImpulseRowsView {
   ImpulseRowRecord<Real>* row;
   RollingRowRecord<Real>* rolling; ///< null without rolling resistance
   base::Vec3<Real>* impulse[3];    ///< [N s]
   base::Vec3<Real>* gradient[3];   ///< a in impulse_law.hpp [m/s]
-  base::Vec3<Real>* turning[3];    ///< rolling impulse [N m s]; null without
+  base::Vec3<Real>* turning[3];    ///< rolling impulse [N m s]; null without rolling resistance
   base::Vec3<Real>* turnGradient[3];
   ImpulseRowEnd<Real>* end;
   PartRowRecord<Real>* part; ///< null: no rows with parts
 };
 
 /// Sums of an iteration over all rows, as integers with quanta of two sizes, so that the order of grains does not
-/// matter. Each grain sums its own rows in order.
+/// matter. Each grain sums its own rows in a fixed order.
 enum ImpulseSum : int { kCurvature, kLength, kAgainst, kSquares, kContacts, kImpulseSums };
 inline constexpr int kSumSizes = 2, kSumBanks = 64;
 /// Ratio of the two quanta.
@@ -80,43 +80,43 @@ inline constexpr double kFinerSums = 0x1p40;
 /// Arguments of the kernels of a step.
 template <class Real> struct ImpulseData {
   contact::ImpulseRules<Real> rules;
-  ImpulseRowsView<Real> grains;  ///< by place of the neighbour list; a grain's rows fill the first places of its list
-  ImpulseRowsView<Real> bounds;  ///< [row of the grain][place in the list of grains near boundaries]
-  ImpulseRowsView<Real> parts;   ///< [listed pair of grain and part][kPatches]
+  ImpulseRowsView<Real> grains;  ///< by place of the neighbour list; a grain's rows occupy the first places of its list
+  ImpulseRowsView<Real> bounds;  ///< [row of the grain][index in the list of grains near boundaries]
+  ImpulseRowsView<Real> parts;   ///< [listed grain-part pair][kPatches]
   std::uint32_t* grainRows;      ///< [slot] number of rows with other grains
-  std::uint32_t* boundRows;      ///< [place in the list near boundaries] number of rows
-  std::uint32_t* partRows;       ///< [listed pair of grain and part] number of rows
-  std::uint32_t* degree;         ///< [slot] number of all rows, ghosts included
-  std::int64_t near;             ///< grains listed near boundaries
-  ImpulseMotion<Real>* free;     ///< [slot] at the end of the step without contacts
-  ImpulseMotion<Real>* motion;   ///< [slot] with the impulses of this iteration, ghosts included
-  const std::uint32_t* ghost;    ///< [slot] not 0 for ghosts; null: none
-  std::int64_t margin;           ///< largest gap of a row [units]
-  std::int64_t leastMargin;      ///< gap within which a pair at rest has a row [units]
+  std::uint32_t* boundRows;      ///< [index in the list near boundaries] number of rows
+  std::uint32_t* partRows;       ///< [listed grain-part pair] number of rows
+  std::uint32_t* degree;         ///< [slot] number of all rows, including ghosts
+  std::int64_t near;             ///< number of grains listed near boundaries
+  ImpulseMotion<Real>* free;     ///< [slot] velocities at the end of the step without contacts
+  ImpulseMotion<Real>* motion;   ///< [slot] velocities with the impulses of this iteration, including ghosts
+  const std::uint32_t* ghost;    ///< [slot] nonzero for ghosts; null without ghosts
+  std::int64_t margin;           ///< maximum gap of a row [units]
+  std::int64_t leastMargin;      ///< gap below which a pair at rest has a row [units]
   ImpulseControl<Real>* control; ///< state of the iterations
-  int now;                       ///< buffer of the rows before and after the iterations
+  int now;                       ///< buffer index of the rows before and after the iterations
   // Force-driven surfaces.
   std::uint32_t* surfaceRows;  ///< [surface] number of rows on all ranks
-  std::int64_t* surfacePushes; ///< [surface] impulses of this rank's rows along its axis
-  base::FixedPoint push;       ///< their quantum [N s]
-  const Real* surfaceChange;   ///< [surface] speed along its axis gained by contacts [m/s]
+  std::int64_t* surfacePushes; ///< [surface] impulse of this rank's rows along its axis
+  base::FixedPoint push;       ///< quantum of surfacePushes [N s]
+  const Real* surfaceChange;   ///< [surface] speed change along its axis due to contacts [m/s]
   // Parts of bodies.
   contact::PartPatches patches;               ///< empty without parts
   const contact::BasicLaw<Real>* partLaws;    ///< by PartPatches::law()
   const std::uint32_t* bodyOfPart;            ///< [part]
   const contact::BodyResponse::Inverse* body; ///< [body]
   std::uint32_t* bodyRows;                    ///< [body] number of rows on all ranks
-  std::int64_t* bodyPushes;            ///< [body][6] impulses and their moments of this rank's rows; null if no body
-                                       ///< can move
-  base::FixedPoint bodyPush, bodyTurn; ///< their quanta [N s], [N m s]
-  const BodyMotion<Real>* bodyMotion;  ///< [body] with the impulses of this iteration
-  bool rolls;                          ///< any row has rolling resistance
-  base::WideSum* sums;                 ///< [kSumBanks][kImpulseSums][kSumSizes]
-  double perEnergy, perSquare;         ///< large quanta per unit
-  std::uint32_t* worst;                ///< largest residual [m/s], bits of a float
+  std::int64_t* bodyPushes;                   ///< [body][6] impulse and moment of this rank's rows; null if no body
+                                              ///< can move
+  base::FixedPoint bodyPush, bodyTurn;        ///< quanta of bodyPushes [N s], [N m s]
+  const BodyMotion<Real>* bodyMotion;         ///< [body] velocity with the impulses of this iteration
+  bool rolls;                                 ///< any row has rolling resistance
+  base::WideSum* sums;                        ///< [kSumBanks][kImpulseSums][kSumSizes]
+  double perEnergy, perSquare;                ///< large quanta per unit
+  std::uint32_t* worst;                       ///< maximum residual [m/s], as bits of a float
 };
 
-/// Calls each(pair, place) for the rows of a grain with parts.
+/// Calls each(pair, place) for the rows of a grain in contact with parts.
 template <class Real, class Each> GROUSER_HD void forPartRowsOf(const ImpulseData<Real>& s, int i, const Each& each) {
   const std::uint32_t range = s.patches.pairs > 0 ? s.patches.range[i] : 0, first = range >> 8;
   for (std::uint32_t e = first; e < first + (range & 255u); ++e)
@@ -124,7 +124,7 @@ template <class Real, class Each> GROUSER_HD void forPartRowsOf(const ImpulseDat
       each(static_cast<int>(e), contact::PartPatches::first(static_cast<int>(e)) + k);
 }
 
-/// Calls each(rows, place) for the rows of a grain, in the order of their summation.
+/// Calls each(rows, place) for all rows of a grain, in summation order.
 template <class Real, class Each>
 GROUSER_HD void forRowsOf(const GrainKernelData& d, const ImpulseData<Real>& s, int i, const Each& each) {
   for (std::uint32_t k = 0; k < s.grainRows[i]; ++k) each(s.grains, d.neighbours.at(i, k));
@@ -139,8 +139,8 @@ template <class Real> GROUSER_HD ImpulseMotion<Real> motionAtStart(const GrainKe
   return {d.motion[i].velocity.xyz().template as<Real>(), d.motion[i].spin.xyz().template as<Real>()};
 }
 
-/// Velocity of a grain's contact point relative to that of the other side [m/s]. Seen from the other side it has the
-/// opposite sign and the same bits.
+/// Velocity of a grain's contact point relative to the other side [m/s]. Seen from the other side it has the opposite
+/// sign, bit for bit.
 template <class Real>
 GROUSER_HD base::Vec3<Real> relativeVelocity(const ImpulseMotion<Real>& own, const ImpulseMotion<Real>& other,
                                              const base::Vec3<Real>& push, Real armOwn, Real armOther) {
@@ -151,7 +151,7 @@ template <class Real> GROUSER_HD contact::ImpulseCone<Real> coneAt(const Impulse
   return {rows.row[at].friction, rows.rolling ? rows.rolling[at].arm : Real(0)};
 }
 
-/// The force-driven surface of a row, or null.
+/// Returns the force-driven surface of a row, or null.
 template <class Real> GROUSER_HD const SurfacePose*
 freeSurface(const GrainKernelData& d, const ImpulseRowRecord<Real>& row, bool atBoundary, int& surface) {
   surface = static_cast<int>(row.place & kPlaceBits) - (d.boundaryCount - d.surfaceCount);

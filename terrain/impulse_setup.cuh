@@ -5,7 +5,7 @@
 #include "terrain/feet_search.hpp"
 #include "terrain/impulse_rows.cuh"
 
-/// Kernels that make the rows of a step: geometry, constants and first impulses of all contacts that may close in it.
+/// Kernels that create the rows of a step: geometry, constants and initial impulses of contacts that may close in it.
 namespace grouser::terrain {
 
 template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real> {
@@ -20,7 +20,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     Real own, other; ///< [m]
   };
 
-  /// Largest gap [units] of a row between sides whose speeds add up to `speed` [m/s].
+  /// Maximum gap [units] of a row whose sides have the total speed `speed` [m/s].
   GROUSER_HD std::int64_t marginFor(double speed) const {
     const double way = speed * d.unitsPerSpeed, most = static_cast<double>(s.margin - s.leastMargin);
     return s.leastMargin + static_cast<std::int64_t>(way < most ? way : most);
@@ -32,8 +32,8 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     return Real(0.4) * size.mass * size.radius * size.radius;
   }
 
-  /// Loads the springs of the last step and turns them into the present tangent plane; a new contact has none. Stores
-  /// them in `history` again for the end of the step.
+  /// Loads the springs of the last step and rotates them into the current tangent plane; a new contact has none. Stores
+  /// them back to `history` for the end of the step.
   GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, bool rolls, Touch& touch) const {
     if (touch.held) {
       touch.shear = turnedSpring<Real>(history, turned);
@@ -44,7 +44,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     if (rolls) storeTurned(history + 3, turned, touch.angle);
   }
 
-  /// Contact of a grain with a boundary or part, whose contact point moves with `moves` [m/s], turns with `turns`
+  /// Contact of a grain with a boundary or part whose contact point has the velocity `moves` [m/s] and spin `turns`
   /// [rad/s], and gains `gains` [m/s] in this step without contacts. Without history.
   GROUSER_HD Touch touchOf(int i, const GrainSize<Real>& size, const Vec& push, Real gap, const Arms& arms,
                            const Vec& moves, const Vec& turns, const Vec& gains) const {
@@ -74,7 +74,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     return {x + (x - impulseAt(rows, before, at)) * more, g + (g - gradientAt(rows, before, at)) * more};
   }
 
-  /// Stores a row and its first impulse.
+  /// Stores a row and its initial impulse.
   GROUSER_HD void put(const ImpulseRowsView<Real>& rows, std::int64_t at, const contact::ImpulseRow<Real>& row,
                       const Arms& arms, Real overlap, std::uint32_t other, std::uint32_t place,
                       bool counts = true) const {
@@ -98,7 +98,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
   }
 };
 
-/// Rows of a grain with other grains, and its motion without contacts.
+/// Creates the rows of a grain with other grains, and its motion without contacts.
 template <class Real> struct MakeGrainRows : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 300;
   using Base = ImpulseKernel<Real>;
@@ -120,7 +120,7 @@ template <class Real> struct MakeGrainRows : ImpulseKernel<Real> {
       const std::int64_t distance2 = base::squaredNorm(apart);
       const std::int64_t reach = has(kManyRadii) ? std::int64_t{d.neighbours.reach[at]} : d.diameterUnits;
       const std::int64_t range = reach + Base::marginFor(ownSpeed + Base::speedOf(static_cast<int>(j)));
-      if (distance2 == 0) Base::raise(Fault::overlap, i); // no direction to push in
+      if (distance2 == 0) Base::raise(Fault::overlap, i); // contact normal undefined
       if (distance2 >= range * range || distance2 == 0) continue;
       const bool held = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
       add(i, size, j, k, apart, distance2, reach, at, held, d.neighbours.at(i, rows++), pulled);
@@ -139,7 +139,7 @@ private:
     const GrainSize<Real> other = Kernel::sizeOf(static_cast<int>(j));
     const bool ground = Base::fixedAt(j);
     const Law& law = has(kManyMaterials) ? f.pairLaws[size.material * d.materials + other.material] : f.law;
-    // Both arms end in one point, so that angular momentum balances: each sphere gives its share of the gap.
+    // Both arms end at the same point, which conserves angular momentum: each sphere takes its share of the gap.
     const Real share = pair.distance / (size.radius + other.radius);
     const Arms arms{size.radius * share, other.radius * share};
     const ImpulseMotion<Real> mine = motionAtStart<Real>(d, i), theirs = motionAtStart<Real>(d, static_cast<int>(j));
@@ -162,7 +162,7 @@ private:
     Base::put(s.grains, at, row, arms, pair.overlap, ground ? kFixedPartner : j, k, ground || d.id[i] < d.id[j]);
   }
 
-  /// Velocities at the end of the step without contacts: gravity and cohesion alone.
+  /// Velocities at the end of the step without contacts: due to gravity and cohesion only.
   GROUSER_HD ImpulseMotion<Real> freely(int i, const GrainSize<Real>& size, const Vec& pulled) const {
     const Remainders kept = d.remainders[i];
     const base::Vec3f v = d.motion[i].velocity.xyz(), w = d.motion[i].spin.xyz();
@@ -176,19 +176,19 @@ private:
   }
 };
 
-/// Rows of a grain with walls, floor and surfaces.
+/// Creates the rows of a grain with walls, floor and surfaces.
 template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 200;
   using Base = ImpulseKernel<Real>;
   using Base::d, Base::f, Base::has, Base::s;
   using typename Base::Arms, typename Base::Kernel, typename Base::Law, typename Base::Touch, typename Base::Vec;
 
-  /// A grain near boundaries, with the rows that it has so far.
+  /// Grain near boundaries, with its rows so far.
   struct Grain {
     int place, slot;
     base::Vec3d x;
     GrainSize<Real> size;
-    std::uint32_t before; ///< boundaries that it touched in the last step
+    std::uint32_t before; ///< boundaries in contact in the last step
     std::uint32_t rows = 0;
     Vec pulled{};
   };
@@ -225,7 +225,7 @@ template <class Real> struct MakeBoundaryRows : ImpulseKernel<Real> {
   }
 
 private:
-  /// Fixed grains have no rows: a surface that reaches one is a fault.
+  /// Fixed grains have no rows: contact between a surface and a fixed grain is a fault.
   GROUSER_HD void checkFixed(int i) const {
     const base::Vec3d x = base::toUnits(d.position[i]).template as<double>() * d.unitLength;
     for (int b = 0; b < d.surfaceCount; ++b)
@@ -234,7 +234,7 @@ private:
         Base::raise(Fault::through, i);
   }
 
-  /// Adds the contacts with a floor whose hollows are tighter than the grain.
+  /// Adds the contacts with a floor that has hollows tighter than the grain.
   GROUSER_HD void addHollows(Grain& grain, double radius) const {
     if (d.floor.clearOf(grain.x, radius)) return;
     float* normals = Kernel::hasHistory() ? d.floorNormals(grain.place, Kernel::historyWidth()) : nullptr;
@@ -252,7 +252,7 @@ private:
     }
   }
 
-  /// Adds a row. `pose`: null where the boundary rests; `share`: factor of dashpots and cohesion [-].
+  /// Adds a row. `pose`: null for a boundary at rest; `share`: factor of dashpots and cohesion [-].
   GROUSER_HD void add(Grain& grain, int boundary, const base::Vec3d& outward, double gap, const SurfacePose* pose,
                       Real share = 1) const {
     const Vec push = outward.template as<Real>();
@@ -281,13 +281,13 @@ private:
   }
 };
 
-/// Counts the rows of each grain, and adds the cohesion of parts to its free motion.
+/// Counts the rows of each grain, and adds the cohesion with parts to its free motion.
 template <class Real> struct CountRows : ImpulseKernel<Real> {
   using Base = ImpulseKernel<Real>;
   using Base::d, Base::s;
   using typename Base::Kernel, typename Base::Vec;
   GROUSER_HD void operator()(int i) const {
-    if (s.ghost && s.ghost[i] != 0) return; // the halo exchange sets it
+    if (s.ghost && s.ghost[i] != 0) return; // set by the halo exchange
     std::uint32_t rows = s.grainRows[i];
     if (const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0) rows += s.boundRows[at - 1];
     Vec pulled{};
@@ -301,8 +301,8 @@ template <class Real> struct CountRows : ImpulseKernel<Real> {
 };
 
 /// Computes the metric of each row, which bounds the effect of all rows of both grains on its velocity: each grain's
-/// mass is split among its rows (Tonge, Benevolenski and Voroshilov 2012, ACM Trans. Graph. 31:105). With steps of this
-/// size the objective of the convex problem never rises.
+/// mass is split among its rows (Tonge, Benevolenski and Voroshilov 2012, ACM Trans. Graph. 31:105). With this step
+/// size the objective of the convex problem never increases.
 template <class Real> struct WeighRows : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 60;
   using Base = ImpulseKernel<Real>;
@@ -322,7 +322,7 @@ private:
     const bool alone = row.other == kFixedPartner;
     const GrainSize<Real> other = alone ? own : Kernel::sizeOf(static_cast<int>(row.other));
     const Real many = static_cast<Real>(degree), more = alone ? Real(0) : static_cast<Real>(s.degree[row.other]);
-    // Before surfaces touch, arms are longer than radii.
+    // Across a gap the arms are longer than the radii.
     const Real a = row.armOwn / own.radius, b = row.armOther / other.radius, longer = a > b ? a : b;
     const Real arm2 = longer > 1 ? longer * longer : Real(1);
     int surface = 0;
@@ -344,7 +344,7 @@ private:
     row.mobility = Real(1) / own.mass + yields + row.softness;
     if (!rows.rolling) return;
     RollingRowRecord<Real>& roll = rows.rolling[at];
-    // Rolling and shear both turn the grain, so each counts twice.
+    // Rolling and shear both rotate the grain, so each counts twice.
     roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other) + turns) + roll.softness;
   }
 
@@ -359,8 +359,8 @@ private:
   }
 
 public:
-  /// Weight of shear over that of the normal direction [-]: 1 + m R^2 / I of a solid sphere; where rolling rows turn
-  /// the grain too, 1 + 2 m R^2 / I.
+  /// Weight of shear relative to the normal direction [-]: 1 + m R^2 / I of a solid sphere; 1 + 2 m R^2 / I if rolling
+  /// rows also rotate the grain.
   GROUSER_HD static Real shearWeight(const ImpulseData<Real>& s) { return s.rolls ? Real(6) : Real(3.5); }
 };
 

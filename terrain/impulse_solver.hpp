@@ -16,7 +16,7 @@ namespace grouser::terrain {
 struct GrainKernelData;
 struct GrainSystem;
 
-/// Bodies among the grains; they must outlive the step.
+/// Rigid bodies in contact with grains; they must outlive the step.
 struct ImpulseParts {
   contact::GrainPartContacts* contacts{nullptr};           ///< pairs, history and laws; null: no parts
   const base::Array<contact::PartMotion>* motion{nullptr}; ///< at the start of the step
@@ -24,23 +24,23 @@ struct ImpulseParts {
   contact::BodyResponse* bodies{nullptr};
 };
 
-/// Outcome of solving the complementarity problem of a step, the same on all ranks.
+/// Outcome of solving the complementarity problem of a step, identical on all ranks.
 struct ImpulseReport {
-  int iterations{};    ///< 0: the impulses of the last step met the residual
-  double residual{};   ///< largest of all rows [m/s]
-  double rms{};        ///< root of their mean square [m/s]
-  double rows{};       ///< contacts
-  bool relaxed{false}; ///< the convex relaxation finished the step, since Coulomb's law did not converge
+  int iterations{};    ///< 0: the impulses of the last step already satisfied the residual
+  double residual{};   ///< maximum over all rows [m/s]
+  double rms{};        ///< root mean square over all rows [m/s]
+  double rows{};       ///< number of contacts
+  bool relaxed{false}; ///< Coulomb's law did not converge: the convex relaxation finished the step
   bool met{true};      ///< the residual is at most run.residual
 };
 
-/// All steps since the start of the run.
+/// Totals over all steps since the start of the run.
 struct ImpulseTotals {
   std::int64_t steps{}, iterations{};
   std::int64_t missed{};  ///< steps that exceeded run.residual
   std::int64_t relaxed{}; ///< see ImpulseReport
   double worst{};         ///< largest residual [m/s]
-  double tau{1};          ///< final value of the last step, initial value of the next; see ImpulseControl
+  double tau{1};          ///< final value of the last step, used as initial value of the next; see ImpulseControl
 
   void add(const ImpulseReport& report);
   static constexpr std::size_t kWords = 6;
@@ -48,32 +48,32 @@ struct ImpulseTotals {
   void setWords(const std::int64_t* words);
 };
 
-/// Cost of the iterations in this process; not part of the state.
+/// Cost of the iterations in this process; not part of the simulation state.
 struct ImpulseCost {
   double seconds{};           ///< wall time
-  std::int64_t evaluations{}; ///< iterations, repeated ones and first impulses included
+  std::int64_t evaluations{}; ///< evaluations, including repeated ones and initial impulses
   std::int64_t bytes{};       ///< sent to other ranks
 };
 
-/// Throws SimulationError for velocities that are not finite, and in strict runs for steps that exceed run.residual or
-/// needed the relaxation.
+/// Throws SimulationError if velocities are not finite, and in strict runs if a step exceeds run.residual or requires
+/// the relaxation.
 void checkReport(const ImpulseReport& report, const contact::ComplementarityOptions& options, std::int64_t step);
 
-/// Takes steps whose contacts are solved for simultaneously, as impulses on Coulomb's cones (contact/impulse_law.hpp):
-/// accelerated projected gradients in the metric of WeighRows, with restarts (Nesterov 1983; Mazhar, Heyn, Negrut and
-/// Tasora 2015, ACM Trans. Graph. 34:32), from the impulses of the last step. The residual of the natural map
-/// measures the error. The order of contacts does not matter: the bits are the same on every device and any number of
-/// ranks.
+/// Solver of steps in which all contacts are solved simultaneously, as impulses on Coulomb cones
+/// (contact/impulse_law.hpp): accelerated projected gradients in the metric of WeighRows, with restarts (Nesterov 1983;
+/// Mazhar, Heyn, Negrut and Tasora 2015, ACM Trans. Graph. 34:32), warm-started from the last step. The error is
+/// measured by the residual of the natural map. The order of contacts does not matter: results are bitwise identical on
+/// every device and any number of ranks.
 class ImpulseSolver {
 public:
-  /// Null where the model has penalty contacts.
+  /// Creates the solver; null if the model has penalty contacts.
   static std::unique_ptr<ImpulseSolver> make(const base::Exec& exec, const GrainConstants& constants);
   virtual ~ImpulseSolver() = default;
 
-  /// Sets the bodies of all following steps.
+  /// Sets the rigid bodies for all following steps.
   void setParts(const ImpulseParts& parts) { parts_ = parts; }
-  /// One step: writes the grains' next state, springs, ledger sums and flags. All ranks call it; ghosts must be up to
-  /// date.
+  /// Computes one step: writes the grains' next state, springs, ledger sums and flags. Collective; requires up-to-date
+  /// ghosts.
   virtual void step(GrainSystem& system, const GrainKernelData& d) = 0;
   const ImpulseReport& report() const { return report_; }
   const ImpulseTotals& totals() const { return totals_; }

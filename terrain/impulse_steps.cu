@@ -21,7 +21,7 @@ namespace {
 
 using contact::ComplementarityOptions;
 
-/// Device memory of rows of one kind.
+/// Device memory of the rows of one kind.
 template <class Real> struct RowMemory {
   using Vectors = base::Array<base::Vec3<Real>>;
   explicit RowMemory(const base::Exec& exec)
@@ -159,7 +159,7 @@ private:
 
   bool bodiesMove() const { return parts_.contacts && bodies_.anyMovable(); }
 
-  /// Each body has one velocity on all ranks, computed from the impulses of all rows.
+  /// Each body has the same velocity on all ranks, computed from the impulses of all rows.
   void setUpParts(const GrainSystem& system, const GrainKernelData& d) {
     data_.patches = {}, data_.parts = {};
     if (!parts_.contacts) return;
@@ -168,7 +168,7 @@ private:
     base::setZero(exec_, cleared.to, cleared.bytes);
     data_.patches = contacts.patches({d.position, d.motion, d.id, static_cast<std::size_t>(d.count), system.ghosts()},
                                      *parts_.motion, parts_.loads);
-    // Must not depend on whether a rank has pairs.
+    // Must not depend on whether a rank has pairs: the call is collective.
     const bool rolls = std::any_of(contacts.laws().begin(), contacts.laws().end(),
                                    [](const ContactLaw& law) { return law.rollingFriction > 0; });
     onParts_.resize(contacts.pairs() * contact::kPatches, rolls);
@@ -246,7 +246,7 @@ private:
   }
 
   /// Launches several iterations at once; those after convergence return immediately. The first launch has as many as
-  /// the last step took, later ones have kAhead.
+  /// the last step needed, later ones have kAhead.
   ImpulseControl<Real> iterateOnDevice(GrainSystem& system, const GrainKernelData& d) {
     const auto decide = [&](bool first) {
       base::forEach(exec_, "decide", 1, Decide<Real>{data_, totalSums_.data(), first});

@@ -22,7 +22,7 @@ struct Entering {
   double radius; ///< [units]
 };
 
-/// Finds the grain with the deepest overlap by entering ones.
+/// Finds the grain with the deepest overlap with the entering grains.
 struct FindInsertionOverlap {
   static constexpr double kNanoseconds = 50;
   const base::Position* position;
@@ -31,12 +31,12 @@ struct FindInsertionOverlap {
   base::Period period;
   const Entering* entering;
   std::int64_t count;
-  base::Position centre;         ///< of the box around all entering grains
-  Vec3d reach;                   ///< from there to where a grain may touch one of them [units]
-  double radius;                 ///< of all [units]; 0: each has its own
-  double unitsPerMetre, allowed; ///< [-] of the smaller radius
+  base::Position centre;         ///< centre of the box around all entering grains
+  Vec3d reach;                   ///< maximum distance from `centre` of grains that may touch one of them [units]
+  double radius;                 ///< radius of all grains [units]; 0: each has its own
+  double unitsPerMetre, allowed; ///< maximum allowed overlap / smaller radius [-]
   std::uint64_t*
-      deepest; ///< kMostUnits less the overlap, then the id: the smallest is the deepest, or of those the first
+      deepest; ///< kMostUnits minus the overlap, then the id: the minimum has the deepest overlap, then the lowest id
 
   GROUSER_HD void operator()(int i) const {
     if (ghost && ghost[i]) return;
@@ -71,7 +71,7 @@ std::optional<InsertionOverlap> overlapWithSurface(const std::vector<GrainSpec>&
 
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
 
-/// The key of the deepest overlap of FindInsertionOverlap; kNobody if none is too deep. The same on all ranks.
+/// Key of the deepest overlap of FindInsertionOverlap; kNobody if none is too deep. Equal on all ranks.
 std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::vector<Entering>& all,
                              const GrainSystem& system) {
   const GrainConstants& c = system.constants;
@@ -98,15 +98,15 @@ std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::
   return key;
 }
 
-/// Fills in the position of the other grain, and the entering grain with that overlap.
+/// Sets the position of the other grain, and the entering grain with that overlap.
 void describeOverlap(const std::vector<GrainSpec>& entering, const std::vector<Entering>& all,
                      const GrainSystem& system, InsertionOverlap& overlap) {
   const GrainConstants& c = system.constants;
   const GrainFields& f = system.arrays.fields();
-  // Only the rank that owns the other grain fills in its place; the maximum over the ranks brings it to all.
+  // Only the owner of the other grain sets its position; the maximum over the ranks distributes it.
   const std::vector<std::uint32_t> id = f.id.now.toHost(), ghost = system.ghostsOnHost();
   double found[] = {-1e300, -1e300, -1e300};
-  double nearest = 1e300; // to the overlap that was found [m]
+  double nearest = 1e300; // minimum difference from the reported overlap [m]
   for (std::size_t i = 0; i < id.size(); ++i) {
     if (id[i] != *overlap.grain || ghost[i]) continue;
     const base::Position place = f.position.now.at(i);

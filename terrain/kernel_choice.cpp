@@ -32,7 +32,7 @@ int processorLanes([[maybe_unused]] int most) {
   return 1;
 }
 
-/// The choice from a list of kernels, with the kernel for SIMD and, if there is none, the reason.
+/// Selects from a list of kernels, with the kernel for SIMD or the reason for its absence.
 template <class List>
 KernelChoice chosen(const List& list, unsigned features, const GrainModel& model, unsigned simd, const char* noSimd) {
   if (!model.specialised) return {kGeneral, 1, "the general kernel is requested"};
@@ -64,11 +64,11 @@ const char* nameOf(unsigned feature) {
       ->name;
 }
 
-/// Features that a scene may drop, the likeliest first.
+/// Features that a scene may drop, the most likely first.
 constexpr unsigned kDispensable[] = {kManyMaterials, kManyRadii,       kFixed,    kSurfaces,
                                      kPeriodic,      kRollingFriction, kCohesion, kPlastic};
 
-/// The single change of features that leads to a specialised kernel; empty if there is none.
+/// Single change of features that permits a specialised kernel; empty if there is none.
 template <class List> std::string remedy(const List& list, unsigned features, const GrainModel& model) {
   if (model.precision != Precision::single)
     return detail::isListed(list, features) ? "; single precision has a specialised kernel" : "";

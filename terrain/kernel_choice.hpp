@@ -7,28 +7,28 @@
 
 namespace grouser::terrain {
 
-/// The kernel for grains with given features. All kernels give the same bits.
+/// Kernel selected for grains with given features. All kernels produce identical bits.
 struct KernelChoice {
-  /// Features that it was compiled for, or contact::kGeneral for all, tested at run time.
+  /// Features it was compiled for, or contact::kGeneral for all, tested at run time.
   unsigned compiledFor = contact::kGeneral;
-  int lanes = 1;                ///< contacts that this machine's CPU computes side by side; 1: the scalar kernel
-  const char* noSimd = nullptr; ///< reason why no CPU uses SIMD; null: SIMD if the CPU has lanes
-  unsigned simdFor = contact::kGeneral; ///< features that the SIMD kernel was compiled for; walls have no general one
+  int lanes = 1;                        ///< number of contacts computed at once by this machine's CPU; 1: scalar kernel
+  const char* noSimd = nullptr;         ///< reason why SIMD is not used on any CPU; null: SIMD if the CPU has lanes
+  unsigned simdFor = contact::kGeneral; ///< features the SIMD kernel was compiled for; walls have no general one
 
   bool general() const { return compiledFor == contact::kGeneral; }
   bool simdGeneral() const { return simdFor == contact::kGeneral; }
 };
 
-/// Kernel of the grains' step. The only place of this decision: the launches (grain_kernels.cu), `grouser plan` and
-/// tests call it, without a device. `features`: featuresOf(), and kLoads with rigid parts.
+/// Selects the kernel of the grain step. This is the only place of the decision: the launches (grain_kernels.cu),
+/// `grouser plan` and tests call it, without a device. `features`: featuresOf(), plus kLoads with rigid parts.
 KernelChoice stepKernel(unsigned features, const GrainModel& model);
-/// Kernel of walls, floor and surfaces.
+/// Selects the kernel of walls, floor and surfaces.
 KernelChoice boundaryKernel(unsigned features, const GrainModel& model);
 
-/// Text of the features: "linear, friction, planes or floor".
+/// Text of the features, e.g. "linear, friction, planes or floor".
 std::string featureText(unsigned features);
 /// Text of the choice: features, precision, specialised or general kernel, and SIMD on this machine's CPU. For the
-/// general kernel it names a feature without which there is a specialised one, if any.
+/// general kernel it names a feature whose removal permits a specialised one, if any.
 std::string stepKernelText(unsigned features, const GrainModel& model);
 std::string boundaryKernelText(unsigned features, const GrainModel& model);
 

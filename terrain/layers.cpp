@@ -17,7 +17,7 @@ using base::InputError;
 
 constexpr std::uint64_t kJitter = base::purpose("terrain.layers.jitter");
 constexpr double kFloorGap = 0.05;    ///< between grain and floor or wall, in radii
-constexpr double kJitterReach = 0.49; ///< of the gap between two grains, each may use half, less a reserve
+constexpr double kJitterReach = 0.49; ///< fraction of the gap between two grains for each of them: half, with a reserve
 
 void check(const LayerOptions& o) {
   requireOfBed(o.radius > 0 && std::isfinite(o.radius), "radius [m]", o.radius, "(0, inf)");
@@ -34,7 +34,7 @@ void check(const LayerOptions& o) {
 struct Axis {
   double start{}, spacing{}, offset{};
   int count[2]{};
-  double period{0}; ///< of periodic boundaries; 0: walls
+  double period{0}; ///< distance between periodic boundaries [m]; 0: walls
 
   double at(int i, int layer) const { return start + (layer & 1) * offset + i * spacing; }
   /// Distance from `a` to `b`, or to its nearest image.
@@ -43,7 +43,7 @@ struct Axis {
   }
 };
 
-/// As many points as fit between walls that leave `length` for grains' centres, centred; odd layers sit in between.
+/// Centres as many points as fit between walls with `length` for grain centres; odd layers are offset.
 Axis fit(double from, double length, double spacing) {
   const int n = static_cast<int>(std::floor(length / spacing)) + 1;
   const double left = length - (n - 1) * spacing;
@@ -52,14 +52,14 @@ Axis fit(double from, double length, double spacing) {
   return {from + left / 2, spacing, spacing / 2, {n, n - 1}};
 }
 
-/// A ring of points, as many as fit between periodic boundaries; odd layers sit in between.
+/// Ring of points, as many as fit between periodic boundaries; odd layers are offset.
 Axis ring(double from, double length, double spacing) {
   const int n = static_cast<int>(std::floor(length / spacing * (1 + 1e-12)));
   const double pitch = length / std::max(1, n);
   return {from + pitch / 4, pitch, pitch / 2, {n, n}, length};
 }
 
-/// The sites of a bed: the lattice points with a grain.
+/// Sites of a bed: lattice points with a grain.
 class Lattice {
 public:
   Lattice(const HeightField& surface, const LayerOptions& o)
@@ -101,7 +101,7 @@ public:
   std::size_t layerSize(int layer) const {
     return static_cast<std::size_t>(x_.count[layer & 1]) * static_cast<std::size_t>(y_.count[layer & 1]);
   }
-  /// A site has a grain if its column is high enough and all its supports exist.
+  /// True if a site has a grain: its column is high enough and all its supports exist.
   bool occupied(int i, int j, int layer) const {
     return height_[layer & 1].empty() || layer < height_[layer & 1][index(i, j, layer)];
   }
@@ -111,7 +111,7 @@ public:
     return HeightField::flat(surface.area(), lowest_ - thickness());
   }
 
-  /// Calls f(i, j) for the sites of the layer below that the site (i, j) of `layer` rests on: one to four.
+  /// Calls f(i, j) for the one to four sites of the layer below that support the site (i, j) of `layer`.
   template <class F> void forEachSupport(int i, int j, int layer, F&& f) const {
     const int below = layer - 1;
     const auto [i0, i1] = supports(x_, i, layer);
@@ -122,7 +122,7 @@ public:
   }
 
 private:
-  /// The lattice point i of a layer, or the one at the other end of a ring; -1: there is none.
+  /// Lattice point i of a layer, wrapped around a ring; -1: there is none.
   static int site(const Axis& axis, int i, int layer) {
     const int n = axis.count[layer & 1];
     if (axis.period > 0) return (i + n) % n;
@@ -133,7 +133,7 @@ private:
     return (layer & 1) ? std::pair{i, i + 1} : std::pair{i - 1, i};
   }
 
-  /// Counts for every column how many layers lie below `surface` on a flat floor; a layer needs its supports.
+  /// Counts the layers below `surface` in every column on a flat floor; a layer needs its supports.
   void fillHills(const HeightField& surface) {
     const HeightFieldView view = surface.view();
     lowest_ = *std::min_element(surface.heights().begin(), surface.heights().end());
@@ -151,7 +151,7 @@ private:
     for (layers_ = fullLayers_; layers_ < most && supportLayer(layers_);) ++layers_;
   }
 
-  /// Removes the sites of `layer` that lack a support; false if none is left.
+  /// Removes the sites of `layer` that lack a support; returns false if none remains.
   bool supportLayer(int layer) {
     bool any = false;
     for (int j = 0; j < y_.count[layer & 1]; ++j)
@@ -208,7 +208,7 @@ std::vector<Seed> layGrains(const HeightField& surface, const LayerOptions& opti
         };
         Vec3d c{lattice.x().at(i, layer) + shift(0), lattice.y().at(j, layer) + shift(1), 0};
 
-        // As low as the supports and the floor allow, then up by the jitter.
+        // Places the grain as low as the supports and the floor allow, then raises it by the jitter.
         c.z = floor.bounds().lowest;
         if (layer > 0)
           lattice.forEachSupport(i, j, layer, [&](int a, int b) {

@@ -8,7 +8,7 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Heights of a grid.
+/// Grid of heights.
 struct Nodes {
   const std::vector<double>& heights;
   int columns, rows;
@@ -22,22 +22,22 @@ double limited(double before, double behind) {
   return before * behind > 0 ? 2 * before * behind / (before + behind) : 0;
 }
 
-/// At a border node the surface continues along its last difference.
+/// Slope at a border node, where the surface is extrapolated by its last difference.
 double slopeAt(double before, double here, double behind, int k, int n) {
   if (k == 0) return behind - here;
   if (k == n - 1) return here - before;
   return limited(here - before, behind - here);
 }
 
-/// Mixed slope of Catmull-Rom: the central difference along both axes; at a border the one-sided one.
+/// Mixed Catmull-Rom slope: central difference along both axes; one-sided at the border.
 double mixed(const Nodes& n, int i, int j) {
   const int i0 = std::max(i - 1, 0), i1 = std::min(i + 1, n.columns - 1);
   const int j0 = std::max(j - 1, 0), j1 = std::min(j + 1, n.rows - 1);
   return (n.at(i1, j1) - n.at(i1, j0) - n.at(i0, j1) + n.at(i0, j0)) / ((i1 - i0) * (j1 - j0));
 }
 
-/// The inner point of a cell's Bezier net next to the node is h + share (sx X + sy Y) / 3 + sx sy XY / 9: the room that
-/// the cell's range leaves for XY, as low + share lowRise <= XY <= high + share highRise.
+/// The inner point of a cell's Bezier net next to the node is h + share (sx X + sy Y) / 3 + sx sy XY / 9. The range of
+/// the cell limits XY to low + share lowRise <= XY <= high + share highRise.
 struct Room {
   double low, lowRise, high, highRise;
 };
@@ -57,7 +57,7 @@ NodeSlopes limitedSlopes(const Nodes& n, int i, int j) {
   for (const int sx : {-1, 1})
     for (const int sy : {-1, 1})
       if (n.has(i + sx, j + sy)) rooms[count++] = roomIn(n, i, j, sx, sy, m);
-  // The largest share of the slopes for which all four leave a common room; at 0 it holds XY = 0.
+  // Largest share of the slopes for which all four limits are compatible; at 0 they contain XY = 0.
   double share = 1;
   for (int a = 0; a < count; ++a)
     for (int b = 0; b < count; ++b)

@@ -5,15 +5,15 @@
 
 namespace grouser::terrain {
 
-/// Weights of four consecutive nodes for value, slope and second derivative of a cubic along one axis [cells].
+/// Weights of four consecutive nodes for value, slope and second derivative of a cubic along one axis, in cell units.
 struct CubicWeights {
-  int first{}; ///< index of the node that w[0] belongs to; may be -1, with zero weight
+  int first{}; ///< node index of w[0]; may be -1, with zero weight
   double w[4]{}, d[4]{}, dd[4]{};
 };
 
-/// Catmull-Rom weights at `u` [cells] among `n` >= 2 nodes. The missing node beyond either end is extrapolated linearly
-/// from the last two; outside [0, n - 1] the curve follows its end tangent. Value and slope are continuous everywhere;
-/// linear data are reproduced exactly.
+/// Catmull-Rom weights at `u` [cells] among `n` >= 2 nodes. Missing nodes beyond either end are extrapolated linearly
+/// from the last two; outside [0, n - 1] the curve follows its end tangent. Value and slope are continuous; linear data
+/// are reproduced exactly.
 GROUSER_HD CubicWeights cubicWeights(double u, int n) {
   CubicWeights c;
   if (!(u >= 0) || u > n - 1) {
@@ -45,20 +45,20 @@ GROUSER_HD CubicWeights cubicWeights(double u, int n) {
   return c;
 }
 
-/// Interpolation between the nodes of a height-map.
+/// Interpolation between the nodes of a height map.
 enum class Interpolation {
-  monotone, ///< cubic, slopes limited: between the four nodes of a cell never above the highest nor below the lowest
-  smooth,   ///< Catmull-Rom: swings beyond its nodes by up to 7 per cent of a step between them
-  bilinear  ///< flat edges between nodes; the normal jumps at the edges of the cells
+  monotone, ///< cubic with limited slopes: within the minimum and maximum of the four nodes of a cell
+  smooth,   ///< Catmull-Rom: overshoots by up to 7 per cent of the step between nodes
+  bilinear  ///< linear between nodes; the normal jumps at cell edges
 };
 
-/// Slopes of a node for monotone interpolation, per cell [m].
+/// Slopes at a node for monotone interpolation [m per cell].
 struct NodeSlopes {
   double x{}, y{}, xy{};
 };
 
-/// Weights of the two nodes of cell `first` at `t` cells from its lower one: of values, of slopes, and derivatives of
-/// both. Hermite's cubic, or a line; before 0 in the first cell and beyond 1 in the last one the tangent continues.
+/// Weights of the two nodes of cell `first` at `t` cells from its lower node, for values, slopes, and their
+/// derivatives. Hermite cubic, or linear; before the first cell and beyond the last one the tangent continues.
 struct CellWeights {
   int first{};
   double v[2]{}, s[2]{}, dv[2]{}, ds[2]{}, ddv[2]{}, dds[2]{};
@@ -73,7 +73,7 @@ GROUSER_HD CellWeights lineWeights(double u, int cell) {
   return c;
 }
 
-/// `cells` >= 1: of the axis.
+/// Hermite weights along an axis of `cells` >= 1 cells.
 GROUSER_HD CellWeights hermiteWeights(double u, int cell, int cells) {
   CellWeights c;
   const double t = u - cell;

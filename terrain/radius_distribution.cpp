@@ -12,7 +12,7 @@ namespace {
 
 double power(double x, int n) { return n == 0 ? 1.0 : x * power(x, n - 1); }
 
-/// The integral of f from a to b by Simpson's rule.
+/// Integral of f from a to b by Simpson's rule.
 template <class F> double integral(double a, double b, const F& f) {
   constexpr int kIntervals = 200;
   const double h = (b - a) / kIntervals;
@@ -21,22 +21,22 @@ template <class F> double integral(double a, double b, const F& f) {
   return sum * h / 3;
 }
 
-/// Grains between two sieves, with mass uniform over the logarithm of the size.
+/// Grains between two sieves, with mass uniform in the logarithm of size.
 struct SieveFraction {
   double fine, coarse; ///< [m]
   double mass;         ///< share [-]
 
   double logRatio() const { return base::log(coarse / fine); }
-  /// Mean over the mass of d^n.
+  /// Mean of d^n, weighted by mass.
   double massMean(int n) const {
     if (n == 0) return 1;
     return n > 0 ? (power(coarse, n) - power(fine, n)) / (n * logRatio())
                  : (1 / power(fine, -n) - 1 / power(coarse, -n)) / (-n * logRatio());
   }
-  double number() const { return mass * massMean(-3); } ///< in units of all mass over that of a sphere of 1 m
+  double number() const { return mass * massMean(-3); } ///< in units of total mass / mass of a sphere of 1 m
 };
 
-/// The fractions with mass.
+/// Sieve fractions with mass.
 std::vector<SieveFraction> fractionsOf(const RadiusDistribution& r) {
   std::vector<SieveFraction> all;
   for (std::size_t k = 1; k < r.sieveDiameter.size(); ++k)
@@ -61,7 +61,7 @@ double RadiusDistribution::ofSieves(double which, double within) const {
     before += f.number();
     if (which * all < before) break;
   }
-  // Mass even over ln d makes the number of those finer than d proportional to fine^-3 - d^-3.
+  // Mass uniform in ln d makes the number of grains finer than d proportional to fine^-3 - d^-3.
   const double fine = 1 / power(chosen->fine, 3), coarse = 1 / power(chosen->coarse, 3);
   return 0.5 * base::pow(fine - within * (fine - coarse), -1.0 / 3);
 }
@@ -118,7 +118,7 @@ double RadiusDistribution::medianByMass() const {
     const double share = (0.5 - passing[k - 1]) / (passing[k] - passing[k - 1]);
     return 0.5 * sieveDiameter[k - 1] * base::pow(sieveDiameter[k] / sieveDiameter[k - 1], share);
   }
-  // Half of the integral of r^3 over the numbers.
+  // Half of the integral of r^3 by number.
   if (law == RadiusLaw::uniform)
     return radius * std::sqrt(std::sqrt(0.5 * (power(1 + spread, 4) + power(1 - spread, 4))));
   if (law != RadiusLaw::lognormal) return radius;
@@ -157,7 +157,7 @@ double DepthGrading::scaleAt(double depth, double radius) const {
 double DepthGrading::meanFourthPower(double depth, double radius) const {
   if (!any()) return 1;
   constexpr int kSlices = 1000;
-  double grains = 0, sum = 0; // as many in a slice as cubes of their radius fit
+  double grains = 0, sum = 0; // grains per slice: inversely proportional to the mean cube of their radius
   for (int i = 0; i < kSlices; ++i) {
     const double scale = scaleAt((i + 0.5) / kSlices * depth, radius);
     grains += 1 / (scale * scale * scale), sum += scale;

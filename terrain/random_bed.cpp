@@ -15,12 +15,12 @@ namespace {
 
 constexpr std::uint64_t kPlace = base::purpose("terrain.random_bed.place");
 constexpr std::uint64_t kRadius = base::purpose("terrain.random_bed.radius");
-constexpr double kLoose = 0.28;   // solid fraction of the column; random sequential insertion ends at 0.38
-constexpr double kGap = 0.02;     // between grains, and to floor and walls, in radii
-constexpr double kWindow = 4;     // half the height in which a grain's place is looked for, in its radii
-constexpr int kTriesAWindow = 40; // before it grows by half
+constexpr double kLoose = 0.28;   // solid fraction of the column; random sequential insertion saturates at 0.38
+constexpr double kGap = 0.02;     // gap between grains, and to floor and walls, in radii
+constexpr double kWindow = 4;     // half height of the search window for a grain's position, in its radii
+constexpr int kTriesAWindow = 40; // tries before the window grows by half
 constexpr double kEnds = 1.15, kRoughFloor = 0.35; // see the header
-constexpr int kSlices = 200;                       // of a graded bed, to count its grains
+constexpr int kSlices = 200;                       // slices of a graded bed, for counting its grains
 
 void check(const RandomBedOptions& o) {
   requireOfBed(o.radii.smallest() > 0 && std::isfinite(o.radii.largest()), "radius [m]", o.radii.smallest(),
@@ -45,7 +45,7 @@ public:
       mean_ = most_ = o.depth;
       return;
     }
-    // By the middles of cells, each at most two radii wide.
+    // Averages over the centres of cells, each at most two radii wide.
     const Rectangle& a = surface.area();
     const double wanted = 2 * o.radii.largest();
     const int nx = cells(a.width(), wanted), ny = cells(a.length(), wanted);
@@ -77,7 +77,7 @@ private:
   double lowest_{}, mean_{}, most_{0};
 };
 
-/// The grains laid so far, by cells as wide as the largest grain.
+/// Placed grains, in cells as wide as the largest grain.
 class Cells {
 public:
   Cells(const Rectangle& area, double bottom, double top, double edge, const std::array<bool, 2>& periodic)
@@ -116,7 +116,7 @@ public:
 
 private:
   static int inRow(int i, int n, bool ring) { return ring ? (i + n) % n : i < 0 || i >= n ? -1 : i; }
-  /// Places beyond an end belong to the last cell.
+  /// Positions beyond an end belong to the last cell.
   base::Vec3<int> cellOf(const Vec3d& p) const {
     const auto at = [](double x, double from, double edge, int n) {
       return static_cast<int>(std::clamp(std::floor((x - from) / edge), 0.0, n - 1.0));
@@ -135,17 +135,17 @@ private:
   std::array<bool, 2> periodic_;
   base::Vec3<int> count_{};
   Vec3d edge_;
-  std::vector<std::int64_t> first_, next_; ///< chains of grains in a cell; -1 ends one
+  std::vector<std::int64_t> first_, next_; ///< linked lists of the grains in a cell; -1: end
   std::vector<Seed> grains_;
 };
 
-/// Uniform numbers of one grain.
+/// Uniform random numbers of one grain.
 struct Dice {
   std::uint64_t seed, purpose, id;
   double operator()(std::uint64_t k) const { return base::uniform(seed, purpose, id, k); }
 };
 
-/// Lays grain after grain.
+/// Places the grains one after the other.
 class Insertion {
 public:
   Insertion(const HeightField& surface, const RandomBedOptions& o, const std::vector<Seed>& there)
@@ -177,7 +177,7 @@ private:
   double liftOf(const std::vector<Seed>& there) const {
     double most = 0;
     for (const Seed& s : there) most = std::max(most, s.centre.z + s.radius - floor_.height(s.centre.x, s.centre.y));
-    return 0.5 * most; // grains may begin among them
+    return 0.5 * most; // grains may start among them
   }
 
   Seed place(std::uint64_t id, double share, double radius) const {
@@ -189,9 +189,9 @@ private:
       Vec3d p{area_.xMin + margin[0] + dice(4 * attempt) * (area_.width() - 2 * margin[0]),
               area_.yMin + margin[1] + dice(4 * attempt + 1) * (area_.length() - 2 * margin[1]), 0};
       const double depth = depths_.at(p.x, p.y);
-      if (dice(4 * attempt + 2) * depths_.most() > depth) continue; // as many grains as the column is high
+      if (dice(4 * attempt + 2) * depths_.most() > depth) continue; // grains per area follow column height
       const double column = depth * stretch_, ground = view_.height(p.x, p.y) + lift_;
-      // Below its share the column is full already: most places are found above it.
+      // The column is already full below its share: most free positions are above it.
       const double above = share * column + (2 * dice(4 * attempt + 3) - 1.7) * window;
       p.z = ground + radius + std::fabs(above); // reflected at the floor
       if (!view_.clearOf(p, radius * (1 + kGap))) p.z = clearHeight(floor_, p.x, p.y, p.z, radius * (1 + kGap));
@@ -204,8 +204,8 @@ private:
   Depths depths_;
   HeightField floor_;
   HeightFieldView view_;
-  double stretch_; ///< height of the column over that of the bed
-  double lift_;    ///< of its foot above the floor [m]
+  double stretch_; ///< column height over bed height [-]
+  double lift_;    ///< height of the column's foot above the floor [m]
   Cells cells_;
 };
 

@@ -81,7 +81,7 @@ void RigidContacts::compute(const PartMotion* motion, contact::PartLoad* loads) 
   patches_.endStep();
 }
 
-/// Returns the plane that the whole surface is, in the frame of the part.
+/// Returns the plane, in the part frame, if the whole surface is planar.
 std::optional<Plane> RigidContacts::planeOf(const Surface& s, const PartMotion* motion, const PartMotion& part) const {
   if (s.kind == Surface::Kind::field) return fieldPlane_ ? std::optional(inPart(*fieldPlane_, part)) : std::nullopt;
   if (s.kind != Surface::Kind::shape || s.geometry.shape != SurfaceShape::plane) return {};
@@ -90,7 +90,7 @@ std::optional<Plane> RigidContacts::planeOf(const Surface& s, const PartMotion* 
   return inPart({normal, dot(normal, at.origin)}, part);
 }
 
-/// Returns false if a ball cannot touch the surface.
+/// False if a ball cannot touch the surface.
 bool RigidContacts::mayTouch(const Surface& s, const PartMotion* motion, const Vec3d& x, double radius) const {
   if (s.kind == Surface::Kind::field)
     return cells_.near(x - Vec3d{radius, radius, radius}, x + Vec3d{radius, radius, radius});
@@ -142,7 +142,7 @@ bool RigidContacts::gapsOf(const PointBlock& block, const Surface& s, const Part
   return any;
 }
 
-/// Adds the blocks of nodes [from, to), all of which are over one plane.
+/// Adds the blocks of nodes [from, to), all over one plane.
 void RigidContacts::pressOnPlane(Press& press, const Plane& plane, std::uint32_t from, std::uint32_t to) const {
   press.touched.clear();
   for (std::uint32_t n = from; n < to;) {
@@ -155,7 +155,7 @@ void RigidContacts::pressOnPlane(Press& press, const Plane& plane, std::uint32_t
     press.planar += contact::pressOnPlane(press.touched, press.law, plane.normal, plane.height);
 }
 
-/// Returns true if points of a node may touch the surface. Sets `plane` if it is planar under all of them.
+/// True if points of a node may touch the surface. Sets `plane` if it is planar below all of them.
 bool RigidContacts::mayTouch(const Press& press, const PointTree::Node& node, std::optional<Plane>& plane) const {
   if (press.box) {
     if (press.box->clearOf(node)) return false;
@@ -209,7 +209,7 @@ void RigidContacts::pressBlock(Press& press, const PointBlock& block) const {
   contact::pressBlock(block, press.law, normal, overlap, press.other);
 }
 
-/// Presses one part on one surface. Traverses the point tree of each cluster.
+/// Computes the pressure of one part on one surface. Traverses the point tree of each cluster.
 void RigidContacts::press(std::size_t pair, const PartMotion* motion, contact::PartLoad* loads) {
   const Pair& of = pairs_[pair];
   const Surface& surface = surfaces_[static_cast<std::size_t>(of.surface)];

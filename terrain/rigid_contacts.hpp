@@ -15,20 +15,20 @@
 
 namespace grouser::terrain {
 
-/// Contacts of rigid parts with rigid surfaces: height-field, planes, boxes, cylinders, capsules, meshes. A surface may
-/// move, such as the shape of another part. Surface points of the part press on an elastic foundation. Runs on the host
+/// Contacts of rigid parts with rigid surfaces: height field, planes, boxes, cylinders, capsules, meshes. A surface may
+/// move, e.g. as the shape of another part. Surface points of the part press on an elastic foundation. Runs on the host
 /// in SIMD lanes of eight points, without contact lists.
 class RigidContacts {
 public:
-  /// A surface. Its pose is stored with the motions of the parts.
+  /// Rigid surface. Its pose is stored with the motions of the parts.
   struct Surface {
     enum class Kind { shape, mesh, field };
     Kind kind{};
-    SurfaceGeometry geometry; ///< of a shape
-    int set{-1};              ///< of a mesh: its sphere set
-    int motion{-1};           ///< index of its motion and load; -1: a height-field whose load is not needed
+    SurfaceGeometry geometry; ///< geometry of a closed-form shape
+    int set{-1};              ///< sphere set of a mesh
+    int motion{-1};           ///< index of its motion and load; -1: a height field whose load is not needed
   };
-  /// A part that may touch a surface.
+  /// Candidate pair of part and surface.
   struct Pair {
     int part{}, surface{};
     contact::PatchLaw law;
@@ -37,8 +37,8 @@ public:
     contact::PatchQuanta quanta;
     double timeStep{};
   };
-  /// `points`: by set; `setOfPart`: which one each part has; `meshes`: sphere sets of meshes, by Surface::set; `field`:
-  /// null where no surface is one.
+  /// `points`: by set; `setOfPart`: point set of each part; `meshes`: sphere sets of meshes, by Surface::set; `field`:
+  /// null without a height-field surface.
   RigidContacts(const Model& model, std::vector<contact::PointTree> points, const std::vector<int>& setOfPart,
                 const std::vector<Surface>& surfaces, const std::vector<Pair>& pairs,
                 const std::vector<const base::SphereSet*>& meshes, const HeightField* field);
@@ -77,7 +77,7 @@ private:
   SearchedHeightField field_;
   HeightFieldCells cells_;
   FootLanes feet_;
-  std::optional<Plane> fieldPlane_; ///< if the whole height-field is planar
+  std::optional<Plane> fieldPlane_; ///< set if the whole height field is planar
   contact::HostPatches patches_;
   std::vector<const contact::PointBlock*> touched_; ///< scratch of one step
 };

@@ -16,41 +16,41 @@ using contact::SurfaceGeometry;
 using contact::SurfaceShape;
 
 /// Pose and motion of a surface in one step. `motion.origin` and `motion.centre` are the same point, the reference
-/// point of loads.
+/// point of the loads.
 struct SurfacePose {
   contact::PartMotion motion;                   ///< frame S in the world, velocity and spin
-  base::Mat3d turned = base::Mat3d::identity(); ///< since the start, in world components: springs turn with the surface
-  // Force-driven surfaces: complementarity contacts solve for their speed too.
-  base::Vec3d axis{};   ///< unit vector along which it is free; zero: prescribed motion
+  base::Mat3d turned = base::Mat3d::identity(); ///< rotation since the start, world components; springs rotate along
+  // Force-driven surfaces: complementarity contacts also solve for their speed.
+  base::Vec3d axis{};   ///< unit vector of the free direction; zero: prescribed motion
   double inverseMass{}; ///< [1/kg]
-  double gains{};       ///< change of speed along `axis` by load and gravity in this step [m/s]
+  double gains{};       ///< speed change along `axis` by load and gravity in this step [m/s]
 
-  /// The z axis of the surface's frame, in the world: out of a plane, along a cylinder.
+  /// The z axis of the surface frame in the world: normal of a plane, axis of a cylinder.
   GROUSER_HD base::Vec3d normal() const {
     return {motion.rotation.m[0][2], motion.rotation.m[1][2], motion.rotation.m[2][2]};
   }
 };
 
-/// One of the surfaces of a scene.
+/// Rigid surface of a scene.
 struct RigidSurface {
   SurfaceGeometry geometry;
-  contact::ContactLaw law; ///< between grain and surface
+  contact::ContactLaw law; ///< grain-surface law
   SurfacePose start;
 };
 
-/// Load that the grains put on a surface in one step, about its centre.
+/// Load of the grains on a surface in one step, about its centre.
 struct SurfaceLoad {
   base::Vec3d force, torque; ///< [N], [N m]
 };
 
-/// Travel of a surface between two poses, without motions along itself: a sliding plane, a cylinder rotating about its
+/// Travel of a surface between two poses, excluding motion along itself: a sliding plane, a cylinder rotating about its
 /// axis. The distance of a point p from the surface changes by at most way + turn |p - centre before|.
 struct SurfaceTravel {
   double way{}, turn{}; ///< [m], [-]
 };
 
-/// In the frame of a rigid body p moves by no more than |shift of the centre| + |I - Q| |p - centre|, Q the turn; |I -
-/// Q| is the chord 2 sin(angle / 2), of an axis alone the distance between its two ends.
+/// In the body frame p moves by at most |shift of the centre| + |I - Q| |p - centre|, Q the rotation; |I - Q| is the
+/// chord 2 sin(angle / 2), and for a single axis the distance between its two directions.
 inline SurfaceTravel travelBetween(const SurfaceGeometry& g, const SurfacePose& a, const SurfacePose& b) {
   const auto chordOf = [&](int column) {
     base::Vec3d chord;
@@ -69,7 +69,7 @@ inline SurfaceTravel travelBetween(const SurfaceGeometry& g, const SurfacePose& 
   }
 }
 
-/// Travel of a surface before grains near it are listed again, for an allowed `way` [m].
+/// Allowed travel of a surface between two lists of nearby grains, for a maximum displacement `way` [m].
 GROUSER_HD SurfaceTravel roomOf(const SurfaceGeometry& g, double way) {
   const double extent = norm(g.half);
   return {way, extent > 0 ? way / extent : 0.01};

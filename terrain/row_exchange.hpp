@@ -9,15 +9,15 @@
 #include <type_traits>
 #include <vector>
 
-/// Rows of several columns: packing them into words, and moving them between ranks.
+/// Packs rows of several columns into words, and transfers them between ranks.
 ///
-/// A type of rows has a column `id` [rows], a function withoutRows(), and a static visitRow(self, visitor), which calls
-/// for each of the other columns, in the order of a row's words:
-///   visitor.column(values)                     one value a row
-///   visitor.unhashed(values)                   the same, left out of the state hash
-///   visitor.contacts(counts, column*...)       counts[row] values a row of each; a null pointer: there is no such
-///   visitor.several(values, width)             `width` values a row
-///   visitor.boundaries(bits, width, column*...)  a word of bits and `width` values a row of each
+/// A row type has a column `id` [rows], a function withoutRows(), and a static visitRow(self, visitor), which calls the
+/// following for each of the other columns, in the order of a row's words:
+///   visitor.column(values)                     one value per row
+///   visitor.unhashed(values)                   the same, excluded from the state hash
+///   visitor.contacts(counts, column*...)       counts[row] values per row and column; null pointer: column absent
+///   visitor.several(values, width)             `width` values per row
+///   visitor.boundaries(bits, width, column*...)  a word of bits, and `width` values per row and column
 namespace grouser::terrain {
 
 template <class T> void putWords(std::vector<std::uint32_t>& words, const T& value) {
@@ -27,12 +27,12 @@ template <class T> void putWords(std::vector<std::uint32_t>& words, const T& val
   words.insert(words.end(), raw, raw + sizeof value / 4);
 }
 
-/// Position of a loop over rows and their contacts.
+/// Position in a loop over rows and their contacts.
 struct RowCursor {
-  std::size_t row = 0, contact = 0; ///< the first contact of that row
+  std::size_t row = 0, contact = 0; ///< index of the row, and of its first contact
 };
 
-/// Visitor that appends one row's values to words and advances the cursor.
+/// Visitor that appends the values of one row to the words and advances the cursor.
 class RowPacker {
 public:
   RowPacker(RowCursor& at, std::vector<std::uint32_t>& words) : at_(at), words_(words) {}
@@ -58,7 +58,7 @@ private:
   std::vector<std::uint32_t>& words_;
 };
 
-/// Visitor that appends a row that RowPacker has written.
+/// Visitor that appends a row written by RowPacker.
 class RowReader {
 public:
   explicit RowReader(const std::uint32_t* words) : at_(words) {}
@@ -85,10 +85,10 @@ private:
   const std::uint32_t* at_;
 };
 
-/// Moves row k to rank `destination[k]`; the result is in the order of ids. All ranks call it.
+/// Moves row k to rank `destination[k]`; the result is sorted by id. Collective.
 template <class Rows>
 Rows redistributeRows(const base::Comm& comm, const Rows& rows, const std::vector<int>& destination) {
-  // A row is its number of words, its id, and the words.
+  // A row consists of its number of words, its id, and the words.
   std::vector<std::vector<std::uint32_t>> to(static_cast<std::size_t>(comm.size()));
   RowCursor at;
   for (; at.row < rows.id.size(); ++at.row) {

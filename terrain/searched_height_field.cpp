@@ -9,10 +9,10 @@ namespace grouser::terrain {
 
 namespace {
 
-/// Marks all entries within `reach` of a marked one in a row of `n`, `stride` apart.
+/// Marks all entries within `reach` of a marked entry in a row of `n`, `stride` apart.
 void widen(const std::vector<bool>& from, std::vector<bool>& to, std::size_t first, int n, std::size_t stride,
            int reach) {
-  int covered = 0; // up to here
+  int covered = 0; // end of the marked range
   for (int k = 0; k < n; ++k) {
     if (!from[first + static_cast<std::size_t>(k) * stride]) continue;
     const int end = reach < n - k ? k + reach + 1 : n;

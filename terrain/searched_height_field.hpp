@@ -6,16 +6,16 @@
 
 namespace grouser::terrain {
 
-/// A height field on the device, with marks for FeetSearch where it has hollows tighter than the spheres.
+/// Height field on the device, with marks for FeetSearch at hollows tighter than the spheres.
 class SearchedHeightField {
 public:
   SearchedHeightField() = default;
-  /// `radius` [m]: of the largest sphere that searches.
+  /// `radius`: of the largest searching sphere [m].
   SearchedHeightField(const base::Exec& exec, const HeightField& field, double radius);
 
-  /// For kernels; valid while this object lives and is not moved from.
+  /// View for kernels; valid while this object exists and is not moved from.
   const HeightFieldView& view() const { return view_; }
-  /// Whether a sphere of this radius may touch the field in several places.
+  /// True if a sphere of this radius may have several contacts with the field.
   static bool hasHollows(const HeightField& field, double radius) {
     return field.bounds().valleyCurvature * radius >= 1;
   }

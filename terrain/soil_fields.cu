@@ -18,14 +18,14 @@ namespace {
 
 constexpr unsigned kMeasuring = contact::kGeneral | contact::kMeasured;
 
-/// Sums of a cell. Places are those of a grain's centre, from the centre of the cell, over the cell's edges.
+/// Sums of a cell. Positions are those of grain centres relative to the cell centre, in units of the cell edges.
 enum CellSum : int {
   kVolume,         ///< volume of grains
-  kGrains,         ///< that may move
+  kGrains,         ///< number of movable grains
   kContacts,       ///< contacts of these grains
-  kHeldGrains,     ///< those with two contacts or more
+  kHeldGrains,     ///< number of grains with two contacts or more
   kHeldContacts,   ///< contacts of these grains
-  kMassIn,         ///< mass of grains that may move, as in all sums below
+  kMassIn,         ///< mass of movable grains, as in all sums below
   kMomentumIn,     ///< [3]
   kFirst = 9,      ///< [3] mass times place
   kSecond = 12,    ///< [6] mass times place times place
@@ -49,7 +49,7 @@ struct CellLattice {
       : low(g.low), cell(g.cell), cells{g.cells[0], g.cells[1], g.cells[2]}, periodic{g.periodic[0], g.periodic[1]} {}
 };
 
-/// Contact moments of the grains near walls, floor and surfaces, by their place in that list.
+/// Contact moments of the grains near walls, floor and surfaces, by list index.
 template <class Real> struct MeasureBoundaries : BoundaryContacts<kMeasuring, Real> {
   ContactMoment* moments;
   GROUSER_HD void operator()(int k) const {
@@ -58,7 +58,7 @@ template <class Real> struct MeasureBoundaries : BoundaryContacts<kMeasuring, Re
   }
 };
 
-/// Adds one grain to the cells that it lies in.
+/// Adds one grain to the cells that it overlaps.
 template <class Real> struct AddToCells : GrainStep<kMeasuring, Real> {
   static constexpr double kNanoseconds = 500;
   using Step = GrainStep<kMeasuring, Real>;
@@ -66,7 +66,7 @@ template <class Real> struct AddToCells : GrainStep<kMeasuring, Real> {
 
   CellLattice grid;
   CellScales scales;
-  const std::uint32_t* ghost; ///< null where there are none
+  const std::uint32_t* ghost; ///< null without ghosts
   const ContactMoment* atBoundaries;
   contact::PartMomentsView onParts;
   std::int64_t* sums; ///< [cells][kCellSums]
@@ -98,13 +98,13 @@ template <class Real> struct AddToCells : GrainStep<kMeasuring, Real> {
   }
 
 private:
-  /// A grain along one axis: the two cells beside the plane nearest to it, and the shares of its volume there.
+  /// Splits a grain along one axis: the two cells beside the plane nearest to it, and its volume fractions there.
   struct Cut {
     double at; ///< its centre, in cells from the low corner
     int first;
     double share[2];
   };
-  /// No cell is smaller than a grain, so no other plane cuts it.
+  /// Cells are at least as large as a grain, so no other plane cuts it.
   GROUSER_HD Cut cutAlong(int axis, double x, double radius) const {
     const double at = (x - grid.low[axis]) / grid.cell[axis];
     constexpr double kFar = 1e9; // in cells: no integer beyond
@@ -127,7 +127,7 @@ private:
       const std::int64_t reach2 = has(kManyRadii) ? Step::squareOf(d.neighbours.reach[at]) : d.diameterUnits2;
       if (distance2 >= reach2 || distance2 == 0) continue;
       const bool held = d.neighbours.touching[i * d.neighbours.maskWords + k / 64] >> (k & 63u) & 1;
-      // The step writes its history; here that is a copy.
+      // The boundary kernel writes history; redirect it to a copy.
       float history[contact::historyWidth(contact::kRollingFriction | contact::kPlastic)] = {};
       const float* kept = Step::historyAt(at);
       for (int w = 0; kept && w < Step::historyWidth(); ++w) history[w] = kept[w];
@@ -213,7 +213,7 @@ template <class Real> void addGrains(GrainSystem& system, const FieldGrid& grid,
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Symmetric gradient of the velocity by least squares: (sum m v x) (sum m x x)^-1 about the centre of mass. `of`:
-/// values of the sums.
+/// converted sums of the cell.
 Tensor6 strainRateOf(const double* of, const Vec3d& edge) {
   const double mass = of[kMassIn];
   Tensor6 none;
@@ -228,7 +228,7 @@ Tensor6 strainRateOf(const double* of, const Vec3d& edge) {
   const Vec3d row[3] = {{c[0][0], c[0][1], c[0][2]}, {c[1][0], c[1][1], c[1][2]}, {c[2][0], c[2][1], c[2][2]}};
   const Vec3d adjoint[3] = {cross(row[1], row[2]), cross(row[2], row[0]), cross(row[0], row[1])};
   const double determinant = dot(row[0], adjoint[0]);
-  // A cell full of grains has about 1/12^3; far below that the grains lie nearly in one plane.
+  // A filled cell has about 1/12^3; far below that the grains are nearly coplanar.
   if (!(determinant > 1e-7)) return none;
   double gradient[3][3];
   for (int a = 0; a < 3; ++a)
@@ -243,13 +243,13 @@ CellScales scalesOf(const GrainModel& model) {
   double force = contact::strongestForce(model.law, model.radius, contact::kForcePress);
   for (const contact::ContactLaw& law : model.materials.grains)
     force = std::max(force, contact::strongestForce(law, model.radius, contact::kForcePress));
-  constexpr int kBits = 40; // room for four million of the largest grains in a cell
+  constexpr int kBits = 40; // range for four million of the largest grains in a cell
   return {base::fixedPointFor(4.2 * model.radius * model.radius * model.radius, kBits), base::fixedPointFor(1, kBits),
           base::fixedPointFor(model.mass, kBits), base::fixedPointFor(10 * model.mass, kBits),
           base::fixedPointFor(force * model.radius, 42)};
 }
 
-/// The sums of a cell in their units.
+/// Converts the sums of a cell to their units.
 std::array<double, kCellSums> valuesOf(const std::int64_t* sums, const CellScales& scales) {
   std::array<double, kCellSums> of{};
   for (int k = 0; k < kCellSums; ++k) {
@@ -269,7 +269,7 @@ std::array<double, kCellSums> valuesOf(const std::int64_t* sums, const CellScale
 FieldGrid fieldGrid(const Vec3d& low, const Vec3d& high, double edge, const PeriodicBoundaries& periodic) {
   FieldGrid grid{low, {}, {}, {}};
   for (int a = 0; a < 3; ++a) {
-    constexpr double kRounding = 1e-9, kMost = 1e9; // grains a cell; more than any device holds
+    constexpr double kRounding = 1e-9, kMost = 1e9; // maximum number of grains per cell; more than any device can store
     const double extent = high[a] - low[a];
     const double whole = std::clamp(std::floor(extent / edge + kRounding), 1.0, kMost);
     grid.cells[static_cast<std::size_t>(a)] = static_cast<int>(whole);

@@ -13,46 +13,46 @@ namespace grouser::terrain {
 
 struct GrainSystem;
 
-/// A box of equal cells.
+/// Box divided into equal cells.
 struct FieldGrid {
   base::Vec3d low;                ///< corner of the box [m]
-  base::Vec3d cell;               ///< edges of a cell [m], none shorter than the diameter of the largest grain
+  base::Vec3d cell;               ///< edges of a cell [m], at least the diameter of the largest grain
   std::array<int, 3> cells{};     ///< along x, y, z
-  std::array<bool, 2> periodic{}; ///< along x and y: the box spans the period there
+  std::array<bool, 2> periodic{}; ///< along x and y: the box spans the period
 
   std::size_t count() const { return static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]; }
   double cellVolume() const { return cell.x * cell.y * cell.z; } ///< [m3]
 };
-/// Whole cells of `edge` [m] or somewhat more that fill the box, one at least along each axis.
+/// Returns a grid of whole cells with edges of at least `edge` [m] that fills the box, at least one along each axis.
 FieldGrid fieldGrid(const base::Vec3d& low, const base::Vec3d& high, double edge, const PeriodicBoundaries& periodic);
 
-/// Symmetric: xx, xy, xz, yy, yz, zz.
+/// Symmetric tensor: xx, xy, xz, yy, yz, zz.
 using Tensor6 = std::array<double, 6>;
 
-/// One number, vector or tensor per cell: index x + nx (y + ny z).
+/// Soil fields: one number, vector or tensor per cell, at index x + nx (y + ny z).
 ///
-/// A grain counts in each cell with the share of its volume that lies there. Planes between cells cut it one axis at a
-/// time, so that the shares sum to 1; they are exact where one plane cuts the grain, and close where several do. So
-/// the sum of a field over cells is the sum over the grains. Grains outside the box are left out. Fixed grains fill
-/// volume, and are a boundary otherwise.
+/// A grain contributes to each cell in proportion to its volume there. Planes between cells divide it one axis at a
+/// time, so that the fractions sum to 1; they are exact if one plane cuts the grain, and approximate if several do. The
+/// sum of a field over cells therefore equals the sum over the grains. Grains outside the box are ignored. Fixed grains
+/// fill volume, but otherwise act as a boundary.
 struct SoilFields {
   FieldGrid grid;
-  std::vector<double> porosity; ///< volume without grains over volume [-]
-  /// Contacts of a grain with grains and all else, mean; of those with two contacts or more (Thornton 2000,
-  /// Geotechnique 50:43) [-]. NaN where there is no such grain.
+  std::vector<double> porosity; ///< void volume / total volume [-]
+  /// Mean number of contacts per grain, with grains and all else; the same for grains with at least two contacts
+  /// (Thornton 2000, Geotechnique 50:43) [-]. NaN without such grains.
   std::vector<double> coordination, mechanicalCoordination;
-  std::vector<base::Vec3d> velocity; ///< mean, weighted with mass [m/s]; NaN where no grain moves freely
-  /// Symmetric gradient of the velocity [1/s]: of the linear least-squares fit to the grains of the cell, weighted with
-  /// mass. NaN if they are too few, or lie in one plane.
+  std::vector<base::Vec3d> velocity; ///< mass-weighted mean [m/s]; NaN without free grains
+  /// Symmetric velocity gradient [1/s] of the linear mass-weighted least-squares fit to the grains of the cell. NaN if
+  /// they are too few or coplanar.
   std::vector<Tensor6> strainRate;
-  /// Love-Weber: forces times lever arms of all contacts of the grains, over the volume of the cell [Pa]. Positive in
-  /// tension. Forces are those of the coming step, by its laws and in its precision.
+  /// Love-Weber stress: sum of force times lever arm over all contacts of the grains, divided by the cell volume [Pa].
+  /// Positive in tension. Forces are those of the next step, by its laws and in its precision.
   std::vector<Tensor6> stress;
 };
 
-/// Fields of the grains as they are now; `onParts`: of their contacts with parts, by their present slots. Changes
-/// nothing. The same bits on every device and any number of ranks, which all call it. The neighbour list must be
-/// valid. Throws SimulationError where a sum leaves the range of its integer.
+/// Measures the fields of the current grains; `onParts`: moments of their contacts with parts, by current slots. No
+/// side effects. Bitwise identical on every device and any number of ranks; collective. Requires a valid neighbour
+/// list. Throws SimulationError if a sum exceeds its integer range.
 SoilFields measureFields(GrainSystem& system, const FieldGrid& grid, const contact::PartMomentsView& onParts = {});
 
 } // namespace grouser::terrain

@@ -9,8 +9,8 @@
 
 namespace grouser {
 
-/// Where the tests that take it compute: on `threads` CPU threads, or on CUDA (ranks take its devices in turn) where
-/// the environment says GROUSER_TEST_DEVICE=cuda (tests/gpu sets it). The claims are the same on both.
+/// Device of the tests: `threads` CPU threads, or CUDA (ranks use its devices in turn) if the
+/// environment variable GROUSER_TEST_DEVICE is cuda (tests/gpu sets it). Expected results are the same.
 inline base::Exec testExec(int threads = 1, int rank = 0) {
   const char* device = std::getenv("GROUSER_TEST_DEVICE");
   if (!device || std::string(device) != "cuda") return base::cpuExec(threads);
@@ -18,7 +18,7 @@ inline base::Exec testExec(int threads = 1, int rank = 0) {
 }
 
 #ifdef GROUSER_SOURCE_DIR
-/// Of the sources, which GROUSER_TEST_SOURCE names where they have moved since the build.
+/// Source folder; GROUSER_TEST_SOURCE overrides it if the sources moved after the build.
 inline std::string sourceFolder() {
   const char* moved = std::getenv("GROUSER_TEST_SOURCE");
   return moved ? moved : GROUSER_SOURCE_DIR;

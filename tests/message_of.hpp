@@ -8,7 +8,7 @@
 
 namespace grouser::test {
 
-/// The message of the InputError that `act` throws; empty where it throws none.
+/// The message of the InputError that `act` throws; empty if it throws none.
 inline std::string messageOf(const std::function<void()>& act) {
   try {
     act();

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// PNG files for tests, sound and damaged ones.
+/// PNG files for tests, valid and damaged.
 namespace grouser::pngs {
 
 using Bytes = std::string;
@@ -37,7 +37,7 @@ inline Bytes headerOf(int columns, int rows, int bits, ColourType colour, bool i
   return header + Bytes{static_cast<char>(bits), static_cast<char>(colour), 0, 0, static_cast<char>(interlaced)};
 }
 
-/// A PNG by the letter of its specification (ISO/IEC 15948), uncompressed. `chunks` stand before the pixels.
+/// An uncompressed PNG as in its specification (ISO/IEC 15948). `chunks` precede the pixels.
 inline Bytes pngOf(const Bytes& header, const Bytes& scanlines, const Bytes& chunks = "") {
   const auto length = static_cast<std::uint16_t>(scanlines.size());
   Bytes zlib{0x78,

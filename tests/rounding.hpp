@@ -5,7 +5,7 @@
 
 namespace grouser::test {
 
-/// The spacing of doubles at 1, of which tolerances of rounding are multiples.
+/// The spacing of doubles at 1; tolerances of rounding are multiples of it.
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 
 } // namespace grouser::test

@@ -18,11 +18,11 @@ using base::Vec3d;
 using multibody::JointType;
 
 const Vec3d kForward{1, 0, 0}, kLeft{0, 1, 0};
-/// Mass of each body of a hull's guide over that of the hull.
+/// Mass of each guide body / hull mass.
 constexpr double kGuideShare = 1e-4;
 
-/// Adds one track after the other to an assembly. Points and frames are given in the vehicle frame V, whose axes are
-/// those of the chassis at the start.
+/// Adds one track after the other to an assembly. Points and frames are in the vehicle frame V, whose axes are
+/// initially those of the chassis.
 class Builder {
 public:
   Builder(const VehicleSpec& spec, const AssemblyOptions& options) : options_(options) {
@@ -58,7 +58,7 @@ private:
     return assembly_.model.addBody(body);
   }
 
-  /// The part frame is the body frame unless `pose_B` says otherwise. Returns the part's index.
+  /// Adds a part; its frame is the body frame unless `pose_B` is given. Returns the part's index.
   int addPart(PartKind kind, int body, const std::string& mesh, int track, const Pose& pose_B = {}) {
     assembly_.parts.push_back({assembly_.model.bodyName(body), kind, body, mesh, track, pose_B});
     return static_cast<int>(assembly_.parts.size()) - 1;
@@ -82,8 +82,8 @@ private:
     if (guided) addGuide();
   }
 
-  /// A carriage on rails along x; on it the hull, or its pitch bearing, slides vertically. Both are nearly massless:
-  /// the rails carry the carriage, and the slider's mass is subtracted from the hull.
+  /// Adds a carriage on rails along x, on which the hull, or its pitch bearing, slides vertically. Both are nearly
+  /// massless: the rails support the carriage, and the slider's mass is subtracted from the hull.
   void addGuide() {
     const ChassisSpec& c = spec().chassis;
     const MassSpec light{kGuideShare * c.mass, c.inertia * kGuideShare};
@@ -131,7 +131,7 @@ private:
       addPart(PartKind::kRoadWheel, wheel, w.mesh, trackIndex());
       if (!sprung) continue;
 
-      // A vertical load F on the axle turns the arm about +y with F l cos(angle): the bar holds against it.
+      // A vertical load F on the axle rotates the arm about +y with F l cos(angle), balanced by the torsion bar.
       multibody::AxisSpring bar;
       bar.name = named("torsion bar", i);
       bar.joint = joint;
@@ -206,9 +206,9 @@ private:
       track_.shoes.push_back(addBody(named("shoe", i), s, {{c.x, track_.y, c.z}, planeRotation(wrap.shoeAngle(i))}));
       track_.shoeParts.push_back(addPart(PartKind::kShoe, track_.shoes.back(), s.mesh, trackIndex()));
     }
-    // Pins turn about -y, so that a fold about a wheel is positive. The universal joint also turns about the shoe's x
-    // axis; half a loop away that axis is never along the line to the spherical joint, so no constraint is lost or
-    // doubled.
+    // Pins rotate about -y, so that a fold about a wheel is positive. The universal joint also rotates about the shoe's
+    // x axis; half a loop away that axis is never along the line to the spherical joint, so no constraint is lost or
+    // duplicated.
     const Pose front_B = multibody::frameWithZX({0.5 * s.pitch, 0, 0}, -kLeft, kForward);
     const Pose rear_B = multibody::frameWithZX({-0.5 * s.pitch, 0, 0}, -kLeft, kForward);
     for (int i = 0; i < s.count; ++i) {

@@ -8,19 +8,19 @@
 
 namespace grouser::vehicle {
 
-/// Detects ground impacts on a vehicle: upward ground force over weight, averaged over at least kSpan. A vehicle that
-/// lands on stopped or rigid arms receives many times its weight, and the first shoe in contact determines the motion
-/// afterwards, which then depends on time step and seed (docs/evidence/vehicle_stability.md).
+/// Detects ground impacts on a vehicle by the upward ground force over weight, averaged over at least kSpan. A vehicle
+/// that lands on stopped or rigid arms receives many times its weight; the first shoe in contact then determines the
+/// motion, which depends on time step and seed (docs/evidence/vehicle_stability.md).
 class BlowMeter {
 public:
   static constexpr double kSpan = 0.01; ///< [s]
   static constexpr double kBlow = 4;    ///< force over weight above which a run reports an impact [-]
 
   BlowMeter() = default;
-  explicit BlowMeter(double weight) : weight_(weight) {} ///< [N]; 0: no impacts are reported
+  explicit BlowMeter(double weight) : weight_(weight) {} ///< [N]; 0: impacts are not reported
 
   void setWeight(double weight) { weight_ = weight; } ///< [N]
-  /// `up`: mean force of the ground since the last call [N]; NaN where it is not known.
+  /// `up`: mean upward ground force since the last call [N]; NaN if unknown.
   void add(double time, double up) {
     const double span = time - last_;
     last_ = time;
@@ -35,13 +35,13 @@ public:
 
   static constexpr std::size_t kNumbers = 5;
   std::vector<double> save() const { return {most, at, last_, impulse_, span_}; }
-  /// `saved`: kNumbers, of save().
+  /// `saved`: the kNumbers values of save().
   void restore(const std::vector<double>& saved) {
     most = saved[0], at = saved[1], last_ = saved[2], impulse_ = saved[3], span_ = saved[4];
   }
 
-  double most = 0; ///< greatest so far, in weights [-]
-  double at = 0;   ///< end of that mean [s]
+  double most = 0; ///< largest mean so far, in vehicle weights [-]
+  double at = 0;   ///< end time of that mean [s]
 
 private:
   double weight_ = 0, last_ = 0, impulse_ = 0, span_ = 0;

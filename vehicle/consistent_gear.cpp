@@ -13,14 +13,14 @@
 namespace grouser::vehicle {
 namespace {
 
-constexpr double kGap = 0.005;  // [m] least between wheels
-constexpr int kMoreShoes = 60;  // largest change of the number of shoes
-constexpr int kSteps = 8;       // tried steps of each length
+constexpr double kGap = 0.005;  // [m] minimum gap between wheels
+constexpr int kMoreShoes = 60;  // maximum change of the number of shoes
+constexpr int kSteps = 8;       // number of tried steps of each length
 constexpr double kStep = 0.004; // [m]
 
 double rounded(double x) { return std::floor(1e4 * x + 0.5) / 1e4; }
 
-/// Distance of the road wheel next to the sprocket from its axle [m].
+/// Distance of the road wheel next to the sprocket from the sprocket axle [m].
 double nearestWheel(const VehicleSpec& s) {
   const double beside = s.sprocketPinRadius() + s.roadWheel.radius + 0.05;
   const double near =
@@ -28,7 +28,7 @@ double nearestWheel(const VehicleSpec& s) {
   return near > 0.5 * beside ? near : beside;
 }
 
-/// The gear stretched to an idler `away` from the sprocket's axle, road wheels ending `end` before it.
+/// Returns the gear stretched to an idler `away` from the sprocket axle, with road wheels ending `end` before it.
 VehicleSpec stretched(const VehicleSpec& given, double away, double end) {
   VehicleSpec s = given;
   const double side = s.outward(), ratio = away / std::fabs(given.idler.x);
@@ -36,12 +36,12 @@ VehicleSpec stretched(const VehicleSpec& given, double away, double end) {
   s.idler.x = rounded(side * away);
   if (s.roadWheel.count > 1) s.roadWheel.spacing = rounded((last - first) / (s.roadWheel.count - 1));
   s.roadWheel.firstX = side > 0 ? rounded(first) : rounded(-first - s.roadWheel.spacing * (s.roadWheel.count - 1));
-  // At the same relative position the upper strand has the same height.
+  // At the same relative position the upper strand has equal height.
   for (double& x : s.roller.x) x = rounded(ratio * x);
   return s;
 }
 
-/// Idler distance at which the loop length equals the length of the shoes [m].
+/// Idler distance for which the loop length equals the total length of the shoes [m].
 std::optional<double> closingDistance(const VehicleSpec& s, double end) {
   const double loop = s.shoe.count * s.shoe.pitch;
   double low = nearestWheel(s) + end, high = std::max(2 * low, loop);

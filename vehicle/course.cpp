@@ -41,7 +41,7 @@ Course::Place Course::placeAt(double way) const {
   return {options_.x[i - 1] + s * dx, options_.y[i - 1] + s * dy, dx, dy};
 }
 
-/// The nearest point of the path within lookAhead: a path may cross itself.
+/// Nearest point of the path within lookAhead, since a path may cross itself.
 void Course::follow(const HullMotion& m) {
   double nearest = 1e300, found = travelled_;
   for (std::size_t i = 1; i < ways_.size(); ++i) {
@@ -61,7 +61,7 @@ std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, d
   const CourseOptions& o = options_;
   double speed = std::min(std::fabs(o.speed - from), o.acceleration * std::max(0.0, time)), curvature = o.curvature;
   if (o.speed < from) speed = -speed;
-  if (from != 0) speed += from; // keeps the sign of a zero
+  if (from != 0) speed += from; // preserves the sign of a zero
   if (onPath()) {
     follow(m);
     speed = std::min(speed, std::sqrt(2 * o.acceleration * std::max(0.0, length() - travelled_)));

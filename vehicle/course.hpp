@@ -7,52 +7,52 @@
 
 namespace grouser::vehicle {
 
-/// Targets of a closed-loop driver: hull speed, and a circle or a path of points.
+/// Targets of a closed-loop driver: hull speed, and a circle or a path through given points.
 struct CourseOptions {
   double speed{};            ///< target hull speed [m/s]; negative is backward; > 0 on a path
-  double acceleration{};     ///< for starting, and for stopping at the end of a path [m/s2]
-  double curvature{};        ///< of a circle [1/m], left positive; unused on a path
-  std::vector<double> x, y;  ///< corners of a path in the world [m]; none, or two at least
+  double acceleration{};     ///< acceleration at the start, deceleration at the end of a path [m/s2]
+  double curvature{};        ///< curvature of a circle [1/m], left positive; unused on a path
+  std::vector<double> x, y;  ///< corners of a path in the world [m]; none, or at least two
   double lookAhead{};        ///< look-ahead distance along the path [m]
-  double speedGain{};        ///< gain of the speed error [-]
-  double speedIntegral{};    ///< of its integral [1/s]
-  double turnGain{};         ///< gain of the turn rate error [-]
-  double turnIntegral{};     ///< of its integral [1/s]
+  double speedGain{};        ///< proportional gain for the speed error [-]
+  double speedIntegral{};    ///< integral gain for the speed error [1/s]
+  double turnGain{};         ///< proportional gain for the yaw-rate error [-]
+  double turnIntegral{};     ///< integral gain for the yaw-rate error [1/s]
   double maxSprocketSpeed{}; ///< sprocket speed limit [rad/s]
-  // Vehicle data:
-  double tread{};       ///< distance of the tracks' middles [m]
+  // Vehicle dimensions:
+  double tread{};       ///< distance between the track centre lines [m]
   double pitchRadius{}; ///< [m]
 };
 
-/// Hull motion for the driver, at the middle of the ground contact length, on the hull's centre line.
+/// Hull motion for the driver, at the middle of the ground contact length, on the hull's centre plane.
 struct HullMotion {
-  double x{}, y{};               ///< in the world [m]
-  double forwardX{}, forwardY{}; ///< the heading as a unit vector
-  double speed{};                ///< along the heading [m/s]
-  double turnRate{};             ///< about the vertical, to the left positive [rad/s]
+  double x{}, y{};               ///< position in the world [m]
+  double forwardX{}, forwardY{}; ///< heading as a unit vector
+  double speed{};                ///< speed along the heading [m/s]
+  double turnRate{};             ///< turn rate about the vertical, left positive [rad/s]
 };
 
-/// Controls hull speed and course by the sprocket speeds. At each step, with the target speed v* and the target turn
-/// rate r*,
+/// Controls hull speed and course by the sprocket speeds. In each step, with target speed v* and target turn rate
+/// r*,
 ///   v = v* + speedGain e + speedIntegral int e dt,    e = v* - speed,
 ///   r = r* + turnGain f + turnIntegral int f dt,      f = r* - turnRate,
 ///   left, right = (v -+ r tread / 2) / pitchRadius.
-/// v* rises with the acceleration a to its value, and falls to a path's end as sqrt(2 a way). r* is v* / radius on a
-/// circle. On a path it is v* times the curvature of the arc that leads from the hull, along its heading, through the
-/// path's point `lookAhead` further on (pure pursuit; Coulter 1992): 2 left / distance^2 with `left` how far that point
-/// lies to the left. The integrals compensate slip; they are frozen while a sprocket command exceeds maxSprocketSpeed,
-/// and both sides are then scaled down equally.
+/// v* rises with the acceleration a, and decreases towards the end of a path as sqrt(2 a distance). r* is v* / radius
+/// on a circle. On a path it is v* times the curvature of the arc that is tangent to the hull's heading and ends at the
+/// path point `lookAhead` further on (pure pursuit; Coulter 1992): 2 left / distance^2, with `left` the lateral
+/// offset of that point. The integrals compensate slip; they are frozen while a sprocket command exceeds
+/// maxSprocketSpeed, and both sides are then scaled down equally.
 class Course {
 public:
   explicit Course(CourseOptions options);
 
-  /// Sprocket speeds left and right [rad/s], for a step of `dt` [s] that begins `time` [s] after the start of the
-  /// drive, or after takeover of a hull with speed `from` [m/s].
+  /// Returns the left and right sprocket speeds [rad/s] for a step of `dt` [s] that begins `time` [s] after the
+  /// start of the drive, or after takeover at a hull speed `from` [m/s].
   std::array<double, 2> sprocketSpeeds(const HullMotion& motion, double time, double dt, double from = 0);
 
-  /// Arc length of the path point nearest to the hull; never decreases [m].
+  /// Arc length of the path point nearest to the hull [m]; never decreases.
   double travelled() const { return travelled_; }
-  double length() const; ///< of the path [m]
+  double length() const; ///< path length [m]
 
   /// State variables.
   std::vector<double> save() const { return {speedSum_, turnSum_, travelled_}; }
@@ -63,7 +63,7 @@ public:
 
 private:
   struct Place {
-    double x, y, alongX, alongY; ///< and path direction there
+    double x, y, alongX, alongY; ///< point on the path, and path direction
   };
   Place placeAt(double way) const; ///< extrapolated beyond the end
   void follow(const HullMotion& motion);

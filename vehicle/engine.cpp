@@ -16,9 +16,9 @@ double fullLoadTorque(const EngineSpec& engine, double speed) {
 
 namespace {
 
-/// Torque of a driving engine, in the gear for that direction.
+/// Torque of a driving engine in the gear for that direction.
 double driveTorque(const EngineSpec& engine, double throttle, bool forwards, double speed) {
-  // Rolling against the gear, the engine is at the low end of its curve.
+  // When rolling against the gear, the engine is at the low end of its curve.
   const double shaft = forwards ? speed * engine.ratio : -speed * engine.ratio;
   return throttle * engine.ratio * engine.efficiency * fullLoadTorque(engine, std::max(0.0, shaft));
 }

@@ -7,33 +7,33 @@ namespace grouser::vehicle {
 
 /// Contact geometry within the running gear and between shoes and rigid surfaces.
 enum class GearContactModel {
-  shapes, ///< by the dimensions of VehicleSpec::shapes
-  samples ///< by sample points of the meshes
+  shapes, ///< dimensions of VehicleSpec::shapes
+  samples ///< sample points of the meshes
 };
 
 /// Dimensions of the contact surfaces of the running gear: plates, horns, bosses, discs and arcs [m]. Without them the
-/// samples of the meshes define the contacts. y is measured from the middle plane of a part; all surfaces are symmetric
-/// about it.
+/// contacts use sample points of the meshes. y is measured from the mid-plane of a part; all surfaces are symmetric
+/// about that plane.
 struct GearShapes {
   // Shoe.
-  double plateInner{}, plateOuter{};      ///< wheel plates, from this |y| to that one
-  double hornLength{}, hornWidth{};       ///< guide horn in x and y, at the level of the plates
-  double hornTipLength{}, hornTipWidth{}; ///< ... and at its tip
-  double bossRadius{};                    ///< of the bosses about the pins at x = +pitch/2
-  double bossInner{}, bossOuter{};        ///< bosses, from this |y| to that one
+  double plateInner{}, plateOuter{};      ///< wheel plates: range of |y|
+  double hornLength{}, hornWidth{};       ///< guide horn base in x and y, at the level of the plates
+  double hornTipLength{}, hornTipWidth{}; ///< guide horn tip in x and y
+  double bossRadius{};                    ///< radius of the pin bosses at x = +pitch/2
+  double bossInner{}, bossOuter{};        ///< bosses: range of |y|
   double padTop{};                        ///< z of the pad's upper face
-  double grouserX{};                      ///< two grousers at x = +- this; one in the middle where it is 0
-  double grouserWidth{};                  ///< length in x of a grouser
-  double chamfer{};                       ///< of its lower edges and of the pad's, at 45 degrees
+  double grouserX{};                      ///< two grousers at x = +- this value; 0: a single one in the middle
+  double grouserWidth{};                  ///< grouser length in x
+  double chamfer{};                       ///< 45-degree chamfer of the lower edges of grousers and pad
   // Road wheels, rollers, idler: two discs each.
-  double discInner{}, discOuter{}; ///< discs, from this |y| to that one
-  double discChamfer{};            ///< of the discs' edges, at 45 degrees
-  // Sprocket: two toothed rings. A gap is a seat for the boss, then convex flanks up to the tip circle.
-  double ringInner{}, ringOuter{}; ///< rings, from this |y| to that one
-  double seatRadius{};             ///< of the seat's arc about the seated pin
-  double seatHalfAngle{};          ///< the arc reaches this far from its bottom [rad]
-  double flankRadius{};            ///< of the flanks' arcs, which go on from the seat without a kink
-  double tipRadius{};              ///< of the teeth, from the axle
+  double discInner{}, discOuter{}; ///< discs: range of |y|
+  double discChamfer{};            ///< 45-degree chamfer of the disc edges
+  // Sprocket: two toothed rings. A gap consists of the boss seat and convex flanks up to the tip circle.
+  double ringInner{}, ringOuter{}; ///< rings: range of |y|
+  double seatRadius{};             ///< radius of the seat arc about the seated pin
+  double seatHalfAngle{};          ///< half angle of the seat arc, from its bottom [rad]
+  double flankRadius{};            ///< radius of the flank arcs, which are tangent to the seat arc
+  double tipRadius{};              ///< tip radius of the teeth, from the axle
 };
 
 } // namespace grouser::vehicle

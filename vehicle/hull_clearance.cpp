@@ -21,12 +21,12 @@ using Polygon = std::vector<PlanePoint>; ///< convex
 
 constexpr double kTouching = 1e-3; ///< tolerated overlap [m]
 
-/// Part of a track: outline in the track's plane and extent across it.
+/// Track part: outline in the track plane, and extent across it.
 struct TrackPart {
   std::string name;
-  Polygon corners; ///< of a shoe
+  Polygon corners; ///< outline of a shoe
   PlanePoint centre;
-  double radius = 0; ///< of a wheel
+  double radius = 0; ///< radius of a wheel
   double halfWidth;
 };
 
@@ -82,7 +82,7 @@ Polygon slice(const std::array<Vec3d, 3>& triangle, double from, double to) {
   return flat;
 }
 
-/// Smallest shift along an edge normal that separates two shapes [m]; negative if they are apart.
+/// Minimum shift along an edge normal that separates two shapes [m]; negative if they are apart.
 double overlapOf(const Polygon& a, const Polygon& b) {
   double least = base::kInfinity;
   for (const Polygon* shape : {&a, &b})
@@ -121,7 +121,7 @@ double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
   return radius - (inside && turn != 0 ? 0.0 : nearest);
 }
 
-/// Penetration of a track part at `offset` into the hull [m], by the shorter way out, in the track's plane or across;
+/// Penetration of a track part at `offset` into the hull [m]: the smaller one of those in the track plane and across;
 /// infinite if inside, negative if clear.
 double depthOf(const spheredecomp::MeshQuery& query, const TrackPart& part, double offset) {
   if (query.inside({part.centre.x, offset, part.centre.z})) return base::kInfinity;
@@ -143,7 +143,7 @@ double depthOf(const spheredecomp::MeshQuery& query, const TrackPart& part, doub
 
 struct Clash {
   std::string part; ///< "left shoe 3"
-  double depth;     ///< [m]; infinite: wholly inside
+  double depth;     ///< [m]; infinite: completely inside
 };
 
 std::optional<Clash> clashAt(const spheredecomp::MeshQuery& hull, const std::vector<TrackPart>& parts, double offset) {

@@ -5,8 +5,8 @@
 
 namespace grouser::vehicle {
 
-/// Overlap of the hull mesh with shoes or wheels by more than a millimetre, in the drawn position. A run has no
-/// contacts between hull and tracks, so it would persist. Empty if there is none.
+/// Returns an overlap of more than 1 mm between the hull mesh and shoes or wheels in the drawn position. There are no
+/// hull-track contacts, so an overlap would persist during the run. Empty if there is none.
 std::optional<SpecFault> hullFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -8,23 +8,23 @@
 
 namespace grouser::vehicle {
 
-/// One observed quantity of the output files.
+/// Observed quantity of the output files.
 struct Quantity {
   std::string path; ///< "vehicle/left/tension"
-  std::string unit; ///< "N"; "-" where dimensionless
+  std::string unit; ///< "N"; "-": dimensionless
   std::string help;
   int width = 1; ///< numbers per row: 3 for a vector, one per shoe
   std::vector<std::string>
-      columns; ///< names of vector components, or wheel numbers; empty for scalars and values per shoe
+      columns; ///< names of vector components, or wheel numbers; empty for scalars and per-shoe values
 };
 
-/// Quantities of an observation of this vehicle, in the order of flatten(). `shoeForces`: include forces on each shoe.
+/// Quantities of an observation of this vehicle, in the order of flatten(). `shoeForces`: include per-shoe forces.
 std::vector<Quantity> quantities(const Assembly& vehicle, bool shoeForces = false);
-/// Quantities of the whole vehicle, and of one track; `side` is "left" or "right".
+/// Quantities of the whole vehicle, and of one track; `side`: "left" or "right".
 std::vector<Quantity> quantitiesOfHull();
 std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes, int wheels, bool shoeForces = false);
 
-/// The numbers of an observation, each quantity's `width` numbers in turn.
+/// Values of an observation as a flat array, `width` numbers per quantity.
 std::vector<double> flatten(const Observation& observation, bool shoeForces = false);
 
 } // namespace grouser::vehicle

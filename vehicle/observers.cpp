@@ -17,14 +17,14 @@ namespace {
 using base::Vec3d;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Speeds above which tracks run, and a hull on stopped tracks slides [m/s]; oscillations after settling are smaller.
+/// Speed thresholds of running tracks, and of a hull sliding on stopped tracks [m/s]; settling oscillations are slower.
 constexpr double kRuns = 1e-4, kSlides = 0.01;
-/// Speed above which the tracks have reversed [m/s]; a stalled vehicle rocks with less.
+/// Speed threshold of a track reversal [m/s]; a stalled vehicle rocks more slowly.
 constexpr double kTurnedRound = 0.01;
-/// Slack and stretch move the track against the sprocket by less than half a pitch; three quarters indicate a skip.
+/// Slack and stretch move the track relative to the sprocket by less than half a pitch; three quarters indicate a skip.
 constexpr double kSkip = 0.75;
 
-/// Unwraps `angle`: adds whole turns to be nearest to `last` [rad].
+/// Unwraps `angle`: adds full turns to be nearest to `last` [rad].
 double continued(double angle, double last) {
   return angle + 2 * base::kPi * std::floor((last - angle) / (2 * base::kPi) + 0.5);
 }
@@ -35,13 +35,13 @@ Vec3d upOf(const Vec3d& gravity) {
   return g > 0 ? gravity * (-1 / g) : Vec3d{0, 0, 1};
 }
 
-/// True if the ground carries more than half of the weight.
+/// True if the ground supports more than half of the weight.
 bool stands(const Assembly& vehicle, const GroundLoads& ground, const Vec3d& gravity) {
   const Vec3d up = upOf(gravity);
   double carried = 0;
   for (std::size_t body = 0; body < ground.force.size(); ++body)
     if (static_cast<int>(body) != vehicle.chassis)
-      carried += base::dot(ground.force[body], up); // the hull carries the tracks
+      carried += base::dot(ground.force[body], up); // the hull supports the tracks
   return carried > 0.5 * vehicle.mass * base::norm(gravity);
 }
 
@@ -102,7 +102,7 @@ double wheelLift(const Assembly& vehicle, int track, const multibody::State& sta
 
 double suspendedSag(const VehicleSpec& spec, double gravity) {
   const double span = spec.idler.x, load = spec.shoe.mass / spec.shoe.pitch * gravity;
-  // The tensioner holds two strands, both nearly along its slide.
+  // The tensioner balances two strands, both nearly along its slide.
   return load * span * span / (8 * 0.5 * std::max(spec.idler.preload, 1.0));
 }
 
@@ -149,8 +149,8 @@ std::vector<Observer::DriveSums> Observer::means(const multibody::State& state) 
   return means;
 }
 
-/// 1 forward, -1 backward; 0 if the tracks run in opposite directions; none if too slow. `sums` of the tracks over some
-/// `updates`.
+/// Direction of motion: 1 forward, -1 backward; 0 if the tracks run in opposite directions; empty if too slow.
+/// `sums`: of the tracks over `updates` updates.
 std::optional<int> Observer::motion(const std::vector<DriveSums>& sums, double updates) const {
   double most = 0, least = 0, hull = 0; // [m/s]
   for (const DriveSums& track : sums) {
@@ -173,7 +173,7 @@ void Observer::restartMeans() {
 }
 
 base::Alarm Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
-  // A freely hanging track, or one with unknown load, may sag off its wheels; and wheels roll over stones.
+  // A freely hanging track, or one with unknown load, may sag off its wheels; wheels may also roll over stones.
   const double allowed =
       vehicle_->spec.shoe.hornHeight + stone_ +
       (stands(*vehicle_, ground, gravity_) ? 0.0 : suspendedSag(vehicle_->spec, base::norm(gravity_)));
@@ -256,7 +256,7 @@ Observation Observer::observe(const multibody::State& state, const GroundLoads& 
   o.groundForce = {kNaN, kNaN, kNaN};
   if (!ground.force.empty()) {
     Vec3d sum;
-    // All bodies: a stone caught between track and wheel pushes one back and the other forward.
+    // All bodies: a stone jammed between track and wheel pushes one backward and the other forward.
     for (const Vec3d& force : ground.force) sum += force;
     const Vec3d forward{base::cos(o.heading), base::sin(o.heading), 0};
     o.groundForce = {base::dot(sum, forward), base::dot(sum, Vec3d{-forward.y, forward.x, 0}), sum.z};

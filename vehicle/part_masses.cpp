@@ -17,7 +17,7 @@ using base::roundedUp;
 
 /// Plausible densities: from air (a hull is mostly empty) to the heaviest metals [kg/m3].
 constexpr double kLeastDensity = 1, kMostDensity = 25e3;
-/// Radius of gyration over extent from the centre of mass [-]. Below 1 for a solid; simplified meshes may have more.
+/// Radius of gyration / extent from the centre of mass [-]. Below 1 for a solid; simplified meshes may exceed it.
 constexpr double kLeastGyration = 0.01, kMostGyration = 2;
 
 std::optional<SpecFault> densityFault(const char* section, double mass, const std::string& mesh, double volume) {
@@ -52,7 +52,7 @@ std::optional<SpecFault> surfaceFault(const char* section, const SurfaceSpec& pa
   return inertiaFault(section, "inertia", part.mass, part.inertia, reach, part.mesh.c_str());
 }
 
-/// The hull's centre of mass may lie outside its mesh, but not far.
+/// The hull's centre of mass may be outside its mesh, but not far.
 std::optional<SpecFault> centreFault(const VehicleSpec& s, const base::TriangleMesh& mesh) {
   const auto [low, high] = spheredecomp::bounds(mesh);
   const Vec3d& centre = s.chassis.centre;

@@ -17,7 +17,7 @@ constexpr double kFits = 1e-3; // [m] tolerated difference of mesh and spec
 
 double radiusAt(const Vec3d& p) { return std::sqrt(p.x * p.x + p.z * p.z); }
 
-/// The largest of `measure` over the vertices that `counts` admits; -infinity without any.
+/// Maximum of `measure` over the vertices accepted by `counts`; -infinity without any.
 template <class Counts, class Measure> double most(const TriangleMesh& mesh, Counts counts, Measure measure) {
   double largest = -base::kInfinity;
   for (const Vec3d& v : mesh.vertices)
@@ -44,7 +44,7 @@ std::optional<SpecFault> rimFault(const char* section, double radius, const std:
 
 /// Pin bosses of a shoe's mesh, beside the pads. NaN if there are none.
 struct Bosses {
-  double x, radius; ///< of the joint ahead [m]
+  double x, radius; ///< x and radius of the bosses at the joint ahead [m]
 };
 Bosses bossesOf(const VehicleSpec& s, const TriangleMesh& shoe) {
   const auto beside = [&](const Vec3d& v) { return v.x > 0 && std::fabs(v.y) > s.shoe.padHalfWidth + kFits; };
@@ -58,7 +58,7 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
   const auto down = [](const Vec3d& v) { return -v.z; };
   const auto middle = [&](const Vec3d& v) { return std::fabs(v.y) <= 0.5 * s.shoe.padHalfWidth; };
   const std::string& name = s.shoe.mesh;
-  // Checked first: other lengths are measured beside the pads and between them.
+  // Checked first, since other lengths are measured beside the pads and between them.
   const double pads = most(
       mesh, [&](const Vec3d& v) { return std::fabs(v.z - s.shoe.padBottom) <= kFits; },
       [](const Vec3d& v) { return std::fabs(v.y); });
@@ -112,7 +112,7 @@ std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& mesh
   if (phase > -0.25 * beyond) // the tips lie midway between two gaps
     return SpecFault{
         "sprocket", "teeth",
-        fmt::format("[-]: the teeth of {} do not lie between so many pins; set the number of the mesh, which "
+        fmt::format("[-]: the teeth of {} do not match this number of pins; set the number of teeth of the mesh, which "
                     "must have a gap on its x axis",
                     s.sprocket.mesh)};
   const Bosses boss = bossesOf(s, meshes.shoe);
@@ -135,10 +135,10 @@ double hubRadius(const TriangleMesh& mesh, double half) {
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d a = mesh.vertices[mesh.indices[t + k]], b = mesh.vertices[mesh.indices[t + (k + 1) % 3]];
-      // The part of the edge that lies in the band; the radius is largest at one of its ends.
+      // The part of the edge inside the band; the radius is maximal at one of its ends.
       double from = 0, to = 1;
       for (const double side : {-1.0, 1.0}) {
-        const double da = half - side * a.y, db = half - side * b.y; // >= 0 inside
+        const double da = half - side * a.y, db = half - side * b.y; // inside if >= 0
         if (da < 0 && db < 0) from = 1, to = 0;
         if (da < 0 && db >= 0) from = std::max(from, da / (da - db));
         if (da >= 0 && db < 0) to = std::min(to, da / (da - db));

@@ -14,9 +14,9 @@ struct PartMeshes {
   base::TriangleMesh chassis{}, shoe{}, sprocket{}, roadWheel{}, roller{}, idler{};
 };
 
-/// Difference between mesh and spec dimensions: parts placed by one and in contact by the other would overlap or have
-/// gaps at the start. Also teeth that do not fit the pins, horns that reach into a wheel's hub, and a hull that reaches
-/// below the tracks. Empty if the meshes fit to a millimetre.
+/// Returns the first difference between mesh and spec dimensions that would cause initial overlaps or gaps, e.g. teeth
+/// that do not fit the pins, horns that reach a wheel's hub, or a hull that reaches below the tracks. Empty if the
+/// meshes match within 1 mm.
 std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -27,7 +27,7 @@ double distance(double x0, double z0, double x1, double z1) {
   return std::sqrt((x1 - x0) * (x1 - x0) + (z1 - z0) * (z1 - z0));
 }
 
-/// A key whose value may be changed to fix a fault.
+/// Key whose value may be changed to fix a fault.
 struct Knob {
   std::string section, key, unit;
   std::string name; ///< in advice: "roller.z[1]"
@@ -36,18 +36,18 @@ struct Knob {
 };
 
 struct Fault {
-  std::vector<Knob> knobs; ///< the first names the key
+  std::vector<Knob> knobs; ///< the first one names the key
   std::string what;
   std::string advice; ///< if no key value fixes it
   bool closure = false;
 };
 
-/// A key with a length, unless `unit` differs.
+/// Length key, unless `unit` differs.
 Knob knob(const std::string& section, const std::string& key, double value, double step,
           std::function<void(VehicleSpec&, double)> set, const std::string& unit = "m") {
   return {section, key, unit, section + "." + key, value, step, std::move(set)};
 }
-/// A key with textual advice only.
+/// Key with textual advice only.
 Knob named(const std::string& section, const std::string& key, const std::string& unit) {
   return knob(section, key, 0, 0, {}, unit);
 }
@@ -106,7 +106,7 @@ Knob ofRoller(const VehicleSpec& s, const char* key, std::size_t i) {
   return k;
 }
 
-/// Common height of all rollers.
+/// Knob for the common height of all rollers.
 Knob rollersZ(const VehicleSpec& s) {
   Knob k = knob("roller", "z", s.roller.z.empty() ? 0 : s.roller.z.front(), 0.001,
                 [](VehicleSpec& v, double z) { std::fill(v.roller.z.begin(), v.roller.z.end(), z); });
@@ -119,7 +119,7 @@ Knob maximumFold(const VehicleSpec& s) {
       "rad");
 }
 
-/// Wheel in a track's plane.
+/// Wheel in the track plane.
 struct Wheel {
   enum class Kind { sprocket, idler, road, roller } kind;
   std::size_t number;
@@ -345,7 +345,7 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
   const Fault preload{{named("idler", "preload", "N")}, "", fmt::format("set idler.preload = {:.0f}", tenth)};
   if (s.idler.preload <= 0) {
     Fault f = preload;
-    f.what = "leaves the track slack, and the sprocket skips teeth; a tenth of the weight in each strand is usual";
+    f.what = "leaves the track slack, and the sprocket skips teeth; a usual strand tension is 10 % of the weight";
     return f;
   }
   if (s.idler.preload > 2 * weight) {
@@ -367,7 +367,7 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
                  fmt::format("set idler.stop_stiffness = {:.3g}", 10 * s.idler.stiffness)};
   if (s.idler.slideMax <= 0)
     return Fault{{named("idler", "slide_max", "m")},
-                 fmt::format("holds the idler at its {} stop, where the spring cannot tighten the track",
+                 fmt::format("keeps the idler at its {} stop, where the spring cannot tension the track",
                              s.sprocketInFront() ? "rear" : "front"),
                  "set idler.slide_max = 0.025"};
   return {};
@@ -400,7 +400,7 @@ std::optional<Fault> firstFault(const VehicleSpec& s) {
   return foundationFault(s);
 }
 
-/// Nearest value of a key without any fault, searched in fine and then coarse steps, as text ("0.385"); empty: none.
+/// Nearest fault-free value of a key, searched in fine and then coarse steps, as text ("0.385"); empty: none.
 std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
   constexpr int kCoarse = 80, kRatio = 10;
   const int fine = k.name == "idler.radius" ? 400 : 80; // loops close only in a narrow range of radii
@@ -410,8 +410,8 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
     const double away = (n <= fine ? n : fine + kRatio * (n - fine)) * k.step;
     const double value = from + (i % 2 == 1 ? -away : away);
     const bool place = k.key == "x" || k.key == "z" || k.key == "slide_min" || k.key == "pivot_angle";
-    if (!place && value < 0.5 * k.step) continue; // a length stays positive
-    // As read from the file.
+    if (!place && value < 0.5 * k.step) continue; // lengths must stay positive
+    // Rounded as if read from the file.
     std::string text = fmt::format("{:.6g}", std::floor(1e9 * value + 0.5) / 1e9);
     VehicleSpec other = spec;
     k.set(other, std::strtod(text.c_str(), nullptr));
@@ -420,19 +420,19 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
   return "";
 }
 
-/// Advice with a set of keys that fixes the fault together; empty if none was found.
+/// Advice with a set of keys that together fix the fault; empty if none was found.
 std::string combinedAdvice(const VehicleSpec& spec) {
   const std::string keys = consistentKeys(spec, [](const VehicleSpec& other) { return !firstFault(other); });
   return keys.empty() ? "" : "set together " + keys;
 }
 
-/// Alternative advice that keeps a requested number of wheels.
+/// Alternative advice that preserves a requested number of wheels.
 std::string adviceToKeep(const VehicleSpec& spec, const Knob& k) {
   const std::string keys = k.key == "count" ? combinedAdvice(spec) : "";
   return keys.empty() ? "" : fmt::format("; or, to keep {} = {:g}, {}", k.name, k.value, keys);
 }
 
-/// Adds the remedy to a fault, at the key to change.
+/// Adds the remedy to a fault, at the key to be changed.
 SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
   const auto faultAt = [&fault](const Knob& k, const std::string& advice) {
     return SpecFault{k.section, k.key,

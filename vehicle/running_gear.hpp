@@ -8,15 +8,15 @@
 
 namespace grouser::vehicle {
 
-/// Fault of a vehicle file at one of its keys.
+/// Error of a vehicle file at one of its keys.
 struct SpecFault {
   std::string section, key;
   std::string message; ///< overlapping parts, overlap in millimetres, and a tested remedy
 };
 
-/// First fault of an impossible running gear: parts that overlap, shoes that cannot fold about a wheel, a loop that
-/// does not close, wheels outside it, a suspension or tensioner without equilibrium. Uses only the spec's numbers, in
-/// the plane of a track; empty for a valid vehicle.
+/// Returns the first error of an impossible running gear: overlapping parts, shoes that cannot fold about a wheel, a
+/// loop that does not close, wheels outside it, or a suspension or tensioner without equilibrium. Uses only the spec's
+/// numbers, in the plane of a track; empty for a valid vehicle.
 std::optional<SpecFault> runningGearFault(const VehicleSpec& spec);
 
 } // namespace grouser::vehicle

@@ -7,8 +7,8 @@
 
 namespace grouser::vehicle {
 
-/// Returns the first inconsistency of the shapes with each other, the spec or the meshes. The tolerance is the smaller
-/// of 1 mm and pitch / 100. Empty if the spec has no shapes.
+/// Returns the first inconsistency of the shapes with each other, the spec or the meshes. The tolerance is
+/// min(1 mm, pitch / 100). Empty if the spec has no shapes.
 std::optional<SpecFault> shapeFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -10,13 +10,13 @@
 namespace grouser::vehicle {
 namespace {
 
-/// Collects points face by face.
+/// Collects surface points face by face.
 class Faces {
 public:
-  /// `radius` of the balls that touch the faces from within [m].
+  /// `radius`: of the balls tangent to the faces from inside [m].
   Faces(double spacing, double radius) : spacing_(spacing), radius_(radius) {}
 
-  /// A trapezoid: from the edge p +- a to the edge q +- b, looking to `outward`.
+  /// Adds a trapezoid from the edge p +- a to the edge q +- b, facing `outward`.
   void add(const Vec3d& p, const Vec3d& a, const Vec3d& q, const Vec3d& b, const Vec3d& outward) {
     const Vec3d up = q - p;
     const double width = 2 * std::max(norm(a), norm(b)), height = norm(up);
@@ -30,12 +30,12 @@ public:
       }
   }
 
-  /// A rectangle about `middle` with the half edges a and b.
+  /// Adds a rectangle about `middle` with the half edges a and b.
   void rectangle(const Vec3d& middle, const Vec3d& a, const Vec3d& b, const Vec3d& outward) {
     add(middle - b, a, middle + b, a, outward);
   }
 
-  /// A cylinder along y.
+  /// Adds a cylinder along y.
   void cylinder(double x, double z, double radius, double from, double to) {
     const int around = std::max(8, cells(2 * base::kPi * radius)), along = cells(to - from);
     for (int k = 0; k < around; ++k) {
@@ -47,7 +47,7 @@ public:
     }
   }
 
-  /// A disc across y.
+  /// Adds a disc normal to y.
   void disc(double x, double y, double z, double radius, const Vec3d& outward) {
     const int rings = cells(radius);
     for (int ring = 0; ring < rings; ++ring) {

@@ -9,7 +9,7 @@
 namespace grouser::vehicle {
 
 /// Returns surface points of a shoe from its shapes, in the shoe frame: one per cell of at most `spacing` [m] on pad,
-/// grousers, plates, horn and bosses. Each is a ball that touches the surface from inside. `spec` must have shapes.
+/// grousers, plates, horn and bosses. Each point is a ball tangent to the surface from inside. `spec` must have shapes.
 std::vector<contact::SurfaceSample> shoePoints(const VehicleSpec& spec, double spacing);
 
 } // namespace grouser::vehicle

@@ -29,7 +29,7 @@ void checkEngine(const base::Section& section, const EngineSpec& engine) {
     section.fail("torque", "[N m] is 0 at all speeds; set a torque > 0");
 }
 
-/// Checks between several keys.
+/// Consistency checks between several keys.
 void checkTogether(const base::Section& root, const VehicleSpec& spec) {
   if (spec.arm.suspension == Suspension::sprung)
     for (const char* key : {"stiffness", "damping", "preload"})
@@ -52,7 +52,7 @@ void checkTogether(const base::Section& root, const VehicleSpec& spec) {
   principal("idler", "carrier_inertia", spec.idler.carrierInertia);
 }
 
-/// The file with its changed keys. Messages name both places.
+/// Reads the file and applies the changed keys. Messages name both locations.
 base::Document documentOf(const SpecSource& source) {
   base::Document document = base::Document::load(source.file);
   for (const SpecKey& k : source.changed) {

@@ -10,13 +10,13 @@
 
 namespace grouser::vehicle {
 
-/// Reads a vehicle spec file with its changed keys. Throws base::InputError (file:line, key, value, range) for unknown,
-/// missing or out-of-range keys, and for an impossible running gear (runningGearFault).
+/// Reads a vehicle file and applies its changed keys. Throws base::InputError (file:line, key, value, range) for
+/// unknown, missing or out-of-range keys, and for an impossible running gear (runningGearFault).
 VehicleSpec readVehicleSpec(const SpecSource& source);
 
-/// Throws a fault of a spec file as base::InputError with its place.
+/// Throws an error in a spec file as base::InputError with its location.
 [[noreturn]] void refuse(const SpecSource& source, const SpecFault& fault);
-/// The same for an unusable mesh of a section; `why`: reason.
+/// Throws InputError for an unusable mesh of a section; `why`: reason.
 [[noreturn]] void refuseMesh(const SpecSource& source, const std::string& section, const std::string& why);
 
 /// A section of a vehicle spec file and its keys.
@@ -27,7 +27,7 @@ struct SpecSection {
 /// All sections, in the order of the documentation.
 std::vector<SpecSection> specSections();
 
-/// All keys, as "shoe.count", with a prefix.
+/// All keys, e.g. "shoe.count", each with the prefix `before`.
 std::vector<std::string> specKeys(const std::string& before = "");
 
 /// All keys of a vehicle spec file with unit, range and meaning, as Markdown.

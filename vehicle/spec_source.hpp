@@ -9,19 +9,19 @@
 
 namespace grouser::vehicle {
 
-/// A changed key of a vehicle file.
+/// Changed key of a vehicle file.
 struct SpecKey {
   std::string section, key; ///< "shoe", "count"
-  base::Node value;         ///< with its place: a line of a scene file, or "--set"
+  base::Node value;         ///< with its location: a line of a scene file, or "--set"
   std::string text;         ///< the value as TOML
 
-  /// Ignores their places.
+  /// Compares keys and values, not their locations.
   bool operator==(const SpecKey& other) const {
     return section == other.section && key == other.key && text == other.text;
   }
 };
 
-/// Source of a vehicle: its file and changed keys. A path converts to a source.
+/// Source of a vehicle: its file and changed keys. A path converts implicitly.
 struct SpecSource {
   std::string file;
   std::vector<SpecKey> changed{};

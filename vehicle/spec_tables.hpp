@@ -6,7 +6,7 @@
 
 namespace grouser::vehicle {
 
-/// The sections of a vehicle spec file: one table of fields each, for reading, checks and documentation.
+/// Sections of a vehicle spec file: one field table each, for reading, checks and documentation.
 base::Table<VehicleSpec> vehicleTable();
 base::Table<ChassisSpec> chassisTable();
 base::Table<ShoeSpec> shoeTable();

@@ -30,7 +30,7 @@ std::string remedy(const Assembly& vehicle) {
                      vehicle.spec.idler.preload);
 }
 
-/// True if a closed polygon encloses a point of the plane.
+/// True if a closed polygon encloses a point of the track plane.
 bool runsAround(const std::vector<Vec3d>& corners, const Vec3d& point) {
   bool inside = false;
   for (std::size_t i = 0, j = corners.size() - 1; i < corners.size(); j = i++) {
@@ -69,7 +69,7 @@ LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::Stat
     const Vec3d front = pose_W.toBody(pose.toWorld({halfPitch, 0, spec.shoe.plateTop}));
     for (std::size_t i = 0; i < t.wheels.size(); ++i) {
       const double s = (axle_V[i].x - rear.x) / (front.x - rear.x);
-      // Plates under the wheel; neighbours overlap or have gaps where the track is folded.
+      // Plates under the wheel; neighbours overlap or leave gaps where the track is folded.
       if (!(s >= -0.1 && s <= 1.1) || 0.5 * (rear.z + front.z) > axle_V[i].z) continue;
       gap[i] = std::min(gap[i], axle_V[i].z - spec.roadWheel.radius - (rear.z + s * (front.z - rear.z)));
     }
@@ -83,7 +83,7 @@ LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::Stat
 UnguidedWheel unguidedWheel(const Assembly& vehicle, int track, const multibody::State& state, double lift) {
   const Track& t = vehicle.tracks[at(track)];
   const VehicleSpec& spec = vehicle.spec;
-  // Shoes that face a wheel; neighbours overlap or have gaps where the track is folded.
+  // Shoes facing a wheel; neighbours overlap or leave gaps where the track is folded.
   const double facing = 0.6 * spec.shoe.pitch;
   const Vec3d up = base::rotate(vehiclePose(vehicle, state).orientation, {0, 0, 1});
   const auto seen = [&](int body, double radius, double side) { // by shoes facing up: 1, down: -1

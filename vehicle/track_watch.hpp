@@ -8,39 +8,39 @@
 
 namespace grouser::vehicle {
 
-/// The shoe that is farthest from its track's plane.
+/// Shoe with the largest lateral distance from its track plane.
 struct SidewaysShoe {
-  int shoe{};     ///< of the track, in the order of the wrap
-  double shift{}; ///< of its middle [m]; NaN if a pose is NaN
+  int shoe{};     ///< shoe index in the track, in the order of the wrap
+  double shift{}; ///< lateral shift of its middle [m]; NaN if a pose is NaN
 };
 SidewaysShoe mostSideways(const Assembly& vehicle, int track, const multibody::State& state);
 
-/// The road wheel that is farthest off the plates under it.
+/// Road wheel with the largest gap to the plates under it.
 struct LiftedWheel {
-  int wheel{};  ///< of the track, rearmost first
-  double gap{}; ///< normal to the hull [m]
+  int wheel{};  ///< wheel index in the track, rearmost first
+  double gap{}; ///< gap normal to the hull [m]
 };
 LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::State& state);
 
-/// A wheel with a disc, instead of the gap between its discs, above the horns.
+/// Wheel with a disc above the horns, instead of the gap between its discs.
 struct UnguidedWheel {
-  int body{-1};    ///< of road wheels and rollers; -1 where all are guided
-  double gap{};    ///< between its rim and the plates, normal to them [m]
-  double beside{}; ///< distance from its middle to that of the horns, along its axle [m]
+  int body{-1};    ///< body of the road wheel or roller; -1 if all are guided
+  double gap{};    ///< gap between its rim and the plates, normal to the plates [m]
+  double beside{}; ///< lateral distance from its middle to that of the horns, along its axle [m]
 };
 
-/// The first wheel that is off its plates by more than `lift` [m], so that no horn reaches between its discs, with
-/// these horns beside it by more than half of their height: they cannot return. A track off its wheels within its plane
-/// remains guided at any distance: it is slack, or lifted by an edge, and comes down again.
+/// Returns the first wheel that is above its plates by more than `lift` [m], so that no horn reaches between its discs,
+/// with these horns displaced laterally by more than half of their height: they cannot return. A track above its wheels
+/// within its own plane remains guided at any distance: it is slack, or lifted by an edge, and will return.
 UnguidedWheel unguidedWheel(const Assembly& vehicle, int track, const multibody::State& state, double lift);
 
-/// Body of the sprocket, idler, road wheel or roller that is outside the track loop: its axle is not within the polygon
-/// of the pins, seen along the axles. -1 if none.
+/// Body of a sprocket, idler, road wheel or roller outside the track loop: its axle is outside the pin polygon, seen
+/// along the axles. -1 if none.
 int outsideLoop(const Assembly& vehicle, int track, const multibody::State& state);
 
-/// Message for a thrown track: side, part, distance and remedy; empty if not thrown. A track is thrown if a shoe is
-/// beside its wheels by more than a horn's height, or half of it where the plates are off a wheel by more than `lift`
-/// [m], or if the loop does not enclose all its wheels. Lift alone does not count.
+/// Message for a thrown track with side, part, distance and remedy; empty if not thrown. A track is thrown if a shoe is
+/// displaced laterally by more than a horn's height (half of it if the plates are off a wheel by more than `lift` [m]),
+/// or if the loop does not enclose all its wheels. Lift alone does not count.
 std::string thrownTrack(const Assembly& vehicle, int track, const multibody::State& state, double lift);
 
 } // namespace grouser::vehicle

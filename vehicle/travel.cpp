@@ -10,13 +10,13 @@
 namespace grouser::vehicle {
 namespace {
 
-/// `step` less whole turns of length n, in [-n/2, n/2).
+/// `step` minus full turns of length n, in [-n/2, n/2).
 double nearestTurn(double step, double n) { return step - n * std::floor(step / n + 0.5); }
 
 } // namespace
 
 Travel::Travel(const Assembly& vehicle, int track, int teeth) : vehicle_(&vehicle), track_(track), teeth_(teeth) {
-  // Half way from the sprocket to the next support of the top run: close enough to keep slack behind the gate small.
+  // Half-way from the sprocket to the next support of the top run: close enough to minimise slack behind the gate.
   const VehicleSpec& spec = vehicle.spec;
   double next = 0.5 * vehicle.wrap.idlerX;
   if (!spec.roller.x.empty()) next = spec.roller.x.front();
@@ -31,7 +31,7 @@ double Travel::loopCoordinate(const multibody::State& state) const {
   const double halfPitch = 0.5 * vehicle_->spec.shoe.pitch;
   const base::Mat3d R_WV = pose_W.orientation.matrix();
   const double n = static_cast<double>(track.shoes.size());
-  // The shoe of the top run at the gate; of several, on an oscillating track, the one nearest to the last.
+  // Shoe of the top run at the gate; if several, on an oscillating track, the one nearest to the last.
   double best = std::numeric_limits<double>::quiet_NaN();
   double bestJump = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < track.shoes.size(); ++i) {
@@ -78,7 +78,7 @@ void Travel::recordPassage(double teethBefore, double teethNow, double timeBefor
   const double s = (boundary - teethBefore) / (teethNow - teethBefore);
   const Passage passage{boundary, timeBefore + s * (timeNow - timeBefore),
                         distanceBefore + s * (distance_ - distanceBefore)};
-  // A mean over whole teeth is defined in one direction only: restart when the sprocket has reversed.
+  // A mean over whole teeth is defined in one direction only: restart after a reversal of the sprocket.
   if (passages_.size() >= 2 &&
       (boundary - passages_.back().tooth) * (passages_.back().tooth - passages_.front().tooth) <= 0)
     passages_.erase(passages_.begin(), passages_.end() - 1);
@@ -101,7 +101,7 @@ double Travel::toothSlip() const {
 std::vector<double> Travel::save() const {
   std::vector<double> flat{begun_ ? 1.0 : 0.0, time_,          firstTeeth_, lastCoordinate_,
                            teethPassed_,       pitchesPassed_, distance_,   static_cast<double>(passages_.size())};
-  // Always of the same length: unused places are zero.
+  // Constant length: unused entries are zero.
   for (int i = 0; i <= teeth_; ++i) {
     const Passage p = i < static_cast<int>(passages_.size()) ? passages_[i] : Passage{};
     flat.insert(flat.end(), {p.tooth, p.time, p.distance});

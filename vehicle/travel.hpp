@@ -8,36 +8,36 @@
 
 namespace grouser::vehicle {
 
-/// Travel of one track and its sprocket: pitches past the sprocket, and distance covered at every tooth. A count of
-/// engaged pins would miss a skip; pitches passed against teeth passed does not.
+/// Travel of one track and its sprocket: pitches that passed the sprocket, and distance at every tooth. Comparing
+/// pitches with teeth passed detects skipping, which a count of engaged pins would miss.
 class Travel {
 public:
-  /// `teeth`: speed and slip are means over this many whole tooth passages.
+  /// `teeth`: number of whole tooth passages over which speed and slip are averaged.
   Travel(const Assembly& vehicle, int track, int teeth = 1);
 
-  /// Call once after every step of length `dt` [s]; the first call sets the start.
+  /// Updates the counts; call once after every step of length `dt` [s]. The first call sets the start.
   void update(const multibody::State& state, double dt);
 
-  /// Teeth that have passed by the sprocket's angle, omega Z / (2 pi) integrated [-].
+  /// Teeth passed according to the sprocket angle: integral of omega Z / (2 pi) [-].
   double teethPassed() const { return teethPassed_; }
-  /// Pitches of track that have passed a gate on the top run next to the sprocket, forward positive [-].
+  /// Track pitches that passed a gate on the top run next to the sprocket, forward positive [-].
   double pitchesPassed() const { return pitchesPassed_; }
-  /// Teeth minus pitches passed [-]: within +-1/2 is slack, near a whole number a skip.
+  /// Teeth minus pitches passed [-]: slack within +-1/2, a skip near a whole number.
   double skipped() const { return teethPassed_ - pitchesPassed_; }
-  /// Distance covered by the track's position on the hull, along the hull's x axis [m].
+  /// Distance travelled by the hull point at the track, along the hull x axis [m].
   double distance() const { return distance_; }
-  /// Mean speed over the last whole tooth passages [m/s]; NaN before the sprocket has passed so many.
+  /// Mean speed over the last whole tooth passages [m/s]; NaN before enough teeth have passed.
   double toothSpeed() const;
-  /// Slip over the last whole tooth passages, 1 - distance / (teeth x pitch) [-]; NaN before.
+  /// Slip over the last whole tooth passages, 1 - distance / (teeth x pitch) [-]; NaN before enough teeth have passed.
   double toothSlip() const;
 
   /// State variables, for a checkpoint.
   std::vector<double> save() const;
-  /// Inverse of save(). Throws base::InputError if the length does not fit.
+  /// Inverse of save(). Throws base::InputError if the length does not match.
   void restore(const std::vector<double>& flat);
 
 private:
-  /// Passage of a tooth boundary.
+  /// Record of a tooth boundary passage.
   struct Passage {
     double tooth, time, distance;
   };
@@ -54,7 +54,7 @@ private:
   std::deque<Passage> passages_;
 };
 
-/// Speed of the hull at the track's sprocket, along the hull's x axis [m/s].
+/// Speed of the hull at the track's sprocket, along the hull x axis [m/s].
 double trackSpeed(const Assembly& vehicle, int track, const multibody::State& state);
 
 /// Pose of the vehicle frame, X_WV.

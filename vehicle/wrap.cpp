@@ -14,11 +14,11 @@ namespace {
 
 using base::kPi;
 
-/// A kink that is concave by less than this still counts as convex: the top line meets the sprocket's first gap within
-/// a fraction of a degree of the tangent.
+/// Tolerance for a concave kink to count as convex: the top line reaches the sprocket's first gap within a fraction of
+/// a degree of the tangent.
 constexpr double kConcave = 1.0 * kPi / 180;
-/// The loop is closed when the free strands miss their whole pitches by less than this [m]: a few ulp of the loop's
-/// length.
+/// Closure tolerance of the loop [m]: deviation of the free strands from whole pitches, a few ulp of the loop's length.
+/// Newton's method converges to it.
 constexpr double kClosed = 1e-14;
 
 PlanePoint onCircle(double cx, double cz, double radius, double angle) {
@@ -28,7 +28,7 @@ double distance(PlanePoint a, PlanePoint b) { return std::sqrt((b.x - a.x) * (b.
 double direction(PlanePoint a, PlanePoint b) { return base::atan2(b.z - a.z, b.x - a.x); }
 double wrapToPi(double angle) { return angle - 2 * kPi * std::floor((angle + kPi) / (2 * kPi)); }
 
-/// Constants of all splits.
+/// Constants shared by all splits.
 struct Frame {
   int shoes, teeth;
   double pitch, sprocketRadius, idlerRadius, idlerStep, idlerX, idlerZ, groundZ, rearWheelX, frontWheelX, maximumFold;
@@ -40,11 +40,11 @@ struct Frame {
         idlerZ(spec.idler.z), groundZ(spec.groundPinHeight()), rearWheelX(spec.roadWheel.firstX),
         frontWheelX(spec.lastWheelX()), maximumFold(spec.shoe.maximumFold) {}
 
-  /// Angle of gap k; the gaps are symmetric to the horizontal through the axle: 180 degrees plus k teeth.
+  /// Angle of gap k; the gaps are symmetric about the horizontal through the axle: 180 degrees plus k teeth.
   double gapAngle(int k) const { return kPi + 2 * kPi * k / teeth; }
 };
 
-/// The free unknowns of one split.
+/// Unknowns of one split.
 struct Ends {
   double idlerX, firstAngle;
 };
@@ -79,7 +79,7 @@ std::optional<Ends> solveIdler(const Frame& f, PlanePoint groundEnd, PlanePoint 
   return std::nullopt;
 }
 
-/// Both ends of the pins in ground contact under all road wheels.
+/// Both ends of the pin line in ground contact under all road wheels.
 struct GroundRun {
   PlanePoint start, end;
 };
@@ -93,7 +93,7 @@ std::optional<GroundRun> groundRun(const Frame& f, int bottomGap, int rearStrand
   return GroundRun{start, end};
 }
 
-/// One split of the shoes, closed and convex, or nothing. `topGap` and `bottomGap` count teeth from the gap at 180
+/// One split of the shoes, closed and convex, or empty. `topGap` and `bottomGap` count teeth from the gap at 180
 /// degrees.
 std::optional<Wrap> closeLoop(const Frame& f, int topGap, int bottomGap, WrapCounts n) {
   n.sprocket = bottomGap - topGap;
@@ -149,7 +149,7 @@ std::optional<Wrap> closeLoop(const Frame& f, int topGap, int bottomGap, WrapCou
   return wrap;
 }
 
-/// The better of two loops: more pins in the sprocket, then the idler nearer to its drawn place.
+/// Returns the better of two loops: more pins in the sprocket, then the idler nearer to its drawn position.
 bool better(const Wrap& a, const Wrap& b, double idlerX) {
   if (a.counts.sprocket != b.counts.sprocket) return a.counts.sprocket > b.counts.sprocket;
   return std::fabs(a.idlerX - idlerX) < std::fabs(b.idlerX - idlerX);
@@ -157,8 +157,8 @@ bool better(const Wrap& a, const Wrap& b, double idlerX) {
 
 /// Result of a search over all splits.
 struct Found {
-  std::optional<Wrap> best;    ///< with the idler in its slide
-  std::optional<Wrap> nearest; ///< with the idler nearest to its drawn place
+  std::optional<Wrap> best;    ///< with the idler within its slide range
+  std::optional<Wrap> nearest; ///< with the idler nearest to its drawn position
 };
 
 /// True if a strand of `pitches` from `from` can reach an idler within its slide: its length is about that of the
@@ -203,7 +203,7 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
   return found;
 }
 
-/// The vehicle with front and rear exchanged, as far as it affects the loop.
+/// Returns the vehicle with front and rear exchanged, as far as it affects the loop.
 VehicleSpec mirrored(VehicleSpec spec) {
   spec.idler.x = -spec.idler.x;
   spec.roadWheel.firstX = -spec.lastWheelX();
@@ -212,7 +212,7 @@ VehicleSpec mirrored(VehicleSpec spec) {
 }
 VehicleSpec atRear(const VehicleSpec& spec) { return spec.sprocketInFront() ? mirrored(spec) : spec; }
 
-/// The loop of a vehicle with its sprocket in front, from that of its mirror image.
+/// Returns the loop of a vehicle with its sprocket in front, from that of its mirror image.
 Wrap mirrored(const Wrap& image, const VehicleSpec& spec) {
   Wrap wrap = image;
   wrap.sprocketInFront = true;
@@ -239,7 +239,7 @@ int soundCount(VehicleSpec spec, const std::function<bool(const VehicleSpec&)>& 
   return 0;
 }
 
-/// Idler x at which the path around the wheels is as long as the shoes [m].
+/// Idler x for which the path length around the wheels equals the total length of the shoes [m].
 double idlerXOfLength(VehicleSpec spec) {
   const double loop = spec.shoe.count * spec.shoe.pitch;
   double low = spec.roadWheel.firstX, high = low + loop;
@@ -250,7 +250,7 @@ double idlerXOfLength(VehicleSpec spec) {
   return spec.idler.x;
 }
 
-/// Idler x for a `sound` vehicle, to 0.1 mm, nearest in steps of 5 mm; 0: none within 0.6 m, nor near the position
+/// Idler x for a `sound` vehicle, to 0.1 mm, searched in steps of 5 mm; 0: none within 0.6 m, nor near the position
 /// required by the loop.
 double soundIdlerX(VehicleSpec spec, const std::optional<Wrap>& nearest,
                    const std::function<bool(const VehicleSpec&)>& sound) {

@@ -11,13 +11,13 @@
 
 namespace grouser::vehicle {
 
-/// A point of the track's plane: x forward, z up, from the sprocket's axle [m].
+/// Point in the track plane relative to the sprocket axle: x forward, z up [m].
 struct PlanePoint {
   double x{}, z{};
 };
 
-/// Number of pitches on each section of the loop, in the order of the pins for a rear sprocket. With a front sprocket
-/// the order is reversed, and the rear strand is in front.
+/// Number of pitches in each section of the loop, in pin order for a rear sprocket. With a front sprocket the order is
+/// reversed, and the rear strand is in front.
 struct WrapCounts {
   int sprocket{};   ///< edges between engaged pins
   int rearStrand{}; ///< from the sprocket down to the ground contact
@@ -27,24 +27,24 @@ struct WrapCounts {
   int top{};         ///< from the idler back to the sprocket
 };
 
-/// Exact closed polygon of the shoes about the wheels: every edge one pitch long.
-/// Pins are numbered from the sprocket's top gap, rearwards and down, forward along the ground, up the idler and back
-/// along the top; shoe i reaches from pin i (its rear end, x = -pitch/2) to pin i+1 (x = +pitch/2). With a front
-/// sprocket the loop is the mirror image, with pins numbered from the same gap in the same sense: back along the top,
-/// down around the idler, forward along the ground, up to the sprocket.
+/// Exact closed polygon of the shoes around the wheels, with all edges one pitch long. Pins are numbered from the
+/// sprocket's top gap, rearward and down, forward along the ground, up the idler and back along the top; shoe i
+/// connects pin i (its rear end, x = -pitch/2) and pin i+1 (x = +pitch/2). With a front sprocket the loop is the mirror
+/// image, with pins numbered from the same gap in the same sense: back along the top, down around the idler, forward
+/// along the ground, up to the sprocket.
 struct Wrap {
   WrapCounts counts;
-  double pitch{};         ///< [m]
-  double sprocketPhase{}; ///< angle of the sprocket about -y (from +x towards +z) at which its gaps hold the pins [rad]
-  double idlerX{};        ///< [m]
+  double pitch{};           ///< [m]
+  double sprocketPhase{};   ///< sprocket angle about -y (from +x towards +z) at which its gaps match the pins [rad]
+  double idlerX{};          ///< [m]
   double idlerFirstAngle{}; ///< angle of the first pin on the idler, from +x towards +z [rad]
   std::array<double, 6>
-      kinks{}; ///< turns [rad] at: sprocket exit, ground start, ground end, idler entry, exit, sprocket entry; in the
+      kinks{}; ///< kinks [rad] at: sprocket exit, ground start, ground end, idler entry, exit, sprocket entry; in the
                ///< order of the pins, so that with the sprocket in front the first is its entry
   bool sprocketInFront = false;
   std::vector<PlanePoint> pins; ///< [shoes]
 
-  /// Largest deviation of an edge from one pitch [m].
+  /// Maximum deviation of an edge from one pitch [m].
   double closure() const;
   /// Middle of shoe i [m].
   PlanePoint shoeCentre(int i) const;
@@ -52,27 +52,27 @@ struct Wrap {
   double shoeAngle(int i) const;
 };
 
-/// Places the shoes exactly. Tries every split of the shoes over the sections, solves idler x and first pin angle by
-/// Newton so that both free strands have whole pitches, and selects the convex loop with most pins in the sprocket,
-/// then with the idler nearest to its drawn position. Throws base::InputError when no loop closes with the idler inside
-/// its slide: it names the gap and what to change.
+/// Computes the exact shoe positions. Tries every split of the shoes over the sections, solves for idler x and first
+/// pin angle by Newton's method so that both free strands have whole pitches, and selects the convex loop with most
+/// pins in the sprocket, then with the idler nearest to its drawn position. Throws base::InputError if no loop closes
+/// within the idler's slide range; states the gap and a remedy.
 Wrap wrapTrack(const VehicleSpec& spec);
-/// The same; empty when no loop closes.
+/// Same as wrapTrack(), but returns empty if no loop closes.
 std::optional<Wrap> findWrap(const VehicleSpec& spec);
 
-/// Reason why the loop of a vehicle without a wrap does not close, and remedy.
+/// Reason why the loop of a vehicle without a wrap does not close, with a remedy.
 struct ClosureFault {
   std::string gap;    ///< closure error, as text
-  std::string advice; ///< "set idler.x = 2.8813, or set shoe.count = 46"; empty where neither helps
+  std::string advice; ///< "set idler.x = 2.8813, or set shoe.count = 46"; empty if neither helps
 };
-/// The advice is tested: it makes the vehicle `sound`.
+/// Returns the closure fault; the advice has been tested to make the vehicle `sound`.
 ClosureFault closureFault(const VehicleSpec& spec, const std::function<bool(const VehicleSpec&)>& sound);
 
-/// Length of the shortest loop of pins about sprocket, road wheels and idler in their drawn places [m].
+/// Length of the shortest pin loop around sprocket, road wheels and idler in their drawn positions [m].
 double hullLength(const VehicleSpec& spec);
 
-/// Orientation of a part whose x axis points along `angle` in the track's plane (from +x towards +z): a turn of -angle
-/// about +y.
+/// Orientation of a part whose x axis points along `angle` in the track plane (from +x towards +z): a rotation by
+/// -angle about +y.
 base::Quat planeRotation(double angle);
 
 } // namespace grouser::vehicle

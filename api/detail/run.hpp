@@ -65,15 +65,15 @@ struct Run {
   void setTracks(coupling::InputKind kind, double left, double right);
   /// Returns inputs to the scene's values; all targets if none is given.
   void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {});
-  /// Applies the queued inputs. Collective; throws InputError with the rank whose inputs or number of steps differ from
-  /// those of rank 0.
+  /// Applies the queued inputs. Collective. Throws InputError if inputs or number of steps differ from those of rank 0;
+  /// the message names the rank that differs.
   void act(std::int64_t steps = 0);
   /// Builds the simulation from the request's checkpoint, as a branch if the request says so. Returns the checkpoint.
   std::unique_ptr<storage::Checkpoint> goOn();
   /// The simulation; throws InputError if a failed restore() has left none.
   coupling::Simulation& now() const;
   void step(std::int64_t count, const std::function<bool()>& keepGoing);
-  /// Returns what keepGoing has thrown, or null.
+  /// Returns the exception that keepGoing has thrown, or null.
   std::exception_ptr advance(std::int64_t count, const std::function<bool()>& keepGoing);
   void finish();
   base::Comm comm() const { return request.comm(); }

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// The vehicle's meshes from a few lengths. Every part is a union of closed shells that may overlap; each shell is a
-/// 2-manifold with outward, counter-clockwise triangles. Part frame: origin at the part's natural centre, x forward,
+/// Generates the vehicle's meshes from a few lengths. Every part is a union of closed shells that may overlap; each is
+/// a 2-manifold with outward, counter-clockwise triangles. Part frame: origin at the part's natural centre, x forward,
 /// y left, z up; wheels turn about y. All lengths in metres.
 namespace grouser::assets {
 
@@ -15,7 +15,7 @@ using base::TriangleMesh;
 
 /// Lengths that parts of one track share.
 struct TrackDims {
-  double pitch{0.154};           ///< distance of neighbouring pins
+  double pitch{0.154};           ///< distance between neighbouring pins
   double plateTop{0.020};        ///< wheel plate above the line of pins
   double padBottom{-0.040};      ///< pad below the line of pins
   double grouserDepth{0.015};    ///< grouser tips below the pad
@@ -32,7 +32,7 @@ struct TrackDims {
   double hornTipLength{0.030};   ///< guide horn in x at its tip
   double hornTipWidth{0.018};    ///< guide horn in y at its tip
   double wheelGap{0.054};        ///< gap between a wheel's two discs
-  double bossRadius{0.018};      ///< pin bosses, which alone meet the sprocket
+  double bossRadius{0.018};      ///< pin bosses, the only parts that touch the sprocket
   double bossInner{0.145};       ///< bosses from this |y| ...
   double bossOuter{0.175};       ///< ... to this one
   double pinRadius{0.010};       ///< pins, from |y| = plateOuter to bossOuter
@@ -47,7 +47,7 @@ TriangleMesh shoe(const TrackDims& dims = {});
 struct WheelDims {
   double radius{0.19};    ///< mean radius of the rim polygon
   double hubRadius{0.10}; ///< hub between the discs, clear of the horns
-  int facets{128};        ///< of the rim
+  int facets{128};        ///< number of facets of the rim
 };
 TriangleMesh wheel(const WheelDims& wheel, const TrackDims& dims = {});
 
@@ -70,15 +70,15 @@ struct SprocketDims {
 /// Gap k is centred at 360 k / teeth degrees in the x-z plane, measured from +x towards +z.
 TriangleMesh sprocket(const SprocketDims& dims = {});
 
-/// A rigid wheel with straight grousers, for rigs: a drum of facets between blades that stand radially on it. One
+/// A rigid wheel with straight grousers, for rigs: a faceted drum with radial blades. The mesh is a single
 /// shell.
 struct GrouserWheelDims {
-  double radius{0.225};           ///< of the drum, to the edges of its facets
-  double width{0.200};            ///< of drum and grousers
-  int grousers{24};               ///< blades, the first on the +x side
-  double grouserHeight{0.030};    ///< of the blades' tips over the drum
-  double grouserThickness{0.005}; ///< of a blade
-  int facets{6};                  ///< of the drum between two blades
+  double radius{0.225};           ///< radius of the drum, to the edges of its facets
+  double width{0.200};            ///< width of drum and grousers
+  int grousers{24};               ///< number of blades, the first on the +x side
+  double grouserHeight{0.030};    ///< height of the blades' tips over the drum
+  double grouserThickness{0.005}; ///< thickness of a blade
+  int facets{6};                  ///< number of facets of the drum between two blades
 };
 /// Throws std::invalid_argument where the blades would overlap.
 TriangleMesh grouserWheel(const GrouserWheelDims& dims = {});
@@ -95,12 +95,12 @@ struct NamedMesh {
 /// The default vehicle's parts: shoe, road_wheel, roller, idler, sprocket, chassis.
 std::vector<NamedMesh> vehicleParts();
 
-/// Parts of the M113-like vehicle, in a folder of their own: m113/shoe, road_wheel, idler, sprocket, chassis.
+/// Parts of the M113-like vehicle, in a separate folder: m113/shoe, road_wheel, idler, sprocket, chassis.
 std::vector<NamedMesh> m113Parts();
 
 /// Lengths of the robot's running gear over those of the default vehicle [-].
 inline constexpr double kRobotScale = 0.35;
-/// The robot's parts, in a folder of their own: those of the default vehicle, smaller, and a hull.
+/// The robot's parts, in a separate folder: scaled parts of the default vehicle, and a hull.
 std::vector<NamedMesh> robotParts();
 
 /// Parts of rigs in runs/scenes: grouser_wheel.

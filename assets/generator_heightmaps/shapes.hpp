@@ -8,16 +8,16 @@
 #include <cstdint>
 #include <string_view>
 
-/// The height-maps that come with the project, as functions: brightness in [0, 1] at (u, v), both in [0, 1]; u goes
-/// along x (the picture's left to right), v along y (the picture's bottom to top). The scene sets size and heights in
+/// The height-maps of the project as functions: brightness in [0, 1] at (u, v), both in [0, 1]; u runs along x (the
+/// picture's left to right), v along y (the picture's bottom to top). The scene sets size and heights in
 /// metres. Dimensions in brackets hold for 20 m x 8 m and heights from 0 to 0.4 m.
 namespace grouser::heightmaps {
 
 /// Level ground at half height (in 8 bits the level above, 128).
 inline double flat(double, double) { return 0.5; }
 
-/// Gentle hills: four waves with wavelengths of 4 to 13 m that run in different directions [slopes up to 14 %, hollows
-/// of 5 m radius].
+/// Gentle hills: four waves with wavelengths of 4 to 13 m that run in different directions [slopes up to 14 %,
+/// hollows of 5 m radius].
 inline double hills(double u, double v) {
   constexpr double k = 2 * base::kPi;
   const double sum = 0.36 * base::sin(k * (1.5 * u + 0.3)) + 0.26 * base::sin(k * (2.6 * u + 0.7 * v)) +
@@ -25,20 +25,20 @@ inline double hills(double u, double v) {
   return 0.5 + 0.5 * sum;
 }
 
-/// A ditch across the way at u = 0.6: one cosine wave, 0.16 wide [3.2 m wide, 0.28 m deep, slopes up to 28 %].
+/// A ditch across the path at u = 0.6: one cosine wave, 0.16 wide [3.2 m wide, 0.28 m deep, slopes up to 28 %].
 inline double ditch(double u, double) {
   const double along = (u - 0.6) / 0.16;
   const double depth = std::fabs(along) < 0.5 ? 0.5 + 0.5 * base::cos(2 * base::kPi * along) : 0.0;
   return 0.85 - 0.7 * depth;
 }
 
-/// Level at the start, then a slope across the way that grows over 0.2 < u < 0.4 [from 0 to 5 %, up to the left].
+/// Level at the start, then a side slope that grows over 0.2 < u < 0.4 [from 0 to 5 %, up to the left].
 inline double sideSlope(double u, double v) {
   const double t = u < 0.2 ? 0.0 : u > 0.4 ? 1.0 : (u - 0.2) / 0.2;
   return 0.5 + (v - 0.5) * t * t * (3 - 2 * t);
 }
 
-/// A step up across the way at u = 0.45, level on top, and down again at u = 0.7, each over 0.01 [0.24 m high over
+/// A platform across the path: a step up at u = 0.45 and a step down at u = 0.7, each over 0.01 [0.24 m high over
 /// 0.2 m, on top 4.8 m long].
 inline double step(double u, double) {
   const auto risen = [u](double at) {

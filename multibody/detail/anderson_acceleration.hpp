@@ -9,23 +9,23 @@
 
 namespace grouser::multibody::detail {
 
-/// Anderson acceleration (1965, J. ACM 12:547; as in Walker and Ni 2011, SIAM J. Numer. Anal. 49:1715) of the iteration
-/// z <- z + f(z), which also converges if a few of its directions do not. From the last changes dZ of the iterate and
-/// dF of its correction it takes
+/// Anderson acceleration (1965, J. ACM 12:547; as in Walker and Ni 2011, SIAM J. Numer. Anal. 49:1715) of z <- z +
+/// f(z), which also converges if a few directions do not. From the last changes dZ of the iterate and
+/// dF of its correction it computes
 ///   gamma = argmin |f - dF gamma|,   z <- z + f - (dZ + dF) gamma.
-/// For a linear problem that is GMRES.
+/// For a linear problem this is equivalent to GMRES.
 class AndersonAcceleration {
 public:
   static constexpr std::size_t kMemory = 8;
 
-  /// For vectors of `size` numbers.
+  /// Allocates storage for vectors of `size` numbers.
   explicit AndersonAcceleration(std::size_t size) : lastZ_(size), lastF_(size) {
     for (std::size_t j = 0; j < kMemory; ++j) dZ_[j].resize(size), dF_[j].resize(size), q_[j].resize(size);
   }
 
   void reset() { count_ = 0, started_ = false; }
 
-  /// `z`: iterate, `f`: its correction in, better one out; the first n numbers count. `weight` >= 0: of the norm.
+  /// Improves the correction `f` of the iterate `z` in place; uses the first n entries. `weight` >= 0: norm weights.
   void improve(const std::vector<double>& z, std::vector<double>& f, const std::vector<double>& weight, std::size_t n) {
     if (started_) {
       // Drop the oldest pair.
@@ -45,7 +45,7 @@ public:
       for (std::size_t i = 0; i < n; ++i) sum += weight[i] * a[i] * b[i];
       return sum;
     };
-    // Modified Gram-Schmidt, the newest pair first; each q_j carries its dZ + dF along in s_j.
+    // Modified Gram-Schmidt, newest pair first; each q_j has its matching dZ + dF in s_j.
     std::array<bool, kMemory> used{};
     std::array<std::array<double, kMemory>, kMemory> R{};
     std::array<double, kMemory> target{};
@@ -65,7 +65,7 @@ public:
       for (std::size_t i = 0; i < n; ++i) q[i] /= R[j][j];
       target[j] = dot(q, lastF_);
     }
-    // gamma by back substitution: the column taken last is j = 0.
+    // gamma by back substitution: the last column processed is j = 0.
     std::array<double, kMemory> gamma{};
     for (std::size_t j = 0; j < count_; ++j) {
       if (!used[j]) continue;

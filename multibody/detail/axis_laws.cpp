@@ -25,10 +25,10 @@ void add(AxisLaw& law, const LinearSpring& spring, double x, double dt) {
   add(law, spring.load - spring.stiffness * (x - spring.rest), spring.stiffness, spring.damping, dt);
 }
 
-/// Damping of an end stop over a step [N s/m] or [N m s/rad]. A stop never pulls: on the way out its damper takes at
-/// most what the spring still gives at the end of the step,
+/// Damping of an end stop over a step [N s/m] or [N m s/rad]. A stop is never adhesive: during separation its damper is
+/// limited by the spring force at the end of the step,
 ///   k (over + dt rate) + c rate >= 0,
-/// which leaves no force at all as long as nothing else acts. Below 0: contact with the stop ends within the step.
+/// so that no force remains without other loads. Below 0: contact with the stop ends within the step.
 double stopDamping(const AxisSpring& spring, double over, double rate, double dt) {
   if (rate * over >= 0) return spring.stopDamping;
   return std::min(spring.stopDamping, spring.stopStiffness * (over + dt * rate) / -rate);
@@ -118,7 +118,7 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
       law.driveForce += drive.law.empty() ? loads.drives[d].force : drive.law.value(state.time);
       continue;
     }
-    // The rate is imposed, so all of the axis' other forces are known. The mean rate of a law leads to its position.
+    // The rate is imposed, so all other forces of the axis are known. The mean rate of a law reproduces its position.
     law.driven = true;
     law.speed = drive.law.empty()
                     ? loads.drives[d].speed

@@ -11,27 +11,27 @@ namespace grouser::multibody::detail {
 /// Work done over one step through a soft or driven row [J].
 struct AxisWork {
   double drive = 0, spring = 0, dissipated = 0;
-  double joint = 0, springs = 0, stops = 0; ///< dissipated by dampers of joints, springs and stops
+  double joint = 0, springs = 0, stops = 0; ///< dissipated by the dampers of joints, springs and stops
 };
 
 /// Assembles the forces along each axis row in one step of the symplectic Euler scheme: joint damping, springs, end
 /// stops, drives. Springs are implicit,
 ///   F = F_0 - k (x + dt x'_new - x_0) - c x'_new  =  [F_0 - k (x - x_0)]  -  (c + dt k) x'_new,
-/// the bracket being known at the start of the step, the rest a soft row with compliance 1 / (dt c + dt^2 k).
+/// with the bracket known at the start of the step and the rest a soft row of compliance 1 / (dt c + dt^2 k).
 class AxisLaws {
 public:
   AxisLaws(const Model& model, const ConstraintSystem& system);
 
-  /// `laws`: one per axis. `start`: positions of the driven axes when their laws began, one per drive.
+  /// `laws`: one per axis. `start`: positions of the driven axes at the start of their laws, one per drive.
   void evaluate(const ConstraintSystem& system, const State& state, const Loads& loads, double dt,
                 const std::vector<Frame>& frames, const std::vector<double>& start, std::vector<AxisLaw>& laws) const;
 
-  /// `multiplier`: impulse of the row / dt; `path`: mean rate times dt.
+  /// Work of one row. `multiplier`: impulse of the row / dt; `path`: mean rate times dt.
   AxisWork work(const AxisLaw& law, double multiplier, double newRate, double path, double dt) const;
 
 private:
   const Model* model_;
-  std::vector<double> jointDamping_; ///< of the joint axes, which come first
+  std::vector<double> jointDamping_; ///< damping of the joint axes, which precede all others
 };
 
 /// Signed distance beyond the limits of a spring's end stops; 0 between them.
@@ -50,7 +50,7 @@ inline bool imposesMotion(const Drive& drive) { return drive.kind != DriveKind::
 
 /// Position imposed by a drive's law at time t [rad, m]; `start`: axis position at t = 0.
 double drivenPosition(const Drive& drive, double start, double t);
-/// Rate of that law.
+/// Rate imposed by that law [rad/s, m/s].
 double drivenRate(const Drive& drive, double t);
 
 } // namespace grouser::multibody::detail

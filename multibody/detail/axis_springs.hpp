@@ -13,13 +13,13 @@ struct LinearSpring {
   double load = 0, stiffness = 0, rest = 0, damping = 0;
 };
 
-/// Spring of the model at a joint axis, without its end stops.
+/// Returns the model's spring at a joint axis, without its end stops.
 inline LinearSpring linearSpring(const AxisSpring& spring, const SpringControl& control) {
   return {control.loadFactor * spring.preload, control.stiffnessFactor * spring.stiffness, spring.freePosition,
           spring.damping};
 }
 
-/// Damping of the element of an axis row: joint, point spring or bushing component.
+/// Damping of the element that owns an axis row: joint, point spring or bushing component.
 inline double ownDamping(const ConstraintSystem& system, const Model& model, const Axis& axis) {
   const Constraint& c = system.constraints()[static_cast<std::size_t>(axis.constraint)];
   const auto source = static_cast<std::size_t>(c.source);
@@ -32,7 +32,7 @@ inline double ownDamping(const ConstraintSystem& system, const Model& model, con
   return c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow ? joint.slideDamping : joint.damping;
 }
 
-/// Spring of the element of an axis row; for a joint a damper.
+/// Spring of the element that owns an axis row; for a joint only a damper.
 inline LinearSpring ownSpring(const ConstraintSystem& system, const Model& model, const Loads& loads,
                               const Axis& axis) {
   const Constraint& c = system.constraints()[static_cast<std::size_t>(axis.constraint)];

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-/// Kernels on 6x6 blocks, stored by columns of 8 numbers of which the first 6 count (entry (row, column) at
-/// [8 column + row]; a column is one cache line), and on vectors of 8 with 6 in use. A column is one compiler vector:
-/// one register with AVX-512, two with AVX2, four with SSE2; the operations on each number and their order are the
-/// same, hence the same bits. The last two lanes start as zero and stay zero.
+/// Kernels on 6x6 blocks, stored by columns of 8 numbers of which the first 6 are used (entry (row, column) at [8
+/// column + row]; a column is one cache line), and on vectors of 8 with 6 in use. A column is one compiler vector: one
+/// register with AVX-512, two with AVX2, four with SSE2. The order of the operations on each number is the same, so the
+/// results are bitwise equal. The last two lanes are zero throughout.
 namespace grouser::multibody::detail {
 
 inline constexpr int kStride = 8;
@@ -20,8 +20,8 @@ using Column8 = base::Simd<double, 8>;
 using Column4 = base::Simd<double, 4>;
 using Column2 = base::Simd<double, 2>;
 
-/// A = L d L^T in place: unit lower L below the diagonal of `A`, 1/d in `dInverse`. A row that is not in the bit mask
-/// `active`, or whose pivot does not exceed its entry of `smallest` in size, is left out: its 1/d is 0. Returns the
+/// A = L d L^T in place: unit lower L below the diagonal of `A`, 1/d in `dInverse`. Skips rows that are not in the bit
+/// mask `active` or whose pivot magnitude does not exceed their entry of `smallest`: their 1/d is 0. Returns the
 /// mask of the rows kept.
 GROUSER_SIMD unsigned factor6(double* __restrict A, double* __restrict dInverse, const double* __restrict smallest,
                               unsigned active) {
@@ -91,7 +91,7 @@ GROUSER_SIMD void subtractTransposedTimes6(double* __restrict y, const double* _
   for (int j = 0; j < 6; ++j) {
     const auto v = base::load<Column8>(V + kStride * j);
     const Column8 p = v * s;
-    // Halves of a register: ((0 + 4) + 2) + ((1 + 5) + 3).
+    // Pairwise sums of register halves: ((0 + 4) + 2) + ((1 + 5) + 3).
     const Column4 h = Column4{p[0], p[1], p[2], p[3]} + Column4{p[4], p[5], 0, 0};
     const Column2 q = Column2{h[0], h[1]} + Column2{h[2], h[3]};
     y[j] -= q[0] + q[1];

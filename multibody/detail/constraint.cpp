@@ -49,14 +49,14 @@ RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
   return rows;
 }
 
-/// Writes the rows of the kind; the others stay zero.
+/// Sets the rows of the kind; the others stay zero.
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows) {
   switch (c.kind) {
   case ConstraintKind::kDistance:
   case ConstraintKind::kPointSpring: {
     const Vec3d d = f.p_B - f.p_A;
     const double l = norm(d);
-    // Coinciding points: the spring has no direction and no force.
+    // Coincident points: the spring has no direction and no force.
     rows.force[0] = l > 1e-12 ? d * (1 / l) : Vec3d{};
     return;
   }
@@ -126,7 +126,7 @@ double axisPositionAfter(const Constraint& c, const JointFrames& f0, const Joint
   cosSin(f0, c0, s0);
   cosSin(f1, c1, s1);
   const double s = s1 * c0 - c1 * s0, q = s * s;
-  // Arc sine by its series while the increment is small; the first term left out is below 1e-17 for |s| < 0.02.
+  // Arc sine by its series for small increments; the first omitted term is below 1e-17 for |s| < 0.02.
   if (q < 4e-4 && c1 * c0 + s1 * s0 > 0)
     return before + s * (1 + q * (1.0 / 6 + q * (3.0 / 40 + q * (15.0 / 336 + q * (105.0 / 3456)))));
   return before + base::atan2(s, c1 * c0 + s1 * s0);

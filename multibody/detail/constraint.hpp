@@ -14,19 +14,19 @@ namespace grouser::multibody::detail {
 /// Constant part of one constraint.
 struct Constraint {
   ConstraintKind kind;
-  int bodyA, bodyB;     ///< model's indices; the frame array holds the world at the end
-  int nodeA, nodeB;     ///< indices among the movable bodies, -1 if immovable
-  int source;           ///< joint, point spring or bushing of the model
-  Mat3d axes_A, axes_B; ///< joint frames' axes in the body frames
+  int bodyA, bodyB;     ///< indices in the model; the last entry of the frame array is the world
+  int nodeA, nodeB;     ///< indices among the movable bodies; -1: immovable
+  int source;           ///< index of the model's joint, point spring or bushing
+  Mat3d axes_A, axes_B; ///< axes of the joint frames in the body frames
   Vec3d point_A, point_B;
-  double length = 0; ///< of a distance joint [m]
+  double length = 0; ///< length of a distance joint [m]
 };
 
 using Frame = FrameOf<double>;
 using JointFrames = JointFramesOf<double>;
 using RowDirections = RowDirectionsOf<double>;
 
-/// Bit mask of the hard rows of a kind, without the axis row.
+/// Bit mask of a kind's hard rows, without the axis row.
 constexpr unsigned hardRows(ConstraintKind kind) {
   switch (kind) {
   case ConstraintKind::kRevolute:
@@ -49,14 +49,14 @@ constexpr unsigned hardRows(ConstraintKind kind) {
   return 0;
 }
 
-/// Bit mask of a joint's three force rows; the others are torques.
+/// Bit mask of a joint's three force rows; its other rows are torques.
 constexpr unsigned forceRows(ConstraintKind kind) {
   return kind == ConstraintKind::kPrismatic     ? 1u << kAxisRow | 0x03u
          : kind == ConstraintKind::kCylindrical ? 1u << kSlideRow | 0x03u
                                                 : 0x07u;
 }
 
-/// Bit mask of the rows that springs, dampers, drives and couplings may use.
+/// Bit mask of the rows available to springs, dampers, drives and couplings.
 constexpr unsigned axisRows(ConstraintKind kind) {
   switch (kind) {
   case ConstraintKind::kRevolute:
@@ -78,21 +78,21 @@ constexpr bool isJoint(ConstraintKind kind) {
   return kind != ConstraintKind::kPointSpring && kind != ConstraintKind::kBushing;
 }
 
-/// The joint frames in the bodies.
+/// Returns the joint frames in the body frames.
 JointPlacesOf<double> placesOf(const Constraint& c);
 
-/// Writes the joint frames at the bodies' frames A and B.
+/// Computes the joint frames from the body frames A and B.
 void placeFrames(const Constraint& c, const Frame& A, const Frame& B, JointFrames& f);
 JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B);
 
-/// C of the hard rows [m, rad]; 0 in the others.
+/// Computes C of the hard rows [m, rad]; sets the others to 0.
 void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]);
 
-/// Directions of all rows, including axis row or spring direction; rows that the kind lacks are unchanged (zero).
+/// Sets the directions of all rows, including axis row or spring direction; rows absent from the kind stay zero.
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows);
 RowDirections rowDirections(const Constraint& c, const JointFrames& f);
 
-/// The rows' blocks: row r times (v, w) of A (of B) gives its share of C'.
+/// Jacobian blocks of the rows: row r times (v, w) of A (of B) is the contribution of that body to C'.
 void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, Block& jacobianA,
                Block& jacobianB);
 
@@ -100,18 +100,18 @@ void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, 
 /// spring [m], translation [m] or rotation vector's component [rad] of a bushing.
 double axisPosition(const Constraint& c, const JointFrames& f, int row);
 
-/// Position after a step from `f0` to `f1`: an angle is carried on over turns by its increment.
+/// Position after a step from `f0` to `f1`; angles are continued over full turns by their increment.
 double axisPositionAfter(const Constraint& c, const JointFrames& f0, const JointFrames& f1, int row, double before);
 
 /// Rotation vector of R_AB in the axes of A [rad], |phi| <= pi.
 Vec3d relativeRotation(const JointFrames& f);
 
-/// J (v, w) of one row [m/s, rad/s], from frames and twists of all bodies.
+/// J (v, w) of one row [m/s, rad/s], from the frames and twists of both bodies.
 double rowRate(const Constraint& c, const JointFrames& f, const RowDirections& rows, int row,
                const std::vector<Frame>& frames, const std::vector<Twist>& twist);
 
-/// J' (v, w) of all rows: C'' at zero acceleration [m/s2, rad/s2]. `A`, `B`: the bodies' frames; twists of immovable
-/// bodies are zero.
+/// J' (v, w) of all rows: C'' at zero acceleration [m/s2, rad/s2]. `A`, `B`: body frames; twists of immovable bodies
+/// are zero.
 void rowBias(const Constraint& c, const JointFrames& f, const Frame& A, const Frame& B, const Twist& V_A,
              const Twist& V_B, double (&bias)[6]);
 

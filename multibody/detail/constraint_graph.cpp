@@ -95,7 +95,7 @@ std::vector<ConstraintEdge> ConstraintGraph::edges() const {
   for (const Constraint& c : constraints_) {
     ConstraintEdge edge;
     edge.bodies = {c.nodeA, c.nodeB};
-    // A rod leaves five degrees of freedom: cheaper as a loop constraint.
+    // A rod removes only one degree of freedom: cheaper as a loop constraint.
     edge.joint = isJoint(c.kind) && c.kind != ConstraintKind::kDistance;
     edge.hard = hardRows(c.kind);
     edge.rows = edge.hard | axisRows(c.kind);

@@ -10,21 +10,21 @@
 
 namespace grouser::multibody::detail {
 
-/// An axis row, on which springs, dampers, drives and couplings act.
+/// Axis row, on which springs, dampers, drives and couplings act.
 struct Axis {
   int constraint;
   int row;
 };
 
-/// Ties axis 2 to axis 1: x_2 - ratio x_1 - offset = 0. A row over the bodies of both axes.
+/// Couples axis 2 to axis 1: x_2 - ratio x_1 - offset = 0. The row acts on the bodies of both axes.
 struct CouplingRow {
   int axis1, axis2;
   double ratio, offset;
 };
 
-/// Constant topology of a mechanism: movable bodies, constraints, axes, couplings, and their numbering.
+/// Constant topology of a mechanism: movable bodies, constraints, axes, couplings, and their indices.
 ///
-/// Nodes are the movable bodies, the constraints, the couplings, in this order.
+/// Nodes are numbered in the order movable bodies, constraints, couplings.
 class ConstraintGraph {
 public:
   explicit ConstraintGraph(const Model& model);
@@ -32,7 +32,7 @@ public:
   const Model& model() const { return *model_; }
   const std::vector<Constraint>& constraints() const { return constraints_; }
   int movableBodies() const { return static_cast<int>(movable_.size()); }
-  int bodyOf(int node) const { return movable_[static_cast<std::size_t>(node)]; } ///< model's index of a movable body
+  int bodyOf(int node) const { return movable_[static_cast<std::size_t>(node)]; } ///< model index of a movable body
 
   /// Independent part: bodies connected by constraints, springs or couplings.
   struct Part {
@@ -43,7 +43,7 @@ public:
   };
   const std::vector<Part>& parts() const { return parts_; }
 
-  /// Axis rows in the order of the constraints; those of constraint k are firstAxis(k) to firstAxis(k + 1) - 1.
+  /// Axis rows in the order of the constraints; constraint k has the rows firstAxis(k) to firstAxis(k + 1) - 1.
   const std::vector<Axis>& axes() const { return axes_; }
   int firstAxis(int constraint) const { return firstAxis_[static_cast<std::size_t>(constraint)]; }
   /// Index of a joint's axis.
@@ -60,12 +60,12 @@ public:
   void placeBody(int body, const Pose& pose, std::vector<Frame>& frames) const;
   /// Frames at the poses of the model.
   std::vector<Frame> framesOfModel() const;
-  /// Position along an axis row [m, rad] of bodies at `frames`.
+  /// Position along an axis row [m, rad] for bodies at `frames`.
   double positionOfAxis(int axis, const std::vector<Frame>& frames) const;
 
-  /// "joint 'pin 7': rotation about x".
+  /// Name of a constraint row for messages: "joint 'pin 7': rotation about x".
   std::string describe(int constraint, int row) const;
-  /// "joint 'pin 7'".
+  /// Name of a constraint for messages: "joint 'pin 7'".
   std::string describe(int constraint) const;
 
 private:

@@ -52,8 +52,8 @@ void ConstraintSystem::setSizes() {
   for (int k = 0; k < static_cast<int>(constraints().size()); ++k) setPivotThreshold(k);
 }
 
-/// In constraints with redundant rows only rows with a good pivot are kept: which row is dependent may change during
-/// motion, and dropping a wrong one leaves a small pivot.
+/// In redundant constraints only rows with a good pivot are kept: the dependent row may change during motion, and
+/// dropping a wrong one leaves a small pivot.
 void ConstraintSystem::setPivotThreshold(int k) {
   constexpr double kGoodPivot = 1e-3;
   double part = pivotScale_ * Elimination::kPivotTolerance;
@@ -111,7 +111,7 @@ void ConstraintSystem::setUp(const std::vector<Frame>& frames, const std::vector
     com_A_[at(k)] = frames[at(c.bodyA)].p;
     com_B_[at(k)] = frames[at(c.bodyB)].p;
 
-    // A soft row has compliance; a driven row is hard; a free axis is out of the system.
+    // A soft row has compliance; a driven row is hard; a free axis is not part of the system.
     double compliance[6] = {};
     unsigned active = hardRows(c.kind);
     for (int a = firstAxis(k); a < firstAxis(k + 1); ++a) {

@@ -14,24 +14,24 @@ namespace grouser::multibody::detail {
 
 /// Forces along an axis row (of a joint, point spring or bushing) in one step (axis_laws.hpp).
 struct AxisLaw {
-  double force = 0;             ///< applied along the row as a known force [N, N m]
-  double known = 0;             ///< part of springs and stops that does not depend on the new rate
-  double driveForce = 0;        ///< of force drives, included in `force`
+  double force = 0;             ///< known force along the row [N, N m]
+  double known = 0;             ///< part of spring and stop forces that does not depend on the new rate
+  double driveForce = 0;        ///< force of force drives, included in `force`
   double inverseCompliance = 0; ///< dt c + dt^2 k of all dampers and springs, 1 / compliance of the row; 0: no soft row
-  double dampingPart = 0;       ///< dt c of all dampers: of the joint, of springs, of end stops
-  double jointDamping = 0, springDamping = 0, stopDamping = 0; ///< and of each kind
-  double springKnown = 0;                                      ///< `known`, and
+  double dampingPart = 0;       ///< dt c of all dampers: joint, springs, end stops
+  double jointDamping = 0, springDamping = 0, stopDamping = 0; ///< dt c of each kind
+  double springKnown = 0;                                      ///< `known` without the joint's own damping
   double springInverseCompliance = 0;                          ///< `inverseCompliance` without the joint's own damping
   bool driven = false;
   double speed = 0; ///< imposed rate
 };
 
-/// The mechanism linearised at given poses: rows, masses and their factorisation. Independent of time integration:
+/// Mechanism linearised at given poses: rows, masses and their factorisation. Independent of the time integration:
 /// integrators use its position errors and solutions of
 ///   M dv - J^T dLambda = bodyResidual,   J dv + G dLambda = rowResidual.
 ///
-/// A coupling's row b acts on up to four bodies and lies outside the blocks of the factor: with Y = K^-1 b^T and the
-/// small matrix S = b Y (symmetric, not negative), a solution x of the rest is completed to x + Y mu by
+/// A coupling row b acts on up to four bodies and lies outside the blocks of the factor. With Y = K^-1 b^T and the
+/// small matrix S = b Y (symmetric, positive semidefinite), a solution x of the other rows is completed to x + Y mu by
 /// S mu = residual - b x.
 class ConstraintSystem : public ConstraintGraph {
 public:
@@ -39,13 +39,13 @@ public:
 
   const Elimination& elimination() const { return *elimination_; }
 
-  /// Hard rows kept by the last linearise() (before any: all of the kind). Each time drops the most dependent rows of
-  /// redundant constraints, and rows without a pivot in singular positions.
+  /// Hard rows kept by the last linearise() (before the first: all of the kind). Each linearise() drops the most
+  /// dependent rows of redundant constraints, and rows without a pivot in singular positions.
   unsigned hardRowsOf(int constraint) const { return hard_[static_cast<std::size_t>(constraint)]; }
-  /// Marks `row` of a constraint, or another in its place, as redundant in all positions.
+  /// Marks `row` of a constraint, or an equivalent one, as redundant in all positions.
   void noteRedundant(int constraint, int row);
 
-  /// Sets up and factors one part at `frames`. `laws`: one per axis. Returns the number of rows dropped as singular.
+  /// Assembles and factors one part at `frames`. `laws`: one per axis. Returns the number of rows dropped as singular.
   int linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws);
 
   /// In: one vector per node (bodies: momentum residual; constraints: row residual). Out: dv and dLambda.
@@ -63,11 +63,11 @@ public:
   unsigned activeRows(int constraint) const { return active_[static_cast<std::size_t>(constraint)]; }
   /// Identifier of a part's linearisation: changes with each linearise().
   long long linearisation(const Part& part) const { return linearisation_[static_cast<std::size_t>(part.index)]; }
-  /// J M^-1 J^T of a row alone.
+  /// J M^-1 J^T of a single row.
   double rowSize(int constraint, int row) const {
     return size_[static_cast<std::size_t>(constraint)][static_cast<std::size_t>(row)];
   }
-  /// Bodies with the joints of the spanning tree; constraints outside it.
+  /// Bodies of the spanning tree with their joints, in lanes; other constraints are outside the tree.
   const std::vector<LinkLanes>& links() const { return links_; }
   const std::vector<int>& offTree() const { return offTree_; }
   /// Inertias of a batch of links in world axes, by columns of the lower triangle.
@@ -81,7 +81,7 @@ public:
   void addImpulse(int constraint, int row, double impulse, std::vector<Vector6>& x) const;
   /// J x of one row; x: one vector per node.
   double rowTimes(int constraint, int row, const std::vector<Vector6>& x) const;
-  /// False for couplings implied by others, as found by the last linearise().
+  /// False for couplings implied by others, as determined by the last linearise().
   bool couplingKept(int coupling) const { return couplingKept_[static_cast<std::size_t>(coupling)] != 0; }
   /// Excludes couplings from linearise() and solve() (to analyse the joints alone).
   void setCouplingsOn(bool on) { couplingsOn_ = on; }
@@ -105,23 +105,23 @@ private:
   std::unique_ptr<Elimination> elimination_;
   std::vector<unsigned> hard_, active_;
   std::vector<LinkLanes> links_; ///< one per batch of the elimination
-  std::vector<char> inTree_;     ///< of each constraint
+  std::vector<char> inTree_;     ///< per constraint: true in the spanning tree
   std::vector<int> offTree_;
   // One per constraint or body; tree entries are unpacked from the lanes on demand.
   mutable bool packed_ = false;
   mutable std::vector<RowDirections> rows_;
   mutable std::vector<JointFrames> frames_;
-  mutable std::vector<Mat3d> inertia_; ///< in world axes
-  bool sized_ = false;                 ///< size_ is set
+  mutable std::vector<Mat3d> inertia_; ///< inertias in world axes
+  bool sized_ = false;                 ///< true once size_ is set
   mutable std::vector<Vec3d> com_A_, com_B_;
-  std::vector<std::array<double, 6>> size_; ///< J M^-1 J^T of each row alone
+  std::vector<std::array<double, 6>> size_; ///< J M^-1 J^T of each single row
   double pivotScale_ = 1;
-  std::vector<unsigned> redundant_; ///< of each constraint: as noted
-  std::vector<int> expectedLost_;   ///< of each part: rows that have no pivot because they are redundant
-  bool strict_ = false;             ///< redundant constraints keep every row with a pivot, however small
+  std::vector<unsigned> redundant_; ///< per constraint: redundant rows (bit mask)
+  std::vector<int> expectedLost_;   ///< per part: expected rows without a pivot, due to redundancy
+  bool strict_ = false;             ///< true: redundant constraints keep every row with a pivot, however small
   std::vector<long long> linearisation_;
 
-  std::vector<std::vector<Vector6>> couplingSolution_; ///< Y, one vector a node for each coupling
+  std::vector<std::vector<Vector6>> couplingSolution_; ///< Y, one vector per node for each coupling
   std::vector<std::vector<double>> couplingFactor_;    ///< lower Cholesky factor of S within the part
   std::vector<char> couplingKept_;
   mutable std::vector<double> couplingWork_;

@@ -12,7 +12,7 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// One lane of a number or of a compound type.
+/// Extracts one lane of a number or of a compound type.
 double& lane(Lanes& x, std::size_t l) { return reinterpret_cast<double*>(&x)[l]; }
 void set(Vec3L& v, std::size_t l, const Vec3d& value) {
   lane(v.x, l) = value.x, lane(v.y, l) = value.y, lane(v.z, l) = value.z;
@@ -91,7 +91,7 @@ GROUSER_SIMD_CLONES void ConstraintSystem::lineariseLinks(const std::vector<Fram
     to.arm = b.frames.p_B - child.p;
     to.away = child.p - parent.p;
 
-    // A soft row has compliance; a driven row is hard; a free axis is out of the system.
+    // A soft row has compliance; a driven row is hard; a free axis is not part of the system.
     for (int a = 0; a < b.axes; ++a)
       for (std::size_t l = 0; l < kLanes; ++l) {
         const AxisLaw& law = laws[at(b.axis[at(a)][l])];

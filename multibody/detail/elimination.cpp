@@ -119,8 +119,8 @@ void Elimination::startLoops() {
   }
 }
 
-/// Directions dual to the rows; free ones of them, and the sweep of the file's head. `pairs`: where the products of two
-/// columns go.
+/// Computes directions dual to the rows; their free ones, and the sweep described in elimination.hpp. `pairs`:
+/// destinations of the products of two columns.
 GROUSER_SIMD void factorBatch(Elimination::Links& b, Elimination::Column* columns, double* const* pairs) {
   if (b.joint[0] >= 0) {
     const Lanes volume = dot(b.torque[0], cross(b.torque[1], b.torque[2]));
@@ -131,7 +131,7 @@ GROUSER_SIMD void factorBatch(Elimination::Links& b, Elimination::Column* column
     for (int i = 0; i < b.freedoms; ++i) {
       const int r = b.freeRow[at(i)];
       for (int j = 0; j < 3; ++j) {
-        // The rows of forces are orthonormal: dual to themselves.
+        // Rows of forces are orthonormal, hence dual to themselves.
         if (b.forceRow[at(j)] == r) put(b.s[i], b.force[j], {});
         if (b.torqueRow[at(j)] == r) put(b.s[i], cross(b.arm, b.dual[j]), b.dual[j]);
       }

@@ -36,7 +36,7 @@ Elimination::Elimination(int bodies, const std::vector<ConstraintEdge>& edges)
   makeProgram();
 }
 
-/// Batches of up to four bodies with the same depth, joint kind and number of columns, sorted by parent, so that equal
+/// Batches of up to four bodies with equal depth, joint kind and number of columns, sorted by parent, so that equal
 /// branches use the same lanes.
 void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
   int deepest = 0;
@@ -66,7 +66,7 @@ void Elimination::makeBatches(const std::vector<ConstraintEdge>& edges) {
       first = end;
     }
   }
-  // A body without a joint moves along and about the world's axes.
+  // A body without a joint moves along and about the world axes.
   for (Links& links : links_)
     for (int i = 0; i < 6; ++i) {
       links.free[i] = all(1), links.inverseCompliance[i] = all(0);
@@ -93,7 +93,7 @@ void Elimination::addBatch(const std::vector<int>& bodies, const std::vector<Con
     }
     ++links.count;
   }
-  // Idle lanes repeat the first; their results are not used.
+  // Idle lanes repeat the first lane; their results are not used.
   for (int lane = links.count; lane < kLanes; ++lane) {
     links.body[at(lane)] = links.body[0], links.joint[at(lane)] = links.joint[0];
     links.parentNode[at(lane)] = links.parentNode[0];
@@ -208,7 +208,7 @@ void Elimination::linkColumns(Links& links) {
   }
 }
 
-/// Entry of the loops' matrix that the product of two columns of a body belongs to.
+/// Entry of the loop matrix for the product of two columns of a body.
 double* Elimination::productOf(int body, int column, int other) {
   const auto entry = [](Block& block, int row, int col) { return &block[at(kStride * col + row)]; };
   auto [z1, r1] = columnsOf_[at(body)][at(column)];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Euler step of the bodies and their tree joints, four at a time (link_simd.hpp). euler_step.cpp states the scheme and
-// handles the rest: loop constraints, point springs, bushings, couplings.
+// Euler step of the bodies and their tree joints, four at a time (link_simd.hpp). The scheme is described in
+// euler_step.cpp, which handles the rest: loop constraints, point springs, bushings, couplings.
 #include "multibody/detail/euler_step.hpp"
 
 #include "multibody/detail/index.hpp"
@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kWidth = kLanes;
 
-/// Turn of a step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration; below, the iteration itself converges. The second for the exact solution, as
-/// in RATTLE.
+/// Rotation per step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
+/// Newton's method within the iteration; below, the iteration itself converges. The second value is for the exact
+/// solution, as in RATTLE.
 constexpr double kFastSpin = 0.3, kAnySpin = 1e-7;
 
 GROUSER_SIMD Vec3L axisForce(const LinkLanes& b, int a) { return b.rows.force[at(b.axisRow[at(a)])]; }
@@ -45,7 +45,7 @@ GROUSER_SIMD void gatherNode(const std::vector<Vector6>& x, const std::array<int
   gatherRows(row, 4, high);
   out[0] = low[0], out[1] = low[1], out[2] = low[2], out[3] = low[3], out[4] = high[0], out[5] = high[1];
 }
-/// Idle lanes write what the first lane writes.
+/// Idle lanes write the same values as the first lane.
 GROUSER_SIMD void scatterNode(std::vector<Vector6>& x, const std::array<int, kLanes>& node, int first,
                               const Lanes (&in)[6]) {
   Lanes low[4] = {in[0], in[1], in[2], in[3]}, high[4] = {in[4], in[5], all(0), all(0)};
@@ -134,7 +134,7 @@ GROUSER_SIMD_CLONES void EulerStep::startLinks(const State& state, const Loads& 
   fromOutside_ = {{linear[0], linear[1], linear[2]}, {angular[0], angular[1], angular[2]}};
 }
 
-/// Angles and rates of the axes before the step, and the known forces along them.
+/// Axis angles and rates before the step, and the known forces along the axes.
 GROUSER_SIMD_CLONES void EulerStep::startLinkAxes(const State& state, double dt) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& b = system_.links()[i];

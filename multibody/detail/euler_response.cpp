@@ -6,7 +6,7 @@
 
 namespace grouser::multibody::detail {
 
-/// Adds the solution of the present residuals.
+/// Adds the solution for the current residuals.
 void EulerStep::addSolution(const ConstraintSystem::Part& part, std::vector<Twist>& twists) {
   system_.solve(part, x_);
   for (const int node : part.bodies) {
@@ -16,7 +16,7 @@ void EulerStep::addSolution(const ConstraintSystem::Part& part, std::vector<Twis
   }
 }
 
-/// Does the first solve of a step, and omits the Newton corrections.
+/// Performs the first solve of a step, without the Newton corrections.
 void EulerStep::startResponse(const State& state, const Loads& loads, double dt, std::vector<Twist>& twists) {
   system_.place(state.pose, frames_);
   placed_.clear(); // makes step() place the bodies again

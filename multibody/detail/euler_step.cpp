@@ -93,7 +93,7 @@ JointFrames EulerStep::trialFramesOf(int k) const {
   return framesOf(c, trial_[at(c.bodyA)], trial_[at(c.bodyB)]);
 }
 
-/// The row with the widest gap at the end of the step for the current iterate; no constraint if there are only
+/// Row with the largest gap at the end of the step for the current iterate; no constraint if there are only
 /// couplings.
 EulerStep::OpenRow EulerStep::widestGap() const {
   OpenRow widest;
@@ -212,7 +212,7 @@ bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& 
     unpackIterate();
     mixing_.remember(part, solve.gap, newTwist_);
   }
-  // Slow: a singular position is near, or the bodies rotate far in a step.
+  // Slow convergence: a singular position is near, or bodies rotate far in a step.
   if (solve.since == kPatience && solve.slow) {
     if (startWithoutWeakRows(part, state, loads, dt))
       solve.enter(Phase::kWithoutWeakRows);
@@ -406,7 +406,7 @@ EulerStep::EulerStep(const Problem& problem)
 }
 
 void EulerStep::step(State& state, const Loads& loads, double dt) {
-  // If no body was moved since the last step, its final frames are still valid.
+  // If no body has moved since the last step, its final frames are still valid.
   if (placed_.size() == state.pose.size() &&
       std::memcmp(placed_.data(), state.pose.data(), placed_.size() * sizeof(Pose)) == 0)
     std::swap(frames_, trial_);

@@ -11,7 +11,7 @@
 
 namespace grouser::multibody::detail {
 
-/// Constrained symplectic Euler; euler_step.cpp states the scheme.
+/// Constrained symplectic Euler scheme, described in euler_step.cpp.
 class EulerStep : public Stepper {
 public:
   explicit EulerStep(const Problem& problem);
@@ -20,15 +20,15 @@ public:
   void respond(const std::vector<Wrench>& impulses, std::vector<Twist>& change) override;
 
 private:
-  /// Phases of the position solve: see RATTLE's scheme (rattle_step.cpp).
+  /// Phases of the position solve, as in RATTLE (rattle_step.cpp).
   enum class Phase { kAllRows, kWithoutWeakRows, kMixed, kEachIterate };
   /// Progress of the position solve of a step.
   struct PositionSolve {
     Phase phase = Phase::kAllRows;
-    int lost = 0;                    ///< rows that have no pivot
-    int iterations = 0, since = 0;   ///< total, and in the present phase
-    double gap = 0, before = 0;      ///< largest gap of the last iteration, and of the previous one
-    bool done = false, slow = false; ///< of the last iteration
+    int lost = 0;                    ///< number of rows without a pivot
+    int iterations = 0, since = 0;   ///< total; in the current phase
+    double gap = 0, before = 0;      ///< largest gap of the last iteration; of the previous one
+    bool done = false, slow = false; ///< result of the last iteration
 
     void enter(Phase next) { phase = next, since = 0; }
   };
@@ -60,7 +60,7 @@ private:
   double trialPosition(const State& state, int axis) const;
   JointFrames trialFramesOf(int k) const;
 
-  /// Four bodies and their joints in the course of a step (euler_links.cpp).
+  /// Four bodies and their joints during a step (euler_links.cpp).
   struct alignas(64) LinkStep {
     Vec3L v0, w0, force, torque; ///< before the step
     Vec3L position;
@@ -70,10 +70,10 @@ private:
     QuatL newOrientation;
     JointFramesL joint;
     Lanes impulse[6];
-    Lanes oldRate[2];         ///< of the axes, before the step
-    Lanes startCos, startSin; ///< of a joint's angle
-    Lanes spread;             ///< of the inertias (spreadOf())
-    // For the ledger.
+    Lanes oldRate[2];         ///< axis rates before the step
+    Lanes startCos, startSin; ///< cosine and sine of the joint angle before the step
+    Lanes spread;             ///< spread of the inertias (spreadOf())
+    // Energy ledger.
     Vec3L gyroLeft;           ///< gyroscopic momentum of the old twist minus that used for the new one
     Vec3L parentV0, parentW0; ///< twist of the parent before the step
   };
@@ -90,13 +90,13 @@ private:
   /// Work of four bodies and their joints in a step [J].
   struct LinkWork {
     Lanes gravity, external, drive, spring, dissipated;
-    // See ledger.hpp. `fall`: sum of m g.v.
+    // Terms of ledger.hpp. `fall`: sum of m g.v.
     Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
-    Vec3d ground, groundMoment; ///< impulse of immovable bodies
+    Vec3d ground, groundMoment; ///< impulse on immovable bodies
   };
-  /// Velocity of the point p_B in B relative to A, and angular velocity of B relative to A.
+  /// Velocity of the point p_B of B relative to A, with the angular velocity of B relative to A.
   Twist relativeTwist(int k, const std::vector<Twist>& twist) const;
-  // euler_ledger.cpp
+  // Defined in euler_ledger.cpp
   void noteOldMotion(const ConstraintSystem::Part& part, const State& state);
   void noteOldLengths(const State& state);
   void recordElasticGain(State& state, const Loads& loads) const;
@@ -124,17 +124,17 @@ private:
   StepReport& last_;
   AxisLaws axisLaws_;
 
-  std::vector<AxisLaw> laws_;                  ///< one an axis
+  std::vector<AxisLaw> laws_;                  ///< one per axis
   std::vector<Vector6> x_;                     ///< residuals in, corrections out; one per node
   std::vector<LinkStep> steps_;                ///< one per batch of links
-  std::vector<std::array<double, 6>> impulse_; ///< Lambda, one per constraint; for tree joints on demand
+  std::vector<std::array<double, 6>> impulse_; ///< Lambda, one per constraint; for tree joints computed on demand
   std::vector<double> couplingImpulse_;        ///< one per coupling
   std::vector<double> oldRate_, newRates_;     ///< before and after the step, one per axis
-  double mass_ = 0;                            ///< of all movable bodies
+  double mass_ = 0;                            ///< total mass of the movable bodies
   StepLedger stepLedger_;
   std::vector<Vec3d> oldSpin_; ///< angular momenta before the step
   bool firstSolve_ = true;     ///< true after the residuals are reset
-  Twist fromOutside_;          ///< impulse of gravity and loads, and its moment about the origin
+  Twist fromOutside_;          ///< impulse of gravity and loads, with its moment about the origin
   struct SpringPlace {
     std::size_t joint;
     bool slide;
@@ -149,8 +149,8 @@ private:
   Mixing mixing_;
   bool relinearised_ = false;         ///< the position solve has relinearised
   std::vector<Twist> newTwist_;       ///< current iterate, one per body, if mixing needs it
-  std::vector<Pose> placed_;          ///< body poses after the last step: those of trial_
-  std::vector<Frame> frames_, trial_; ///< bodies' frames at the start and at the end of the step
+  std::vector<Pose> placed_;          ///< body poses after the last step, equal to trial_
+  std::vector<Frame> frames_, trial_; ///< body frames at the start and at the end of the step
 };
 
 } // namespace grouser::multibody::detail

@@ -18,10 +18,10 @@
 ///
 ///   f(q) = J(q)^T lambda,    K u = -d/ds f(q + s u),
 ///
-/// the geometric stiffness of structures under load: a link in a chain under the tension T is turned back by T times
-/// its length. Both integrators take the directions of f at the beginning of a step. With A the mobility that the
-/// constraints leave and omega^2 an eigenvalue of A K, a swing across the tension therefore bears steps up to 2 /
-/// omega, as one on explicit springs does; springs that are implicit along themselves only add to the mass there.
+/// the geometric stiffness of structures under load: a chain link under the tension T is restored by T times its
+/// length. Both integrators use the directions of f at the beginning of a step. With A the mobility under the
+/// constraints and omega^2 an eigenvalue of A K, a transverse oscillation is therefore stable for steps up to 2 /
+/// omega, as with explicit springs; springs that are implicit along themselves only add mass there.
 namespace grouser::multibody::detail {
 
 namespace {
@@ -88,7 +88,7 @@ public:
     return sum;
   }
 
-  /// The constraint with the most work in the last apply().
+  /// Constraint with the most work in the last apply().
   int hardestWorking() const {
     int most = -1;
     for (const int k : part_.constraints)
@@ -103,7 +103,7 @@ public:
   }
 
 private:
-  /// Adds `share` of the forces of constraint k at the present frames.
+  /// Adds the fraction `share` of the forces of constraint k at the current frames.
   void addForces(int k, double share, std::vector<Vector6>& x) {
     const Constraint& c = system_.constraints()[at(k)];
     const Frame &A = frames_[at(c.bodyA)], &B = frames_[at(c.bodyB)];

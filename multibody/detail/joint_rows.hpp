@@ -10,15 +10,15 @@ namespace grouser::multibody::detail {
 using base::Mat3;
 using base::Vec3;
 
-/// Constraint equations. d = p_B - p_A joins the origins of the two joint frames; x, y, z with index A or B are their
-/// axes; x_A stands for the centre of mass of A (and so on) where it is subtracted from a point. All in world
+/// Constraint equations. d = p_B - p_A connects the origins of the two joint frames; x, y, z with index A or B are
+/// their axes; x_A denotes the centre of mass of A (and so on) when subtracted from a point. All in world
 /// components.
 ///
 ///   point row along u_A       C = u_A . d
 ///     rate                    C' = u_A . (v_B + w_B x r_B - v_A) - w_A . ((p_B - x_A) x u_A),      r_B = p_B - x_B
 ///     J                       B: [u_A, r_B x u_A]        A: [-u_A, -(p_B - x_A) x u_A]
-///                             A and B feel opposite forces at the same point p_B: no momentum is made, closed or not.
-///   angle row                 C = u_A . t_B  (axes that shall stay perpendicular)
+///                             A and B receive opposite forces at the same point p_B: momentum is conserved exactly.
+///   angle row                 C = u_A . t_B  (axes that remain perpendicular)
 ///     rate                    C' = (w_B - w_A) . (t_B x u_A)
 ///     J                       B: [0, t_B x u_A]          A: the opposite
 ///
@@ -47,8 +47,8 @@ enum class ConstraintKind {
   kBushing
 };
 
-inline constexpr int kAxisRow = 5;  ///< of a revolute, prismatic, and of the angle of a cylindrical
-inline constexpr int kSlideRow = 4; ///< of a cylindrical
+inline constexpr int kAxisRow = 5;  ///< axis row of a revolute or prismatic, angle row of a cylindrical
+inline constexpr int kSlideRow = 4; ///< slide row of a cylindrical
 
 // Joint formulas are templates: T is double, or the SIMD type of lanes.hpp for several joints of one kind.
 
@@ -65,13 +65,13 @@ template <class T> struct JointFramesOf {
   Vec3<T> x_B, z_B;
 };
 
-/// Joint frames in the two bodies.
+/// Joint frames in the two body frames.
 template <class T> struct JointPlacesOf {
   Vec3<T> point_A, point_B;
   Vec3<T> x_A, z_A, x_B, z_B;
 };
 
-/// Each row as a generalised force on B: `force` at p_B plus `torque`; A feels the opposite at the same point.
+/// Each row as a generalised force on B: `force` at p_B plus `torque`; A receives the opposite at the same point.
 template <class T> struct RowDirectionsOf { std::array<Vec3<T>, 6> force{}, torque{}; };
 
 template <class T>
@@ -85,7 +85,7 @@ inline void placeFrames(const JointPlacesOf<T>& places, const FrameOf<T>& A, con
   f.z_B = B.R * places.z_B;
 }
 
-/// C of the hard rows of a joint other than a distance joint [m, rad]; other entries are unchanged.
+/// Computes C of the hard rows of a joint other than a distance joint [m, rad]; other entries are unchanged.
 template <class T> inline void jointError(ConstraintKind kind, const JointFramesOf<T>& f, T (&error)[6]) {
   const Vec3<T> d = f.p_B - f.p_A;
   switch (kind) {

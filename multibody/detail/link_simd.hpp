@@ -13,30 +13,30 @@ using FrameL = FrameOf<Lanes>;
 using JointFramesL = JointFramesOf<Lanes>;
 using RowDirectionsL = RowDirectionsOf<Lanes>;
 
-/// Four bodies with the joints to their parents (elimination.hpp), all of one kind: constants, and the joints of the
-/// last linearisation. Idle lanes repeat the first.
+/// Four bodies of one kind with the joints to their parents (elimination.hpp): constants, and the joints of the last
+/// linearisation. Idle lanes repeat the first lane.
 struct alignas(64) LinkLanes {
   int count = 0;
-  bool joint = false; ///< free bodies have none
+  bool joint = false; ///< false for free bodies
   ConstraintKind kind = ConstraintKind::kFixed;
-  std::array<int, kLanes> node{}, constraint{}; ///< of body and joint
-  std::array<int, kLanes> body{}, parent{};     ///< the model's indices; the world is the last
+  std::array<int, kLanes> node{}, constraint{}; ///< indices of body and joint
+  std::array<int, kLanes> body{}, parent{};     ///< indices in the model; the world is last
   std::array<int, kLanes> parentNode{};         ///< -1: immovable
-  int axes = 0;                                 ///< rows that springs, dampers and drives may use
+  int axes = 0;                                 ///< rows available to springs, dampers and drives
   std::array<int, 2> axisRow{};
-  std::array<std::array<int, kLanes>, 2> axis{}; ///< their indices
-  std::array<int, 2> freedom{};                  ///< their places among the joint's freedoms
+  std::array<std::array<int, kLanes>, 2> axis{}; ///< axis indices
+  std::array<int, 2> freedom{};                  ///< indices of the axes among the joint's degrees of freedom
 
   Lanes real;               ///< 1, or 0 in idle lanes
-  Lanes side;               ///< 1 where the child is B, -1 where it is A
-  Lanes mass, inertia_B[6]; ///< by columns of the lower triangle
+  Lanes side;               ///< 1 if the child is B, -1 if it is A
+  Lanes mass, inertia_B[6]; ///< inertia: columns of the lower triangle
   JointPlacesOf<Lanes> places;
 
   JointFramesL frames;
   RowDirectionsL rows;
   Vec3L com, parentCom;
 
-  /// Assigns the frames of child and parent to A and B.
+  /// Assigns the frames of child and parent to A and B according to `side`.
   GROUSER_SIMD void sort(const FrameL& child, const FrameL& other, FrameL& A, FrameL& B) const {
     const auto isB = side > 0.0;
     const auto pick = [&](const Lanes& c, const Lanes& o, Lanes& a, Lanes& b) { a = isB ? o : c, b = isB ? c : o; };
@@ -50,7 +50,7 @@ struct alignas(64) LinkLanes {
   }
 };
 
-/// Frames of four bodies, one per lane.
+/// Gathers the frames of four bodies, one per lane.
 GROUSER_SIMD void gatherFrames(const std::vector<Frame>& frames, const std::array<int, kLanes>& body, FrameL& out) {
   static_assert(sizeof(Frame) == 12 * sizeof(double));
   const double* row[kLanes];

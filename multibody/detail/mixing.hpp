@@ -11,40 +11,40 @@
 
 namespace grouser::multibody::detail {
 
-/// Near a singular position a row's pivot, relative to its own J M^-1 J^T, is proportional to the square of the angle
-/// to it. Pivot thresholds, in units of the usual one: for rows that a rotation [rad] within a step can take through
-/// it,
+/// Near a singular position a row's pivot, relative to its own J M^-1 J^T, is proportional to the squared angle to that
+/// position. Pivot threshold, in units of the usual one, for rows that a rotation [rad] within a step can take through
+/// a singular position.
 inline double weakPivotScale(double turn) { return std::max(10 * turn * turn, 1e-6) / Elimination::kPivotTolerance; }
-/// and for rows firm enough to carry an impulse: a gap of the tolerance leaves a deviation of up to its root across the
-/// singular direction, which must be small beside the angle, or the row's impulse would act on the motion through it.
+/// Pivot threshold for rows that can transmit an impulse: a gap of the tolerance allows a deviation of up to its square
+/// root across the singular direction, which must be small beside the angle for the impulse to act along the row.
 inline double firmPivotScale(double positionTolerance) {
   return std::max(1.0, 1e2 * positionTolerance / Elimination::kPivotTolerance);
 }
 
-/// Iterate of the position solve: twists over the step and their impulses.
+/// Iterate of the position solve: twists over the step, with their impulses.
 struct Iterate {
-  std::vector<Twist>& twist;                   ///< one a body
-  std::vector<std::array<double, 6>>& impulse; ///< one a constraint
-  std::vector<double>& couplingImpulse;        ///< one a coupling
+  std::vector<Twist>& twist;                   ///< one per body
+  std::vector<std::array<double, 6>>& impulse; ///< one per constraint
+  std::vector<double>& couplingImpulse;        ///< one per coupling
 };
 
 /// Accelerates the position solve of one part if it converges slowly or not at all: near singular positions, where
-/// pivots change in size or sign within a step, and for rotations of about a radian per step. Mixes corrections
-/// (anderson_acceleration.hpp), and keeps the best iterate.
+/// pivots change in size or sign within a step, and for rotations of about a radian per step. Mixes corrections by
+/// Anderson acceleration (anderson_acceleration.hpp), and keeps the best iterate.
 class Mixing {
 public:
   explicit Mixing(const ConstraintSystem& system, const Model& model)
       : system_(system), model_(model), acceleration_(6 * static_cast<std::size_t>(system.nodes())),
         z_(6 * static_cast<std::size_t>(system.nodes())), change_(z_), weight_(z_), best_(model.bodies().size()) {}
 
-  /// Call before the first iteration of a solve.
+  /// Resets the state; call before the first iteration of a solve.
   void reset() { on_ = false, bestGap_ = std::numeric_limits<double>::infinity(); }
   bool on() const { return on_; }
   void switchOn() { on_ = true, acceleration_.reset(); }
-  /// Call after the matrix has changed.
+  /// Discards the history; call after the matrix has changed.
   void forget() { acceleration_.reset(); }
 
-  /// Mixes the corrections in `x` with those of previous iterations, in the norm of kinetic energy.
+  /// Mixes the corrections in `x` with those of previous iterations, in the kinetic energy norm.
   void improve(const ConstraintSystem::Part& part, const Iterate& iterate, std::vector<Vector6>& x);
 
   /// Stores the iterate if its gap is the smallest so far.

@@ -25,8 +25,8 @@
 /// they cancel between movable bodies, leaving gravity, loads, and rows to immovable bodies, with (F, p_B x F + M) for
 /// the force F at p_B and the torque M.
 ///
-/// If the position solve has relinearised, impulses have no single position: the change of momentum itself is recorded;
-/// what is not gravity or load counts as ground reaction.
+/// If the position solve has relinearised, impulses have no single position: the change of momentum itself is recorded.
+/// All forces except gravity and loads count as ground reaction.
 namespace grouser::multibody::detail {
 
 void RattleStep::give(int k, int row, double impulse) {

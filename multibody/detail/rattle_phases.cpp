@@ -54,7 +54,7 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
   collectMomentum(part, state, loads, h);
 }
 
-/// No smaller than a few units in the last place of the coordinates.
+/// At least a few units in the last place of the coordinates.
 double RattleStep::gapTolerance(const Part& part, const State& state) const {
   double scale = 0;
   for (const int node : part.bodies) {

@@ -50,7 +50,7 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
   bookSecondKick(part, loads, h);
 }
 
-/// The matrix at the end of the stage.
+/// Matrix at the end of the stage.
 void RattleStep::factorEnd(const Part& part) {
   for (const int k : part.constraints)
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
@@ -62,7 +62,7 @@ void RattleStep::factorEnd(const Part& part) {
   system_.scalePivotThreshold(firmPivotScale(options_.positionTolerance));
   const int lost = linearise(part, trial_);
   system_.scalePivotThreshold(1);
-  // The next stage's positions need every row that has a pivot at all.
+  // The positions of the next stage need every row with a pivot.
   factored_[at(part.index)] = lost == 0 ? system_.linearisation(part) : -1;
 }
 
@@ -78,8 +78,8 @@ void RattleStep::setSecondKick(const Part& part, const Loads& loads, double h) {
     endImpulse_[at(k)] = {};
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
       const int row = system_.axes()[at(a)].row;
-      // The implicit part's impulse, the same as in the first half, and what acts at the node. A driven row's own
-      // impulse is not among them.
+      // Impulse of the implicit part, the same as in the first half, and of the nodal forces. Excludes a driven row's
+      // own impulse.
       const double meanImpulse = soft_[at(a)].driven ? 0.5 * h * meanForce(a, h).force : impulse_[at(k)][at(row)];
       const double known = meanImpulse + 0.5 * h * (nodeForce(soft_[at(a)], x1_[at(a)]) + soft_[at(a)].applied1);
       if (known != 0) give(k, row, known);
@@ -183,7 +183,7 @@ void RattleStep::finishAxis(int a, State& state, double h) {
   }
   ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
   if (s.driven) {
-    // Impulse times mean rate in either half: right also when a law starts with an impact.
+    // Impulse times mean rate in each half: also correct if a law starts with an impact.
     const double meanRate = path / h, first = impulse_[at(k)][row] - 0.5 * h * meanForce(a, h).force;
     ledger.driveWork += 0.5 * (first * (startRate_[at(a)] + meanRate) +
                                endImpulse_[at(k)][row] * (meanRate + system_.rateOfAxis(a, twist_)));

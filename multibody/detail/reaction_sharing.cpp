@@ -14,27 +14,27 @@
 #include <utility>
 
 /// J^T W^-2 J is singular: it has no stiffness for free motions of the mechanism. With A = J^T W^-1 and mu = W lambda
-/// the right-hand side b = A mu_0 has no part along those motions, so that Tikhonov's iteration
+/// the right-hand side b = A mu_0 has no component along those motions, so that Tikhonov's iteration
 ///
 ///   (A A^T + epsilon) dy = b - A A^T y,   y <- y + dy
 ///
-/// goes to the solution by epsilon / (sigma^2 + epsilon) an iteration, sigma the singular values of A. Near singular
-/// positions one of them is small, and the error would violate the balance of forces; a last solve with the solver's
-/// own rows therefore carries J^T (lambda_0 - lambda) exactly.
+/// converges by a factor epsilon / (sigma^2 + epsilon) per iteration, with sigma the singular values of A. Near
+/// singular positions one of them is small, and the error would violate the force balance; a last solve with the
+/// solver's own rows therefore balances J^T (lambda_0 - lambda) exactly.
 ///
-/// The same bits on every machine: Eigen's simplicial factorisation of sparse matrices is made of scalar operations in
-/// the order that the pattern gives, unlike its dense products, whose blocks follow the size of the processor's caches.
+/// Results are bitwise equal on every machine: Eigen's sparse simplicial factorisation consists of scalar operations in
+/// an order fixed by the pattern, unlike its dense products, whose blocks depend on the cache sizes.
 namespace grouser::multibody::detail {
 
 namespace {
 
-/// epsilon over the largest diagonal entry of a joint.
+/// epsilon / largest diagonal entry of a joint.
 constexpr double kRegularisation = 1e-10;
 /// The iteration ends at round-off of b, when the residual is no longer halved, or at this limit.
 constexpr double kSharingRoundOff = 1e-15;
 constexpr int kMostIterations = 40;
 
-/// Sets of constraints that lie on common loops.
+/// Sets of constraints on common loops.
 class LoopSets {
 public:
   LoopSets(const ConstraintSystem& system) : parent_(system.constraints().size()) {
@@ -73,7 +73,7 @@ struct ReactionSharing::Group {
   /// One hard row. Its column of A: force and torque / L of a unit multiplier mu on bodies B and A.
   struct Row {
     int constraint = 0, row = 0;
-    int body_A = -1, body_B = -1; ///< in `nodes`; -1: immovable
+    int body_A = -1, body_B = -1; ///< indices in `nodes`; -1: immovable
     Eigen::Matrix<double, 6, 1> onA = Eigen::Matrix<double, 6, 1>::Zero(), onB = onA;
     bool moment = false;
     double start = 0, mu = 0; ///< W lambda of the solver, and after sharing
@@ -150,7 +150,7 @@ ReactionSharing::~ReactionSharing() = default;
 
 void ReactionSharing::addGroups(const Redundancy& redundancy, double momentLength) {
   LoopSets sets(system_);
-  std::map<int, std::vector<int>> members; // of the sets that have a redundant row
+  std::map<int, std::vector<int>> members; // sets that have a redundant row
   for (const auto& [constraint, row] : redundancy.rows) members[sets.find(constraint)];
   for (int k = 0; k < static_cast<int>(system_.constraints().size()); ++k)
     if (const auto found = members.find(sets.find(k)); found != members.end()) found->second.push_back(k);
@@ -178,7 +178,7 @@ void ReactionSharing::addGroups(const Redundancy& redundancy, double momentLengt
         }
     }
     group->length = momentLength > 0 ? momentLength : spacing(points);
-    // Joints at one point have no lever arm: forces and moments are independent, and any length works.
+    // Joints at one point have no lever arm: forces and moments decouple, and any length is valid.
     if (!(group->length > 0)) group->length = 1;
     groups_.push_back(std::move(group));
   }

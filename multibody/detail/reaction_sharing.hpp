@@ -10,11 +10,11 @@
 
 namespace grouser::multibody::detail {
 
-/// Reactions of redundantly constrained joints, by least norm.
+/// Reactions of redundantly constrained joints by the minimum-norm solution.
 ///
 /// With redundant rows the reactions J^T lambda = f are not unique: internal forces n with J^T n = 0 may be added
-/// without changing the motion. The solver drops redundant rows, so that its lambda_0 has zeros there; rigid-body
-/// mechanics does not determine the solution (Wojtyra 2005, Multibody Syst. Dyn. 14:23). This solution minimises
+/// without changing the motion. The solver drops redundant rows, so its lambda_0 is zero there; rigid-body mechanics
+/// does not determine the solution (Wojtyra 2005, Multibody Syst. Dyn. 14:23). This solution minimises
 ///
 ///   sum over joints of |F|^2 + |M / L|^2         F, M: force, and moment about the joint's point, of its hard rows
 ///
@@ -24,17 +24,17 @@ namespace grouser::multibody::detail {
 ///   lambda = W^-2 J y,   (J^T W^-2 J) y = J^T lambda_0:
 ///
 /// the reactions of identical, nearly rigid bearings of stiffness 1 in displacement and L^2 in rotation; y is the
-/// displacement of the bodies. L is the spacing of the joints that share: the root mean square of the distances between
-/// any two of them as the model places them.
+/// displacement of the bodies. L is the spacing of the joints involved: the root mean square of their mutual distances
+/// at the model's poses.
 ///
-/// For outputs only: uses its own system and does not change the state.
+/// For output only: uses its own system and does not change the state.
 class ReactionSharing {
 public:
   /// `momentLength`: L [m]; 0: the spacing of the joints.
   ReactionSharing(const Model& model, const Redundancy& redundancy, double momentLength);
   ~ReactionSharing();
 
-  /// Replaces the reactions of joints that share, one per joint, given the solver's reactions at `state`.
+  /// Replaces the reactions of redundantly constrained joints, given the solver's reactions at `state`, one per joint.
   void share(const State& state, std::vector<JointReaction>& reactions);
 
 private:
@@ -44,9 +44,9 @@ private:
   void solveGroup(Group& group);
 
   ConstraintSystem system_;
-  std::vector<AxisLaw> laws_; ///< one an axis: free
-  std::vector<Frame> frames_; ///< one a body, the world last
-  std::vector<Vector6> x_;    ///< one a node
+  std::vector<AxisLaw> laws_; ///< one per axis: free
+  std::vector<Frame> frames_; ///< one per body, the world last
+  std::vector<Vector6> x_;    ///< one per node
   std::vector<std::unique_ptr<Group>> groups_;
 };
 

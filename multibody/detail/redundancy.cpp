@@ -46,8 +46,8 @@ public:
     return rows;
   }
 
-  /// Turns the fastest link by `angle` [rad] along a velocity that the constraints allow: the starting twists made
-  /// compatible in attempt 0, a generic one in the others. Returns false if nothing moves.
+  /// Moves the fastest link by `angle` [rad] along an admissible velocity: the compatible part of the initial twists in
+  /// attempt 0, a generic one in the others. Returns false if nothing moves.
   bool perturb(const ConstraintSystem::Part& part, int attempt, double angle) {
     clear(part);
     for (const int node : part.bodies) {

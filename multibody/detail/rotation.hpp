@@ -19,7 +19,7 @@ inline Quat rotationBy(const Vec3d& angle) {
   const double s = 0.25 * norm2(angle); // h^2
   double c, f;
   if (s < 0.0625) {
-    // Taylor series in h^2; the first terms left out are below h^12 / 12! = 1.3e-16 and h^12 / 13! = 1e-17 for h < 1/4.
+    // Taylor series in h^2; the first omitted terms are below h^12 / 12! = 1.3e-16 and h^12 / 13! = 1e-17 for h < 1/4.
     c = 1 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 + s * (-1.0 / 3628800)))));
     f = 1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800)))));
   } else {
@@ -42,7 +42,7 @@ inline double inverseTangentFactor(double s) {
   return 0.25 * (1 - h * base::cos(h) / base::sin(h)) / s;
 }
 
-/// Unit quaternion of the rotation matrix with columns x, y, z, by the largest of its four components.
+/// Unit quaternion of the rotation matrix with columns x, y, z; divides by the largest of its four components.
 inline Quat quaternionOf(const Vec3d& x, const Vec3d& y, const Vec3d& z) {
   const double tw = 1 + x.x + y.y + z.z, tx = 1 + x.x - y.y - z.z, ty = 1 - x.x + y.y - z.z, tz = 1 - x.x - y.y + z.z;
   Quat q;
@@ -63,21 +63,21 @@ inline Vec3d rotationVector(const Quat& given) {
   const double w = sign * given.w;
   const Vec3d v{sign * given.x, sign * given.y, sign * given.z};
   const double q = norm2(v), r2 = q / (w * w);
-  // |phi| / |v| = 2 atan(r) / (r w), r = |v| / w; the first term left out of the series is below 1e-18.
+  // |phi| / |v| = 2 atan(r) / (r w), r = |v| / w; the first omitted term of the series is below 1e-18.
   if (w > 0.5 && r2 < 4e-4)
     return (2 / w * (1 + r2 * (-1.0 / 3 + r2 * (1.0 / 5 + r2 * (-1.0 / 7 + r2 * (1.0 / 9)))))) * v;
   const double n = sqrt(q);
   return (2 * base::atan2(n, w) / n) * v;
 }
 
-/// Gyroscopic part g of the discrete angular momentum S(w) = I w + g at the node where a step starts.
+/// Gyroscopic part g of the discrete angular momentum S(w) = I w + g at the start of a step.
 ///
-/// The body turns by exp(theta), theta = dt w, with constant w. The discrete Legendre transform of the Lagrangian
-/// dt/2 w.I w on the rotation group (Bou-Rabee and Marsden 2009, Found. Comput. Math. 9:197, with exp as the map) gives
+/// The body rotates by exp(theta), theta = dt w, with constant w. The discrete Legendre transform of the Lagrangian
+/// dt/2 w.I w on the rotation group (Bou-Rabee and Marsden 2009, Found. Comput. Math. 9:197, with exp as the map) is
 ///   S = I w + 1/2 theta x I w + beta theta x (theta x I w),   beta = (1 - h cot h) / (4 h^2),   h = |theta|/2.
-/// S is the same world vector at the end of the step, where I has turned along; so the update S_new = S_old + dt torque
-/// conserves angular momentum to the last digits, is symplectic, and the energy of a fast top stays bounded at any
-/// step.
+/// S is the same world vector at the end of the step, after I has rotated; so the update S_new = S_old + dt torque
+/// conserves angular momentum to round-off, is symplectic, and keeps the energy of a fast top bounded for any step
+/// size.
 inline Vec3d gyroscopicMomentum(const Mat3d& I_W, const Vec3d& w, double dt) {
   const Vec3d theta = dt * w, y = I_W * w;
   const Vec3d first = cross(theta, y);
@@ -95,16 +95,16 @@ inline double spreadOf(const Mat3d& I) {
   return (I.m[0][0] + I.m[1][1] + I.m[2][2]) * (xx + yy + zz) / (9 * determinant);
 }
 
-/// Solves S = I w + gyroscopicMomentum(I, w, dt) for w near `guess`, by Newton's method with the derivative at fixed
+/// Solves S = I w + gyroscopicMomentum(I, w, dt) for w near `guess`, by Newton's method with the derivative at constant
 /// beta:
 ///   dS/dw = I + dt/2 ([w] I - [I w]) + beta dt^2 (w.y + w y^T + w (I w)^T - |w|^2 I - 2 y w^T),   y = I w,
-/// each step halved until the residual falls. Where moments differ by orders of magnitude the fixed-point iteration
-/// with I alone diverges although the motion is slow.
+/// each step halved until the residual decreases. If the moments differ by orders of magnitude, the fixed-point
+/// iteration with I alone diverges even for slow motion.
 inline Vec3d angularVelocityOf(const Mat3d& I, const Vec3d& S, const Vec3d& guess, double dt) {
   Vec3d w = guess;
   const auto residual = [&](const Vec3d& v) { return S - (I * v + gyroscopicMomentum(I, v, dt)); };
   Vec3d r = residual(w);
-  // To round-off of S, some 6e-16 of it.
+  // Converge to round-off: about 6e-16 of S.
   for (int iteration = 0; iteration < 30 && norm2(r) > 4e-31 * norm2(S); ++iteration) {
     const Vec3d y = I * w;
     const double beta = inverseTangentFactor(0.25 * dt * dt * norm2(w)), q = beta * dt * dt;

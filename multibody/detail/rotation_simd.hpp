@@ -6,8 +6,8 @@
 
 namespace grouser::multibody::detail {
 
-/// Rotations of four bodies at a time: the formulas of rotation.hpp for small angles; where a lane's angle is not
-/// small, that lane is computed by rotation.hpp itself.
+/// Rotations of four bodies at a time: the formulas of rotation.hpp for small angles; lanes with larger angles are
+/// computed by rotation.hpp itself.
 
 struct QuatL {
   Lanes w, x, y, z;
@@ -29,7 +29,7 @@ GROUSER_SIMD QuatL rotationBy(const Vec3L& angle) {
   return q;
 }
 
-/// a b, normalised.
+/// Quaternion product a b, normalised.
 GROUSER_SIMD QuatL turned(const QuatL& a, const QuatL& b) {
   const QuatL q{a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
                 a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
@@ -74,7 +74,7 @@ GROUSER_SIMD Vec3L gyroscopicMomentum(const Lanes (&I)[6], const Vec3L& w, doubl
   return first * all(0.5) + cross(theta, first) * beta;
 }
 
-/// Angle of a given sine and cosine, by the series of the arc sine while it is small (axisPositionAfter()).
+/// Angle from its sine and cosine, by the series of the arc sine for small angles (axisPositionAfter()).
 GROUSER_SIMD Lanes angleIncrement(const Lanes& sine, const Lanes& cosine) {
   const Lanes q = sine * sine;
   Lanes angle = sine * (1.0 + q * (1.0 / 6 + q * (3.0 / 40 + q * (15.0 / 336 + q * (105.0 / 3456)))));

@@ -18,7 +18,7 @@ void add(SoftRow& row, const LinearSpring& spring) {
   row.damping += spring.damping;
 }
 
-/// Mean force of one end stop over a stage, out of the stop, in the direction of its overlap.
+/// Mean force of one end stop over a stage, outward, in the direction of its overlap.
 struct StopStage {
   double elastic = 0, damper = 0;
   double slope = 0; ///< slope of both over x1
@@ -38,7 +38,7 @@ StopStage stopStage(const AxisSpring& spring, double over0, double over1, double
   }
   stop.damper = spring.stopDamping * (over1 - over0) / h;
   if (over1 != 0) stop.slope += spring.stopDamping / h;
-  // A stop never pulls: on the way out its damper takes at most what the spring gives.
+  // A stop is never adhesive: during separation its damper is limited by the spring force.
   if (stop.damper != 0 && (stop.elastic + stop.damper) * (over0 + over1) <= 0)
     stop.damper = -stop.elastic, stop.slope = 0;
   return stop;
@@ -48,7 +48,7 @@ template <class Use> void forEachStop(const AxisSpring& spring, double x0, doubl
   const double over0 = overLimit(spring, x0), over1 = overLimit(spring, x1);
   if (over0 == 0 && over1 == 0) return;
   if (over0 * over1 >= 0) return use(stopStage(spring, over0, over1, x1 - x0, h));
-  // From one stop to the other within the stage.
+  // The axis moves from one stop to the other within the stage.
   use(stopStage(spring, over0, 0, x1 - x0, h)), use(stopStage(spring, 0, over1, x1 - x0, h));
 }
 

@@ -8,23 +8,23 @@
 
 namespace grouser::multibody::detail {
 
-/// Forces along one axis row over one stage of RATTLE, from position x0 to x1 in the time h.
+/// Force law along one axis row over one stage of RATTLE, from position x0 to x1 in the time h.
 struct SoftRow {
   double constant = 0;                        ///< springs: F = constant - stiffness x
   double stiffness = 0;                       ///< [N/m] or [N m/rad]
-  double damping = 0;                         ///< joint's and springs' dampers
-  double jointDamping = 0, springDamping = 0; ///< contributions
+  double damping = 0;                         ///< sum over dampers of the joint and springs
+  double jointDamping = 0, springDamping = 0; ///< contributions to `damping`
   double applied0 = 0;                        ///< force drives at the beginning and at the end of the stage
   double applied1 = 0;
   bool stops = false;  ///< has end stops
   bool driven = false; ///< position and rate are imposed
-  double target = 0;   ///< position at the end of the stage (law), or its increment (no law: `relative`)
+  double target = 0;   ///< imposed position at the end of the stage, or its increment (`relative`)
   bool relative = false;
   double rate = 0;         ///< at the end of the stage
   double acceleration = 0; ///< at the end of the stage
 };
 
-/// A force and its derivative.
+/// Force and its derivative.
 struct ForceAndSlope {
   double force = 0;
   double slope = 0; ///< -dF/dx1, >= 0 for h > 0
@@ -35,12 +35,12 @@ class SoftRows {
 public:
   SoftRows(const Model& model, const ConstraintSystem& system, const std::vector<double>& driveStart);
 
-  /// Laws over the stage from time t to t + h.
+  /// Evaluates the laws over the stage from time t to t + h.
   void evaluate(const Loads& loads, double t, double h, std::vector<SoftRow>& rows) const;
 
   /// End stops as discrete gradients of their energies V = stopStiffness over^2 / 2, with `over` beyond the limit:
-  ///   F = -(V(x1) - V(x0)) / (x1 - x0) - stopDamping (over1 - over0) / h,   0 where that would pull into the stop,
-  /// so that over a stage the work of the elastic part is -(V(x1) - V(x0)) exactly, whatever the stage.
+  ///   F = -(V(x1) - V(x0)) / (x1 - x0) - stopDamping (over1 - over0) / h,   0 where F would be adhesive,
+  /// so that over a stage the work of the elastic part is exactly -(V(x1) - V(x0)), for any stage length.
   ForceAndSlope stops(int axis, double x0, double x1, double h) const;
   /// Force of the stops at a position and rate.
   double stopForce(int axis, double x, double rate) const;
@@ -48,9 +48,9 @@ public:
   double springForce(const SoftRow& row, int axis, double x, double rate) const {
     return row.constant - row.stiffness * x + (row.stops ? stopForce(axis, x, rate) : 0);
   }
-  /// Energy of springs (with preloads, as constant forces) and stops at a position.
+  /// Energy of springs (with preloads as constant forces) and stops at a position [J].
   double energy(const SoftRow& row, int axis, double x) const;
-  /// Energy dissipated by the dampers of the stops over a stage.
+  /// Energy dissipated by the dampers of the stops over a stage [J].
   double stopLoss(int axis, double x0, double x1, double h) const;
 
 private:

@@ -49,7 +49,7 @@ private:
     return b[0] == body ? b[1] : b[0];
   }
 
-  /// Unreached bodies connected to the bodies of `level`, or to the world by `joints`; each by its strongest joint.
+  /// Unreached bodies connected to the bodies of `level`, or to the world by `joints`, each by its strongest joint.
   std::vector<int> reach(const std::vector<int>& level, const std::vector<int>& joints, int depth) {
     std::vector<int> next;
     const auto offer = [&](int k, int parent) {
@@ -75,7 +75,7 @@ private:
     while (!level.empty()) level = reach(level, {}, result_.links[at(level.front())].depth + 1);
   }
 
-  /// Picks an unreached body as root; -1 if there is none.
+  /// Selects an unreached body as root; -1 if there is none.
   int pickRoot() const {
     int most = -1;
     std::vector<int> candidates;
@@ -131,7 +131,7 @@ private:
       SpanningTree::Loop loop;
       loop.constraint = k;
       const std::set<int> own(edges_[at(k)].bodies.begin(), edges_[at(k)].bodies.end());
-      // A body passed by all of them, first met from below, is the top; the world is passed by all.
+      // The top is the first body common to all paths from below; the world is common to all.
       std::vector<int> met;
       for (const int b : own)
         for (int i = b; i >= 0; i = links[at(i)].parent)
@@ -146,7 +146,7 @@ private:
     }
   }
 
-  /// Deepest tops first; among these the one that couples the fewest others.
+  /// Deepest tops first; among these the one coupled to the fewest others.
   void orderLoops() {
     std::vector<SpanningTree::Loop>& loops = result_.loops;
     std::vector<std::vector<int>> passing(result_.links.size());

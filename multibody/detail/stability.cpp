@@ -72,7 +72,7 @@ double highestFrequency(const ConstraintSystem& system, const ConstraintSystem::
       g[i] = std::sqrt(stiffness[at(springs[i])]) * system.rowTimes(a.constraint, a.row, x);
     }
   };
-  // Alternating signs and different sizes: not orthogonal to the highest mode of springs in a row.
+  // Alternating signs and different magnitudes: not orthogonal to the highest mode of springs in series.
   for (std::size_t i = 0; i < springs.size(); ++i)
     f[i] = (i % 2 == 0 ? 1.0 : -1.0) * (1 + 0.1 * static_cast<double>(i % 7));
   double highest = 0;

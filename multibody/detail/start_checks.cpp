@@ -21,10 +21,10 @@ namespace {
 
 /// Largest gap of joints in a new model [m, rad].
 constexpr double kStartGap = 1e-6;
-/// A driven axis with less than this share of its free mobility counts as fixed by others.
+/// Fraction of its free mobility below which a driven axis counts as determined by others.
 constexpr double kFixedAxis = 1e-9;
 
-/// An axis with less than this share of its mobility is locked by couplings: round-off, below any gear reduction.
+/// Fraction of its mobility below which an axis counts as locked by couplings: round-off, below any gear reduction.
 constexpr double kLockedAxis = 1e-13;
 /// Relative difference of ratios that is attributed to rounded input.
 constexpr double kSameRatio = 1e-6;
@@ -35,10 +35,10 @@ template <class... Words> [[noreturn]] void refuse(const PartName& part, const W
   throw PartError(part, "", fault.str());
 }
 
-/// Free axes: hard rows only.
+/// Returns laws with free axes: hard rows only.
 std::vector<AxisLaw> hardOnly(const ConstraintSystem& system) { return std::vector<AxisLaw>(system.axes().size()); }
 
-/// List of what may hold an axis besides joints, for a message.
+/// List of elements besides joints that may lock an axis, for a message.
 std::string others(const Model& model, const std::string& drive) {
   std::string text;
   for (const Drive& d : model.drives())
@@ -53,7 +53,7 @@ struct Train {
   std::vector<int> couplings;
 };
 
-/// Transmission by the couplings before `end` from one axis to another; none if they do not connect the two.
+/// Transmission ratio of the couplings before `end` from one axis to another; empty if they do not connect the two.
 std::optional<Train> trainBetween(const std::vector<CouplingRow>& couplings, int from, int to, int end) {
   std::map<int, Train> reached{{from, {}}};
   for (std::vector<int> next{from}; !next.empty();) {
@@ -279,7 +279,7 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
     twist.push_back({body.v_WB, body.w_WB});
     fastest = std::max({fastest, norm(body.v_WB), norm(body.w_WB)});
   }
-  // Tolerance for input with few digits.
+  // Tolerance for input of limited precision.
   const double allowed = tolerance * std::max(1.0, fastest);
   const std::string remedy =
       "; set velocities that satisfy the constraints, or project them (start velocities: accept)";

@@ -8,7 +8,7 @@ namespace grouser::multibody::detail {
 
 inline constexpr Vector6 kStill{}; ///< zero motion
 
-/// A node's six numbers as (linear, angular) and back.
+/// Converts a node's six numbers to (linear, angular) and back.
 inline base::Vec3d linear(const Vector6& x) { return {x[0], x[1], x[2]}; }
 inline base::Vec3d angular(const Vector6& x) { return {x[3], x[4], x[5]}; }
 inline void set(Vector6& x, const base::Vec3d& v, const base::Vec3d& w) {

@@ -8,17 +8,17 @@
 
 namespace grouser::multibody::detail {
 
-/// Laws for linearise() with only the imposed axes active, with their rates at time t as `speed`.
+/// Returns laws for linearise() in which only imposed axes are active, with their rates at time t as `speed`.
 void imposedLaws(const ConstraintSystem& system, const Model& model, const Loads& loads, double t,
                  std::vector<AxisLaw>& laws);
 
 /// Projects the twists of one part onto the linearised constraints: solves
 ///   M dv - J^T dLambda = 0,   J (v + dv) = prescribed rate (0 for hard constraints and couplings).
-/// Adds dv to `twist`; the impulses stay in `x`.
+/// Adds dv to `twist`; returns the impulses in `x`.
 void projectTwists(const ConstraintSystem& system, const ConstraintSystem::Part& part, const std::vector<AxisLaw>& laws,
                    std::vector<Vector6>& x, std::vector<Twist>& twist);
 
-/// Rates of the joints' axes at a linearised system.
+/// Computes the rates of the joint axes at a linearised system.
 void readRates(const ConstraintSystem& system, State& state);
 
 } // namespace grouser::multibody::detail

@@ -42,7 +42,7 @@ def main(folder: str = "out/cruise_control", duration: float = 2.6) -> float:
             speed = sim.vehicle.speed
             if sim.vehicle.drive_start is not None and sim.time > sim.vehicle.drive_start:
                 integral += (GOAL - speed) * EVERY
-            wanted = GOAL + GAIN * (GOAL - speed) + INTEGRAL * integral  # of the tracks [m/s]
+            wanted = GOAL + GAIN * (GOAL - speed) + INTEGRAL * integral  # track speed [m/s]
             sim.set_sprocket_speed(wanted / sim.pitch_radius)
             sim.step_for(EVERY)
             if sim.time > duration - 0.5:

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))  # if the package is not installed
 import grouser  # noqa: E402
 
-SPEED = 3.0  # of the sprockets [rad/s]
+SPEED = 3.0  # sprocket speed [rad/s]
 RATE = 12.0  # integral gain of the force, in vehicle weights per second and unit slip [1/s]
 EVERY, DURATION = 0.01, 3.0  # [s]
 

@@ -13,12 +13,12 @@ from .errors import FileError
 from .files import fields_of
 from .series import Brief, Quantity
 
-_TOP_BITS, _LOW_BITS = 10, 32  # of a 42-bit coordinate: base/position.hpp
+_TOP_BITS, _LOW_BITS = 10, 32  # bits of a 42-bit coordinate: base/position.hpp
 
 
 def metres_of(words: numpy.ndarray, unit: float) -> numpy.ndarray:
-    """[n, 3] [m] from integer positions [n, 4]: low 32 bits of x, y and z, then three times 10 high bits; `unit`
-    [m]."""
+    """Positions [n, 3] [m] from integer positions [n, 4]: low 32 bits of x, y and z, then three times 10 high bits.
+    `unit` [m]."""
     low, high = words[:, :3].astype(numpy.int64), words[:, 3].astype(numpy.int64)
     top = numpy.stack([high >> (_TOP_BITS * axis) for axis in range(3)], axis=1) & (1 << _TOP_BITS) - 1
     top -= (top >> (_TOP_BITS - 1)) << _TOP_BITS  # the highest bit is the sign

@@ -79,7 +79,7 @@ class Check:
                            one.get("inconclusive", False))
 
     def __getitem__(self, name: str) -> CheckFigure:
-        """KeyError lists the figures."""
+        """Returns a figure by name. KeyError lists the figures."""
         if name not in self.figures:
             raise KeyError(f"{self.folder}: no figure {name!r}; figures are {', '.join(self.figures)}")
         return self.figures[name]
@@ -92,7 +92,7 @@ class Check:
 
     @property
     def not_run(self) -> dict[str, str]:
-        """{axis: why it was not run}"""
+        """{axis: reason for skipping it}"""
         with fields_of(self.folder / "check.json", "a check"):
             return {omitted["axis"]: omitted["why"] for omitted in self.json["not_asked"]}
 

@@ -92,7 +92,7 @@ class Events:
                         self.folder / Path(picture).parent if picture else None)
 
     def __getitem__(self, event: str) -> list[EventRow]:
-        """KeyError lists the events."""
+        """Returns the rows of an event. KeyError lists the events."""
         rows = [row for row in self.rows if row.event == event]
         if not rows:
             raise KeyError(f"{self.folder}: no event {event!r}; events are "

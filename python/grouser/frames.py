@@ -60,7 +60,7 @@ class Frame:
 
     @property
     def id(self) -> numpy.ndarray:
-        """[n] identity of each grain, constant during the run."""
+        """[n] id of each grain, constant during the run."""
         return self.grains("id")
 
     @property
@@ -85,7 +85,7 @@ class Frame:
 
     @property
     def has_fields(self) -> bool:
-        """Whether this frame has soil fields."""
+        """True if this frame has soil fields."""
         return "fields" in self._group
 
     def field(self, name: str) -> Field:
@@ -114,13 +114,13 @@ class Frame:
 
     @property
     def parts(self) -> Mesh:
-        """The parts as drawn."""
+        """Triangle meshes of the parts."""
         fixed = self._frames._file["parts"]
         return Mesh(self._group["parts/position"][:], fixed["triangles"][:], fixed["part"][:])
 
 
 def rotation(quaternion: numpy.ndarray) -> numpy.ndarray:
-    """[..., 3, 3] from quaternions [..., 4], scalar first: part frame to world frame."""
+    """Rotation matrices [..., 3, 3], part to world frame, from quaternions [..., 4], scalar first."""
     w, x, y, z = numpy.moveaxis(numpy.asarray(quaternion, dtype=float), -1, 0)
     rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
             [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],

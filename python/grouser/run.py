@@ -63,7 +63,7 @@ class Run:
         try:
             self._opened = h5py.File(self.file, "r", locking=False)
         except OSError as error:
-            raise FileError(f"{self.file}: cannot be read: {error}") from error
+            raise FileError(f"{self.file}: damaged or not an HDF5 file: {error}; run again or restore a copy") from error
         if "series/time" not in self._opened or "series/step" not in self._opened:
             self._opened.close()
             raise FileError(f"{self.file}: no series; not the results.h5 of a run")

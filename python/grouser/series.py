@@ -192,7 +192,7 @@ class Series(Quantity):
         return Series(column, self.unit, self.help, f"{self.name}.{label}", self.time, self.step)
 
     def between(self, start: float, end: float) -> Series:
-        """The rows with times in [start, end] [s]."""
+        """Returns the rows with times in [start, end] [s]."""
         return self._taken((self.time >= start) & (self.time <= end))
 
     def _taken(self, rows: slice | numpy.ndarray) -> Series:
@@ -207,7 +207,7 @@ class Series(Quantity):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Estimate:
-    """A value with half of its interval (95 % unless stated otherwise)."""
+    """A value with the half width of its interval (95 % unless stated otherwise)."""
 
     value: float  #: NaN if unknown
     half_width: float  #: inf or NaN if unknown
@@ -224,7 +224,7 @@ class Estimate:
 
     @property
     def inconclusive(self) -> bool:
-        """Whether the half width exceeds the value, so that its sign is not certain."""
+        """True if the half width exceeds the value: its sign is uncertain."""
         return abs(self.value) < self.half_width < float("inf")
 
     def __float__(self) -> float:
@@ -258,7 +258,7 @@ def estimate_text(value: float, half: float | None) -> tuple[str, str, int]:
 
 
 def number(value: float | None) -> float:
-    """A number of JSON; NaN for null (unknown)."""
+    """Converts a JSON number; NaN for null (unknown)."""
     return float("nan") if value is None else float(value)
 
 

@@ -184,10 +184,10 @@ class Simulation:
     @briefly
     def vehicle(self) -> SimpleNamespace:
         """Current vehicle state, copied: time [s], position of the middle of the sprocket axle line [m], centre of mass
-        of the hull [m] and its velocity [m/s], speed [m/s], heading (from x to y, counts on over turns), pitch (nose
+        of the hull [m] and its velocity [m/s], speed [m/s], heading (from x to y, continuous over turns), pitch (nose
         up), roll (right side down) [rad], turn_rate (to the left) [rad/s], ground_force, drawbar_pull [N], drive_start
-        [s] (None until it is known), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque [N m],
-        drive_power [W], speed [m/s], slip [-] (NaN while the sprocket stands) and, per shoe: tension, normal_force,
+        [s] (None until known), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque [N m],
+        drive_power [W], speed [m/s], slip [-] (NaN while the sprocket is stopped) and, per shoe: tension, normal_force,
         shear_force [N], sinkage [m]. Forces, torques, powers and sinkage are means over the last step(), and unknown
         (zero, NaN) before the first one and after restore().
         """

@@ -73,7 +73,7 @@ class SoilTest:
         return f"<grouser.SoilTest {self.folder}: {', '.join(map(str, (c.measured for c in self.constants.values())))}>"
 
     def __getitem__(self, name: str) -> Constant:
-        """KeyError lists the constants."""
+        """Returns a constant by name. KeyError lists the constants."""
         if name not in self.constants:
             raise KeyError(f"{self.folder}: no constant {name!r}; constants are {', '.join(self.constants)}")
         return self.constants[name]

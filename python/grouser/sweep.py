@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The results of a sweep: one row a run, and means with intervals over seeds."""
+"""The results of a sweep: one row per run, and means with intervals over seeds."""
 from __future__ import annotations
 
 import os
@@ -23,7 +23,7 @@ _BEHIND = ("state hash", "commit")
 
 
 def value_of(text: str) -> float:
-    """The number in a cell; NaN if it is empty or not a number."""
+    """Converts a cell to a number; NaN if it is empty or not numeric."""
     try:
         return float(text)
     except (TypeError, ValueError):  # None in a truncated row
@@ -44,7 +44,7 @@ class SweepRun:
     folder: Path
 
     def doubt(self, figure: str) -> str:
-        """Why this figure of the run is inconclusive, else ""."""
+        """Reason why this figure of the run is inconclusive, else ""."""
         named = self.inconclusive.removeprefix(_TURNED)
         return "" if named != self.inconclusive and figure not in named.split(", ") else self.inconclusive
 

@@ -18,13 +18,13 @@ namespace grouser::commands {
 
 namespace {
 
-constexpr double kDeep = 1.6, kWide = 9.6; // of the pad's width
+constexpr double kDeep = 1.6, kWide = 9.6; // [pad widths]
 constexpr double kGrainsInPad = 20;
 
-/// Mean diameter of the grains under a pad [m]; in a graded bed that of the surface layer, if it is deep enough for a
-/// plate to sink as in a uniform bed (docs/soils.md#virtual-soil-tests).
+/// Mean diameter of the grains under a pad [m]. In a graded bed: grains of the surface layer, if it is deep enough for
+/// a plate to sink as in a uniform bed (docs/soils.md#virtual-soil-tests).
 double pressedDiameter(const coupling::Simulation& simulation, double padWidth) {
-  constexpr double kFine = 0.1; // of the pad's width
+  constexpr double kFine = 0.1; // [pad widths]
   const std::optional<coupling::GrainsSetup>& grains = simulation.setup().ground.grains;
   const auto* random =
       grains && grains->bed ? std::get_if<terrain::RandomBedOptions>(&grains->bed->options.grains) : nullptr;
@@ -56,9 +56,10 @@ std::string bedText(const coupling::Simulation& simulation) {
   const coupling::SettleReport& settled = simulation.settled();
   std::string text;
   if (settled.steps > 0)
-    text = fmt::format("settled   in {:.2f} s simulated; kinetic energy ratio {:.2g} (per grain, over m g radius){}\n",
-                       settled.time, settled.agitation,
-                       settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
+    text = fmt::format(
+        "settled   in {:.2f} s of simulated time; kinetic energy ratio {:.2g} (mean per grain / (m g radius)){}\n",
+        settled.time, settled.agitation,
+        settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
   if (const std::optional<terrain::BedStructure>& bed = simulation.ground().structure; bed && bed->grains > 0)
     text += fmt::format(
         "packing   porosity {:.4f} +- {:.4f}, {:.2f} contacts per grain, {:.1f} % rattlers, {:.1f} % crystalline\n"
@@ -79,16 +80,16 @@ std::vector<std::string> bedNotes(const TrackOnBed& t) {
         t.thickness, t.padWidth, deep, deep));
   if (t.walls && t.width < wide)
     notes.push_back(fmt::format("the bed is {:.2f} m wide, but both tracks load a width of {:.2f} m: the walls confine "
-                                "the soil; use a width in terrain.size >= {:.2g} m to remove the wall effect",
+                                "the soil; set the width in terrain.size to {:.2g} m or more to remove the wall effect",
                                 t.width, wide, wide));
   if (t.pressedDiameter > fine)
-    notes.push_back(
-        fmt::format("a pad is {:.1f} mean grain diameters wide, fewer than {:g}: coarse grains overestimate bearing "
-                    "capacity; use terrain.grain_radius <= {:.2g} m, or a finer terrain.sieve_size",
-                    t.padWidth / t.pressedDiameter, kGrainsInPad, 0.5 * fine));
+    notes.push_back(fmt::format(
+        "track pads are only {:.1f} mean grain diameters wide (recommended: {:g}): coarse grains overestimate bearing "
+        "capacity; use terrain.grain_radius <= {:.2g} m, or a finer terrain.sieve_size",
+        t.padWidth / t.pressedDiameter, kGrainsInPad, 0.5 * fine));
   if (!t.roughFloor)
-    notes.emplace_back("the floor is smooth, so grains roll on it without resistance; set terrain.floor_grains = true "
-                       "for a rough floor");
+    notes.emplace_back(
+        "grains roll without resistance on the smooth floor; set terrain.floor_grains = true for a rough floor");
   return notes;
 }
 
@@ -122,13 +123,15 @@ std::string porosityWarning(double wanted, const terrain::BedStructure& bed, con
   constexpr double kOff = 0.01, kErrors = 3; // five times the tolerance of the preparation [-]; standard errors
   if (bed.grains == 0 || std::fabs(bed.porosity - wanted) <= std::max(kOff, kErrors * bed.porosityError)) return "";
   const double lean = leanOf(gravity);
-  return fmt::format("the settled bed has a porosity of {:.3f}, but terrain.porosity = {:g}: {}", bed.porosity, wanted,
-                     lean > 0 ? fmt::format("it was prepared under vertical gravity and moved when run.gravity, tilted "
-                                            "by {:.1f} degrees, began to act; raise the material's friction or "
-                                            "rolling_friction, reduce the tilt, or report the measured porosity",
-                                            lean)
-                              : "a small or shallow bed packs differently from the wide bed that its preparation is "
-                                "tuned on; enlarge terrain.size or depth, or report the measured porosity");
+  return fmt::format(
+      "the settled bed has a porosity of {:.3f}, but terrain.porosity = {:g}: {}", bed.porosity, wanted,
+      lean > 0
+          ? fmt::format(
+                "it settled under vertical gravity and shifted under the tilted run.gravity ({:.1f} degrees); raise "
+                "the material's friction or rolling_friction, reduce the tilt, or report the measured porosity",
+                lean)
+          : "small or shallow beds pack differently from the wide bed used to tune the settling friction; enlarge "
+            "terrain.size or depth, or report the measured porosity");
 }
 
 std::string porosityWarning(const coupling::Simulation& simulation) {

@@ -17,12 +17,12 @@ std::string bedText(const coupling::Simulation& simulation);
 
 /// Dimensions of a vehicle and of the bed under it.
 struct TrackOnBed {
-  double padWidth;     ///< b [m]
-  double gauge;        ///< between the middles of the tracks [m]
-  double thickness;    ///< of the bed [m]
-  double width;        ///< across the driving direction [m]
-  double meanDiameter; ///< of all grains [m]
-  bool walls;          ///< at the sides, instead of periodic boundaries
+  double padWidth;     ///< pad width b [m]
+  double gauge;        ///< distance between the track centre lines [m]
+  double thickness;    ///< bed thickness [m]
+  double width;        ///< bed width, across the driving direction [m]
+  double meanDiameter; ///< mean diameter of all grains [m]
+  bool walls;          ///< side walls instead of periodic boundaries
   bool roughFloor;
   double pressedDiameter; ///< mean diameter of the grains under the pads [m]
 };

@@ -33,19 +33,18 @@ std::vector<std::string> bedWarnings(const BedQuality& bed) {
   std::vector<std::string> warnings;
   const double share = bed.grains > 0 ? static_cast<double>(bed.fixed) / static_cast<double>(bed.grains) : 0;
   if (share > terrain::kMostFixed)
-    warnings.push_back(fmt::format("{:.0f} % of the bed's grains are fixed on its floor ({} of {}): less than a layer "
-                                   "of soil can move; raise terrain.depth, use smaller grains, or set "
-                                   "terrain.floor_grains = false",
-                                   100 * share, bed.fixed, bed.grains));
-  else if (bed.cover < kLeastCover)
     warnings.push_back(
-        fmt::format("the bed has {} loose grains, which cover {:.0f} % of its floor, less than one layer; "
-                    "raise terrain.depth or terrain.layers, or use smaller grains",
-                    bed.grains - bed.fixed, 100 * bed.cover));
+        fmt::format("{:.0f} % of the bed's grains are fixed on its floor ({} of {}), so less than one layer of soil "
+                    "can move; raise terrain.depth, use smaller grains, or set terrain.floor_grains = false",
+                    100 * share, bed.fixed, bed.grains));
+  else if (bed.cover < kLeastCover)
+    warnings.push_back(fmt::format("the bed has {} loose grains, which cover only {:.0f} % of its floor (less than one "
+                                   "layer); raise terrain.depth or terrain.layers, or use smaller grains",
+                                   bed.grains - bed.fixed, 100 * bed.cover));
   const double loosest = terrain::loosestPacking(bed.rollingFriction, bed.cohesion);
   if (bed.measured > 0 && bed.porosity - 3 * bed.porosityError > loosest)
-    warnings.push_back(fmt::format("the bed has a porosity of {:.2f}; random packings of {} are no looser than {:.2f}: "
-                                   "it is too thin, or not settled; raise terrain.depth, or use smaller grains",
+    warnings.push_back(fmt::format("the bed has a porosity of {:.2f}, but random packings of {} do not exceed {:.2f}: "
+                                   "the bed is too thin or not settled; raise terrain.depth, or use smaller grains",
                                    bed.porosity,
                                    bed.cohesion          ? "cohesive spheres"
                                    : bed.rollingFriction ? "spheres with rolling friction"

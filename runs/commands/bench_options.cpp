@@ -18,7 +18,7 @@ namespace {
 /// Options common to the benchmarks of beds and steps.
 void addCommon(CLI::App& sub, bench::BenchCommand& c) {
   sub.add_option("--device", c.device, "auto, cpu or cuda");
-  sub.add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
+  sub.add_option("--threads", c.threads, "number of CPU threads; 0: all cores")->check(support::wholeNumber(0, 1024));
   sub.add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));
 }
 
@@ -30,10 +30,11 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
   bed.add_option("--radius", b.radius, "grain radius [m]")
       ->check(support::positive("a length in metres"))
       ->capture_default_str();
-  bed.add_option("--jitter", b.jitter, "random displacement from the lattice, as a fraction of its free gap [-]")
+  bed.add_option("--jitter", b.jitter,
+                 "random initial displacement from the lattice sites, as a fraction of the gap between grains [-]")
       ->check(support::between(0.0, 1.0))
       ->capture_default_str();
-  bed.add_option("--friction", b.friction, "Coulomb coefficient [-]")
+  bed.add_option("--friction", b.friction, "Coulomb friction coefficient [-]")
       ->check(support::notNegative("a number"))
       ->capture_default_str();
   bed.add_option("--restitution", b.restitution, "coefficient of restitution [-]")
@@ -42,21 +43,22 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
   bed.add_option("--stiffness", b.stiffness, "contact stiffness [N/m]")
       ->check(support::positive("a stiffness in N/m"))
       ->capture_default_str();
-  CLI::Option* const spread =
-      bed.add_option("--radii-spread", b.radiiSpread,
-                     "half-width of uniformly distributed radii over their mean; same mean volume as with --radius [-]")
-          ->check(support::between(0.0, 0.8))
-          ->capture_default_str();
-  bed.add_flag("--hertz", b.hertz, "Hertz law, with stiffness --stiffness at an overlap of 1e-3 radii");
-  bed.add_option("--rolling", b.rolling, "rolling friction [-]")
+  CLI::Option* const spread = bed.add_option("--radii-spread", b.radiiSpread,
+                                             "half width of the uniform radius distribution over the mean radius; the "
+                                             "mean grain volume is that of --radius [-]")
+                                  ->check(support::between(0.0, 0.8))
+                                  ->capture_default_str();
+  bed.add_flag("--hertz", b.hertz, "use the Hertz law, with the stiffness of --stiffness at an overlap of 1e-3 radii");
+  bed.add_option("--rolling", b.rolling, "coefficient of rolling friction [-]")
       ->check(support::notNegative("a number"))
       ->capture_default_str();
   CLI::Option* const floor =
-      bed.add_flag("--fixed-floor", b.fixedFloor, "a layer of fixed grains in place of the plane below");
-  bed.add_flag("--periodic", b.periodic, "periodic boundaries along x and y, in place of walls");
+      bed.add_flag("--fixed-floor", b.fixedFloor, "use a layer of fixed grains as the floor instead of a plane");
+  bed.add_flag("--periodic", b.periodic, "use periodic boundaries along x and y instead of walls");
   bed.add_option("--start", b.start,
-                 "file of initial grains in place of the lattice, --grains lines of x, y, z, r [m], vx, vy, vz [m/s], "
-                 "wx, wy, wz [rad/s], as written by --save; all radii equal --radius")
+                 "read the initial grains from this file (written by --save) instead of using the lattice; one line "
+                 "per grain: x, y, z, r [m], vx, vy, vz [m/s], wx, wy, wz [rad/s]; the number of lines must equal "
+                 "--grains, all radii --radius")
       ->excludes(floor, spread);
   bed.add_option("--save", b.save, "write the grains to this file after the last batch")
       ->check(support::writableFile("--save"));
@@ -67,26 +69,26 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
   command->ranks = &invocation.ranks;
   bench::BedBench& b = command->bed;
   CLI::App* bed = benches.add_subcommand(
-      "bed", "Grains only: five settled layers in a box, the reference bed of speed comparisons");
+      "bed", "Benchmark the grains alone: five settled layers in a box, the reference bed for speed comparisons");
   addGrains(*bed, b);
-  bed->add_option("--lanes", b.lanes, "maximum SIMD width of the CPU, in contacts: 16, 8, 4 or 1")
+  bed->add_option("--lanes", b.lanes, "maximum number of contacts per SIMD vector on the CPU: 16, 8, 4 or 1")
       ->check(CLI::IsMember({16, 8, 4, 1}))
       ->capture_default_str();
-  bed->add_option("--skin", b.skin, "skin of the neighbour lists, in grain radii [-]")
+  bed->add_option("--skin", b.skin, "skin distance of the neighbour lists, in grain radii [-]")
       ->check(support::between(1e-3, 4.0))
       ->capture_default_str();
   bed->add_option("--time-step", b.timeStep, "time step [s]")
       ->check(support::positive("a time in seconds"))
       ->capture_default_str();
-  bed->add_option("--settle", b.settleTime, "simulated time before timing [s]")
+  bed->add_option("--settle", b.settleTime, "simulated time before the timing starts [s]")
       ->check(support::notNegative("a time in seconds"))
       ->capture_default_str();
-  bed->add_option("--steps", b.steps, "steps per batch; default: about one second of run time")
+  bed->add_option("--steps", b.steps, "number of steps per batch; default: about one second of wall time")
       ->check(support::wholeNumber(1));
   bed->add_option("--batches", b.batches, "timed batches")->check(support::wholeNumber(1, 1000))->capture_default_str();
   support::addChoice(*bed, "--peer-memory", b.peerMemory,
                      "direct memory access between the GPUs of one machine: if possible, never, or required");
-  bed->add_flag("--ledger", b.ledger, "keep an energy ledger, as runs do");
+  bed->add_flag("--ledger", b.ledger, "include energy accounting, as in runs");
   bed->add_flag("--hash", b.hash, "print the hash of the final state");
   addCommon(*bed, *command);
   bed->callback([command, words = invocation.words] {
@@ -105,7 +107,7 @@ std::string timeIn(const std::string& word) {
 std::string startFault(const std::string& word) {
   std::string time = timeIn(word);
   if (support::notNegative("a time in seconds")(time).empty()) return "";
-  return word + " is not a time in seconds of at least 0, drive, or drive+TIME, e.g. drive+0.5";
+  return word + " is neither a time in seconds (0 or more) nor drive or drive+TIME, e.g. drive+0.5";
 }
 
 void setStart(bench::StepBenchOptions& o, const std::string& word) {
@@ -117,7 +119,7 @@ void addStep(CLI::App& benches, const Invocation& invocation) {
   const auto command = std::make_shared<bench::BenchCommand>();
   bench::BenchCommand& c = *command;
   c.ranks = &invocation.ranks;
-  CLI::App* step = benches.add_subcommand("step", "Wall time of each part of a scene's time step");
+  CLI::App* step = benches.add_subcommand("step", "Benchmark the time step of a scene: wall time of each part");
   step->add_option("scene", c.scene, "scene file")->required();
   step->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
   step->add_option("--steps", c.step.steps, "steps per batch")->check(support::wholeNumber(1))->capture_default_str();
@@ -126,8 +128,8 @@ void addStep(CLI::App& benches, const Invocation& invocation) {
       ->capture_default_str();
   step->add_option_function<std::string>(
           "--after", [command](const std::string& word) { setStart(command->step, word); },
-          "simulated time before timing [s]; drive or drive+T: until T seconds after the start of the drive; default: "
-          "until the drive has reached its speed")
+          "simulated time before the timing starts [s]; drive or drive+T: T seconds after the sprockets start; "
+          "default: when the sprockets have reached full speed")
       ->check(CLI::Validator([](const std::string& word) { return startFault(word); }, "TIME|drive|drive+TIME"));
   addCommon(*step, c);
   step->callback([command, words = invocation.words] {
@@ -142,26 +144,29 @@ void addContacts(CLI::App& benches, const Invocation& invocation) {
   bench::ContactsBench& c = *command;
   c.ranks = &invocation.ranks;
   CLI::App* contacts = benches.add_subcommand(
-      "contacts", "Contact detection only, over the number of contacts, compared with sequential Bullet");
+      "contacts", "Benchmark contact detection alone over the number of contacts, with sequential Bullet as reference");
   contacts
-      ->add_option(
-          "--contacts", c.contacts,
-          "approximate numbers of contacts, each pair once, e.g. 1e5,1e6,1e7; default: 3e4 to 1e7 on the CPU, 1e6 to "
-          "6e9 on a GPU")
+      ->add_option("--contacts", c.contacts,
+                   "approximate numbers of contacts, counting each pair once, e.g. 1e5,1e6,1e7; default: 3e4 to 1e7 on "
+                   "the CPU, 1e6 to 6e9 on a GPU")
       ->delimiter(',')
       ->check(support::between(1.0, 6.4e9));
-  contacts->add_flag("--count-only", c.countOnly, "count the pairs, do not store them");
-  contacts->add_option("--at-a-time", c.atATime, "spheres sorted at a time; default: all on the CPU, 2.5e8 on a GPU")
+  contacts->add_flag("--count-only", c.countOnly, "count the pairs without storing them");
+  contacts
+      ->add_option("--at-a-time", c.atATime,
+                   "number of spheres sorted per batch; default: all on the CPU, 2.5e8 on a GPU")
       ->check(support::wholeNumber(1));
-  contacts->add_option("--repeats", c.repeats, "repetitions of each search; the median is reported")
+  contacts->add_option("--repeats", c.repeats, "number of repetitions of each search; the median is reported")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   contacts
-      ->add_option("--bullet", c.bulletSpheres, "largest number of spheres to compare with Bullet; 0: no comparison")
+      ->add_option("--bullet", c.bulletSpheres,
+                   "maximum number of spheres for the comparison with Bullet; 0: no comparison")
       ->check(support::wholeNumber(0, 10'000'000))
       ->capture_default_str();
   contacts->add_option("--device", c.device, "auto, cpu or cuda")->capture_default_str();
-  contacts->add_option("--threads", c.threads, "CPU threads, 0 for all")->check(support::wholeNumber(0, 1024));
+  contacts->add_option("--threads", c.threads, "number of CPU threads; 0: all cores")
+      ->check(support::wholeNumber(0, 1024));
   contacts->add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));
   contacts->add_option("--plot", c.plot, "plot the results to this PNG file");
   contacts->callback([command, words = invocation.words] {
@@ -175,7 +180,8 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
   bench::MultibodyBench& c = *command;
   c.comm = comm;
   CLI::App* multibody = benches.add_subcommand(
-      "multibody", "Multibody solver only, on one core: the vehicle, and rings of 46, 92 and 184 shoes");
+      "multibody",
+      "Benchmark the multibody solver alone, on one core: a vehicle, and rings of 46, 92 and 184 track shoes");
   multibody->add_option("--vehicle", c.vehicle, "vehicle file; default: the light tracked vehicle");
   multibody->add_option("--speed", c.speed, "sprocket speed [rad/s]")
       ->check(support::between(-20.0, 20.0))
@@ -194,7 +200,8 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
 } // namespace
 
 void addBench(CLI::App& app, const Invocation& invocation) {
-  CLI::App* benches = app.add_subcommand("bench", "Speed benchmarks, with machine and commit");
+  CLI::App* benches =
+      app.add_subcommand("bench", "Measure the speed of the program; results include machine and commit");
   benches->require_subcommand(1);
   addBed(*benches, invocation);
   addStep(*benches, invocation);

@@ -32,8 +32,8 @@ void checkCommand(CheckCommand command) {
   sweeps::checkGivenOnce(options.fixed);
   for (const std::string& set : options.fixed)
     if (sweeps::keyOf(set) == "run.seed")
-      throw base::InputError("--set run.seed: a check runs several seeds, starting with that of the scene; change "
-                             "run.seed in the scene file");
+      throw base::InputError(
+          "--set run.seed: a check runs several seeds, starting with run.seed of the scene file; change it there");
   for (const std::string& word : command.axes) options.axes.push_back(sweeps::checkAxisOf(word));
   const std::filesystem::path file = command.scene;
   options.sweep.program = std::filesystem::read_symlink("/proc/self/exe");
@@ -47,25 +47,26 @@ void checkCommand(CheckCommand command) {
 void addCheck(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<CheckCommand>();
   CheckCommand& c = *command;
-  CLI::App* check = app.add_subcommand("check", "Error bars of a scene's figures by step, seed, extent and grain size");
+  CLI::App* check = app.add_subcommand(
+      "check",
+      "Compute error bars of a scene's results from runs with other time steps, seeds, domain sizes and grain sizes");
   check->add_option("scene", c.scene, "scene file")->required();
   check->add_option("--set", c.options.fixed, kSetHelp)->allow_extra_args(false);
   check
       ->add_option("--seeds", c.options.seeds,
-                   "number of seeds of each case, starting with run.seed, where the seed has an effect; a maximum with "
-                   "--budget or --of; default: 8, with --of 24")
+                   "number of seeds per case, starting with run.seed, if the seed affects the scene; upper limit with "
+                   "--budget or --of; default: 8, or 24 with --of")
       ->check(support::wholeNumber(2, 1000));
   check
-      ->add_option(
-          "--bar", c.options.percent,
-          "tolerance of the verdict equal, and target of --of, in percent of a figure's value (10 or 10%); default: 5")
+      ->add_option("--bar", c.options.percent,
+                   "tolerance within which values count as equal, and target error bar of --of, in percent of the "
+                   "value (10 or 10%); default: 5")
       ->transform(support::percentSign())
-      ->check(support::positive("a share in percent"));
+      ->check(support::positive("a percentage"));
   check
-      ->add_option(
-          "--of", c.options.figures,
-          "figures whose error bars are reduced to --bar, with the runs that do so at the least cost: sinkage, "
-          "torque, speed, slip, tension, motion_resistance, or any figure of check.json")
+      ->add_option("--of", c.options.figures,
+                   "reduce the error bars of these figures to --bar with the fewest runs: sinkage, torque, speed, "
+                   "slip, tension, motion_resistance, or any figure listed in check.json")
       ->delimiter(',');
   check
       ->add_option(
@@ -75,14 +76,15 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->delimiter(',');
   check
       ->add_option("--draws", c.options.draws,
-                   "samples of the constants of deformable soil, for the parameter error of each figure; default: 0")
+                   "number of random samples of the constants of deformable soil, which add the parameter uncertainty "
+                   "to the error bars; default: 0")
       ->check(support::wholeNumber(0, 1000));
   check->add_option("--budget", c.options.budget,
-                    "limit of the total wall time, e.g. 90s, 20min or 1.5h; the first run decides which runs fit, the "
-                    "others are listed");
+                    "limit on the total wall time, e.g. 90s, 20min or 1.5h; runs that do not fit, judged by the "
+                    "duration of the first run, are skipped and listed");
   addProcessOptions(
       *check, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
-      "folder for the runs' folders and the results; default: out/NAME_check");
+      "folder of the runs and results; default: out/NAME_check");
   check->callback([command] { checkCommand(*command); });
 }
 

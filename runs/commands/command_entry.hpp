@@ -36,7 +36,7 @@ struct CommandEntry {
 std::vector<CommandEntry> allCommands();
 
 constexpr const char* kSetHelp =
-    "override a key of the scene, e.g. driver.sprocket_speed=2, or remove one, e.g. ~terrain.tile; may be repeated";
+    "override a scene key, e.g. driver.sprocket_speed=2, or remove it, e.g. ~terrain.tile; may be repeated";
 
 void addRun(CLI::App& app, const Invocation& invocation);
 void addSweep(CLI::App& app, const Invocation& invocation);

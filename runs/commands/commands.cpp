@@ -72,8 +72,8 @@ void nameIfThere(const char* what, const fs::path& file) {
 void chooseCheckpoint(const RunCommand& command, const setup::Provenance& provenance, session::RunRequest& options) {
   std::error_code error;
   if (!command.checkpoint.empty() && !fs::is_regular_file(command.checkpoint, error))
-    throw base::InputError(fmt::format("--resume {}: there is no such file; give the checkpoint.h5 of a run, or omit "
-                                       "the name to use the one in the run's own folder",
+    throw base::InputError(fmt::format("--resume {}: no such file; specify the checkpoint.h5 of a run, or omit the "
+                                       "file name to use the checkpoint in the results folder",
                                        command.checkpoint));
   options.resume =
       command.checkpoint.empty() ? options.folder / storage::kCheckpointName : fs::path(command.checkpoint);
@@ -87,9 +87,10 @@ void chooseCheckpoint(const RunCommand& command, const setup::Provenance& proven
   }
   if (!isNamed) options.folder += "_branch";
   if (fs::equivalent(options.folder, home, error))
-    throw base::InputError(fmt::format("{}: holds the original run, from which [driver] or [hitch] of the branch "
-                                       "differs; name another folder with --out, and the checkpoint with --resume {}",
-                                       options.folder.string(), options.resume->string()));
+    throw base::InputError(
+        fmt::format("{}: contains the original run, whose [driver] or [hitch] differs from this scene; to start a "
+                    "branch, set another folder with --out, and the checkpoint with --resume {}",
+                    options.folder.string(), options.resume->string()));
 }
 
 /// Wall time of preparation and steps [s], without pictures.
@@ -140,7 +141,7 @@ void runCommand(const RunCommand& command) {
       nameIfThere("file", options.folder / file);
   if (scene.vehicle && !options.untilRest)
     fmt::print("{}", driveFiguresText(options.folder, command.beside, summary.incomplete));
-  fmt::print("{}results   {} (page for a browser: grouser report {})\n", energyText(summary), options.folder.string(),
+  fmt::print("{}results   {} (HTML report: grouser report {})\n", energyText(summary), options.folder.string(),
              support::shellWord(options.folder.string()));
   if (!command.steps && !options.untilRest)
     fmt::print("{}",
@@ -180,9 +181,9 @@ void sinkageCommand(const SinkageCommand& command) {
   support::requireFolder(folder);
   if (command.shoes.empty()) {
     if (!command.control.empty())
-      throw base::InputError("--control requires --shoes: the shoes to compare, such as 10-13,20");
+      throw base::InputError("--control requires --shoes; set the shoes to compare, e.g. --shoes 10-13,20");
     if (!command.track.empty())
-      throw base::InputError("--track requires --shoes: the shoes of that track, such as 10-13,20");
+      throw base::InputError("--track requires --shoes; set shoes of that track, e.g. --shoes 10-13,20");
     fmt::print("sinkage   {}\n", output::writeSinkageCsv(results, folder).string());
     return drawAndName(results, folder, {"sinkage"});
   }
@@ -237,8 +238,8 @@ void spheresCommand(const SpheresCommand& command) {
   options.radius = command.radius, options.targetCount = command.count;
   std::error_code error;
   if (!command.csv.empty() && !command.force && fs::exists(command.csv, error))
-    throw base::InputError(
-        fmt::format("--csv {}: the file already exists; name another, or overwrite it with --force", command.csv));
+    throw base::InputError(fmt::format(
+        "--csv {}: the file already exists; choose another name, or overwrite it with --force", command.csv));
   const base::TriangleMesh mesh = spheredecomp::importMesh(command.mesh);
   std::optional<storage::SphereCache> kept = storage::SphereCache::ofUser();
   const base::SphereSet set =

@@ -21,16 +21,16 @@ struct RunCommand {
   std::string folder;         ///< empty: as the scene says
   std::optional<std::int64_t> steps;
   bool force = false;
-  bool cache = true; ///< of settled beds
+  bool cache = true; ///< use the cache of settled beds
   bool hash = false;
   bool verbose = false; ///< print ledger, momentum, times and all files
-  std::string beside;   ///< folder of another run whose figures stand in a second column; empty: none
+  std::string beside;   ///< folder of another run to print in a second column; empty: none
   bool resume = false;
-  std::string checkpoint; ///< of --resume; empty: that of the folder
+  std::string checkpoint; ///< checkpoint for --resume; empty: the one in the folder
   std::string replay;     ///< folder of the run to repeat, instead of a scene; empty: none
   std::string until;      ///< "rest": stop before the drive; empty: at the end
   std::string commandLine;
-  const base::Ranks* ranks = nullptr; ///< that run it together
+  const base::Ranks* ranks = nullptr; ///< ranks of the run
 };
 void runCommand(const RunCommand& command);
 
@@ -45,7 +45,7 @@ struct SweepCommand {
   double seconds = 0; ///< no run starts after this wall time; 0: no limit
   bool force = false;
   bool branches = false;  ///< all runs branch from one checkpoint
-  std::string checkpoint; ///< the checkpoint; empty: one of a vehicle that the sweep lowers
+  std::string checkpoint; ///< checkpoint to branch from; empty: the sweep settles the vehicle first
 };
 /// Throws SimulationError after all runs have ended, if one has failed.
 void sweepCommand(const SweepCommand& command);
@@ -71,10 +71,10 @@ struct PlanCommand {
   int ranks = 1;              ///< number of ranks of the planned run
   std::string device;         ///< empty: as the scene says
   std::optional<int> threads; ///< empty: as the scene says
-  std::string folder;         ///< of the results; empty: as the scene says
+  std::string folder;         ///< results folder; empty: as the scene says
   bool forecast = true;       ///< predict the run time, by a short probe
-  bool probe = false;         ///< with the long probe
-  bool cache = true;          ///< of settled beds and sphere sets, as in a run
+  bool probe = false;         ///< use the long probe
+  bool cache = true;          ///< use the caches of settled beds and sphere sets, as in a run
   std::string json;           ///< file for the forecast; empty: none
 };
 /// Throws InputError, after printing, if the run does not fit this machine.

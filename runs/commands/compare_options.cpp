@@ -35,7 +35,8 @@ struct CompareCommand {
 void compareCommand(CompareCommand command) {
   sweeps::CompareOptions& options = command.options;
   if (command.grounds.empty() == command.contacts.empty())
-    throw base::InputError("compare needs either --grounds or --contact, with two or more words");
+    throw base::InputError(
+        "compare requires either --grounds or --contact with two or more values, separated by commas");
   if (!command.grounds.empty()) options.grounds = sweeps::groundsOf(command.grounds);
   if (!command.contacts.empty()) options.contacts = sweeps::contactsOf(command.contacts);
   addDeviceOverrides(options.fixed, command.device, command.threads);
@@ -61,8 +62,8 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
   const auto command = std::make_shared<CompareCommand>();
   CompareCommand& c = *command;
   c.options.words = invocation.words;
-  CLI::App* compare = app.add_subcommand("compare", "One scene on several kinds of ground, or with several contact "
-                                                    "methods: figures, differences with verdicts, cost");
+  CLI::App* compare = app.add_subcommand("compare", "Compare runs of one scene on several kinds of ground, or with "
+                                                    "several contact methods: figures, differences, cost");
   compare->add_option("scene", c.scene, "scene file")->required();
   compare
       ->add_option(
@@ -71,24 +72,26 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
       ->delimiter(',');
   compare
       ->add_option("--contact", c.contacts,
-                   fmt::format("two or more of {}, separated by commas; in place of --grounds",
+                   fmt::format("two or more of {}, separated by commas; instead of --grounds",
                                fmt::join(base::wordsOf<scene::ContactMethod>(), ", ")))
       ->delimiter(',');
   compare
       ->add_option("--seeds", c.options.seeds,
-                   "number of seeds of granular ground, one run each; other grounds have one run")
+                   "number of seeds on granular ground, one run each; other kinds of ground require a single run")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
-  compare->add_option("--set", c.options.fixed, std::string(kSetHelp) + "; keys of one kind of ground apply only to it")
+  compare
+      ->add_option("--set", c.options.fixed,
+                   std::string(kSetHelp) + "; keys of one kind of ground affect only that ground")
       ->allow_extra_args(false);
   compare
       ->add_option("--bar", c.options.percent,
-                   "tolerance of the verdict equal, in percent of the larger mean (10 or 10%); default: 5")
+                   "tolerance within which means count as equal, in percent of the larger mean (10 or 10%); default: 5")
       ->transform(support::percentSign())
-      ->check(support::positive("a share in percent"));
+      ->check(support::positive("a percentage"));
   addProcessOptions(
       *compare, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
-      "folder for the runs' folders and the tables; default: out/NAME_compare");
+      "folder of the runs and tables; default: out/NAME_compare");
   compare->callback([command] { compareCommand(*command); });
 }
 

@@ -71,14 +71,14 @@ void addCommands(CLI::App& app, const std::vector<commands::CommandEntry>& all,
     if (command.ranks != commands::RankUse::refused) continue;
     app.get_subcommand(command.name)->preparse_callback([command, comm = invocation.ranks.comm()](std::size_t) {
       if (!comm.alone())
-        throw base::InputError(fmt::format("grouser {} does not support MPI ({} ranks): start it without mpirun{}",
+        throw base::InputError(fmt::format("grouser {} does not support MPI ({} ranks); start it without mpirun{}",
                                            command.name, comm.size(), command.insteadOfRanks));
     });
   }
 }
 
 int failToPrint(const base::Ranks& ranks) {
-  return fail(ranks, support::FailureKind::notWritten, "the standard output could not be written; is the disk full?");
+  return fail(ranks, support::FailureKind::notWritten, "cannot write to standard output; is the disk full?");
 }
 
 /// The command that resumes the stopped one, or repeats it if it left nothing.
@@ -143,10 +143,10 @@ int main(int argc, char** argv) {
   app.formatter(commands::helpFormatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", support::versionText());
-  app.footer("Exit codes: 0 success, 1 internal error, 2 invalid input, 3 unsound simulation or results not written, 4 "
-             "device or memory error, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.\nSettled beds and sphere "
-             "sets are cached in GROUSER_CACHE, otherwise in $XDG_CACHE_HOME/grouser, otherwise in ~/.cache/grouser, "
-             "up to GROUSER_CACHE_GIB (default 2) GiB.");
+  app.footer("Exit codes: 0 success, 1 internal error, 2 invalid input, 3 unsound simulation or results that could not "
+             "be written, 4 device or memory error, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.\nSettled "
+             "beds and sphere sets are cached in $GROUSER_CACHE (default: $XDG_CACHE_HOME/grouser or "
+             "~/.cache/grouser), up to $GROUSER_CACHE_GIB GiB (default: 2).");
   try {
     parseAndRun(app, argc, argv, ranks);
     return printedAll() ? 0 : failToPrint(ranks);

@@ -156,9 +156,9 @@ std::string head(const std::string& name, const std::string& description) {
 
 constexpr const char* kEnvironment =
     ".SH ENVIRONMENT\n.TP\n\\fBGROUSER_CACHE\\fR, \\fBGROUSER_CACHE_GIB\\fR\ncache folder of settled beds and sphere "
-    "sets, and its maximum size in GiB\n.TP\n\\fBGROUSER_GPU\\fR\nindex of the first GPU to use, counted from 0; ranks "
-    "and concurrent runs use the next ones in turn\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets and plot scripts, in "
-    "place of the installed one\n";
+    "sets, and its maximum size in GiB\n.TP\n\\fBGROUSER_GPU\\fR\nindex of the first GPU to use, counted from 0; MPI "
+    "ranks and concurrent runs use this and the following GPUs in turn\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets "
+    "and plot scripts that replaces the installed one\n";
 
 /// Completions of a command: "run" or "bench bed".
 void addCases(const CLI::App& app, const std::string& path, std::string& text) {
@@ -216,9 +216,8 @@ std::string manualPage(const CLI::App& app, const CLI::App* command) {
 
 std::string optionsDocument(const CLI::App& app) {
   return "<!-- Written by `grouser manual --markdown > docs/options.md`: change the commands in the source, not this "
-         "file. "
-         "-->\n# Options\n\nArguments and options of all commands, as `--help` prints them. Purpose of the commands: "
-         "[commands.md](commands.md).\n" +
+         "file. -->\n# Options\n\nArguments and options of all commands, as printed by `--help`. See "
+         "[commands.md](commands.md) for an overview.\n" +
          commandsInMarkdown(app, "grouser");
 }
 
@@ -262,7 +261,7 @@ void writeManual(const CLI::App& app, const std::filesystem::path& folder) {
   const std::filesystem::path pages = folder / "man/man1", completions = folder / "bash-completion/completions";
   for (const std::filesystem::path& made : {pages, completions})
     if (std::error_code error; std::filesystem::create_directories(made, error), error)
-      throw base::InputError(fmt::format("{}: the folder cannot be created ({}); name another with --folder",
+      throw base::InputError(fmt::format("{}: cannot create the folder ({}); choose another with --folder",
                                          made.string(), error.message()));
   support::replaceTextFile(pages / "grouser.1", manualPage(app, nullptr));
   for (const CLI::App* command : commandsOf(app))

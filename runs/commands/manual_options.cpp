@@ -42,15 +42,16 @@ void manualCommand(const CLI::App& app, const ManualCommand& c) {
 
 void addManual(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<ManualCommand>();
-  CLI::App* manual =
-      app.add_subcommand("manual", "The manual page of the program or of a command, for man; completion for bash");
-  CLI::Option* name = manual->add_option("command", command->command, "command of the page; default: the program");
+  CLI::App* manual = app.add_subcommand(
+      "manual", "Print the manual page of the program or of a command (for man), or the completion script for bash");
+  CLI::Option* name =
+      manual->add_option("command", command->command, "command to document; default: the whole program");
   CLI::Option* completion =
-      manual->add_flag("--completion", command->completion, "print the completion for bash instead");
+      manual->add_flag("--completion", command->completion, "print the completion script for bash instead");
   CLI::Option* markdown =
       manual->add_flag("--markdown", command->markdown, "print the options of all commands, as in docs/options.md");
-  CLI::Option* folder =
-      manual->add_option("--folder", command->folder, "write all pages and the completion below this folder instead");
+  CLI::Option* folder = manual->add_option("--folder", command->folder,
+                                           "write all manual pages and the completion script to this folder instead");
   completion->excludes(name), folder->excludes(name), folder->excludes(completion);
   markdown->excludes(name), markdown->excludes(completion), markdown->excludes(folder);
   manual->callback([command, &app] { manualCommand(app, *command); });

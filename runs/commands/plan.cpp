@@ -62,7 +62,7 @@ std::string obstaclesLine(const scene::Scene& scene) {
   std::string names;
   for (const coupling::Obstacle& o : setup::obstaclesOf(scene)) names += (names.empty() ? "" : ", ") + o.surface.name;
   const std::string hull = setup::hullTouches(scene) ? "hull contact on" : "hull contact off";
-  return onOff(!names.empty(), "obstacles", (names.empty() ? "none in contact with the vehicle" : names) + "; " + hull);
+  return onOff(!names.empty(), "obstacles", (names.empty() ? "none can touch the vehicle" : names) + "; " + hull);
 }
 
 /// Reason why soil does not adhere to the vehicle.
@@ -103,7 +103,8 @@ std::string surfacesLine(const scene::Scene& scene) {
     s.free ? ++freed : moved += s.moves ? 1 : 0;
     both += s.free && (s.section.velocity || s.section.spin || s.section.amplitude) ? 1 : 0;
   }
-  if (names.empty()) return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], no moving or named plane");
+  if (names.empty())
+    return onOff(false, "surfaces", "no [[box]], [[cylinder]] or [[mesh]], and no moving or named [[plane]]");
   return onOff(true, "surfaces",
                fmt::format("{}; {} moved, {} free{}", names, moved, freed,
                            both > 0 ? fmt::format(", {} of these also driven", both) : ""));
@@ -112,7 +113,7 @@ std::string surfacesLine(const scene::Scene& scene) {
 /// "plate, 12 grains; the bed settles without them".
 std::string putOnBedLine(const scene::Scene& scene) {
   if (!setup::isPutOnBed(scene))
-    return onOff(false, "placed on settled bed", "no grain, mesh or moving surface with a bed");
+    return onOff(false, "placed on settled bed", "no bed with grains, meshes or moving surfaces on top");
   std::string names;
   for (const setup::SceneSurface& s : setup::surfacesOf(scene))
     if (s.placedLater) names += (names.empty() ? "" : ", ") + s.name;
@@ -130,13 +131,13 @@ std::string bedHeightText(const scene::Scene& scene) {
   return fmt::format("  {:<24} {}\n", "settled bed",
                      settled ? fmt::format("mean height {:.5g} m, top of the highest grain {:.6g} m (in the cache)",
                                            settled->meanHeight, settled->highest)
-                             : "height unknown until a run has settled it");
+                             : "height unknown before the bed has settled in a run");
 }
 
 /// Settlement of the bed under the tracks over that of an elastic half-space.
 std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   if (!scene.terrain || !scene.terrain->granular() || !scene.terrain->depth) return "";
-  constexpr double kPoisson = 0.25; // of loose soil
+  constexpr double kPoisson = 0.25; // Poisson's ratio of loose soil [-]
   const double half = 0.5 * spec.groundRun(), depth = *scene.terrain->depth;
   std::vector<forecast::LoadedRectangle> tracks;
   for (const double y : {spec.trackOffset, -spec.trackOffset}) // a single track: the same ratio
@@ -163,20 +164,20 @@ std::string bedLines(const scene::Terrain* t, const base::Vec3d& gravity) {
           ? fmt::format(
                 "to a porosity of {:g}{}", *t->porosity,
                 leanOf(gravity) > 0
-                    ? fmt::format(" under vertical gravity; run.gravity is tilted by {:.1f} degrees and may loosen it",
+                    ? fmt::format(" under vertical gravity; the tilted run.gravity ({:.1f} degrees) may loosen the bed",
                                   leanOf(gravity))
                     : "")
-          : "terrain.porosity is not given: as poured");
+          : "terrain.porosity is not set: as poured");
   text += onOff(t && t->coarsening, "grading by depth",
                 !t              ? none
                 : t->coarsening ? fmt::format("radius {:g} m to a depth of {:g} m, {:g} m below", *t->grainRadius,
                                               *t->fineDepth, *t->coarsestRadius)
-                                : "terrain.coarsening is not given");
+                                : "terrain.coarsening is not set");
   text += onOff(t && t->floorGrains, "fixed grains on the floor",
                 !t               ? none
                 : t->floorGrains ? "rough"
                                  : "terrain.floor_grains = false: smooth");
-  text += onOff(t && t->tile, "tile", !t ? none : t->tile ? "settled once and copied" : "terrain.tile is not given");
+  text += onOff(t && t->tile, "tile", !t ? none : t->tile ? "settled once and copied" : "terrain.tile is not set");
   return text;
 }
 
@@ -193,7 +194,7 @@ std::string switchesText(const scene::Scene& scene) {
   const setup::GrainKinds& kinds = pairs.kinds;
   const bool bed = t && t->granular(), grains = kinds.any();
   std::string text =
-      onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]] or [[source]], no granular [terrain]");
+      onOff(grains, "grains", grains ? "" : "no [[grain]], [[grains]], [[source]] or granular [terrain]");
   if (grains) {
     const setup::KernelTraits traits = setup::kernelTraits(scene, pairs);
     const auto has = [&](unsigned feature) { return (traits.features & feature) != 0; };
@@ -209,7 +210,7 @@ std::string switchesText(const scene::Scene& scene) {
     text += onOff(kinds.manyMaterials(), "material of each grain", fmt::format("{} in total", kinds.material.size()));
     const bool implicit = setup::hasComplementarity(scene);
     if (implicit)
-      text += onOff(true, "complementarity contacts", "no kernel specific to the scene");
+      text += onOff(true, "complementarity contacts", "no scene-specific kernel");
     else
       text += fmt::format("       {:<26} {}\n", "kernel of the grains",
                           terrain::stepKernelText(traits.features, traits.model));
@@ -289,8 +290,8 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   const bool implicit = setup::hasComplementarity(scene);
   if (const double calm = limit.calm;
       grains && !implicit && (scene.mechanism.empty() || scene.mechanism.touches()) && step > calm)
-    text += fmt::format("\nWARNING: at time steps above {} s strong contact damping makes grains at rest vibrate; "
-                        "choose a smaller run.time_step (docs/steps.md#choice-of-the-time-step)\n",
+    text += fmt::format("\nWARNING: with time steps above {} s, strong contact damping makes resting grains vibrate; "
+                        "reduce run.time_step (docs/steps.md#choice-of-the-time-step)\n",
                         base::roundedDown(calm, 4));
   const setup::TerrainRemarks remarks = setup::terrainRemarks(scene);
   for (const std::string& warning : remarks.warnings) text += fmt::format("\nWARNING: {}\n", warning);

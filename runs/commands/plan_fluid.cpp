@@ -35,8 +35,9 @@ std::string fluidText(const scene::Scene& scene, double timeStep) {
   for (int a = 0; a < 3; ++a) {
     const double parts = size[a] / m.spacing;
     if (!(m.dimensions == 2 && a == 1) && !(a == 2 && !scene.fluid->lid) && std::fabs(parts - std::round(parts)) > 1e-6)
-      line("", fmt::format("the length along {} is not a multiple of the spacing: its wall is up to {:g} m off",
-                           "xyz"[a], 0.5 * m.spacing));
+      line("",
+           fmt::format("the length along {} is not a multiple of the spacing; the wall position is off by up to {:g} m",
+                       "xyz"[a], 0.5 * m.spacing));
   }
   line("  sound speed", fmt::format("{:.4g} m/s", m.soundSpeed));
   const fluid::StepLimits limits = setup::fluidStepLimits(scene);
@@ -54,8 +55,8 @@ std::string fluidText(const scene::Scene& scene, double timeStep) {
   for (const coupling::BodyInFluid& b : setup->bodies) gains[b.column] = std::max(gains[b.column], b.gain);
   for (const auto& [column, gain] : gains)
     if (gain > 1)
-      line("  added mass", fmt::format("{}: the fluid at the surface has up to {:.3g} times the mass of a body; its "
-                                       "pressure responds within {:.0f} steps",
+      line("  added mass", fmt::format("{}: the fluid near the surface of a body weighs up to {:.3g} times the body; "
+                                       "its pressure responds within {:.0f} steps",
                                        column, gain, std::ceil(1 + gain)));
   return text;
 }

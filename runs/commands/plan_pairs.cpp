@@ -37,8 +37,8 @@ std::string soilText(const coupling::ScmSetup& setup, std::size_t width) {
                   "{:.4g} m; node spacing {:.4g} m\n",
                   "deformable soil", width, soil.exponent, soil.kc, soil.kphi, soil.cohesion, soil.friction,
                   soil.shearDisplacement, setup.spacing);
-  text += fmt::format("  {:<{}}  slip sinkage {:.3g} up to {:.3g} m, {:.3g} of a rut's volume displaced, tan(angle of "
-                      "repose) {:.3g}, unit weight {:.4g} N/m3\n",
+  text += fmt::format("  {:<{}}  slip sinkage {:.3g} up to {:.3g} m, {:.3g} of the rut volume displaced to the sides, "
+                      "tan(angle of repose) {:.3g}, unit weight {:.4g} N/m3\n",
                       "", width, soil.slipSinkage, soil.maximumSlipSinkage, setup.displacement.share,
                       setup.displacement.repose, soil.unitWeight);
   return text;
@@ -70,7 +70,7 @@ std::string pairsText(const scene::Scene& scene) {
         }))
       notes += fmt::format("  note: material.{} has no effect in this scene{}\n", m.name,
                            scene.vehicle && pairs.empty()
-                               ? ": the vehicle file has all contact parameters between vehicle and rigid ground"
+                               ? ": the vehicle file defines all contact parameters between vehicle and rigid ground"
                                : "");
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());

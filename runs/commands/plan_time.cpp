@@ -21,7 +21,7 @@ std::string boundsText(const setup::StepLimit& limit) {
   };
   std::string text = "  stable steps of the vehicle\n";
   for (const setup::StepLimit::Bound& b : bounds) text += line(b.what, base::roundedDown(b.step, 3) + " s");
-  return text + line("joints, torsion bars, tensioner", "any step (implicit)");
+  return text + line("joints, torsion bars, tensioner", "any (implicit)");
 }
 
 } // namespace
@@ -48,8 +48,9 @@ std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, d
   if (scene.vehicle) text += boundsText(limit);
   if (grains > 0) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * grains);
   if (contact > 0 && !implicit && step > resolved * 1.0000001)
-    text += fmt::format("\nWARNING: the time step resolves a contact with only {:.1f} steps; choose {} s or less\n",
-                        contact / step, base::roundedDown(resolved, 4));
+    text +=
+        fmt::format("\nWARNING: the time step resolves a contact with only {:.1f} steps; reduce it to {} s or less\n",
+                    contact / step, base::roundedDown(resolved, 4));
   return text;
 }
 

@@ -10,15 +10,16 @@ namespace grouser::commands {
 void addProcessOptions(CLI::App& app, const ProcessOptions& options, const std::string& outHelp) {
   app.add_option("--jobs", options.jobs, "number of concurrent runs; default: 1")->check(support::wholeNumber(1, 1024));
   app.add_option("--seconds", options.seconds,
-                 "start no further run after this wall time [s], 0: no limit; the same command again continues")
+                 "start no new runs after this wall time [s]; 0: no limit; repeat the command to continue")
       ->check(support::notNegative("a time in seconds"));
   support::addOut(app, options.folder, outHelp);
   app.add_option("--device", options.device, "auto, cpu or cuda; default: run.device of the scene");
-  app.add_option("--threads", options.threads, "CPU threads of each run; default: all cores shared among the jobs")
+  app.add_option("--threads", options.threads,
+                 "number of CPU threads per run; default: all cores, divided among the jobs")
       ->check(support::wholeNumber(0, 1024));
   CLI::Option* resume =
-      app.add_flag("--resume")->description("continue an earlier call, as the same command does by default");
-  app.add_flag("--force", options.force, "repeat finished runs")->excludes(resume);
+      app.add_flag("--resume")->description("continue an earlier call (the default if the options are the same)");
+  app.add_flag("--force", options.force, "repeat runs that have already finished")->excludes(resume);
 }
 
 void addDeviceOverrides(std::vector<std::string>& overrides, const std::string& device,

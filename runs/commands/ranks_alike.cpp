@@ -17,8 +17,8 @@ void requireSameCommand(const std::string& command, const base::Comm& comm) {
   for (std::size_t r = 1; r < all.size(); ++r)
     if (all[r] != all[0])
       throw base::InputError(
-          fmt::format("rank {} was started with \"{}\", rank 0 with \"{}\"; start all with one command line", r,
-                      std::string(all[r].begin(), all[r].end()), std::string(all[0].begin(), all[0].end())));
+          fmt::format("rank {} was started with \"{}\", rank 0 with \"{}\"; start all ranks with the same command line",
+                      r, std::string(all[r].begin(), all[r].end()), std::string(all[0].begin(), all[0].end())));
 }
 
 namespace {

@@ -28,7 +28,7 @@ constexpr int kSmallest = 16, kLargest = 16384; ///< width and height of a pictu
 /// Frames to paint, ascending.
 std::vector<std::size_t> chosenFrames(const output::FramesReader& reader, const RenderCommand& c) {
   const std::size_t count = reader.count();
-  const std::string held = fmt::format("{} holds frames 0 to {}, from t = {:g} s to {:g} s", reader.path().string(),
+  const std::string held = fmt::format("{} contains frames 0 to {}, from t = {:g} s to {:g} s", reader.path().string(),
                                        count - 1, reader.time(0), reader.time(count - 1));
   std::vector<std::size_t> frames = c.frame;
   std::sort(frames.begin(), frames.end());
@@ -43,7 +43,7 @@ std::vector<std::size_t> chosenFrames(const output::FramesReader& reader, const 
     if (reader.time(i) < c.from - hair || (c.to && reader.time(i) > *c.to + hair)) continue;
     if (inRange++ % c.every == 0) frames.push_back(i);
   }
-  if (frames.empty()) throw base::InputError(fmt::format("no frame between --from and --to: {}", held));
+  if (frames.empty()) throw base::InputError(fmt::format("no frames between --from and --to: {}", held));
   return frames;
 }
 
@@ -76,10 +76,10 @@ render::PaintOptions paintOptions(const RenderCommand& c, bool hasVehicle) {
     o.quantity = render::grainQuantity(c.color);
   if (!c.range.empty()) {
     if (!ground && o.quantity != render::GrainQuantity::Depth && o.quantity != render::GrainQuantity::Speed)
-      throw base::InputError(
-          fmt::format("--range: applies to the colours depth, speed, sinkage, pressure and shear, not to {}", c.color));
+      throw base::InputError(fmt::format(
+          "--range: applies to --color depth, speed, sinkage, pressure and shear only, not to {}", c.color));
     if (!(c.range[0] < c.range[1]))
-      throw base::InputError(fmt::format("--range {:g} {:g}: give the lower end first", c.range[0], c.range[1]));
+      throw base::InputError(fmt::format("--range {:g} {:g}: put the lower end first", c.range[0], c.range[1]));
     o.range = render::ValueRange{c.range[0], c.range[1]};
   }
   o.borders = render::bordersOf(c.borders);
@@ -102,16 +102,16 @@ int coresOf(const RenderCommand& c) { return std::max(1, omp_get_num_procs() / c
 void checkTargets(const RenderCommand& c, const fs::path& folder, const std::vector<std::size_t>& frames) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
-    throw base::InputError(fmt::format("--out {}: is a file; give a folder for the pictures", folder.string()));
+    throw base::InputError(fmt::format("--out {}: is a file; set a folder for the pictures", folder.string()));
   if (!c.film.empty()) render::checkFilm(c.film);
   if (c.force) return;
   for (const std::size_t frame : frames)
     if (const fs::path file = picturePath(folder, frame); fs::exists(file, error))
       throw base::InputError(fmt::format(
-          "{}: already exists; overwrite it with --force, or name another folder with --out", file.string()));
+          "{}: already exists; overwrite it with --force, or choose another folder with --out", file.string()));
   if (!c.film.empty() && fs::exists(c.film, error))
     throw base::InputError(
-        fmt::format("--film {}: already exists; overwrite it with --force, or name another file", c.film));
+        fmt::format("--film {}: already exists; overwrite it with --force, or choose another file", c.film));
 }
 
 /// Removes unfinished pictures after an error or a signal.
@@ -184,7 +184,7 @@ void renderCommand(const RenderCommand& c) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder, error))
-    throw base::InputError(fmt::format("--out {}: the folder cannot be created: {}", folder.string(), error.message()));
+    throw base::InputError(fmt::format("--out {}: cannot create the folder: {}", folder.string(), error.message()));
 
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();

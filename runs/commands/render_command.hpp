@@ -13,27 +13,27 @@
 namespace grouser::commands {
 
 struct RenderCommand {
-  std::string frames;               ///< the file
+  std::string frames;               ///< file with the frames
   std::string folder;               ///< empty: pictures/ beside the file
-  std::string film;                 ///< file; empty: none
-  double framesPerSecond = 25;      ///< of the film
-  std::string color = "depth";      ///< grainQuantity's words
+  std::string film;                 ///< film file; empty: none
+  double framesPerSecond = 25;      ///< frame rate of the film [1/s]
+  std::string color = "depth";      ///< colour quantity, see grainQuantity()
   std::vector<double> range;        ///< lowest and highest value of the colours; empty: from the file
-  std::vector<std::string> borders; ///< bordersOf's words
+  std::vector<std::string> borders; ///< subdomain borders, see bordersOf()
   std::string lookAt;               ///< vehicle, all or X,Y,Z [m]; empty: the vehicle where there is one
   std::optional<double> azimuth;    ///< [deg]
   std::optional<double> elevation;  ///< [deg]
   std::optional<double> distance;   ///< [m]
   std::string size = "1600x900";    ///< WIDTHxHEIGHT
-  std::size_t every = 1;            ///< frames
-  double from = 0;                  ///< [s]
-  std::optional<double> to;         ///< [s]
+  std::size_t every = 1;            ///< draw every n-th frame
+  double from = 0;                  ///< first time [s]
+  std::optional<double> to;         ///< last time [s]
   std::vector<std::size_t> frame;   ///< numbers of single frames; empty: all
   bool labels = true;
   int processes = 1;
-  int threads = 0;    ///< of each process; 0: all cores shared among them
+  int threads = 0;    ///< threads per process; 0: all cores, shared among the processes
   bool force = false; ///< overwrite pictures and film
-  base::Comm comm;    ///< the ranks that share the frames
+  base::Comm comm;    ///< ranks that share the frames
 };
 
 /// Width and height of "1600x900"; throws base::InputError.

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/campaigns/sweeps/run_figures.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/support/json_text.hpp"
 #include "runs/support/locations.hpp"
 #include "runs/support/not_written.hpp"
 #include "runs/support/output_place.hpp"
@@ -25,7 +26,7 @@ namespace {
 fs::path temporaryFolder() {
   std::error_code error;
   fs::path folder = fs::temp_directory_path(error);
-  if (error) throw base::InputError("TMPDIR is not a folder; set it to one for temporary files");
+  if (error) throw base::InputError("TMPDIR is not a folder; set it to an existing folder for temporary files");
   return folder;
 }
 
@@ -51,18 +52,18 @@ private:
 void checkPlaces(const ReportCommand& command, const fs::path& file) {
   std::error_code error;
   if (!fs::is_directory(command.folder, error))
-    throw base::InputError(fmt::format(
-        "{}: is not a folder; give that of a run, a sweep, a check, a set of events, a soil test or a calibration",
-        command.folder));
+    throw base::InputError(fmt::format("{}: is not a folder; specify the results folder of a run, sweep, check, set of "
+                                       "events, soil test or calibration",
+                                       command.folder));
   if (fs::is_directory(file, error))
-    throw base::InputError(fmt::format("--out {}: is a folder; give a file", file.string()));
+    throw base::InputError(fmt::format("--out {}: is a folder; specify a file", file.string()));
   if (!command.force && fs::exists(file, error))
-    throw base::InputError(fmt::format("{}: already exists; overwrite it with --force, or name another file with "
+    throw base::InputError(fmt::format("{}: already exists; overwrite it with --force, or choose another file with "
                                        "--out",
                                        file.string()));
   support::requireFile(file, "--out");
   if (!command.film.empty() && !fs::is_regular_file(command.film, error))
-    throw base::InputError(fmt::format("--film {}: there is no such file", command.film));
+    throw base::InputError(fmt::format("--film {}: no such file", command.film));
 }
 
 } // namespace
@@ -75,8 +76,9 @@ void reportCommand(const ReportCommand& command) {
   std::error_code missing;
   if (!fs::exists(script, missing))
     throw base::InputError(
-        fmt::format("{} is missing; set GROUSER_SHARE to the folder that holds runs/report", script.string()));
-  const PassedFile figures(fs::exists(folder / "results.h5", missing) ? sweeps::runFiguresText(folder) : "{}");
+        fmt::format("{} is missing; set GROUSER_SHARE to the folder that contains runs/report", script.string()));
+  const PassedFile figures(fs::exists(folder / "results.h5", missing) ? support::jsonText(sweeps::runFigures(folder))
+                                                                      : "{}");
   std::vector<std::string> words = {folder.string(), file.string(),
                                     "--figures",     figures.name(),
                                     "--frames",      std::to_string(command.frames),
@@ -87,7 +89,7 @@ void reportCommand(const ReportCommand& command) {
   const support::CallOutcome outcome = output::callPython(script, words);
   if (const int signal = support::StopSignals::received(); signal && outcome.status != 0)
     throw support::Stopped(signal,
-                           fmt::format("stopped by {}; no page was written", support::StopSignals::name(signal)),
+                           fmt::format("stopped by {}; no report was written", support::StopSignals::name(signal)),
                            support::Stopped::Left::nothing);
   constexpr int kWrongInput = 2, kNotWritten = 4;
   if (outcome.status == kWrongInput || outcome.status == output::kMissingPackage)

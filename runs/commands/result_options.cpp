@@ -11,7 +11,8 @@ namespace grouser::commands {
 void addHash(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<HashCommand>();
   HashCommand& c = *command;
-  CLI::App* hash = app.add_subcommand("hash", "Hash of the state in a checkpoint, as run --hash prints it");
+  CLI::App* hash =
+      app.add_subcommand("hash", "Print the hash of the state in a checkpoint, in the format of run --hash");
   hash->add_option("checkpoint", c.checkpoint, "checkpoint.h5 of a run, or the run's folder")
       ->required()
       ->transform(support::orItsFolder("checkpoint.h5"));
@@ -21,18 +22,19 @@ void addHash(CLI::App& app, const Invocation&) {
 void addSinkage(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<SinkageCommand>();
   SinkageCommand& s = *command;
-  CLI::App* sinkage = app.add_subcommand("sinkage", "Sinkage of every shoe over time [m], as CSV and as a plot");
+  CLI::App* sinkage =
+      app.add_subcommand("sinkage", "Write the sinkage of each track shoe over time [m] as CSV and as a plot");
   sinkage->add_option("results", s.results, "results.h5 of a run, or the run's folder")
       ->required()
       ->transform(support::orItsFolder("results.h5"));
-  support::addOut(*sinkage, s.folder, "output folder; default: that of the results");
+  support::addOut(*sinkage, s.folder, "output folder; default: the results folder");
   sinkage->add_option(
       "--shoes", s.shoes,
-      "single shoes, counted from 0, e.g. 10-13,20; writes sinkage_shoes.csv, and plots their height and sinkage");
-  sinkage->add_option("--track", s.track, "track of the shoes of --shoes: left or right; default: both")
+      "write and plot height and sinkage of these shoes only, counted from 0, e.g. 10-13,20 (sinkage_shoes.csv)");
+  sinkage->add_option("--track", s.track, "track to which --shoes applies: left or right; default: both")
       ->check(CLI::IsMember({"left", "right"}));
   sinkage->add_option("--control", s.control,
-                      "results.h5 of the same vehicle on rigid ground, plotted behind the shoes of --shoes");
+                      "results.h5 of the same vehicle on rigid ground, plotted for comparison with --shoes");
   sinkage->callback([command] { sinkageCommand(*command); });
 }
 

@@ -104,7 +104,7 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
   if (const coupling::VehicleRig* rig = simulation.vehicle()) {
     const auto isCut = [](const coupling::VehicleParts::SetFigures& f) { return f.spheres > 0; };
     const std::vector<coupling::VehicleParts::SetFigures>& figures = rig->parts().setFigures();
-    fmt::print("vehicle   {:.0f} kg, {} bodies, running gear touches by {}, {} spheres ({} of {} meshes)\n",
+    fmt::print("vehicle   {:.0f} kg, {} bodies, running-gear contact by {}, {} spheres ({} of {} meshes)\n",
                rig->assembly().mass, rig->assembly().model.bodies().size(),
                rig->parts().shapes() ? "shapes" : "samples", rig->parts().totalSpheres(),
                std::count_if(figures.begin(), figures.end(), isCut), figures.size());
@@ -117,10 +117,10 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
   std::fflush(stdout);
 }
 
-/// Share of weight x time that crushing may cut off before its loads say little [-].
+/// Maximum share of weight x time that crushing may cut off before loads become unreliable [-].
 constexpr double kSuspect = 0.01;
 
-/// Grains that are squeezed or crush do not end a run; they are shown.
+/// Prints large overlaps and crushed grains, which do not end a run.
 void describeSqueezed(const coupling::Simulation& simulation, session::Recorder& recorder,
                       const output::Summary& summary) {
   if (simulation.setup().crushes()) {
@@ -128,13 +128,15 @@ void describeSqueezed(const coupling::Simulation& simulation, session::Recorder&
     if (simulation.vehicle()) {
       const double of = summary.figures.at("crushing_cut_over_weight");
       share = fmt::format(", {:.3g} % of weight x time{}", 100 * of,
-                          of > kSuspect ? ": the run is suspect; take larger or stronger grains" : "");
+                          of > kSuspect ? ": the loads are unreliable; use larger or stronger grains" : "");
     }
-    fmt::print("crushing  has cut off {:.4g} N s{}\n", summary.figures.at("crushing_cut_impulse"), share);
+    fmt::print("crushing  limited contact forces; impulse removed: {:.4g} N s{}\n",
+               summary.figures.at("crushing_cut_impulse"), share);
     const coupling::TakenOut& gone = simulation.takenOut();
     if (gone.grains > 0)
-      fmt::print("crushed   {:g} grains of {:.4g} kg, taken out with {:.4g} J and ({:.2g}, {:.2g}, {:.2g}) N s\n",
-                 gone.grains, gone.mass, gone.energy, gone.momentum.x, gone.momentum.y, gone.momentum.z);
+      fmt::print(
+          "crushed   {:g} grains removed: mass {:.4g} kg, energy {:.4g} J, momentum ({:.2g}, {:.2g}, {:.2g}) N s\n",
+          gone.grains, gone.mass, gone.energy, gone.momentum.x, gone.momentum.y, gone.momentum.z);
   }
   fmt::print("{}", recorder.squeezed().text());
 }
@@ -148,19 +150,18 @@ void describeSolver(const coupling::Simulation& simulation, bool verbose) {
   const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
   const auto steps = static_cast<double>(std::max<std::int64_t>(1, all.steps));
   if (verbose)
-    fmt::print(
-        "solver    {:.1f} iterations per step, {:.3g} us per iteration{}, residual {:.2g} m/s at most (limit {:.2g} "
-        "m/s){}\n",
-        static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / evaluations,
-        cost.bytes > 0 ? fmt::format(", {:.3g} kB sent per iteration (rank 0)",
-                                     1e-3 * static_cast<double>(cost.bytes) / evaluations)
-                       : "",
-        all.worst, asked.residual,
-        all.relaxed > 0 ? fmt::format(", {} ended with the convex relaxation", base::counted(all.relaxed, "step"))
-                        : "");
+    fmt::print("solver    {:.1f} iterations per step, {:.3g} us per iteration{}, maximum residual {:.2g} m/s (limit "
+               "{:.2g} m/s){}\n",
+               static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / evaluations,
+               cost.bytes > 0 ? fmt::format(", {:.3g} kB sent per iteration (rank 0)",
+                                            1e-3 * static_cast<double>(cost.bytes) / evaluations)
+                              : "",
+               all.worst, asked.residual,
+               all.relaxed > 0 ? fmt::format(", {} solved by the convex relaxation", base::counted(all.relaxed, "step"))
+                               : "");
   if (all.missed > 0)
-    fmt::print("WARNING: {} of {} exceed run.residual; raise complementarity.iterations or run.residual, or use a "
-               "smaller time_step\n",
+    fmt::print("WARNING: {} of {} exceed the tolerance run.residual; raise complementarity.iterations or run.residual, "
+               "or use a smaller time_step\n",
                base::counted(all.missed, "step"), all.steps);
 }
 
@@ -199,23 +200,23 @@ void drive(session::RunSession& run) {
 void describeReplay(const session::RecordedRun& recorded, const setup::Provenance& provenance,
                     const std::string& stateHash) {
   if (const auto changes = storage::changedKeys(recorded.scene, provenance.resolved); !changes.empty()) {
-    fmt::print("replay    {} of {} in another scene ({} differs): not compared\n",
+    fmt::print("replay    {} of {}: not compared, because the scene differs (key {})\n",
                base::counted(recorded.inputs.size(), "input"), recorded.folder.string(), changes.front().key);
     return;
   }
   if (recorded.stateHash.empty()) {
-    fmt::print("WARNING: {} holds no state hash, since that run did not finish: nothing was compared\n",
+    fmt::print("WARNING: {} contains no state hash, because that run did not finish; nothing was compared\n",
                recorded.folder.string());
     fmt::print("replay    {} of {}: its {} steps repeated\n", base::counted(recorded.inputs.size(), "input"),
                recorded.folder.string(), recorded.steps);
     return;
   }
   fmt::print("replay    {} of {}: {}\n", base::counted(recorded.inputs.size(), "input"), recorded.folder.string(),
-             recorded.stateHash == stateHash ? "the same state hash" : "ANOTHER STATE HASH");
+             recorded.stateHash == stateHash ? "same state hash" : "DIFFERENT STATE HASH");
   if (recorded.stateHash != stateHash)
-    throw base::SimulationError(
-        fmt::format("the replay ends with state hash {}, {} with {}; replay with the program (commit) that wrote it",
-                    stateHash, recorded.folder.string(), recorded.stateHash));
+    throw base::SimulationError(fmt::format(
+        "the replay ends with state hash {}, but {} has {}; use the program (commit) that wrote the recorded run",
+        stateHash, recorded.folder.string(), recorded.stateHash));
 }
 
 void describeOrigin(const coupling::Simulation& simulation, const storage::Checkpoint& former, bool branch) {
@@ -225,13 +226,13 @@ void describeOrigin(const coupling::Simulation& simulation, const storage::Check
     fmt::print("resumed   at step {}, {:.6g} s\n", simulation.steps(), simulation.time());
 }
 
-/// Steps whose wall time is not in that of this call.
+/// Records the step of the checkpoint: the wall time covers later steps only.
 void noteOrigin(const storage::Checkpoint& former, bool branch, output::Summary& summary) {
   if (!branch) summary.figures["resumed_at_step"] = static_cast<double>(former.state.steps);
   if (former.branchedFrom) summary.figures["branched_at_step"] = static_cast<double>(former.branchedFrom->step);
 }
 
-/// Records the option that ended the run. `cut`: the last step is not that of the scene.
+/// Records the option that ended the run. `cut`: the run ends before the scene's duration.
 void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
   if (endsAtRest)
     run.writer().fact("ended_by", output::kUntilRest);
@@ -239,14 +240,21 @@ void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
     run.writer().fact("ended_by", fmt::format("--steps {}", run.total()));
 }
 
-/// To the standard error.
+/// Prints the notices to stderr.
 void warnOf(const scene::Scene& scene, const coupling::Simulation& simulation) {
-  constexpr const char* kBegin[] = {"WARNING", "grouser: warning", "grouser: note"};
+  constexpr const char* kBegin[] = {"WARNING", "WARNING", "grouser: note"};
   for (const setup::Notice& notice : setup::noticesOf(scene, simulation))
     support::tell("{}: {}\n", kBegin[static_cast<int>(notice.weight)], notice.text);
 }
 
-/// `hasFolder`: whether it came so far that the folder is that of this run.
+/// Throws base::InputError if --until rest has no vehicle to wait for.
+void checkUntilRest(const scene::Scene& scene, const session::RunRequest& options) {
+  if (options.untilRest && !scene.vehicle)
+    throw base::InputError(fmt::format(
+        "{}: --until rest requires a vehicle; add a section [vehicle], or remove the option", scene.file.string()));
+}
+
+/// `hasFolder`: set once the run owns its folder.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance,
                             const session::RunRequest& options, bool& hasFolder) {
   const Stopwatch whole;
@@ -255,13 +263,11 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   requireAlike(provenance, options.commandLine, comm);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, options.ranks);
   forecast::requireFit(scene, exec, options.folder, options.force, !options.resume, options.ranks);
-  support::FileLock folder; // of a run that goes on; one that begins makes its folder later
+  support::FileLock folder; // lock of a resumed run; a new run creates and locks its folder later
   if (options.resume && !options.branch && comm.first()) output::claimFolder(folder, options.folder);
   const std::unique_ptr<storage::Checkpoint> former = session::formerRun(provenance, options);
   if (!former && comm.first()) warnOfTerrain(scene); // before a bed settles
-  if (options.untilRest && !scene.vehicle)
-    throw base::InputError(fmt::format("{}: --until rest waits for a vehicle; add a section [vehicle], or remove it",
-                                       provenance.file.string()));
+  checkUntilRest(scene, options);
   const setup::RecordSetup record = setup::recordSetup(scene, provenance);
   coupling::SimulationSetup compiled = setup::simulationSetup(scene, comm.size(), setup::SizeChecks::passed);
   if (options.branch) session::branch(*former, provenance, compiled, options);
@@ -274,8 +280,9 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   const std::int64_t all = options.replay ? recorded.steps : std::llround(record.run.duration / timeStep),
                      begin = simulation.steps(), total = std::min(all, options.steps.value_or(all));
   if (begin > total || (options.branch && begin == total))
-    throw base::InputError(fmt::format("{}: is at step {}, this run ends at step {}; raise run.duration or --steps",
-                                       options.resume->string(), begin, total));
+    throw base::InputError(
+        fmt::format("{}: the checkpoint is at step {}, but this run ends at step {}; raise run.duration or --steps",
+                    options.resume->string(), begin, total));
   const double prepared = whole.seconds();
   const std::vector<std::string> ofBed = bedWarnings(scene, simulation);
   if (comm.first())

@@ -26,6 +26,24 @@ constexpr Line kLines[] = {{"speed", "speed [m/s]", 1, "m/s", ""},
                            {"sinkage", "sinkage mean [m]", 1e3, "mm", ", mean of the shoes in ground contact"},
                            {"torque", "drive torque [N m]", 1, "N m", ", both sprockets"}};
 
+constexpr double kUnsteady = 0.08; ///< half-range of the speed over its mean in the steady part that causes a warning
+constexpr double kSlow = 0.05;     ///< [m/s] mean speed below which it does not
+
+/// Warnings that precede the figures of a run.
+std::string warningsOf(const nlohmann::json& run, const std::string& incomplete) {
+  std::string text;
+  if (const std::string doubt = run.value("inconclusive", ""); !doubt.empty() && doubt != incomplete)
+    text = fmt::format("WARNING: the figures are inconclusive: {}\n", doubt);
+  else if (const nlohmann::json range = run.value("speed_range", nlohmann::json()); range.is_array())
+    if (const double low = range[0], high = range[1];
+        std::fabs(high + low) > 2 * kSlow && high - low > kUnsteady * std::fabs(high + low))
+      text =
+          fmt::format("WARNING: the speed varies from {:.3g} to {:.3g} m/s in the steady part, so the means depend on "
+                      "its length; raise driver.drive_ramp or run.duration\n",
+                      low, high);
+  return text;
+}
+
 /// Error bar of a figure by the last check of the scene; infinite without one.
 double barOf(const nlohmann::json& run, const char* name) {
   const nlohmann::json& kept = run.at("check");
@@ -45,24 +63,21 @@ std::string valueOf(const nlohmann::json& run, const Line& line) {
   return {};
 }
 
-nlohmann::json figuresOf(const std::filesystem::path& folder) {
-  return nlohmann::json::parse(sweeps::runFiguresText(folder));
-}
-
 } // namespace
 
 std::string energyText(const output::Summary& summary) {
   const double converted = summary.figures.at("energy_converted_J");
   if (!(converted > 0)) return {};
-  return fmt::format("energy    balance closes within {:.0e} of {:.3g} J converted; time-integration error {:.2g} %\n",
-                     std::fabs(summary.figures.at("energy_residual_J")) / converted, converted,
-                     100 * std::fabs(summary.figures.at("integration_error_J")) / converted);
+  return fmt::format(
+      "energy    residual {:.0e} and time-integration error {:.2g} % of the work of all forces, {:.3g} J\n",
+      std::fabs(summary.figures.at("energy_residual_J")) / converted,
+      100 * std::fabs(summary.figures.at("integration_error_J")) / converted, converted);
 }
 
 std::string driveFiguresText(const std::filesystem::path& folder, const std::filesystem::path& beside,
                              const std::string& incomplete) {
-  const nlohmann::json run = figuresOf(folder);
-  const nlohmann::json other = beside.empty() ? nlohmann::json() : figuresOf(beside);
+  const nlohmann::json run = sweeps::runFigures(folder);
+  const nlohmann::json other = beside.empty() ? nlohmann::json() : nlohmann::json(sweeps::runFigures(beside));
   std::string text;
   for (const Line& line : kLines) {
     const std::string value = valueOf(run, line);
@@ -73,10 +88,7 @@ std::string driveFiguresText(const std::filesystem::path& folder, const std::fil
     const std::string columns = second.empty() ? value : fmt::format("{:<24}{}", value, second);
     text += fmt::format("{:<10}{}{}\n", line.label, columns, line.note);
   }
-  if (text.empty()) return text;
-  if (const std::string doubt = run.value("inconclusive", ""); !doubt.empty() && doubt != incomplete)
-    text = fmt::format("WARNING: the figures are inconclusive: {}\n", doubt) + text;
-  return text;
+  return text.empty() ? text : warningsOf(run, incomplete) + text;
 }
 
 } // namespace grouser::commands

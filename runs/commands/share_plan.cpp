@@ -31,8 +31,7 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
   if (grains == 0) return "";
   if (ranks > grains)
     throw base::InputError(
-        fmt::format("--ranks {}: the scene has {:.0f} grains, so most ranks would have none; plan for "
-                    "{:.0f} at most",
+        fmt::format("--ranks {}: the scene has only {:.0f} grains, too few for this many ranks; use at most {:.0f}",
                     ranks, grains, grains));
   const double radius = setup::grainKinds(scene).largest;
   std::array<double, 3> size{};
@@ -68,7 +67,7 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
   const double each = grains / ranks, ghosts = std::min(each * (grown - 1), grains - each);
   std::string text = fmt::format("\n{} ranks\n", ranks);
   text += fmt::format("  {:<24} {} x {} x {}\n", "subdomains", shape[0], shape[1], shape[2]);
-  text += fmt::format("  {:<24} {:.0f}, and up to {:.0f} ghosts\n", "grains per rank", each, ghosts);
+  text += fmt::format("  {:<24} {:.0f}, plus up to {:.0f} ghosts\n", "grains per rank", each, ghosts);
   text += fmt::format("  {:<24} {:.2f} % of the grains\n", "total ghosts", 100 * std::min(all - 1, ranks - 1.0));
   text += fmt::format("  {:<24} about {:.1f} MiB per rank\n", "memory for grains",
                       (each + ghosts) * setup::grainMemory(scene).most() / 1048576.0);

@@ -29,7 +29,7 @@ public:
     const PlanOptions coarse = virtual_tests::coarsePlan();
     std::string quick;
     if constexpr (std::is_arithmetic_v<T>)
-      if (coarse.*member != plan_.*member) quick = fmt::format("; with --quick {}", coarse.*member);
+      if (coarse.*member != plan_.*member) quick = fmt::format("; {} with --quick", coarse.*member);
     CLI::Option* option =
         app.add_option(name, plan_.*member, help + quick)->check(std::move(check))->capture_default_str();
     given_.push_back([option, member](const PlanOptions& user, PlanOptions& taken) {
@@ -50,24 +50,25 @@ private:
 
 void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--seeds", &PlanOptions::seeds, support::wholeNumber(1, 1000),
-           "number of beds of the small plate, and of samples of each shear load");
+           "number of beds for the small plate, and of samples per shear load");
   keys.add(soil, "--large-seeds", &PlanOptions::largeSeeds, support::wholeNumber(1, 1000),
-           "number of beds of the large plate");
+           "number of beds for the large plate");
   keys.add(soil, "--plate-grains", &PlanOptions::plateGrains, support::between(4, 1000),
-           "breadth of the small plate [mean grain diameters]");
+           "width of the small plate [mean grain diameters]");
   keys.add(soil, "--plate-ratio", &PlanOptions::plateRatio, support::between(1.2, 20),
-           "breadth of the large plate over that of the small one [-]");
-  keys.add(soil, "--bin", &PlanOptions::bin, support::between(2, 100), "bed width between the boundaries [breadths]");
-  keys.add(soil, "--depth", &PlanOptions::depth, support::between(0.5, 100), "bed depth [breadths]");
+           "ratio of the plate widths, large / small [-]");
+  keys.add(soil, "--bin", &PlanOptions::bin, support::between(2, 100),
+           "bed width between the periodic boundaries [plate widths]");
+  keys.add(soil, "--depth", &PlanOptions::depth, support::between(0.5, 100), "bed depth [plate widths]");
   keys.add(soil, "--thickness", &PlanOptions::thickness, support::between(3.5, 1000),
            "bed thickness along the strip [mean grain diameters]");
   keys.add(soil, "--pressure", &PlanOptions::mostPressure, support::between(1e3, 1e7),
-           "maximum plate pressure; the test ends earlier at a sinkage of 0.3 breadths [Pa]");
+           "maximum plate pressure [Pa]; the test ends earlier if the sinkage reaches 0.3 plate widths");
   keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
-           "inertial number of the plate tests: speed/breadth d sqrt(density/pressure) [-]");
-  keys.add(soil, "--plate-waves", &PlanOptions::plateWaves, support::between(1e-4, 10),
-           "limit of the pressure from waves of the moving plate, over the track pressure; bounds the speed in firm "
-           "soil [-]");
+           "inertial number of the plate tests: (speed / width) d sqrt(density / pressure) [-]");
+  keys.add(
+      soil, "--plate-waves", &PlanOptions::plateWaves, support::between(1e-4, 10),
+      "maximum wave pressure of the moving plate over the track pressure; limits the plate speed in firm soil [-]");
   keys.add(soil, "--shear-inertial-number", &PlanOptions::shearInertialNumber, support::between(1e-6, 0.1),
            "inertial number of the shear tests: rate d sqrt(density/stress) [-]");
   keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),
@@ -75,18 +76,18 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7),
            "normal stresses of the shear tests [Pa]");
   keys.add(soil, "--steps-per-contact", &PlanOptions::stepsPerContact, support::between(6, 600),
-           "time steps per shortest contact; raised for tests that end unsound");
+           "time steps per shortest contact; increased automatically for tests that become unstable");
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
            "height of the sheared layer, at least ten grains [m]");
   soil.add_flag("!--no-wide", keys.wide(),
-                "omit the small plate on beds of twice the width, as --calibrate always does");
+                "skip the small-plate tests on beds of twice the width (--calibrate always skips them)");
 }
 
 void doSoil(const virtual_tests::SoilCommand& c, const std::string& targets, const std::string& words) {
   if (c.soil.empty() == targets.empty())
-    throw base::InputError("soil: give either a soil to test or --calibrate with a file of targets");
+    throw base::InputError("soil: specify either a soil to test, or --calibrate with a file of targets");
   if (c.fitScm && !targets.empty())
-    throw base::InputError("soil: --fit-scm fits the tests of one soil; give its name instead of --calibrate");
+    throw base::InputError("soil: --fit-scm requires the name of a soil and is incompatible with --calibrate");
   if (targets.empty())
     virtual_tests::soilCommand(c);
   else
@@ -100,25 +101,26 @@ void addSoil(CLI::App& app, const Invocation& invocation) {
   virtual_tests::SoilCommand& c = *command;
   const auto targets = std::make_shared<std::string>();
   CLI::App* soil = app.add_subcommand(
-      "soil", "A soil's constants (Bekker, Mohr-Coulomb, Janosi) measured in a virtual bevameter, with intervals");
-  soil->add_option("soil", c.soil, "name of a soil, or a soil file that ends in .toml");
+      "soil",
+      "Measure the constants of a soil (Bekker, Mohr-Coulomb, Janosi) in a virtual bevameter, with 95 % intervals");
+  soil->add_option("soil", c.soil, "name of a soil, or a soil file (.toml)");
   soil->add_option("--calibrate", *targets,
-                   "file of target constants; finds contact parameters that reproduce them, and writes a soil file");
+                   "find contact parameters that reproduce the target constants in this file, and write a soil file");
   soil->add_option(
           "--grain-radius", c.grainRadius,
-          "mean radius of the grains tested [m]; stiffness and cohesion scale with it; default: that of the soil file")
+          "mean grain radius in the tests [m]; stiffness and cohesion are scaled to it; default: that of the soil file")
       ->check(support::positive("a length in metres"));
   const auto keys = std::make_shared<PlanKeys>(c.plan);
   addPlanOptions(*soil, *keys);
   jobs::addPieceOptions(*soil, c.pieces);
-  soil->add_option("--jobs", c.jobs, "number of concurrent tests, each a process with its share of --threads")
+  soil->add_option("--jobs", c.jobs, "number of concurrent tests (processes), which share --threads")
       ->check(support::wholeNumber(1, 256))
       ->capture_default_str();
-  soil->add_flag("--quick", c.place.quick, "a coarse pass in minutes: small plates of few grains, pushed fast");
-  soil->add_flag("--fit-scm", c.fitScm,
-                 "also fit the soil contact model (terrain.kind = \"scm\") to the tests: constants for [scm], and the "
-                 "residual of the fit");
-  support::addOut(*soil, c.place.folder, "folder of the results; default: out/soil_NAME, or out/calibrate_NAME");
+  soil->add_flag("--quick", c.place.quick, "run a coarse test in minutes: small plates of few grains, pushed fast");
+  soil->add_flag(
+      "--fit-scm", c.fitScm,
+      "also fit the constants of [scm] (terrain.kind = \"scm\") to the tests, and report the residual of the fit");
+  support::addOut(*soil, c.place.folder, "results folder; default: out/soil_NAME, or out/calibrate_NAME");
   soil->add_flag("--force", c.place.force, "overwrite the results in that folder");
   soil->callback([command, keys, targets, words = invocation.words] {
     if (command->place.quick) keys->takeQuick();

@@ -105,7 +105,7 @@ std::string soilText(const std::string& word, const fs::path& folder) {
   std::vector<fs::path> tried;
   const fs::path file = scene::findSoil(word, sceneIn(folder), tried);
   if (file.empty())
-    throw base::InputError(fmt::format("soils {}: is not a soil; {}", word, scene::soilHint(word, sceneIn(folder))));
+    throw base::InputError(fmt::format("soils {}: no such soil; {}", word, scene::soilHint(word, sceneIn(folder))));
   const Soil soil = scene::readSoil(file);
   std::string text = fmt::format("{}: {}, {}\n{}\n  {} ({})\n\n", soil.name, soil.head.title, state(soil),
                                  soil.head.description, soil.file.string(), soil.hash);
@@ -128,7 +128,7 @@ std::string soilText(const std::string& word, const fs::path& folder) {
   for (const scene::ReachedConstant& c : soil.reached)
     text += fmt::format("  {:<13} {:g} +- {:.2g} {} with grains of {:g} mm: {}\n", base::wordOf(c.quantity), c.value,
                         c.halfWidth, c.unit, 1000 * c.grainRadius, c.command);
-  if (soil.reached.empty()) text += "  nothing measured yet\n";
+  if (soil.reached.empty()) text += "  no measurements yet\n";
   return text;
 }
 

@@ -15,18 +15,21 @@ namespace grouser::commands {
 void addStudy(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<studies::StudyCommand>();
   studies::StudyCommand& c = *command;
-  CLI::App* study = app.add_subcommand("study", "Error against run time, stable steps, precision: tables and plots");
+  CLI::App* study = app.add_subcommand(
+      "study", "Run accuracy studies: error over run time, stable time steps, precision; writes tables and plots");
   study->require_subcommand(1);
   CLI::App* multibody = study->add_subcommand(
-      "multibody", "Mechanisms with known motion: error, order, drift and CPU time of each integrator and step");
+      "multibody",
+      "Compare mechanisms with their exact motion: error, order, drift and CPU time of each integrator and time step");
   std::string names;
   for (const studies::StudyCase& known : studies::studyCases()) names += (names.empty() ? "" : ", ") + known.name;
   multibody->add_option("--cases", c.cases, "cases, separated by commas, of " + names + "; default: all")
       ->delimiter(',');
-  multibody->add_flag("--stability", c.stability, "stable time steps, compared with theory, instead");
-  studies::addPlace(*multibody, c.place, "multibody", "three long steps only, without the cases that take minutes");
+  multibody->add_flag("--stability", c.stability, "measure stable time steps instead, and compare them with theory");
+  studies::addPlace(*multibody, c.place, "multibody",
+                    "use only three long time steps, and skip cases that run for minutes");
   studies::QuickValues quick;
-  quick.instead(multibody->add_option("--budget", c.budget, "maximum CPU time of a run; longer ones are omitted [s]")
+  quick.instead(multibody->add_option("--budget", c.budget, "maximum CPU time of a run [s]; longer runs are skipped")
                     ->check(support::positive("a time in seconds"))
                     ->capture_default_str(),
                 c.budget, 0.5);

@@ -93,7 +93,7 @@ std::string verdictText(Verdict verdict) {
 
 namespace {
 
-/// Whether all seeds agree but for rounding; then no interval is shown.
+/// Whether all seeds agree up to rounding; then no interval is shown.
 bool isExact(const support::Estimate& e) { return e.halfWidth <= 1e-9 * std::fabs(e.value); }
 
 } // namespace
@@ -114,7 +114,7 @@ std::string valueText(const support::Estimate& estimate) {
   const bool hasWidth = std::isfinite(e.halfWidth) && e.halfWidth > 0;
   const double scale = hasWidth ? e.halfWidth : 0.001 * std::fabs(e.value);
   const double size = std::max(std::fabs(e.value), scale);
-  const int last = scale > 0 ? static_cast<int>(std::floor(std::log10(scale))) - 1 : -3; // of the digits shown
+  const int last = scale > 0 ? static_cast<int>(std::floor(std::log10(scale))) - 1 : -3; // power of the last digit
   constexpr int kMostDigits = 9;
   if (size >= 1e6 || (size > 0 && size < 1e-3) || -last > kMostDigits) { // one power of ten for both
     const int power = static_cast<int>(std::floor(std::log10(size)));

@@ -16,16 +16,16 @@ support::Estimate interval(std::span<const double> values, double miss);
 /// Prediction interval: mean, and the half width of the interval that misses one further value with this chance.
 support::Estimate predictionInterval(std::span<const double> values, double miss);
 
-/// mean b - mean a with its 95 % half width, from samples of their own: Welch's interval, with the degrees of freedom
-/// of Satterthwaite rounded down; infinite where either has fewer than two values.
+/// mean b - mean a with its 95 % half width, for independent samples: Welch's interval with Satterthwaite's degrees of
+/// freedom, rounded down; infinite if either sample has fewer than two values.
 support::Estimate unpairedChange(std::span<const double> a, std::span<const double> b);
-/// The same over mean a, whose scatter is left out.
+/// The same over mean a; ignores the scatter of mean a.
 support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b);
 
-/// mean b - mean a with its 95 % half width, of pairs: a[i] and b[i] have the same seed. Throws std::invalid_argument
-/// where they are not as many.
+/// mean b - mean a with its 95 % half width, for pairs: a[i] and b[i] have the same seed. Throws std::invalid_argument
+/// if their numbers differ.
 support::Estimate pairedChange(std::span<const double> a, std::span<const double> b);
-/// The same over mean a, whose scatter is left out.
+/// The same over mean a; ignores the scatter of mean a.
 support::Estimate pairedDifference(std::span<const double> a, std::span<const double> b);
 
 enum class Verdict {
@@ -41,12 +41,12 @@ std::string verdictText(Verdict verdict); ///< "equal", "differs", "inconclusive
 /// interval.
 bool isInconclusive(const support::Estimate& estimate);
 
-/// "12.3 +- 0.4" with so many digits after the point; "12.3" where the interval is below 1e-9 of the value, so that the
-/// seeds agree but for rounding.
+/// "12.3 +- 0.4" with `digits` digits after the point; "12.3" if the interval is below 1e-9 of the value, so that
+/// the seeds agree up to rounding.
 std::string plusMinus(const support::Estimate& estimate, int digits);
-/// "0.0729 +- 0.0090": so many digits that the half width has two, or the value three where it has none; one power of
-/// ten for both where they are very large or small, or the interval is; no interval where the seeds agree but for
-/// rounding; "-" where the value is no number.
+/// "0.0729 +- 0.0090": two digits of the half width, or three of the value without an interval; one power of ten for
+/// both if they are very large or small, or the interval very small; no interval if the seeds agree up to rounding; "-"
+/// if the value is not a number.
 std::string valueText(const support::Estimate& estimate);
 /// "12.3 +- 0.4 %".
 std::string percent(const support::Estimate& estimate, int digits = 1);

@@ -43,23 +43,25 @@ void addDeviceOptions(CLI::App& app, std::string& device, int& threads) {
   app.add_option("--device", device, "auto, cpu or cuda")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
       ->capture_default_str();
-  app.add_option("--threads", threads, "CPU threads, 0 for all; the results do not depend on it")
+  app.add_option("--threads", threads, "number of CPU threads; 0: all cores; the results do not depend on it")
       ->check(support::wholeNumber(0, 1024))
       ->capture_default_str();
 }
 
 void addPieceOptions(CLI::App& app, PieceOptions& o) {
-  app.add_flag(
-      "--resume", o.resume,
-      "continue with the runs of earlier calls in the folder, as a call with the same options does by default");
+  app.add_flag("--resume", o.resume,
+               "continue the runs of earlier calls in the folder (the default if the options are the same)");
   app.add_option("--part", o.part,
-                 "share of the runs, e.g. 2/8: every eighth run, starting with the second, to divide a study among "
-                 "concurrent calls; a last call without it writes the tables")
+                 "run only this part of the runs, e.g. 2/8 for every eighth run starting with the second, to divide a "
+                 "study among concurrent calls; a final call without --part writes the tables")
       ->check(CLI::Validator(
-          [](const std::string& text) { return partOf(text) ? std::string() : text + " is not a part such as 2/8"; },
+          [](const std::string& text) {
+            return partOf(text) ? std::string() : text + " is not of the form PART/PARTS, e.g. 2/8";
+          },
           "PART/PARTS"));
-  app.add_option("--seconds", o.seconds,
-                 "start no further run that would end after this wall time [s], judged by the last run; 0: no limit")
+  app.add_option(
+         "--seconds", o.seconds,
+         "start no new run that would exceed this wall time [s], judged by the duration of the last run; 0: no limit")
       ->check(support::notNegative("a time in seconds"));
   addDeviceOptions(app, o.device, o.threads);
 }
@@ -83,7 +85,7 @@ std::size_t Table::column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
     throw base::InputError(fmt::format(
-        "a table of an earlier call has no column \"{}\": it is from another version; start again with --force", name));
+        "a table of an earlier call has no column \"{}\": another version wrote it; start again with --force", name));
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -117,8 +119,8 @@ Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOpt
   const bool hasRuns = (isAsked || !place.force) && fs::exists(file, missing);
   const bool isSame = hasRuns && kept.isThere();
   if (hasRuns && !isSame)
-    throw base::InputError(fmt::format("{}: the runs in this folder were made with other options; use the same "
-                                       "options, name another folder with --out, or overwrite it with --force",
+    throw base::InputError(fmt::format("{}: the runs in this folder were made with different options; use the same "
+                                       "options, choose another folder with --out, or overwrite it with --force",
                                        file.string()));
   const bool goesOn = isAsked || isSame;
   where.force = place.force || goesOn;

@@ -35,7 +35,7 @@ class NextPiece {
 public:
   NextPiece() : block_(base::createShared(sizeof(Number))) {
     if (!block_.memory)
-      throw base::DeviceError("no shared memory for several processes; use --jobs 1 or --processes 1");
+      throw base::DeviceError("cannot allocate shared memory for several processes; use --jobs 1 or --processes 1");
     number_ = new (block_.memory) Number(0);
   }
   ~NextPiece() { base::closeShared(block_.memory, sizeof(Number)), base::endSharing(block_); }
@@ -121,7 +121,7 @@ void shareWork(int processes, std::size_t count, const std::function<void(std::s
       judge(children[k].wait(), failures[k]);
     }
   }
-  if (ready < count) throw std::runtime_error("one of the processes ended before its work was done");
+  if (ready < count) throw std::runtime_error("one of the processes ended before it had finished its work");
 }
 
 } // namespace grouser::jobs

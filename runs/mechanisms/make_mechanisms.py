@@ -103,7 +103,7 @@ def andrews():
     D = (xb + sc * sin(ga) + sd * cos(ga), yb - sc * cos(ga) + sd * sin(ga))
     out = head("Andrews' squeezing mechanism: seven bodies in a plane, driven by a constant torque on the crank K1 against a spring\n"
                "(IFToMM benchmark, problem A03; constants of the IVP test set). No gravity; at rest at the start. All bodies are\n"
-               "axis-parallel at the start: only their centres and joints count.",
+               "parallel to the axes at the start: only their centres and joints matter.",
                duration=.05, time_step="1e-5", gravity=vector(0, 0, 0), output_interval=2.5e-4, frame_interval=2.5e-4)
     for i in range(7):
         I = inertia[i]
@@ -125,8 +125,9 @@ def ring(n, spin):
     R = pitch / (2 * math.sin(math.pi / n))
     apothem = R * math.cos(math.pi / n)
     T = mass * spin ** 2 * R * math.cos(math.pi / n) / (2 * math.sin(math.pi / n))
-    out = head(f"A free ring of {n} track links on hinges, spinning about y at {spin:g} rad/s without gravity. It stays a regular polygon; every\n"
-               f"hinge carries {T:.6f} N. One hinge is spherical, one universal: with all revolute the ring would be held more than once.",
+    out = head(f"A free ring of {n} track links on hinges, spinning about y at {spin:g} rad/s without gravity. It stays a regular\n"
+               f"polygon; every hinge carries {T:.6f} N. One hinge is spherical, one universal: with revolute hinges only, the\n"
+               "ring would be overconstrained.",
                duration=10, time_step="1e-3", gravity=vector(0, 0, 0), output_interval=.02, frame_interval=.05)
     out += "\n[output]\nrecord = " + names("link 0", f"link {n // 2}", "pin 0", f"pin {n // 4}") + "\n"
     for i in range(n):
@@ -149,7 +150,7 @@ def chain(n, tip):
     n, tip = int(n), float(tip)
     length, mass = .15, 1
     out = head(f"A hanging chain of {n} links with {tip:g} kg at its end, {tip / mass:g} times a link's mass. At rest the pin above link i carries\n"
-               f"(({n} - i) {mass} kg + {tip:g} kg) g; the first {(n * mass + tip) * G:.6g} N. It hangs at rest; the time step is small enough that\n"
+               f"(({n} - i) {mass} kg + {tip:g} kg) g; the first pin {(n * mass + tip) * G:.6g} N. It hangs at rest; the time step is small enough that\n"
                "transverse oscillations of the links do not grow.",
                duration=1, time_step=f"{min(1e-3, .05 / math.sqrt(n + tip / mass)):.1g}", gravity=vector(0, 0, -G), output_interval=.01, frame_interval=.1)
     out += "\n[output]\nrecord = " + names("link 0", "tip", "pin 0", f"pin {n // 2}", "tip pin") + "\n"
@@ -182,7 +183,7 @@ def strand(n, sag):
         p = span / sum(H / math.hypot(H, mass * G * (i + .5 - n / 2)) for i in range(n))
         H *= -min(y for _, y in shape(p, H)) / sag
     pins = shape(p, H)
-    out = head(f"A strand of {n} track links between two rollers {span} m apart that sags by {sag * 1e3:g} mm, at rest. The horizontal force\n"
+    out = head(f"A strand of {n} track links at rest between two rollers {span} m apart, with a sag of {sag * 1e3:g} mm. The horizontal force\n"
                f"in every pin is {H:.9g} N (a discrete catenary; lambda g L^2 / (8 sag) = {1147.9 * span ** 2 / (8 * sag):.6g} N).",
                duration=.5, time_step="1e-4", gravity=vector(0, 0, -G), output_interval=.005, frame_interval=.05)
     for i in range(n):

@@ -15,43 +15,44 @@ Columns<TerrainReading> terrainColumns() {
         [](const T& t) { return t.ledger.partContacts; });
   c.add("max_overlap", "-", "largest overlap over the grain radius",
         [](const T& t) { return t.ledger.deepestOverlap / t.radius; });
-  c.add("squeezed", "-", "grain-grain contacts with an overlap above 0.2 of the smaller radius",
+  c.add("squeezed", "-", "grain-grain contacts with overlap above 0.2 of the smaller radius",
         [](const T& t) { return t.ledger.squeezedPairs; });
   c.add("squeezed_at_boundaries", "-",
-        "contacts of grains with planes, floor and surfaces with an overlap above 0.2 radius",
+        "contacts of grains with planes, floor and surfaces with overlap above 0.2 grain radius",
         [](const T& t) { return t.ledger.squeezedAtBoundaries; });
-  c.add("squeezed_by_parts", "-", "contacts of grains with parts and meshes with an overlap above 0.2 radius",
+  c.add("squeezed_by_parts", "-", "contacts of grains with parts and meshes with overlap above 0.2 grain radius",
         [](const T& t) { return t.ledger.squeezedByParts; });
   c.add("part_overlap", "-", "largest overlap with a part or mesh since the last row, over the grain radius",
         [](const T& t) { return t.deepestPartOverlap ? t.deepestPartOverlap->share : base::kNaN; });
-  c.add("part_overlap_by", "-", "index of that part in the attribute parts of /; -1: none",
+  c.add("part_overlap_by", "-", "index of this part in the root attribute \"parts\"; -1 if none",
         [](const T& t) { return t.deepestPartOverlap ? t.deepestPartOverlap->part : base::kNaN; });
-  c.add("capped", "-", "contacts of grains with parts at the crushing force",
+  c.add("capped", "-", "contacts of grains with parts in which the force has reached the crushing force",
         [](const T& t) { return t.ledger.cappedNow; });
-  c.add("crushed", "-", "grains crushed to their middle by parts and removed, since the start", &T::crushed);
-  c.add("cut_impulse", "N s", "impulse that crushing has cut off these contacts, since the start",
+  c.add("crushed", "-", "number of grains removed because a part crushed them to their centre, since the start",
+        &T::crushed);
+  c.add("cut_impulse", "N s", "contact impulse removed by the crushing limit, since the start",
         [](const T& t) { return t.ledger.cutImpulse; });
   c.add("max_speed", "m/s", "speed of the fastest grain", [](const T& t) { return t.ledger.fastestGrain; });
-  c.add("rebuilds", "-", "rebuilds of the neighbour lists since the start", &T::rebuilds);
+  c.add("rebuilds", "-", "number of neighbour-list rebuilds since the start", &T::rebuilds);
   return c;
 }
 
 Columns<coupling::Surfaces::Observation> surfaceColumns(const std::string& name, bool hasPivot) {
   using S = coupling::Surfaces::Observation;
   Columns<S> c("surfaces/" + name + "/");
-  c.add("force", "N", "force of the grains on it, mean since the last row", &S::force);
-  c.add("torque", "N m", "torque of the grains on it about its centre, mean since the last row", &S::torque);
-  c.add("power", "W", "power of its drive, mean since the last row", &S::power);
-  c.add("position", "m", "position of its centre", &S::position);
+  c.add("force", "N", "force of the grains on the surface, mean since the last row", &S::force);
+  c.add("torque", "N m", "torque of the grains on the surface about its centre, mean since the last row", &S::torque);
+  c.add("power", "W", "power of the surface's drive, mean since the last row", &S::power);
+  c.add("position", "m", "position of the surface's centre", &S::position);
   if (hasPivot)
-    c.add("pivot_torque", "N m", "torque of the grains on it about its pivot, mean since the last row",
+    c.add("pivot_torque", "N m", "torque of the grains on the surface about its pivot, mean since the last row",
           &S::pivotTorque);
   return c;
 }
 
 Columns<base::Vec3d> obstacleColumns(const std::string& name) {
   Columns<base::Vec3d> c("obstacles/" + name + "/");
-  c.add("force", "N", "force of vehicle and bodies on it, mean since the last row",
+  c.add("force", "N", "force of vehicle and bodies on the surface, mean since the last row",
         [](const base::Vec3d& force) { return force; });
   return c;
 }
@@ -68,7 +69,7 @@ Columns<HitchReading> hitchColumns() {
         [](const H& h) { return h.hitch.speed; });
   c.add("power", "W", "power from the vehicle to the hitch, mean since the last row",
         [](const H& h) { return h.hitch.power; });
-  c.add("work", "J", "work of the hitch on the vehicle since the start, part of ledger/drive_work",
+  c.add("work", "J", "work of the hitch on the vehicle since the start, included in ledger/drive_work",
         [](const H& h) { return h.hitch.work; });
   c.add("towed_way", "m", "distance of sled or carriage since the hitch engaged",
         [](const H& h) { return h.hitch.towedWay; });
@@ -86,7 +87,7 @@ Columns<coupling::GearContacts> gearColumns() {
   c.add("grains_on_idlers", "-", "contacts of grains with idlers", &G::idlers);
   c.add("grains_on_hull", "-", "contacts of grains with the hull", &G::hull);
   c.add("stones", "-", "grains that touch a sprocket, road wheel, roller or idler", &G::stones);
-  c.add("pinched_stones", "-", "those of them that also touch a shoe", &G::pinched);
+  c.add("pinched_stones", "-", "grains that touch one of these parts and also a shoe", &G::pinched);
   return c;
 }
 
@@ -102,7 +103,7 @@ Columns<SolverReading> solverColumns() {
   c.add("all_iterations", "-", "iterations since the start", [](const S& s) { return s.all.iterations; });
   c.add("missed_steps", "-", "steps with a residual above run.residual since the start",
         [](const S& s) { return s.all.missed; });
-  c.add("relaxed_steps", "-", "steps finished with the convex relaxation since the start",
+  c.add("relaxed_steps", "-", "steps solved by the convex relaxation, since the start",
         [](const S& s) { return s.all.relaxed; });
   c.add("worst_residual", "m/s", "largest residual since the start", [](const S& s) { return s.all.worst; });
   return c;
@@ -131,26 +132,31 @@ Columns<coupling::Ledger> ledgerColumns(const LedgerParts& parts) {
             [energy = entry.energy](const L& l) { return l.soil.*energy; });
   }
   if (parts.solved)
-    c.add("dissipated_stabilisation", "J", "dissipation by contacts that push overlaps apart; energy input if negative",
+    c.add("dissipated_stabilisation", "J",
+          "dissipation by the correction of overlaps in rigid contacts; negative: energy input",
           [](const L& l) { return l.dissipated.stabilisation; });
   if (parts.wet)
     c.add("dissipated_fluid", "J", "dissipation by viscosity, density diffusion and walls of the fluid",
           [](const L& l) { return l.dissipated.fluid; });
   c.add("integration_error", "J",
-        "energy lost (gained if negative) by time integration: drive work minus kinetic, potential, elastic and "
-        "dissipated",
+        "time-integration error: drive work minus kinetic, potential, elastic and dissipated energy; negative: energy "
+        "gain",
         &L::integrationError);
-  c.add("residual", "J", "kinetic energy minus the work of all forces on the bodies: rounding error", &L::residual);
-  c.add("turnover", "J", "sum of the absolute work on each body in each step", &L::turnover);
+  c.add("residual", "J", "energy residual (rounding): kinetic energy minus work of all forces on the bodies",
+        &L::residual);
+  c.add("turnover", "J", "turnover: sum over bodies and steps of the absolute work", &L::turnover);
   c.add("momentum", "N s", "momentum of grains, vehicle and bodies", &L::momentum);
   c.add("angular_momentum", "N m s", "angular momentum of grains, vehicle and bodies about the world's origin",
         &L::angularMomentum);
-  c.add("momentum_residual", "N s", "momentum minus the impulses of gravity, ground and surfaces: rounding error",
-        &L::momentumResidual);
+  c.add("momentum_residual", "N s",
+        "momentum residual (rounding): momentum minus impulses of gravity, ground and surfaces", &L::momentumResidual);
   c.add("angular_residual", "N m s",
-        "angular momentum minus the moments of these impulses: rounding error; undefined with periodic boundaries",
+        "angular momentum residual (rounding): angular momentum minus moments of these impulses; undefined with "
+        "periodic boundaries",
         &L::angularResidual);
-  if (parts.touching) c.add("impulse_residual", "N s", "impulse on vehicle plus impulse on bed", &L::impulseResidual);
+  if (parts.touching)
+    c.add("impulse_residual", "N s", "sum of the impulses on vehicle and bed; zero except for rounding",
+          &L::impulseResidual);
   return c;
 }
 

@@ -59,7 +59,7 @@ public:
   }
 
   const std::vector<Channel>& channels() const { return channels_; }
-  /// Adds the numbers of all channels to a row's.
+  /// Appends the numbers of all channels to a row.
   void append(const Source& source, std::vector<double>& values) const {
     for (const auto& read : readers_) read(source, values);
   }
@@ -73,9 +73,9 @@ private:
 /// The bed at the time of a row.
 struct TerrainReading {
   coupling::Ledger ledger;
-  double radius{};         ///< radius of the grains' model, the unit of overlaps [m]
+  double radius{};         ///< radius of the grain model, the unit of overlaps [m]
   double crushed{};        ///< grains removed since the start
-  std::int64_t rebuilds{}; ///< of the neighbour list
+  std::int64_t rebuilds{}; ///< rebuilds of the neighbour list
   std::optional<coupling::DeepestPartOverlap> deepestPartOverlap; ///< empty if grains touch no part
 };
 /// State of the bed and its contacts.
@@ -93,11 +93,11 @@ struct HitchReading {
 Columns<HitchReading> hitchColumns();
 /// Contacts of grains with the parts of a vehicle.
 Columns<coupling::GearContacts> gearColumns();
-/// Columns of the ledger that only some scenes have.
+/// Features of a scene that add columns to the ledger.
 struct LedgerParts {
   bool touching = true; ///< vehicle and bed may exchange impulses
-  bool deforms = false; ///< a ground of deformable soil, with energies of its own
-  bool wet = false;     ///< a fluid
+  bool deforms = false; ///< deformable soil, with energies of its own
+  bool wet = false;     ///< the scene has a fluid
   bool solved = false;  ///< complementarity contacts
 };
 /// Energy and momentum.

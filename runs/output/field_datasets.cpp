@@ -36,18 +36,18 @@ struct FieldDataset {
 };
 const FieldDataset kFieldDatasets[] = {
     {"stress", 6, [](const SoilFields& f) { return ofTensors(f.stress); }, "Pa",
-     "Love-Weber stress xx, xy, xz, yy, yz, zz, mean over the cell with its pores; negative in compression"},
+     "Love-Weber stress xx, xy, xz, yy, yz, zz, mean over the cell including pores; negative in compression"},
     {"strain_rate", 6, [](const SoilFields& f) { return ofTensors(f.strainRate); }, "1/s",
-     "strain rate xx, xy, xz, yy, yz, zz of a linear velocity field fitted to the cell's grains; NaN with too few "
-     "grains"},
+     "strain rate xx, xy, xz, yy, yz, zz of a linear velocity field fitted to the grains of the cell; NaN if there are "
+     "too few"},
     {"velocity", 3, [](const SoilFields& f) { return ofVectors(f.velocity); }, "m/s",
      "mass-weighted mean velocity of the grains; NaN in a cell without grains"},
     {"porosity", 1, [](const SoilFields& f) { return ofScalars(f.porosity); }, "-",
-     "pore volume over the volume of the cell"},
+     "porosity: pore volume / cell volume"},
     {"coordination", 1, [](const SoilFields& f) { return ofScalars(f.coordination); }, "-",
      "mean number of contacts per grain; NaN in a cell without grains"},
     {"mechanical_coordination", 1, [](const SoilFields& f) { return ofScalars(f.mechanicalCoordination); }, "-",
-     "mean number of contacts per grain, of grains with two contacts or more"},
+     "mean number of contacts per grain, over grains with two or more contacts"},
 };
 
 constexpr const char *kOrigin = "/fields/origin", *kSpacing = "/fields/spacing";

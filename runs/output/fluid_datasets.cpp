@@ -24,7 +24,8 @@ struct FluidDataset {
   const char *unit, *help;
 };
 const FluidDataset kDatasets[] = {
-    {"position", 3, &FluidPoints::position, nullptr, "m", "positions of the fluid particles, by number"},
+    {"position", 3, &FluidPoints::position, nullptr, "m",
+     "positions of the fluid particles, ordered by particle number"},
     {"velocity", 3, &FluidPoints::velocity, nullptr, "m/s", "velocities of the particles"},
     {"pressure", 1, nullptr, &FluidPoints::pressure, "Pa", "pressures of the particles"},
 };
@@ -74,9 +75,9 @@ std::shared_ptr<const FluidPoints> readFluid(const support::Hdf5File& file, cons
     Numbers numbers = file.read<float>(dataset);
     if (numbers.size() != count * d.width ||
         std::any_of(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); }))
-      throw base::InputError(fmt::format("{}: {} does not have a finite value for each particle; the file is damaged "
-                                         "or was written by another program",
-                                         file.path().string(), dataset));
+      throw base::InputError(fmt::format(
+          "{}: {} must have a finite value for each particle; the file is damaged or was written by another program",
+          file.path().string(), dataset));
     if (d.scalars)
       (*fluid).*d.scalars = std::move(numbers);
     else

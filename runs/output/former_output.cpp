@@ -24,11 +24,11 @@ std::string readCounted(const fs::path& path, const std::vector<Channel>& channe
   const std::size_t most = std::min({steps.size(), times.size(), static_cast<std::size_t>(count)});
   for (std::size_t i = 0; i < most && steps[i] <= step; ++i) rows.push_back({steps[i], times[i], {}});
   if (static_cast<std::int64_t>(rows.size()) != count)
-    return fmt::format("holds {} rows up to step {}, but the checkpoint counted {}", rows.size(), step, count);
+    return fmt::format("contains {} rows up to step {}, but the checkpoint requires {}", rows.size(), step, count);
   for (const Channel& c : channels) {
     const std::vector<double> values = file.read<double>("/" + c.path + "/value");
     const auto width = static_cast<std::size_t>(c.width);
-    if (values.size() < rows.size() * width) return fmt::format("holds too few rows of {}", c.path);
+    if (values.size() < rows.size() * width) return fmt::format("contains too few rows of {}", c.path);
     for (std::size_t i = 0; i < rows.size(); ++i)
       rows[i].values.insert(rows[i].values.end(), values.begin() + static_cast<std::ptrdiff_t>(i * width),
                             values.begin() + static_cast<std::ptrdiff_t>((i + 1) * width));
@@ -49,8 +49,8 @@ std::vector<Row> readRows(const fs::path& folder, const std::vector<Channel>& ch
     fault = fmt::format("cannot be read ({})", error.what());
   }
   if (!fault.empty())
-    throw base::InputError(fmt::format("{}: {}, so the rows before the checkpoint cannot be kept; restore the file of "
-                                       "the run, or continue without them by --force",
+    throw base::InputError(fmt::format("{}: {}, so the rows before the checkpoint are lost; restore the file of the "
+                                       "run, or continue without these rows with --force",
                                        path.string(), fault));
   return rows;
 }
@@ -64,8 +64,8 @@ std::int64_t keptFrames(const fs::path& folder, std::int64_t step, std::int64_t 
     if (count == 0) return 0; // it is made anew
   }
   if (found < count)
-    throw base::InputError(fmt::format("{}: does not hold the {} frames up to step {} that the checkpoint counted; "
-                                       "restore the file of the run, or continue without them by --force",
+    throw base::InputError(fmt::format("{}: does not contain the {} frames up to step {} that the checkpoint requires; "
+                                       "restore the file of the run, or continue without these frames with --force",
                                        (folder / "frames.h5").string(), count, step));
   return atEnd && found == count + 1 ? found : count;
 }

@@ -5,7 +5,7 @@
 
 namespace grouser::output {
 
-/// Reads the first `count` rows of `folder`/results.h5, which a run resumed at `step` keeps. Changes nothing. Throws
+/// Reads the first `count` rows of `folder`/results.h5, which a run resumed at `step` keeps. Does not modify it. Throws
 /// base::InputError where the file cannot be read, or does not hold so many rows up to that step of these channels.
 std::vector<Row> readRows(const std::filesystem::path& folder, const std::vector<Channel>& channels, std::int64_t step,
                           std::int64_t count);

@@ -45,8 +45,8 @@ const GrainDataset kGrainDatasets[] = {
     {"speed", 1, speedsOf, "m/s", "speed of the centre"},
     {"velocity", 3, [](const Frame& f) { return flat(f.velocities); }, "m/s", "velocity of the centre"},
     {"contact_force", 3, [](const Frame& f) { return flat(f.contactForces); }, "N",
-     "resultant of all contact forces; NaN before the first step, 0 for fixed grains"},
-    {"fixed", 1, [](const Frame& f) { return f.fixed; }, "-", "1 for a grain that never moves"},
+     "resultant contact force; NaN before the first step, 0 for fixed grains"},
+    {"fixed", 1, [](const Frame& f) { return f.fixed; }, "-", "1 for fixed grains, 0 for others"},
 };
 
 /// Whether such frames have the dataset, on all ranks, even those without grains.
@@ -290,20 +290,20 @@ std::vector<support::FileField> frameFields() {
   const char* corners = "vertex indices of each triangle";
   const std::vector<support::FileField> others{
       {frame + "parts/pose", "float64", "[parts, 7]", "m, -",
-       "position and orientation quaternion (scalar first) of every part's frame in the world"},
+       "position and orientation quaternion (scalar first) of each part in the world frame"},
       {frame + "parts/pose@columns", "texts", "[7]", "", "names of these seven columns"},
       {frame + "parts/position", "float32", "[vertices, 3]", "m", "world positions of the vertices of all parts"},
       {frame + "partition/AXIS", "float64", "[borders]", "m",
-       "positions of the borders between the subdomains of several ranks on the x, y and z axis"},
+       "positions of the borders between subdomains along x, y and z"},
       {"parts/triangles", "uint32", "[triangles, 3]", "-", corners},
-      {"parts/part", "uint32", "[triangles]", "-", "index of each triangle's part in names"},
+      {"parts/part", "uint32", "[triangles]", "-", "index into names: part of each triangle"},
       {"parts/part@names", "texts", "[parts]", "", "names of the parts"},
-      {"parts/kind", "uint32", "[triangles]", "-", "index of the kind of each triangle's part in names"},
+      {"parts/kind", "uint32", "[triangles]", "-", "index into names: kind of part of each triangle"},
       {"parts/kind@names", "texts", "[kinds]", "", "names of the kinds"},
       {"ground/position", "float32", "[vertices, 3]", "m", "vertices of rigid ground and planes"},
       {"ground/triangles", "uint32", "[triangles, 3]", "-", corners},
       {"vertices/NUMBER", "uint32", "[NUMBER, 1]", "-",
-       "0, 1, 2... for frames with this number of grains; required by ParaView"}};
+       "0, 1, 2... up to the number of grains; topology for ParaView"}};
   fields.insert(fields.end(), others.begin(), others.end());
   return fields;
 }

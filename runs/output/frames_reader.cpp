@@ -20,12 +20,12 @@ std::string groupOf(std::size_t frame) { return fmt::format("/{:06}", frame); }
 support::Hdf5File opened(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    throw base::InputError(fmt::format("{}: there is no such file; give the frames.h5 of a run", path.string()));
+    throw base::InputError(fmt::format("{}: no such file; specify the frames.h5 of a run", path.string()));
   try {
     return support::Hdf5File::open(path);
   } catch (const base::InputError&) {
     throw base::InputError(fmt::format(
-        "{}: is not an HDF5 file, is truncated, or a run is still writing it; give the frames.h5 of a finished run",
+        "{}: is not an HDF5 file, is truncated, or is still being written; specify the frames.h5 of a finished run",
         path.string()));
   }
 }
@@ -40,7 +40,7 @@ FramesReader::FramesReader(const std::filesystem::path& path) : file_(opened(pat
   }
   if (times_.empty())
     throw base::InputError(
-        fmt::format("{}: holds no frames; give the frames.h5 of a run with output.frames = true", path.string()));
+        fmt::format("{}: contains no frames; specify the frames.h5 of a run with output.frames = true", path.string()));
   readParts();
   readGround();
 }
@@ -69,7 +69,7 @@ std::vector<base::Vec3f> FramesReader::points(const std::string& dataset) const 
 
 std::vector<float> FramesReader::perGrain(const std::string& dataset, std::size_t count) const {
   if (file_.shape(dataset) != std::vector<std::uint64_t>{count})
-    damaged(fmt::format("{} does not have a number for each of the {} grains", dataset, count));
+    damaged(fmt::format("{} must have one number for each of the {} grains", dataset, count));
   std::vector<float> numbers = file_.read<float>(dataset);
   for (const float x : numbers)
     if (!std::isfinite(x) || x < 0) damaged(fmt::format("{} has a number that is negative or not finite", dataset));
@@ -85,7 +85,8 @@ void FramesReader::readParts() {
   if (corners.size() != 3 * partOf.size() || kindOf.size() != partOf.size()) damaged("/parts/triangles has no parts");
   parts_.resize(names.size());
   for (std::size_t t = 0; t < partOf.size(); ++t) {
-    if (partOf[t] >= names.size() || kindOf[t] >= kinds.size()) damaged("a triangle of /parts belongs to no part");
+    if (partOf[t] >= names.size() || kindOf[t] >= kinds.size())
+      damaged("a triangle of /parts has an invalid part index");
     StoredPart& part = parts_[partOf[t]];
     part.name = names[partOf[t]], part.kind = base::valueOf<PartKind>(kinds[kindOf[t]]).value_or(PartKind::other);
     part.triangles.insert(part.triangles.end(), &corners[3 * t], &corners[3 * t] + 3);
@@ -103,7 +104,7 @@ void FramesReader::readGround() {
   for (const base::Vec3f& p : points("/ground/position")) ground_.vertices.push_back(p.as<double>());
   ground_.indices = file_.read<std::uint32_t>("/ground/triangles");
   for (const std::uint32_t v : ground_.indices)
-    if (v >= ground_.vertices.size()) damaged("a triangle of /ground names a missing vertex");
+    if (v >= ground_.vertices.size()) damaged("a triangle of /ground has an invalid vertex index");
 }
 
 StoredFrame FramesReader::read(std::size_t frame) const {

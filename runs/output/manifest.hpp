@@ -29,7 +29,7 @@ private:
   std::string scene_, started_;
   std::vector<std::string> overrides_;
   std::string inputs_; ///< setup::inputsOf()
-  std::string soils_;  ///< of the scene's materials, as JSON
+  std::string soils_;  ///< soils of the scene's materials, as JSON
   std::map<std::string, std::string> notes_;
   Summary summary_;
 };

@@ -30,7 +30,7 @@ bool hasSlide(const multibody::Joint& j) {
 /// Free axes of a joint with the names of their quantities.
 struct NamedAxis {
   multibody::JointAxis axis;
-  std::string prefix; ///< of the quantities: "" for the only axis
+  std::string prefix; ///< prefix of the quantity names: "" for a single axis
   bool turns;
 };
 std::vector<NamedAxis> axesOf(const multibody::Joint& j) {
@@ -40,7 +40,7 @@ std::vector<NamedAxis> axesOf(const multibody::Joint& j) {
   return {};
 }
 
-/// Whether an axis is one of angles.
+/// Whether the coordinate of an axis is an angle.
 bool turns(const multibody::Joint& j, multibody::JointAxis axis) {
   return axis == multibody::JointAxis::kAngle || (axis == multibody::JointAxis::kOnly && hasAngle(j));
 }
@@ -58,13 +58,13 @@ std::string driveUnit(multibody::DriveKind kind, bool turning) {
   return turning ? "N m" : "N";
 }
 
-/// Threshold of the initial impulse energy over the kinetic energy, below which it is round-off of the input [-].
+/// Maximum initial impulse energy / kinetic energy that counts as round-off of the input [-].
 constexpr double kBlowShown = 1e-6;
 /// Redundant rows that are named before "and ... more" [-].
 constexpr std::size_t kRowsShown = 8;
 
 /// Shares of a mechanism's size: thickness of the bars from a centre to the joints, edge of the cube at the centre,
-/// least and greatest edge of a free body that gives no box [-].
+/// smallest and largest edge of a free body without a box [-].
 constexpr double kBar = 0.015, kCentre = 0.035, kLeastEdge = 0.02, kGreatestEdge = 0.5;
 
 /// Adds a box of edges `size` about `centre`, its axes the columns of `R`.
@@ -163,7 +163,7 @@ private:
                    [=](const Reading& r) { return twist(r).w; });
       if (touching_[i])
         addOfStep(path + "contact_force", "N",
-                  "force of all contacts of its shapes, mean since the last row, world components",
+                  "resultant contact force on the body, mean since the last row, world components",
                   [i](const Reading& r) { return r.contacts[i]; });
     });
   }
@@ -172,11 +172,11 @@ private:
     forKept(model_.joints(), from_.joints, "joints",
             [&](std::size_t i, const std::string& path, const multibody::Joint& joint) {
               addOfStep(path + "force", "N",
-                        "force on the second body from the first, with springs and drives of the axis, without "
+                        "force of the first body on the second, including springs and drives on the axis, excluding "
                         "couplings; world components",
                         [i](const Reading& r) { return r.reactions[i].force; });
               addOfStep(path + "torque", "N m",
-                        "torque on the second body from the first about the joint, with the same contributions",
+                        "torque of the first body on the second about the joint, with the same contributions",
                         [i](const Reading& r) { return r.reactions[i].torque; });
               for (const NamedAxis& a : axesOf(joint)) addAxis(static_cast<int>(i), path + a.prefix, a);
             });
@@ -190,7 +190,7 @@ private:
     columns_.add(path + "rate", a.turns ? "rad/s" : "m/s", "rate of the free axis",
                  [=](const Reading& r) { return axis(r).rate; });
     addOfStep(path + "force_along", a.turns ? "N m" : "N",
-              "force or torque of damping, springs, stops and drive along the free axis",
+              "force or torque along the free axis due to damping, springs, stops and drive",
               [=](const Reading& r) { return axis(r).axisForce; });
   }
 
@@ -199,7 +199,7 @@ private:
             [&](std::size_t i, const std::string& path, const auto&) {
               addOfStep(path + "force", "N", "spring force, positive in compression",
                         [i](const Reading& r) { return r.mechanism.state().spring[i].force; });
-              columns_.add(path + "length", "m", "distance between its ends",
+              columns_.add(path + "length", "m", "length of the spring",
                            [i](const Reading& r) { return r.mechanism.state().spring[i].length; });
             });
     forKept(model_.axisSprings(), from_.axisSprings, "springs",
@@ -218,9 +218,9 @@ private:
                 [=](const Reading& r) { return bushing(r).force; });
       addOfStep(path + "torque", "N m", "torque on the second body, world components",
                 [=](const Reading& r) { return bushing(r).torque; });
-      columns_.add(path + "translation", "m", "displacement in the bushing's axes on the first body",
+      columns_.add(path + "translation", "m", "displacement, in the bushing's axes on the first body",
                    [=](const Reading& r) { return bushing(r).translation; });
-      columns_.add(path + "rotation", "rad", "rotation vector in the same axes",
+      columns_.add(path + "rotation", "rad", "rotation vector, in the same axes",
                    [=](const Reading& r) { return bushing(r).rotation; });
     });
   }
@@ -243,8 +243,8 @@ private:
     forKept(model_.couplings(), from_.couplings, "couplings",
             [&](std::size_t i, const std::string& path, const auto& coupling) {
               addOfStep(path + "force", turnsAbout(coupling.joint2, coupling.axis2) ? "N m" : "N",
-                        "force or torque on the second axis, not included in the joint's force and torque; the first "
-                        "axis carries minus the ratio times it",
+                        "force or torque on the second axis, excluded from the force and torque of the joint; on the "
+                        "first axis it is -ratio times this value",
                         [i](const Reading& r) { return r.mechanism.state().coupling[i].force; });
             });
   }
@@ -254,13 +254,13 @@ private:
                  [](const Reading& r) { return r.now.linearMomentum; });
     columns_.add("momentum/angular", "kg m2/s", "angular momentum of all bodies about the world's origin",
                  [](const Reading& r) { return r.now.angularMomentum; });
-    columns_.add("constraints/position_error", "m", "largest position error of a joint since the last row [m, rad]",
+    columns_.add("constraints/position_error", "m", "maximum position error of a joint since the last row [m, rad]",
                  [](const Reading& r) { return r.drift.position; });
-    columns_.add("constraints/velocity_error", "m/s", "largest velocity error of a joint now [m/s, rad/s]",
+    columns_.add("constraints/velocity_error", "m/s", "maximum velocity error of a joint at this time [m/s, rad/s]",
                  [](const Reading& r) { return r.drift.velocity; });
-    columns_.add("constraints/iterations", "-", "most iterations of a step since the last row",
+    columns_.add("constraints/iterations", "-", "maximum number of iterations per step since the last row",
                  [](const Reading& r) { return r.drift.iterations; });
-    columns_.add("constraints/singular_steps", "-", "steps through a singular position since the last row",
+    columns_.add("constraints/singular_steps", "-", "number of steps through a singular position since the last row",
                  [](const Reading& r) { return r.drift.singularSteps; });
   }
 
@@ -287,7 +287,7 @@ Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const 
 Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names) {
   Columns<std::vector<double>> columns("bodies/");
   for (std::size_t p = 0; p < names.size(); ++p)
-    columns.add(names[p] + "/grain_mass", "kg", "mass of the grains with centres in the box of probe_size",
+    columns.add(names[p] + "/grain_mass", "kg", "mass of the grains whose centres are in the box of probe_size",
                 [p](const std::vector<double>& masses) { return masses[p]; });
   return columns;
 }
@@ -310,15 +310,15 @@ std::string mechanismSize(const coupling::Mechanism& mechanism) {
   line("springs and bushings",
        fmt::format("{}", model.axisSprings().size() + model.pointSprings().size() + model.bushings().size()));
   line("drives and couplings", fmt::format("{}", model.drives().size() + model.couplings().size()));
-  line("degrees of freedom", fmt::format("{}, not counting drives", solver.degreesOfFreedom()));
+  line("degrees of freedom", fmt::format("{}, excluding drives", solver.degreesOfFreedom()));
   if (std::fabs(mechanism.startBlow()) >
       kBlowShown * (std::fabs(mechanism.startBlow()) + mechanism.bodiesBalance().now.kinetic))
-    line("at the start", fmt::format("the drives jump to their speed, an impact of {:.4g} J; give the bodies that "
-                                     "velocity, or ramp the drives up to it",
+    line("at the start", fmt::format("the drives start at full speed, an impact of {:.4g} J; set this velocity for the "
+                                     "bodies, or ramp up the drives",
                                      mechanism.startBlow()));
   const std::vector<std::string> redundant = solver.redundantRowNames();
   if (redundant.empty()) return text;
-  line("redundant constraints", fmt::format("{}; reactions are those of least norm", redundant.size()));
+  line("redundant constraints", fmt::format("{}; reactions are the minimum-norm solution", redundant.size()));
   for (std::size_t i = 0; i < std::min(redundant.size(), kRowsShown); ++i) line("", redundant[i]);
   if (redundant.size() > kRowsShown) line("", fmt::format("and {} more", redundant.size() - kRowsShown));
   return text;

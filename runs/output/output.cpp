@@ -59,10 +59,10 @@ fs::path prepared(fs::path folder, const RunWriter::Options& options, support::F
   std::error_code error;
   fs::create_directories(folder, error);
   if (error)
-    throw base::InputError(fmt::format("{}: the folder cannot be created ({}); name another with {}", folder.string(),
+    throw base::InputError(fmt::format("{}: cannot create the folder ({}); choose another with {}", folder.string(),
                                        error.message(), options.names.out));
   claimFolder(lock, folder, options.names);
-  checkOutputFolder(folder, options.force, options.names); // another run may have been quicker
+  checkOutputFolder(folder, options.force, options.names); // another run may have written to it meanwhile
   for (const char* name : kFiles) fs::remove(folder / name, error);
   return folder;
 }
@@ -81,7 +81,7 @@ void checkOutputFolder(const fs::path& folder, bool force, const OptionNames& na
   std::error_code error;
   if (!force && fs::exists(folder, error) && !fs::is_empty(folder, error))
     throw base::InputError(fmt::format(
-        "{}: the folder is not empty; name another with {}, {}or overwrite it with {}", folder.string(), names.out,
+        "{}: the folder is not empty; choose another with {}, {}or overwrite it with {}", folder.string(), names.out,
         fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("resume with {}, ", names.resume) : "",
         names.force));
 }
@@ -89,14 +89,14 @@ void checkOutputFolder(const fs::path& folder, bool force, const OptionNames& na
 void claimFolder(support::FileLock& lock, const fs::path& folder, const OptionNames& names) {
   std::error_code error;
   if (fs::is_directory(folder, error) && !lock.take(folder))
-    throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
-                                       "folder with {}",
-                                       folder.string(), names.out));
+    throw base::InputError(
+        fmt::format("{}: another run is writing to this folder; wait until it ends, or choose another folder with {}",
+                    folder.string(), names.out));
 }
 
 /// The rows of a run in results.h5 and timeseries.csv, and the manifest: written by one rank.
 struct RunWriter::Series {
-  support::FileLock lock; ///< of the folder, where the run begins in it; a resumed one holds it already
+  support::FileLock lock; ///< lock on the folder of a new run; a resumed run already has one
   fs::path folder;
   const Options& options;
   std::vector<Channel> channels;
@@ -107,10 +107,10 @@ struct RunWriter::Series {
   Manifest manifest;
   std::size_t width = 0;
   std::int64_t rowsWritten = 0;
-  std::optional<support::GrowingDataset> inputs; ///< made by the first
+  std::optional<support::GrowingDataset> inputs; ///< created with the first input
   std::size_t inputsWritten = 0;                 ///< [numbers]
 
-  /// While former rows are copied, the new files have another name, so that a kill loses none.
+  /// Name of a new file while former rows are copied into it, so that a kill loses no rows.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
   Series(const fs::path& where, const setup::Provenance& provenance, std::vector<Channel> list, const Options& given)
@@ -138,7 +138,7 @@ struct RunWriter::Series {
   }
 
   void append(const Row& row) {
-    if (row.values.size() != width) throw std::logic_error("a row has another length than its channels");
+    if (row.values.size() != width) throw std::logic_error("row length does not match its channels");
     if (rowsWritten++ % kChunkRows == 0)
       requireRoom(results, (channels.size() + 2) * kTreeBytes + (width + 2) * kChunkRows * sizeof(double));
     steps.append(&row.step);
@@ -213,7 +213,7 @@ struct RunWriter::Series {
 struct RunWriter::Impl {
   fs::path folder;
   Options options;
-  std::unique_ptr<Series> series; ///< on the first rank
+  std::unique_ptr<Series> series; ///< set on the first rank only
   std::optional<FramesFile> frames;
   std::int64_t rows = 0, framesAdded = 0;
 
@@ -229,7 +229,7 @@ RunWriter::RunWriter(fs::path folder, const setup::Provenance& provenance, std::
                      Options options) {
   for (const Channel& c : channels)
     if (!c.columns.empty() && c.columns.size() != static_cast<std::size_t>(c.width))
-      throw std::logic_error("channel " + c.path + ": as many columns as numbers");
+      throw std::logic_error("channel " + c.path + ": one column per number");
   const bool begun = !options.former && options.comm.first();
   std::error_code unknown;
   const bool there = fs::exists(folder, unknown);
@@ -250,8 +250,8 @@ RunWriter::RunWriter(fs::path folder, const setup::Provenance& provenance, std::
   if (const std::optional<int> rank = support::rankNotSeeing(folder, impl_->options.comm); rank && *rank > 0) {
     impl_.reset();
     takeBack();
-    throw base::InputError(fmt::format("{}: rank {} does not see this folder of rank 0; start all ranks in the same "
-                                       "folder; on several hosts, use --out with a folder that all hosts share",
+    throw base::InputError(fmt::format("{}: rank {} cannot access this folder of rank 0; start all ranks in the same "
+                                       "folder; on several hosts, set --out to a folder shared by all hosts",
                                        folder.string(), *rank));
   }
 }

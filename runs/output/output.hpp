@@ -21,25 +21,25 @@
 #include <vector>
 
 /// Results folder of a run: results.h5 and timeseries.csv (rows), frames.h5 and frames.xdmf (frames),
-/// scene.toml (the resolved scene) and manifest.json. Everything here takes plain data; it knows nothing
-/// of how a simulation computes it.
+/// scene.toml (the resolved scene) and manifest.json. All functions take plain data and do not depend on the
+/// simulation.
 namespace grouser::output {
 
-/// Throws base::InputError with the remedy where `folder` exists and is not empty, unless `force`. Touches nothing.
+/// Throws base::InputError with the remedy if `folder` exists and is not empty, unless `force`. Changes no files.
 void checkOutputFolder(const std::filesystem::path& folder, bool force, const OptionNames& names = {});
 
-/// Locks the folder that a run writes in, if it exists. Throws base::InputError where another run holds
-/// it.
+/// Locks the folder that a run writes to, if it exists. Throws base::InputError if another run has locked
+/// the folder.
 void claimFolder(support::FileLock& lock, const std::filesystem::path& folder, const OptionNames& names = {});
 
 /// Rows and frames that a resumed run keeps; later ones are removed.
 struct FormerOutput {
   std::vector<Row> rows;   ///< first rows of the new files
-  std::int64_t frames = 0; ///< kept of frames.h5; 0: it is made anew
+  std::int64_t frames = 0; ///< kept frames of frames.h5; 0: creates a new file
 };
 
 /// Writes a run's folder. A run that is killed leaves readable files: rows and frames are flushed as they come.
-/// On several ranks all of them have one and call the same; each gives its own grains to frame().
+/// On several ranks each has a writer and makes the same calls; each passes its own grains to frame().
 /// With `force` the files of a former run are removed first; other files stay.
 /// Calls that fail (disk full) throw support::NotWritten with the file's name.
 class RunWriter {
@@ -48,9 +48,9 @@ public:
     OptionNames names;
     bool force = false;
     bool frames = true;                          ///< frames.h5 and frames.xdmf
-    std::optional<FormerOutput> former;          ///< go on with the folder of a stopped run
+    std::optional<FormerOutput> former;          ///< continue in the folder of a stopped run
     base::Comm comm;                             ///< one rank writes rows, all of them frames
-    std::map<std::string, std::string> metadata; ///< into manifest.json: command line, device, threads
+    std::map<std::string, std::string> metadata; ///< entries of manifest.json: command line, device, threads
   };
   RunWriter(std::filesystem::path folder, const setup::Provenance& provenance, std::vector<Channel> channels,
             Options options);
@@ -61,7 +61,7 @@ public:
   /// A constant of the run in results.h5, e.g. kPitchRadius [m].
   void constant(const ResultConstant& constant, double value);
 
-  /// A fact of the run, in manifest.json and as an attribute of results.h5.
+  /// Stores a fact of the run in manifest.json and as an attribute of results.h5.
   void fact(const std::string& key, const std::string& text);
   /// Names of the parts by the index that rows use, as an attribute of results.h5.
   void namesOfParts(const std::vector<std::string>& names);
@@ -86,17 +86,17 @@ public:
 
   void row(const Row& row);
   void frame(const Frame& frame);
-  /// Closes the files and completes the manifest. Without it the manifest says
-  /// that the run did not end.
+  /// Closes the files and completes the manifest. Without this call the manifest
+  /// reports an unfinished run.
   void finish(const Summary& summary);
-  /// Instead of finish: the run was stopped by an error, whose message goes into the manifest, if that can be written.
+  /// Instead of finish: an error stopped the run. Writes its message to the manifest, if possible.
   void abandon(const std::string& reason, base::Cause cause = base::Cause::unknown);
   /// Instead of finish: the run was stopped and may be resumed.
   void stop(const std::string& reason);
 
   /// Rows kept from a former run; on the first rank.
   std::vector<Row> formerRows() const;
-  std::int64_t rows() const;   ///< written so far, former ones among them
+  std::int64_t rows() const;   ///< number written so far, including former rows
   std::int64_t frames() const; ///< the same
   /// Step of the last row kept from a former run; -1: none. On the first rank.
   std::int64_t keptUpTo() const;

@@ -16,8 +16,8 @@ enum class PartKind {
   roadWheel,
   roller,
   idler,
-  surface, ///< rigid, of a scene of grains
-  fixed,   ///< of a mechanism, as are those below
+  surface, ///< rigid surface in a scene of grains
+  fixed,   ///< fixed body of a mechanism; the kinds below are its free bodies
   body0,
   body1,
   body2,

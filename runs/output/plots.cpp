@@ -19,8 +19,8 @@ bool draw(const std::string& name, const std::vector<std::string>& arguments, st
   const std::filesystem::path script = support::shareFolder() / "runs" / "plots" / name;
   warning.clear();
   if (!std::filesystem::exists(script)) {
-    warning =
-        fmt::format("no plots: {} is missing; set GROUSER_SHARE to the folder that holds runs/plots", script.string());
+    warning = fmt::format("no plots: {} is missing; set GROUSER_SHARE to the folder that contains runs/plots",
+                          script.string());
     return false;
   }
   const support::CallOutcome outcome = callPython(script, arguments);

@@ -21,13 +21,13 @@ namespace grouser::output {
 
 /// The surface of the ground before a vehicle touched it, on a grid of nodes.
 struct UndisturbedSurface {
-  std::vector<double> x, y;   ///< of the nodes [m]
-  std::vector<double> height; ///< [y, x] row by row [m]
-  std::string interpolation;  ///< between them: "bilinear", "Catmull-Rom" or "monotone"
+  std::vector<double> x, y;   ///< node coordinates [m]
+  std::vector<double> height; ///< heights [y, x], row by row [m]
+  std::string interpolation;  ///< interpolation between nodes: "bilinear", "Catmull-Rom" or "monotone"
 };
 
 /// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
-/// A quantity with `width` above 1 has that many numbers a row (one a shoe, or three of a vector).
+/// A quantity with `width` above 1 has that many numbers per row (one per shoe, or three for a vector).
 struct Channel {
   std::string path; ///< "vehicle/left/sinkage"
   std::string unit; ///< "m"; "-" where dimensionless
@@ -55,8 +55,8 @@ struct FramePart {
 struct SoilSurface {
   base::TriangleMesh mesh;                  ///< world
   std::vector<float> sinkage;               ///< below the undisturbed surface [m]
-  std::vector<float> pressure, maxPressure; ///< now, and the maximum since the start [Pa]
-  std::vector<base::Vec3f> shear;           ///< stress on the soil now [Pa]
+  std::vector<float> pressure, maxPressure; ///< present value, and the maximum since the start [Pa]
+  std::vector<base::Vec3f> shear;           ///< present shear stress on the soil [Pa]
 };
 
 /// Particles of a fluid in a frame.
@@ -74,18 +74,18 @@ struct Frame {
   std::vector<base::Vec3f> positions;  ///< [m]
   std::vector<float> radii;            ///< [m]
   std::vector<base::Vec3f> velocities; ///< [m/s]
-  /// Resultant of all contact forces on each grain in the last step [N], NaN before the first; empty where frames do
-  /// not have them.
+  /// Resultant of all contact forces on each grain in the last step [N], NaN before the first; empty if frames do
+  /// not store them.
   std::vector<base::Vec3f> contactForces;
-  bool withContactForces{false}; ///< the same on all ranks, some of which may have no grains
-  std::vector<float> fixed;      ///< 1 for grains that never move, 0 for others; empty where frames do not have it
-  bool withFixed{false};         ///< the same on all ranks
+  bool withContactForces{false}; ///< equal on all ranks, including ranks without grains
+  std::vector<float> fixed;      ///< 1 for grains that never move, 0 for others; empty if frames do not store it
+  bool withFixed{false};         ///< equal on all ranks
   std::vector<std::uint32_t> ids;
-  std::vector<base::Pose> partPoses;                 ///< one a part
+  std::vector<base::Pose> partPoses;                 ///< one per part
   std::shared_ptr<const terrain::SoilFields> fields; ///< fields of the soil, the same on all ranks; may be null
-  std::shared_ptr<const SoilSurface> soil;           ///< of deformable ground, the same on all ranks; may be null
-  std::shared_ptr<const FluidPoints> fluid;          ///< the same on all ranks; may be null
-  /// [m], ascending: where the borders between subdomains cross the x, y and z axis. All empty: one subdomain.
+  std::shared_ptr<const SoilSurface> soil;  ///< surface of deformable ground, the same on all ranks; may be null
+  std::shared_ptr<const FluidPoints> fluid; ///< fluid particles, the same on all ranks; may be null
+  /// Borders between subdomains along x, y and z, ascending [m]. All empty: one subdomain.
   std::array<std::vector<double>, 3> borders;
 };
 
@@ -95,7 +95,7 @@ struct Summary {
   double simulatedTime{};                ///< [s]
   double wallTime{};                     ///< [s]
   std::string stateHash;                 ///< hexadecimal; empty where not taken
-  std::string incomplete;                ///< why a vehicle did not drive, or too little; empty where it is complete
+  std::string incomplete;                ///< why the vehicle did not drive, or drove too little; empty: complete
   std::map<std::string, double> figures; ///< other figures: "particle steps per second"
 };
 

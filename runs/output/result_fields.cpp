@@ -99,13 +99,13 @@ std::vector<FileField> resultFields() {
       {"/@commit", "text", "", "", "commit of the program; \"-dirty\" is appended if the sources were changed"},
       {"/@machine", "text", "", "", "processor, cores, memory, system"},
       {"/@scene", "text", "", "", "the resolved scene, TOML"},
-      {"/@state_hash", "text", "", "", "final state hash, 16 hexadecimal digits; empty without --hash"},
-      {"/@branched_from", "text", "", "", "checkpoint, step and state hash at the start of a branch"},
-      {"/@soil_contact", "text", "", "", "parts of a vehicle that grains touch: \"all\" or \"shoes\""},
-      {"/@parts", "texts", "", "", "names of the parts, indexed from 0 by terrain/part_overlap_by"},
-      {"/@deepest_in_a_part", "text", "", "", "largest overlap of a grain with a part, with part and time"},
-      {"series/step", "int64", "[rows]", "-", "step number; the same dataset is linked beside every value"},
-      {"series/time", "float64", "[rows]", "s", "time of the row; the same dataset is linked beside every value"},
+      {"/@state_hash", "text", "", "", "final state hash, 16 hexadecimal digits; empty without run --hash"},
+      {"/@branched_from", "text", "", "", "of a branch: checkpoint, step and state hash at its start"},
+      {"/@soil_contact", "text", "", "", "parts of the vehicle with soil contact: \"all\" or \"shoes\""},
+      {"/@parts", "texts", "", "", "part names; terrain/part_overlap_by is an index into this list, from 0"},
+      {"/@deepest_in_a_part", "text", "", "", "maximum overlap of a grain with a part, and its part and time"},
+      {"series/step", "int64", "[rows]", "-", "step number; each value has a link to this dataset"},
+      {"series/time", "float64", "[rows]", "s", "time of the row; each value has a link to this dataset"},
       fieldOf(kPitchRadius, "[1]"),
       fieldOf(kVehicleMass, "[1]"),
       fieldOf(kSurfaceX, "[columns]"),
@@ -116,7 +116,7 @@ std::vector<FileField> resultFields() {
        "interpolation between the nodes: \"bilinear\", \"Catmull-Rom\" or \"monotone\""}};
   fields.push_back(fieldOf(kInputs, "[settings, 10]"));
   fields.push_back(
-      {std::string(kInputs.path) + "@kinds", "texts", "", "", "kinds of inputs, in the order of their numbers"});
+      {std::string(kInputs.path) + "@kinds", "texts", "", "", "names of the input kinds, ordered by their numbers"});
   for (const BedConstant& c : kBedConstants) fields.push_back(fieldOf(c.constant, "[1]"));
   for (const SoilConstantField& c : kSoilConstants) fields.push_back(fieldOf(c.constant, "[1]"));
   for (const SoilLine& l : kSoilLines) fields.push_back(fieldOf(l.line, l.shape));

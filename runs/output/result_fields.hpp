@@ -24,10 +24,11 @@ inline constexpr BedConstant kBedConstants[] = {
     {{"terrain/bed/porosity_error", "-", "standard error of the porosity"}, &BedStructure::porosityError},
     {{"terrain/bed/coordination", "-", "contacts per grain"}, &BedStructure::coordination},
     {{"terrain/bed/rattlers", "-", "fraction of grains with fewer than two contacts"}, &BedStructure::rattlers},
-    {{"terrain/bed/order", "-", "fraction of grains in crystalline order"}, &BedStructure::order},
-    {{"terrain/bed/mean_diameter", "m", "number mean of the grain diameter"}, &BedStructure::meanDiameter},
+    {{"terrain/bed/order", "-", "fraction of grains in crystalline arrangement"}, &BedStructure::order},
+    {{"terrain/bed/mean_diameter", "m", "mean grain diameter (by number)"}, &BedStructure::meanDiameter},
     {{"terrain/bed/settled_height", "m", "mean height of the undisturbed surface"}, &BedStructure::settledHeight},
-    {{"terrain/bed/thickness", "m", "mean height of that surface above the floor"}, &BedStructure::thickness},
+    {{"terrain/bed/thickness", "m", "mean bed thickness: mean height of that surface above the floor"},
+     &BedStructure::thickness},
 };
 
 /// Numbers of the bed over a distance or a depth.
@@ -50,14 +51,14 @@ inline constexpr ResultConstant kSurfaceX{"terrain/surface/x", "m", "x of the no
                    "height of the undisturbed surface at the nodes, before the vehicle touched it; row j at y[j], "
                    "column i at x[i]"},
     kSurfaceFinal{"terrain/surface/final_height", "m",
-                  "height of the bed's surface at the same nodes at the end of the run, found in the same way; below "
-                  "`height` in ruts; only for a bed under a vehicle, with output.final_surface"};
+                  "height of the bed surface at the same nodes at the end of the run; lower than `height` in ruts; "
+                  "only with a vehicle and output.final_surface"};
 
 /// Inputs set during the run, if any.
 inline constexpr ResultConstant kInputs{
     "inputs/series", "-, various",
-    "one row per input: step before which it was set, kind (index in the attribute kinds), target (track: 0 left, 1 "
-    "right; index of a body), 1 if it was released, six values in the unit of the kind"};
+    "one row per input: step before which it was set, kind (index into the attribute kinds), target (track: 0 left, 1 "
+    "right; or index of a body), 1 if the input was released, six values in the unit of the kind"};
 
 /// All fields of results.h5. For each series the dataset `value`, beside which are `step` and `time`.
 std::vector<support::FileField> resultFields();

@@ -5,16 +5,16 @@
 
 namespace grouser::output {
 
-inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that has stopped before its drive
+inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that stopped before its drive
 
 /// Status of a run in its manifest and in the summary of a sweep.
 enum class RunStatus {
-  pending, ///< of a sweep: not yet begun
+  pending, ///< run of a sweep that has not started
   running,
   finished,
-  incomplete, ///< ended, but its vehicle never drove, or too little for figures
+  incomplete, ///< ended, but its vehicle never drove, or drove too little for figures
   failed,
-  stopped ///< by a signal; can be resumed
+  stopped ///< stopped by a signal; can be resumed
 };
 
 /// Whether a run has reached its end without a fault.

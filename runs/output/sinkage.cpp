@@ -38,7 +38,7 @@ Tracks readSinkage(const std::filesystem::path& results, const std::string& chos
   const support::Hdf5File file = support::Hdf5File::open(results);
   if (file.text("/", "creator") != "grouser")
     throw base::InputError(
-        fmt::format("{}: was not written by grouser; give the results.h5 of a run", results.string()));
+        fmt::format("{}: was not written by grouser; specify the results.h5 of a run", results.string()));
   Tracks read;
   bool any = false;
   for (const std::string side : {"left", "right"}) {
@@ -49,15 +49,16 @@ Tracks readSinkage(const std::filesystem::path& results, const std::string& chos
     read.time = file.numbers(group + "/time");
     read.tracks.push_back({side, file.shape(group + "/value").back(), file.numbers(group + "/value")});
     if (read.tracks.back().values.size() != read.time.size() * read.tracks.back().shoes)
-      throw base::InputError(fmt::format(
-          "{}: {} and its times differ in length; the file is damaged, run the scene again", results.string(), group));
+      throw base::InputError(
+          fmt::format("{}: {} and its time series differ in length; the file is damaged; run the scene again",
+                      results.string(), group));
   }
   if (any && read.tracks.empty())
     throw base::InputError(fmt::format("--track {}: {} has no such track", chosen, results.string()));
   if (read.tracks.empty())
-    throw base::InputError(
-        fmt::format("{}: has no sinkage, because its scene has no vehicle; give the results of a run with a vehicle",
-                    results.string()));
+    throw base::InputError(fmt::format(
+        "{}: contains no sinkage, because its scene has no vehicle; specify the results of a run with a vehicle",
+        results.string()));
   return read;
 }
 
@@ -75,7 +76,7 @@ std::optional<int> takeNumber(std::string_view& text) {
 std::vector<int> shoesNamed(const std::string& list) {
   const auto refuse = [&](const std::string& why) {
     throw base::InputError(
-        fmt::format("--shoes {}: {}; give numbers and ranges of shoes, counted from 0: 10-13,20", list, why));
+        fmt::format("--shoes {}: {}; list shoe numbers or ranges, counted from 0, e.g. 10-13,20", list, why));
   };
   std::vector<int> shoes;
   std::string_view rest = list;
@@ -88,8 +89,8 @@ std::vector<int> shoesNamed(const std::string& list) {
       const std::optional<int> end = takeNumber(rest);
       if (!end) refuse("has a range without an end");
       last = *end;
-      if (last < *first) refuse("has a range that runs backwards");
-      if (last - *first > kMostShoes) refuse("has more shoes than any track");
+      if (last < *first) refuse("has a descending range");
+      if (last - *first > kMostShoes) refuse("exceeds the number of shoes of any track");
     }
     for (int s = *first; s <= last; ++s) shoes.push_back(s);
     if (rest.empty()) break;
@@ -103,7 +104,7 @@ void requireShoes(const std::filesystem::path& results, const std::vector<int>& 
   for (const Track& t : readSinkage(results, track).tracks)
     for (const int s : shoes)
       if (static_cast<std::size_t>(s) >= t.shoes)
-        throw base::InputError(fmt::format("--shoes: there is no shoe {}; the {} track of {} has shoes 0 to {}", s,
+        throw base::InputError(fmt::format("--shoes: shoe {} does not exist; the {} track of {} has shoes 0 to {}", s,
                                            t.side, results.string(), t.shoes - 1));
 }
 

@@ -37,9 +37,9 @@ const SoilDataset kSoilDatasets[] = {
      "sinkage below the undisturbed surface; negative above it"},
     {"pressure", 1, [](const SoilSurface& s) { return s.pressure; },
      [](SoilSurface& s, Numbers n) { s.pressure = std::move(n); }, "Pa",
-     "pressure on the soil, mean over the square of a node, without damping"},
+     "pressure on the soil without damping, mean over the grid cell of the node"},
     {"max_pressure", 1, [](const SoilSurface& s) { return s.maxPressure; },
-     [](SoilSurface& s, Numbers n) { s.maxPressure = std::move(n); }, "Pa", "maximum of the pressure since the start"},
+     [](SoilSurface& s, Numbers n) { s.maxPressure = std::move(n); }, "Pa", "maximum pressure since the start"},
     {"shear", 1,
      [](const SoilSurface& s) {
        Numbers all;
@@ -102,19 +102,19 @@ std::shared_ptr<const SoilSurface> readSoil(const support::Hdf5File& file, const
     Numbers numbers = file.read<float>(dataset);
     const bool isPosition = &d == kSoilDatasets;
     if (!isPosition && numbers.size() != soil->mesh.vertices.size() * d.width)
-      throw damaged(dataset, "does not have a value for each vertex");
+      throw damaged(dataset, "must have one value for each vertex");
     if (std::any_of(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); }))
-      throw damaged(dataset, "has a number that is not finite");
+      throw damaged(dataset, "has a value that is not finite");
     d.set(*soil, std::move(numbers));
   }
   for (const std::uint32_t v : soil->mesh.indices)
-    if (v >= soil->mesh.vertices.size()) throw damaged(frame + kTriangles, "names a missing vertex");
+    if (v >= soil->mesh.vertices.size()) throw damaged(frame + kTriangles, "has an invalid vertex index");
   return soil;
 }
 
 std::vector<support::FileField> soilSurfaceFields(const std::string& frame) {
   std::vector<support::FileField> fields{{frame + "soil/triangles", "uint32", "[triangles, 3]", "-",
-                                          "indices of the corners of each triangle in the vertices of the soil"}};
+                                          "vertex indices of each triangle of the soil surface"}};
   for (const SoilDataset& d : kSoilDatasets)
     fields.push_back(
         {frame + "soil/" + d.name, "float32", d.width == 1 ? "[vertices]" : "[vertices, 3]", d.unit, d.help});

@@ -15,9 +15,9 @@ namespace {
 using coupling::GroundFields;
 using coupling::SoilNode;
 
-constexpr std::uint64_t kMostNodes = 4'000'000; ///< of a map
-constexpr double kSectionLength = 0.5;          ///< [m] of the rut that a section is the mean of
-constexpr double kBeside = 0.3;                 ///< [m] of undisturbed soil beside the rut in a section
+constexpr std::uint64_t kMostNodes = 4'000'000; ///< maximum number of nodes of a map
+constexpr double kSectionLength = 0.5;          ///< length of rut over which a section is averaged [m]
+constexpr double kBeside = 0.3;                 ///< width of undisturbed soil on each side of the rut in a section [m]
 
 double sinkageAt(const GroundFields& fields, std::int32_t i, std::int32_t j) {
   const auto at =
@@ -26,7 +26,7 @@ double sinkageAt(const GroundFields& fields, std::int32_t i, std::int32_t j) {
   return at != fields.nodes.end() && at->i == i && at->j == j ? at->sinkage : 0;
 }
 
-/// Linear between nodes.
+/// Sinkage at a point, interpolated between nodes.
 double sinkageAt(const GroundFields& fields, const base::Vec3d& p) {
   return scm::interpolate(p.x, p.y, fields.spacing,
                           [&](std::int32_t i, std::int32_t j) { return sinkageAt(fields, i, j); });
@@ -69,7 +69,7 @@ void addSection(SoilResult& result, const GroundFields& fields, const base::Vec3
     front = std::max(front, along), rear = std::min(rear, along), half = std::max(half, std::fabs(dot(p, left)));
   }
   if (front < rear) return;                                                       // no node is loaded
-  double from = std::max(end, rear - kSectionLength), to = rear - fields.spacing; // between unloaded nodes
+  double from = std::max(end, rear - kSectionLength), to = rear - fields.spacing; // unloaded nodes
   if (to - from < 2 * fields.spacing) from = rear, to = front;
   const int samples = std::max(1, static_cast<int>((to - from) / fields.spacing));
   const int offsets = static_cast<int>((half + kBeside) / fields.spacing);

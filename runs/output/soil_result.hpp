@@ -14,7 +14,7 @@ namespace grouser::output {
 struct SoilResult {
   scm::SoilConstants constants;
   std::vector<double> origin;  ///< x, y of the first node [m]
-  std::vector<double> spacing; ///< of the maps' nodes: that of the soil, or a multiple for large areas [m]
+  std::vector<double> spacing; ///< node spacing of the maps: the soil's, or a multiple of it for large areas [m]
   std::uint64_t columns{}, rows{};
   std::vector<float> sinkage, pressure, shear, maxPressure; ///< [rows, columns] [m], [Pa]
   std::vector<double> sectionOffset, sectionSinkage;        ///< [m]
@@ -32,17 +32,17 @@ inline constexpr SoilMapField kSoilMaps[] = {
       "column "
       "i at x = origin[0] + i spacing"},
      &SoilResult::sinkage},
-    {{"terrain/soil/pressure", "Pa", "pressure on the soil at the end, at the same nodes"}, &SoilResult::pressure},
-    {{"terrain/soil/shear", "Pa", "magnitude of the shear stress on the soil at the end, at the same nodes"},
+    {{"terrain/soil/pressure", "Pa", "final pressure on the soil, at the same nodes"}, &SoilResult::pressure},
+    {{"terrain/soil/shear", "Pa", "magnitude of the final shear stress on the soil, at the same nodes"},
      &SoilResult::shear},
-    {{"terrain/soil/max_pressure", "Pa", "maximum of the pressure since the start, at the same nodes"},
+    {{"terrain/soil/max_pressure", "Pa", "maximum pressure since the start, at the same nodes"},
      &SoilResult::maxPressure},
 };
 
 /// Other numbers of the soil.
 struct SoilLine {
   ResultConstant line;
-  const char* shape; ///< for docs/files.md
+  const char* shape; ///< shape as text for docs/files.md
   std::vector<double> SoilResult::*member;
 };
 inline constexpr SoilLine kSoilLines[] = {
@@ -51,13 +51,12 @@ inline constexpr SoilLine kSoilLines[] = {
      &SoilResult::origin},
     {{"terrain/soil/spacing", "m", "node spacing of these maps"}, "[1]", &SoilResult::spacing},
     {{"terrain/soil/section_offset", "m",
-      "lateral offset in the rut's section from the middle of the vehicle, left positive"},
+      "lateral offset from the centreline of the vehicle in the rut profile, positive to the left"},
      "[n]",
      &SoilResult::sectionOffset},
     {{"terrain/soil/section_sinkage", "m",
-      "sinkage, mean over the last 0.5 m of the rut behind the tracks, across the heading at the end; without a rut: "
-      "under the "
-      "tracks"},
+      "final rut profile across the heading: sinkage, mean over the last 0.5 m of the rut behind the tracks; if there "
+      "is no rut, under the tracks"},
      "[n]",
      &SoilResult::sectionSinkage},
 };
@@ -74,13 +73,12 @@ inline constexpr SoilConstantField kSoilConstants[] = {
     {{"terrain/soil/c", "Pa", "cohesion"}, &scm::SoilConstants::cohesion},
     {{"terrain/soil/tan_phi", "-", "tangent of the angle of internal friction"}, &scm::SoilConstants::friction},
     {{"terrain/soil/K", "m", "shear displacement modulus"}, &scm::SoilConstants::shearDisplacement},
-    {{"terrain/soil/elastic_ratio", "-",
-      "ratio of the unloading slope to p / z at the end of virgin loading, at least"},
+    {{"terrain/soil/elastic_ratio", "-", "minimum ratio of the unloading slope to p / z at the end of virgin loading"},
      &scm::SoilConstants::elasticRatio},
     {{"terrain/soil/damping", "Pa s/m", "damping of compression and shear"}, &scm::SoilConstants::damping},
     {{"terrain/soil/slip_sinkage", "-", "sinkage per shear displacement at constant pressure"},
      &scm::SoilConstants::slipSinkage},
-    {{"terrain/soil/maximum_slip_sinkage", "m", "limit of slip sinkage"}, &scm::SoilConstants::maximumSlipSinkage},
+    {{"terrain/soil/maximum_slip_sinkage", "m", "maximum slip sinkage"}, &scm::SoilConstants::maximumSlipSinkage},
     {{"terrain/soil/unit_weight", "N/m3", "unit weight of the soil"}, &scm::SoilConstants::unitWeight},
 };
 

@@ -16,7 +16,7 @@ TERMS = (("kinetic", "kinetic", "tab:blue"), ("potential", "potential", "tab:gre
 def paths(axis, bodies):
     spread = numpy.max([values.max(axis=0) for values in bodies.values()], axis=0) - numpy.min(
         [values.min(axis=0) for values in bodies.values()], axis=0)
-    flat = int(numpy.argmin(spread[::-1]))  # of equal extents the last one is omitted
+    flat = int(numpy.argmin(spread[::-1]))  # equal extents: omits the last axis
     across, up = [k for k in range(3) if k != 2 - flat]
     for name, values in list(bodies.items())[:MOST_BODIES]:
         line, = axis.plot(values[:, across], values[:, up], label=name, linewidth=1.0)

@@ -50,9 +50,9 @@ void checkFilm(const fs::path& film) {
 
 void checkFilmProgram(const std::string& word) {
   if (!isOnPath("ffmpeg"))
-    throw base::InputError(fmt::format("{}: a film requires ffmpeg, which is not installed; install the "
-                                       "package ffmpeg, or remove {}",
-                                       word, word.substr(0, word.find(' '))));
+    throw base::InputError(
+        fmt::format("{}: films require ffmpeg, which is not installed; install the package ffmpeg, or remove {}", word,
+                    word.substr(0, word.find(' '))));
 }
 
 void makeFilm(const std::vector<fs::path>& pictures, double framesPerSecond, const fs::path& film) {

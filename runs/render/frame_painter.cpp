@@ -42,17 +42,17 @@ FramePainter::FramePainter(const output::FramesReader& reader, const PaintOption
   const std::vector<output::StoredFrame> samples = samplesOf(reader);
   ground_ = GroundColours(options.ground, samples, options.range);
   if (ground_.hasRange() && std::none_of(samples.begin(), samples.end(), [](const auto& f) { return bool(f.soil); }))
-    throw base::InputError(fmt::format("{}: no deformable soil (terrain.kind = \"scm\"); use --color depth, "
-                                       "speed, subdomain, role or white",
-                                       reader.path().string()));
+    throw base::InputError(fmt::format(
+        "{}: contains no deformable soil (terrain.kind = \"scm\"); use --color depth, speed, subdomain, role or white",
+        reader.path().string()));
   colours_ = std::make_unique<GrainColours>(options.quantity, samples.front(), samples, options.range);
   const bool needsBorders = options.quantity == GrainQuantity::Subdomain || options.quantity == GrainQuantity::Role;
   const auto hasBorders = [](const Borders& b) { return !b[0].empty() || !b[1].empty() || !b[2].empty(); };
   if (needsBorders && !hasBorders(options.borders) &&
       std::none_of(samples.begin(), samples.end(), [&](const output::StoredFrame& f) { return hasBorders(f.borders); }))
-    throw base::InputError(fmt::format("{}: written by a run with one subdomain; set --borders AXIS=POSITIONS, e.g. "
-                                       "x=0.5, or another --color",
-                                       reader.path().string()));
+    throw base::InputError(
+        fmt::format("{}: the run had a single subdomain; set --borders AXIS=POSITIONS, e.g. x=0.5, or another --color",
+                    reader.path().string()));
   placeCamera(samples);
 }
 
@@ -87,7 +87,7 @@ void FramePainter::placeCamera(const std::vector<output::StoredFrame>& samples) 
   const double elevation = std::clamp(view.elevation.value_or(usual), -kSteepest, kSteepest);
   if (isClose) {
     if (!reader_.hasVehicle())
-      throw base::InputError(fmt::format("{}: no vehicle; use --look-at all", reader_.path().string()));
+      throw base::InputError(fmt::format("{}: contains no vehicle; use --look-at all", reader_.path().string()));
     camera_ = cameraOnParts(samples.front().partVertices, azimuth, elevation, aspect);
     if (hasRuts) camera_.eye = camera_.target + (camera_.eye - camera_.target) * kRutDistance;
     hullAtCamera_ = hull(samples.front());

@@ -13,7 +13,7 @@
 namespace grouser::render {
 
 enum class LookAt {
-  Vehicle, ///< moves with its hull
+  Vehicle, ///< camera follows the hull
   All,     ///< grains, ground and parts of all frames, except a few strays
   Point
 };
@@ -21,12 +21,12 @@ enum class LookAt {
 /// Camera and size of the picture.
 struct FrameView {
   LookAt lookAt = LookAt::All;
-  base::Vec3d point; ///< of LookAt::Point [m]
+  base::Vec3d point; ///< target of LookAt::Point [m]
   /// Azimuth of the camera about z, from +x [deg]; by default in front of the vehicle, on deformable soil behind it.
   std::optional<double> azimuth;
   /// Elevation of the camera [deg]; empty: low for a vehicle or a mechanism, higher for a bed or flat parts.
   std::optional<double> elevation;
-  std::optional<double> distance; ///< from the target [m]; empty: fills the picture
+  std::optional<double> distance; ///< distance from the target [m]; empty: fills the picture
   int width = 1600, height = 900;
 };
 
@@ -35,7 +35,7 @@ struct PaintOptions {
   GrainQuantity quantity = GrainQuantity::Depth;
   GroundQuantity ground = GroundQuantity::Soil; ///< other than Soil: the vehicle is transparent
   std::optional<ValueRange> range;
-  Borders borders; ///< for files without borders
+  Borders borders; ///< borders for files without them
   bool labels = true;
 };
 
@@ -51,7 +51,7 @@ public:
 private:
   void placeCamera(const std::vector<output::StoredFrame>& samples);
   Camera cameraOf(const output::StoredFrame& frame) const;
-  /// The middle of the hull.
+  /// Centre of the hull.
   base::Vec3d hull(const output::StoredFrame& frame) const;
   const Borders& bordersOf(const output::StoredFrame& frame) const;
 
@@ -60,8 +60,8 @@ private:
   std::unique_ptr<GrainColours> colours_;
   GroundColours ground_;
   std::unique_ptr<Font> font_;
-  Camera camera_;                           ///< for the first frame
-  std::optional<base::Vec3d> hullAtCamera_; ///< [m] if the camera follows the vehicle
+  Camera camera_;                           ///< camera of the first frame
+  std::optional<base::Vec3d> hullAtCamera_; ///< hull position [m], if the camera follows the vehicle
 };
 
 } // namespace grouser::render

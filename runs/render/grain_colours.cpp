@@ -21,7 +21,7 @@ const std::vector<std::pair<std::string, GrainQuantity>> kQuantities = {{"depth"
                                                                         {"role", GrainQuantity::Role},
                                                                         {"white", GrainQuantity::White}};
 constexpr float kEmpty = -std::numeric_limits<float>::infinity();
-constexpr std::size_t kValuesTaken = 200000; ///< of each sampled frame, for the range
+constexpr std::size_t kValuesTaken = 200000; ///< maximum number of values per sampled frame, for the colour range
 
 // Colours of two subdomains and of spanning grains in the source paper.
 Colour evenColour() { return srgb(240, 240, 238); }
@@ -64,7 +64,7 @@ Borders bordersOf(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     const auto fail = [&](const std::string& why) {
       throw base::InputError(
-          fmt::format("--borders {}: {}; give an axis and positions in metres, e.g. x=0.5 or y=-1,1", word, why));
+          fmt::format("--borders {}: {}; set an axis and positions in metres, e.g. x=0.5 or y=-1,1", word, why));
     };
     if (word.size() < 3 || word[1] != '=' || word[0] < 'x' || word[0] > 'z') fail("not of the form AXIS=POSITIONS");
     std::vector<double>& places = borders[static_cast<std::size_t>(word[0] - 'x')];

@@ -14,8 +14,8 @@ namespace grouser::render {
 /// Meaning of the colour of deformable soil.
 enum class GroundQuantity {
   Soil,     ///< soil colour, darker where compressed
-  Sinkage,  ///< of the surface below the undisturbed one [m]
-  Pressure, ///< [Pa]
+  Sinkage,  ///< depth below the undisturbed surface [m]
+  Pressure, ///< normal pressure on the soil [Pa]
   Shear     ///< magnitude of the shear stress [Pa]
 };
 

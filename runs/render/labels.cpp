@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/render/labels.hpp"
 
-#include "base/error.hpp"
-
 #include <fmt/format.h>
 
 #define STB_TRUETYPE_IMPLEMENTATION
@@ -11,18 +9,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <stdexcept>
+
+// The font is part of the program, so that labels do not depend on the fonts of the machine.
+asm(".pushsection .rodata\n.global grouser_label_font\n.hidden grouser_label_font\n"
+    "grouser_label_font: .incbin \"" GROUSER_LABEL_FONT "\"\n.popsection");
+extern "C" const unsigned char grouser_label_font[];
 
 namespace grouser::render {
 
 namespace {
 
-constexpr const char* kFontFile = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-constexpr std::uint8_t kInk = 30;       ///< of letters and lines
-constexpr double kPanelOpacity = 0.72;  ///< of the white background of text
+constexpr std::uint8_t kInk = 30;       ///< grey value of letters and lines, 0 to 255
+constexpr double kPanelOpacity = 0.72;  ///< opacity of the white background of text [-]
 constexpr double kTextShare = 1.0 / 38; ///< text height / picture height
-constexpr double kSmallestText = 9;     ///< [pixels]
+constexpr double kSmallestText = 9;     ///< minimum text height [pixels]
 
 double textSize(const Image& image) { return std::max(kSmallestText, image.height * kTextShare); }
 
@@ -58,17 +59,12 @@ void line(Image& image, double left, double top, double right, double bottom) {
 } // namespace
 
 struct Font::Data {
-  std::vector<unsigned char> bytes;
   stbtt_fontinfo info{};
 };
 
 Font::Font() : data_(std::make_unique<Data>()) {
-  std::ifstream file(kFontFile, std::ios::binary);
-  data_->bytes.assign(std::istreambuf_iterator<char>(file), {});
-  if (data_->bytes.empty() || !stbtt_InitFont(&data_->info, data_->bytes.data(), 0))
-    throw base::InputError(fmt::format("the font of the labels is missing: {}; install fonts-dejavu-core, or use "
-                                       "--no-labels",
-                                       kFontFile));
+  if (!stbtt_InitFont(&data_->info, grouser_label_font, 0))
+    throw std::runtime_error("the font of the labels is damaged: " GROUSER_LABEL_FONT " at build time");
 }
 
 Font::~Font() = default;

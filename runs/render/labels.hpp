@@ -12,10 +12,9 @@
 /// Text and colour scales on a finished picture. Sizes are proportional to the height of the picture.
 namespace grouser::render {
 
-/// DejaVu Sans from Debian's fonts-dejavu-core.
+/// DejaVu Sans, which is embedded in the program at build time.
 class Font {
 public:
-  /// Throws base::InputError with the remedy if the font is missing.
   Font();
   ~Font();
   Font(const Font&) = delete;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/render/picture.hpp"
 
-#include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/render/ground_colours.hpp"
 #include "runs/render/labels.hpp"
@@ -18,7 +17,7 @@ using base::Vec3d;
 namespace {
 
 constexpr double kVehicleTight = 0.8; ///< visible fraction of the bounding ball
-constexpr double kWholeBed = 1.5;     ///< ratio of distances up to which the picture shows the whole bed
+constexpr double kWholeBed = 2.6;     ///< ratio of distances up to which the picture shows the whole bed
 constexpr double kBackground = 6;     ///< size ratio above which a surface is background and ignored by the camera
 constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
 constexpr double kAspect = 16.0 / 9;
@@ -121,6 +120,17 @@ std::vector<Ball> withSurfaces(std::vector<Ball> seen, std::vector<std::vector<V
   return seen;
 }
 
+/// Corners of the bounding box of a mesh.
+std::vector<Ball> cornersOf(const base::TriangleMesh& mesh) {
+  Box box;
+  for (const Vec3d& v : mesh.vertices) box.take(v);
+  std::vector<Ball> corners;
+  for (const double x : {box.low.x, box.high.x})
+    for (const double y : {box.low.y, box.high.y})
+      for (const double z : {box.low.z, box.high.z}) corners.push_back({{x, y, z}, 0});
+  return corners;
+}
+
 struct Drawn {
   Image image;
   Camera camera;
@@ -158,13 +168,15 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
   std::vector<Ball> seen;
   if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
   if (!vehicle.empty()) {
+    if (frame.soil) seen = cornersOf(scene.meshes.back().mesh);
+    const double azimuth = frame.soil ? kRutAzimuth : kAzimuth;
     const double elevation = frame.soil ? kRutElevation : liesFlat(vehicle) ? kFlatElevation : kVehicleElevation;
-    camera = cameraOnParts(vehicle, frame.soil ? kRutAzimuth : kAzimuth, elevation, kAspect);
+    camera = cameraOnParts(vehicle, azimuth, elevation, kAspect);
     if (frame.soil) camera.eye = camera.target + (camera.eye - camera.target) * kRutDistance;
-    // A bed slightly larger than the vehicle is shown whole; a larger one fills the picture.
+    // A bed of a few vehicle lengths is shown whole; a larger one fills the picture.
     if (!seen.empty()) {
       for (const base::Vec3f& v : vehicle) seen.push_back({v.as<double>(), 0});
-      const Camera whole = cameraAround(seen, kAzimuth, elevation, kAspect);
+      const Camera whole = cameraAround(seen, azimuth, elevation, kAspect);
       if (norm(whole.eye - whole.target) < kWholeBed * norm(camera.eye - camera.target)) camera = whole;
     }
   } else if (seen = withSurfaces(std::move(seen), std::move(surfaces)); !seen.empty()) {
@@ -179,21 +191,17 @@ Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>
                 const base::TriangleMesh& ground, int width, bool labels) {
   auto [image, camera] = drawn(frame, parts, ground, width);
   if (!labels || width < kNarrowestLabelled) return image;
-  try {
-    const Font font;
-    drawCaption(image, font, fmt::format("t = {:.4g} s", frame.time));
-    if (!frame.positions.empty()) {
-      const auto [low, range] = heightScale(frame);
-      std::vector<Colour> colours;
-      for (int i = 0; i < kScaleColours; ++i)
-        colours.push_back(grainColour(frame, static_cast<float>(i) / static_cast<float>(kScaleColours - 1)));
-      drawScale(image, font, frame.fluid ? "fluid: z [m]" : "grains: z [m]", double{low}, double{low + range}, colours);
-    }
-    const double distance = norm(camera.eye - camera.target);
-    drawLength(image, font, image.height / (2 * distance * base::tan(0.5 * camera.fieldOfView * base::kPi / 180)));
-  } catch (const base::InputError&) {
-    // Without the font there are no labels; a run does not fail for them.
+  const Font font;
+  drawCaption(image, font, fmt::format("t = {:.4g} s", frame.time));
+  if (!frame.positions.empty()) {
+    const auto [low, range] = heightScale(frame);
+    std::vector<Colour> colours;
+    for (int i = 0; i < kScaleColours; ++i)
+      colours.push_back(grainColour(frame, static_cast<float>(i) / static_cast<float>(kScaleColours - 1)));
+    drawScale(image, font, frame.fluid ? "fluid: z [m]" : "grains: z [m]", double{low}, double{low + range}, colours);
   }
+  const double distance = norm(camera.eye - camera.target);
+  drawLength(image, font, image.height / (2 * distance * base::tan(0.5 * camera.fieldOfView * base::kPi / 180)));
   return image;
 }
 

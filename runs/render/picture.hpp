@@ -9,8 +9,8 @@ namespace grouser::render {
 
 /// Elevation of the camera for a vehicle, for a bed without vehicle, and for flat parts [deg].
 inline constexpr double kVehicleElevation = 14, kBedElevation = 30, kFlatElevation = 60;
-inline constexpr double kAzimuth = -55; ///< of the camera about z [deg]
-/// The same for a vehicle on deformable soil, from behind to show the ruts; and the factor on the distance.
+inline constexpr double kAzimuth = -55; ///< azimuth of the camera about z [deg]
+/// Elevation and azimuth for a vehicle on deformable soil, from behind to show the ruts; factor on the distance.
 inline constexpr double kRutElevation = 24, kRutAzimuth = -140, kRutDistance = 1.3;
 
 Colour partColour(output::PartKind kind);
@@ -27,7 +27,7 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 
 /// Picture of a frame: grains coloured by height, parts by kind, filled by the vehicle or else by all grains except
 /// strays; seen from the front right above. Aspect ratio 16:9. `labels`: time, height scale of the grains, and a scale
-/// bar at the distance of the camera's target; none in pictures narrower than kNarrowestLabelled or without the font.
+/// bar at the distance of the camera's target; none in pictures narrower than kNarrowestLabelled.
 Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
                 const base::TriangleMesh& ground, int width, bool labels = true);
 inline constexpr int kNarrowestLabelled = 480; // [pixels]

@@ -13,7 +13,7 @@ from grouser.series import counted
 from page import esc, facts, figure_with_bar, folded, number, table, term, with_bar
 
 MOST_FIGURES = 24  # headline figures first; the rest is folded
-VERDICTS = {"not shown": "inconclusive"}  # of check.json, on the page
+VERDICTS = {"not shown": "inconclusive"}  # page text by verdict of check.json
 
 
 def known(half):

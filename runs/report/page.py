@@ -18,9 +18,9 @@ DEBIAN = Path("/usr/share/javascript")
 PLOTS = (("dygraphs/dygraph.min.js",), "libjs-dygraphs")
 STYLE = ("dygraphs/dygraph.min.css", "libjs-dygraphs")
 SPACE = (("three/three.min.js", "three/examples/js/controls/OrbitControls.js"), "libjs-three")
-MOST_ROWS = 2000  # of a curve
+MOST_ROWS = 2000  # maximum number of points per curve
 NOTHING = 1e-30  # in SI units: smaller values are treated as 0
-MOST_LINES = 20  # of a table shown in full; longer ones scroll
+MOST_LINES = 20  # maximum rows of a table without a scroll bar
 
 
 def esc(text):

@@ -141,4 +141,4 @@ if __name__ == "__main__":
     try:
         main()
     except KeyboardInterrupt:
-        end(INTERRUPTED, "interrupted; no page was written")
+        end(INTERRUPTED, "interrupted; no report was written")

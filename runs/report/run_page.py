@@ -54,7 +54,7 @@ CURVES = (
 LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissipated_damping", "dissipated_friction",
           "dissipated_micro_slip", "dissipated_rolling", "dissipated_yielding", "dissipated_crushing", "dissipated_parts", "dissipated_joints",
           "integration_error", "residual", "turnover")
-ENDINGS = {unit: unit for unit in ("s", "m", "J", "kg")}  # of names in manifest.json, and their units
+ENDINGS = {unit: unit for unit in ("s", "m", "J", "kg")}  # unit by name ending in manifest.json
 #: First words of the warning about a run that has not finished, by status.
 ENDED = {"running": "WARNING: this run is still running or was killed; the page shows what it has written so far.",
          "incomplete": "WARNING: this run is incomplete:", "failed": "WARNING: this run failed:",
@@ -221,7 +221,7 @@ def figures(run, options):
     for figure in told.get("figures", []):
         name, value = figure["name"], figure["value"]
         plain, unit = grouser.series.split_unit(name)
-        if plain == "steady from":  # it is in the caption
+        if plain == "steady from":  # shown in the caption
             continue
         checked = barred.get(name)
         bar = "none"

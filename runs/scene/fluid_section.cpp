@@ -16,25 +16,25 @@ constexpr double kFarthest = 1e4; // [m]
 
 base::Table<Fluid> fluidTable() {
   using S = Fluid;
-  base::Table<S> t("fluid",
-                   "Weakly compressible fluid of particles (SPH) in a tank with solid walls, around the planes, "
-                   "boxes, cylinders and meshes of the scene, its rigid terrain and its bodies with shapes");
-  t.add("spacing", &S::spacing, "m", "initial distance of particles").required().atLeast(1e-5).atMost(10);
-  t.add("dimensions", &S::dimensions, "", "3, or 2: the plane y = 0, with masses and forces per metre")
+  base::Table<S> t("fluid", "Weakly compressible particle fluid (SPH) in a tank with solid walls; it acts on planes, "
+                            "boxes, cylinders, meshes, rigid terrain and bodies with shapes");
+  t.add("spacing", &S::spacing, "m", "initial particle spacing").required().atLeast(1e-5).atMost(10);
+  t.add("dimensions", &S::dimensions, "",
+        "number of dimensions, 2 or 3; with 2 the fluid is in the plane y = 0, with masses and forces per metre")
       .atLeast(2)
       .atMost(3);
   t.add("tank_low", &S::tankLow, "m",
-        "lower corner of the inner faces of the tank; default: the terrain's borders, from its lowest point")
+        "lower inner corner of the tank; default: borders and lowest point of the terrain")
       .atLeast(-kFarthest)
       .atMost(kFarthest);
-  t.add("tank_high", &S::tankHigh, "m", "upper corner of the inner faces; required with tank_low")
+  t.add("tank_high", &S::tankHigh, "m", "upper inner corner of the tank; required with tank_low")
       .atLeast(-kFarthest)
       .atMost(kFarthest);
-  t.add("lid", &S::lid, "", "whether the tank is closed at the top");
-  t.add("level", &S::level, "m", "z up to which the tank is filled with fluid at rest")
+  t.add("lid", &S::lid, "", "whether the tank has a lid");
+  t.add("level", &S::level, "m", "z of the initial free surface; the tank is filled up to it with fluid at rest")
       .atLeast(-kFarthest)
       .atMost(kFarthest);
-  t.add("density", &S::density, "kg/m3", "density at zero pressure").atLeast(1).atMost(1e5);
+  t.add("density", &S::density, "kg/m3", "fluid density at zero pressure").atLeast(1).atMost(1e5);
   t.add("viscosity", &S::viscosity, "Pa s", "dynamic viscosity; above 0: no slip along walls (Morris operator)")
       .atLeast(0)
       .atMost(1e6);
@@ -47,12 +47,16 @@ base::Table<Fluid> fluidTable() {
         "maximum flow speed; default: sqrt(2 g depth), or the speed of a [[fluid.box]] if larger")
       .above(0)
       .atMost(1e3);
-  t.add("smoothing", &S::smoothing, "-", "smoothing length over spacing").atLeast(1.2).atMost(2);
-  t.add("artificial_viscosity", &S::artificialViscosity, "-", "alpha of Monaghan (1992)").atLeast(0).atMost(1);
-  t.add("diffusion", &S::diffusion, "-", "delta of the density diffusion of Fourtakas et al. (2019)")
+  t.add("smoothing", &S::smoothing, "-", "smoothing length / spacing").atLeast(1.2).atMost(2);
+  t.add("artificial_viscosity", &S::artificialViscosity, "-",
+        "coefficient alpha of the artificial viscosity of Monaghan (1992)")
+      .atLeast(0)
+      .atMost(1);
+  t.add("diffusion", &S::diffusion, "-", "coefficient delta of the density diffusion of Fourtakas et al. (2019)")
       .atLeast(0)
       .atMost(0.5);
-  t.add("shifting", &S::shifting, "-", "factor of Fickian shifting (Lind et al. 2012), off at free surfaces; 0: none")
+  t.add("shifting", &S::shifting, "-",
+        "coefficient of Fickian particle shifting (Lind et al. 2012), disabled at free surfaces; 0: no shifting")
       .atLeast(0)
       .atMost(20);
   return t;
@@ -60,7 +64,7 @@ base::Table<Fluid> fluidTable() {
 
 base::Table<FluidBox> fluidBoxTable() {
   using S = FluidBox;
-  base::Table<S> t("[fluid.box]", "Fluid that fills a box at the start, hydrostatic below its top");
+  base::Table<S> t("[fluid.box]", "Box that is initially filled with fluid, with hydrostatic pressure");
   t.add("low", &S::low, "m", "lower corner").required().atLeast(-kFarthest).atMost(kFarthest);
   t.add("high", &S::high, "m", "upper corner").required().atLeast(-kFarthest).atMost(kFarthest);
   t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e3).atMost(1e3);
@@ -69,11 +73,11 @@ base::Table<FluidBox> fluidBoxTable() {
 
 base::Table<FluidProbe> fluidProbeTable() {
   using S = FluidProbe;
-  base::Table<S> t("[fluid.probe]", "Point where pressure or level of the fluid is recorded in every row");
-  t.add("name", &S::name, "", "name of its column").required();
+  base::Table<S> t("[fluid.probe]", "Probe that records pressure or level of the fluid in each row of the time series");
+  t.add("name", &S::name, "", "name of the column in the results").required();
   t.add("kind", &S::kind, "",
         "pressure at the position, or level on a vertical wire from there: its z plus the wetted length");
-  t.add("position", &S::position, "m", "position of the probe; for a level the foot of its wire, on the ground")
+  t.add("position", &S::position, "m", "position of the probe; for a level, the foot of the wire on the ground")
       .required()
       .atLeast(-kFarthest)
       .atMost(kFarthest);
@@ -84,10 +88,10 @@ base::Table<FluidProbe> fluidProbeTable() {
 void checkNeighbours(const Section& section, const Scene& scene) {
   const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
   if (grains || (scene.terrain && scene.terrain->granular()))
-    section.fail("", "is incompatible with grains, whose drag and buoyancy in a fluid are not modelled; remove the "
-                     "grains (terrain.kind = \"rigid\"), or [fluid]");
+    section.fail("", "is incompatible with grains, since their drag and buoyancy are not modelled; remove the grains "
+                     "(terrain.kind = \"rigid\"), or [fluid]");
   if (scene.deformable())
-    section.fail("", "is incompatible with deformable soil, since the effect of water on it is not modelled; set "
+    section.fail("", "is incompatible with deformable soil, since the effect of water on soil is not modelled; set "
                      "terrain.kind = \"rigid\", or remove [fluid]");
   const auto moving = [&](const char* list, const auto& surfaces) {
     for (std::size_t k = 0; k < surfaces.size(); ++k)
@@ -106,16 +110,16 @@ void checkCorners(const Section& section, const char* high, const base::Vec3d& f
                   double least, bool plane) {
   for (int a = 0; a < 3; ++a)
     if (!(plane && a == 1) && !(to[a] - from[a] >= least))
-      section.fail(high, fmt::format("[m] is {:.4g} m above the lower corner along {}, less than {:g} m; raise it",
+      section.fail(high, fmt::format("[m] is only {:.4g} m above the lower corner along {} (minimum {:g} m); raise it",
                                      to[a] - from[a], "xyz"[a], least));
 }
 
 void checkTank(const Section& section, const Fluid& fluid, const Scene& scene) {
   if (fluid.tankLow.has_value() != fluid.tankHigh.has_value())
     section.fail(fluid.tankLow ? "tank_low" : "tank_high",
-                 fmt::format("[m] requires tank_{}; give both corners", fluid.tankLow ? "high" : "low"));
+                 fmt::format("[m] requires tank_{}; set both corners", fluid.tankLow ? "high" : "low"));
   if (!fluid.tankLow && !scene.terrain)
-    section.fail("", "has no tank; give tank_low and tank_high, or a rigid [terrain]");
+    section.fail("", "has no tank; set tank_low and tank_high, or add a rigid [terrain]");
   if (fluid.dimensions == 2 && (scene.terrain || scene.vehicle))
     section.fail("dimensions",
                  fmt::format("= 2 is incompatible with {}; use 3", scene.terrain ? "terrain" : "vehicle"));
@@ -140,9 +144,9 @@ void checkBox(const Section& section, const FluidBox& box, const Fluid& fluid) {
 void checkProbe(const Section& section, const FluidProbe& probe, const Fluid& fluid) {
   const auto usual = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '-'; };
   if (probe.name.empty() || !std::all_of(probe.name.begin(), probe.name.end(), usual))
-    section.fail("name", "names a column; use only letters, digits, _ and -");
+    section.fail("name", "is used as a column name; use only letters, digits, _ and -");
   for (const FluidProbe& other : fluid.probes)
-    if (other.name == probe.name) section.fail("name", "is the name of another probe; choose another");
+    if (other.name == probe.name) section.fail("name", "is the name of another probe; choose another name");
 }
 
 void checkFluid(const Section& section, Fluid& fluid, const Scene& scene) {
@@ -160,7 +164,7 @@ void checkFluid(const Section& section, Fluid& fluid, const Scene& scene) {
     fluid.probes.push_back(probe);
   }
   if (!fluid.level && fluid.boxes.empty())
-    section.fail("level", "is missing, and there is no [[fluid.box]], so the scene has no fluid; add one of them");
+    section.fail("level", "is missing and there is no [[fluid.box]], so the scene contains no fluid; add one of them");
 }
 
 } // namespace

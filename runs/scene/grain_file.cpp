@@ -71,13 +71,12 @@ std::vector<TextField> fieldsOf(const TextLine& line) {
   std::vector<TextField> fields;
   const std::size_t comma = text.find(','), semicolon = text.find(';');
   const auto empty = [&](std::size_t at) {
-    line.fail(at,
-              fmt::format("column {} is empty; add its number, e.g. 0, or remove this separator", fields.size() + 1));
+    line.fail(
+        at, fmt::format("column {} is empty; add a number, e.g. 0, or remove the extra separator", fields.size() + 1));
   };
   if (comma != std::string_view::npos && semicolon != std::string_view::npos)
-    line.fail(
-        std::max(comma, semicolon),
-        "line mixes commas and semicolons; use one of them as separator, and write decimals with a point, such as 1.5");
+    line.fail(std::max(comma, semicolon),
+              "line contains both commas and semicolons; use one separator, and write decimals with a point, e.g. 1.5");
   const std::size_t first = std::min(comma, semicolon);
   if (first != std::string_view::npos) {
     const char separator = text[first];
@@ -139,7 +138,7 @@ std::size_t readHeader(const TextLine& line, const std::vector<TextField>& field
     if (unit != wanted.unit)
       line.fail(
           fields[k].at,
-          fmt::format("column {} of the header has unit [{:.40}], expected [{}]; convert its numbers to {} in [{}]",
+          fmt::format("column {} of the header has unit [{:.40}], expected [{}]; convert the numbers to {} in [{}]",
                       column, unit, wanted.unit, wanted.name, wanted.unit));
   }
   if (!isComplete(column)) line.fail(0, fmt::format("the header has {} columns; expected {}", column, kLines));
@@ -159,7 +158,7 @@ double readNumber(const TextLine& line, const TextField& field, std::size_t colu
   if (text[0] == '"') fail("is in quotes; remove them");
   if (error == std::errc::result_out_of_range) fail("is outside the range of double precision; correct it");
   if (error != std::errc() || end != to)
-    fail("is not a number; write decimals with a point, such as 1.5e-3, and separate numbers by commas or blanks");
+    fail("is not a number; write decimals with a point, e.g. 1.5e-3, and separate numbers by commas or blanks");
   if (!std::isfinite(value)) fail("is not finite; correct it");
   if (column == kRadius ? !(value > c.least && value <= c.most) : !(value >= c.least && value <= c.most))
     fail(fmt::format("is outside {}{:g}, {:g}]; correct it", column == kRadius ? '(' : '[', c.least, c.most));
@@ -170,7 +169,7 @@ std::string textOf(const std::string& file) {
   std::error_code error;
   // Reading a device or pipe may never end.
   if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    throw base::InputError(fmt::format("{}: not a regular file; name a text file with one grain per line", file));
+    throw base::InputError(fmt::format("{}: not a regular file; specify a text file with one grain per line", file));
   std::ifstream in(file, std::ios::binary);
   if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
   std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -200,14 +199,16 @@ std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill)
       continue;
     }
     if (fields.size() != header.value_or(fields.size()))
-      line.fail(0, fmt::format("{} numbers, but the header has {} columns; correct the line", fields.size(), *header));
+      line.fail(0, fmt::format("line has {} numbers, but the header has {} columns; correct the line", fields.size(),
+                               *header));
     std::array<double, kColumns.size()> values{};
     for (std::size_t k = 0; k < std::min(fields.size(), values.size()); ++k) values[k] = readNumber(line, fields[k], k);
-    if (!isComplete(fields.size())) line.fail(0, fmt::format("{} numbers; expected {}", fields.size(), kLines));
+    if (!isComplete(fields.size()))
+      line.fail(0, fmt::format("line has {} numbers; expected {}", fields.size(), kLines));
     if (!width) width = fields.size();
     if (fields.size() != *width)
-      line.fail(0, fmt::format("{} numbers, but earlier lines have {}; use the same number in all lines", fields.size(),
-                               *width));
+      line.fail(0, fmt::format("line has {} numbers, but earlier lines have {}; use the same number in all lines",
+                               fields.size(), *width));
     const auto vectorAt = [&](std::size_t at) { return base::Vec3d{values[at], values[at + 1], values[at + 2]}; };
     grains.push_back({vectorAt(0),
                       fields.size() >= 7 ? vectorAt(4) : fill.velocity,

@@ -20,45 +20,49 @@ Table<Grain> grainTable() {
   t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e4).atMost(1e4);
   t.add("spin", &S::spin, "rad/s", "initial angular velocity").atLeast(-1e6).atMost(1e6);
   t.add("radius", &S::radius, "m", "radius of the sphere").above(0).atMost(1e3).required();
-  t.add("material", &S::material, "", "name of its material").required();
+  t.add("material", &S::material, "", "name of the material").required();
   t.add("above_bed", &S::aboveBed, "m",
-        "height of the grain's lowest point above the highest grain under it once the bed has settled; overrides the z "
-        "coordinate of position")
+        "gap between the grain and the highest grain below it after the bed has settled; replaces the z coordinate of "
+        "position")
       .atLeast(0)
       .atMost(1e4);
-  t.add("fixed", &S::fixed, "", "whether it never moves, as part of rough ground");
+  t.add("fixed", &S::fixed, "", "whether the grain is fixed, e.g. as part of rough ground");
   return t;
 }
 
 Table<GrainFill> fillTable() {
   using S = GrainFill;
-  Table<S> t("[grains]", "Many grains at once: a lattice, a random fill of a box, or a file of positions and radii");
-  t.add("form", &S::form, "", "lattice or random in a box, or file with one grain per line");
-  t.add("low", &S::low, "m", "lower corner of the box that contains the grains completely; not with a file");
-  t.add("high", &S::high, "m", "upper corner of that box");
-  t.add("radius", &S::radius, "m", "radius of each grain, or of the smallest if radius_to is given; not with a file")
+  Table<S> t("[grains]", "A set of grains: a lattice, a random fill of a box, or a file of positions and radii");
+  t.add("form", &S::form, "", "lattice or random (in a box), or file (one grain per line)");
+  t.add("low", &S::low, "m", "lower corner of the box that fully contains the grains; not with form = \"file\"");
+  t.add("high", &S::high, "m", "upper corner of the box");
+  t.add("radius", &S::radius, "m", "grain radius, or minimum radius if radius_to is set; not with form = \"file\"")
       .above(0)
       .atMost(1e3);
-  t.add("radius_to", &S::radiusTo, "m", "radius of the largest grain; radii are distributed uniformly between")
+  t.add("radius_to", &S::radiusTo, "m",
+        "maximum grain radius; radii are uniformly distributed between radius and radius_to")
       .above(0)
       .atMost(1e3);
-  t.add("spacing", &S::spacing, "-", "lattice spacing in largest radii").atLeast(2).atMost(100);
-  t.add("jitter", &S::jitter, "-", "random shift in a lattice, as a fraction of its free gap").atLeast(0).atMost(1);
+  t.add("spacing", &S::spacing, "-", "lattice spacing, in units of the maximum grain radius").atLeast(2).atMost(100);
+  t.add("jitter", &S::jitter, "-",
+        "random displacement from the lattice sites, as a fraction of the gap between grains")
+      .atLeast(0)
+      .atMost(1);
   t.add("number", &S::number, "-", "number of grains of a random fill").atLeast(1).atMost(1e8);
   t.add("file", &S::file, "",
         "text file with one grain per line: x, y, z, r [m], optionally vx, vy, vz [m/s], then wx, wy, wz [rad/s], and "
         "optionally a header with these names; searched for in the scene's folder, the working folder, the assets "
         "folder");
-  t.add("velocity", &S::velocity, "m/s", "initial velocity; for a file, of lines without one")
+  t.add("velocity", &S::velocity, "m/s", "initial velocity; with form = \"file\", that of lines without a velocity")
       .atLeast(-1e4)
       .atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "initial angular velocity; for a file, of lines without one")
+  t.add("spin", &S::spin, "rad/s", "initial angular velocity; with form = \"file\", that of lines without one")
       .atLeast(-1e6)
       .atMost(1e6);
-  t.add("material", &S::material, "", "name of their material").required();
+  t.add("material", &S::material, "", "name of the material").required();
   t.add("above_bed", &S::aboveBed, "m",
-        "height of the lowest point of these grains above the highest grain under them once the bed has settled; all "
-        "are lifted or lowered together")
+        "gap between the lowest point of these grains and the highest grain below them after the bed has settled; all "
+        "are raised or lowered together")
       .atLeast(0)
       .atMost(1e4);
   return t;
@@ -66,15 +70,15 @@ Table<GrainFill> fillTable() {
 
 Table<Source> sourceTable() {
   using S = Source;
-  Table<S> t("[source]", "Grains that enter during the run at random positions in a box");
-  t.add("low", &S::low, "m", "lower corner of the box in which their centres start").required();
-  t.add("high", &S::high, "m", "upper corner of that box").required();
+  Table<S> t("[source]", "Source of grains that enter during the run at random positions in a box");
+  t.add("low", &S::low, "m", "lower corner of the box for the initial centre positions").required();
+  t.add("high", &S::high, "m", "upper corner of the box").required();
   t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e4).atMost(1e4);
   t.add("spin", &S::spin, "rad/s", "initial angular velocity").atLeast(-1e6).atMost(1e6);
   t.add("radius", &S::radius, "m", "radius of each grain").above(0).atMost(10).required();
-  t.add("material", &S::material, "", "name of its material").required();
-  t.add("number", &S::number, "-", "number of grains that enter together").atLeast(1).atMost(1e6);
-  t.add("every", &S::every, "s", "time between entries").above(0).required();
+  t.add("material", &S::material, "", "name of the material").required();
+  t.add("number", &S::number, "-", "number of grains per entry").atLeast(1).atMost(1e6);
+  t.add("every", &S::every, "s", "time between two entries").above(0).required();
   t.add("start", &S::start, "s", "time of the first entry").atLeast(0);
   t.add("total", &S::total, "-", "total number of grains").atLeast(1).atMost(1e8).required();
   return t;
@@ -98,8 +102,8 @@ void checkFill(const Section& section, GrainFill& b, const Scene& scene) {
   if (b.radiusTo && *b.radiusTo < *b.radius) section.fail("radius_to", "[m] is below radius; raise it");
   for (int a = 0; !file && a < 3; ++a)
     if ((*b.high)[a] - (*b.low)[a] < 2 * b.largestRadius() * (1 - 1e-9))
-      section.fail("high",
-                   fmt::format("[m] leaves no room for a grain of radius {:g} m; enlarge the box", b.largestRadius()));
+      section.fail("high", fmt::format("[m] makes the box too small for a grain of radius {:g} m; enlarge the box",
+                                       b.largestRadius()));
   if (file) {
     resolveFile(scene, section, "file", *b.file);
     b.fromFile = readGrainFile(*b.file, b);
@@ -119,7 +123,7 @@ void checkSource(const Section& section, Source& s, const Scene& scene) {
   for (int a = 0; a < 3; ++a)
     if (s.high[a] < s.low[a]) section.fail("high", "[m] is below low; swap the corners");
   if (s.start > scene.run.duration)
-    section.fail("start", fmt::format("[s] is after the end of the run, run.duration = {:g} s, so no grain would "
+    section.fail("start", fmt::format("[s] is after the end of the run (run.duration = {:g} s), so no grain would "
                                       "enter; lower it, raise run.duration, or remove the source",
                                       scene.run.duration));
 }

@@ -14,41 +14,37 @@ using vehicle::HitchKind;
 
 Table<Hitch> hitchTable() {
   using S = Hitch;
-  Table<S> t("hitch", "Horizontal load on the hull from the start of the drive; the pull is recorded");
+  Table<S> t("hitch", "Horizontal load on the hull, applied from the start of the drive; the pull is recorded");
   t.add("kind", &S::kind, "",
-        "force: constant; ramp: growing force; sled: towed sled with friction; speed: carriage that imposes a given "
-        "slip, whose pull is the drawbar pull");
+        "type of load: force (constant), ramp (force that increases linearly), sled (towed sled with friction) or "
+        "speed (carriage that imposes a slip; measures the drawbar pull)");
   t.add("position", &S::position, "m",
-        "position of the hitch in the vehicle frame (forward, left, up from the middle of the sprockets' axle line); "
-        "\"auto\": the middle of the rearmost axle line of sprockets or idlers")
+        "position of the hitch in the vehicle frame (forward, left, up; origin midway between the sprockets); "
+        "\"auto\": midway between the rearmost sprockets or idlers")
       .atLeast(-100)
       .atMost(100)
       .orWord("auto");
-  t.add("start", &S::start, "s", "time after the start of the drive at which the load begins").atLeast(0).atMost(1e5);
-  t.add("ramp", &S::ramp, "s", "duration of the ramp of a constant force, or of the speed of a carriage")
-      .atLeast(0)
-      .atMost(1e3);
-  t.add("force", &S::force, "N", "force on the hull, positive backwards; of a ramp the initial force, default: 0")
+  t.add("start", &S::start, "s", "delay of the load after the start of the drive").atLeast(0).atMost(1e5);
+  t.add("ramp", &S::ramp, "s", "ramp duration of a constant force, or of the carriage speed").atLeast(0).atMost(1e3);
+  t.add("force", &S::force, "N",
+        "force on the hull, positive backwards; with kind = \"ramp\" the initial force, default: 0")
       .atLeast(-1e8)
       .atMost(1e8);
-  t.add("rate", &S::rate, "N/s", "rate of the force of a ramp").atLeast(-1e8).atMost(1e8);
+  t.add("rate", &S::rate, "N/s", "rate of change of the force with kind = \"ramp\"").atLeast(-1e8).atMost(1e8);
   t.add("mass", &S::mass, "kg", "mass of the sled").above(0).atMost(1e7);
   t.add("friction", &S::friction, "-", "friction coefficient between sled and ground").atLeast(0).atMost(10);
-  t.add("length", &S::length, "m", "length of the sled's rope, which is initially taut; default: 3")
-      .above(0)
-      .atMost(1e3);
+  t.add("length", &S::length, "m", "length of the rope of the sled, initially taut; default: 3").above(0).atMost(1e3);
   t.add("slip", &S::slip, "-",
-        "track slip that a carriage imposes: hull speed = (1 - slip) x sprocket speed x pitch radius; negative: it "
-        "pushes")
+        "track slip imposed by the carriage: hull speed = (1 - slip) x sprocket speed x pitch radius; negative values "
+        "push the vehicle")
       .atLeast(-10)
       .atMost(10);
   t.add("stiffness", &S::stiffness, "N/m",
-        "stiffness of the sled's rope or the carriage's bar; \"auto\": natural frequency of 10 Hz with the hull (and "
-        "sled)")
+        "stiffness of the rope (sled) or bar (carriage); \"auto\": natural frequency of 10 Hz with the hull (and sled)")
       .above(0)
       .atMost(1e12)
       .orWord("auto");
-  t.add("damping_ratio", &S::dampingRatio, "-", "damping ratio of that oscillation").atLeast(0).atMost(2);
+  t.add("damping_ratio", &S::dampingRatio, "-", "damping ratio of this oscillation").atLeast(0).atMost(2);
   return t;
 }
 
@@ -60,7 +56,7 @@ struct OwnKey {
 };
 
 void checkHitch(const Section& section, Hitch& h, const Scene& scene) {
-  if (!scene.vehicle) section.fail("", "requires a vehicle; add a section [vehicle], or remove this one");
+  if (!scene.vehicle) section.fail("", "requires a vehicle; add a section [vehicle], or remove this section");
   if (scene.vehicle->chassis == ChassisMount::fixed)
     section.fail("", "has no effect on a fixed hull; set vehicle.chassis = \"free\", or remove it");
   const bool grows = h.kind == HitchKind::ramp;

@@ -27,19 +27,19 @@ std::string brief(double x) {
 void addPlasticity(Table<Material>& t) {
   using S = Material;
   t.add("plasticity", &S::plasticity, "-",
-        fmt::format("eepa, eepa_linear, luding: lambda = 1 - k1/k2 with the stiffnesses k1 of loading and k2 of "
-                    "unloading; luding: its maximum; default: {}",
+        fmt::format("eepa, eepa_linear, luding: lambda = 1 - k1/k2 with loading stiffness k1 and unloading stiffness "
+                    "k2 (for luding its maximum); default: {}",
                     brief(S::kPlasticity)))
       .atLeast(0)
       .atMost(0.99);
   t.add("surface_energy", &S::surfaceEnergy, "J/m2",
-        "eepa, eepa_linear: gamma of the pull-off force 1.5 pi gamma a, which grows with the radius a of the contact "
+        "eepa, eepa_linear: surface energy gamma in the pull-off force 1.5 pi gamma a, where a is the contact radius "
         "after loading; default: 0, no adhesion")
       .atLeast(0)
       .atMost(1e6);
   t.add("adhesion_exponent", &S::adhesionExponent, "-",
-        "eepa, eepa_linear: exponent chi of the decrease of the pull with the overlap beyond pull-off, a multiple of "
-        "0.5; default: 1.5 for eepa, 1 for eepa_linear")
+        "eepa, eepa_linear: exponent chi of the decrease of the adhesive force with overlap after pull-off, a multiple "
+        "of 0.5; default: 1.5 for eepa, 1 for eepa_linear")
       .atLeast(0.5)
       .atMost(6);
   t.add("plastic_depth", &S::plasticDepth, "-",
@@ -48,9 +48,9 @@ void addPlasticity(Table<Material>& t) {
                     brief(S::kPlasticDepth)))
       .above(0)
       .atMost(1);
-  t.add(
-       "adhesion_stiffness", &S::adhesionStiffness, "N/m",
-       "luding: k_c, which limits the adhesive pull during unloading to k_c x at an overlap x; default: 0, no adhesion")
+  t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
+        "luding: adhesive stiffness k_c; the adhesive force during unloading is at most k_c x at overlap x; default: "
+        "0, no adhesion")
       .atLeast(0)
       .atMost(1e12);
 }
@@ -60,13 +60,13 @@ void addSoil(Table<Material>& t) {
   using S = Material;
   t.leaveOutEmpty();
   t.add("soil", &S::soil, "",
-        "soil of the material (`grouser soils`), a name or the path of a file; its values, scaled to the scene's "
-        "grains, are the defaults of the keys below");
+        "soil name (`grouser soils`) or path of a soil file; its values, scaled to the grain size of the scene, are "
+        "the defaults of the keys below");
   t.add("soil_hash", &S::soilHash, "",
-        "hash of that file, written into the resolved scene; if the file has changed since, a run prints a note");
+        "hash of the soil file, written to the resolved scene; a run prints a note if the file has changed since");
   t.add("grain_radius", &S::grainRadius, "m",
-        "grain radius to which stiffness and cohesion of a soil are scaled; default: terrain.grain_radius of a bed of "
-        "this material, else the common radius of its grains")
+        "grain radius to which stiffness and cohesion of the soil are scaled; default: terrain.grain_radius of a bed "
+        "of this material, otherwise the common radius of its grains")
       .above(0)
       .atMost(10);
 }
@@ -75,7 +75,7 @@ void addSoil(Table<Material>& t) {
 
 Table<Material> materialTable() {
   using S = Material;
-  Table<S> t("material.NAME", "A material; other sections refer to it by NAME");
+  Table<S> t("material.NAME", "Material; other sections refer to it by NAME");
   addSoil(t);
   t.add("density", &S::density, "kg/m3", "density of the solid").atLeast(1e-3).atMost(1e5);
   t.add(
@@ -83,7 +83,7 @@ Table<Material> materialTable() {
       "contact law: linear (springs) or hertz (Hertz-Mindlin); elastic-plastic with adhesion: eepa (based on Hertz), "
       "eepa_linear and luding (based on linear springs); all with dashpots and Coulomb friction (docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m",
-        fmt::format("linear, eepa_linear, luding: normal stiffness k of a contact at its first loading; default: {}",
+        fmt::format("linear, eepa_linear, luding: normal stiffness k of a contact (during virgin loading); default: {}",
                     brief(S::kStiffness)))
       .atLeast(1e-3)
       .atMost(1e12);
@@ -93,19 +93,20 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(0.5);
   t.add("restitution", &S::restitution, "-",
-        fmt::format("coefficient of restitution, rebound speed / impact speed; default: {} unless damping is given; at "
-                    "least 1e-6, or 0 with attraction or complementarity",
+        fmt::format("coefficient of restitution, rebound speed / impact speed; default: {} unless damping is set; "
+                    "minimum 1e-6, or 0 with attraction or complementarity",
                     brief(S::kRestitution)))
       .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s",
-        "linear: gamma of F_n = k overlap + gamma m_eff v_n (v_n: approach speed), instead of restitution")
+        "linear: damping coefficient gamma in F_n = k overlap + gamma m_eff v_n (v_n: approach speed), instead of "
+        "restitution")
       .atLeast(0)
       .atMost(1e9);
   t.add("attraction", &S::attraction, "",
-        "whether the dashpot may pull while surfaces separate; otherwise it cancels at most the spring force (for "
-        "cohesion, use cohesion)");
-  t.add("friction", &S::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
+        "whether the dashpot may cause a tensile force while surfaces separate; otherwise the normal force is at least "
+        "0 (to model cohesion, use cohesion)");
+  t.add("friction", &S::friction, "-", "Coulomb friction coefficient").atLeast(0).atMost(10);
   static_assert(S::kTangentialStiffnessRatio == 2.0 / 7, "as the help says");
   t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
         "linear: tangential / normal stiffness; default: 2/7")
@@ -118,32 +119,34 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(2);
   t.add("rolling_friction", &S::rollingFriction, "-",
-        "maximum torque of rolling resistance / (R_r F_n), of an elastic-plastic spring (type C); R_r = R_i R_j / (R_i "
-        "+ R_j): half the radius of equal grains, the radius against a wall; 0: no rolling resistance")
+        "coefficient of rolling friction of an elastic-plastic spring (type C): maximum torque / (R_r F_n), where R_r "
+        "= R_i R_j / (R_i + R_j), i.e. half the radius for equal grains and the radius at a wall; 0: no rolling "
+        "resistance")
       .atLeast(0)
       .atMost(2);
-  t.add("rolling_damping_ratio", &S::rollingDampingRatio, "-", "damping of the rolling spring / its critical damping")
+  t.add("rolling_damping_ratio", &S::rollingDampingRatio, "-", "damping ratio of the rolling spring")
       .atLeast(0)
       .atMost(1);
   t.add("cohesion", &S::cohesion, "J/m2",
-        "energy of adhesion w (twice the surface energy of equal surfaces): touching surfaces pull with 2 pi w R_eff "
-        "(DMT); 0: no cohesion")
+        "work of adhesion w (twice the surface energy for equal surfaces): contacts have the adhesive force 2 pi w "
+        "R_eff (DMT); 0: no cohesion")
       .atLeast(0)
       .atMost(1e6);
   t.add("adhesion_radius", &S::adhesionRadius, "m",
-        "grain radius at which cohesion and surface_energy are given: in other contacts they scale with R_eff, so that "
-        "the tensile strength is the same at all grain sizes; for two materials their geometric mean, or the only one "
-        "given; default: energy independent of size, so that coarse grains have less tensile strength")
+        "reference grain radius of cohesion and surface_energy: in other contacts they scale with R_eff, so that the "
+        "tensile strength does not depend on grain size; for two materials, the geometric mean, or the only value set; "
+        "default: no scaling, so coarse grains have a lower tensile strength")
       .above(0)
       .atMost(10);
   addPlasticity(t);
   t.add("foundation_modulus", &S::foundationModulus, "N/m3",
-        "pressure / overlap (Winkler foundation) of bodies against bodies, rigid ground, planes and obstacles")
+        "modulus of the Winkler foundation (pressure / overlap) in contacts of bodies with bodies, rigid ground, "
+        "planes and obstacles")
       .atLeast(1e3)
       .atMost(1e14);
   t.add("crushing_strength", &S::crushingStrength, "Pa",
-        "sigma_f of the grains: against parts of a vehicle and meshes they crush at a normal force of sigma_f d^2 (d: "
-        "diameter; docs/contact_law.md#crushing); default: no crushing")
+        "crushing strength sigma_f of the grains: in contacts with vehicle parts and meshes, a grain crushes at the "
+        "normal force sigma_f d^2 (d: diameter; docs/contact_law.md#crushing); default: no crushing")
       .above(0)
       .atMost(1e13);
   return t;
@@ -154,18 +157,19 @@ namespace {
 Table<ContactPair> contactTable() {
   using S = ContactPair;
   Table<S> t("contact.\"a|b\"",
-             "Contact parameters by material pair a, b, which replace those of the mixing rule: stiffnesses in series, "
-             "doubled; the smaller friction and restitution; the geometric mean of cohesions (docs/contact_law.md)");
+             "Contact parameters of the material pair a, b, which override the mixing rule (twice the stiffnesses in "
+             "series, minimum of friction and restitution, geometric mean of cohesion; docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
   t.add("restitution", &S::restitution, "-",
-        "coefficient of restitution of the pair; at least 1e-6, or 0 with attraction or complementarity")
+        "coefficient of restitution of the pair; minimum 1e-6, or 0 with attraction or complementarity")
       .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s", "damping gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
-  t.add("friction", &S::friction, "-", "Coulomb coefficient of the pair").atLeast(0).atMost(10);
+  t.add("friction", &S::friction, "-", "Coulomb friction coefficient of the pair").atLeast(0).atMost(10);
   t.add("rolling_friction", &S::rollingFriction, "-", "rolling friction of the pair").atLeast(0).atMost(2);
-  t.add("cohesion", &S::cohesion, "J/m2", "energy of adhesion of the pair").atLeast(0).atMost(1e6);
-  t.add("plasticity", &S::plasticity, "-", "lambda of the pair, if both materials are elastic-plastic; 0: elastic")
+  t.add("cohesion", &S::cohesion, "J/m2", "work of adhesion of the pair").atLeast(0).atMost(1e6);
+  t.add("plasticity", &S::plasticity, "-",
+        "plasticity lambda of the pair, if both materials are elastic-plastic; 0: elastic")
       .atLeast(0)
       .atMost(0.99);
   t.add("surface_energy", &S::surfaceEnergy, "J/m2",
@@ -186,7 +190,7 @@ void checkPlasticity(const Section& section, const Material& m) {
   const bool luding = m.law == contact::LawKind::luding;
   const auto refuse = [&](const char* key, bool allowed, const char* laws) {
     if (!allowed && section.has(key))
-      section.fail(key, fmt::format("requires law = {}; add that, or remove the key", laws));
+      section.fail(key, fmt::format("requires law = {}; set it, or remove the key", laws));
   };
   refuse("plasticity", m.yields(), "\"eepa\", \"eepa_linear\" or \"luding\"");
   for (const char* key : {"surface_energy", "adhesion_exponent"})
@@ -209,7 +213,7 @@ void completeLaw(const Section& section, Material& m) {
                         "young, poisson and restitution)");
   for (const char* key : {"young", "poisson"})
     if (!hertz && section.has(key))
-      section.fail(key, "requires law = \"hertz\" or \"eepa\"; add that, or remove it (other laws use stiffness)");
+      section.fail(key, "requires law = \"hertz\" or \"eepa\"; set it, or remove the key (other laws use stiffness)");
   if (hertz && !m.young)
     section.fail("young", fmt::format("[Pa] is missing, but law = \"{}\" requires it; add it, e.g. young = 7e7",
                                       base::wordOf(m.law)));
@@ -220,7 +224,7 @@ void completeLaw(const Section& section, Material& m) {
 /// A material with its name and the values of its soil. Throws InputError for invalid names.
 Material beginMaterial(const Section& section, const std::string& name, Scene& scene) {
   if (name.find('|') != std::string::npos)
-    section.fail("", "has a name with |, which separates the materials of a pair; choose another name");
+    section.fail("", "contains | in its name, which separates the materials of a pair; choose another name");
   if (const std::string fault = support::nameFault(name); !fault.empty()) section.fail("", fault);
   const Soil* soil = soilOf(section, name, scene);
   Material m = soil ? materialOf(*soil, section) : Material{};
@@ -241,7 +245,7 @@ void checkMaterial(const Section& section, Material& m, const Scene& scene) {
 ContactPair beginContact(const Section& section, const std::string& name, Scene&) {
   const std::size_t bar = name.find('|');
   if (bar == std::string::npos || name.find('|', bar + 1) != std::string::npos)
-    section.fail("", "must have the form [contact.\"a|b\"] with two materials");
+    section.fail("", "must have the form [contact.\"a|b\"] with the names of two materials");
   ContactPair pair;
   pair.first = name.substr(0, bar), pair.second = name.substr(bar + 1);
   return pair;
@@ -253,13 +257,13 @@ void checkContact(const Section& section, ContactPair& pair, const Scene& scene)
   checkDampingKeys(section, pair);
   for (const char* key : {"stiffness", "damping"})
     if (section.has(key) && scene.material(pair.first).hertzian())
-      section.fail(key, "requires law = \"linear\", but this pair is hertz; remove it");
+      section.fail(key, "requires law = \"linear\", but this pair uses hertz; remove it");
   const bool yields = scene.material(pair.first).yields() && scene.material(pair.second).yields();
   if (pair.plasticity && !yields)
     section.fail("plasticity", "requires two materials with law eepa, eepa_linear or luding; remove it");
   if (pair.surfaceEnergy && (!yields || scene.material(pair.first).law == contact::LawKind::luding))
     section.fail("surface_energy", "requires two materials with law eepa or eepa_linear; remove it");
-  if (scene.contact(pair.first, pair.second)) section.fail("", "is given twice, in both orders; remove one");
+  if (scene.contact(pair.first, pair.second)) section.fail("", "is defined twice, in both orders; remove one");
 }
 
 } // namespace

@@ -18,70 +18,76 @@ using base::Table;
 
 Table<BodySection> bodyTable() {
   using S = BodySection;
-  Table<S> t("[body]", "A rigid body of a mechanism");
-  t.add("name", &S::name, "", "name for joints and springs; \"world\" is reserved for the ground").required();
+  Table<S> t("[body]", "Rigid body of a mechanism");
+  t.add("name", &S::name, "", "name of the body for joints and springs; \"world\" is reserved for the ground")
+      .required();
   t.add("mass", &S::mass, "kg",
-        "mass; default with shapes: their volume times density; otherwise required unless the body is fixed")
+        "mass; default with shapes: volume times density; required without shapes unless the body is fixed")
       .above(0)
       .atMost(1e12);
   t.add("density", &S::density, "kg/m3",
-        "density of its shapes, instead of mass: mass and inertia are the sums over shapes, overlaps counted twice; "
-        "default: that of the material")
+        "density of the shapes, instead of mass; mass and inertia are sums over the shapes, with overlaps counted "
+        "twice; default: density of the material")
       .above(0)
       .atMost(1e6);
   t.add("inertia", &S::inertia, "kg m2",
-        "inertia about the centre of mass in the body's axes: xx, yy, zz, optionally xy, xz, yz of the matrix; "
-        "default: that of a uniform box, or of uniform shapes");
-  t.add("box", &S::box, "m", "edges of the drawn box; default: from mass and inertia").above(0).atMost(1e5);
+        "moments of inertia about the centre of mass in the body axes: xx, yy, zz, optionally also xy, xz, yz; "
+        "default: those of a uniform box, or of uniform shapes");
+  t.add("box", &S::box, "m",
+        "edge lengths of the box that represents the body in pictures; default: from mass and inertia")
+      .above(0)
+      .atMost(1e5);
   t.add("position", &S::position, "m", "initial position of the centre of mass").atLeast(-1e6).atMost(1e6);
-  t.add("axis", &S::axis, "-", "rotation axis of the initial orientation from the world's axes; requires angle");
-  t.add("angle", &S::angle, "deg", "angle of that rotation, right-handed").atLeast(-3600).atMost(3600);
+  t.add("axis", &S::axis, "-", "axis of the rotation from the world axes to the initial orientation; requires angle");
+  t.add("angle", &S::angle, "deg", "angle of this rotation, right-handed").atLeast(-3600).atMost(3600);
   t.add("orientation", &S::orientation, "-",
         "unit quaternion w, x, y, z from body to world, instead of axis and angle");
   t.add("velocity", &S::velocity, "m/s", "initial velocity of the centre of mass, world components");
   t.add("spin", &S::spin, "rad/s", "initial angular velocity, world components");
-  t.add("fixed", &S::fixed, "", "whether it never moves");
-  t.add("point", &S::point, "", "point mass without extent or inertia, for spherical and distance joints and springs");
-  t.add("material", &S::material, "", "name of the material of its shapes; required with [[body.shape]]");
+  t.add("fixed", &S::fixed, "", "whether the body is fixed in the world");
+  t.add("point", &S::point, "",
+        "whether the body is a point mass, without extent or inertia; supports spherical joints, distance joints and "
+        "springs only");
+  t.add("material", &S::material, "", "name of the material of the shapes; required with [[body.shape]]");
   t.add("probe_size", &S::probe, "m",
-        "edges of a box in the body's frame; the mass of the grains whose centres are inside is recorded as grain_mass")
+        "edge lengths of a box in the body frame; the mass of the grains whose centres are inside is recorded as "
+        "grain_mass")
       .above(0)
       .atMost(1e5);
-  t.add("probe_position", &S::probePosition, "m", "centre of that box in the body's frame");
+  t.add("probe_position", &S::probePosition, "m", "centre of the probe box in the body frame");
   return t;
 }
 
 Table<ShapeSection> shapeTable() {
   using S = ShapeSection;
-  Table<S> t("[body.shape]", "Contact surface of the body above it; a body may have several");
-  t.add("kind", &S::kind, "", "sphere, box, cylinder, capsule, cone or mesh").required();
-  t.add("size", &S::size, "m", "edges of a box").above(0).atMost(1e5);
+  Table<S> t("[body.shape]", "Contact surface of the preceding [[body]]; a body may have several");
+  t.add("kind", &S::kind, "", "kind of shape: sphere, box, cylinder, capsule, cone or mesh").required();
+  t.add("size", &S::size, "m", "edge lengths of a box").above(0).atMost(1e5);
   t.add("radius", &S::radius, "m", "radius of a sphere, cylinder or capsule, or of the base of a cone")
       .above(0)
       .atMost(1e5);
-  t.add("tip_radius", &S::tipRadius, "m", "radius of the tip of a truncated cone; default: 0").atLeast(0).atMost(1e5);
-  t.add("length", &S::length, "m", "length of a cylinder or cone, or of a capsule without its caps")
+  t.add("tip_radius", &S::tipRadius, "m", "tip radius of a truncated cone; default: 0").atLeast(0).atMost(1e5);
+  t.add("length", &S::length, "m", "length of a cylinder or cone, or of a capsule excluding its caps")
       .above(0)
       .atMost(1e5);
   t.add("file", &S::file, "",
         "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder, "
         "the assets folder");
-  t.add("scale", &S::scale, "m", "length of one unit of a mesh's file; default: 1").above(0).atMost(1e6);
-  t.add(
-       "sphere_radius", &S::sphereRadius, "m",
-       fmt::format(
-           "radius of the spheres that represent a mesh in contacts; default: {} of its diagonal, or finer where "
-           "spheres would protrude by more than a fiftieth of the smallest grain's radius or of the smallest thickness",
-           MeshSection::kShareOfDiagonal))
+  t.add("scale", &S::scale, "m", "unit of length of a mesh file; default: 1").above(0).atMost(1e6);
+  t.add("sphere_radius", &S::sphereRadius, "m",
+        fmt::format(
+            "radius of the spheres that represent a mesh in contacts; default: {} of its diagonal, or less if spheres "
+            "would protrude by more than a fiftieth of the smallest grain radius or of the smallest thickness",
+            MeshSection::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("position", &S::position, "m",
-        "position of its centre (of a cone half-way up, of a mesh the file's origin) in the body's frame")
+        "position of the centre in the body frame (of a cone: half-way up; of a mesh: the origin of the file)")
       .atLeast(-1e5)
       .atMost(1e5);
   t.add("axis", &S::axis, "-",
-        "axis of a cylinder or capsule, of a cone from base to tip, in the body's frame; default: z; for a box or mesh "
-        "the rotation axis, with angle");
+        "axis of a cylinder, capsule or cone (from base to tip) in the body frame, default: z; for a box or mesh the "
+        "rotation axis, together with angle");
   t.add("angle", &S::angle, "deg", "rotation angle of a box or mesh about axis, right-handed")
       .atLeast(-3600)
       .atMost(3600);
@@ -90,34 +96,37 @@ Table<ShapeSection> shapeTable() {
 
 Table<JointSection> jointTable() {
   using S = JointSection;
-  Table<S> t("[joint]",
-             "Joint between two bodies; its free coordinates are those of the second body relative to the first");
-  t.add("name", &S::name, "", "name for springs and drives").required();
+  Table<S> t(
+      "[joint]",
+      "Joint between two bodies; joint coordinates describe the motion of the second body relative to the first");
+  t.add("name", &S::name, "", "name of the joint for springs and drives").required();
   t.add("type", &S::type, "",
-        "joint type by its free motion: one rotation, all rotations, two rotations, a translation, rotation and "
-        "translation, none, or all but a distance");
+        "type of joint and its free motion: revolute (one rotation), spherical (all rotations), universal (two "
+        "rotations), prismatic (a translation), cylindrical (rotation and translation), fixed (none), distance (all at "
+        "a constant distance)");
   t.add("bodies", &S::bodies, "", "names of the two bodies, e.g. [\"world\", \"rod\"]").required();
-  t.add("point", &S::point, "m", "initial position in the world");
+  t.add("point", &S::point, "m", "initial position of the joint in the world");
   t.add("axis", &S::axis, "-",
-        "initial axis of rotation or translation in the world; of a universal joint that of the first body");
+        "initial axis of rotation or translation in the world; of a universal joint, the axis of the first body");
   t.add("second_axis", &S::secondAxis, "-", "axis of the second body of a universal joint, perpendicular to axis");
-  t.add("point_a", &S::pointA, "m", "position in the first body's frame, instead of point; requires point_b");
-  t.add("point_b", &S::pointB, "m", "position in the second body's frame");
-  t.add("axis_a", &S::axisA, "-", "axis in the first body's frame, instead of axis; requires axis_b");
-  t.add("axis_b", &S::axisB, "-", "axis in the second body's frame; of a universal joint the second axis");
+  t.add("point_a", &S::pointA, "m",
+        "position of the joint in the frame of the first body, instead of point; requires point_b");
+  t.add("point_b", &S::pointB, "m", "position of the joint in the frame of the second body");
+  t.add("axis_a", &S::axisA, "-", "axis in the frame of the first body, instead of axis; requires axis_b");
+  t.add("axis_b", &S::axisB, "-", "axis in the frame of the second body; of a universal joint, the second axis");
   t.add("length", &S::length, "m",
         "distance between point_a and point_b of a distance joint; default: the initial distance")
       .above(0)
       .atMost(1e5);
   t.add("damping", &S::damping, "N m s/rad or N s/m",
-        "damping of the free axis; of a cylindrical joint that of its angle")
+        "damping of the free axis; of a cylindrical joint, damping of its rotation")
       .atLeast(0);
   t.add("slide_damping", &S::slideDamping, "N s/m", "damping of the translation of a cylindrical joint").atLeast(0);
-  t.add("limits", &S::limits, "rad or m", "lower and upper end stop of the free axis, from its position 0");
+  t.add("limits", &S::limits, "rad or m", "positions of the lower and upper end stop on the free axis");
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "stiffness of the end stops; required with limits")
       .atLeast(0);
   t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m",
-        "damping of the end stops, which never pull: during rebound it cancels at most their springs")
+        "damping of the end stops; the force of a stop never becomes tensile")
       .atLeast(0);
   return t;
 }
@@ -126,24 +135,23 @@ Table<SpringSection> springTable() {
   using S = SpringSection;
   Table<S> t("[spring]", "Spring and damper between two points, or on the free axis of a joint");
   t.add("name", &S::name, "", "name in results and messages").required();
-  t.add("bodies", &S::bodies, "", "names of the two bodies that it connects; or use joint");
-  t.add("point_a", &S::pointA, "m", "its end on the first body, in that body's frame; default: (0, 0, 0)");
-  t.add("point_b", &S::pointB, "m", "its end on the second body, in that body's frame");
+  t.add("bodies", &S::bodies, "", "names of the two connected bodies; or use joint");
+  t.add("point_a", &S::pointA, "m", "end point on the first body, in its frame; default: (0, 0, 0)");
+  t.add("point_b", &S::pointB, "m", "end point on the second body, in its frame");
   t.add("joint", &S::joint, "",
-        "name of the revolute, prismatic or cylindrical joint along or about whose axis the spring acts; replaces the "
-        "key bodies");
+        "name of a revolute, prismatic or cylindrical joint on whose axis the spring acts, instead of bodies");
   t.add("acts_on", &S::actsOn, "", "axis of a cylindrical joint");
   t.add("stiffness", &S::stiffness, "N/m or N m/rad", "stiffness of the spring").atLeast(0);
-  t.add("damping", &S::damping, "N s/m or N m s/rad", "damping coefficient, integrated implicitly: any value is stable")
+  t.add("damping", &S::damping, "N s/m or N m s/rad", "damping coefficient; any value is stable (implicit integration)")
       .atLeast(0);
   t.add("preload", &S::preload, "N or N m", "force at free_position; positive pushes the bodies apart");
   t.add("free_position", &S::freePosition, "m or rad",
-        "length, or position of the axis, at which only the preload acts; default: the initial one");
-  t.add("limits", &S::limits, "rad or m", "lower and upper end stop on the axis of a joint");
+        "length, or position of the joint axis, at which the force equals preload; default: the initial one");
+  t.add("limits", &S::limits, "rad or m", "positions of the lower and upper end stop on the axis of a joint");
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "stiffness of the end stops; required with limits")
       .atLeast(0);
   t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m",
-        "damping of the end stops, which never pull: during rebound it cancels at most their springs")
+        "damping of the end stops; the force of a stop never becomes tensile")
       .atLeast(0);
   return t;
 }
@@ -151,49 +159,51 @@ Table<SpringSection> springTable() {
 Table<BushingSection> bushingTable() {
   using S = BushingSection;
   Table<S> t("[bushing]",
-             "Elastic bearing: springs and dampers between two bodies in all six directions, initially unloaded");
+             "Elastic bushing: springs and dampers between two bodies in all six directions, initially unloaded");
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("bodies", &S::bodies, "", "names of the two bodies").required();
-  t.add("point", &S::point, "m", "initial position of its centre in the world").required();
-  t.add("axis", &S::axis, "-", "its initial z direction in the world; default: the world's axes");
-  t.add("stiffness", &S::stiffness, "N/m", "along its x, y, z").atLeast(0);
-  t.add("damping", &S::damping, "N s/m", "along its x, y, z").atLeast(0);
-  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "about its x, y, z").atLeast(0);
-  t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "about its x, y, z").atLeast(0);
+  t.add("point", &S::point, "m", "initial position of the centre in the world").required();
+  t.add("axis", &S::axis, "-", "initial direction of the bushing's z axis in the world; default: the world axes");
+  t.add("stiffness", &S::stiffness, "N/m", "along the bushing's x, y, z").atLeast(0);
+  t.add("damping", &S::damping, "N s/m", "along the bushing's x, y, z").atLeast(0);
+  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "about the bushing's x, y, z").atLeast(0);
+  t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "about the bushing's x, y, z").atLeast(0);
   return t;
 }
 
 Table<DriveSection> driveTable() {
   using S = DriveSection;
-  Table<S> t("[drive]", "Motor on a free axis of a joint: the sum of value, polynomial, sine and table over time; its "
-                        "torque or force and power are in the results");
+  Table<S> t("[drive]", "Motor on a free axis of a joint: the sum of value, polynomial, sine and table over time; the "
+                        "results contain its torque or force and its power");
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("joint", &S::joint, "", "name of a revolute, prismatic or cylindrical joint").required();
   t.add("acts_on", &S::actsOn, "", "axis of a cylindrical joint");
   t.add("imposes", &S::imposes, "",
         "prescribed quantity: speed or position of the axis, or its torque (for a translation its force)");
   t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "constant value");
-  t.add("polynomial", &S::polynomial, "of value over s^i", "c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
+  t.add("polynomial", &S::polynomial, "unit of value / s^i",
+        "coefficients c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
   t.add("amplitude", &S::amplitude, "as value", "amplitude of a sine");
   t.add("frequency", &S::frequency, "Hz", "frequency of the sine").atLeast(0).atMost(1e6);
   t.add("phase", &S::phase, "deg", "phase of the sine at t = 0").atLeast(-3600).atMost(3600);
-  t.add("time", &S::time, "s", "increasing times of the table; a repeated time is a jump (not for a position)")
+  t.add("time", &S::time, "s",
+        "times of the table, in increasing order; a repeated time makes a jump (not for position)")
       .atLeast(0);
   t.add("values", &S::values, "as value",
-        "values of the table: linear between its times for speed and torque, a smooth spline from rest to rest for a "
-        "position; constant outside");
+        "values of the table; interpolated linearly for speed and torque, and by a smooth spline that starts and ends "
+        "at rest for position; constant outside");
   return t;
 }
 
 Table<CouplingSection> couplingTable() {
   using S = CouplingSection;
-  Table<S> t("[coupling]", "Couples two axes, such as gears, belts, rack and pinion or a screw: position of the second "
-                           "= ratio x position of the first + offset");
+  Table<S> t("[coupling]", "Coupling of two joint axes (gears, belt, rack and pinion, screw): position of the second = "
+                           "ratio x position of the first + offset");
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("joints", &S::joints, "", "names of the two joints").required();
-  t.add("ratio", &S::ratio, "-, m/rad or rad/m", "motion of the second axis / motion of the first").required();
-  t.add("offset", &S::offset, "rad or m", "offset; default: the initial one");
-  t.add("acts_on", &S::actsOn, "", "axis of each joint, for cylindrical joints, e.g. [\"angle\", \"slide\"]");
+  t.add("ratio", &S::ratio, "-, m/rad or rad/m", "ratio: motion of the second axis / motion of the first").required();
+  t.add("offset", &S::offset, "rad or m", "offset; default: from the initial positions");
+  t.add("acts_on", &S::actsOn, "", "axis of each joint, required for cylindrical joints, e.g. [\"angle\", \"slide\"]");
   return t;
 }
 
@@ -210,7 +220,8 @@ void checkCompatibility(const Section& section, const Scene& scene) {
                                    other));
   const bool bed = scene.terrain && scene.terrain->granular();
   if (root.has("mesh") && (bed || root.has("grain") || root.has("grains") || root.has("source")))
-    section.fail("", "is incompatible with mesh and grains together; use boxes and cylinders, or remove the grains");
+    section.fail("",
+                 "is incompatible with [[mesh]] in scenes with grains; use boxes and cylinders, or remove the grains");
 }
 
 void checkShape(const Section& section, const ShapeSection& s) {
@@ -234,12 +245,12 @@ void checkShape(const Section& section, const ShapeSection& s) {
   if (s.tipRadius && !isCone) section.fail("tip_radius", fmt::format("does not apply to a {}; remove it", kind));
   if (s.tipRadius && *s.tipRadius > *s.radius)
     section.fail("tip_radius", fmt::format("[m] is above radius, {:g} m; swap them and reverse axis", *s.radius));
-  if (s.axis && norm(*s.axis) == 0) section.fail("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
+  if (s.axis && norm(*s.axis) == 0) section.fail("axis", "[-] has zero length; set a direction, e.g. [0, 0, 1]");
   if (s.axis && s.kind == ShapeKind::sphere) section.fail("axis", "does not apply to a sphere; remove it");
   const bool isTurned = isBox || isMesh;
   if (s.angle && !isTurned) section.fail("angle", fmt::format("does not apply to a {}; remove it", kind));
   if (isTurned && s.axis.has_value() != s.angle.has_value())
-    section.fail("axis", fmt::format("and angle rotate a {} together; give both or neither", kind));
+    section.fail("axis", fmt::format("and angle must be set together for a {}; set both or neither", kind));
 }
 
 void checkBody(const Section& section, BodySection& body, const Scene& scene) {
@@ -253,7 +264,7 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
     read.loaded = loadMesh(shape, *read.file, read.scale.value_or(1), read.sphereRadius, true);
   }
   if (!body.probe && norm(body.probePosition) > 0)
-    section.fail("probe_position", "[m] has no effect without probe_size; add the edges of the box, or remove it");
+    section.fail("probe_position", "[m] has no effect without probe_size; add probe_size, or remove it");
   for (const char* key : {"material", "density"})
     if (body.shapes.empty() && section.has(key))
       section.fail(key, "has no effect without a shape; add [[body.shape]], or remove it");
@@ -261,9 +272,9 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
   if (body.density && body.fixed) section.fail("density", "[kg/m3] has no effect on a fixed body; remove it");
   if (body.shapes.empty()) return;
   if (body.point)
-    section.fail("point", "has no inertia, but [[body.shape]] requires it; remove point, and give inertia or box");
+    section.fail("point", "has no inertia, but [[body.shape]] requires it; remove point, and set inertia or box");
   if (body.material.empty())
-    section.fail("material", "is missing, but [[body.shape]] requires it; add the name of a material");
+    section.fail("material", "is missing, but [[body.shape]] requires it; set the name of a material");
   requireMaterial(scene, section, "material", body.material);
   if (!body.mass && !body.fixed && !body.density) body.density = scene.material(body.material).density;
   if (scene.run.tolerance)
@@ -283,8 +294,8 @@ void setIntegrator(const Section& root, Scene& scene) {
     if ((shapes += scene.mechanism.bodies[b].shapes.size()) > kMostShapes)
       bodies[b].fail("shape", fmt::format("exceeds the maximum of {} shapes in a scene; use fewer", kMostShapes));
   if (root.section("run").has("integrator") && scene.run.integrator == multibody::Integrator::kRattle)
-    root.section("run").fail("integrator", "adds energy to stiff contacts of bodies; set \"symplectic_euler\", or "
-                                           "remove the key (with [[body.shape]] that is the default)");
+    root.section("run").fail("integrator", "makes stiff contacts of bodies gain energy; set \"symplectic_euler\", or "
+                                           "remove the key (it is the default with [[body.shape]])");
   scene.run.integrator = multibody::Integrator::kSymplecticEuler;
 }
 
@@ -315,10 +326,10 @@ SectionEntry bodies() {
 }
 
 Table<MechanismPlacement> placementTable() {
-  Table<MechanismPlacement> t("mechanism", "Placement of all bodies of a mechanism together");
+  Table<MechanismPlacement> t("mechanism", "Common placement of all bodies of a mechanism");
   t.add("above_bed", &MechanismPlacement::aboveBed, "m",
-        "height to which bodies, joints and attachments to the world are lifted together once the bed has settled, "
-        "until each shape is at least this far above the highest grain under it")
+        "minimum gap between each shape and the highest grain below it; bodies, joints and attachments to the world "
+        "are raised together by this rule after the bed has settled")
       .atLeast(0)
       .atMost(1e5);
   return t;
@@ -327,7 +338,9 @@ Table<MechanismPlacement> placementTable() {
 void checkPlacement(const Section& section, MechanismPlacement& placement, const Scene& scene) {
   if (!placement.aboveBed) return;
   if (scene.document->root().has("vehicle"))
-    section.fail("above_bed", "[m] is incompatible with [vehicle], with which its towed bodies are placed; remove it");
+    section.fail(
+        "above_bed",
+        "[m] is incompatible with [vehicle], since towed bodies are placed together with the vehicle; remove it");
   if (!scene.mechanism.touches())
     section.fail("above_bed", "[m] has no effect without shapes of bodies; add [[body.shape]], or remove it");
   if (!scene.terrain || !scene.terrain->granular())

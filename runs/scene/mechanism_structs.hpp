@@ -14,41 +14,41 @@
 /// Mechanism sections of a scene file as plain structs. mechanism_sections.cpp defines keys, units and ranges.
 namespace grouser::scene {
 
-/// [[body.shape]]: a surface by which a body touches grains.
+/// [[body.shape]]: a contact surface of a body.
 struct ShapeSection {
   ShapeKind kind = ShapeKind::sphere;
   std::optional<base::Vec3d> size;      ///< [m] edges of a box
-  std::optional<double> radius, length; ///< [m]; of a cone the base and the height
-  std::optional<double> tipRadius;      ///< [m] of a cone; empty: 0
-  std::optional<std::string> file;      ///< of a mesh; absolute path after loading
-  std::optional<double> scale;          ///< of a mesh: metres a unit of the file; empty: 1
-  std::optional<double> sphereRadius;   ///< [m] of a mesh; empty: chosen for what touches it
-  base::Vec3d position;                 ///< [m] of its centre, of a mesh the file's origin, in the body's frame
-  std::optional<base::Vec3d> axis;      ///< cylinder, capsule: its direction; cone: from base to tip; box, mesh: the
-                                        ///< axis that angle turns about
+  std::optional<double> radius, length; ///< [m]; cone: radius of the base, and height
+  std::optional<double> tipRadius;      ///< [m] radius of a cone's tip; empty: 0
+  std::optional<std::string> file;      ///< mesh file; absolute path after loading
+  std::optional<double> scale;          ///< metres per length unit of the mesh file; empty: 1
+  std::optional<double> sphereRadius;   ///< [m] sphere radius of a mesh; empty: from its diagonal and its contacts
+  base::Vec3d position;                 ///< [m] centre in the body's frame; mesh: the file's origin
+  std::optional<base::Vec3d> axis;      ///< cylinder, capsule: direction; cone: from base to tip; box, mesh:
+                                        ///< rotation axis of `angle`
   std::optional<double> angle;          ///< [deg]
-  LoadedMesh loaded;                    ///< about the middle of the box that holds the mesh
+  LoadedMesh loaded;                    ///< centred on the bounding box of the mesh
   bool operator==(const ShapeSection&) const = default;
 };
 
 /// [[body]]
 struct BodySection {
   std::string name;
-  std::optional<double> mass;      ///< [kg]; empty: of its shapes, or fixed
-  std::optional<double> density;   ///< [kg/m3] of its shapes; empty: mass is given
-  std::vector<double> inertia;     ///< xx, yy, zz (, xy, xz, yz) [kg m2]; empty: of the box, else of its shapes
-  std::optional<base::Vec3d> box;  ///< [m] edges: what is drawn, and the inertia where none is given
-  base::Vec3d position;            ///< of the centre of mass [m]
-  std::optional<base::Vec3d> axis; ///< with angle: how the body's frame is turned from the world's
+  std::optional<double> mass;      ///< [kg]; empty: mass of its shapes, or a fixed body
+  std::optional<double> density;   ///< [kg/m3] density of its shapes; empty: mass is given
+  std::vector<double> inertia;     ///< xx, yy, zz (, xy, xz, yz) [kg m2]; empty: from the box, else from its shapes
+  std::optional<base::Vec3d> box;  ///< [m] edges of the drawn box; it sets the inertia unless given
+  base::Vec3d position;            ///< [m] centre of mass
+  std::optional<base::Vec3d> axis; ///< axis of the body's rotation by `angle`
   std::optional<double> angle;     ///< [deg]
-  std::vector<double> orientation; ///< w, x, y, z instead; empty: not given
+  std::vector<double> orientation; ///< quaternion w, x, y, z instead; empty: not given
   base::Vec3d velocity, spin;      ///< [m/s], [rad/s], world components
   bool fixed = false;
   bool point = false;               ///< a mass without extent
   std::string material;             ///< contact material of its shapes
-  std::vector<ShapeSection> shapes; ///< empty: it touches nothing
-  std::optional<base::Vec3d> probe; ///< [m] edges of the box within which the mass of grains is recorded
-  base::Vec3d probePosition;        ///< [m] of its centre, in the body's frame
+  std::vector<ShapeSection> shapes; ///< empty: no contacts
+  std::optional<base::Vec3d> probe; ///< [m] edges of the box in which the grain mass is recorded
+  base::Vec3d probePosition;        ///< [m] centre of that box in the body's frame
   bool operator==(const BodySection&) const = default;
 };
 
@@ -58,8 +58,8 @@ struct JointSection {
   multibody::JointType type = multibody::JointType::kRevolute;
   std::vector<std::string> bodies;
   std::optional<base::Vec3d> point, axis, secondAxis;      ///< world, at the start
-  std::optional<base::Vec3d> pointA, pointB, axisA, axisB; ///< each in its body's frame
-  std::optional<double> length;                            ///< of a distance joint [m]
+  std::optional<base::Vec3d> pointA, pointB, axisA, axisB; ///< each in the frame of its body
+  std::optional<double> length;                            ///< length of a distance joint [m]
   double damping = 0, slideDamping = 0;
   std::optional<std::array<double, 2>> limits; ///< [rad] or [m] from the start
   double stopStiffness = 0, stopDamping = 0;
@@ -85,7 +85,7 @@ struct BushingSection {
   std::string name;
   std::vector<std::string> bodies;
   base::Vec3d point;               ///< world, at the start [m]
-  std::optional<base::Vec3d> axis; ///< its z, in the world; empty: the world's axes
+  std::optional<base::Vec3d> axis; ///< its z axis in the world frame; empty: the world's axes
   base::Vec3d stiffness, damping, rotationStiffness, rotationDamping;
   bool operator==(const BushingSection&) const = default;
 };
@@ -106,7 +106,7 @@ struct DriveSection {
 struct CouplingSection {
   std::string name;
   std::vector<std::string> joints;
-  std::vector<multibody::JointAxis> actsOn; ///< one a joint; empty: the only one of each
+  std::vector<multibody::JointAxis> actsOn; ///< one per joint; empty: the only axis of each
   double ratio = 1;
   std::optional<double> offset;
   bool operator==(const CouplingSection&) const = default;
@@ -114,11 +114,11 @@ struct CouplingSection {
 
 /// [mechanism]: placement of all bodies together.
 struct MechanismPlacement {
-  std::optional<double> aboveBed; ///< [m] between the shapes and the settled bed under them
+  std::optional<double> aboveBed; ///< [m] gap between the shapes and the settled bed below them
   bool operator==(const MechanismPlacement&) const = default;
 };
 
-/// All of a mechanism, in the file's order.
+/// All sections of a mechanism, in the order of the file.
 struct MechanismSections {
   std::optional<MechanismPlacement> placement;
   std::vector<BodySection> bodies;

@@ -16,39 +16,42 @@ using base::Table;
 
 Table<Output> outputTable() {
   using S = Output;
-  Table<S> t("output", "Files that a run writes; their intervals are keys of [run]");
-  t.add("folder", &S::folder, "", "folder of the results, relative to the working folder; default: out/NAME");
+  Table<S> t("output", "Output files of a run; their intervals are set in [run]");
+  t.add("folder", &S::folder, "",
+        "results folder, relative to the working folder; default: out/NAME, where NAME is the scene name");
   t.add("record", &S::record, "", "names of the bodies, joints, springs and drives in the time series; default: all");
-  t.add("frames", &S::frames, "", "frames.h5 and frames.xdmf for ParaView");
-  t.add("contact_forces", &S::contactForces, "", "resultant contact force on each grain, in the frames");
-  t.add("shoe_forces", &S::shoeForces, "", "ground force and shear force on each shoe of a vehicle, in results.h5");
+  t.add("frames", &S::frames, "", "write frames.h5 and frames.xdmf (for ParaView)");
+  t.add("contact_forces", &S::contactForces, "", "add the resultant contact force on each grain to the frames");
+  t.add("shoe_forces", &S::shoeForces, "", "add ground force and shear force on each track shoe to results.h5");
   t.add("gear_contacts", &S::gearContacts, "",
-        "contacts of grains with each part of a vehicle, and stones in its running gear, in every row; costs a pass "
-        "over all these contacts");
+        "add the number of grain contacts of each vehicle part, and grains caught in the running gear, to each row; "
+        "requires a pass over all these contacts");
   t.add("final_surface", &S::finalSurface, "",
-        "surface of the bed (ruts) at the end of a run with a vehicle, in results.h5");
-  t.add("grains_csv", &S::grainsCsv, "",
-        "grains.csv with every grain at every output time; \"auto\": up to 1000 grains and 1e6 lines")
+        "add the final bed surface (ruts) of a run with a vehicle to results.h5");
+  t.add(
+       "grains_csv", &S::grainsCsv, "",
+       "write grains.csv with all grains at each output time; \"auto\": if there are at most 1000 grains and 1e6 lines")
       .orWord("auto");
-  t.add("picture", &S::picture, "", "picture.png of vehicle and bed at the end");
+  t.add("picture", &S::picture, "", "write picture.png with vehicle and bed at the end of the run");
   t.add("picture_width", &S::pictureWidth, "px", "width of the picture").atLeast(64).atMost(8192);
   t.add("fields_cell", &S::fieldsCell, "m",
-        "edge of the cells of the soil fields (stress, strain rate, porosity, velocity, coordination number) in every "
-        "frame; default: no fields")
+        "cell size of the soil fields (stress, strain rate, porosity, velocity, coordination number) in each frame; "
+        "default: no fields")
       .above(0);
   t.add("fields_low", &S::fieldsLow, "m",
-        "lower corner of the box that the cells fill; default: around the grains at the start, one cell higher");
-  t.add("fields_high", &S::fieldsHigh, "m", "upper corner of that box");
-  t.add("plots", &S::plots, "", "plots of the time series (requires Python with matplotlib)");
+        "lower corner of the box divided into cells; default: the initial bounding box of the grains, extended upwards "
+        "by one cell");
+  t.add("fields_high", &S::fieldsHigh, "m", "upper corner of this box");
+  t.add("plots", &S::plots, "", "draw plots of the time series (requires Python with matplotlib)");
   return t;
 }
 
 Table<PlotSection> plotTable() {
   using S = PlotSection;
-  Table<S> t("[output.plot]", "A panel of figure.png: columns of the results against time or another column");
-  t.add("x", &S::x, "", "column of the horizontal axis, as named in timeseries.csv, e.g. \"bodies.cone.position.z\"");
-  t.add("y", &S::y, "", "columns of the vertical axis").required();
-  t.add("sum", &S::sum, "", "draw the sum of the y columns as one curve");
+  Table<S> t("[output.plot]", "Panel of figure.png: columns of the results over time or over another column");
+  t.add("x", &S::x, "", "column for the horizontal axis, as named in timeseries.csv, e.g. \"bodies.cone.position.z\"");
+  t.add("y", &S::y, "", "columns for the vertical axis").required();
+  t.add("sum", &S::sum, "", "draw the sum of the y columns as a single curve");
   t.add("labels", &S::labels, "", "legend labels of the curves");
   t.add("title", &S::title, "", "title above the panel");
   t.add("x_label", &S::xLabel, "", "axis label: quantity and unit");
@@ -68,19 +71,20 @@ Table<PlotSection> plotTable() {
 
 Table<Parallel> parallelTable() {
   using S = Parallel;
-  Table<S> t("parallel", "Runs on several ranks (mpirun -np N); results do not depend on their number");
+  Table<S> t("parallel", "Settings for several MPI ranks (mpirun -np N); results do not depend on the number of ranks");
   t.add("subdomains", &S::subdomains, "-",
-        "number of subdomains along x, y and z, whose product is the number of ranks; 0: chosen")
+        "number of subdomains along x, y and z; their product must equal the number of ranks; 0: automatic")
       .atLeast(0)
       .atMost(64)
       .orWord("auto");
-  t.add("cuts_x", &S::cutsX, "m", "initial positions along x of the planes between subdomains; default: chosen");
+  t.add("cuts_x", &S::cutsX, "m", "initial positions along x of the planes between subdomains; default: automatic");
   t.add("cuts_y", &S::cutsY, "m", "initial positions along y of the planes between subdomains");
   t.add("cuts_z", &S::cutsZ, "m", "initial positions along z of the planes between subdomains");
-  t.add("rebalance", &S::rebalance, "", "move the cuts when one rank has clearly more work than the average");
+  t.add("rebalance", &S::rebalance, "",
+        "move the planes between subdomains if a rank has clearly more work than the average");
   t.add("peer_memory", &S::peerMemory, "",
-        "whether GPUs of one machine read each other's memory instead of sending messages: if possible, never, or "
-        "required (then ranks on CPUs share memory too)");
+        "whether GPUs of one machine access each other's memory directly instead of exchanging messages: auto (if "
+        "possible), never, or required (ranks on CPUs then also share memory)");
   return t;
 }
 
@@ -98,16 +102,17 @@ void checkRecord(const Section& section, const Output& output, const Scene& scen
   });
   for (const std::string& name : output.record)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      section.fail("record", known.empty()
-                                 ? "names parts of a mechanism, but the scene has none; remove it"
-                                 : fmt::format("names \"{}\", which the mechanism does not have; did you mean \"{}\"?",
-                                               name, base::nearestWord(name, known)));
+      section.fail("record",
+                   known.empty()
+                       ? "lists parts of a mechanism, but the scene has no mechanism; remove it"
+                       : fmt::format("contains \"{}\", which is not a part of the mechanism; did you mean \"{}\"?",
+                                     name, base::nearestWord(name, known)));
 }
 
 void checkFields(const Section& section, const Output& output) {
   if (output.fieldsLow.has_value() != output.fieldsHigh.has_value())
     section.fail(output.fieldsLow ? "fields_low" : "fields_high",
-                 fmt::format("requires fields_{}; set both corners or none", output.fieldsLow ? "high" : "low"));
+                 fmt::format("requires fields_{}; set both corners or neither", output.fieldsLow ? "high" : "low"));
   if (output.fieldsLow && !output.fieldsCell)
     section.fail("fields_low", "has no effect without fields_cell; remove it");
   for (int a = 0; output.fieldsLow && a < 3; ++a)
@@ -124,7 +129,7 @@ void checkOutput(const Section& section, Output& output, const Scene& scene) {
 }
 
 void checkPlot(const Section& section, PlotSection& plot, const Scene&) {
-  if (plot.y.empty()) section.fail("y", "is empty; name a column, e.g. \"bodies.cone.position.z\"");
+  if (plot.y.empty()) section.fail("y", "is empty; set a column, e.g. \"bodies.cone.position.z\"");
   const std::size_t curves = plot.sum ? 1 : plot.y.size();
   if (!plot.labels.empty() && plot.labels.size() != curves)
     section.fail("labels", fmt::format("must have one entry for each of {} curves; correct the list", curves));
@@ -168,8 +173,8 @@ void checkParallel(const Section& section, Parallel& parallel, const Scene&) {
     const auto slabs = static_cast<double>(cuts[a]->size() + 1);
     if (slabs > 1 && (*n)[a] != 0 && (*n)[a] != slabs)
       section.fail(std::string("cuts_") + "xyz"[a],
-                   fmt::format("[m] makes {} subdomains along {}, but subdomains has {}; make them agree", slabs,
-                               "xyz"[a], (*n)[a]));
+                   fmt::format("[m] results in {} subdomains along {}, but subdomains sets {}; make them consistent",
+                               slabs, "xyz"[a], (*n)[a]));
   }
 }
 

@@ -16,10 +16,11 @@ using base::Table;
 void addContactKeys(Table<RunSettings>& t) {
   using S = RunSettings;
   t.add("contact", &S::contact, "",
-        "contact method of grains: penalty (springs and dashpots, explicit steps), or complementarity (impulses with "
-        "Coulomb friction, solved simultaneously in steps of about a millisecond)");
+        "contact method of grains: penalty (springs and dashpots, explicit time steps), or complementarity (impulses "
+        "with Coulomb friction, solved simultaneously with time steps of about a millisecond)");
   t.add("residual", &S::residual, "m/s",
-        "velocity tolerance of complementarity in each step; \"auto\": 0.01 of the speed that gravity adds in a step")
+        "velocity tolerance of the complementarity solver per step; \"auto\": 0.01 of the speed that gravity adds per "
+        "step")
       .above(0)
       .atMost(10)
       .orWord("auto");
@@ -27,63 +28,63 @@ void addContactKeys(Table<RunSettings>& t) {
 
 Table<RunSettings> runTable() {
   using S = RunSettings;
-  Table<S> t("run", "Time, gravity, and the machine to run on");
-  t.add("duration", &S::duration, "s", "simulated time after the bed has settled")
+  Table<S> t("run", "Time, gravity and hardware of a run");
+  t.add("duration", &S::duration, "s", "simulated time, counted from the end of settling")
       .atLeast(1e-12)
       .atMost(1e5)
       .required();
   t.add("time_step", &S::timeStep, "s",
-        "integration step; \"auto\": duration of the shortest contact / steps_per_contact (1e-4 s without grains), at "
-        "most half the largest step at which beds come to rest, 0.2 of a hertz grain's Rayleigh time, 0.1 s and the "
-        "duration; for mechanisms from their oscillation periods; a given step may reach the limit at which contacts "
-        "create energy")
+        "time step; \"auto\": duration of the shortest contact / steps_per_contact (1e-4 s without grains), at most "
+        "half the largest step at which beds come to rest, 0.2 of the Rayleigh time of hertz grains, 0.1 s and the "
+        "duration; for mechanisms from their oscillation periods; the maximum is the stability limit of the contacts")
       .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");
   t.add("steps_per_contact", &S::stepsPerContact, "-",
-        "steps per shortest contact with the automatic time step: at 20, 10, 6 a restitution of 0.3 or more is "
-        "accurate within 0.035, 0.07, 0.12, and on average 0.01, 0.02, 0.03 too low; the other limits of \"auto\" "
-        "relax in proportion, at most to the largest step at which beds come to rest")
+        "number of steps per shortest contact with time_step = \"auto\": with 20, 10, 6 steps the error of "
+        "restitutions above 0.3 is at most 0.035, 0.07, 0.12 and on average -0.01, -0.02, -0.03; the other limits of "
+        "\"auto\" scale in proportion, up to the largest step at which beds come to rest")
       .atLeast(kFewestStepsPerContact)
       .atMost(1000);
   t.add("tolerance", &S::tolerance, "m/s or rad/s",
-        "error per second of position and orientation of any body, for adaptive steps instead of time_step; only for "
-        "mechanisms with rattle of order 2 and implicit springs")
+        "error tolerance per second of position and orientation of the bodies for adaptive steps, instead of "
+        "time_step; only for mechanisms with integrator_order = 2 of rattle and implicit springs")
       .atLeast(1e-12)
       .atMost(1);
   t.add("steps_per_period", &S::stepsPerPeriod, "-",
-        "minimum number of steps per period, turn or ramp of drives and moving surfaces, per interval of a table, per "
-        "turn of a body, per oscillation of a vehicle's springs, and per two bounces off an end stop; larger steps are "
-        "an error, and a body that turns too fast ends the run")
+        "minimum number of steps per period, revolution or ramp of drives and moving surfaces, per table interval, per "
+        "revolution of a body, per oscillation of vehicle springs, and per two bounces at an end stop; larger steps "
+        "are an error, and a body that rotates too fast ends the run")
       .atLeast(2)
       .atMost(1e6);
   t.add("gravity", &S::gravity, "m/s2", "gravitational acceleration").atLeast(-1000).atMost(1000);
-  t.add("output_interval", &S::outputInterval, "s", "interval between rows of the time series").above(0);
-  t.add("frame_interval", &S::frameInterval, "s", "interval between frames for ParaView").above(0);
+  t.add("output_interval", &S::outputInterval, "s", "time between rows of the time series").above(0);
+  t.add("frame_interval", &S::frameInterval, "s", "time between frames for ParaView").above(0);
   t.add("checkpoint_interval", &S::checkpointInterval, "s",
-        "simulated time between checkpoints for --resume; 0: only when the run ends or is stopped")
+        "simulated time between checkpoints for --resume; 0: only at the end of the run or when it is stopped")
       .atLeast(0)
       .atMost(1e5);
-  t.add("seed", &S::seed, "-", "seed of all random numbers").atLeast(0);
-  t.add("device", &S::device, "", "device that computes the grains; \"auto\": a GPU if there is one");
+  t.add("seed", &S::seed, "-", "seed of the random number generator").atLeast(0);
+  t.add("device", &S::device, "", "device for the grains; \"auto\": a GPU if available");
   t.add("precision", &S::precision, "",
-        "precision of the grains' forces; with either, results are bitwise identical on every machine");
+        "precision of the grain forces; with both, results are bitwise identical on all machines");
   addContactKeys(t);
   t.add("impact_speed", &S::impactSpeed, "m/s",
-        "maximum impact speed for which the time step of hertz materials is chosen and checked; with complementarity, "
-        "\"auto\" moves a grain at this speed by 0.08 of its diameter in a step")
+        "maximum expected impact speed, used to choose and check the time step of hertz materials; with "
+        "complementarity, \"auto\" moves a grain of this speed by 0.08 of its diameter per step")
       .above(0)
       .atMost(1e4);
-  t.add("threads", &S::threads, "-", "CPU threads; 0: all; results do not depend on the number")
+  t.add("threads", &S::threads, "-", "number of CPU threads; 0: all cores; the results do not depend on it")
       .atLeast(0)
       .atMost(1024);
   t.add("integrator", &S::integrator, "",
         "integrator of mechanisms: symplectic Euler (order 1, implicit springs) or RATTLE (order 2 and higher)");
-  t.add("integrator_order", &S::integratorOrder, "-", "order of rattle: 2, or 4, 6, 8 with 5, 9, 17 stages per step")
+  t.add("integrator_order", &S::integratorOrder, "-", "order of rattle: 2, or 4, 6, 8 (5, 9, 17 stages per step)")
       .atLeast(1)
       .atMost(8);
   t.add("springs", &S::springs, "",
-        "springs with rattle: explicit requires a step below 2 / omega, implicit is stable at any step");
+        "integration of springs with rattle: explicit (requires a step below 2 / omega) or implicit (stable at any "
+        "step size)");
   t.add("constraint_tolerance", &S::constraintTolerance, "m or rad",
         fmt::format("position tolerance of the joints of a mechanism; \"auto\": {:g} for symplectic_euler, {:g} "
                     "(round-off) for rattle",
@@ -91,15 +92,15 @@ Table<RunSettings> runTable() {
       .atLeast(multibody::kRattleTolerance)
       .atMost(1e-3)
       .orWord("auto");
-  t.add("skin", &S::skin, "-", "range added to the neighbour search, in grain radii").above(0).atMost(2);
+  t.add("skin", &S::skin, "-", "skin distance of the neighbour lists, in grain radii").above(0).atMost(2);
   t.add("max_overlap", &S::maxOverlap, "-",
-        "overlap in grain radii beyond which the run stops; \"auto\": 0.5 between grains, 0.8 at planes, floor and "
-        "surfaces, 0.2 for grains that enter; at parts and meshes always 1, where a grain passes through")
+        "maximum overlap in grain radii, above which the run stops; \"auto\": 0.5 between grains, 0.8 at planes, floor "
+        "and surfaces, 0.2 for entering grains; at parts and meshes always 1, at which a grain passes through")
       .above(0)
       .atMost(1)
       .orWord("auto");
   t.add("periodic", &S::periodic, "",
-        "whether boundaries along x, y are periodic: grains that leave through one enter through the opposite one");
+        "whether the boundaries along x, y are periodic: grains that leave on one side enter on the opposite side");
   t.add("domain_x", &S::domainX, "m",
         "positions of the periodic boundaries along x; default: the borders of the terrain");
   t.add("domain_y", &S::domainY, "m", "positions of the periodic boundaries along y");
@@ -110,29 +111,29 @@ Table<Complementarity> complementarityTable() {
   using S = Complementarity;
   Table<S> t("complementarity", "Solver of grain contacts with run.contact = \"complementarity\"");
   t.add("friction", &S::friction, "",
-        "coulomb: Coulomb's law; associated: its convex relaxation, which separates sliding surfaces at friction times "
-        "their speed");
-  t.add(
-      "compliance", &S::compliance, "",
-      "law: springs and dashpots of the materials, implicit in time; rigid: none, overlaps are corrected at recovery");
-  t.add("iterations", &S::iterations, "-", "maximum iterations per step; steps that reach it are counted")
+        "friction law: coulomb, or associated (convex relaxation, in which sliding surfaces separate at friction times "
+        "their sliding speed)");
+  t.add("compliance", &S::compliance, "",
+        "compliance of contacts: law (springs and dashpots of the materials, implicit in time) or rigid (none; "
+        "overlaps are corrected at the speed recovery)");
+  t.add("iterations", &S::iterations, "-", "maximum number of iterations per step; steps that reach it are reported")
       .atLeast(1)
       .atMost(100'000);
   t.add("recovery", &S::recovery, "m/s", "maximum speed at which overlapping rigid contacts separate")
       .atLeast(0)
       .atMost(100);
-  t.add("strict", &S::strict, "", "whether a step whose residual exceeds run.residual ends the run");
+  t.add("strict", &S::strict, "", "whether the run ends at a step whose residual exceeds run.residual");
   return t;
 }
 
 void checkComplementarity(const Section& section, Complementarity&, const Scene& scene) {
   if (scene.run.contact != ContactMethod::complementarity)
-    section.fail("", "has no effect without run.contact = \"complementarity\"; set that, or remove the section");
+    section.fail("", "has no effect without run.contact = \"complementarity\"; set it, or remove the section");
 }
 
 void checkContact(const Section& section, const RunSettings& run) {
   if (run.residual && run.contact != ContactMethod::complementarity)
-    section.fail("residual", "[m/s] has no effect without contact = \"complementarity\"; set that, or remove it");
+    section.fail("residual", "[m/s] has no effect without contact = \"complementarity\"; set it, or remove the key");
 }
 
 void checkIntervals(const Section& section, const RunSettings& run) {
@@ -158,11 +159,11 @@ void checkTolerance(const Section& section, const RunSettings& run, const Scene&
   if (run.timeStep) section.fail("tolerance", "[m/s or rad/s] is mutually exclusive with time_step; remove one");
   if (!scene.document->root().has("body") || scene.document->root().has("vehicle"))
     section.fail("tolerance",
-                 "[m/s or rad/s] applies to mechanisms only, since grains and vehicles use fixed steps; remove it");
+                 "[m/s or rad/s] applies to mechanisms only; grains and vehicles use fixed steps; remove it");
   if (run.integrator != multibody::Integrator::kRattle || run.integratorOrder != 2)
     section.fail("tolerance", "[m/s or rad/s] requires integrator = \"rattle\" with integrator_order = 2; set both");
   if (run.springs != multibody::Springs::kImplicit)
-    section.fail("tolerance", "[m/s or rad/s] requires springs = \"implicit\", since steps may grow; set that");
+    section.fail("tolerance", "[m/s or rad/s] requires springs = \"implicit\", since steps may become long; set it");
 }
 
 void checkRun(const Section& section, RunSettings& run, const Scene& scene) {

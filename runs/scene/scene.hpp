@@ -35,12 +35,12 @@ inline constexpr double kStepsPerContact = 20, kFewestStepsPerContact = 6;
 
 /// [run]
 struct RunSettings {
-  double duration = 0;             ///< [s] after the bed has settled
+  double duration = 0;             ///< [s] simulated time after the bed has settled
   std::optional<double> timeStep;  ///< [s]; empty: chosen by setup::chooseTimeStep()
-  std::optional<double> tolerance; ///< [m/s, rad/s] of error-controlled steps of a mechanism; empty: fixed steps
-  double stepsPerContact = kStepsPerContact; ///< [-] that the automatic step gives the shortest contact
+  std::optional<double> tolerance; ///< [m/s, rad/s] error tolerance of a mechanism's steps; empty: fixed steps
+  double stepsPerContact = kStepsPerContact; ///< [-] steps of the shortest contact, for the automatic step
   double stepsPerPeriod =
-      20; ///< [-] least in a period, turn or gap of what is prescribed over time, and in a body's turn
+      20; ///< [-] minimum number of steps per period, turn or gap of a prescribed quantity, and per turn of a body
   base::Vec3d gravity{0, 0, -9.81};
   double outputInterval = 0.02;
   double frameInterval = 0.1;
@@ -49,7 +49,7 @@ struct RunSettings {
   support::DeviceChoice device = support::DeviceChoice::automatic;
   /// Precision of the grains' forces.
   terrain::Precision precision = terrain::Precision::single;
-  double impactSpeed = 1.0; ///< [m/s] that the step of hertz materials and of complementarity is chosen for
+  double impactSpeed = 1.0; ///< [m/s] impact speed for the time step of hertz materials and complementarity
   ContactMethod contact = ContactMethod::penalty; ///< method for contacts of grains
   std::optional<double> residual;                 ///< [m/s] tolerance of complementarity contacts; empty: 0.01 g dt
   int threads = 0;                                ///< 0: all
@@ -57,11 +57,11 @@ struct RunSettings {
   multibody::Integrator integrator = multibody::Integrator::kRattle;
   int integratorOrder = 2; ///< 2, 4, 6, 8
   multibody::Springs springs = multibody::Springs::kImplicit;
-  std::optional<double> constraintTolerance; ///< [m], [rad] to which joints are closed; empty: the solver's own
-  double skin = 0.3;                         ///< [-] of a grain's radius
-  std::optional<double> maxOverlap; ///< [-] of a grain's radius; beyond it the run stops; empty: as GrainModel has it
+  std::optional<double> constraintTolerance; ///< [m], [rad] joint closure tolerance; empty: the solver's default
+  double skin = 0.3;                         ///< [-] skin / grain radius
+  std::optional<double> maxOverlap; ///< [-] overlap / grain radius that stops the run; empty: the default of GrainModel
   std::array<bool, 2> periodic{false, false};            ///< x, y
-  std::optional<std::array<double, 2>> domainX, domainY; ///< [m] where these stand; empty: at the terrain's borders
+  std::optional<std::array<double, 2>> domainX, domainY; ///< [m] periodic boundaries; empty: the terrain's borders
   /// Maximum overlap of a grain when it enters the scene, and under its own weight [grain radius].
   double entryOverlap() const { return maxOverlap.value_or(terrain::GrainModel{}.maxEntryOverlap); }
   bool operator==(const RunSettings&) const = default;
@@ -80,9 +80,9 @@ struct Complementarity {
 /// [material.NAME]; after loading with all values of its law.
 struct Material : contact::MaterialProperties {
   std::string name;
-  std::string soil;                  ///< absolute path of the soil's file after loading; empty: of no soil
-  std::string soilHash;              ///< of that file
-  std::optional<double> grainRadius; ///< [m] that it is scaled to; has a value after loading, of a soil
+  std::string soil;                  ///< absolute path of the soil file after loading; empty: no soil
+  std::string soilHash;              ///< hash of the soil file
+  std::optional<double> grainRadius; ///< [m] grain radius that a soil is scaled to; set by loading
   bool operator==(const Material&) const = default;
 };
 
@@ -98,24 +98,24 @@ struct Grain {
   double radius = 0;
   std::string material;
   bool fixed = false;
-  std::optional<double> aboveBed{}; ///< [m] of its lowest point over the settled bed, instead of position's z
+  std::optional<double> aboveBed{}; ///< [m] height of its lowest point over the settled bed; replaces position z
   bool operator==(const Grain&) const = default;
 };
 
 /// [[grains]]: many grains at once.
 struct GrainFill {
   FillForm form = FillForm::lattice;
-  std::optional<base::Vec3d> low, high; ///< corners of the box that holds them whole [m]
+  std::optional<base::Vec3d> low, high; ///< [m] corners of the box that contains the grains
   std::optional<double> radius;         ///< [m]
-  std::optional<double> radiusTo;       ///< [m]; radii are then uniform from radius to this
-  double spacing = 2.1;                 ///< [-] of a lattice, in largest radii
-  double jitter = 0;                    ///< [-] of the lattice's free gap
-  std::optional<std::int64_t> number;   ///< of a random fill
+  std::optional<double> radiusTo;       ///< [m] maximum radius: radii are uniform from `radius` to this
+  double spacing = 2.1;                 ///< [-] lattice spacing / largest radius
+  double jitter = 0;                    ///< [-] random displacement / free gap of the lattice
+  std::optional<std::int64_t> number;   ///< number of grains in a random fill
   std::optional<std::string> file;      ///< absolute path after loading
   base::Vec3d velocity, spin;
   std::string material;
-  std::optional<double> aboveBed; ///< [m] of the lowest grain's lowest point over the settled bed
-  std::vector<Grain> fromFile;    ///< what the file held when the scene was loaded
+  std::optional<double> aboveBed; ///< [m] height of the lowest point over the settled bed
+  std::vector<Grain> fromFile;    ///< grains of the file, read when the scene is loaded
   double smallestRadius() const;
   double largestRadius() const;
   bool operator==(const GrainFill&) const = default;
@@ -126,14 +126,14 @@ std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill)
 
 /// [[source]]: grains that enter during the run.
 struct Source {
-  base::Vec3d low, high;      ///< corners of the box that their centres start in [m]
+  base::Vec3d low, high;      ///< [m] corners of the box of the initial centres
   base::Vec3d velocity, spin; ///< [m/s], [rad/s]
   double radius = 0;          ///< [m]
   std::string material;
-  std::int64_t number = 1; ///< that enter together
-  double every = 0;        ///< [s] between those
-  double start = 0;        ///< [s] of the first
-  std::int64_t total = 1;  ///< in all
+  std::int64_t number = 1; ///< number of grains that enter together
+  double every = 0;        ///< [s] time between entries
+  double start = 0;        ///< [s] time of the first entry
+  std::int64_t total = 1;  ///< total number of grains
   bool operator==(const Source&) const = default;
 };
 
@@ -141,42 +141,42 @@ struct Source {
 struct Terrain {
   std::string heightmap;               ///< absolute path after loading
   std::array<double, 2> size{};        ///< [m] x, y
-  std::array<double, 2> heightRange{}; ///< [m] of black, of white
+  std::array<double, 2> heightRange{}; ///< [m] heights of black and white
   terrain::Interpolation interpolation = terrain::Interpolation::monotone;
   TerrainKind kind = TerrainKind::granular;
   std::string material;
-  std::string groundMaterial; ///< of floor and walls; default: the bed's
+  std::string groundMaterial; ///< material of floor and walls; default: the bed's
   Arrangement arrangement = Arrangement::random;
-  std::optional<double> grainRadius; ///< [m] has a value after loading, of a granular bed
+  std::optional<double> grainRadius; ///< [m] set by loading for a granular bed
   std::optional<double> depth;       ///< [m]
   // Keys of a random arrangement.
-  std::optional<terrain::RadiusLaw> radiusDistribution;        ///< has a value after loading
-  std::optional<double> radiusSpread;                          ///< [-] has one where the distribution has a spread
+  std::optional<terrain::RadiusLaw> radiusDistribution;        ///< set by loading
+  std::optional<double> radiusSpread;                          ///< [-] set by loading if the distribution has a spread
   std::vector<double> sieveSize, sievePassing;                 ///< [m], [-]
-  std::optional<double> porosity;                              ///< [-] to prepare; empty: as it is poured
-  std::optional<double> fineDepth, coarsening, coarsestRadius; ///< [m], [-], [m] of a graded bed
+  std::optional<double> porosity;                              ///< [-] requested porosity; empty: as poured
+  std::optional<double> fineDepth, coarsening, coarsestRadius; ///< [m], [-], [m]; graded beds only
   // Keys of a lattice.
   std::optional<int> layers;
-  std::optional<double> spacing, jitter; ///< [-] in grain radii; of the free gap
-  std::optional<double> packing;         ///< [-] solid fraction expected once settled
+  std::optional<double> spacing, jitter; ///< [-] spacing / grain radius; displacement / free gap
+  std::optional<double> packing;         ///< [-] expected solid fraction of the settled bed
 
   terrain::FloorShape floor = terrain::FloorShape::follow;
-  bool floorGrains = true; ///< fixed ones, that make the floor rough
+  bool floorGrains = true; ///< fixed grains make the floor rough
   bool walls = true;
-  double wallFriction = 0;                   ///< [-] of those
+  double wallFriction = 0;                   ///< [-] friction coefficient of the walls
   std::optional<std::array<double, 2>> tile; ///< [m] x, y; settle a piece of this size, then fill the terrain with it
   double settleTimeLimit = 3.0;
-  double settleKineticEnergy = 1e-4;      ///< [-] mean kinetic energy a grain over m g radius
-  std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain over its weight; empty: not asked
-  bool cache = true;                      ///< keep the settled bed for later runs, and take it from one
+  double settleKineticEnergy = 1e-4;      ///< [-] mean kinetic energy per grain / (m g radius)
+  std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain / its weight; empty: no limit
+  bool cache = true;                      ///< use the cache of settled beds
   bool granular() const { return kind == TerrainKind::granular; }
   bool deformable() const { return kind == TerrainKind::scm; }
   bool lattice() const { return arrangement == Arrangement::lattice; }
   bool operator==(const Terrain&) const = default;
 
-  static constexpr double kSpacing = 2.1, kJitter = 0.9, kPacking = 0.6; ///< defaults of a lattice
-  static constexpr double kSpread = 0.25;                                ///< default of radii
-  static constexpr double kPoured = 0.41; ///< porosity expected where none is prepared [-]
+  static constexpr double kSpacing = 2.1, kJitter = 0.9, kPacking = 0.6; ///< default values of a lattice
+  static constexpr double kSpread = 0.25;                                ///< default spread of the radii
+  static constexpr double kPoured = 0.41;                                ///< expected porosity of a poured bed [-]
 };
 
 /// [scm]: constants of a deformable soil. Empty ones come from the soil file.
@@ -200,21 +200,21 @@ struct Scm {
 /// [vehicle]
 struct Vehicle {
   std::string spec;                              ///< absolute path after loading
-  std::optional<std::array<double, 2>> position; ///< [m] x, y of the point between the sprockets; empty: on the terrain
-  double heading = 0;                            ///< [deg] from the x axis, counter-clockwise
-  double clearance = 0.002;                      ///< [m] between the lowest grouser and the ground at the start
-  static constexpr double kSphereRadius = 0.02;  ///< [m], by default
-  std::optional<double> sphereRadius;            ///< [m] of the parts' sphere sets; empty: kSphereRadius or finer
-  double sphereRefinement = 1;                   ///< [-] divides the radii of its sphere sets, and their limits
-  std::string material; ///< of the parts against grains; empty: the grains' own, with the friction of the spec
-  double adhesion = 0;  ///< [-] of parts without a material: share of the pull of a wall of the grains' own material
+  std::optional<std::array<double, 2>> position; ///< [m] x, y of the midpoint of the sprockets; empty: on the terrain
+  double heading = 0;                            ///< [deg] angle from the x axis, counter-clockwise
+  double clearance = 0.002;                      ///< [m] gap between the lowest grouser and the ground at the start
+  static constexpr double kSphereRadius = 0.02;  ///< [m] default
+  std::optional<double> sphereRadius;            ///< [m] sphere radius of the parts; empty: kSphereRadius or finer
+  double sphereRefinement = 1;                   ///< [-] divisor of all sphere radii and their limits
+  std::string material; ///< contact material of the parts; empty: the grains' material with the friction of the spec
+  double adhesion = 0;  ///< [-] pull of parts without a material / pull of a wall of the grains' material
   ChassisMount chassis = ChassisMount::free;
   Tracks tracks = Tracks::both;
-  SoilContact soilContact = SoilContact::all; ///< which parts grains touch
+  SoilContact soilContact = SoilContact::all; ///< parts in contact with grains
   std::vector<vehicle::SpecKey> specKeys;     ///< [spec.SECTION]: keys of the vehicle file with other values
-  std::optional<vehicle::GearContactModel> gearContactModel; ///< empty: by shapes where the vehicle file has them
-  std::optional<double> hullSphereRadius;                    ///< [m]; empty: 0.02, or sphereRadius where that is more
-  std::optional<bool> hullTouches; ///< ground, grains and obstacles; empty: see setup::hullTouches()
+  std::optional<vehicle::GearContactModel> gearContactModel; ///< empty: shapes, if the vehicle file has them
+  std::optional<double> hullSphereRadius;                    ///< [m]; empty: 0.02 or sphereRadius, the larger one
+  std::optional<bool> hullTouches; ///< whether the hull has contacts; empty: see setup::hullTouches()
   bool operator==(const Vehicle&) const = default;
 
   vehicle::SpecSource source() const { return {spec, specKeys}; }
@@ -226,7 +226,7 @@ struct SpeedTable {
   bool operator==(const SpeedTable&) const = default;
 };
 
-/// [driver.torques]: of the sprockets over time, as SpeedTable.
+/// [driver.torques]: sprocket torques over time, interpolated as in SpeedTable.
 struct TorqueTable {
   std::vector<double> time, left, right; ///< [s], [N m], [N m]
   bool operator==(const TorqueTable&) const = default;
@@ -236,12 +236,12 @@ struct TorqueTable {
 struct Course {
   double speed{};                            ///< [m/s]
   double acceleration = 1;                   ///< [m/s2]
-  std::optional<double> radius;              ///< [m] of a circle, to the left positive
-  std::vector<double> x, y;                  ///< [m] of a path
-  std::optional<double> lookAhead;           ///< [m]; empty: as long as the ground run
+  std::optional<double> radius;              ///< [m] circle radius, positive to the left
+  std::vector<double> x, y;                  ///< [m] points of a path
+  std::optional<double> lookAhead;           ///< [m]; empty: track-ground contact length
   double speedGain = 0.5, speedIntegral = 1; ///< [-], [1/s]
   double turnGain = 0.5, turnIntegral = 2;   ///< [-], [1/s]
-  double maxSprocketSpeed = 100;             ///< [rad/s] of a sprocket
+  double maxSprocketSpeed = 100;             ///< [rad/s]
   bool operator==(const Course&) const = default;
 };
 
@@ -249,50 +249,50 @@ struct Course {
 struct Driver {
   vehicle::SprocketDrive drive = vehicle::SprocketDrive::speed;
   std::optional<double> sprocketSpeed, left, right;      ///< [rad/s]
-  std::optional<SpeedTable> table;                       ///< [driver.table]; its time begins with the drive
+  std::optional<SpeedTable> table;                       ///< [driver.table]; its time starts with the drive
   std::optional<double> torque, leftTorque, rightTorque; ///< [N m]
   std::optional<TorqueTable> torqueTable;                ///< [driver.torques]
   std::optional<Course> course;                          ///< [driver.course]
   double tensionRamp = 0.15;
   double weightRamp = 0.3;
-  std::optional<double> driveStart; ///< [s]; empty: when the vehicle rests
-  std::optional<double> driveRamp;  ///< [s]; empty: 0.3 s of a constant speed, none of a table
-  double restSpeed = 0.01;          ///< [m/s] along gravity, of the hull's centre of mass
-  double restLoad = 0.05;           ///< [-] of ground force / weight from 1
-  double restTimeLimit = 5;         ///< [s] after the weight's ramp
+  std::optional<double> driveStart; ///< [s]; empty: once the vehicle is at rest
+  std::optional<double> driveRamp;  ///< [s]; empty: 0.3 s for a constant speed, 0 for a table
+  double restSpeed = 0.01;          ///< [m/s] speed of the hull's centre of mass along gravity
+  double restLoad = 0.05;           ///< [-] deviation of ground force / weight from 1
+  double restTimeLimit = 5;         ///< [s] time limit after the weight ramp
   bool operator==(const Driver&) const = default;
 
   /// Earliest start of the drive [s]: as given, or at the end of the tension and weight ramps.
   double driveBegins() const { return driveStart.value_or(tensionRamp + weightRamp); }
   double rampOfDrive() const { return table || torqueTable ? driveRamp.value_or(0) : rampOfChange(); } ///< [s]
-  double rampOfChange() const { return driveRamp.value_or(0.3); } ///< from former speeds, where a branch has others [s]
-  /// The speeds as one table, in whatever form they were given.
+  double rampOfChange() const { return driveRamp.value_or(0.3); } ///< [s] ramp from the former speeds in a branch
+  /// The speeds as one table, whether given as constants or as a table.
   SpeedTable speeds() const;
   TorqueTable torques() const;
-  /// Returns true if the path of the vehicle does not follow from given speeds.
+  /// Returns true if the driver does not prescribe the sprocket speeds.
   bool isFree() const { return course || drive == vehicle::SprocketDrive::torque; }
 };
 
-/// [hitch]: horizontal load on the hull from the start of the drive. Keys of other kinds have no value.
+/// [hitch]: horizontal load on the hull from the start of the drive. Keys of other kinds are empty.
 struct Hitch {
   vehicle::HitchKind kind = vehicle::HitchKind::force;
-  std::optional<base::Vec3d> position; ///< [m] in the vehicle frame; empty: the rear axle of the track, in the middle
-  double start = 0;                    ///< [s] after the begin of the drive
+  std::optional<base::Vec3d> position; ///< [m] point in the vehicle frame; empty: middle of the track's rear axle
+  double start = 0;                    ///< [s] time after the start of the drive
   double ramp = 0.3;                   ///< [s]
   std::optional<double> force, rate;   ///< [N], [N/s]
-  std::optional<double> mass, friction, length; ///< [kg], [-], [m] of a sled and its rope
-  std::optional<double> slip;                   ///< [-] that a carriage imposes
-  std::optional<double> stiffness;              ///< [N/m] of rope or carriage; empty: by the masses
-  double dampingRatio = 0.7;                    ///< [-] of either
+  std::optional<double> mass, friction, length; ///< [kg], [-], [m]; sled with rope
+  std::optional<double> slip;                   ///< [-] slip imposed by a carriage
+  std::optional<double> stiffness;              ///< [N/m] rope or carriage stiffness; empty: from the masses
+  double dampingRatio = 0.7;                    ///< [-] damping ratio of rope or carriage
   bool operator==(const Hitch&) const = default;
   static constexpr double kLength = 3; ///< [m], default
 };
 
 /// [stop]: conditions that end a run of a vehicle before run.duration.
 struct Stop {
-  std::optional<double> distance; ///< [m] from where it was set down
-  std::optional<double> edge;     ///< [m] between a shoe and the end of the terrain
-  std::optional<double> immobile; ///< [s] that it is driven and does not move
+  std::optional<double> distance; ///< [m] distance from the initial position
+  std::optional<double> edge;     ///< [m] distance between a shoe and the edge of the terrain
+  std::optional<double> immobile; ///< [s] duration without motion while driven
   bool operator==(const Stop&) const = default;
 };
 
@@ -307,7 +307,7 @@ struct PlotSection {
   bool xFromStart = false, yFromStart = false;
   std::optional<std::array<double, 2>> xRange, yRange;
   std::vector<double> levels;           ///< heights of horizontal lines, in units of the axis
-  std::vector<std::string> levelLabels; ///< one a level
+  std::vector<std::string> levelLabels; ///< one per level
   bool operator==(const PlotSection&) const = default;
 };
 
@@ -316,24 +316,24 @@ struct Output {
   std::string folder;              ///< empty: out/NAME of the scene file
   std::vector<std::string> record; ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
   bool frames = true;
-  bool contactForces = true;                     ///< of each grain in the frames
-  bool shoeForces = false, gearContacts = false; ///< of a vehicle, in the rows
-  bool finalSurface = true;                      ///< of its bed
+  bool contactForces = true;                     ///< contact force on each grain, in the frames
+  bool shoeForces = false, gearContacts = false; ///< shoe forces, grain-part contacts, in the rows
+  bool finalSurface = true;                      ///< bed surface at the end
   std::optional<bool> grainsCsv;                 ///< every grain in every row as text; empty: in small scenes
   bool picture = true;
   bool plots = true;
   int pictureWidth = 1600;
-  std::optional<double> fieldsCell;                 ///< [m] edge of the cells of the soil's fields; empty: no fields
-  std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] corners of their box; empty: around the grains
+  std::optional<double> fieldsCell;                 ///< [m] cell edge of the soil fields; empty: no fields
+  std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] corners of the field box; empty: around the grains
   std::vector<PlotSection> panels;                  ///< panels of figure.png
   bool operator==(const Output&) const = default;
 };
 
 /// [parallel]: division of grains among ranks. Results are bitwise independent of it.
 struct Parallel {
-  std::optional<base::Vec3d> subdomains;   ///< whole numbers along x, y, z, 0 where free; empty: chosen
-  std::vector<double> cutsX, cutsY, cutsZ; ///< [m] first places of the planes between them; empty: chosen
-  bool rebalance = true;                   ///< move the cuts when one rank has clearly more work than the others
+  std::optional<base::Vec3d> subdomains;   ///< number along x, y, z; 0: free; empty: automatic
+  std::vector<double> cutsX, cutsY, cutsZ; ///< [m] initial positions of the cut planes; empty: automatic
+  bool rebalance = true;                   ///< move the cuts if one rank has clearly more work than the others
   base::PeerUse peerMemory = base::PeerUse::automatic; ///< whether GPUs of one machine read each other's memory
   bool operator==(const Parallel&) const = default;
 };
@@ -344,7 +344,7 @@ struct Scene {
   std::vector<std::string> overrides;
   RunSettings run;
   std::vector<Material> materials;
-  std::map<std::string, std::shared_ptr<const Soil>> soils; ///< by the materials that are of them
+  std::map<std::string, std::shared_ptr<const Soil>> soils; ///< soils by material name
   std::vector<ContactPair> contacts;
   std::vector<Grain> grains;
   std::vector<GrainFill> fills;
@@ -364,7 +364,7 @@ struct Scene {
   Stop stop;
   Output output;
   Parallel parallel;
-  std::shared_ptr<const base::Document> document; ///< the file itself; null for a scene that a program has made
+  std::shared_ptr<const base::Document> document; ///< the file itself; null for a generated scene
 
   /// Throws InputError "file:line: section.key = value message" for errors found after loading, in the form of loading
   /// errors; `key` may be empty. The second form is for an entry of [[list]].
@@ -378,9 +378,9 @@ struct Scene {
   std::string name() const { return file.stem().string(); }
   /// Returns true on deformable soil.
   bool deformable() const { return terrain && terrain->deformable(); }
-  /// The material `name`; loading has made sure that it exists.
+  /// The material `name`, which exists after loading.
   const Material& material(const std::string& name) const;
-  /// The override of a pair, in either order; null where there is none.
+  /// The override of a pair, in either order; null if there is none.
   const ContactPair* contact(const std::string& a, const std::string& b) const;
 };
 

@@ -79,8 +79,8 @@ std::string unsettledWarning(const Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular() || scene.terrain->settleTimeLimit > 0) return "";
   const Terrain& t = *scene.terrain;
   if (t.lattice() || !(t.porosity || scene.vehicle)) return "";
-  return fmt::format("terrain.settle_time_limit = 0: the bed does not settle and falls as a loose column of grains "
-                     "when the run starts{}{}; set a settling time, e.g. {:g}",
+  return fmt::format("terrain.settle_time_limit = 0: the bed is not settled, so the grains fall as a loose column at "
+                     "the start of the run{}{}; set a settling time, e.g. {:g}",
                      t.porosity ? fmt::format(", without terrain.porosity = {:g}", *t.porosity) : "",
                      scene.vehicle ? ", under the vehicle" : "", Terrain{}.settleTimeLimit);
 }

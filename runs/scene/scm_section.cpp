@@ -8,72 +8,70 @@ namespace {
 
 base::Table<Scm> scmTable() {
   using S = Scm;
-  base::Table<S> t(
-      "scm", "Deformable soil (terrain.kind = \"scm\"): p = (k_c / b + k_phi) z^n under a loaded area whose smaller "
-             "side is b, tau = (c + p tan phi) (1 - exp(-j / K)). Constants that the section omits come from the soil "
-             "file that terrain.material names");
+  base::Table<S> t("scm", "Deformable soil (terrain.kind = \"scm\"): p = (k_c / b + k_phi) z^n under a loaded area "
+                          "whose smaller side is b, tau = (c + p tan phi) (1 - exp(-j / K)). Constants not set in this "
+                          "section come from the soil file of terrain.material");
   t.add("constants", &S::constants, "",
-        "source of omitted constants: published values, or virtual tests of the soil's grains");
+        "source of constants not set here: published values, or virtual tests of the soil's grains");
   t.add("constants_draw", &S::constantsDraw, "",
-        "n >= 1: sample n of the constants that the section omits, within their intervals; 0: nominal values")
+        "number n >= 1 of a random sample of the constants not set here, drawn within their intervals; 0: nominal "
+        "values")
       .atLeast(0)
       .atMost(1'000'000);
-  t.add("n", &S::n, "-", "exponent of sinkage").above(0).atMost(3);
-  t.add("k_c", &S::kc, "N/m^(n+1)", "cohesive modulus; k_c / b + k_phi must be above 0 under a shoe");
+  t.add("n", &S::n, "-", "sinkage exponent").above(0).atMost(3);
+  t.add("k_c", &S::kc, "N/m^(n+1)", "cohesive modulus of deformation; k_c / b + k_phi must be above 0 for a shoe");
   t.add("k_phi", &S::kphi, "N/m^(n+2)", "frictional modulus");
   t.add("c", &S::cohesion, "Pa", "cohesion").atLeast(0).atMost(1e7);
-  t.add("phi", &S::frictionAngle, "deg", "angle of friction").atLeast(0).atMost(60);
+  t.add("phi", &S::frictionAngle, "deg", "angle of internal friction").atLeast(0).atMost(60);
   t.add("K", &S::shearDisplacement, "m", "shear displacement modulus").above(0).atMost(1);
   t.add("unloading_stiffness", &S::unloadingStiffness, "N/m3",
-        "k_0 of the unloading slope k_0 + A_u z; that slope is at least elastic_ratio max(1, n) p / z")
+        "constant k_0 of the unloading slope k_0 + A_u z, whose minimum is elastic_ratio max(1, n) p / z")
       .atLeast(-1e12)
       .atMost(1e12);
   t.add("unloading_growth", &S::unloadingGrowth, "N/m4", "A_u").atLeast(0).atMost(1e13);
-  t.add("elastic_ratio", &S::elasticRatio, "-", "minimum unloading slope over the secant slope p / z of loading")
+  t.add("elastic_ratio", &S::elasticRatio, "-", "minimum of the unloading slope / secant slope p / z of loading")
       .atLeast(1)
       .atMost(1e3);
   t.add("damping", &S::damping, "Pa s/m",
-        "pressure per compression speed, and R of the shear stress R K ds/dt (at most 1 % of the strength)")
+        "damping R: pressure per compression speed; shear stress R K ds/dt (at most 1 % of the strength)")
       .atLeast(0)
       .atMost(1e7);
   t.add("slip_sinkage", &S::slipSinkage, "-",
         "sinkage per shear displacement at constant pressure; default: 3 z / L with the sinkage z at the mean pressure "
-        "of "
-        "the vehicle and its track-ground contact length L (Lyasko's rule at small slip), 0 without a vehicle")
+        "of the vehicle and its track-ground contact length L (Lyasko's rule at small slip), or 0 without a vehicle")
       .atLeast(0)
       .atMost(1);
-  t.add("maximum_slip_sinkage", &S::maximumSlipSinkage, "m",
-        "limit of slip sinkage; default: the height of the grousers")
+  t.add("maximum_slip_sinkage", &S::maximumSlipSinkage, "m", "maximum slip sinkage; default: the grouser height")
       .atLeast(0)
       .atMost(1);
   t.add("displaced_share", &S::displacedShare, "-",
-        "share of the volume of a rut that becomes loose soil beside it; the rest is compaction")
+        "fraction of the rut volume that is displaced to the sides as loose soil; the rest is compacted")
       .atLeast(0)
       .atMost(1);
   t.add("repose_angle", &S::reposeAngle, "deg",
-        "angle of repose of loose soil; default: published for the soil, or phi")
+        "angle of repose of loose soil; default: published value of the soil, or phi")
       .above(0)
       .atMost(60);
   t.add("bulk_density", &S::bulkDensity, "kg/m3",
-        "bulk density for the passive pressure on grousers and sides; default: published for the soil, or from its "
-        "grains and porosity, or 1600")
+        "bulk density for the passive pressure on grousers and track sides; default: published value of the soil, or "
+        "from its grains and porosity, or 1600")
       .above(0)
       .atMost(1e4);
   t.add("node_spacing", &S::nodeSpacing, "m",
-        "grid spacing; default: a quarter of a shoe's length, or an eighth of the smallest body")
+        "grid spacing; default: a quarter of the shoe length, or an eighth of the smallest body")
       .above(0)
       .atMost(1);
-  t.add("largest_sinkage", &S::deepest, "m", "maximum sinkage of the table of z^n").above(0).atMost(10);
+  t.add("largest_sinkage", &S::deepest, "m", "maximum sinkage (range of the tabulated z^n)").above(0).atMost(10);
   return t;
 }
 
 void checkScm(const base::Section& section, Scm& scm, const Scene& scene) {
   if (!scene.deformable())
-    section.fail("", "has no effect without terrain.kind = \"scm\"; set that, or remove the section");
+    section.fail("", "has no effect without terrain.kind = \"scm\"; set it, or remove the section");
   if (scm.constantsDraw > 0 && scm.n && scm.kc && scm.kphi && scm.cohesion && scm.frictionAngle &&
       scm.shearDisplacement)
-    section.fail("constants_draw", "has no effect, since the section sets all of n, k_c, k_phi, c, phi and K; remove "
-                                   "those to sample, or set constants_draw = 0");
+    section.fail("constants_draw", "has no effect, since n, k_c, k_phi, c, phi and K are all set; remove the constants "
+                                   "to be sampled, or set constants_draw = 0");
 }
 
 } // namespace

@@ -20,21 +20,22 @@ void requireMaterial(const Scene& scene, const Section& section, const std::stri
   const std::string quoted = key.empty() ? fmt::format(" (\"{}\")", name) : "";
   const auto soils = knownSoils(scene.file);
   if (name.find('/') != std::string::npos || name.ends_with(".toml"))
-    section.fail(key, fmt::format("names no material of this scene{}; put the soil's file as soil = \"{}\" into a "
-                                  "section [material.NAME], and use NAME here",
-                                  quoted, name));
+    section.fail(
+        key, fmt::format(
+                 "is not a material of this scene{}; set soil = \"{}\" in a section [material.NAME], and use NAME here",
+                 quoted, name));
   std::vector<std::string> known = names;
   for (const auto& [soil, file] : soils) known.push_back(soil);
   const std::string nearest =
       known.empty() ? "" : fmt::format("did you mean \"{}\"? Or ", base::nearestWord(name, known));
   std::string list;
   for (const auto& [soil, file] : soils) list += (list.empty() ? "" : ", ") + soil;
-  section.fail(key, fmt::format("names no material of this scene{}; {}add a section [material.{}]{}", quoted, nearest,
+  section.fail(key, fmt::format("is not a material of this scene{}; {}add a section [material.{}]{}", quoted, nearest,
                                 name, list.empty() ? "" : fmt::format(" (soils by name: {})", list)));
 }
 
 void resolveFile(const Scene& scene, const Section& section, const std::string& key, std::string& name) {
-  if (name.empty()) section.fail(key, "is empty; give the path of a file");
+  if (name.empty()) section.fail(key, "is empty; set the path of a file");
   std::vector<std::filesystem::path> tried;
   const std::filesystem::path found = support::findInput(name, scene.file, tried);
   if (found.empty()) {
@@ -42,7 +43,7 @@ void resolveFile(const Scene& scene, const Section& section, const std::string& 
     std::error_code error;
     for (const auto& p : tried) {
       if (std::filesystem::is_directory(p, error))
-        section.fail(key, fmt::format("is a folder, {}; give the path of a file", p.string()));
+        section.fail(key, fmt::format("is a folder, {}; set the path of a file", p.string()));
       places += (places.empty() ? "" : ", ") + p.string();
     }
     std::vector<std::filesystem::path> folders;
@@ -65,8 +66,8 @@ void checkMeshes(const Section& root, const Scene& scene) {
           "", "is incompatible with [vehicle] on grains; use boxes and cylinders, or rigid ground without grains");
     if (scene.terrain && scene.terrain->granular() && scene.terrain->settleTimeLimit > 0 &&
         scene.meshes[k].placed == PlacedWhen::before)
-      sections[k].fail("placed", "is \"before\", but settling beds do not support meshes; use boxes and cylinders, "
-                                 "remove placed, or set terrain.settle_time_limit = 0");
+      sections[k].fail("placed", "is \"before\", but meshes are not supported during settling; use boxes and "
+                                 "cylinders, remove placed, or set terrain.settle_time_limit = 0");
     if (scene.meshes[k].material != scene.meshes.front().material)
       sections[k].fail("material",
                        fmt::format("differs from that of the first mesh, \"{}\"; use one material for all meshes",
@@ -86,8 +87,8 @@ void checkPlaced(const Section& root, const Scene& scene) {
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
       needsBed(sections[k], "placed"), needsBed(sections[k], "above_bed");
       if (surfaces[k].aboveBed && surfaces[k].placed == PlacedWhen::before)
-        sections[k].fail("above_bed", "[m] is mutually exclusive with placed = \"before\", since the height is known "
-                                      "only once the bed has settled; remove one");
+        sections[k].fail("above_bed", "[m] is mutually exclusive with placed = \"before\", since the bed height is "
+                                      "known only after settling; remove one");
     }
   };
   check("plane", scene.planes), check("box", scene.boxes);
@@ -95,8 +96,9 @@ void checkPlaced(const Section& root, const Scene& scene) {
   for (std::size_t k = 0; k < scene.planes.size(); ++k) {
     const base::Vec3d& n = scene.planes[k].normal;
     if (scene.planes[k].aboveBed && !(n.z < 0 && std::max(std::fabs(n.x), std::fabs(n.y)) <= 1e-9 * -n.z))
-      root.list("plane")[k].fail("above_bed",
-                                 "[m] requires a level lid; set normal = [0, 0, -1], or give point without above_bed");
+      root.list("plane")[k].fail(
+          "above_bed",
+          "[m] requires a horizontal plane above the bed; set normal = [0, 0, -1], or set point instead of above_bed");
   }
   const std::vector<Section> grains = root.list("grain"), fills = root.list("grains");
   for (const Section& section : grains) needsBed(section, "above_bed");
@@ -117,8 +119,7 @@ void checkPeriodic(const Section& section, const Scene& scene) {
                       "xy"[a]));
     if (domain && scene.terrain)
       section.fail(key, "[m] is incompatible with [terrain], whose borders are the periodic boundaries; remove it");
-    if (domain && !((*domain)[1] > (*domain)[0]))
-      section.fail(key, "[m] must be [min, max]; give the lower side first");
+    if (domain && !((*domain)[1] > (*domain)[0])) section.fail(key, "[m] must be [min, max]; put the lower side first");
     if (run.periodic[a] && !domain && !scene.terrain)
       section.fail("periodic", fmt::format("requires positions of the boundaries along {}; set run.{} = [from, to] [m]",
                                            "xy"[a], key));
@@ -139,8 +140,8 @@ void checkPlanesAcross(const std::vector<Section>& sections, const Scene& scene)
     for (int a = 0; a < 2; ++a)
       if (scene.run.periodic[static_cast<std::size_t>(a)] &&
           std::fabs(scene.planes[k].normal[a]) > 1e-9 * norm(scene.planes[k].normal))
-        sections[k].fail("normal", fmt::format("[-] is inclined along {}, where boundaries are periodic; set that "
-                                               "entry to 0, or run.periodic to false there",
+        sections[k].fail("normal", fmt::format("[-] is inclined along {}, where boundaries are periodic; set this "
+                                               "entry to 0, or run.periodic to false along this axis",
                                                "xy"[a]));
 }
 
@@ -187,7 +188,7 @@ void checkNamesOfSurfaces(const Section& root, const Scene& scene) {
   const auto judge = [&](const char* list, const auto& surfaces) {
     for (std::size_t k = 0; k < surfaces.size(); ++k)
       if (surfaces[k].name && std::find(called.begin(), called.end(), *surfaces[k].name) != called.end())
-        root.list(list)[k].fail("name", "is the default name of another surface in the results; choose another");
+        root.list(list)[k].fail("name", "is the default name of another surface in the results; choose another name");
   };
   judge("plane", scene.planes), judge("box", scene.boxes);
   judge("cylinder", scene.cylinders), judge("mesh", scene.meshes);

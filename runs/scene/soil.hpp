@@ -37,15 +37,15 @@ std::string unitOf(SoilQuantity quantity);
 /// [soil]
 struct SoilHead {
   std::string title, description;
-  bool calibrated = false; ///< whether a bevameter run stands behind [material]
+  bool calibrated = false; ///< whether [material] is calibrated with a bevameter run
 };
 
 /// [bed]: grain size for which [material] holds.
 struct SoilGrains {
-  double radius = 0;                       ///< [m] in the middle of their distribution
-  double radiusSpread = Terrain::kSpread;  ///< [-] uniform by number
-  std::optional<double> porosity;          ///< [-] of the bed; empty: as poured
-  std::array<double, 2> calibratedRadii{}; ///< [m] least and greatest that have been measured
+  double radius = 0;                       ///< [m] median radius
+  double radiusSpread = Terrain::kSpread;  ///< [-] spread, uniform by number
+  std::optional<double> porosity;          ///< [-] bed porosity; empty: as poured
+  std::array<double, 2> calibratedRadii{}; ///< [m] minimum and maximum measured radius
 };
 
 /// [[published]]
@@ -53,26 +53,26 @@ struct PublishedConstant {
   SoilQuantity quantity{};
   double value = 0;
   std::string unit, source;
-  std::optional<double> low, high; ///< where sources differ
+  std::optional<double> low, high; ///< range, if sources differ
 };
 
 /// [[reached]]
 struct ReachedConstant {
   SoilQuantity quantity{};
-  double value = 0, halfWidth = 0; ///< of the 95 % interval
+  double value = 0, halfWidth = 0; ///< `halfWidth`: half width of the 95 % interval
   std::string unit;
   double grainRadius = 0; ///< [m]
-  std::string command;    ///< that measured it
+  std::string command;    ///< command that measured it
 };
 
 /// A soil's file.
 struct Soil {
-  std::string name; ///< the file's, without .toml
+  std::string name; ///< file name without .toml
   std::filesystem::path file;
-  std::string hash; ///< of the file's bytes
+  std::string hash; ///< hash of the file's bytes
   SoilHead head;
   SoilGrains grains;
-  Material material; ///< at grains.radius, with every default
+  Material material; ///< material at grains.radius, with every default
   std::vector<PublishedConstant> published;
   std::vector<ReachedConstant> reached;
   std::shared_ptr<const base::Document> document;
@@ -97,7 +97,7 @@ std::filesystem::path findSoil(const std::string& word, const std::filesystem::p
 /// Files of all soils that a scene can use by name.
 std::map<std::string, std::filesystem::path> knownSoils(const std::filesystem::path& scene);
 
-/// "did you mean \"lete_sand\"? (soils: ...)", for a name that is none of them.
+/// "did you mean \"lete_sand\"? (soils: ...)", for an unknown name.
 std::string soilHint(const std::string& word, const std::filesystem::path& scene);
 
 /// Soils of a scene: one for each material that is a soil, in the order of the materials.

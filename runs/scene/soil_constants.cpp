@@ -135,7 +135,7 @@ std::vector<ContactConstant> contactConstants(const Soil& soil, SoilConstantsFro
 }
 
 void drawContactConstants(std::vector<ContactConstant>& constants, int number) {
-  const std::optional<double> sinkage = referenceSinkage(constants); // of the nominal constants
+  const std::optional<double> sinkage = referenceSinkage(constants); // with the nominal constants
   const auto isFixed = [&](SoilQuantity q) {
     const ContactConstant* c = findConstant(constants, q);
     return c && c->deviation == 0;
@@ -146,7 +146,7 @@ void drawContactConstants(std::vector<ContactConstant>& constants, int number) {
     if (c.deviation == 0) continue;
     double spread = logDeviation(c.deviation), at = normal(number, c.quantity);
     if (c.quantity == Q::exponent) {
-      // With a given k the pressure's deviation is that of n alone.
+      // With a given k only n contributes to the deviation of the pressure.
       if (modulusIsFixed && sinkage) spread = std::min(spread, kPressureDeviation / std::fabs(c.value * *sinkage));
       const double drawn = c.value * base::exp(spread * at);
       if (sinkage) modulusFactor *= base::exp((c.value - drawn) * *sinkage);
@@ -172,11 +172,11 @@ double modulusCorrelation(const std::vector<ContactConstant>& constants) {
 }
 
 std::string jointDistributionText(const std::vector<ContactConstant>& constants) {
-  return fmt::format(
-      "sampled constants (scm.constants_draw): pressure is assumed to have a standard deviation of {:g} % at the "
-      "sinkage that {:g} kPa causes, which gives a correlation of {:.2f} between ln k and n; the correlation between c "
-      "and tan phi is assumed to be {:g}",
-      100 * kPressureDeviation, 1e-3 * kReferencePressure, modulusCorrelation(constants), kStrengthCorrelation);
+  return fmt::format("sampled constants (scm.constants_draw): pressure is assumed to have a standard deviation of {:g} "
+                     "% at the sinkage under {:g} kPa, which implies a correlation of {:.2f} between ln k and n; the "
+                     "correlation between c and tan phi is assumed to be {:g}",
+                     100 * kPressureDeviation, 1e-3 * kReferencePressure, modulusCorrelation(constants),
+                     kStrengthCorrelation);
 }
 
 } // namespace grouser::scene

@@ -16,17 +16,17 @@ inline constexpr std::array<SoilQuantity, 6> kContactQuantities = {
 
 struct ContactConstant {
   SoilQuantity quantity{};
-  double value = 0;     ///< in unitOf(quantity)
-  double deviation = 0; ///< standard deviation over the value, of phi that of tan phi over tan phi [-]; 0: is not drawn
+  double value = 0;       ///< value in unitOf(quantity)
+  double deviation = 0;   ///< standard deviation / value (phi: of tan phi / tan phi) [-]; 0: not drawn
   bool isAssumed = false; ///< the deviation comes from the table in soil_constants.cpp
 
-  double halfWidth() const; ///< of the 95 % interval, in unitOf(quantity)
+  double halfWidth() const; ///< half width of the 95 % interval, in unitOf(quantity)
 };
 
-/// Constants of a soil file, in the order of kContactQuantities, without those that it lacks. Deviations follow from
-/// low and high of [[published]], or from half_width of [[reached]]; where the file has none they are assumed. Where
-/// grains of several radii were measured, the constants are those of the radius with most of them, of several such
-/// radii the smallest, since K and k depend on the size of the grains.
+/// Constants of a soil file, in the order of kContactQuantities, without missing ones. Deviations follow from
+/// low and high of [[published]], or from half_width of [[reached]]; without either they are assumed. If grains of
+/// several radii were measured, uses the radius with most constants (the smallest of several such radii), since K and k
+/// depend on the size of the grains.
 std::vector<ContactConstant> contactConstants(const Soil& soil, SoilConstantsFrom from);
 
 /// The constant of this quantity; null if there is none.
@@ -40,13 +40,13 @@ const ContactConstant* findConstant(const std::vector<ContactConstant>& constant
 /// Their half widths are not used: the errors of k_c and k_phi nearly cancel at the width of a track.
 void drawContactConstants(std::vector<ContactConstant>& constants, int number);
 
-/// Correlation of ln k and n that follows [-]; 0 without n, k_c and k_phi.
+/// Resulting correlation of ln k and n [-]; 0 without n, k_c and k_phi.
 double modulusCorrelation(const std::vector<ContactConstant>& constants);
 
 /// "samples (scm.constants_draw): ...": the assumptions above in one line.
 std::string jointDistributionText(const std::vector<ContactConstant>& constants);
 
-inline constexpr double kReferencePressure = 50e3, kReferenceWidth = 0.28; ///< of a track [Pa], [m]
+inline constexpr double kReferencePressure = 50e3, kReferenceWidth = 0.28; ///< pressure [Pa] and width [m] of a track
 inline constexpr double kPressureDeviation = 0.10;                         ///< assumed [-]
 inline constexpr double kStrengthCorrelation = -0.5;                       ///< assumed [-]
 

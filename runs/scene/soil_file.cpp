@@ -24,27 +24,27 @@ using base::Table;
 
 namespace {
 
-constexpr double kWidest = 1e15; // of a constant in SI
+constexpr double kWidest = 1e15; // maximum magnitude of a constant in SI units
 
 Table<SoilHead> headTable() {
   using S = SoilHead;
   Table<S> t("soil", "Title and description of the soil");
   t.add("title", &S::title, "", "short title").required();
-  t.add("description", &S::description, "", "model of the soil and its limits").required();
+  t.add("description", &S::description, "", "description of the soil model and its limits").required();
   t.add("calibrated", &S::calibrated, "",
-        "whether [material] was calibrated by virtual tests, whose results are in [[reached]]; runs on an uncalibrated "
-        "soil print a note");
+        "whether [material] was calibrated by virtual tests (results in [[reached]]); runs on an uncalibrated soil "
+        "print a note");
   return t;
 }
 
 Table<SoilGrains> grainsTable() {
   using S = SoilGrains;
-  Table<S> t("bed", "Grain size for which [material] holds, and arrangement of the bed");
-  t.add("grain_radius", &S::radius, "m", "median radius of the distribution for which [material] holds")
+  Table<S> t("bed", "Grain size for which [material] is valid, and arrangement of the bed");
+  t.add("grain_radius", &S::radius, "m", "median radius of the distribution for which [material] is valid")
       .above(0)
       .atMost(10)
       .required();
-  t.add("radius_spread", &S::radiusSpread, "-", "half the width of the uniform distribution / grain_radius")
+  t.add("radius_spread", &S::radiusSpread, "-", "half width of the uniform radius distribution / grain_radius")
       .above(0)
       .atMost(0.9);
   t.add("porosity", &S::porosity, "-", "porosity of a random bed; default: as poured").atLeast(0.2).atMost(0.7);
@@ -57,21 +57,21 @@ Table<SoilGrains> grainsTable() {
 
 Table<PublishedConstant> publishedTable() {
   using S = PublishedConstant;
-  Table<S> t("[published]", "A published constant of the soil; repeat for each constant");
+  Table<S> t("[published]", "Published constant of the soil; one section per constant");
   t.add("quantity", &S::quantity, "",
         "p = (k_c / b + k_phi) z^n under a plate of width b; tau = (c + p tan phi) (1 - exp(-j / K))")
       .required();
   t.add("value", &S::value, "", "value in unit").atLeast(-kWidest).atMost(kWidest).required();
   t.add("unit", &S::unit, "", "unit of the quantity: N/m^(n+1), N/m^(n+2), Pa, deg, m, kg/m3 or -").required();
   t.add("source", &S::source, "", "author, year and location in the publication").required();
-  t.add("low", &S::low, "", "minimum of several sources").atLeast(-kWidest).atMost(kWidest);
-  t.add("high", &S::high, "", "maximum of several sources").atLeast(-kWidest).atMost(kWidest);
+  t.add("low", &S::low, "", "minimum over several sources").atLeast(-kWidest).atMost(kWidest);
+  t.add("high", &S::high, "", "maximum over several sources").atLeast(-kWidest).atMost(kWidest);
   return t;
 }
 
 Table<ReachedConstant> reachedTable() {
   using S = ReachedConstant;
-  Table<S> t("[reached]", "A constant measured with [material]; repeat for each constant");
+  Table<S> t("[reached]", "Constant measured with [material]; one section per constant");
   t.add("quantity", &S::quantity, "", "as in [[published]]").required();
   t.add("value", &S::value, "", "value in unit").atLeast(-kWidest).atMost(kWidest).required();
   t.add("half_width", &S::halfWidth, "", "half width of its 95 % interval").atLeast(0).atMost(kWidest).required();
@@ -83,14 +83,14 @@ Table<ReachedConstant> reachedTable() {
 
 template <class Constant> void checkUnit(const Section& section, const Constant& c) {
   if (c.unit != unitOf(c.quantity))
-    section.fail("unit", fmt::format("does not match quantity = \"{}\"; give the value in {} and unit = \"{}\"",
+    section.fail("unit", fmt::format("does not match quantity = \"{}\"; set value in {} and unit = \"{}\"",
                                      base::wordOf(c.quantity), unitOf(c.quantity), unitOf(c.quantity)));
 }
 
 void checkPublished(const Section& section, const PublishedConstant& c) {
   checkUnit(section, c);
-  if (c.low && *c.low > c.value) section.fail("low", "is above value; give the minimum of the sources");
-  if (c.high && *c.high < c.value) section.fail("high", "is below value; give the maximum of the sources");
+  if (c.low && *c.low > c.value) section.fail("low", "exceeds value; set the minimum of the sources");
+  if (c.high && *c.high < c.value) section.fail("high", "is below value; set the maximum of the sources");
 }
 
 /// Reads [material] of a soil file, which may have all keys of a material but soil, soil_hash and grain_radius.
@@ -192,7 +192,7 @@ std::map<std::string, fs::path> knownSoils(const fs::path& scene) {
 std::string soilHint(const std::string& word, const fs::path& scene) {
   std::vector<std::string> names;
   for (const auto& [name, file] : knownSoils(scene)) names.push_back(name);
-  if (names.empty()) return "there are no soils in soils/ of the scene's folder or in assets/soils";
+  if (names.empty()) return "no soils found in soils/ beside the scene or in assets/soils";
   return fmt::format("did you mean \"{}\"? (soils: {})", base::nearestWord(word, names), fmt::join(names, ", "));
 }
 

@@ -119,7 +119,7 @@ const Soil* soilOf(const Section& section, const std::string& name, Scene& scene
   if (file.empty()) {
     std::string places;
     for (const fs::path& p : tried) places += (places.empty() ? "" : ", ") + p.string();
-    section.fail("soil", fmt::format("names no soil; {}{}", soilHint(*word, scene.file),
+    section.fail("soil", fmt::format("is not a known soil; {}{}", soilHint(*word, scene.file),
                                      places.empty() ? "" : fmt::format("; searched {}", places)));
   }
   auto& kept = scene.soils[name];

@@ -70,9 +70,9 @@ void notePorosity(const Scene& scene, std::vector<std::string>& notes) {
   if (!t || !t->granular() || t->lattice() || t->porosity || t->settleTimeLimit == 0) return;
   const auto soil = scene.soils.find(t->material);
   if (soil != scene.soils.end() && soil->second->grains.porosity)
-    notes.push_back(
-        fmt::format("terrain: the bed is too shallow to reach the porosity of the soil {}, {:g}; it remains as poured",
-                    soil->second->name, *soil->second->grains.porosity));
+    notes.push_back(fmt::format(
+        "terrain: the bed is too shallow to be prepared with the porosity of the soil {}, {:g}; it is used as poured",
+        soil->second->name, *soil->second->grains.porosity));
 }
 
 } // namespace
@@ -130,13 +130,13 @@ std::vector<std::string> soilNotes(const Scene& scene) {
     if (m.soil.empty()) {
       if (known.contains(m.name))
         notes.push_back(fmt::format(
-            "material.{}: defined by the scene, not by the soil of that name; to use the soil, add soil = \"{}\"",
+            "material.{}: defined in the scene; the soil of the same name is not used; to use it, add soil = \"{}\"",
             m.name, m.name));
       continue;
     }
     const Soil& soil = *scene.soils.at(m.name);
     if (!soil.head.calibrated)
-      notes.push_back(fmt::format("material.{}: the soil {} is uncalibrated, no soil constants have been measured with "
+      notes.push_back(fmt::format("material.{}: the soil {} is uncalibrated: no soil constants have been measured with "
                                   "its contact parameters ({})",
                                   m.name, soil.name, m.soil));
     noteGrains(scene, m, notes);

@@ -26,18 +26,18 @@ template <class S> void addSurface(Table<S>& t) {
   using base::Vec3d;
   using Number = std::optional<double>;
   using Vector = std::optional<Vec3d>;
-  t.template add<std::string>("material", &S::material, "", "name of its material").required();
+  t.template add<std::string>("material", &S::material, "", "name of the material").required();
   t.template add<std::optional<std::string>>("name", &S::name, "",
                                              "name in results.h5 and timeseries.csv; default: kind and number");
   t.template add<Vector>("velocity", &S::velocity, "m/s", "prescribed velocity").atLeast(-1e4).atMost(1e4);
-  t.template add<Vector>("spin", &S::spin, "rad/s", "prescribed angular velocity in the world frame")
+  t.template add<Vector>("spin", &S::spin, "rad/s", "prescribed angular velocity, world components")
       .atLeast(-1e5)
       .atMost(1e5);
   t.template add<Vector>("pivot", &S::pivot, "m",
-                         "centre of rotation, which moves with velocity; default: the surface's centre");
-  t.template add<Vector>("amplitude", &S::amplitude, "m", "amplitude of an oscillation along this vector");
+                         "centre of rotation, which moves with velocity; default: centre of the surface");
+  t.template add<Vector>("amplitude", &S::amplitude, "m", "amplitude vector of a sinusoidal oscillation");
   t.template add<Number>("frequency", &S::frequency, "Hz", "frequency of the oscillation").above(0).atMost(1e5);
-  t.template add<Number>("phase", &S::phase, "deg", "phase of the sine at the start; -90 starts from rest")
+  t.template add<Number>("phase", &S::phase, "deg", "phase of the sine at the start; -90 starts at rest")
       .atLeast(-360)
       .atMost(360);
   t.template add<Number>("start", &S::start, "s", "start time of velocity, spin and oscillation")
@@ -46,8 +46,8 @@ template <class S> void addSurface(Table<S>& t) {
   t.template add<Number>("until", &S::until, "s", "end time of velocity, spin and oscillation").above(0).atMost(1e5);
   t.template add<std::optional<Axis>>(
       "free", &S::free, "",
-      "axis along which load, grains and weight move the surface from the start, in addition to velocity, spin and "
-      "amplitude: a wheel under load, a plate pulled or turned");
+      "axis along which the surface moves freely under load, contact forces and weight, in addition to velocity, spin "
+      "and amplitude (e.g. a wheel under load, or a plate that is pulled or turned)");
   t.template add<Number>("mass", &S::mass, "kg", "mass of a free surface; required with free").above(0).atMost(1e12);
   t.template add<Number>("load", &S::load, "N",
                          "force on a free surface along its axis; along z, negative presses down")
@@ -58,35 +58,37 @@ template <class S> void addSurface(Table<S>& t) {
       .atMost(1e5);
   t.template add<std::optional<PlacedWhen>>(
       "placed", &S::placed, "",
-      "in a scene whose bed settles: before, so that the bed is laid around the surface, or after_settling, on the "
-      "settled bed; default: before for surfaces at rest, after_settling for meshes and moving surfaces");
+      "time of placement in scenes with a bed that settles: before (the bed settles around the surface) or "
+      "after_settling (on the settled bed); default: before for fixed surfaces, after_settling for meshes and moving "
+      "surfaces");
   t.template add<Number>("above_bed", &S::aboveBed, "m",
-                         "height of the surface's lowest point above the highest grain under it once the bed has "
-                         "settled; overrides the z coordinate given in this section")
+                         "gap between the surface and the highest grain below it after the bed has settled; replaces "
+                         "the z coordinate in this section")
       .atLeast(0)
       .atMost(1e4);
 }
 
 /// Initial orientation of a surface; `from`: the reference axes.
 template <class S> void addTurn(Table<S>& t, const std::string& from) {
-  t.add("axis", &S::axis, "-", "rotation axis of the initial orientation, from the " + from + " axes; requires angle");
-  t.add("angle", &S::angle, "deg", "angle of that rotation, right-handed").atLeast(-3600).atMost(3600);
+  t.add("axis", &S::axis, "-",
+        "rotation axis of the initial orientation, relative to the " + from + " axes; requires angle");
+  t.add("angle", &S::angle, "deg", "angle of this rotation, right-handed").atLeast(-3600).atMost(3600);
   t.add("orientation", &S::orientation, "-", "unit quaternion w, x, y, z, instead of axis and angle");
 }
 
 Table<Plane> planeTable() {
   using S = Plane;
-  Table<S> t("[plane]", "A rigid plane, fixed or moving; the solid lies behind its normal");
-  t.add("point", &S::point, "m", "any point of the plane; reference point of its loads");
-  t.add("normal", &S::normal, "-", "outward normal of the solid; any length but zero");
+  Table<S> t("[plane]", "Rigid plane, fixed or moving; the normal points out of the solid");
+  t.add("point", &S::point, "m", "a point of the plane; reference point of loads");
+  t.add("normal", &S::normal, "-", "outward normal of the solid; any non-zero length");
   addSurface(t);
   return t;
 }
 
 Table<BoxSection> boxTable() {
   using S = BoxSection;
-  Table<S> t("[box]", "A solid rigid box for contact with grains, fixed or moving");
-  t.add("position", &S::position, "m", "position of its centre").required();
+  Table<S> t("[box]", "Solid rigid box for contact with grains, fixed or moving");
+  t.add("position", &S::position, "m", "position of the centre").required();
   t.add("size", &S::size, "m", "edge lengths along x, y, z before rotation").above(0).atMost(1e5).required();
   addTurn(t, "world's");
   addSurface(t);
@@ -95,38 +97,37 @@ Table<BoxSection> boxTable() {
 
 Table<CylinderSection> cylinderTable() {
   using S = CylinderSection;
-  Table<S> t("[cylinder]",
-             "A rigid cylinder for contact with grains, fixed or moving: a solid rod with flat ends, or hollow");
-  t.add("position", &S::position, "m", "position of its centre").required();
-  t.add("axis", &S::axis, "-", "direction of its axis; any length but zero");
-  t.add("radius", &S::radius, "m", "radius of its wall").above(0).atMost(1e5).required();
-  t.add("length", &S::length, "m", "length along its axis").above(0).atMost(1e5).required();
+  Table<S> t("[cylinder]", "Rigid cylinder for contact with grains, fixed or moving: solid with flat ends, or hollow");
+  t.add("position", &S::position, "m", "position of the centre").required();
+  t.add("axis", &S::axis, "-", "direction of the axis; any non-zero length");
+  t.add("radius", &S::radius, "m", "radius").above(0).atMost(1e5).required();
+  t.add("length", &S::length, "m", "length along the axis").above(0).atMost(1e5).required();
   t.add("hollow", &S::hollow, "",
-        "a drum or pipe of zero thickness with contact inside and outside, open at both ends");
+        "whether the cylinder is a thin drum or pipe, open at both ends, with contact inside and outside");
   addSurface(t);
   return t;
 }
 
 Table<MeshSection> meshTable() {
   using S = MeshSection;
-  Table<S> t("[mesh]", "A rigid body from a mesh file for contact with grains, fixed or moving, converted to spheres");
+  Table<S> t("[mesh]", "Rigid mesh for contact with grains, fixed or moving, converted to spheres");
   t.add("file", &S::file, "",
         "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder, "
         "the assets folder")
       .required();
-  t.add("scale", &S::scale, "m", "length of one unit of the file").above(0).atMost(1e6);
+  t.add("scale", &S::scale, "m", "length unit of the file").above(0).atMost(1e6);
   t.add("position", &S::position, "m", "position of the file's origin, the reference point of loads");
   addTurn(t, "file's");
   t.add("sphere_radius", &S::sphereRadius, "m",
-        fmt::format(
-            "radius of its spheres, which round its edges; default: {} of its diagonal, or finer where spheres would "
-            "protrude by more than a fiftieth of the smallest grain's radius, or of a quarter of a vehicle's pitch",
-            S::kShareOfDiagonal))
+        fmt::format("radius of the spheres that represent the mesh (they round its edges); default: {} of the "
+                    "diagonal, or less if spheres would protrude by more than a fiftieth of the smallest grain radius, "
+                    "or of a quarter of a vehicle's pitch",
+                    S::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("sphere_refinement", &S::sphereRefinement, "-",
-        "divisor of the sphere radius, and of the permitted protrusion if that radius is automatic; grouser check "
-        "doubles it in its finer case")
+        "divisor of the sphere radius, and of the permitted protrusion if the radius is automatic; grouser check "
+        "doubles it")
       .atLeast(1)
       .atMost(16);
   addSurface(t);
@@ -136,7 +137,8 @@ Table<MeshSection> meshTable() {
 void checkOscillation(const Section& section, const SurfaceSection& s) {
   if (s.amplitude && !s.frequency) section.fail("frequency", "[Hz] is missing, but amplitude requires it; add it");
   for (const char* key : {"frequency", "phase"})
-    if (!s.amplitude && section.has(key)) section.fail(key, "has no effect without amplitude; add that, or remove it");
+    if (!s.amplitude && section.has(key))
+      section.fail(key, "has no effect without amplitude; add amplitude, or remove it");
 }
 
 void checkFree(const Section& section, const SurfaceSection& s) {
@@ -147,11 +149,11 @@ void checkFree(const Section& section, const SurfaceSection& s) {
     return;
   }
   if (!s.mass) section.fail("mass", "[kg] is missing, but a free surface requires it; add it");
-  if (s.loadRamp && !s.load) section.fail("load_ramp", "[s] has no effect without load; add that, or remove it");
+  if (s.loadRamp && !s.load) section.fail("load_ramp", "[s] has no effect without load; add load, or remove it");
   const int axis = static_cast<int>(*s.free);
   const auto prescribed = [&](const char* key, const std::optional<base::Vec3d>& v) {
     if (v && (*v)[axis] != 0)
-      section.fail(key, fmt::format("prescribes motion along {}, the axis of free; set that entry to 0, or remove free",
+      section.fail(key, fmt::format("prescribes motion along {}, the free axis; set this entry to 0, or remove free",
                                     base::wordOf(*s.free)));
   };
   prescribed("velocity", s.velocity), prescribed("amplitude", s.amplitude);
@@ -169,7 +171,7 @@ bool isTaken(const std::string& name, const Scene& scene) {
 void checkSurface(const Section& section, const SurfaceSection& s, const Scene& scene) {
   checkOscillation(section, s);
   checkFree(section, s);
-  if (s.pivot && !s.spin) section.fail("pivot", "[m] has no effect without spin; add that, or remove it");
+  if (s.pivot && !s.spin) section.fail("pivot", "[m] has no effect without spin; add spin, or remove it");
   const bool driven = s.velocity || s.spin || s.amplitude;
   for (const char* key : {"start", "until"})
     if (section.has(key) && !driven)
@@ -180,8 +182,8 @@ void checkSurface(const Section& section, const SurfaceSection& s, const Scene& 
   if (s.name->find_first_of(". ,\"") != std::string::npos)
     section.fail(
         "name",
-        "must not contain blanks, dots, commas or quotes, since it names columns of the results; choose another");
-  if (isTaken(*s.name, scene)) section.fail("name", "is the name of another surface; choose another");
+        "must not contain blanks, dots, commas or quotes, since it is part of column names; choose another name");
+  if (isTaken(*s.name, scene)) section.fail("name", "is the name of another surface; choose another name");
 }
 
 template <class S> void checkOrientation(const Section& section, const S& s) {
@@ -195,7 +197,7 @@ template <class S> void checkOrientation(const Section& section, const S& s) {
 void checkPlane(const Section& section, Plane& plane, const Scene& scene) {
   checkSurface(section, plane, scene);
   if (base::norm2(plane.normal) == 0)
-    section.fail("normal", "is zero; give the direction out of the solid, e.g. [0, 0, 1]");
+    section.fail("normal", "has zero length; set the direction out of the solid, e.g. [0, 0, 1]");
   requireMaterial(scene, section, "material", plane.material);
 }
 
@@ -208,7 +210,7 @@ void checkBox(const Section& section, BoxSection& box, const Scene& scene) {
 void checkCylinder(const Section& section, CylinderSection& cylinder, const Scene& scene) {
   checkSurface(section, cylinder, scene);
   if (base::norm2(cylinder.axis) == 0)
-    section.fail("axis", "[-] is zero; give the direction of the cylinder, e.g. [0, 0, 1]");
+    section.fail("axis", "[-] has zero length; set the direction of the cylinder, e.g. [0, 0, 1]");
   requireMaterial(scene, section, "material", cylinder.material);
 }
 

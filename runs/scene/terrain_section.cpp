@@ -21,115 +21,120 @@ namespace {
 using base::Section;
 using base::Table;
 
-constexpr double kLeastPeriod = 12;     // of a tile, in radii [-]
-constexpr double kLeastForPorosity = 3; // depth, in diameters [-]
+constexpr double kLeastPeriod = 12;     // minimum tile edge / radius [-]
+constexpr double kLeastForPorosity = 3; // minimum depth / diameter [-]
 
 /// Keys of the initial arrangement of a bed's grains.
 void addArrangement(Table<Terrain>& t) {
   using S = Terrain;
   t.add("arrangement", &S::arrangement, "",
-        "arrangement of grains before they settle: rained from random positions, or in a lattice, which settles to a "
-        "nearly regular packing");
+        "initial arrangement of the grains before settling: random (rained from random positions), or lattice (settles "
+        "to a nearly regular packing)");
   t.add("grain_radius", &S::grainRadius, "m",
-        "median radius of the distribution; required for a granular bed, except with radius_distribution = \"sieve\"")
+        "median grain radius; required for a granular bed, except with radius_distribution = \"sieve\"")
       .above(0)
       .atMost(10);
   t.add("depth", &S::depth, "m", "depth of the bed; required for a random arrangement").above(0).atMost(1e3);
   t.add("radius_distribution", &S::radiusDistribution, "",
-        "random: distribution of radii by number; default: uniform. lognormal: truncated at two standard deviations of "
-        "ln r; sieve: by mass, sieve_size and sieve_passing");
+        "random: size distribution: single, uniform or lognormal by number (lognormal truncated at two standard "
+        "deviations of ln r), or sieve by mass (sieve_size, sieve_passing); default: uniform");
   t.add("radius_spread", &S::radiusSpread, "-",
-        fmt::format("uniform: half the width / grain_radius; lognormal: standard deviation of ln r; default: {:g}, or "
-                    "with uniform radii the soil's if the bed's material is a soil",
+        fmt::format("uniform: half width / grain_radius; lognormal: standard deviation of ln r; default: {:g}, or for "
+                    "uniform radii the value of the soil if the bed material is a soil",
                     S::kSpread))
       .above(0)
       .atMost(0.9);
-  t.add("sieve_size", &S::sieveSize, "m", "sieve: openings (diameters), ascending").above(0).atMost(20);
+  t.add("sieve_size", &S::sieveSize, "m", "sieve: openings (grain diameters), in ascending order").above(0).atMost(20);
   t.add("sieve_passing", &S::sievePassing, "-", "sieve: mass fraction that passes each opening, from 0 to 1")
       .atLeast(0)
       .atMost(1);
-  t.add("porosity", &S::porosity, "-",
-        "random: porosity of the settled bed, reached by a different friction during settling, found by bisection on a "
-        "small bed and reset afterwards; default: the soil's if it has one, else as poured")
+  t.add(
+       "porosity", &S::porosity, "-",
+       "random: target porosity of the settled bed; a small bed is used to find the settling friction that produces "
+       "it, and the friction is reset after settling; default: porosity of the soil if it has one, otherwise as poured")
       .atLeast(0.2)
       .atMost(0.7);
-  t.add("fine_depth", &S::fineDepth, "m", "random: depth down to which radii follow the distribution; coarser below")
+  t.add("fine_depth", &S::fineDepth, "m",
+        "random: depth down to which radii follow the distribution; grains are coarser below")
       .atLeast(0)
       .atMost(1e3);
-  t.add("coarsening", &S::coarsening, "-", "random: growth of grain_radius per metre below fine_depth")
+  t.add("coarsening", &S::coarsening, "-", "random: increase of grain_radius per metre of depth below fine_depth")
       .above(0)
       .atMost(1);
-  t.add("coarsest_radius", &S::coarsestRadius, "m", "random: maximum grain_radius of a graded bed").above(0).atMost(10);
-  t.add("layers", &S::layers, "-", "lattice: grain layers above the floor; alternative to depth")
+  t.add("coarsest_radius", &S::coarsestRadius, "m", "random: maximum grain_radius of a bed graded by depth")
+      .above(0)
+      .atMost(10);
+  t.add("layers", &S::layers, "-", "lattice: number of grain layers above the floor, instead of depth")
       .atLeast(1)
       .atMost(10000);
   t.add("spacing", &S::spacing, "-",
-        fmt::format("lattice: initial distance of grains, in radii; default: {:g}", S::kSpacing))
+        fmt::format("lattice: initial grain spacing, in grain radii; default: {:g}", S::kSpacing))
       .above(2)
       .atMost(10);
   t.add("jitter", &S::jitter, "-",
-        fmt::format("lattice: initial random shift, as a fraction of the free gap; default: {:g}", S::kJitter))
+        fmt::format("lattice: random initial displacement, as a fraction of the gap between grains; default: {:g}",
+                    S::kJitter))
       .atLeast(0)
       .atMost(1);
   t.add("packing", &S::packing, "-",
-        fmt::format("lattice: expected solid fraction once settled; default: {:g}", S::kPacking))
+        fmt::format("lattice: expected solid fraction after settling; default: {:g}", S::kPacking))
       .atLeast(0.3)
       .atMost(0.74);
 }
 
 Table<Terrain> terrainTable() {
   using S = Terrain;
-  Table<S> t("terrain", "Ground from a height-map image: a bed of grains, or rigid");
+  Table<S> t("terrain", "Ground from a height-map image: a bed of grains, rigid ground or deformable soil");
   t.add("heightmap", &S::heightmap, "",
         "PNG, 8 or 16 bit; row 0 is the far edge (largest y), each pixel is a grid point; searched for in the "
         "scene's folder, the working folder, the assets folder")
       .required();
   t.add("size", &S::size, "m", "extent in x, from 0, and in y, centred at 0").above(0).atMost(1e5).required();
-  t.add("height_range", &S::heightRange, "m", "heights of black and white, [min, max]")
+  t.add("height_range", &S::heightRange, "m", "heights of black and white pixels, [min, max]")
       .atLeast(-1e4)
       .atMost(1e4)
       .required();
   t.add("interpolation", &S::interpolation, "",
-        "surface between the pixels: monotone stays between the pixels around it, smooth overshoots steps by up to 7 % "
-        "of them, bilinear has edges along the lines of pixels");
+        "interpolation between pixels: monotone (no overshoot), smooth (overshoots steps by up to 7 %) or bilinear "
+        "(edges along pixel lines)");
   t.add("kind", &S::kind, "",
-        "a bed of grains, rigid ground, or deformable soil by the relations of Bekker and Janosi ([scm])");
+        "kind of ground: granular (bed of grains), rigid, or scm (deformable soil with the relations of Bekker and "
+        "Janosi, [scm])");
   t.add("material", &S::material, "",
-        "material of the grains or the ground; deformable soil reads its constants from the soil file of this name")
+        "material of the grains or the ground; for deformable soil, the soil file with its constants")
       .required();
   t.add("ground_material", &S::groundMaterial, "", "material of floor and walls; default: that of the bed");
   addArrangement(t);
   t.add("tile", &S::tile, "m",
-        "size in x, y of a piece that settles alone with periodic boundaries and is copied over the terrain; requires "
-        "a level floor")
+        "size in x, y of a tile that settles with periodic boundaries and is then copied over the terrain; requires a "
+        "level floor")
       .above(0);
-  t.add("floor", &S::floor, "", "rigid floor: follows the surface below the bed, or flat");
+  t.add("floor", &S::floor, "", "shape of the rigid floor: follow (parallel to the surface, below the bed) or flat");
   t.add("floor_grains", &S::floorGrains, "",
-        "whether fixed grains cover the floor; on a smooth floor the lowest grains roll like a ball bearing");
-  t.add("walls", &S::walls, "", "vertical walls along the edges of the map that hold the bed");
-  t.add("wall_friction", &S::wallFriction, "-", "Coulomb coefficient of the walls; at 0 they carry no weight")
+        "whether the floor is covered with fixed grains; on a smooth floor the lowest grains roll freely");
+  t.add("walls", &S::walls, "", "whether vertical walls along the edges of the map confine the bed");
+  t.add("wall_friction", &S::wallFriction, "-", "friction coefficient of the walls; with 0 they carry no weight")
       .atLeast(0)
       .atMost(10);
   t.add("settle_time_limit", &S::settleTimeLimit, "s",
-        "time by which the bed must be at rest; 0: no settling; a random bed then starts as a loose column, whatever "
-        "its porosity key")
+        "maximum settling time of the bed; 0: no settling, so a random bed starts as a loose column regardless of "
+        "porosity")
       .atLeast(0)
       .atMost(1e4);
   t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-",
-        "criterion of rest: mean kinetic energy per grain (in random beds translational only) / (m g radius)")
+        "settling criterion: mean kinetic energy per grain (translational only in random beds) / (m g radius)")
       .above(0)
       .atMost(1e3);
   t.add("settle_force_ratio", &S::settleForceRatio, "-",
-        "additional criterion of rest: mean resultant force on a grain / its weight; \"none\": kinetic energy only")
+        "additional settling criterion: mean resultant force on a grain / its weight; \"none\": kinetic energy only")
       .above(0)
       .atMost(1e3)
       .orWord("none");
-  t.add("cache", &S::cache, "",
-        "store the settled bed for later runs and reuse stored ones; results are bitwise identical");
+  t.add("cache", &S::cache, "", "store the settled bed and reuse stored beds; the results are bitwise identical");
   return t;
 }
 
-/// The sieve curve, and the radius in its middle.
+/// Sieve curve, and its median radius.
 void checkSieves(const Section& section, Terrain& t) {
   for (const auto& [key, values] : {std::pair{"sieve_size", &t.sieveSize}, {"sieve_passing", &t.sievePassing}})
     if (values->empty())
@@ -141,16 +146,17 @@ void checkSieves(const Section& section, Terrain& t) {
   if (size.size() != passing.size() || size.size() < 2)
     section.fail(
         "sieve_passing",
-        fmt::format("[-] has {} values, but sieve_size has {}; give one value per sieve, for at least two sieves",
+        fmt::format("[-] has {} values, but sieve_size has {}; set one value per sieve, for at least two sieves",
                     passing.size(), size.size()));
   for (std::size_t k = 1; k < size.size(); ++k) {
-    if (!(size[k] > size[k - 1])) section.fail("sieve_size", "[m] does not ascend; sort the sieves by their openings");
+    if (!(size[k] > size[k - 1]))
+      section.fail("sieve_size", "[m] must be in ascending order; sort the sieves by opening");
     if (passing[k] < passing[k - 1])
-      section.fail("sieve_passing", "[-] must not decrease, since a coarser sieve passes no less; correct it");
+      section.fail("sieve_passing", "[-] must not decrease, since a coarser sieve passes at least as much; correct it");
   }
   if (passing.front() != 0 || passing.back() != 1)
-    section.fail("sieve_passing", "[-] must begin with 0 (the finest sieve passes nothing) and end with 1 (the "
-                                  "coarsest passes everything); add these sieves");
+    section.fail("sieve_passing", "[-] must start with 0 (the finest sieve passes nothing) and end with 1 (the "
+                                  "coarsest sieve passes everything); add these sieves");
   const terrain::RadiusDistribution curve{terrain::RadiusLaw::sieve, 0, 0, size, passing};
   const double median = curve.medianByMass();
   if (t.grainRadius && std::fabs(*t.grainRadius - median) > 1e-9 * median)
@@ -176,14 +182,14 @@ void completeArrangement(const Section& section, Terrain& t) {
       if (section.has(key))
         section.fail(key, "requires arrangement = \"random\"; remove it, or arrangement = \"lattice\"");
     if (t.layers && t.depth) section.fail("depth", "[m] is mutually exclusive with layers; remove one");
-    if (!t.layers && !t.depth) section.fail("layers", "is missing; give layers [-] or depth [m] of the bed");
+    if (!t.layers && !t.depth) section.fail("layers", "is missing; set layers [-] or depth [m] of the bed");
     t.spacing = t.spacing.value_or(Terrain::kSpacing), t.jitter = t.jitter.value_or(Terrain::kJitter);
     t.packing = t.packing.value_or(Terrain::kPacking);
     return;
   }
   for (const char* key : {"layers", "spacing", "jitter", "packing"})
     if (section.has(key))
-      section.fail(key, "requires arrangement = \"lattice\"; add that, or remove it and give depth [m]");
+      section.fail(key, "requires arrangement = \"lattice\"; set it, or replace layers by depth [m]");
   if (!t.depth) section.fail("depth", "[m] is missing, but a random bed requires it; add it, e.g. depth = 0.5");
   t.radiusDistribution = t.radiusDistribution.value_or(RadiusLaw::uniform);
   const bool spreads = t.radiusDistribution == RadiusLaw::uniform || t.radiusDistribution == RadiusLaw::lognormal;
@@ -202,19 +208,18 @@ void checkGrading(const Section& section, const Terrain& t) {
       section.fail(key, "is missing, but a graded bed requires fine_depth, coarsening and coarsest_radius; add it");
   if (*t.coarsestRadius <= *t.grainRadius)
     section.fail("coarsest_radius",
-                 fmt::format("[m] is not above the radius at the surface, {:g} m; raise it", *t.grainRadius));
+                 fmt::format("[m] must exceed the radius at the surface, {:g} m; raise it", *t.grainRadius));
   if (*t.fineDepth >= *t.depth)
-    section.fail("fine_depth", fmt::format("[m] is not above the floor, which is {:g} m deep; lower it", *t.depth));
+    section.fail("fine_depth", fmt::format("[m] reaches the floor, which is at a depth of {:g} m; lower it", *t.depth));
 }
 
 void checkRandomDepth(const Section& section, const Terrain& t) {
   const double largest = bedRadii(t).largest(), least = kLeastForPorosity * 2 * *t.grainRadius;
   if (*t.depth < largest)
-    section.fail("depth",
-                 fmt::format("[m] is less than the radius of the largest grain; set at least {:.4g}", largest));
+    section.fail("depth", fmt::format("[m] is less than the largest grain radius; set at least {:.4g}", largest));
   if (t.porosity && *t.depth < (1 - 1e-9) * least)
-    section.fail("porosity", fmt::format("[-] requires a bed at least {:g} diameters of {:g} m deep, but this one is "
-                                         "{:g} m deep; set depth = {:.3g}, or remove porosity",
+    section.fail("porosity", fmt::format("[-] requires a bed depth of at least {:g} grain diameters of {:g} m, but the "
+                                         "depth is {:g} m; set depth = {:.3g}, or remove porosity",
                                          kLeastForPorosity, 2 * *t.grainRadius, *t.depth, least));
 }
 
@@ -254,7 +259,7 @@ void checkTerrain(const Section& section, Terrain& t, const Scene& scene) {
   if (t.groundMaterial.empty()) t.groundMaterial = t.material;
   requireMaterial(scene, section, "ground_material", t.groundMaterial);
   if (t.heightRange[1] < t.heightRange[0])
-    section.fail("height_range", "[m] must be [min, max]; give the lower height first");
+    section.fail("height_range", "[m] must be [min, max]; put the lower height first");
   if (t.granular()) {
     checkBed(section, t, scene);
   } else {

@@ -20,13 +20,13 @@ using base::Table;
 
 Table<Vehicle> vehicleTable() {
   using S = Vehicle;
-  Table<S> t("vehicle", "A tracked vehicle");
+  Table<S> t("vehicle", "Tracked vehicle");
   t.add("spec", &S::spec, "",
         "vehicle file (keys: grouser fields --vehicle); searched for in the scene's folder, the working folder, the "
         "assets folder")
       .required();
   t.add("position", &S::position, "m",
-        "x and y of the point between the sprockets; \"auto\": at the near end of the terrain")
+        "initial x and y of the point midway between the sprockets; \"auto\": at the near end of the terrain")
       .atLeast(-1e6)
       .atMost(1e6)
       .orWord("auto");
@@ -37,38 +37,37 @@ Table<Vehicle> vehicleTable() {
       .atLeast(0)
       .atMost(10);
   t.add("sphere_radius", &S::sphereRadius, "m",
-        "radius of the spheres that represent the parts in contacts; \"auto\": 0.02, or finer where spheres would "
-        "protrude by more than a twentieth of the smallest grain's radius or of a quarter of the pitch")
+        "radius of the spheres that represent the parts in contacts; \"auto\": 0.02, or less if spheres would protrude "
+        "by more than a twentieth of the smallest grain radius or of a quarter of the pitch")
       .above(0)
       .atMost(1)
       .orWord("auto");
   t.add("sphere_refinement", &S::sphereRefinement, "-",
-        "divisor of all sphere radii, and of the permitted protrusion of automatic ones; grouser check doubles it in "
-        "its finer case")
+        "divisor of all sphere radii, and of the permitted protrusion of automatic radii; grouser check doubles it")
       .atLeast(1)
       .atMost(16);
   t.add("material", &S::material, "",
-        "material of the parts against grains and, for friction, obstacles; default: the material of what they touch, "
-        "with friction_ground of the vehicle file and the pull of adhesion; on rigid ground all contact data come from "
-        "the vehicle file");
+        "material of the parts in contact with grains and (friction only) obstacles; default: the material of the "
+        "contact partner, with friction_ground of the vehicle file and the adhesion set by adhesion; on rigid ground "
+        "the vehicle file defines all contact parameters");
   t.add("adhesion", &S::adhesion, "-",
-        "pull of parts without a material on cohesive grains / pull of a wall of the soil's own material, which is 4 "
-        "times that of an equal grain (twice without adhesion_radius); 0: no soil adheres")
+        "adhesive force between parts without a material and cohesive grains, relative to a wall of the soil material "
+        "(whose force is 4 times that between equal grains, or twice without adhesion_radius); 0: no adhesion")
       .atLeast(0)
       .atMost(1);
   t.add("chassis", &S::chassis, "",
-        "mount of the hull: free; fixed, as on a bench; guided, on rails along the heading, free to rise and pitch; "
-        "level, the same without pitch");
+        "constraint of the hull: free; fixed (test bench); guided (on rails along the heading, free to heave and "
+        "pitch); level (guided without pitch)");
   t.add("tracks", &S::tracks, "",
-        "both, or a single track in the middle of the hull, as on a test rig; single requires chassis = \"guided\", "
-        "\"level\" or \"fixed\". The hull keeps the mass of the vehicle file; results are those of the left track");
+        "number of tracks: both, or single (one track in the middle of the hull, as on a test rig; requires chassis = "
+        "\"guided\", \"level\" or \"fixed\"). The hull mass is unchanged; results are those of the left track");
   t.add("soil_contact", &S::soilContact, "",
-        "parts of the vehicle that touch grains: all (the hull if hull_touches) or the shoes only, so that no grain is "
-        "pinched between running gear and track; named in all results")
+        "parts of the vehicle with soil contact: all (the hull if hull_touches) or shoes only, which prevents grains "
+        "from being pinched between running gear and track; stated in all results")
       .formerly("soil_meets");
   t.add("gear_contact_model", &S::gearContactModel, "",
-        "contact geometry of shoes with wheels, sprocket, rigid ground and obstacles: \"shapes\", the dimensions in "
-        "[shapes] of the vehicle file; \"samples\", points on the meshes; \"auto\": shapes if the file has them")
+        "contact geometry of shoes with wheels, sprocket, rigid ground and obstacles: \"shapes\" (dimensions in "
+        "[shapes] of the vehicle file), \"samples\" (points on the meshes) or \"auto\" (shapes if the file has them)")
       .orWord("auto");
   t.add("hull_sphere_radius", &S::hullSphereRadius, "m",
         "radius of the spheres that represent the hull in contacts, if it has any; \"auto\": 0.02, or sphere_radius if "
@@ -77,43 +76,46 @@ Table<Vehicle> vehicleTable() {
       .atMost(1)
       .orWord("auto");
   t.add("hull_touches", &S::hullTouches, "",
-        "whether the hull has contact with the ground and with surfaces at rest, as shoes do; \"auto\": on rigid "
-        "ground, and in scenes with such surfaces; not on grains only, where it costs time")
+        "whether the hull has contact with the ground and with fixed surfaces, as the shoes have; \"auto\": on rigid "
+        "ground and in scenes with fixed surfaces, but not in scenes with grains only, where it costs time")
       .orWord("auto");
   return t;
 }
 
 Table<Driver> driverTable() {
   using S = Driver;
-  Table<S> t("driver", "Sprocket drive, and the start sequence: tension, weight, drive");
+  Table<S> t("driver", "Sprocket drive and start sequence (track tension, weight, drive)");
   t.add("drive", &S::drive, "",
-        "sprocket drive: speed (whatever torque that requires), torque, or engine (the engines of the vehicle file, "
-        "whose governors hold the speeds)");
+        "type of sprocket drive: speed (imposed, at any torque), torque (imposed), or engine (engines of the vehicle "
+        "file, whose governors control the speeds)");
   t.add("sprocket_speed", &S::sprocketSpeed, "rad/s",
-        "speed of both sprockets; positive drives forward; 0 if no speed is given")
+        "speed of both sprockets, positive forward; default: 0 if no speed is set")
       .atLeast(-100)
       .atMost(100);
   t.add("left", &S::left, "rad/s", "speed of the left sprocket; requires right").atLeast(-100).atMost(100);
   t.add("right", &S::right, "rad/s", "speed of the right sprocket; requires left").atLeast(-100).atMost(100);
-  t.add("torque", &S::torque, "N m", "torque on each sprocket; positive drives forward").atLeast(-1e7).atMost(1e7);
+  t.add("torque", &S::torque, "N m", "torque on each sprocket, positive forward").atLeast(-1e7).atMost(1e7);
   t.add("left_torque", &S::leftTorque, "N m", "torque on the left sprocket; requires right_torque")
       .atLeast(-1e7)
       .atMost(1e7);
   t.add("right_torque", &S::rightTorque, "N m", "torque on the right sprocket; requires left_torque")
       .atLeast(-1e7)
       .atMost(1e7);
-  t.add("tension_ramp", &S::tensionRamp, "s", "duration of the ramp of the idlers' springs").atLeast(0).atMost(1e3);
-  t.add("weight_ramp", &S::weightRamp, "s", "duration of the ramp of gravity and the arms' preload, after tension_ramp")
+  t.add("tension_ramp", &S::tensionRamp, "s", "ramp duration of the idler springs (track tension)")
+      .atLeast(0)
+      .atMost(1e3);
+  t.add("weight_ramp", &S::weightRamp, "s",
+        "ramp duration of gravity and the preload of the suspension arms, after tension_ramp")
       .atLeast(0)
       .atMost(1e3);
   t.add("drive_start", &S::driveStart, "s",
-        "time at which the sprockets start; \"auto\": when the vehicle is at rest after weight_ramp, or at the end of "
+        "start time of the sprockets; \"auto\": when the vehicle has come to rest after weight_ramp, or at the end of "
         "weight_ramp if the hull is fixed")
       .atLeast(0)
       .atMost(1e5)
       .orWord("auto");
   t.add("drive_ramp", &S::driveRamp, "s",
-        "duration of the speed ramp of the sprockets; \"auto\": 0.3 for constant speeds, 0 for a table")
+        "ramp duration of the sprocket speeds; \"auto\": 0.3 for constant speeds, 0 for a table")
       .atLeast(0)
       .atMost(1e3)
       .orWord("auto");
@@ -125,7 +127,7 @@ Table<Driver> driverTable() {
       .above(0)
       .atMost(0.5);
   t.add("rest_time_limit", &S::restTimeLimit, "s",
-        "time after weight_ramp by which the vehicle must be at rest; otherwise the run ends")
+        "maximum time after weight_ramp until the vehicle is at rest; otherwise the run ends")
       .above(0)
       .atMost(1e4);
   return t;
@@ -133,8 +135,10 @@ Table<Driver> driverTable() {
 
 Table<SpeedTable> speedTable() {
   using S = SpeedTable;
-  Table<S> t("driver.table", "Sprocket speeds over time, instead of fixed ones; linear between the points");
-  t.add("time", &S::time, "s", "increasing times after drive_start; a repeated time is a jump").atLeast(0).required();
+  Table<S> t("driver.table", "Sprocket speeds over time, instead of constant speeds; interpolated linearly");
+  t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time makes a jump")
+      .atLeast(0)
+      .required();
   t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();
   t.add("right", &S::right, "rad/s", "right sprocket at these times").atLeast(-100).atMost(100).required();
   return t;
@@ -142,8 +146,10 @@ Table<SpeedTable> speedTable() {
 
 Table<TorqueTable> torqueTable() {
   using S = TorqueTable;
-  Table<S> t("driver.torques", "Sprocket torques over time, instead of fixed ones; linear between the points");
-  t.add("time", &S::time, "s", "increasing times after drive_start; a repeated time is a jump").atLeast(0).required();
+  Table<S> t("driver.torques", "Sprocket torques over time, instead of constant torques; interpolated linearly");
+  t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time makes a jump")
+      .atLeast(0)
+      .required();
   t.add("left", &S::left, "N m", "left sprocket at these times").atLeast(-1e7).atMost(1e7).required();
   t.add("right", &S::right, "N m", "right sprocket at these times").atLeast(-1e7).atMost(1e7).required();
   return t;
@@ -151,31 +157,32 @@ Table<TorqueTable> torqueTable() {
 
 Table<Course> courseTable() {
   using S = Course;
-  Table<S> t("driver.course", "Closed loop: the speeds of both sprockets control the speed of the hull and keep it on "
-                              "a circle or a path of points");
+  Table<S> t("driver.course",
+             "Closed-loop control: sets the sprocket speeds so that the hull maintains a target speed and "
+             "follows a circle or path");
   t.add("speed", &S::speed, "m/s",
-        "speed of the hull at the middle of the track-ground contact length; negative: backwards")
+        "target hull speed at the middle of the track-ground contact length; negative: backwards")
       .atLeast(-50)
       .atMost(50)
       .required();
-  t.add("acceleration", &S::acceleration, "m/s2", "acceleration at the start, and deceleration at the end of a path")
+  t.add("acceleration", &S::acceleration, "m/s2", "acceleration at the start and deceleration at the end of a path")
       .above(0)
       .atMost(100);
-  t.add("radius", &S::radius, "m", "radius of a circle, positive to the left, instead of a path; default: straight")
+  t.add("radius", &S::radius, "m",
+        "radius of a circle, positive to the left, instead of a path; default: straight ahead")
       .atLeast(-1e6)
       .atMost(1e6);
-  t.add("x", &S::x, "m", "x of the corners of a path; the vehicle drives to the last").atLeast(-1e6).atMost(1e6);
+  t.add("x", &S::x, "m", "x of the corners of a path; the vehicle stops at the last one").atLeast(-1e6).atMost(1e6);
   t.add("y", &S::y, "m", "y of the corners of a path").atLeast(-1e6).atMost(1e6);
   t.add("look_ahead", &S::lookAhead, "m",
-        "distance ahead on the path of the point to which it steers; \"auto\": the distance from first to last road "
-        "wheel")
+        "look-ahead distance on the path; \"auto\": distance from the first to the last road wheel")
       .above(0)
       .atMost(1e3)
       .orWord("auto");
-  t.add("speed_gain", &S::speedGain, "-", "gain of the speed error").atLeast(0).atMost(100);
-  t.add("speed_integral", &S::speedIntegral, "1/s", "gain of its integral").atLeast(0).atMost(1e3);
-  t.add("turn_gain", &S::turnGain, "-", "gain of the yaw-rate error").atLeast(0).atMost(100);
-  t.add("turn_integral", &S::turnIntegral, "1/s", "gain of its integral").atLeast(0).atMost(1e3);
+  t.add("speed_gain", &S::speedGain, "-", "proportional gain for the speed error").atLeast(0).atMost(100);
+  t.add("speed_integral", &S::speedIntegral, "1/s", "integral gain for this error").atLeast(0).atMost(1e3);
+  t.add("turn_gain", &S::turnGain, "-", "proportional gain for the yaw-rate error").atLeast(0).atMost(100);
+  t.add("turn_integral", &S::turnIntegral, "1/s", "integral gain for this error").atLeast(0).atMost(1e3);
   t.add("max_sprocket_speed", &S::maxSprocketSpeed, "rad/s", "maximum sprocket speed in closed loop")
       .above(0)
       .atMost(100)
@@ -185,25 +192,24 @@ Table<Course> courseTable() {
 
 Table<Stop> stopTable() {
   using S = Stop;
-  Table<S> t("stop", "Conditions that end a run with a vehicle before run.duration, with exit code 0");
-  t.add("distance", &S::distance, "m", "horizontal distance from the initial position; default: no limit")
+  Table<S> t("stop", "Conditions that end a run with a vehicle before run.duration (exit code 0)");
+  t.add("distance", &S::distance, "m", "maximum horizontal distance from the initial position; default: no limit")
       .above(0)
       .atMost(1e6);
   t.add("edge", &S::edge, "m",
-        "distance of the middle of a shoe from the end of the terrain; default: a shoe that leaves the terrain is an "
-        "error")
+        "minimum distance of a shoe (its middle) from the edge of the terrain; default: the run ends with an error if "
+        "a shoe leaves the terrain")
       .atLeast(0)
       .atMost(1e6);
   t.add("immobile", &S::immobile, "s",
-        "duration for which the hull moves at less than a twentieth of the speed of its driven tracks; default: no "
-        "limit")
+        "maximum duration for which the hull speed is less than a twentieth of the track speed; default: no limit")
       .above(0)
       .atMost(1e5);
   return t;
 }
 
 void checkStop(const Section& section, Stop& s, const Scene& scene) {
-  if (!scene.vehicle) section.fail("", "needs a vehicle; add a section [vehicle], or remove this one");
+  if (!scene.vehicle) section.fail("", "requires a vehicle; add a section [vehicle], or remove this section");
   if (s.edge && !scene.terrain)
     section.fail("edge", "[m] has no effect without terrain; add a section [terrain], or remove it");
   if (scene.vehicle->chassis == ChassisMount::fixed)
@@ -221,8 +227,8 @@ void checkVehicle(const Section& section, Vehicle& v, const Scene& scene) {
   }
   resolveFile(scene, section, "spec", v.spec);
   if (v.tracks != Tracks::both && v.chassis == ChassisMount::free)
-    section.fail("tracks", "is \"single\", and a free hull on one track falls over; set vehicle.chassis = \"guided\" "
-                           "or \"level\", or tracks = \"both\"");
+    section.fail("tracks", "is \"single\", but a free hull on one track tips over; set vehicle.chassis = \"guided\" or "
+                           "\"level\", or tracks = \"both\"");
   const bool hasGround = scene.terrain || !scene.planes.empty();
   if (!hasGround && v.chassis != ChassisMount::fixed)
     section.fail("chassis", "is \"free\" without ground; add [terrain] or [[plane]], or set chassis = \"fixed\"");
@@ -241,20 +247,19 @@ void checkTorques(const Section& section, const Driver& d) {
   const bool speeds = d.sprocketSpeed || d.left || section.has("table");
   const char* given = d.torque ? "torque" : d.leftTorque ? "left_torque" : d.rightTorque ? "right_torque" : "torques";
   if (torques && d.drive != vehicle::SprocketDrive::torque)
-    section.fail(given, "[N m] requires driver.drive = \"torque\"; set that, or remove it");
+    section.fail(given, "[N m] requires driver.drive = \"torque\"; set it, or remove the key");
   if (speeds && d.drive == vehicle::SprocketDrive::torque)
     section.fail(d.sprocketSpeed ? "sprocket_speed"
                  : d.left        ? "left"
                                  : "table",
-                 "[rad/s] is incompatible with driver.drive = \"torque\"; give torque, or left_torque with "
-                 "right_torque, or [driver.torques]");
+                 "[rad/s] is incompatible with driver.drive = \"torque\"; use torque, left_torque with right_torque, "
+                 "or [driver.torques]");
   if (d.leftTorque.has_value() != d.rightTorque.has_value())
-    section.fail(given, fmt::format("[N m] requires {}; give both, or only torque",
+    section.fail(given, fmt::format("[N m] requires {}; set both, or only torque",
                                     d.leftTorque ? "right_torque" : "left_torque"));
   if ((d.torque ? 1 : 0) + (d.leftTorque ? 1 : 0) + (section.has("torques") ? 1 : 0) > 1)
-    section.fail(
-        given,
-        "[N m] is one of several given torques; keep one of torque, left_torque with right_torque, [driver.torques]");
+    section.fail(given, "[N m] conflicts with another torque setting; keep only one of torque, left_torque with "
+                        "right_torque, [driver.torques]");
   if (!section.has("course")) return;
   if (speeds)
     section.fail(d.sprocketSpeed ? "sprocket_speed"
@@ -268,31 +273,32 @@ void checkTorques(const Section& section, const Driver& d) {
 
 void checkCourse(const Section& section, Course& c, const Scene& scene) {
   if (scene.vehicle->tracks != Tracks::both)
-    section.fail("", "requires two tracks, but vehicle.tracks = \"single\"; give sprocket_speed");
+    section.fail("", "requires two tracks, but vehicle.tracks = \"single\"; use sprocket_speed");
   if (scene.vehicle->chassis == ChassisMount::fixed)
-    section.fail("", "requires a moving hull, but vehicle.chassis = \"fixed\"; free it, or give sprocket_speed");
+    section.fail("", "requires a moving hull, but vehicle.chassis = \"fixed\"; change chassis, or use sprocket_speed");
   if (c.radius && *c.radius == 0) section.fail("radius", "[m] must not be 0; set it above 0 (left) or below 0 (right)");
   if (c.radius && !c.x.empty()) section.fail("radius", "[m] is mutually exclusive with a path (x, y); remove one");
   if (c.x.size() != c.y.size())
     section.fail(c.x.size() < c.y.size() ? "x" : "y",
-                 fmt::format("[m] has {} entries, but the other coordinate has {}; give both for each corner",
+                 fmt::format("[m] has {} entries, but the other coordinate has {}; set both for each corner",
                              std::min(c.x.size(), c.y.size()), std::max(c.x.size(), c.y.size())));
-  if (c.x.size() == 1) section.fail("x", "[m] has only one corner; give at least two");
+  if (c.x.size() == 1) section.fail("x", "[m] has only one corner; set at least two");
   for (std::size_t i = 1; i < c.x.size(); ++i)
     if (c.x[i] == c.x[i - 1] && c.y[i] == c.y[i - 1])
-      section.fail("x", fmt::format("[m] and y repeat a corner at entries {} and {}; remove one", i - 1, i));
+      section.fail("x", fmt::format("[m] and y contain the same corner at entries {} and {}; remove one", i - 1, i));
   if (!c.x.empty() && c.speed < 0) section.fail("speed", "[m/s] must be above 0 on a path");
 }
 
 void checkDriver(const Section& section, Driver& d, const Scene& scene) {
   constexpr double kTyped = 1e-9; // [s]: 0.1 and 0.2 are 0.3
-  if (!scene.vehicle) section.fail("", "has no effect without a vehicle; add a section [vehicle], or remove this one");
+  if (!scene.vehicle)
+    section.fail("", "has no effect without a vehicle; add a section [vehicle], or remove this section");
   if (d.left.has_value() != d.right.has_value())
     section.fail(d.left ? "left" : "right",
-                 fmt::format("[rad/s] requires {}; give both, or only sprocket_speed", d.left ? "right" : "left"));
+                 fmt::format("[rad/s] requires {}; set both, or only sprocket_speed", d.left ? "right" : "left"));
   if ((d.sprocketSpeed ? 1 : 0) + (d.left ? 1 : 0) + (section.has("table") ? 1 : 0) > 1)
-    section.fail(d.sprocketSpeed ? "sprocket_speed" : "left",
-                 "[rad/s] is one of several given speeds; keep one of sprocket_speed, left with right, [driver.table]");
+    section.fail(d.sprocketSpeed ? "sprocket_speed" : "left", "[rad/s] conflicts with another speed setting; keep only "
+                                                              "one of sprocket_speed, left with right, [driver.table]");
   checkTorques(section, d);
   if (const double ramps = d.tensionRamp + d.weightRamp; d.driveBegins() < ramps - kTyped)
     section.fail("drive_start",
@@ -304,12 +310,12 @@ void checkDriver(const Section& section, Driver& d, const Scene& scene) {
 /// Checks a table of speeds or torques.
 template <class Sides> void checkSides(const Section& section, Sides& table, const char* unit) {
   const std::size_t n = table.time.size();
-  if (n == 0) section.fail("time", "[s] is empty; give at least one time");
+  if (n == 0) section.fail("time", "[s] is empty; set at least one time");
   if (table.left.size() != n || table.right.size() != n)
     section.fail(table.left.size() != n ? "left" : "right",
-                 fmt::format("[{}] must have as many entries as time, {}; correct the lists", unit, n));
+                 fmt::format("[{}] must have as many entries as time ({}); correct the lists", unit, n));
   if (const std::size_t i = multibody::firstOutOfOrder(table.time, true); i > 0)
-    section.fail("time", fmt::format("[s] does not increase at entry {}; sort it", i));
+    section.fail("time", fmt::format("[s] must increase, but does not at entry {}; sort it", i));
 }
 
 void checkSpeeds(const Section& section, SpeedTable& table, const Scene&) { checkSides(section, table, "rad/s"); }
@@ -320,7 +326,7 @@ void readSpecKeys(const Section& root, Scene& scene) {
   if (!root.has("spec")) return;
   const Section spec = root.section("spec");
   if (!scene.vehicle)
-    spec.fail("", "has no effect without a vehicle file; add a section [vehicle], or remove this one");
+    spec.fail("", "has no effect without a vehicle file; add a section [vehicle], or remove this section");
   const std::vector<vehicle::SpecSection> sections = vehicle::specSections();
   std::vector<std::string> names;
   for (const vehicle::SpecSection& s : sections) names.push_back(s.name);

@@ -33,7 +33,7 @@ std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenan
       storage::checkSameScene(*former, *request.resume, provenance, request.names.resume);
   if (changes.any() && !request.branch)
     throw base::InputError(
-        fmt::format("{}: [{}] differs from that of the run in {}; name another folder for the branch with --out",
+        fmt::format("{}: [{}] differs from that of the run in {}; choose another folder for the branch with --out",
                     provenance.file.string(), changes.driver ? "driver" : "hitch", request.folder.string()));
   if (former->commit != support::buildInfo().commit && request.comm().first())
     support::tell("WARNING: {} was written by commit {}, this program is {}; results are bitwise identical only if "

@@ -20,7 +20,7 @@ namespace grouser::session {
 /// Writer of channels, rows and frames of one simulation; one on each rank.
 class Recorder {
 public:
-  /// `former`: the checkpoint that the run goes on from, or null; `total`: the step at which it ends.
+  /// `former`: checkpoint that the run resumes from, or null; `total`: last step of the run.
   /// `simulation` and `record` outlive it.
   Recorder(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& options,
            const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total);
@@ -36,8 +36,8 @@ public:
   void picture(int width);
 
   output::RunWriter& writer() { return writer_; }
-  const SqueezedRecord& squeezed() const { return squeezed_; } ///< of all rows so far
-  const DriveRecord& drive() const { return drive_; }          ///< the same
+  const SqueezedRecord& squeezed() const { return squeezed_; } ///< record of all rows so far
+  const DriveRecord& drive() const { return drive_; }          ///< record of all rows so far
 
 private:
   void begin(const RunRequest& options, const storage::Checkpoint* former);
@@ -47,14 +47,14 @@ private:
 
   coupling::Simulation& simulation_;
   const setup::RecordSetup& record_;
-  const std::int64_t begunAt_; ///< step of the start, or of the checkpoint that the run goes on from
+  const std::int64_t begunAt_; ///< first step: 0, or the step of the checkpoint
   RowColumns columns_;
   std::vector<output::FramePart> parts_;
   base::TriangleMesh ground_;
   output::RunWriter writer_;
   SqueezedRecord squeezed_;
   DriveRecord drive_;
-  std::int64_t framedAt_ = -1; ///< step of the last frame, of this run or of the resumed one
+  std::int64_t framedAt_ = -1; ///< step of the last frame, including frames of a resumed run
   std::optional<output::GrainsCsv> grainsCsv_;
   std::optional<terrain::FieldGrid> fieldGrid_; ///< grid of the fields in the frames; empty without fields
 };

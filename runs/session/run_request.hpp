@@ -13,8 +13,8 @@ namespace grouser::session {
 
 /// Options of a run, beside its scene.
 struct RunRequest {
-  std::filesystem::path folder;                ///< of the results
-  bool force = false;                          ///< overwrite what is there
+  std::filesystem::path folder;                ///< results folder
+  bool force = false;                          ///< overwrite existing results
   output::OptionNames names;                   ///< names of --out, --force and --resume in messages
   std::optional<std::filesystem::path> resume; ///< resume from this checkpoint, in its folder
   std::optional<std::filesystem::path> replay; ///< repeat the inputs of the run in this folder
@@ -23,10 +23,10 @@ struct RunRequest {
   bool hash = false;                           ///< take the state hash at the end
   std::optional<std::int64_t> steps;           ///< stop after so many steps instead of the scene's duration
   bool verbose = false;                        ///< print ledger, momentum, and run time at the end
-  std::string commandLine;                     ///< for the manifest
-  std::string switches;                        ///< for the manifest: switchesText() of the scene
+  std::string commandLine;                     ///< command line for the manifest
+  std::string switches;                        ///< switchesText() of the scene, for the manifest
   bool cache = true;                           ///< use the cache of settled beds and sphere sets
-  const base::Ranks* ranks = nullptr;          ///< that run the scene together; null: this program alone
+  const base::Ranks* ranks = nullptr;          ///< ranks of the run; null: this program alone
 
   base::Comm comm() const { return ranks ? ranks->comm() : base::Comm(); }
 };

@@ -45,7 +45,7 @@ bool RunSession::goesOn() const {
 
 /// Upper bound: a waiting driver is checked again at the next check of the vehicle.
 std::int64_t RunSession::stepsToDrive() const {
-  constexpr double kRounding = 1e-6; // of a step
+  constexpr double kRounding = 1e-6; // [steps]
   const std::optional<double> start = simulation_.vehicle()->driveStart();
   if (!start) return coupling::VehicleRig::kAlarmInterval - simulation_.steps() % coupling::VehicleRig::kAlarmInterval;
   const double steps = std::ceil((*start - simulation_.time()) / simulation_.timeStep() - kRounding);
@@ -91,7 +91,7 @@ void RunSession::end() {
   simulation_.checkEnergy(); // the end may fall between two checks
   replay_.apply(simulation_, 0);
   writeInputs(); // inputs that were set after the last step belong to the state
-  // Before the last row, which a run resumed from here does not have.
+  // Before the last row: a run resumed from this checkpoint does not have that row.
   checkpoints_.write(simulation_, writer());
   // The end is always written, even between the intervals.
   if (simulation_.steps() % rowEvery_ != 0) recorder_.row();
@@ -111,7 +111,7 @@ void RunSession::leaveState() {
   }
 }
 
-/// After a failure of a file or the device: writes the last good state, which the host has, if there is room for it.
+/// After a failure of a file or the device: writes the last good state from host memory, if the disk has space.
 void RunSession::leaveCheckpoint() {
   if (!simulation_.comm().alone()) return;
   try {

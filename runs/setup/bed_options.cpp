@@ -103,17 +103,16 @@ TerrainRemarks terrainRemarks(const scene::Scene& scene) {
   const std::string name = fmt::format("terrain.heightmap = {}", scene.terrain->heightmap);
   TerrainRemarks remarks;
   if (map.colour)
-    remarks.notes.push_back(name + " is a colour image; heights are its luminance, 0.2126 red + 0.7152 green + 0.0722 "
-                                   "blue; save it as greyscale to avoid this");
+    remarks.notes.push_back(name + " is a colour image; its luminance (0.2126 red + 0.7152 green + 0.0722 blue) is "
+                                   "used as height; save it as greyscale to avoid this note");
   if (map.transparent)
-    remarks.notes.push_back(name + " has transparent pixels; heights are from their colour and alpha is ignored; save "
-                                   "it without an alpha channel");
+    remarks.notes.push_back(name + " has transparent pixels; the alpha channel is ignored; save the image without it");
   if (!scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return remarks;
   if (const std::optional<SteepPlace> edge = steepestEdge(surfaceOf(scene, map), bedOptions(scene).smallestRadius()))
     remarks.warnings.push_back(
         fmt::format("the floor below the bed follows {}, whose slope is {:.3g} m/m ({:.0f} degrees) at ({:.4g}, "
-                    "{:.4g}) m; grains can be pressed through such an edge during settling; set terrain.floor = "
-                    "\"flat\", or spread the edge over more pixels",
+                    "{:.4g}) m; such steep edges can let grains through during settling; set terrain.floor = \"flat\", "
+                    "or spread the edge over more pixels",
                     name, edge->slope, base::atan2(edge->slope, 1.0) * 180 / base::kPi, edge->x, edge->y));
   return remarks;
 }

@@ -13,7 +13,7 @@ namespace grouser::setup {
 void checkComplementarity(const scene::Scene& scene) {
   if (!hasComplementarity(scene)) return;
   const auto fail = [&](const std::string& message) { scene.fail("run", "contact", message); };
-  if (!ContactPairs(scene).kinds.any()) fail("has no effect without grains; remove it, or give the scene grains");
+  if (!ContactPairs(scene).kinds.any()) fail("has no effect without grains; remove it, or add grains");
   for (const scene::Material& m : scene.materials)
     if (m.yields())
       scene.failMaterial(
@@ -28,22 +28,22 @@ void checkComplementarity(const scene::Scene& scene) {
   const bool rigid = scene.complementarity && scene.complementarity->compliance == contact::Compliance::rigid;
   for (const scene::Material& m : scene.materials)
     if (rigid && m.cohesion > 0)
-      scene.failMaterial(
-          m.name, "cohesion",
-          "[J/m2] requires overlap, which rigid contacts do not have; set complementarity.compliance = \"law\"");
+      scene.failMaterial(m.name, "cohesion",
+                         "[J/m2] requires contact overlap, which rigid contacts do not have; set "
+                         "complementarity.compliance = \"law\"");
   for (const scene::ContactPair& p : scene.contacts)
     if (rigid && p.cohesion.value_or(0) > 0)
-      fail(fmt::format("has rigid contacts, but contact.\"{}|{}\" has cohesion, which requires overlap; set "
+      fail(fmt::format("has rigid contacts, but contact.\"{}|{}\" has cohesion, which requires contact overlap; set "
                        "complementarity.compliance = \"law\"",
                        p.first, p.second));
   if (scene.output.fieldsCell)
-    scene.fail(
-        "output", "fields_cell",
-        "[m] requires penalty contacts, whose springs give the stresses; remove it, or set run.contact = \"penalty\"");
+    scene.fail("output", "fields_cell",
+               "[m] requires penalty contacts, since stresses are computed from contact springs; remove it, or set "
+               "run.contact = \"penalty\"");
   if (!scene.run.residual && norm(scene.run.gravity) == 0)
     scene.fail("run", "residual",
-               "[m/s] has no \"auto\" value with run.gravity = 0 (0.01 of the speed that gravity adds in a step); set "
-               "a value");
+               "[m/s] cannot be \"auto\" with run.gravity = 0, since \"auto\" is 0.01 of the speed that gravity adds "
+               "per step; set a value");
 }
 
 bool hasComplementarity(const scene::Scene& scene) {

@@ -81,7 +81,7 @@ std::string shortDriveWarning(const scene::Scene& scene) {
   const double teeth = teethAsked(scene);
   if (teeth >= kFewestTeeth) {
     if (teethAsked(scene, true) >= 1) return {};
-    return fmt::format("steady driving covers less than one sprocket tooth (the ramp ends at {:.4g} s{}, "
+    return fmt::format("the steady part of the drive covers less than one sprocket tooth (the ramp ends at {:.4g} s{}, "
                        "the run ends at {:g} s), so means over steady motion are inconclusive; {}",
                        scene.driver.driveBegins() + rampOf(scene), scene.driver.driveStart ? "" : " at the earliest",
                        scene.run.duration, longerDriveRemedy(scene));
@@ -90,7 +90,7 @@ std::string shortDriveWarning(const scene::Scene& scene) {
                      teeth >= kLeastTeeth ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
                      scene.driver.driveBegins(), scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,
                      teeth >= kLeastTeeth
-                         ? fmt::format(", and figures from fewer than {:g} teeth are inconclusive", kFewestTeeth)
+                         ? fmt::format(", and results from fewer than {:g} teeth are inconclusive", kFewestTeeth)
                          : "",
                      longerDriveRemedy(scene));
 }

@@ -16,10 +16,10 @@ void checkFields(const scene::Scene& scene, const coupling::GroundSetup& ground)
   const coupling::GrainsSetup& grains = *ground.grains;
   const double diameter = 2 * grains.model.radius;
   if (*o.fieldsCell < diameter)
-    fail(fmt::format("[m] is smaller than the largest grain, whose diameter is {:.4g} m; use three diameters or more",
+    fail(fmt::format("[m] is smaller than the largest grain diameter, {:.4g} m; use at least three diameters",
                      diameter));
   if (!o.fieldsLow && !grains.bed && grains.start.empty())
-    fail("has no box, since the scene has no grains at the start; set fields_low and fields_high");
+    fail("has no default box, since the scene has no grains at the start; set fields_low and fields_high");
   if (!o.fieldsLow) return;
   const auto cellsOf = [&](double edge) {
     const auto n = terrain::fieldGrid(*o.fieldsLow, *o.fieldsHigh, edge, {}).cells;
@@ -29,8 +29,7 @@ void checkFields(const scene::Scene& scene, const coupling::GroundSetup& ground)
   while (cellsOf(larger) > kMostFieldCells) larger *= 1.1;
   if (larger > *o.fieldsCell)
     fail(fmt::format(
-        "[m] makes {:.3g} cells of this box, at most {:g} are supported; use {:.2g} m or more, or a smaller "
-        "box",
+        "[m] divides the box into {:.3g} cells, but at most {:g} are supported; use {:.2g} m or more, or a smaller box",
         cellsOf(*o.fieldsCell), kMostFieldCells, 1.05 * larger));
 }
 

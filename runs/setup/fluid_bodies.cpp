@@ -83,8 +83,8 @@ std::vector<Vec3d> pointsOf(const coupling::BodyShape& s, double spacing, int fl
   return boxPoints(halfExtent(s.shape), spacing, flat);
 }
 
-/// Axis of a shape's frame that lies along y, in which the plane of a fluid in two dimensions has no extent; -1 where
-/// none does.
+/// Axis of a shape's frame that is parallel to y, the direction without extent of a two-dimensional fluid; -1: no axis
+/// is.
 int axisAcross(const coupling::BodyShape& s, const base::Pose& pose) {
   const Vec3d across = transposedTimes(pose.orientation.matrix(), Vec3d{0, 1, 0});
   for (int a = 0; a < 3; ++a) {
@@ -108,7 +108,7 @@ coupling::BodyMesh partMesh(const std::string& file, Vec3d& centre) {
 /// Markers of shapes in their frames. Parts of one kind share one set.
 class PartMarkers {
 public:
-  /// Returns false where none lies within the shape.
+  /// Returns false if the shape contains no marker.
   bool add(const coupling::BodyShape& s, const fluid::FluidModel& model, int across) {
     std::vector<Vec3d>& markers = of_[keyOf(s)];
     const double dx = model.spacing, depth = std::ceil(model.kernel().support() / dx) * dx;
@@ -124,7 +124,7 @@ private:
   std::map<const void*, std::vector<Vec3d>> of_;
 };
 
-/// Adds the markers of the shapes of one body, but those within an earlier shape, and sets the gain.
+/// Adds the markers of the shapes of one body, except markers inside an earlier shape, and sets the gain.
 void addMarkers(coupling::BodyInFluid& in, const multibody::Body& body,
                 const std::vector<const coupling::BodyShape*>& shapes, const PartMarkers& markers,
                 const fluid::FluidModel& model) {
@@ -191,7 +191,7 @@ void StartingBodies::addVehicle(const scene::Scene& scene) {
   columns_.resize(bodies_.size());
   struct Kind {
     std::shared_ptr<const coupling::BodyMesh> mesh;
-    Vec3d centre, half; ///< of the bounding box in the part's frame [m]
+    Vec3d centre, half; ///< centre and half edges of the bounding box in the part's frame [m]
   };
   std::map<std::string, Kind> kinds;
   for (const vehicle::Part& part : assembly.parts) {
@@ -266,8 +266,8 @@ std::vector<coupling::BodyInFluid> StartingBodies::inFluid(const scene::Scene& s
       const bool plane = model.dimensions == 2;
       const int across = plane ? axisAcross(s, placed.pose) : -1;
       if (plane && across < 0)
-        fail("must be a box with faces parallel to the plane of fluid.dimensions = 2, or a cylinder along y; use "
-             "these, or dimensions = 3");
+        fail("must be a box aligned with the x-z plane or a cylinder along y, since fluid.dimensions = 2; change the "
+             "shape, or set dimensions = 3");
       if (!ofParts.add(s, model, across) || (b >= ofVehicle_ && 2 * coupling::halfThickness(s) < model.spacing))
         fail(fmt::format("is {:.3g} m thick, less than fluid.spacing = {:g} m, so it contains no markers; increase its "
                          "thickness, or reduce the spacing",

@@ -157,8 +157,8 @@ fluid::FluidModel fluidModel(const scene::Scene& scene) {
   const double least = kLeast * std::max(std::sqrt(fall), fastest);
   if (m.soundSpeed < least || !(m.soundSpeed > 0))
     scene.fail("fluid", fluid.soundSpeed ? "sound_speed" : "expected_speed",
-               fmt::format("[m/s] gives a sound speed of {:.4g} m/s, too low for this depth and speed; use at least {} "
-                           "m/s, preferably {} m/s",
+               fmt::format("[m/s] results in a sound speed of {:.4g} m/s, too low for this depth and flow speed; use "
+                           "at least {} m/s, preferably {} m/s",
                            m.soundSpeed, base::roundedUp(least, 3), base::roundedUp(2.5 * least, 2)));
   return m;
 }
@@ -195,7 +195,7 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   if (setup.fluid.particles.empty())
     scene.fail(
         "fluid", "",
-        "has no particles, since its level and boxes lie in solids or are thinner than the spacing; correct them");
+        "contains no particles: its level and boxes are inside solids or thinner than the spacing; correct them");
   for (const scene::FluidProbe& p : scene.fluid->probes)
     setup.probes.push_back({p.name, p.kind == scene::FluidProbeKind::level, p.position});
   setup.top = tank.high.z;

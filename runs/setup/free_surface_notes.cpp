@@ -17,7 +17,7 @@
 namespace grouser::setup {
 
 std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
-  constexpr double kHeavy = 20; // grains; then the dashpot is 2.5 % stronger than asked for
+  constexpr double kHeavy = 20; // [grain masses]; the dashpot is then 2.5 % too strong
   const ContactPairs pairs(scene);
   const GrainKinds::Kind* heaviest = nullptr;
   double grain = 0; // its mass [kg]
@@ -25,7 +25,7 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
     if (const double mass = base::sphereMass(scene.material(kind.material).density, kind.largest); mass > grain)
       grain = mass, heaviest = &kind;
   std::vector<std::string> notes;
-  if (hasComplementarity(scene)) return notes; // whose rebounds need no dashpots
+  if (hasComplementarity(scene)) return notes; // complementarity contacts need no dashpots
   const auto look = [&](const std::string& what, const std::string& material, double mass) {
     if (!heaviest || mass >= kHeavy * grain) return;
     const contact::ContactLaw law = pairLaw(scene, heaviest->material, material, grain);
@@ -33,8 +33,8 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
                  made = contact::restitutionOf(law, grain, grain * mass / (grain + mass));
     if (wanted - made < 0.005) return;
     notes.push_back(fmt::format(
-        "{} has a mass of {:g} kg, and the heaviest grain {:.3g} kg: the restitution of their impact is {:.3f} instead "
-        "of {:.3f}, since damping depends on the grain's mass only; use a mass of at least {} kg",
+        "{} has a mass of {:g} kg, and the heaviest grain {:.3g} kg: their impacts have a restitution of {:.3f} "
+        "instead of {:.3f}, since damping depends on the grain mass only; use a mass of at least {} kg",
         what, mass, grain, made, wanted, base::roundedUp(kHeavy * grain, 3)));
   };
   for (const SceneSurface& s : pairs.surfaces)
@@ -54,8 +54,10 @@ std::string bodyContactsNote(const scene::Scene& scene) {
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   add(std::any_of(surfaces.begin(), surfaces.end(), moves), "planes, boxes, cylinders and meshes that move");
   add(scene.terrain && scene.terrain->granular(), "the walls and floor of the terrain");
-  return others.empty() ? ""
-                        : fmt::format("bodies pass through {}; for contact with bodies use a driven [[body]]", others);
+  return others.empty()
+             ? ""
+             : fmt::format("bodies pass through {}, which have contact with grains only; use a driven [[body]] instead",
+                           others);
 }
 
 } // namespace grouser::setup

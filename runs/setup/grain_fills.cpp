@@ -16,9 +16,9 @@ namespace {
 using base::Vec3d;
 
 constexpr std::uint64_t kPurpose = base::purpose("grains.block");
-constexpr int kTries = 2000; // of finding a free place for one grain
+constexpr int kTries = 2000; // attempts to find a free position for one grain
 
-/// Uniform numbers of one grain of one block.
+/// Uniform random numbers of one grain of one block.
 struct Dice {
   std::uint64_t seed, block, id, next = 0;
   double operator()() { return base::uniform(seed, kPurpose + block, id, next++); }
@@ -62,7 +62,7 @@ void addLattice(const scene::GrainFill& b, std::uint64_t seed, std::uint64_t blo
       }
 }
 
-/// Grains one after the other, each at the first of its random places that is free.
+/// Places grains one after the other, each at the first free one of its random positions.
 void addRandom(const scene::Scene& scene, const scene::GrainFill& b, std::uint64_t seed, std::uint64_t block,
                std::vector<scene::Grain>& out) {
   const double edge = 2 * b.largestRadius();
@@ -94,8 +94,7 @@ void addRandom(const scene::Scene& scene, const scene::GrainFill& b, std::uint64
         scene.fail(
             "grains", block, "number",
             fmt::format(
-                "is too large: the box has room for only {} grains; enlarge the box (low, high), or lower the number",
-                k));
+                "is too large; only {} grains fit into the box; enlarge the box (low, high), or lower the number", k));
       Vec3d place;
       for (int a = 0; a < 3; ++a) place[a] = (*b.low)[a] + radius + dice() * ((*b.high)[a] - (*b.low)[a] - 2 * radius);
       if (!isFree(place, radius)) continue;

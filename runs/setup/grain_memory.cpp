@@ -15,7 +15,7 @@ namespace {
 
 /// Traits of the scene's grains. They do not depend on the positions of walls and floor.
 struct Traits {
-  unsigned features; ///< of the laws, grains and boundaries
+  unsigned features; ///< features of laws, grains and boundaries
   terrain::GrainLayout layout;
   terrain::GrainModel model;
 };
@@ -68,7 +68,7 @@ KernelTraits kernelTraits(const scene::Scene& scene, const ContactPairs& pairs) 
 }
 
 GrainMemory grainMemory(const scene::Scene& scene) {
-  // Listed neighbours of a grain in a settled bed at the default skin, with spare slots; and those of them that touch.
+  // Per grain in a settled bed at the default skin: listed neighbours with spare slots, and contacts.
   constexpr double kPlaces = 8, kContacts = 4;
   constexpr double kWord = sizeof(std::uint32_t), kMask = sizeof(std::uint64_t);
   const Traits traits = traitsOf(scene, ContactPairs(scene), floorShape(scene));
@@ -83,8 +83,8 @@ GrainMemory grainMemory(const scene::Scene& scene) {
   // Count, start, mask and id of a row.
   m.lists = 3 * kWord + kMask + kPlaces * kWord * (layout.radii ? 2 : 1); // the slot, and the sum of radii
   m.history = kPlaces * history;
-  // Saved contacts with a start, the order of the grains, one cell of the grid and on a GPU its contents; less the
-  // memory that is freed meanwhile.
+  // Saved contacts with a start, the order of the grains, one cell of the grid and on a GPU its contents; minus the
+  // memory freed during the rebuild.
   const double rebuild = kContacts * (kWord + history) + 4 * kWord;
   m.rebuild = std::max(0.0, rebuild - static_cast<double>(terrain::GrainFields(layout).bytesMadeAnew()));
   return m;

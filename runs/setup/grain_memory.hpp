@@ -9,10 +9,10 @@ namespace grouser::setup {
 /// Device memory per grain of a scene by purpose [bytes]: the fields of terrain::GrainFields, and the lists of a
 /// settled bed, before anything is allocated.
 struct GrainMemory {
-  double state{};      ///< fields of grains alone: places, velocities, spins of this step and the next, and the like
-  double lists{};      ///< neighbours
+  double state{};      ///< grain fields: positions, velocities and spins of this step and the next, and others
+  double lists{};      ///< neighbour lists
   double history{};    ///< springs and rolling angles of contacts between grains
-  double boundaries{}; ///< touch with planes and floor, and history there
+  double boundaries{}; ///< contacts with planes and floor, and their history
   double rebuild{};    ///< additional, while the lists are rebuilt
   double total() const { return state + lists + history + boundaries; }
   double most() const { return total() + rebuild; }
@@ -20,7 +20,7 @@ struct GrainMemory {
 
 /// Traits that select the kernels of grains: terrain::stepKernel(), boundaryKernel().
 struct KernelTraits {
-  unsigned features; ///< of laws, grains and boundaries, and loads of rigid parts
+  unsigned features; ///< features of laws, grains and boundaries, and loads on rigid parts
   terrain::GrainModel model;
 };
 /// Traits of the grains of a scene, which must have grains.

@@ -17,8 +17,8 @@ struct Surroundings {
     base::Vec3d normal;
     double offset;
     std::string material;
-    std::string name{};               ///< in messages: "plane 0"
-    std::optional<double> friction{}; ///< replaces that of the materials [-]
+    std::string name{};               ///< name in messages: "plane 0"
+    std::optional<double> friction{}; ///< replaces the friction of the materials [-]
   };
   std::vector<Wall> walls;
   std::optional<terrain::HeightField> floor;
@@ -26,8 +26,8 @@ struct Surroundings {
   std::vector<SceneSurface> surfaces{};
 };
 
-/// Walls and floor of the terrain, planes and surfaces, in the order of the grains' boundaries. `bedWalls`: positions
-/// of the walls of a bed.
+/// Walls and floor of the terrain, planes and surfaces, in the order of the grains' boundaries. `bedWalls`: rectangle
+/// between the walls of a bed.
 Surroundings surroundingsOf(const scene::Scene& scene, const ContactPairs& pairs,
                             const std::optional<terrain::HeightField>& floor, const terrain::Rectangle& bedWalls);
 

@@ -47,7 +47,7 @@ public:
     const auto [x, y] = scene_.terrain->size;
     if (!(x < limit_ && 0.5 * y < limit_))
       scene_.fail("terrain", "size",
-                  fmt::format("[m] extends beyond {:.6g} m from the origin, the position range for grains of {}; use "
+                  fmt::format("[m] extends beyond {:.6g} m from the origin, the maximum distance for grains of {}; use "
                               "larger grains or a smaller terrain",
                               limit_, scene::radiiText(*scene_.terrain)));
   }
@@ -65,8 +65,8 @@ public:
       };
       if (!(std::fabs(from) < limit_ && std::fabs(to) < limit_)) fail(tooFar());
       if (to - from < least)
-        fail(fmt::format(" sets periodic boundaries along {} that are too close, so a grain could touch two images of "
-                         "another; set them at least {} m apart (three diameters plus run.skin), or use smaller grains",
+        fail(fmt::format(" makes the periodic boundaries along {} too close: a grain could touch two images of another "
+                         "grain; set them at least {} m apart (three diameters plus run.skin), or use smaller grains",
                          "xy"[a], base::roundedUp(least, 6)));
     }
   }
@@ -80,7 +80,7 @@ public:
     std::string others;
     if (floor > 0) others = ", including floor and walls of the terrain";
     if (floor > 1)
-      others += fmt::format(" (the floor counts as {}, since its hollows are narrower than the grains)", floor);
+      others += fmt::format(" (the floor counts as {}, since it has hollows narrower than a grain)", floor);
     std::size_t count = floor + walls;
     const auto add = [&](const char* list, std::size_t sections) {
       count += sections;
@@ -104,7 +104,7 @@ public:
       for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;
       if (grains > kMostGrains)
         scene_.fail("grains", k, "radius",
-                    fmt::format("[m] makes a lattice of about {:.3g} grains between low and high, more than {:g}; use "
+                    fmt::format("[m] results in a lattice of about {:.3g} grains, more than the maximum {:g}; use "
                                 "larger grains or a smaller box",
                                 grains, kMostGrains));
     }
@@ -120,16 +120,17 @@ private:
     return static_cast<std::size_t>(around.floorPlaces(kinds_.largest));
   }
   void radius(const char* list, std::size_t k, const char* key, double smallest) const {
-    constexpr double kSmallest = 1e-12; // [m]; no unit of places resolves a hundred-millionth of much less
+    constexpr double kSmallest = 1e-12; // [m]; no unit of positions resolves 1e-8 of a much smaller radius
     if (smallest < kSmallest)
-      scene_.fail(list, k, key,
-                  fmt::format("[m] gives a grain radius of {:g} m, smaller than {:g} m; give it in metres", smallest,
-                              kSmallest));
-    constexpr double kLeast = 1e-3; // of the largest [-]; see terrain::Grains
+      scene_.fail(
+          list, k, key,
+          fmt::format("[m] results in a grain radius of {:g} m, below the minimum {:g} m; check the unit (metres)",
+                      smallest, kSmallest));
+    constexpr double kLeast = 1e-3; // radius / largest radius [-]; see terrain::Grains
     if (smallest < kLeast * kinds_.largest)
       scene_.fail(list, k, key,
-                  fmt::format("[m] gives a grain radius of {:g} m, less than 0.001 of the largest, {:g} m; raise it, "
-                              "or lower the largest",
+                  fmt::format("[m] results in a grain radius of {:g} m, less than 0.001 of the largest, {:g} m; raise "
+                              "it, or lower the largest",
                               smallest, kinds_.largest));
   }
   void place(const char* list, std::size_t k, const char* key, const Vec3d& p) const {
@@ -137,7 +138,7 @@ private:
       scene_.fail(list, k, key, "[m]" + tooFar());
   }
   std::string tooFar() const {
-    return fmt::format(" is farther than {:.6g} m from the origin, the position range for grains of radius {:g} m; "
+    return fmt::format(" is farther than {:.6g} m from the origin, the maximum distance for grains of radius {:g} m; "
                        "move the scene closer to the origin, or use larger grains",
                        limit_, kinds_.largest);
   }

@@ -60,8 +60,8 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, coupling:
   return plan;
 }
 
-/// A level piece of the bed as a separate scene, with vertical gravity and without anything but the bed. `layers`: of a
-/// lattice; `depth` [m]: of a random bed.
+/// A level piece of the bed as a separate scene, with vertical gravity and the bed only. `layers`: layers of a lattice;
+/// `depth`: depth of a random bed [m].
 scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, const std::array<double, 2>& size) {
   scene::Scene piece = scene;
   piece.run.periodic = {true, true};
@@ -83,7 +83,7 @@ scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, con
   return piece;
 }
 
-/// The message of an error that is only found later.
+/// Message for an error that occurs later.
 template <class Fail> std::string messageOf(const Fail& fail) {
   try {
     fail();
@@ -100,8 +100,8 @@ coupling::TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightFi
   const terrain::HeightFieldBounds floor = plan.floor.bounds(), top = surface.bounds();
   if (floor.highest - floor.lowest > 1e-6 * radius)
     scene.fail("terrain", "tile",
-               fmt::format("[m] requires a level floor, but with floor = \"{}\" it follows terrain.heightmap from {:g} "
-                           "to {:g} m; set terrain.floor = \"flat\", or remove tile",
+               fmt::format("[m] requires a level floor, but floor = \"{}\" follows terrain.heightmap from {:g} to {:g} "
+                           "m; set terrain.floor = \"flat\", or remove tile",
                            base::wordOf(t.floor), floor.lowest, floor.highest));
   coupling::TileSetup tile;
   tile.periodic = scene.run.periodic, tile.terrainSize = t.size;
@@ -139,12 +139,12 @@ coupling::PreparationSetup preparationSetup(const scene::Scene& scene, const ter
   const double width = std::max(kWidth * mean, kWidthOfLargest * largest);
   scene::Scene sample =
       pieceScene(scene, 0, t.coarsening ? *t.depth : std::min(*t.depth, kDepth * mean), {width, width});
-  sample.run.seed = 1; // of another bed of the same soil
+  sample.run.seed = 1; // sample: another bed of the same soil
   sample.terrain->porosity.reset();
   if (scene.material(t.material).friction <= 0)
     scene.fail("terrain", "porosity",
-               "[-] is prepared by friction during settling, but the material of the bed has friction = 0; remove it, "
-               "or set friction of the material");
+               "[-] is reached by adjusting the grain friction during settling, but the friction of the bed material "
+               "is 0; remove it, or set the friction of the material");
   return {*t.porosity, std::make_shared<const coupling::GroundSetup>(groundSetup(sample, timeStep)),
           messageOf([&] { scene.fail("terrain", "porosity", "[-]"); }),
           t.cache ? fmt::format("porosity {:a}\n{}", *t.porosity, bedOrigin(sample, timeStep)) : ""};
@@ -152,7 +152,7 @@ coupling::PreparationSetup preparationSetup(const scene::Scene& scene, const ter
 
 coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, const terrain::HeightField& surface,
                             const terrain::BedPlan& plan, double timeStep) {
-  constexpr double kCrystal = 0.006; // above random close packing [-]: what overlaps and small samples add
+  constexpr double kCrystal = 0.006; // excess over random close packing [-], by overlaps and small samples
   const scene::Terrain& t = *scene.terrain;
   coupling::BedSetup bed;
   bed.options = bedOptions(scene), bed.walls = plan.walls;
@@ -164,7 +164,7 @@ coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, 
   bed.material = kinds.indexOf(t.material);
   bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio, t.lattice()};
   bed.cache = t.cache;
-  if (isPutOnBed(scene)) return bed; // its bed has the rest
+  if (isPutOnBed(scene)) return bed; // sceneOfBed() has the other settings
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
   if (t.tile) bed.tile = tileSetup(scene, surface, plan, timeStep);
   if (random) bed.densest = terrain::randomClosePacking(random->radii) + kCrystal;
@@ -172,7 +172,7 @@ coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, 
   return bed;
 }
 
-/// The laws between each material of the grains and the parts that they touch: the vehicle's, meshes or bodies.
+/// Contact laws between each grain material and the parts: of a vehicle, meshes or bodies.
 contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds& kinds, double grainMass) {
   contact::GrainPartMaterials all;
   const std::optional<VehicleSurface> ofSoil = vehicleSurface(scene);

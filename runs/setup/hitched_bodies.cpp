@@ -38,8 +38,8 @@ std::vector<bool> hitchedBodies(const scene::Scene& scene, const multibody::Mode
     const multibody::Joint& joint = model.joints()[j];
     if ((is(joint.bodyA) && !moves(joint.bodyB)) || (is(joint.bodyB) && !moves(joint.bodyA)))
       scene.fail("joint", j - first.joints, "bodies",
-                 "connect the vehicle rigidly to the world, but its height changes when it is placed on the ground; "
-                 "use a [[spring]] or [[bushing]]");
+                 "connect the vehicle rigidly to the world, which prevents its placement on the ground; use a "
+                 "[[spring]] or [[bushing]]");
   }
   return hitched;
 }

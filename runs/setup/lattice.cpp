@@ -15,7 +15,7 @@ namespace grouser::setup {
 
 namespace {
 
-constexpr const char* kRemedy = "change it, or the number of ranks (mpirun -np)";
+constexpr const char* kRemedy = "change the key or the number of ranks (mpirun -np)";
 
 bool fits(int ranks, const std::array<int, 3>& wanted) {
   try {
@@ -58,14 +58,15 @@ void checkLattice(const scene::Scene& scene, int ranks) {
   for (std::size_t a = 0; a < 3; ++a)
     if (!cuts[a]->empty())
       scene.fail("parallel", std::string("cuts_") + "xyz"[a],
-                 fmt::format("[m] makes {} subdomains along {}, but the lattice [{}, {}, {}] of the scene (0: any "
-                             "number up to {}) does not fit {} ranks, one subdomain each; {}",
+                 fmt::format("[m] results in {} subdomains along {}, but a lattice [{}, {}, {}] (0: any number up to "
+                             "{}) cannot have one subdomain for each of {} ranks; {}",
                              wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], contact::kMostSubdomainsAnAxis,
                              ranks, kRemedy));
   if (scene.parallel.subdomains)
-    scene.fail("parallel", "subdomains", fmt::format("does not give {} subdomains, one per rank; {}", ranks, kRemedy));
-  throw base::InputError(fmt::format("{}: {} ranks do not form a lattice with at most {} subdomains along each axis; "
-                                     "use a different number of ranks (mpirun -np)",
+    scene.fail("parallel", "subdomains",
+               fmt::format("does not result in {} subdomains, one per rank; {}", ranks, kRemedy));
+  throw base::InputError(fmt::format("{}: {} ranks cannot be arranged in a lattice with at most {} subdomains along "
+                                     "each axis; use a different number of ranks (mpirun -np)",
                                      scene.file.string(), ranks, contact::kMostSubdomainsAnAxis));
 }
 

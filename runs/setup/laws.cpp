@@ -19,14 +19,15 @@ contact::ContactLaw pairLaw(const scene::Scene& scene, const std::string& nameA,
     if (error.reason == contact::MixingError::Reason::lawsDiffer)
       scene.failMaterial(
           at.name, error.key,
-          fmt::format("is incompatible with law = \"{}\" of material.{}, which it touches; use hertz or eepa for both, "
-                      "or linear, eepa_linear or luding for both (eepa_linear and luding are incompatible)",
+          fmt::format("is incompatible with law = \"{}\" of material.{}, a contact partner; use hertz or eepa for "
+                      "both, or linear, eepa_linear or luding for both (eepa_linear and luding are incompatible)",
                       base::wordOf(other.law), other.name));
     if (error.reason == contact::MixingError::Reason::dampingBesideRestitution)
-      scene.failMaterial(at.name, error.key,
-                         fmt::format("[1/s] cannot be mixed with the restitution of material.{} for grains of "
-                                     "different masses; give both materials the same key, or set [contact.\"{}|{}\"]",
-                                     other.name, a.name, b.name));
+      scene.failMaterial(
+          at.name, error.key,
+          fmt::format("[1/s] cannot be combined with the restitution of material.{} for grains of different masses; "
+                      "use damping or restitution in both materials, or set [contact.\"{}|{}\"]",
+                      other.name, a.name, b.name));
     scene.failMaterial(at.name, error.key, "[Pa] is missing; add it, e.g. young = 7e7");
   }
 }

@@ -21,7 +21,7 @@ using base::Section;
 
 namespace {
 
-/// Throws the error of a part with its place in the file, if the file has the part.
+/// Throws the error of a part with its location in the file, if the file has the part.
 void failAtPart(const Section& root, const multibody::PartError& error) {
   const multibody::PartName& part = error.part();
   for (const Section& section : root.list(part.kind)) {
@@ -41,7 +41,7 @@ void checkWhole(const Section& root, const multibody::Model& model, const scene:
   }
 }
 
-/// Runs `check`; a fault gets the place of its key.
+/// Runs `check`; an error names the location of its key.
 template <class Check> void withPlace(const Section& section, const Check& check) {
   try {
     check();
@@ -75,16 +75,17 @@ void rejectUnusedSurface(const Section& section, const scene::Scene& scene, cons
   const bool others = scene.vehicle || scene.mechanism.touches() || scene.fluid;
   if (others && !s.moves) return;
   if (others)
-    section.fail("", "moves, but vehicle and bodies touch surfaces at rest only; remove its motion, or the surface");
+    section.fail(
+        "", "moves, but vehicle and bodies have contact with fixed surfaces only; remove the motion or the surface");
   section.fail("", s.kind == coupling::SurfaceKind::plane
-                       ? "moves or has a name, which has no effect without grains; remove motion and name"
+                       ? "has a motion or name, which has no effect without grains; remove it"
                        : "has no effect without grains; remove it");
 }
 
 /// Checks that surfaces have an effect, unique names, and room for grains.
 void checkSurfaces(const Section& root, const ContactPairs& pairs, const scene::Scene& scene) {
   const GrainKinds& kinds = pairs.kinds;
-  std::map<std::string, std::string> places; // of names
+  std::map<std::string, std::string> places; // section by name
   for (const SceneSurface& s : pairs.surfaces) {
     const Section section = root.list(s.list())[s.number];
     if (!kinds.any()) rejectUnusedSurface(section, scene, s);
@@ -92,9 +93,11 @@ void checkSurfaces(const Section& root, const ContactPairs& pairs, const scene::
     if (!fresh)
       section.fail("name", fmt::format("\"{}\" is also the name of {}; choose another", s.name, other->second));
     if (s.geometry.shape == terrain::SurfaceShape::tube && kinds.any() && s.geometry.half.x <= kinds.largest)
-      section.fail("radius", fmt::format("[m] is not above the radius of the largest grain, {:g} m, which a hollow "
-                                         "cylinder must contain; raise it, or set hollow = false",
-                                         kinds.largest));
+      section.fail(
+          "radius",
+          fmt::format(
+              "[m] of a hollow cylinder must exceed the largest grain radius, {:g} m; raise it, or set hollow = false",
+              kinds.largest));
   }
 }
 

@@ -24,7 +24,7 @@ std::string text(const Vec3d& v) { return fmt::format("({:.7g}, {:.7g}, {:.7g})"
 Vec3d direction(const char* key, const std::optional<Vec3d>& v) {
   if (!v)
     throw support::SectionFault(key, "[-] is missing, but this type of joint requires it; add it, e.g. [0, 0, 1]");
-  if (norm2(*v) == 0) throw support::SectionFault(key, "[-] is zero; give a direction, e.g. [0, 0, 1]");
+  if (norm2(*v) == 0) throw support::SectionFault(key, "[-] has zero length; set a direction, e.g. [0, 0, 1]");
   return normalized(*v);
 }
 
@@ -39,8 +39,8 @@ JointFrames placedInWorld(const scene::JointSection& j) {
                                    {"axis_a", j.axisA.has_value()},
                                    {"axis_b", j.axisB.has_value()}})
     if (given)
-      throw support::SectionFault(
-          key, "is mutually exclusive with point; give point and axis in the world, or the four keys in the bodies");
+      throw support::SectionFault(key, "is mutually exclusive with point; set either point and axis in the world "
+                                       "frame, or point_a, point_b, axis_a and axis_b in the body frames");
   if (!hasAxis(j.type)) return {{*j.point, {}}, {*j.point, {}}};
   const Vec3d z = direction("axis", j.axis);
   Pose X = multibody::frameWithZ(*j.point, z);
@@ -49,7 +49,7 @@ JointFrames placedInWorld(const scene::JointSection& j) {
     if (std::fabs(dot(x, z)) > kStartGap)
       throw support::SectionFault(
           "second_axis",
-          fmt::format("[-] is {:.6g} rad from perpendicular to axis; make them perpendicular at the start",
+          fmt::format("[-] must be perpendicular to axis at the start, but deviates by {:.6g} rad; correct it",
                       std::fabs(dot(x, z))));
     X = multibody::frameWithZX(*j.point, z, x);
   }
@@ -59,16 +59,18 @@ JointFrames placedInWorld(const scene::JointSection& j) {
 /// Both frames from points and axes in the bodies, which must coincide.
 JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (!j.pointA)
-    throw support::SectionFault("point_a", "[m] is missing, but point_b requires it; give both, or point in the world");
+    throw support::SectionFault("point_a",
+                                "[m] is missing, but point_b requires it; set both, or point in the world frame");
   if (!j.pointB)
-    throw support::SectionFault("point_b", "[m] is missing, but point_a requires it; give both, or point in the world");
+    throw support::SectionFault("point_b",
+                                "[m] is missing, but point_a requires it; set both, or point in the world frame");
   const Vec3d p_A = X_WA.toWorld(*j.pointA), p_B = X_WB.toWorld(*j.pointB);
   const auto apart = [&](const Vec3d& gap, const char* where) {
     if (!(norm(gap) <= kStartGap))
-      throw support::SectionFault(
-          "point_b", fmt::format("[m] is at {} in the world at the start, {:.4g} m{} from point_a at {}; the tolerance "
-                                 "is {:g} m; correct the points or the positions of the bodies",
-                                 text(p_B), norm(gap), where, text(p_A), kStartGap));
+      throw support::SectionFault("point_b",
+                                  fmt::format("[m] is initially at {} in the world, {:.4g} m{} from point_a at {} "
+                                              "(tolerance {:g} m); correct the points or the positions of the bodies",
+                                              text(p_B), norm(gap), where, text(p_A), kStartGap));
   };
   if (!hasAxis(j.type)) {
     apart(p_B - p_A, "");
@@ -80,15 +82,16 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
     apart(p_B - p_A, "");
     if (std::fabs(dot(z, b)) > kStartGap)
       throw support::SectionFault(
-          "axis_b", fmt::format("[-] is {:.6g} rad from perpendicular to axis_a at the start; make them perpendicular",
-                                std::fabs(dot(z, b))));
+          "axis_b",
+          fmt::format("[-] must be perpendicular to axis_a at the start, but deviates by {:.6g} rad; correct it",
+                      std::fabs(dot(z, b))));
     const Pose X = multibody::frameWithZX(p_A, z, b);
     return {X, X};
   }
   if (!(norm(cross(z, b)) <= kStartGap && dot(z, b) > 0))
     throw support::SectionFault("axis_b",
-                                fmt::format("[-] points along {} in the world at the start, axis_a along {}, a "
-                                            "difference of {:.4g}; rotate a body or an axis so that they are parallel",
+                                fmt::format("[-] initially points along {} in the world, but axis_a along {} "
+                                            "(difference {:.4g}); rotate a body or an axis to make them parallel",
                                             text(b), text(z), norm(b - z)));
   const bool slides = j.type == JointType::kPrismatic || j.type == JointType::kCylindrical;
   const double slide = slides ? dot(p_B - p_A, z) : 0;
@@ -101,7 +104,7 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
 JointFrames placedAtEnds(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (j.point)
     throw support::SectionFault("point",
-                                "[m] does not apply to a distance joint; give point_a and point_b in the bodies");
+                                "[m] does not apply to a distance joint; set point_a and point_b in the body frames");
   const JointFrames ends{{X_WA.toWorld(j.pointA.value_or(Vec3d{})), X_WA.orientation},
                          {X_WB.toWorld(j.pointB.value_or(Vec3d{})), X_WB.orientation}};
   if (!(norm(ends.B.position - ends.A.position) > 0))

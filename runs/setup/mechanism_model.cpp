@@ -45,9 +45,9 @@ SolidMoments shapesMoments(const scene::BodySection& b) {
     size = std::max(size, norm(s.position) + norm(halfExtent(geometryOf(s))));
   if (norm(m.centre) > kCentred * size)
     throw support::SectionFault(
-        "", fmt::format("has its centre of mass at [{0:.6g}, {1:.6g}, {2:.6g}] m in the body's frame, whose origin "
-                        "must be the centre of mass; subtract that from shape.position of each shape and add it "
-                        "to position of the body, or give mass and inertia",
+        "", fmt::format("has its centre of mass at [{0:.6g}, {1:.6g}, {2:.6g}] m in the body frame, but it must be at "
+                        "the origin; subtract this vector from shape.position of each shape and add it to position of "
+                        "the body, or set mass and inertia",
                         m.centre.x, m.centre.y, m.centre.z));
   return m;
 }
@@ -58,15 +58,15 @@ Mat3d inertiaOf(const scene::BodySection& b, const SolidMoments& moments, double
   if (i.size() == 3) return Mat3d::diagonal({i[0], i[1], i[2]});
   if (i.size() == 6) return {{{i[0], i[3], i[4]}, {i[3], i[1], i[5]}, {i[4], i[5], i[2]}}};
   if (!i.empty())
-    throw support::SectionFault("inertia",
-                                "[kg m2] must have 3 entries (xx, yy, zz) or 6 (then xy, xz, yz); give one of these");
+    throw support::SectionFault(
+        "inertia", "[kg m2] must have 3 entries (xx, yy, zz) or 6 (xx, yy, zz, xy, xz, yz); correct the list");
   if (!b.box && moments.volume > 0) {
     Mat3d inertia = moments.inertia;
     for (auto& row : inertia.m)
       for (double& entry : row) entry *= mass / moments.volume;
     return inertia;
   }
-  if (!b.box) throw support::SectionFault("inertia", "[kg m2] is missing; add it, or the edges of a box");
+  if (!b.box) throw support::SectionFault("inertia", "[kg m2] is missing; add it, or box (edge lengths)");
   const Vec3d e = *b.box;
   const double m = mass / 12;
   return Mat3d::diagonal({m * (e.y * e.y + e.z * e.z), m * (e.x * e.x + e.z * e.z), m * (e.x * e.x + e.y * e.y)});
@@ -78,24 +78,25 @@ multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   law.polynomial = d.polynomial;
   if (d.value) law.polynomial = {*d.value};
   if (d.value && !d.polynomial.empty())
-    throw support::SectionFault("polynomial", "is mutually exclusive with value, its first entry; remove one");
+    throw support::SectionFault("polynomial", "is mutually exclusive with value, which is its first entry; remove one");
   if (d.amplitude != 0) {
-    if (!(d.frequency > 0)) throw support::SectionFault("frequency", "[Hz] must be above 0 with amplitude; add it");
+    if (!(d.frequency > 0))
+      throw support::SectionFault("frequency", "[Hz] must be above 0 if amplitude is set; set it");
     law.harmonics.push_back({d.amplitude, 2 * base::kPi * d.frequency, d.phase * (base::kPi / 180)});
   }
   if (d.values.size() != d.time.size())
-    throw support::SectionFault("values",
-                                fmt::format("must have as many entries as time, {}; correct the lists", d.time.size()));
-  if (d.time.size() == 1) throw support::SectionFault("time", "[s] has one entry; give at least two, or value");
+    throw support::SectionFault(
+        "values", fmt::format("must have as many entries as time ({}); correct the lists", d.time.size()));
+  if (d.time.size() == 1) throw support::SectionFault("time", "[s] has only one entry; set at least two, or use value");
   const bool jumps = d.imposes != multibody::DriveKind::kPosition;
   if (const std::size_t i = multibody::firstOutOfOrder(d.time, jumps); i > 0)
     throw support::SectionFault("time",
-                                fmt::format("[s] does not increase at entry {}; sort it{}", i,
-                                            !jumps && d.time[i] == d.time[i - 1] ? ": a position cannot jump" : ""));
+                                fmt::format("[s] must increase, but does not at entry {}; sort it{}", i,
+                                            !jumps && d.time[i] == d.time[i - 1] ? " (a position cannot jump)" : ""));
   // A kink in a position would be an impact.
   (d.imposes == multibody::DriveKind::kPosition ? law.table : law.ramps) = {d.time, d.values};
   if (law.empty())
-    throw support::SectionFault("", "has no value; give value, polynomial, amplitude or time with values");
+    throw support::SectionFault("", "has no value; set value, polynomial, amplitude, or time with values");
   return law;
 }
 
@@ -111,9 +112,10 @@ template <class Add> int addChecked(const std::vector<std::string>& keys, Add ad
 }
 
 void setStops(multibody::AxisSpring& spring, const std::array<double, 2>& limits, double stiffness, double damping) {
-  if (!(limits[0] < limits[1])) throw support::SectionFault("limits", "[rad or m] must be [min, max]; swap them");
+  if (!(limits[0] < limits[1]))
+    throw support::SectionFault("limits", "[rad or m] must be [min, max] with min < max; swap them");
   if (!(stiffness > 0))
-    throw support::SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 with limits; add it");
+    throw support::SectionFault("stop_stiffness", "[N m/rad or N/m] must be above 0 if limits is set; set it");
   spring.lowerLimit = limits[0], spring.upperLimit = limits[1];
   spring.stopStiffness = stiffness, spring.stopDamping = damping;
 }
@@ -126,12 +128,12 @@ MechanismBuilder::MechanismBuilder(const vehicle::Assembly& vehicle) : model_(ve
 }
 
 void MechanismBuilder::checkName(const std::string& kind, const std::string& name) {
-  if (name == "world") throw support::SectionFault("name", "is reserved for the ground; choose another");
+  if (name == "world") throw support::SectionFault("name", "is reserved for the ground; choose another name");
   if (const std::string fault = support::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
   if (name.find_first_of(".\",") != std::string::npos)
     throw support::SectionFault("name", "must not contain . , or \", which separate names in results; remove them");
   if (!names_.insert(kind + " " + name).second)
-    throw support::SectionFault("name", fmt::format("is also the name of another {}; choose another", kind));
+    throw support::SectionFault("name", fmt::format("is also the name of another {}; choose another name", kind));
 }
 
 int MechanismBuilder::body(const std::string& key, const std::string& name) const {
@@ -140,7 +142,7 @@ int MechanismBuilder::body(const std::string& key, const std::string& name) cons
   std::vector<std::string> known = {"world"};
   for (const auto& [body, index] : bodies_) known.push_back(body);
   throw support::SectionFault(
-      key, fmt::format("names no body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
+      key, fmt::format("refers to an unknown body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
 }
 
 std::pair<int, int> MechanismBuilder::twoBodies(const std::vector<std::string>& names) const {
@@ -153,9 +155,10 @@ int MechanismBuilder::joint(const std::string& key, const std::string& name) con
   if (const auto found = joints_.find(name); found != joints_.end()) return found->second;
   std::vector<std::string> known;
   for (const auto& [joint, index] : joints_) known.push_back(joint);
-  throw support::SectionFault(key, known.empty() ? "requires a joint; add a [[joint]]"
-                                                 : fmt::format("names no joint \"{}\"; did you mean \"{}\"?", name,
-                                                               base::nearestWord(name, known)));
+  throw support::SectionFault(key, known.empty()
+                                       ? "requires a joint; add a [[joint]]"
+                                       : fmt::format("refers to an unknown joint \"{}\"; did you mean \"{}\"?", name,
+                                                     base::nearestWord(name, known)));
 }
 
 JointAxis MechanismBuilder::axis(int index, const std::string& key, std::optional<JointAxis> named) const {
@@ -262,7 +265,7 @@ void MechanismBuilder::addBetweenPoints(const scene::SpringSection& s) {
   spring.stiffness = s.stiffness, spring.damping = s.damping, spring.preload = s.preload;
   const double length = norm(pose(spring.bodyB).toWorld(spring.point_B) - pose(spring.bodyA).toWorld(spring.point_A));
   if (s.freePosition && *s.freePosition < 0)
-    throw support::SectionFault("free_position", "[m] is a length and must be at least 0; correct it");
+    throw support::SectionFault("free_position", "[m] is a length, which must be 0 or more; correct it");
   if (!(length > 0))
     throw support::SectionFault(
         "point_b", "[m] coincides with point_a at the start, so the spring has no direction; move one of them");
@@ -277,7 +280,8 @@ void MechanismBuilder::add(const scene::BushingSection& b) {
   std::tie(bushing.bodyA, bushing.bodyB) = twoBodies(b.bodies);
   Pose X{b.point, {}};
   if (b.axis) {
-    if (norm2(*b.axis) == 0) throw support::SectionFault("axis", "[-] is zero; give a direction, e.g. [0, 0, 1]");
+    if (norm2(*b.axis) == 0)
+      throw support::SectionFault("axis", "[-] has zero length; set a direction, e.g. [0, 0, 1]");
     X = multibody::frameWithZ(b.point, *b.axis);
   }
   bushing.frame_A = multibody::compose(multibody::inverse(pose(bushing.bodyA)), X);
@@ -296,8 +300,8 @@ void MechanismBuilder::add(const scene::DriveSection& d) {
   for (const multibody::Drive& other : model_.drives())
     if (other.joint == drive.joint && other.axis == drive.axis && other.kind != multibody::DriveKind::kForce &&
         drive.kind != multibody::DriveKind::kForce)
-      throw support::SectionFault(
-          "joint", fmt::format("is already driven by \"{}\", and two drives conflict; remove one", other.name));
+      throw support::SectionFault("joint",
+                                  fmt::format("is already driven by \"{}\"; remove one of the drives", other.name));
   addChecked({"joint", "speed"}, [&] { return model_.addDrive(drive); });
 }
 
@@ -314,7 +318,8 @@ void MechanismBuilder::add(const scene::CouplingSection& c) {
   coupling.axis1 = axis(coupling.joint1, "acts_on", named(0));
   coupling.axis2 = axis(coupling.joint2, "acts_on", named(1));
   if (c.ratio == 0)
-    throw support::SectionFault("ratio", "must not be 0; set it to motion of the second axis / motion of the first");
+    throw support::SectionFault("ratio",
+                                "must not be 0; set the ratio of the motion of the second axis to that of the first");
   if (c.offset) coupling.offset = *c.offset;
   addChecked({"ratio", "offset"}, [&] { return model_.addCoupling(coupling); });
 }

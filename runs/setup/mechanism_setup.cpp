@@ -115,11 +115,12 @@ void checkTurns(const scene::Scene& scene, const multibody::Model& model, const 
   const double most = largestTurn(scene.run);
   for (std::size_t b = 0; b < state.twist.size(); ++b)
     if (const double rate = norm(state.twist[b].w); rate * step > most * 1.000001)
-      scene.fail("run", "time_step",
-                 fmt::format("[s] rotates body \"{}\" by {:.4g} rad per step at the start, more than {:.4g} rad "
-                             "(run.steps_per_period = {:g} steps per turn); set {} s or less, or \"auto\"",
-                             model.bodies()[b].name, rate * step, most, scene.run.stepsPerPeriod,
-                             base::roundedDown(most / rate, 4)));
+      scene.fail(
+          "run", "time_step",
+          fmt::format("[s] is too long for body \"{}\", which initially rotates by {:.4g} rad per step, more than "
+                      "{:.4g} rad (run.steps_per_period = {:g} steps per turn); set {} s or less, or \"auto\"",
+                      model.bodies()[b].name, rate * step, most, scene.run.stepsPerPeriod,
+                      base::roundedDown(most / rate, 4)));
 }
 
 /// Throws InputError where a bounce off an end stop, half an oscillation, has too few steps.
@@ -279,7 +280,7 @@ std::string unresolvedSpring(const scene::Scene& scene) {
   if (steps >= scene.run.stepsPerPeriod * (1 - kDigits)) return "";
   const bool euler = scene.run.integrator == multibody::Integrator::kSymplecticEuler;
   return fmt::format("{}: {} has a period of {:.3g} s, {:.3g} steps of run.time_step = {:g} s; {}; to resolve the "
-                     "oscillation, set {} s or less",
+                     "oscillation, set it to {} s or less",
                      scene.file.string(), spring, swing, steps, *scene.run.timeStep,
                      euler ? "symplectic_euler is stable but damps it"
                      : scene.run.springs == multibody::Springs::kImplicit
@@ -312,12 +313,13 @@ std::string springStepNote(const scene::Scene& scene) {
                          "damps this oscillation",
                          a.withoutSprings);
   else if (scene.run.springs == multibody::Springs::kImplicit)
-    remedy = fmt::format("run.springs = \"implicit\" is stable at any step: run.time_step = {:.4g} resolves everything "
-                         "but this oscillation, with the spring as a stiff link",
-                         a.withoutSprings);
+    remedy =
+        fmt::format("run.springs = \"implicit\" is stable at any step size: run.time_step = {:.4g} resolves everything "
+                    "except this oscillation (the spring acts as a rigid link)",
+                    a.withoutSprings);
   else
-    remedy = fmt::format("run.springs = \"implicit\" allows run.time_step = {:.4g}, which resolves everything but this "
-                         "oscillation, with the spring as a stiff link",
+    remedy = fmt::format("run.springs = \"implicit\" allows run.time_step = {:.4g}, which resolves everything except "
+                         "this oscillation (the spring acts as a rigid link)",
                          a.withoutSprings);
   return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because {} has a period of {:.3g} s; {}",
                      scene.file.string(), a.step, steps, a.spring, a.swing, remedy);
@@ -330,7 +332,7 @@ std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep
   const double most =
       start.solver.stabilityLimit() / start.solver.geometricStiffnessRate(start.state, start.loads, &part);
   if (timeStep < most) return "";
-  return fmt::format("{}: run.time_step = {:g} s: at the start the load on {} limits stable steps to {:.2g} s; set a "
+  return fmt::format("{}: run.time_step = {:g} s: the initial load on {} limits stable steps to {:.2g} s; set a "
                      "shorter step, or \"auto\"",
                      scene.file.string(), timeStep, part, most);
 }

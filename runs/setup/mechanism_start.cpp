@@ -80,12 +80,12 @@ void checkStartVelocity(const multibody::Model& model, int index) {
   };
   if (norm(slip) > kStartRate * speed)
     throw support::SectionFault(
-        "", fmt::format("(\"{}\") connects {} at {} m, where their initial velocities are {} and {} m/s; change "
-                        "the velocity or spin of one so that the difference {} m/s vanishes",
+        "", fmt::format("(\"{}\") connects {} at {} m, but their initial velocities there, {} and {} m/s, differ by {} "
+                        "m/s; change the velocity or spin of one to make them equal",
                         joint.name, bodies(), shortText(p), shortText(A.at(p)), shortText(B.at(p)), shortText(slip)));
   if (norm(turn) > kStartRate * spin)
-    throw support::SectionFault("", fmt::format("(\"{}\") connects {}, whose initial spins are {} and {} rad/s; change "
-                                                "one so that the difference {} rad/s vanishes",
+    throw support::SectionFault("", fmt::format("(\"{}\") connects {}, but their initial spins, {} and {} rad/s, "
+                                                "differ by {} rad/s; change one to make them compatible",
                                                 joint.name, bodies(), shortText(A.w), shortText(B.w), shortText(turn)));
 }
 

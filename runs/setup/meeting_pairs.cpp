@@ -26,8 +26,8 @@ std::vector<std::string> switchedOff(const scene::Material& a, const scene::Mate
   const auto say = [&](const char* key, const char* rule, double ofA, double ofB, double acts) {
     if (acts > 0 || (ofA > 0) == (ofB > 0)) return;
     const scene::Material &has = ofA > 0 ? a : b, &lacks = ofA > 0 ? b : a;
-    sentences.push_back(fmt::format("{} = {:g} of material.{} has no effect against {}, which has 0 (mixing rule: {}); "
-                                    "set it for material.{} too, or in [contact.\"{}|{}\"]",
+    sentences.push_back(fmt::format("{} = {:g} of material.{} has no effect in contact with {}, which has 0 (mixing "
+                                    "rule: {}); set it for material.{} too, or in [contact.\"{}|{}\"]",
                                     key, std::max(ofA, ofB), has.name, lacks.name, rule, lacks.name, a.name, b.name));
   };
   say("friction", "minimum", a.friction, b.friction, law.friction);

@@ -31,8 +31,8 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
     const double from = (*sides[a])[0], to = (*sides[a])[1];
     const int axis = static_cast<int>(a);
     const auto outside = [&](double low, double high) {
-      return fmt::format("[m] extends from {} = {:g} to {:g} m, outside the periodic boundaries {:g} and {:g} m; move "
-                         "it between them, or change run.domain_{}",
+      return fmt::format("[m] extends from {} = {:g} to {:g} m, beyond the periodic boundaries at {:g} and {:g} m; "
+                         "move it between them, or change run.domain_{}",
                          "xy"[a], low, high, from, to, "xy"[a]);
     };
     for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -77,7 +77,7 @@ void checkLevelAcross(const scene::Scene& scene, const terrain::HeightField& sur
         };
         if (std::fabs(height(across) - height(0)) <= tolerance) continue;
         scene.fail("run", "periodic",
-                   fmt::format("connects the borders along {}, but terrain.heightmap = {} is not level in that "
+                   fmt::format("makes the borders along {} periodic, but terrain.heightmap = {} is not level in that "
                                "direction; use a level height-map, or set it to [{}]",
                                "xy"[axis], scene.terrain->heightmap, axis == 0 ? "false, ..." : "..., false"));
       }

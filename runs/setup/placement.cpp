@@ -84,7 +84,7 @@ coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::Vehic
     scene.fail(
         "vehicle", "position",
         fmt::format("[m] places the vehicle at ({:.3f}, {:.3f}) m with vehicle.heading = {:g} [deg], where it covers "
-                    "[{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m, but the terrain is [{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; "
+                    "[{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m, beyond the terrain [{:.2f}, {:.2f}] x [{:.2f}, {:.2f}] m; "
                     "move it, or enlarge terrain.size (the vehicle requires {:.2f} x {:.2f} m)",
                     p.x, p.y, scene.vehicle->heading, p.x + f.xMin, p.x + f.xMax, p.y + f.yMin, p.y + f.yMax,
                     area->xMin, area->xMax, area->yMin, area->yMax, f.width(), f.length()));

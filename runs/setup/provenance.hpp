@@ -15,7 +15,7 @@ namespace grouser::setup {
 
 /// Origin of a setup, for results, checkpoints and messages.
 struct Provenance {
-  std::filesystem::path file; ///< of the scene
+  std::filesystem::path file; ///< scene file
   std::vector<std::string> overrides;
   std::string resolved; ///< the scene with every default filled in, as TOML
   std::string inputs;   ///< see inputsOf()

@@ -12,9 +12,9 @@ namespace grouser::setup {
 
 /// Duration of a run, and its output intervals.
 struct RunSetup {
-  double duration{};           ///< [s] after the bed has settled
-  double outputInterval{};     ///< between rows [s]
-  double frameInterval{};      ///< between frames [s]
+  double duration{};           ///< [s] simulated time after the bed has settled
+  double outputInterval{};     ///< time between rows [s]
+  double frameInterval{};      ///< time between frames [s]
   double checkpointInterval{}; ///< [s]; 0: only at the end
 };
 
@@ -29,16 +29,16 @@ struct OutputSetup {
   std::vector<std::string> record;   ///< bodies, joints, springs and drives of a mechanism in the rows; empty: all
   bool frames{}, contactForces{};    ///< contact forces of each grain in the frames
   std::optional<bool> grainsCsv;     ///< every grain in every row as text; empty: in small scenes
-  bool shoeForces{}, gearContacts{}; ///< of a vehicle, in the rows
-  bool finalSurface{};               ///< of its bed
+  bool shoeForces{}, gearContacts{}; ///< shoe forces, grain-part contacts, in the rows
+  bool finalSurface{};               ///< bed surface at the end
   bool picture{};
   int pictureWidth{};                               ///< [px]
-  std::optional<double> fieldsCell;                 ///< [m] edge of the cells of the soil's fields; empty: no fields
-  std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] of their box; empty: around the grains
+  std::optional<double> fieldsCell;                 ///< [m] cell edge of the soil fields; empty: no fields
+  std::optional<base::Vec3d> fieldsLow, fieldsHigh; ///< [m] corners of the field box; empty: around the grains
   std::vector<PlottedColumn> plots;
 };
 
-/// Settings of a run besides those of the simulation.
+/// Settings of a run, in addition to the simulation's.
 struct RecordSetup {
   Provenance provenance;
   RunSetup run;

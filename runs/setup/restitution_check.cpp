@@ -36,11 +36,11 @@ void checkPair(const scene::Scene& scene, const std::string& nameA, const std::s
   const bool given = pair && pair->restitution;
   const scene::Material& least = b.restitution.value_or(1) < a.restitution.value_or(1) ? b : a;
   if ((given ? *pair->restitution : least.restitution.value_or(1)) >= kLeastRestitution) return;
-  const std::string message =
-      fmt::format("[-] is below the minimum without attraction, {:g}, which requires steps of {} s or less; raise it, "
-                  "set attraction = true in {} (0 is then critical damping), or set run.contact = \"complementarity\"",
-                  kLeastRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
-                  &a == &b ? "material." + a.name : fmt::format("material.{} and material.{}", a.name, b.name));
+  const std::string message = fmt::format(
+      "[-] is below {:g}, the minimum without attraction, and would require time steps of {} s or less; raise it, set "
+      "attraction = true in {} (0 then means critical damping), or set run.contact = \"complementarity\"",
+      kLeastRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
+      &a == &b ? "material." + a.name : fmt::format("material.{} and material.{}", a.name, b.name));
   if (given && scene.document)
     for (const auto& [name, section] : scene.document->root().named("contact"))
       if (name == pair->first + "|" + pair->second) section.fail("restitution", message);

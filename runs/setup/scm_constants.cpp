@@ -55,7 +55,7 @@ double ScmConstants::value(const std::optional<double>& given, SoilQuantity quan
   const std::string word(base::wordOf(quantity));
   const std::string why = soil_
                               ? fmt::format("the soil {} has no {} {}", soil_->name, base::wordOf(scm_.constants), word)
-                              : fmt::format("there is no soil file {}", scene_.terrain->material);
+                              : fmt::format("the soil file {} does not exist", scene_.terrain->material);
   scene_.fail("terrain", "kind", fmt::format("requires scm.{} [{}]: {}; add it to [scm]", word, unitOf(quantity), why));
 }
 
@@ -63,14 +63,14 @@ std::string ScmConstants::text() const {
   std::string text = "\nconstants of the deformable soil";
   if (soil_) text += fmt::format(" {} ({})", soil_->name, base::wordOf(scm_.constants));
   text += scm_.constantsDraw > 0
-              ? fmt::format(": sample {}, and nominal values with 95 % intervals\n", scm_.constantsDraw)
+              ? fmt::format(": sample {} and nominal values, with 95 % intervals\n", scm_.constantsDraw)
               : std::string(": nominal values with 95 % intervals\n");
   for (std::size_t i = 0; i < used_.size(); ++i) {
     const ContactConstant& c = nominal_[i];
     const std::string value = scm_.constantsDraw > 0 ? fmt::format("{:<11.5g} ", used_[i].value) : "";
     const std::string interval =
         givenIn(scm_, c.quantity)
-            ? fmt::format(" {} (given in the scene)", unitOf(c.quantity))
+            ? fmt::format(" {} (set in the scene)", unitOf(c.quantity))
             : fmt::format(" +- {:.2g} {}{}", c.halfWidth(), unitOf(c.quantity), c.isAssumed ? " (assumed)" : "");
     text += fmt::format("  {:<6} {}{:.5g}{}\n", base::wordOf(c.quantity), value, c.value, interval);
   }

@@ -16,19 +16,19 @@ public:
   explicit ScmConstants(const scene::Scene& scene);
 
   const scene::Scm& section() const { return scm_; }
-  const scene::Soil* soil() const { return soil_; } ///< of the terrain's material; null without a soil file
+  const scene::Soil* soil() const { return soil_; } ///< soil of the terrain's material; null without a soil file
   /// A published constant of the soil file; empty without.
   std::optional<double> published(scene::SoilQuantity quantity) const;
   /// `given`: the key of [scm]. Throws base::InputError if neither the scene nor the soil file has the constant.
   double value(const std::optional<double>& given, scene::SoilQuantity quantity) const;
-  /// Constants of the scene or the soil file: values in use, nominal values, intervals, a line each.
+  /// Constants of the scene or the soil file: values in use, nominal values, intervals, one per line.
   std::string text() const;
 
 private:
   const scene::Scene& scene_;
   scene::Scm scm_;
   const scene::Soil* soil_{};
-  std::vector<scene::ContactConstant> nominal_, used_; ///< with deviation 0 where the scene has its own
+  std::vector<scene::ContactConstant> nominal_, used_; ///< deviation 0 for constants given in the scene
 };
 
 } // namespace grouser::setup

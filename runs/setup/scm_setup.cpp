@@ -97,11 +97,10 @@ std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
     soil.slipSinkage = s.slipSinkage.value_or(lyaskoSlipSinkage(soil, spec, gravity));
     soil.maximumSlipSinkage = s.maximumSlipSinkage.value_or(shoe.grouserHeight);
     if (s.nodeSpacing && *s.nodeSpacing > 2 * shoe.halfLength)
-      scene.fail(
-          "scm", "node_spacing",
-          fmt::format(
-              "[m] is more than the length of a shoe, {:g} m; set at most that, and at most half of it for results",
-              2 * shoe.halfLength));
+      scene.fail("scm", "node_spacing",
+                 fmt::format("[m] exceeds the shoe length, {:g} m; set at most this length, or at most half of it for "
+                             "accurate results",
+                             2 * shoe.halfLength));
   }
   setup.spacing = s.nodeSpacing.value_or(spacing);
   return setup;

@@ -28,11 +28,11 @@ void checkFillSizes(const scene::Scene& scene) {
   for (std::size_t k = 0; k < scene.fills.size(); ++k) {
     const auto grains = static_cast<double>(placedCount(scene.fills[k]));
     if (grains * bytes > memoryOfMachine())
-      scene.fail(
-          "grains", k, scene.fills[k].form == scene::FillForm::random ? "number" : "radius",
-          fmt::format("{} makes {:.3g} grains, {:.3g} GiB, but this machine has {:.3g} GiB; use fewer or larger grains",
-                      scene.fills[k].form == scene::FillForm::random ? "[-]" : "[m]", grains, grains * bytes / kGiB,
-                      memoryOfMachine() / kGiB));
+      scene.fail("grains", k, scene.fills[k].form == scene::FillForm::random ? "number" : "radius",
+                 fmt::format("{} results in {:.3g} grains, which require {:.3g} GiB, but this machine has {:.3g} GiB; "
+                             "use fewer or larger grains",
+                             scene.fills[k].form == scene::FillForm::random ? "[-]" : "[m]", grains,
+                             grains * bytes / kGiB, memoryOfMachine() / kGiB));
   }
 }
 
@@ -49,8 +49,8 @@ void checkBedSize(const scene::Scene& scene) {
   const double memory = memoryOfMachine();
   if (grains * bytes > memory || grains > 4e9)
     scene.fail("terrain", scene::radiiKey(t),
-               fmt::format("[m] makes about {:.3g} grains, {:.3g} GiB, but this machine has {:.3g} GiB; use larger "
-                           "grains, a thinner bed or a smaller terrain.size",
+               fmt::format("[m] results in about {:.3g} grains, which require {:.3g} GiB, but this machine has {:.3g} "
+                           "GiB; use larger grains, a thinner bed or a smaller terrain.size",
                            grains, grains * bytes / kGiB, memory / kGiB));
 }
 

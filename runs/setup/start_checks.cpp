@@ -21,7 +21,7 @@ using base::Vec3d;
 
 namespace {
 
-constexpr std::size_t kMostChecked = 1'000'000; // of the grains of sources
+constexpr std::size_t kMostChecked = 1'000'000; // maximum number of checked grains from sources
 
 /// Cells of one largest diameter along one axis, in a ring between periodic boundaries.
 struct CellsAlong {
@@ -50,10 +50,10 @@ struct Ball {
   Vec3d position;
   double radius;
   Setter setter;
-  std::size_t number{}; ///< of the section there
+  std::size_t number{}; ///< index of the section in its list
   double time{};        ///< [s]
-  std::size_t id{};     ///< of a grain that is there from the start
-  bool fixed{};         ///< a piece of ground: it may lie in walls, in the floor and in others of its kind
+  std::size_t id{};     ///< grain id, for grains present at the start
+  bool fixed{};         ///< part of the ground: may overlap walls, the floor and other fixed grains
 };
 
 /// Places grains one after the other and checks each for overlaps.
@@ -66,7 +66,7 @@ public:
     if (around.floor) floor_ = terrain::SearchedHeightField(base::Exec{}, *around.floor, largest_);
   }
 
-  /// Throws InputError when the grain overlaps a rigid surface, or an earlier grain that was not forgotten.
+  /// Throws InputError if the grain overlaps a rigid surface, or a grain placed since forgetBalls().
   void place(const Ball& ball) {
     for (const Surroundings::Wall& wall : around_.walls)
       if (const double depth = ball.radius - dot(wall.normal, ball.position) + wall.offset;
@@ -85,7 +85,7 @@ public:
     }
     placeAmongBalls(ball);
   }
-  /// Forgets the grains placed so far, since they have moved when later ones enter.
+  /// Removes the grains placed so far: they have moved by the time later grains enter.
   void forgetBalls() { balls_.clear(), cells_.clear(); }
 
 private:
@@ -121,19 +121,19 @@ private:
     balls_.push_back(ball);
   }
 
-  /// `radius`: of the smaller one [m].
+  /// `radius`: radius of the smaller grain [m].
   bool isTooDeep(double overlap, double radius) const { return overlap > scene_.run.entryOverlap() * radius; }
 
   [[noreturn]] void refuse(const Ball& ball, double overlap, const std::string& with) const {
     const std::string how = fmt::format("overlaps {} by {:.3g} m, more than {:g} of its radius (run.max_overlap)", with,
                                         overlap, scene_.run.entryOverlap());
     if (ball.setter == Setter::grain)
-      scene_.fail("grain", ball.number, "position", fmt::format("[m] {}; move it", how));
+      scene_.fail("grain", ball.number, "position", fmt::format("[m]: the grain {}; move it", how));
     if (ball.setter == Setter::grains)
       scene_.fail("grains", ball.number, "",
-                  fmt::format("places grain {} {}, which {}; move the block", ball.id, at(ball.position), how));
+                  fmt::format("places grain {} {}, which {}; move the whole block", ball.id, at(ball.position), how));
     scene_.fail("source", ball.number, "low",
-                fmt::format("[m] and high place a grain {} at {:g} s, which {}; move low and high{}", at(ball.position),
+                fmt::format("[m] and high allow a grain {} at {:g} s, which {}; move low and high{}", at(ball.position),
                             ball.time, how, ball.time > 0 ? ", or change start and every" : ""));
   }
 
@@ -147,8 +147,8 @@ private:
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// [[grain]] and [[grains]], in the order of their ids, without those with above_bed, which are checked once the bed
-/// has settled.
+/// Places [[grain]] and [[grains]] in the order of their ids, except entries with above_bed: they are checked after the
+/// bed has settled.
 void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& grains, Placing& placing) {
   std::size_t id = 0;
   for (std::size_t k = 0; k < scene.grains.size(); ++k, ++id)

@@ -280,8 +280,8 @@ void checkSoftness(const scene::Scene& scene, const ContactPairs& pairs) {
     // A hundredth more than what is needed, so that the number holds as it is printed.
     const double times = 1.01 * (c.law.hertz ? std::sqrt(sinks / most) : 1) * sinks / most;
     failStiffness(scene, scene.material(c.material), scene.material(c.other), times,
-                  fmt::format("is too low: the overlap of a grain of radius {:g} m under its own weight is {:.3g} "
-                              "radii ({}), but run.max_overlap allows {:g}",
+                  fmt::format("is too low: the weight of a grain of radius {:g} m causes an overlap of {:.3g} radii "
+                              "({}), but run.max_overlap allows {:g}",
                               c.radius, sinks, c.name, most));
   }
 }
@@ -293,10 +293,11 @@ void checkFluidStep(const scene::Scene& scene) {
   const char* cause = limits.least() == limits.sound   ? "its sound speed"
                       : limits.least() == limits.force ? "gravity"
                                                        : "its viscosity";
-  scene.fail("run", "time_step",
-             fmt::format("[s] is above {} s, where the fluid becomes unstable because of {}; set {} s or less, or a "
-                         "larger fluid.spacing",
-                         base::roundedDown(2 * limits.least(), 3), cause, base::roundedDown(limits.least(), 3)));
+  scene.fail(
+      "run", "time_step",
+      fmt::format(
+          "[s] is above the stability limit {} s of the fluid, set by {}; use {} s or less, or a larger fluid.spacing",
+          base::roundedDown(2 * limits.least(), 3), cause, base::roundedDown(limits.least(), 3)));
 }
 
 /// Throws InputError for a given step above the stability limit of the contacts. `automatic` [s]: the step of "auto".
@@ -307,7 +308,7 @@ void checkGivenStep(const scene::Scene& scene, const StepLimit& limit, double au
   if (*scene.run.timeStep > limit.step) {
     const std::string most = base::roundedDown(limit.step, 3);
     scene.fail("run", "time_step",
-               fmt::format("[s] is above {} s, where the stiffest contact of the scene ({}) becomes unstable; set {} s "
+               fmt::format("[s] is above {} s, the stability limit of the stiffest contact in the scene ({}); set {} s "
                            "or less (\"auto\": {} s), or {}{}",
                            most, limit.what, most, base::roundedDown(automatic, 3), limit.remedy,
                            hertz ? fmt::format("; hertz contacts are evaluated at run.impact_speed = {:g} m/s",
@@ -403,9 +404,9 @@ void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, doubl
     const double speed = norm(body.velocity) + norm(body.spin) * (norm(s.pose_B.position) + norm(halfExtent(s.shape)));
     if (speed > most)
       scene.fail("body", section, "velocity",
-                 fmt::format("[m/s] and spin move a shape by up to {:.4g} m in a step of {:.3g} s, more than {:.4g} m "
-                             "(half the radius of the smallest grain or a quarter of the thinnest shape), so it could "
-                             "pass through; lower them, or set run.time_step to {} s or less",
+                 fmt::format("[m/s] and spin move a shape by up to {:.4g} m per step of {:.3g} s, more than {:.4g} m "
+                             "(half the smallest grain radius or a quarter of the thinnest shape), so it could pass "
+                             "through other objects; lower them, or set run.time_step to {} s or less",
                              speed * timeStep, timeStep, 0.5 * smallest, base::roundedDown(0.5 * smallest / speed, 4)));
   }
 }
@@ -428,7 +429,7 @@ void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, do
                  turns > shifts       ? "spin"
                  : s.section.velocity ? "velocity"
                                       : "amplitude",
-                 fmt::format("moves {} at up to {:.4g} m/s, more than {} the smallest grain's radius in a step of "
+                 fmt::format("moves {} at up to {:.4g} m/s, i.e. by more than {} the smallest grain radius per step of "
                              "{:.3g} s, so it could pass through a grain without contact; keep it below {} m/s "
                              "(velocity, spin, amplitude, frequency), or lower run.time_step",
                              s.name, shifts + turns, implicit ? "0.4 of" : "half", timeStep,
@@ -445,26 +446,25 @@ void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double ti
   const bool implicit = hasComplementarity(scene);
   const double most = kRounding * (implicit ? terrain::GrainModel::kMostWaySolved : 0.5 * scene.run.skin) *
                       pairs.kinds.smallest / timeStep;
-  const std::string beyond =
-      implicit ? "more than 0.4 of the smallest radius" : "more than half the neighbour list's skin";
+  const std::string beyond = implicit ? "moves a grain by more than 0.4 of the smallest radius"
+                                      : "moves a grain by more than half the skin distance";
   const std::string remedy = implicit ? "" : ", or raise run.skin";
   const auto check = [&](const char* list, const auto& sections) {
     for (std::size_t k = 0; k < sections.size(); ++k)
       if (norm(sections[k].velocity) > most)
         scene.fail(list, k, "velocity",
-                   fmt::format("[m/s] is {} in a step of {:.3g} s; keep it below {} m/s, or lower run.time_step{}",
-                               beyond, timeStep, base::roundedDown(most, 4), remedy));
+                   fmt::format("[m/s] {} per step of {:.3g} s; keep it below {} m/s, or lower run.time_step{}", beyond,
+                               timeStep, base::roundedDown(most, 4), remedy));
   };
   check("grain", scene.grains), check("grains", scene.fills), check("source", scene.sources);
   for (std::size_t k = 0; k < scene.fills.size(); ++k)
     for (const scene::Grain& g : scene.fills[k].fromFile)
       if (norm(g.velocity) > most)
-        scene.fail(
-            "grains", k, "file",
-            fmt::format("has a grain at ({:.6g}, {:.6g}, {:.6g}) m with a velocity of {:.4g} m/s, {} in a step of "
-                        "{:.3g} s; keep it below {} m/s, or lower run.time_step{}",
-                        g.position.x, g.position.y, g.position.z, norm(g.velocity), beyond, timeStep,
-                        base::roundedDown(most, 4), remedy));
+        scene.fail("grains", k, "file",
+                   fmt::format("has a grain at ({:.6g}, {:.6g}, {:.6g}) m with a velocity of {:.4g} m/s, which {} per "
+                               "step of {:.3g} s; keep it below {} m/s, or lower run.time_step{}",
+                               g.position.x, g.position.y, g.position.z, norm(g.velocity), beyond, timeStep,
+                               base::roundedDown(most, 4), remedy));
 }
 
 } // namespace grouser::setup

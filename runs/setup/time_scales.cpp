@@ -149,7 +149,7 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
 }
 
 /// Oscillations of the vehicle's springs and stops with their own parts only; attached masses make them slower. The
-/// solver integrates them implicitly: stable at any step, damped where not resolved.
+/// solver integrates them implicitly: stable at any step size, damped where not resolved.
 void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (!scene.vehicle) return;
   const vehicle::SpecSource file = scene.vehicle->source();
@@ -217,11 +217,11 @@ void checkTimeScales(const scene::Scene& scene, double timeStep) {
   for (const TimeScale& s : timeScales(scene)) {
     const double steps = s.time / timeStep;
     if (steps >= wanted * (1 - kDigits)) continue;
-    s.fail(fmt::format("[{}] is under-resolved: steps of {:.4g} s are {:.3g} {} {}, fewer than run.steps_per_period = "
-                       "{:g}; set run.time_step to {} s or less (\"auto\" does){}, or lower run.steps_per_period",
-                       s.unit, timeStep, steps, s.repeats ? "in" : "over", s.what, wanted,
-                       base::roundedDown(s.time / wanted, 4),
-                       s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
+    s.fail(
+        fmt::format("[{}] is under-resolved: {} has {:.3g} time steps of {:.4g} s, fewer than run.steps_per_period = "
+                    "{:g}; set run.time_step to {} s or less, or to \"auto\"{}, or lower run.steps_per_period",
+                    s.unit, s.what, steps, timeStep, wanted, base::roundedDown(s.time / wanted, 4),
+                    s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
   }
 }
 

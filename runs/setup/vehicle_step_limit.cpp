@@ -30,7 +30,7 @@ void considerIdler(StepLimit& limit, const vehicle::VehicleSpec& s) {
   const double top = s.shoe.plateTop;
   const double rate = spring * (shoes * (radius * radius / s.idler.inertia.y + 0.5 / s.idler.mass) + 1 / s.shoe.mass +
                                 top * top / s.shoe.inertia.y);
-  considerBoth(limit, rate, rate * c.relaxationTime, fmt::format("idler that turns on {:g} shoes", shoes),
+  considerBoth(limit, rate, rate * c.relaxationTime, fmt::format("idler in contact with {:g} shoes", shoes),
                "lower contact.tangential_ratio or idler.preload in vehicle.spec");
 }
 

@@ -206,8 +206,8 @@ void checkVehicleSurroundings(const scene::Scene& scene) {
   const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
   if (!scene.terrain && !grains && scene.vehicle->chassis != scene::ChassisMount::fixed)
     scene.fail("vehicle", "chassis",
-               "is \"free\" without [terrain]; planes cannot carry a vehicle; add [terrain] with kind = \"rigid\", or "
-               "set chassis = \"fixed\"");
+               "is \"free\", which requires a [terrain] (planes do not support a vehicle); add [terrain] with kind = "
+               "\"rigid\", or set chassis = \"fixed\"");
   const std::vector<SceneSurface> all = movingSurfaces(scene);
   if (all.empty()) return;
   const Course course(scene);
@@ -218,13 +218,13 @@ void checkVehicleSurroundings(const scene::Scene& scene) {
     scene.fail(
         s.list(), s.number, key,
         fmt::format(
-            "[m]: {} \"{}\" moves and is {}, but moving surfaces act on grains only, so the vehicle would pass through "
-            "it; {}",
+            "[m]: {} \"{}\" moves and is {}, but moving surfaces have contact with grains only, so the vehicle would "
+            "pass through it; {}",
             s.list(), s.name,
             atStart ? "at the vehicle's initial position"
-                    : fmt::format("in the path of the vehicle, which can drive {:.1f} m in run.duration",
+                    : fmt::format("in the path of the vehicle, which can travel {:.1f} m within run.duration",
                                   course.farthest()),
-            atStart ? "remove its motion, move it or vehicle.position, or remove it"
+            atStart ? "remove its motion, move it, change vehicle.position, or remove it"
                     : "remove its motion, move it aside, change vehicle.heading, shorten run.duration, or remove it"));
   }
 }
@@ -234,20 +234,20 @@ std::vector<std::string> vehicleWarnings(const scene::Scene& scene) {
   if (!scene.vehicle) return warnings;
   if (scene.driver.table && scene.driver.rampOfDrive() == 0 &&
       (scene.driver.table->left.front() != 0 || scene.driver.table->right.front() != 0))
-    warnings.push_back(fmt::format("driver.table starts at {:g} and {:g} rad/s, which the sprockets reach in one step; "
-                                   "start the table at 0, or set driver.drive_ramp",
+    warnings.push_back(fmt::format("driver.table starts at {:g} and {:g} rad/s, so the sprockets accelerate within one "
+                                   "step; start the table at 0, or set driver.drive_ramp",
                                    scene.driver.table->left.front(), scene.driver.table->right.front()));
   const std::optional<Edge> edge = scene.stop.edge ? std::nullopt : Course(scene).edge();
   if (edge && !(scene.stop.distance && *scene.stop.distance <= edge->way))
     warnings.push_back(
-        fmt::format("the terrain ends {:.2f} m {} the vehicle, which reaches its edge at {:.3g} s without slip, and "
-                    "the run ends with an error when a shoe leaves the terrain; enlarge terrain.size, shorten "
+        fmt::format("the terrain ends {:.2f} m {} the vehicle; without slip, the vehicle reaches the edge at {:.3g} s, "
+                    "and the run ends with an error when a shoe leaves the terrain; enlarge terrain.size, shorten "
                     "run.duration ({:g} s), or set stop.distance or stop.edge",
                     edge->way, edge->ahead ? "ahead of" : "behind", edge->time, scene.run.duration));
   for (const SceneSurface& s : movingSurfaces(scene))
-    warnings.push_back(
-        fmt::format("{} \"{}\" moves and acts on grains only; the vehicle passes through it without contact force",
-                    s.list(), s.name));
+    warnings.push_back(fmt::format(
+        "{} \"{}\" moves, so it has contact with grains only; the vehicle passes through it without contact force",
+        s.list(), s.name));
   return warnings;
 }
 

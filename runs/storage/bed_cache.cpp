@@ -24,14 +24,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kKind = support::KeptFiles::Kind::bed;
-constexpr double kBytesPerGrain = 400;                 // of a file, at most, but for beds of unusually many contacts
-constexpr auto kLook = std::chrono::milliseconds(200); // between two looks at another run's lock
+constexpr double kBytesPerGrain = 400; // maximum file size, except for beds with unusually many contacts
+constexpr auto kLook = std::chrono::milliseconds(200); // polling interval for the lock of another run
 
 void warn(const base::Comm& comm, const std::string& message) {
   if (comm.first()) support::tell("WARNING: {}; continuing without it\n", message);
 }
 
-/// The first rank's answer, on all.
+/// Broadcasts the answer of the first rank.
 bool agreed(const base::Comm& comm, bool answer) { return comm.maximumOf(comm.first() && answer ? 1 : 0) != 0; }
 bool allOf(const base::Comm& comm, bool answer) { return comm.maximumOf(answer ? 0 : 1) == 0; }
 
@@ -73,19 +73,19 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
   const fs::path& folder = files_.folder();
   const bool usable =
       agreed(comm, comm.first() && files_.writable()) && !support::rankNotSeeing(folder, comm).has_value();
-  if (!usable) warn(comm, fmt::format("{}: settled beds cannot be cached in this folder", folder.string()));
-  // Of several runs that need one bed, the first settles it, with its tile and all trials of the preparation.
+  if (!usable) warn(comm, fmt::format("{}: cannot cache settled beds in this folder", folder.string()));
+  // If several runs need one bed, the first settles it, with its tile and all trials of the preparation.
   support::FileLock lock;
   if (usable) {
     const fs::path name = support::KeptFiles::lockOf(file);
     for (bool told = false; !agreed(comm, comm.first() && lock.take(name)); told = true) {
-      if (!told && comm.first()) support::tell("waiting for another run that settles the same bed\n");
+      if (!told && comm.first()) support::tell("waiting for another run that is settling the same bed\n");
       progress(0, 0);
       std::this_thread::sleep_for(kLook);
     }
     if (std::optional<coupling::SettledGround> kept = taken()) return std::move(*kept);
   }
-  // Ranks that differ in finding one would differ in their communication.
+  // Ranks with different cached frictions would differ in their communication.
   const KeptFrictions frictions(files_);
   const KeptFrictions* const found = comm.alone() ? &frictions : nullptr;
   coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress, found), {}};
@@ -108,7 +108,7 @@ std::optional<coupling::SettledGround> BedCache::reuse(const fs::path& file, con
   if (!allOf(comm, fs::is_regular_file(file, error))) return {};
   std::string damage;
   try {
-    checkStateFile(file, kBedFile); // of each rank's own copy, where the folder is not shared
+    checkStateFile(file, kBedFile); // every rank: its copy may differ if the folder is not shared
   } catch (const std::exception& e) {
     damage = e.what();
   }
@@ -116,7 +116,7 @@ std::optional<coupling::SettledGround> BedCache::reuse(const fs::path& file, con
     if (!found.empty()) damage.assign(found.begin(), found.end());
   Checkpoint bed;
   if (damage.empty()) {
-    // Another run may delete it just now: then all ranks settle.
+    // Another run may have deleted the file meanwhile: then all ranks settle.
     bool good = true;
     std::optional<support::Hdf5File> open;
     try {
@@ -147,7 +147,7 @@ bool BedCache::keep(const fs::path& file, const std::string& origin, const terra
   bed.state.settled = report, bed.state.ledgerAtStart = coupling::Ledger{}.counted();
   bed.state.guard = coupling::EnergyGuard{}.save();
   bed.state.grains = grains.state();
-  // Written under a name of its own and renamed: another machine that shares the folder may write the same bed.
+  // Written under a unique name, then renamed: another machine that shares the folder may write the same bed.
   const fs::path fresh = comm.broadcast(support::KeptFiles::freshName(file).string());
   try {
     writeState(fresh, kBedFile, bed, comm);

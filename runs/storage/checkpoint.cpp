@@ -230,7 +230,7 @@ public:
     std::vector<T> records;
     (*this)(name, records);
     if (records.size() != 1)
-      throw base::InputError(fmt::format("{}: {} is not one record", file_.path().string(), name));
+      throw base::InputError(fmt::format("{}: {} must be a single record", file_.path().string(), name));
     one = records.front();
   }
   /// This rank's block of grains; some fields have several rows a grain, some none.
@@ -238,7 +238,8 @@ public:
     const std::uint64_t all = rowsOf<T>(name), grains = static_cast<std::uint64_t>(total);
     const std::uint64_t each = grains > 0 ? all / grains : 0;
     if (each * grains != all)
-      throw base::InputError(fmt::format("{}: {} does not fit {} grains", file_.path().string(), name, total));
+      throw base::InputError(
+          fmt::format("{}: size of {} does not match {} grains", file_.path().string(), name, total));
     const std::uint64_t first = terrain::blockStart(comm_, total, comm_.rank()),
                         last = terrain::blockStart(comm_, total, comm_.rank() + 1);
     rows = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, first * each, (last - first) * each));
@@ -249,7 +250,8 @@ public:
     for (const std::uint32_t n : contacts) mine += n;
     const auto first = static_cast<std::uint64_t>(comm_.sumBelow(mine)), all = rowsOf<T>(name);
     if (all > 0 && all != static_cast<std::uint64_t>(comm_.sumOf(mine)))
-      throw base::InputError(fmt::format("{}: {} does not fit the contacts", file_.path().string(), name));
+      throw base::InputError(
+          fmt::format("{}: size of {} does not match the number of contacts", file_.path().string(), name));
     rows = recordsOf<T>(file_.readRows<typename Layout<T>::Number>(name, all > 0 ? first : 0,
                                                                    all > 0 ? static_cast<std::uint64_t>(mine) : 0));
   }
@@ -259,7 +261,7 @@ private:
     const std::vector<std::uint64_t> shape = file_.shape(name);
     if (shape.size() != 2 || shape[1] != widthOf<T>())
       throw base::InputError(
-          fmt::format("{}: {} has a different shape from that of this program", file_.path().string(), name));
+          fmt::format("{}: shape of {} differs from that in this program version", file_.path().string(), name));
     return shape[0];
   }
 

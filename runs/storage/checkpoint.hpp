@@ -19,39 +19,39 @@ inline constexpr const char* kBedFile = "settled bed";
 
 /// Length scales of a grain file, for readers without the scene.
 struct GrainLengths {
-  double unit{};   ///< of positions [m]
-  double radius{}; ///< of the largest grain [m]; of all where they are alike
+  double unit{};   ///< unit of positions [m]
+  double radius{}; ///< radius of the largest grain [m]
 };
 GrainLengths lengthsOf(const terrain::Grains& grains);
 
-/// The state of another run that a run has branched from.
+/// State of another run, from which a run branched.
 struct BranchPoint {
   std::string file;         ///< the checkpoint, absolute
-  std::int64_t step{};      ///< of it
-  std::string hash;         ///< of its state
+  std::int64_t step{};      ///< step of the checkpoint
+  std::string hash;         ///< hash of its state
   std::string text() const; ///< "FILE, step N, state hash H"
 };
 
-/// State of a stopped run, from which it resumes bitwise identical to an uninterrupted run.
+/// State of a stopped run. A resumed run is bitwise identical to an uninterrupted run.
 struct Checkpoint {
-  std::string scene;   ///< resolved
+  std::string scene;   ///< resolved scene
   std::string inputs;  ///< hashes of the scene's input files: see setup::inputsOf()
-  std::string commit;  ///< of the program that wrote it
+  std::string commit;  ///< commit of the program that wrote the file
   double timeStep{};   ///< [s]
-  std::int64_t rows{}; ///< written by then
+  std::int64_t rows{}; ///< rows written so far
   std::int64_t frames{};
-  std::optional<BranchPoint> branchedFrom; ///< empty: the run began with the first step
-  std::optional<GrainLengths> lengths;     ///< where there are grains; none in files of before
+  std::optional<BranchPoint> branchedFrom; ///< empty: the run started at the first step
+  std::optional<GrainLengths> lengths;     ///< scenes with grains only; missing in old files
   coupling::SimulationState state;
 };
 
 /// Replaces the file atomically: the former one stays intact on failure, or if the program is killed.
 /// Throws support::NotWritten.
-/// On several ranks all of them call it, each with its rows of the grains; all return when the file is in place.
+/// All ranks call it, each with its rows of the grains; all return when the file is complete.
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
 
-/// Throws base::InputError where the file is missing, foreign, from another version, truncated or damaged.
-/// On several ranks, whatever their number was when it was written, each gets its rows.
+/// Throws base::InputError if the file is missing, foreign, from another version, truncated or damaged.
+/// Each rank gets its rows; the number of ranks may differ from that of the writing run.
 Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
 
 /// Reads scene, inputs and commit only. All ranks call it.
@@ -71,8 +71,8 @@ coupling::SettleReport readSettled(const support::Hdf5File& file); ///< settling
 struct StoredField {
   std::string path;  ///< "grains/spin"
   std::string type;  ///< "float32"
-  std::string rows;  ///< "1"; "n" of a list; "grains", "contacts"
-  std::size_t width; ///< numbers a row
+  std::string rows;  ///< "1"; "n" for a list; "grains", "contacts"
+  std::size_t width; ///< numbers per row
 };
 /// All fields of a state file; checkpoint_fields.hpp describes them.
 std::vector<StoredField> storedFields();

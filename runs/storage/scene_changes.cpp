@@ -87,16 +87,16 @@ BranchChanges checkSameScene(const Checkpoint& checkpoint, const std::filesystem
                              const setup::Provenance& provenance, const char* option) {
   const auto refuse = [&](const std::string& what) {
     throw base::InputError(
-        fmt::format("{}: {}; set it back, or start anew without {}", provenance.file.string(), what, option));
+        fmt::format("{}: {}; restore it, or start a new run without {}", provenance.file.string(), what, option));
   };
   BranchChanges branch;
   for (const auto& [key, was, is] : changedKeys(checkpoint.scene, provenance.resolved)) {
     if (actsInTheDrive(key))
       (key.starts_with("hitch.") ? branch.hitch : branch.driver) = true;
     else if (!was)
-      refuse(fmt::format("{} = {} is missing in the scene of {}", key, *is, path.string()));
+      refuse(fmt::format("{} = {} is not in the scene of {}", key, *is, path.string()));
     else if (!is)
-      refuse(fmt::format("{} = {} is missing, but {} was written with it", key, *was, path.string()));
+      refuse(fmt::format("{} = {} is missing in this scene, but {} was written with it", key, *was, path.string()));
     else
       refuse(fmt::format("{} = {} was {} when {} was written", key, *is, *was, path.string()));
   }

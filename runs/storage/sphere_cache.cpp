@@ -24,10 +24,10 @@ namespace {
 constexpr auto kSpheres = support::KeptFiles::Kind::spheres;
 constexpr const char* kSetFile = "kept sphere set";
 constexpr int kSetFileVersion = 2;
-constexpr auto kSpheresLook = std::chrono::milliseconds(20); // between two looks at another program's lock
-constexpr double kPatience = 120;                            // [s], after which both make the set
+constexpr auto kSpheresLook = std::chrono::milliseconds(20); // polling interval for the lock of another program
+constexpr double kPatience = 120;                            // [s]; after this time both programs compute the set
 
-// A file behind its seal: length of the origin, the origin, figures, spheres, all as they lie in memory.
+// File contents after the seal: length of the origin, origin, figures, spheres, all as in memory.
 static_assert(std::is_trivially_copyable_v<base::SetSphere> && sizeof(base::SetSphere) == 10 * sizeof(double),
               "a sphere has another shape: raise kSetFileVersion");
 
@@ -103,7 +103,7 @@ base::SphereSet SphereCache::cut(const coupling::PartCut& part, spheredecomp::Pr
   support::FileLock lock;
   const bool usable = found || files_.writable();
   if (!found && usable) {
-    // Of several programs that need one set, the first makes it.
+    // If several programs need one set, the first computes it.
     while (!lock.take(support::KeptFiles::lockOf(file)) && clock.seconds() < kPatience)
       std::this_thread::sleep_for(kSpheresLook);
     found = find(file, origin);
@@ -131,8 +131,8 @@ std::optional<SphereCache::Found> SphereCache::find(const fs::path& file, const 
     support::KeptFiles::noteUse(file);
     return found;
   } catch (const std::exception& e) {
-    if (!fs::is_regular_file(file, error)) return {}; // deleted just now, by a program that makes room
-    const std::string what = e.what();                // of a sealed file it begins with its name
+    if (!fs::is_regular_file(file, error)) return {}; // deleted meanwhile by a program that frees disk space
+    const std::string what = e.what();                // begins with the file name for a damaged seal
     support::tell("WARNING: {}{}; continuing without it\n",
                   what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
     fs::remove(file, error); // reported once

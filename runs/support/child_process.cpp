@@ -131,7 +131,7 @@ std::optional<ProcessEnd> ChildProcess::end(bool wait) {
   if (ended == 0) return {};
   process_ = -1;
   end_ = WIFEXITED(status) ? ProcessEnd{WEXITSTATUS(status), 0} : ProcessEnd{-1, WTERMSIG(status)};
-  if (ended < 0) throw failure("lost track of a process");
+  if (ended < 0) throw failure("cannot wait for a child process");
   return end_;
 }
 

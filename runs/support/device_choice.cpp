@@ -25,7 +25,7 @@ int firstGpu() {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), first);
   if (error != std::errc() || end != text.data() + text.size() || first < 0 || first > kMostGpus)
     throw base::InputError(
-        fmt::format("{} = '{}' is not a GPU index from 0 to {}, as CUDA counts visible devices; correct or unset it",
+        fmt::format("{} = '{}' must be the index of a visible CUDA device, from 0 to {}; correct or unset it",
                     kFirstGpu, text, kMostGpus));
   return first;
 }

@@ -30,7 +30,7 @@ Failure failureOf(const std::exception_ptr& error) {
   } catch (const std::exception& e) {
     return {FailureKind::stray, e.what()};
   } catch (...) {
-    return {FailureKind::stray, "an exception without a message"};
+    return {FailureKind::stray, "exception without a message"};
   }
 }
 

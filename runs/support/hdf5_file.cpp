@@ -96,16 +96,16 @@ hid_t stringType() {
   return type;
 }
 
-/// Before the first use of the library: errors become exceptions here, and the library does not tidy up when the
-/// program ends. HDF5 1.10 keeps a file that it could not write (full disk) and crashes on it at exit; ours are closed
-/// by then.
+/// Call before the first use of the library. Disables HDF5's error output, since errors become exceptions, and its
+/// cleanup at exit. HDF5 1.10 keeps a file that it could not write (full disk) and crashes on it at exit; our files are
+/// closed before.
 void quiet() {
   [[maybe_unused]] static const herr_t once = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-constexpr hsize_t kCompressedRows = 65536; // of a chunk, at most
-constexpr unsigned kCompression = 4;       // of zlib's levels 1 to 9
+constexpr hsize_t kCompressedRows = 65536; // maximum rows per chunk
+constexpr unsigned kCompression = 4;       // zlib level, 1 to 9
 
 NotWritten failure(const std::filesystem::path& path, const char* what) {
   return notWritten(path, fmt::format("HDF5 could not {}", what));
@@ -155,7 +155,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlo
   H5Pset_userblock(creation, userBlock);
   // The oldest file format has no "open for writing" mark: a file that a killed program left stays readable.
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
-  if (file < 0) throw failure(path, "create the file, which may be open elsewhere");
+  if (file < 0) throw failure(path, "create the file; another program may have opened it");
   return {file, path};
 }
 
@@ -165,11 +165,11 @@ hid_t openedAs(unsigned access, const std::filesystem::path& path) {
   quiet();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
-    throw base::InputError(fmt::format("{}: there is no such file; give the results.h5 of a run", path.string()));
+    throw base::InputError(fmt::format("{}: no such file; specify the results.h5 of a run", path.string()));
   const hid_t file = H5Fopen(path.c_str(), access, H5P_DEFAULT);
   if (file < 0)
     throw base::InputError(
-        fmt::format("{}: is not an HDF5 file, or is truncated; give the results.h5 of a run", path.string()));
+        fmt::format("{}: is not an HDF5 file, or is truncated; specify the results.h5 of a run", path.string()));
   return file;
 }
 } // namespace
@@ -199,7 +199,7 @@ Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
 }
 
 Hdf5File::~Hdf5File() {
-  // All ranks close a shared file together; with an error on its way out they will not.
+  // Closing a shared file is collective; after an error other ranks may not close it.
   if (shared_ && std::uncaught_exceptions() > 0) return;
   const Turn turn;
   if (file_ >= 0) H5Fclose(file_);
@@ -214,7 +214,7 @@ void Hdf5File::makeGroup(const std::string& group) {
   if (has(group)) return;
   const Handle parents(makeParents(), H5Pclose);
   const Handle id(H5Gcreate2(file_, group.c_str(), parents, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-  check(id, "make a group");
+  check(id, "create a group");
 }
 
 void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
@@ -224,7 +224,7 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
   const Handle id(
       H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose);
-  check(id, "make an attribute");
+  check(id, "create an attribute");
   const char* text = value.c_str();
   check(H5Awrite(id, type, &text), "write an attribute");
 }
@@ -235,7 +235,7 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, dou
   const Handle id(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
                                     H5P_DEFAULT, H5P_DEFAULT),
                   H5Aclose);
-  check(id, "make an attribute");
+  check(id, "create an attribute");
   check(H5Awrite(id, H5T_NATIVE_DOUBLE, &value), "write an attribute");
 }
 
@@ -247,7 +247,7 @@ void Hdf5File::attribute(const std::string& object, const std::string& name, con
   const Handle id(
       H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
       H5Aclose);
-  check(id, "make an attribute");
+  check(id, "create an attribute");
   std::vector<const char*> texts;
   for (const std::string& v : values) texts.push_back(v.c_str());
   if (count) check(H5Awrite(id, type, texts.data()), "write an attribute");
@@ -269,7 +269,7 @@ void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, Num
     H5Pset_deflate(layout, kCompression);
   }
   const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT), H5Dclose);
-  check(id, "make a dataset");
+  check(id, "create a dataset");
   if (!isEmpty) check(H5Dwrite(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), "write a dataset");
 }
 
@@ -282,7 +282,7 @@ void Hdf5File::reserveNumbers(const std::string& dataset, NumberType type, const
   H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
   const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT), H5Dclose);
-  check(id, "make a dataset");
+  check(id, "create a dataset");
 }
 
 namespace {
@@ -350,19 +350,19 @@ GrowingDataset Hdf5File::growing(const std::string& dataset, NumberType type, in
   H5Pset_chunk(layout, rank, chunk);
   const Handle parents(makeParents(), H5Pclose);
   const hid_t id = H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT);
-  check(id, "make a dataset");
+  check(id, "create a dataset");
   return {id, width};
 }
 
 void Hdf5File::link(const std::string& existing, const std::string& name) {
   const Turn turn;
   const Handle parents(makeParents(), H5Pclose);
-  check(H5Lcreate_hard(file_, existing.c_str(), file_, name.c_str(), parents, H5P_DEFAULT), "make a link");
+  check(H5Lcreate_hard(file_, existing.c_str(), file_, name.c_str(), parents, H5P_DEFAULT), "create a link");
 }
 
 void Hdf5File::remove(const std::string& object) {
   const Turn turn;
-  check(H5Ldelete(file_, object.c_str(), H5P_DEFAULT), "remove an object");
+  check(H5Ldelete(file_, object.c_str(), H5P_DEFAULT), "delete an object");
 }
 
 void Hdf5File::flush() {
@@ -372,14 +372,14 @@ void Hdf5File::flush() {
 
 void requireRoom(const Hdf5File& file, std::uint64_t bytes) {
   const Turn turn;
-  void* handle = nullptr; // to the descriptor of the file, which may have another name by now
+  void* handle = nullptr; // points to the file descriptor; the file may have been renamed
   file.check(H5Fget_vfd_handle(file.file_, H5P_DEFAULT, &handle), "get the handle of the file");
   requireRoom(*static_cast<const int*>(handle), file.path_, bytes);
 }
 
 bool Hdf5File::has(const std::string& object) const {
   const Turn turn;
-  // Each group on the way must exist before HDF5 may be asked for the next.
+  // H5Lexists() requires that all parent groups exist.
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string part = object.substr(0, end);
     if (part != "/" && H5Lexists(file_, part.c_str(), H5P_DEFAULT) <= 0) return false;
@@ -405,7 +405,7 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
   const Handle id(has(dataset) ? H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT) : hid_t{-1}, H5Dclose);
   if (id < 0)
     throw base::InputError(
-        fmt::format("{}: has no dataset {}; give the results.h5 of a run of this program", path_.string(), dataset));
+        fmt::format("{}: has no dataset {}; specify the results.h5 of a run of this program", path_.string(), dataset));
   const Handle space(H5Dget_space(id), H5Sclose);
   std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
   H5Sget_simple_extent_dims(space, extent.data(), nullptr);

@@ -41,7 +41,7 @@ public:
   /// Moves a completed file from its temporary name to its final one, then deletes the least recently used files until
   /// the cache is within its limit. Returns false if the rename fails.
   bool put(const std::filesystem::path& fresh, const std::filesystem::path& file) const;
-  /// Marks the file as the last one used.
+  /// Marks the file as most recently used.
   static void noteUse(const std::filesystem::path& file);
 
 private:

@@ -108,7 +108,8 @@ void refuseOptionsAsValues(CLI::App& app) {
       option->transform(CLI::Validator(
           [&app](const std::string& text) {
             const bool isOption = text.starts_with('-') && app.get_option_no_throw(text.substr(0, text.find('=')));
-            return isOption ? fmt::format("has no value: the option {} follows it; give a value", text) : std::string();
+            return isOption ? fmt::format("requires a value, but is followed by the option {}; add a value", text)
+                            : std::string();
           },
           ""));
   for (CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) refuseOptionsAsValues(*sub);

@@ -22,7 +22,7 @@ namespace {
 constexpr std::size_t kRoomForNames = 128; ///< characters for names of files in a folder, and of their folders
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& why, const std::string& option) {
-  throw base::InputError(fmt::format("{}: {}; name another with {}", place.string(), why, option));
+  throw base::InputError(fmt::format("{}: {}; choose another with {}", place.string(), why, option));
 }
 
 /// 0, or the errno of writing a small file in this folder. Leaves nothing there.
@@ -74,11 +74,12 @@ void requireFolder(const fs::path& folder, const std::string& option) {
   for (const fs::path& part : whole)
     if (longest > 0 && part.string().size() > static_cast<std::size_t>(longest))
       refuse(folder,
-             fmt::format("a name in it has {} bytes, but the file system allows {}", part.string().size(), longest),
+             fmt::format("a name in the path has {} bytes, more than the {} of the file system", part.string().size(),
+                         longest),
              option);
   if (whole.string().size() + kRoomForNames > PATH_MAX)
     refuse(folder,
-           fmt::format("the path has {} bytes, with its files more than the system's limit of {}",
+           fmt::format("the path has {} bytes, so paths of its files exceed the system limit of {}",
                        whole.string().size(), PATH_MAX),
            option);
   const int fault = writeFault(there);

@@ -9,11 +9,13 @@ namespace grouser::support {
 /// Error message for a user's name that results files cannot hold: with a control character, or a slash, which
 /// separates HDF5 groups. Empty for a valid name.
 inline std::string nameFault(const std::string& name) {
-  if (name.empty()) return "is an empty name; give a name";
+  if (name.empty()) return "is an empty name; set a name";
   const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   if (std::any_of(name.begin(), name.end(), isControl))
-    return "has a control character (line feed, tab, escape...) in its name, which results cannot hold; remove it";
-  if (name.find('/') != std::string::npos) return "has a / in its name, which separates names in results; remove it";
+    return "has a control character (line feed, tab, escape...) in its name, which results files do not support; "
+           "remove it";
+  if (name.find('/') != std::string::npos)
+    return "has a / in its name, which separates names in results files; remove it";
   return "";
 }
 

@@ -88,23 +88,23 @@ void check(const fs::path& path, const char* kind, int version, std::string* con
   std::error_code error;
   if (!fs::is_regular_file(path, error))
     throw base::InputError(
-        fmt::format("{}: there is no such file; give the {} of a run, or start anew without it", path.string(), kind));
+        fmt::format("{}: no such file; specify the {} of a run, or start a new run without it", path.string(), kind));
   const NamedFile file(path, O_RDONLY);
   if (!file.good()) throw base::InputError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
   std::string text(kSealBytes, '\0');
   const bool isSealed = ::pread(file, text.data(), text.size(), 0) == static_cast<ssize_t>(text.size());
   const std::string head = fmt::format("grouser {}\nversion ", kind);
   if (!isSealed || text.compare(0, head.size(), head) != 0)
-    throw base::InputError(fmt::format("{}: is not a {} of this program, or is damaged", path.string(), kind));
+    throw base::InputError(fmt::format("{}: is not a {} of grouser, or is damaged", path.string(), kind));
   const std::size_t end = text.find('\n', head.size());
   const std::string found = text.substr(head.size(), end == std::string::npos ? 0 : end - head.size());
   if (found != std::to_string(version))
-    throw base::InputError(fmt::format("{}: is a {} of version {}, this program reads version {}; use the program that "
-                                       "wrote it, or start anew",
+    throw base::InputError(fmt::format("{}: is a {} of version {}, but this program reads version {}; use the program "
+                                       "that wrote it, or start a new run",
                                        path.string(), kind, found, version));
   const Measure m = measure(file, contents);
   if (text != sealText(kind, version, m.bytes, m.checksum))
-    throw base::InputError(fmt::format("{}: the {} is damaged: its length or checksum is wrong; start anew without it",
+    throw base::InputError(fmt::format("{}: the {} is damaged: wrong length or checksum; start a new run without it",
                                        path.string(), kind));
 }
 

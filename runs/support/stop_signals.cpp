@@ -9,7 +9,7 @@ namespace grouser::support {
 namespace {
 
 volatile std::sig_atomic_t signalReceived = 0;
-/// SIGHUP: the terminal is gone.
+/// SIGHUP: the terminal was closed.
 constexpr std::pair<int, const char*> kKept[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
 struct sigaction former[std::size(kKept)];
 int watchers = 0;
@@ -19,7 +19,7 @@ extern "C" void keepSignal(int signal) { signalReceived = signal; }
 } // namespace
 
 StopSignals::StopSignals() {
-  if (watchers++ > 0) return; // what the outer one has received still counts
+  if (watchers++ > 0) return; // nested: keeps the signal that the outer object received
   signalReceived = 0;
   struct sigaction action {};
   action.sa_handler = keepSignal;

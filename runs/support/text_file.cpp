@@ -21,7 +21,7 @@ void writeTextFile(const fs::path& path, const std::string& text, const std::str
   std::ofstream file(path, std::ios::binary);
   if (!file)
     throw base::InputError(
-        fmt::format("{}: cannot be written ({}); name another with {}", path.string(), std::strerror(errno), option));
+        fmt::format("{}: cannot be written ({}); choose another with {}", path.string(), std::strerror(errno), option));
   file << text;
   file.close();
   if (file) return;

@@ -6,11 +6,11 @@
 
 namespace grouser::support {
 
-/// Remaining time of a task from its recent rate, over a fifth of the time spent so far, so that it follows changes of
-/// the machine's load.
+/// Estimates the remaining time of a task from its rate over the last fifth of the time spent so far, and so follows
+/// changes of the machine's load.
 class TimeLeft {
 public:
-  /// `fraction`: done before this call, such as by the run that is resumed.
+  /// `fraction`: share done before this call, such as by the run that is resumed.
   explicit TimeLeft(double fraction = 0) : samples_{{0, fraction}} {}
 
   /// Fraction of the work done at `elapsed` since the start [s], which never decreases.
@@ -23,9 +23,9 @@ private:
   struct Sample {
     double time, fraction;
   };
-  static double window(double elapsed); ///< in which the rate is measured [s]
+  static double window(double elapsed); ///< interval of the rate [s]
 
-  std::deque<Sample> samples_; ///< those of the window, and the last before it
+  std::deque<Sample> samples_; ///< samples of the window, and the last before it
 };
 
 } // namespace grouser::support

@@ -74,23 +74,24 @@ void prepare(TestPlan& plan, jobs::Pieces& pieces, Device& device, int jobs, std
   const std::vector<double> trial = nearestTrial(pieces.read(name).rows, *plan.soil.porosity);
   plan.grains.preparationFriction = trial[0];
   if (std::fabs(trial[1] - *plan.soil.porosity) > kPorosityNoted)
-    support::tell("WARNING: the beds have a porosity of {:.4f}, the closest to the soil's {:g} that these grains "
-                  "reach; change bed.porosity or bed.radius_spread of the soil\n",
+    support::tell("WARNING: the beds have a porosity of {:.4f}, the closest value to that of the soil ({:g}) which "
+                  "these grains can reach; change bed.porosity or bed.radius_spread of the soil\n",
                   trial[1], *plan.soil.porosity);
-  fmt::print("          beds settle with friction {:.4g} to a porosity of {:.4f}\n", trial[0], trial[1]);
+  fmt::print("          settling friction {:.4g}, resulting porosity {:.4f}\n", trial[0], trial[1]);
 }
 
 void printHead(const TestPlan& plan) {
   const TestedSoil& s = plan.soil;
   fmt::print("          {}{}\n", s.title.empty() ? s.name : s.title,
-             plan.options.coarse ? "; coarse: small plates of few grains, pushed fast" : "");
+             plan.options.coarse ? "; coarse settings (--quick): small plates of few grains, pushed fast" : "");
   fmt::print("          grains of {:g} mm +- {:g} %, plates of {:g} and {:g} d ({:.3g} and {:.3g} m), shear under {} "
-             "loads; {}, {} of the large plate\n",
+             "loads; {}, {} for the large plate\n",
              2e3 * s.grainRadius, 100 * s.spread, plan.small.strip.breadth, plan.large.strip.breadth,
              plan.breadth(TestKind::small), plan.breadth(TestKind::large), plan.options.loads.size(),
              base::counted(plan.options.seeds, "seed"), plan.options.largeSeeds);
   if (!s.isCalibrated())
-    fmt::print("          note: parameters scaled from grains of {:g} mm; calibrated for radii of {:g} to {:g} mm\n",
+    fmt::print("          note: parameters are scaled from grains of {:g} mm; they are calibrated for radii of {:g} to "
+               "{:g} mm\n",
                2e3 * s.fileRadius, 1e3 * s.calibratedFrom, 1e3 * s.calibratedTo);
   std::fflush(stdout);
 }

@@ -47,7 +47,7 @@ public:
         search();
     } catch (const Unfinished& unfinished) {
       record_.stopped(unfinished.trial, unfinished.missing);
-      fmt::print("{} missing: call again with --resume\n",
+      fmt::print("{} missing; repeat the command with --resume\n",
                  base::counted(unfinished.missing, "test of this trial is", "tests of this trial are"));
     }
   }
@@ -213,8 +213,8 @@ private:
                                          command_.place.quick ? " --quick" : "");
     support::writeTextFile(folder_ / "calibration.txt", text, "--out");
     const std::string file = soil_.name + ".toml";
-    support::replaceTextFile(folder_ / file,
-                             soilFileText(soil_, fmt::format("calibrated by {} ({})", call, plan.care()), r, call));
+    support::replaceTextFile(
+        folder_ / file, soilFileText(soil_, fmt::format("Calibrated by `{}` ({} care).", call, plan.care()), r, call));
     record_.ended(found, file, "final");
     fmt::print("soil      {}\n", (folder_ / file).string());
   }
@@ -251,8 +251,8 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
   text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
   for (const auto& [q, e] : reached.measured) {
     if (const std::string doubt = doubtOf(q, e); !doubt.empty()) {
-      text +=
-          fmt::format("\n# {} = {} {} omitted, inconclusive: {}\n", symbolOf(q), jobs::valueText(e), unitOf(q), doubt);
+      text += fmt::format("\n# {} = {} {} omitted because inconclusive: {}\n", symbolOf(q), jobs::valueText(e),
+                          unitOf(q), doubt);
       continue;
     }
     text +=
@@ -265,7 +265,8 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
 
 void calibrateCommand(const CalibrationCommand& command) {
   if (!command.pieces.part.empty())
-    throw base::InputError("--part: incompatible with --calibrate, whose trials run in sequence; use --jobs");
+    throw base::InputError(
+        "--part: incompatible with --calibrate, which runs its trials in sequence; use --jobs instead");
   CalibrationTargets targets = readTargets(command.targets, command.grainRadius);
   const std::filesystem::path folder = command.place.folder.empty()
                                            ? std::filesystem::path("out") / ("calibrate_" + targets.start.name)

@@ -39,10 +39,9 @@ base::Table<TargetKeys> targetTable() {
   t.add("b", &T::b, "m", "plate width of k").above(0).atMost(100);
   t.add("c", &T::c, "kPa", "cohesion").atLeast(0).atMost(1000);
   t.add("phi", &T::phi, "deg", "angle of internal friction").above(0).atMost(60);
-  t.add("K", &T::shearModulus, "mm", "shear deformation modulus; reported only").above(0);
+  t.add("K", &T::shearModulus, "mm", "shear deformation modulus; reported but not fitted").above(0);
   t.add("repose", &T::repose, "deg", "angle of repose; requires [plates]").above(0).atMost(60);
-  t.add("bulk_density", &T::bulkDensity, "kg/m3",
-        "bulk density, which sets the density of the solid; requires [plates]")
+  t.add("bulk_density", &T::bulkDensity, "kg/m3", "bulk density, which determines the solid density; requires [plates]")
       .above(0)
       .atMost(1e5);
   return t;
@@ -65,22 +64,21 @@ void checkBesidePlates(const base::Section& section, const TargetKeys& k, bool h
       {"c", &k.c}, {"phi", &k.phi}, {"K", &k.shearModulus}};
   for (const auto& [key, value] : constants)
     if (hasPlates && *value)
-      section.fail(key, "is mutually exclusive with [plates]; remove it, or remove [plates] and [search]");
-  if (!hasPlates && k.repose) section.fail("repose", "requires [plates]; add that section, or remove the key");
+      section.fail(key, "is mutually exclusive with [plates]; remove it, or [plates] and [search]");
+  if (!hasPlates && k.repose) section.fail("repose", "requires [plates]; add this section, or remove the key");
   if (!hasPlates && k.bulkDensity)
-    section.fail("bulk_density", "requires [plates]; add that section, or give density in [start]");
+    section.fail("bulk_density", "requires [plates]; add this section, or set density in [start]");
 }
 
 void checkTogether(const base::Section& section, const TargetKeys& k) {
   if (k.k.has_value() != k.b.has_value())
     section.fail(k.k ? "k" : "b", k.k ? "requires b; add it" : "requires k; add it");
   if (k.kc.has_value() != k.kphi.has_value())
-    section.fail(k.kc ? "k_c" : "k_phi", k.kc ? "must be given together with k_phi; add it, or use k and b instead"
-                                              : "must be given together with k_c; add it, or use k and b instead");
+    section.fail(k.kc ? "k_c" : "k_phi", k.kc ? "requires k_phi; add it, or use k and b instead"
+                                              : "requires k_c; add it, or use k and b instead");
   if (k.k && k.kphi) section.fail("k", "is mutually exclusive with k_c and k_phi; remove k and b, or k_c and k_phi");
-  if ((k.k || k.kphi) && !k.n) section.fail("n", "is missing; add it: the units of k, k_c and k_phi depend on it");
-  if (!k.phi && !k.c && !k.k && !k.kphi)
-    section.fail("", "has no target to fit; set phi, c, k_c and k_phi, or k and b");
+  if ((k.k || k.kphi) && !k.n) section.fail("n", "is missing, but the units of k, k_c and k_phi depend on it; add it");
+  if (!k.phi && !k.c && !k.k && !k.kphi) section.fail("", "contains no targets; set phi, c, k_c and k_phi, or k and b");
 }
 
 } // namespace
@@ -105,7 +103,7 @@ CalibrationTargets withCurves(const base::Section& root, const std::filesystem::
   t.curves->repose = keys.repose, t.curves->reposeTolerance = within.repose;
   t.curves->bulkDensity = keys.bulkDensity;
   if (keys.bulkDensity && !t.start.porosity)
-    root.section("targets").fail("bulk_density", "requires bed.porosity, which sets the density of the solid with it");
+    root.section("targets").fail("bulk_density", "requires bed.porosity to compute the solid density; add it");
   return t;
 }
 
@@ -124,7 +122,7 @@ CalibrationTargets readTargets(const std::filesystem::path& file, double grainRa
   const TargetKeys keys = section.read(targetTable());
   checkBesidePlates(section, keys, hasPlates);
   if (hasPlates) return withCurves(root, file, grainRadius, keys, within);
-  if (root.has("search")) root.section("search").fail("", "requires [plates]; add that section, or remove this one");
+  if (root.has("search")) root.section("search").fail("", "requires [plates]; add this section, or remove the other");
   checkTogether(section, keys);
   const auto take = [&](Quantity quantity, const std::optional<double>& value) {
     if (value) t.wanted[quantity] = *value;

@@ -22,13 +22,13 @@ struct SoilRange {
 SoilRange rangeOf(Quantity quantity) {
   switch (quantity) {
   case Quantity::exponent:
-    return {0.1, 2, true, "outside the range of soils, [0.1, 2]"};
+    return {0.1, 2, true, "outside [0.1, 2], the range of soils"};
   case Quantity::frictionModulus:
-    return {0, std::numeric_limits<double>::infinity(), false, "not positive: wide plates would carry no load"};
+    return {0, std::numeric_limits<double>::infinity(), false, "not positive, so wide plates would carry no load"};
   case Quantity::shearModulus:
     return {0, std::numeric_limits<double>::infinity(), false, "not positive"};
   case Quantity::frictionAngle:
-    return {0, 60, false, "outside the range of soils, (0, 60] degrees"};
+    return {0, 60, false, "outside (0, 60] degrees, the range of soils"};
   case Quantity::repose:
     return {0, 90, false, "outside (0, 90) degrees"};
   default:
@@ -39,7 +39,7 @@ SoilRange rangeOf(Quantity quantity) {
 } // namespace
 
 std::string doubtOf(Quantity quantity, const support::Estimate& measured) {
-  if (!std::isfinite(measured.value)) return "no number";
+  if (!std::isfinite(measured.value)) return "not a number";
   const SoilRange range = rangeOf(quantity);
   std::string why;
   const auto add = [&](const std::string& words) { why += (why.empty() ? "" : "; ") + words; };

@@ -101,7 +101,7 @@ void CurveCalibration::finish() {
                   command_.place.quick ? " --quick" : "", command_.plan.seeds, command_.plan.mostPressure);
   const std::string file = bed_.soil.name + ".toml";
   support::replaceTextFile(
-      folder_ / file, soilFileText(bed_.soil, fmt::format("calibrated by {} on beds {:g} m deep", call, bed_.depth),
+      folder_ / file, soilFileText(bed_.soil, fmt::format("Calibrated by `{}` on beds {:g} m deep.", call, bed_.depth),
                                    trial.results, call));
   record_.ended(found, file, "final");
   fmt::print("soil      {}\n", (folder_ / file).string());

@@ -27,7 +27,7 @@ struct PlateKeys {
 
 base::Table<PlateKeys> plateTable() {
   using T = PlateKeys;
-  base::Table<T> t("plates", "Measured pressure-sinkage tests of circular plates");
+  base::Table<T> t("plates", "Measured pressure-sinkage curves of circular plates");
   t.add("file", &T::file, "",
         "CSV file with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa; path relative to the target "
         "file")
@@ -36,10 +36,11 @@ base::Table<PlateKeys> plateTable() {
       .above(0)
       .atMost(10)
       .required();
-  t.add("bin", &T::bin, "m", "side of the square bed, between periodic boundaries").above(0).atMost(100);
+  t.add("bin", &T::bin, "m", "side length of the square bed, between periodic boundaries").above(0).atMost(100);
   t.add("depth", &T::depth, "m", "depth of the bed").above(0).atMost(100);
   t.add("contact_pressure", &T::contact, "Pa",
-        "pressure at which simulated sinkage equals the mean measured sinkage; 0: sinkage from the mean surface")
+        "reference pressure at which the simulated sinkage is set equal to the mean measured sinkage; 0: sinkage is "
+        "measured from the mean surface")
       .atLeast(0)
       .atMost(1e6);
   return t;
@@ -60,8 +61,10 @@ base::Table<SearchKeys> searchTable() {
   t.add("rolling_friction", &T::rolling, "-", "rolling friction").atLeast(0).atMost(2);
   t.add("porosity", &T::porosity, "-", "porosity of the bed").atLeast(0.2).atMost(0.7);
   t.add("cohesion", &T::cohesion, "J/m2", "energy of adhesion").atLeast(0).atMost(1e6);
-  t.add("depth", &T::depth, "m", "depth of the bed, if unknown in the experiment").above(0).atMost(100);
-  t.add("trials", &T::trials, "-", "maximum number of trials; 1 evaluates the start only").atLeast(1).atMost(1000);
+  t.add("depth", &T::depth, "m", "depth of the bed, if unknown from the experiment").above(0).atMost(100);
+  t.add("trials", &T::trials, "-", "maximum number of trials; 1: evaluate the initial values only")
+      .atLeast(1)
+      .atMost(1000);
   return t;
 }
 
@@ -74,7 +77,7 @@ void addRange(const base::Section& section, const SoilInBed& start, const std::s
   if (std::isnan(now))
     section.fail(key, "has no initial value; set it in [start], porosity in [bed] and depth in [plates]");
   if (now < low || now > high)
-    section.fail(key, fmt::format("excludes its initial value {:g}; widen the range or change the value", now));
+    section.fail(key, fmt::format("does not include the initial value {:g}; widen the range or change the value", now));
   ranges.push_back({key, low, high, key == "young" || key == "stiffness"});
 }
 
@@ -105,7 +108,7 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
   CurveTargets t;
   const base::Section plates = root.section("plates");
   const PlateKeys keys = plates.read(plateTable());
-  if (keys.sinkages.empty()) plates.fail("sinkages", "is empty; set one or more sinkages, e.g. [0.005, 0.01]");
+  if (keys.sinkages.empty()) plates.fail("sinkages", "is empty; set at least one sinkage, e.g. [0.005, 0.01]");
   if (!std::is_sorted(keys.sinkages.begin(), keys.sinkages.end(), std::less_equal<>()))
     plates.fail("sinkages", "is not ascending; sort it");
   t.bin = keys.bin, t.depth = keys.depth, t.contactPressure = keys.contact;
@@ -113,9 +116,10 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
   for (const MeasuredPlate& plate : t.plates)
     if (const double first = plate.points.front().sinkage - windowOf(plate.points.front().sinkage);
         plate.contact >= first)
-      plates.fail("contact_pressure", fmt::format("is reached by the plate of {:g} mm at {:.2f} mm, but the comparison "
-                                                  "starts at {:g} mm; lower it, or remove the first of sinkages",
-                                                  1e3 * plate.diameter, 1e3 * plate.contact, 1e3 * first));
+      plates.fail("contact_pressure",
+                  fmt::format("is reached by the plate of {:g} mm at a sinkage of {:.2f} mm, after the first compared "
+                              "sinkage, {:g} mm; lower it, or remove the first entry of sinkages",
+                              1e3 * plate.diameter, 1e3 * plate.contact, 1e3 * first));
   const base::Section search = root.section("search");
   const SearchKeys sought = search.read(searchTable());
   const SoilInBed given{start, t.depth};
@@ -125,7 +129,7 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
       {"porosity", &sought.porosity}, {"cohesion", &sought.cohesion},
       {"depth", &sought.depth}};
   for (const auto& [key, span] : spans) addRange(search, given, key, *span, t.ranges);
-  if (t.ranges.empty()) search.fail("", "has no parameter; set one or more, e.g. friction = [0.3, 1]");
+  if (t.ranges.empty()) search.fail("", "contains no parameters; set at least one, e.g. friction = [0.3, 1]");
   t.mostTrials = static_cast<std::size_t>(sought.trials);
   return t;
 }

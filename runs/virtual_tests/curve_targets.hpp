@@ -26,7 +26,7 @@ struct CurveTargets {
   std::size_t mostTrials = 16;
   std::optional<double> repose;      ///< [deg]
   double reposeTolerance = 1;        ///< [deg] counts as a standard deviation
-  std::optional<double> bulkDensity; ///< [kg/m3] of the bed; sets the density of the solid
+  std::optional<double> bulkDensity; ///< [kg/m3] bulk density of the bed; sets the density of the solid
 
   /// The plates and their bed of this depth [m], for a plan.
   MeasuredPlatesBed bed(double depthOfBed) const;
@@ -61,7 +61,7 @@ SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, 
 /// The finished tests of plates beside the measured points; means over the plates.
 struct CurveComparison {
   std::vector<CurvePoint> points;
-  double porosity = 0;      ///< of the beds [-]
+  double porosity = 0;      ///< porosity of the beds [-]
   double zeroOfSinkage = 0; ///< [m] height above the bed's mean surface from which sinkage counts
 };
 /// Simulated pressures are averaged over 90 to 110 % of the sinkage, at least over 2 mm. A plate that never reaches the
@@ -69,7 +69,7 @@ struct CurveComparison {
 CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 
 /// For the search: ln(simulated / measured) of every point over its measured relative deviation, at least
-/// `kLeastScatter`; then (repose - wanted) over its tolerance, where one is wanted.
+/// `kLeastScatter`; then (repose - target) over its tolerance, if it is a target.
 inline constexpr double kLeastScatter = 0.05; ///< [-] scatter of a simulated bed
 std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
                                    const CurveTargets& targets);

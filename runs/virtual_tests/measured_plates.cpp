@@ -91,11 +91,11 @@ private:
 
   void addRow(const std::vector<std::string>& cells, std::map<int, Test>& tests) const {
     const double trial = number(cells, 0), diameter = 1e-3 * number(cells, 1);
-    if (trial != std::floor(trial) || trial < 0 || trial > 1e9) fail("trial must be a whole number of 0 or more");
+    if (trial != std::floor(trial) || trial < 0 || trial > 1e9) fail("trial must be a whole number >= 0");
     if (!(diameter > 0 && diameter <= 10)) fail("plate_diameter_mm is outside (0, 10000]");
     Test& test = tests[static_cast<int>(trial)];
     if (!test.sinkage.empty() && test.diameter != diameter)
-      fail(fmt::format("trial {} has plates of {:g} and {:g} mm; give each test its own number", trial,
+      fail(fmt::format("trial {} has plates of {:g} and {:g} mm; use a separate number for each test", trial,
                        1e3 * test.diameter, 1e3 * diameter));
     test.diameter = diameter;
     test.sinkage.push_back(1e-3 * number(cells, 2)), test.pressure.push_back(1e3 * number(cells, 3));
@@ -176,10 +176,9 @@ std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file,
       MeasuredPressure point = pointOf(tests, diameter, sinkage);
       if (point.trials.empty()) continue;
       if (!(point.mean > 0))
-        throw base::InputError(
-            fmt::format("{}: the plate of {:g} mm bears {:g} kPa at {:g} mm; remove that sinkage from "
-                        "plates.sinkages",
-                        file.string(), 1e3 * diameter, 1e-3 * point.mean, 1e3 * sinkage));
+        throw base::InputError(fmt::format(
+            "{}: the plate of {:g} mm carries {:g} kPa at {:g} mm; remove this sinkage from plates.sinkages",
+            file.string(), 1e3 * diameter, 1e-3 * point.mean, 1e3 * sinkage));
       plate.points.push_back(std::move(point));
     }
     if (plate.points.empty()) continue;
@@ -191,7 +190,7 @@ std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file,
       return std::any_of(plate.points.begin(), plate.points.end(), [&](const auto& p) { return p.sinkage == sinkage; });
     };
     if (std::none_of(plates.begin(), plates.end(), reaches))
-      throw base::InputError(fmt::format("{}: no test reaches {:g} mm; remove that sinkage from plates.sinkages",
+      throw base::InputError(fmt::format("{}: no test reaches {:g} mm; remove this sinkage from plates.sinkages",
                                          file.string(), 1e3 * sinkage));
   }
   poolDeviations(plates);

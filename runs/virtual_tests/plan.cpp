@@ -16,7 +16,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // of graded beds, as validated by `grouser study plates`
+constexpr double kFineDepth = 0.1, kCoarsening = 0.0265; // graded beds, validated by `grouser study plates`
 constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: samples of 16 x 8 d scatter by 10 %
 constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
 constexpr double kTooth = 1.2, kTip = 0.4;                            // [d] height and tip width of the plate teeth
@@ -119,20 +119,22 @@ void checkSizes(const TestPlan& plan) {
   const std::optional<double> free = base::freeMemoryOfHost();
   const auto require = [&](double grains, const std::string& what) {
     if (free && grains * kBytes > *free)
-      throw base::InputError(fmt::format("{} {:.3g} grains, about {:.3g} GiB, but {:.3g} GiB are free; reduce it", what,
-                                         grains, grains * kBytes / kGiB, *free / kGiB));
+      throw base::InputError(
+          fmt::format("{} {:.3g} grains, which require about {:.3g} GiB, but only {:.3g} GiB are free; reduce the size",
+                      what, grains, grains * kBytes / kGiB, *free / kGiB));
   };
   const PlanOptions& o = plan.options;
   for (const TestKind kind : {TestKind::small, TestKind::large, TestKind::wide}) {
     if (kind == TestKind::wide && !o.wide) continue;
     const PlateSinkage& plate = plan.plate(kind);
-    require(volumeOf(plan.grains, plate) / plan.grains.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0),
-            fmt::format("--plate-grains {:g}, --plate-ratio {:g}, --bin {:g}, --depth {:g} and --thickness {:g} make a "
-                        "bed of",
-                        o.plateGrains, o.plateRatio, o.bin, o.depth, o.thickness));
+    require(
+        volumeOf(plan.grains, plate) / plan.grains.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0),
+        fmt::format(
+            "--plate-grains {:g}, --plate-ratio {:g}, --bin {:g}, --depth {:g} and --thickness {:g} result in a bed of",
+            o.plateGrains, o.plateRatio, o.bin, o.depth, o.thickness));
   }
   require(plan.cell.length * plan.cell.width * plan.cell.depth * kPacked,
-          fmt::format("--shear-height {:g} [m] with grains of radius {:g} m makes a sample of", o.shearHeight,
+          fmt::format("--shear-height {:g} [m] with grains of radius {:g} m results in a sample of", o.shearHeight,
                       plan.soil.grainRadius));
 }
 
@@ -144,8 +146,8 @@ void checkMeasuredPlates(const MeasuredPlatesBed& p, double coarsest) {
           fmt::format("plates.bin = {:g} m is narrower than two diameters of the plate of {:g} m; raise it", p.bin,
                       p.diameters[k]));
     if (p.depth < p.sinkages[k] + 2 * coarsest)
-      throw base::InputError(fmt::format("plates.depth = {:g} m leaves less than two grains below the plate of {:g} m "
-                                         "at its sinkage of {:g} m; raise it",
+      throw base::InputError(fmt::format("plates.depth = {:g} m is too small: fewer than two grains remain below the "
+                                         "plate of {:g} m at a sinkage of {:g} m; raise it",
                                          p.depth, p.diameters[k], p.sinkages[k]));
   }
 }

@@ -11,11 +11,11 @@ namespace grouser::virtual_tests {
 /// stiffer beds.
 struct PlatePace {
   double density = 0;      ///< bulk density of the bed [kg/m3]
-  double breadth = 0;      ///< of the plate [m]
-  double depth = 0;        ///< of the bed [m]
+  double breadth = 0;      ///< plate breadth [m]
+  double depth = 0;        ///< bed depth [m]
   double added = 0;        ///< pressure that waves may add [Pa]
   double fastest = 0;      ///< maximum speed [m/s]
-  double firstModulus = 0; ///< assumed initially [Pa]
+  double firstModulus = 0; ///< initial estimate of the modulus [Pa]
 
   double first() const { return speedAt(firstModulus); } ///< [m/s]
   double speedAt(double modulus) const;                  ///< speed at which waves add that pressure [m/s]

@@ -23,10 +23,10 @@ namespace {
 using base::Vec3d;
 using jobs::Table;
 
-constexpr int kRows = 1200;                        // of the loading to the greatest sinkage
+constexpr int kRows = 1200;                        // rows of the loading to the greatest sinkage
 constexpr int kFiner = 4;                          // factor of the row density during unloading
 constexpr std::size_t kSmooth = 8;                 // rows averaged to detect a pressure
-constexpr double kUnloaded = 0.02;                 // of the greatest pressure
+constexpr double kUnloaded = 0.02;                 // end of unloading over the greatest pressure
 constexpr double kBack = 0.1;                      // [breadths] maximum lift of the plate
 constexpr double kBedShare = 0.5;                  // approximate share of the wall time
 constexpr std::size_t kShows = 32;                 // latest rows for the apparent modulus
@@ -172,7 +172,7 @@ private:
   const PlateProgress& tell_;
   double most_, deepest_, step_;
   std::vector<std::vector<double>> rows_;
-  std::vector<double> sinkage_, pressure_; ///< of the present phase
+  std::vector<double> sinkage_, pressure_; ///< rows of the present phase
 };
 
 /// Slope of the pressure over the sinkage in one phase, between two shares of `most`.

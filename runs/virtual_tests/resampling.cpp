@@ -47,7 +47,7 @@ std::vector<support::Estimate> intervalsOfTests(const std::vector<int>& groupSiz
   TestCounts all;
   for (const int size : groupSizes) all.emplace_back(static_cast<std::size_t>(size), 1);
   const std::vector<double> values = statistic(all);
-  std::vector<double> squares(values.size()); // of half widths
+  std::vector<double> squares(values.size()); // squared half widths
   bool single = groupSizes.empty();
   for (std::size_t g = 0; g < groupSizes.size(); ++g) {
     const int n = groupSizes[g];

@@ -33,14 +33,14 @@ inline constexpr std::array<TestKind, 2> kBreadths{TestKind::small, TestKind::la
 
 struct SoilResults {
   std::map<Quantity, support::Estimate> measured; ///< in unitOf(); absent if tests are missing
-  support::Estimate peakAngle, peakCohesion;      ///< of the curves' peaks [deg], [kPa]
+  support::Estimate peakAngle, peakCohesion;      ///< strength at the curves' peaks [deg], [kPa]
   support::Estimate hump, misfit;                 ///< peak over residual strength; see ShearFit [-]
   double sheared = 0, leastSheared = 0;    ///< sheared share of the plate displacement: mean, minimum of all tests [-]
   support::Estimate sinkage;               ///< below the track, by Bekker's equation with the measured constants [mm]
-  OfBreadths k = kUnmeasuredBoth;          ///< with the common n; of a single plate with its own [kN/m^(n+2)]
-  OfBreadths ownN = kUnmeasuredBoth;       ///< of each breadth alone [-]
+  OfBreadths k = kUnmeasuredBoth;          ///< k with the common n; single plate: with its own n [kN/m^(n+2)]
+  OfBreadths ownN = kUnmeasuredBoth;       ///< n of each breadth alone [-]
   OfBreadths kAtGivenN = kUnmeasuredBoth;  ///< k with the published n
-  OfBreadths goodness = kUnmeasuredBoth;   ///< Wong's [-]
+  OfBreadths goodness = kUnmeasuredBoth;   ///< Wong's goodness of fit [-]
   OfBreadths bedding = kUnmeasuredBoth;    ///< origin of the corrected curves below the mean surface [mm]
   OfBreadths lineBegins = kUnmeasuredBoth; ///< start of the line over the greatest pressure: below it n is 1 [-]
   OfBreadths nFromContact = kUnmeasuredBoth;      ///< without correction, sinkage from first contact [-]
@@ -83,8 +83,8 @@ struct PublishedBekker {
   std::string source;
 };
 std::vector<PublishedBekker> publishedBekker(const TestedSoil& soil);
-/// k_c / b + k_phi of the first of them for a breadth, +- 40 % [kN/m^(n+2)]: comparison for the k of a single plate
-/// with the n of that source. Empty if not positive.
+/// k_c / b + k_phi of the first published source for a breadth, +- 40 % [kN/m^(n+2)], to compare with the k of a single
+/// plate at the n of that source. Empty if not positive.
 std::optional<PublishedSpan> publishedModulus(const TestedSoil& soil, double breadth);
 /// "inside": the whole interval; "inside, interval is wider"; "outside, interval reaches in"; "outside".
 std::string verdictOf(const support::Estimate& measured, const PublishedSpan& span);

@@ -29,14 +29,13 @@ std::string lineOf(Quantity q, double value, const support::Estimate& e) {
 } // namespace
 
 std::string scmFitText(const TestPlan& plan, const ScmFit& fit) {
-  std::string text =
-      fmt::format("\nsoil contact model fitted to virtual tests of {}{}: p = (k_c / b + k_phi) z^n, tau = (c "
-                  "+ p tan phi) (1 - exp(-j / K))\n",
-                  plan.soil.name, plan.options.coarse ? " (coarse)" : "");
+  std::string text = fmt::format("\nfit of the soil contact model to virtual tests of {}{}: p = (k_c / b + k_phi) z^n, "
+                                 "tau = (c + p tan phi) (1 - exp(-j / K))\n",
+                                 plan.soil.name, plan.options.coarse ? " (coarse)" : "");
   for (const auto& [q, e] : fit.constants)
     text += fmt::format("  {:<8} {:>20} {}{}\n", symbolOf(q), jobs::valueText(e), unitOf(q),
                         doubtOf(q, e).empty() ? "" : "  inconclusive");
-  text += fmt::format("  {:<8} {:>20} elastic_ratio, from unloading of the plates\n", "f",
+  text += fmt::format("  {:<8} {:>20} elastic_ratio, from the unloading of the plates\n", "f",
                       jobs::valueText(fit.elasticRatio));
   text += fmt::format("\n  {:<16} {:>5} {:>9} {:>9} {:>12} {:>13}\n", "measured / fit - 1", "tests", "rms", "largest",
                       "model error", "seed scatter");
@@ -44,8 +43,8 @@ std::string scmFitText(const TestPlan& plan, const ScmFit& fit) {
     text += fmt::format("  {:<18} {:>5} {:>9} {:>9} {:>12} {:>13}\n", g.name, g.tests.size(), percent(g.residual.rms),
                         fmt::format("{:+.1f} %", 100 * g.residual.largest), percent(g.residual.model),
                         percent(g.residual.scatter));
-  return text + fmt::format("  model error for any constants: plates {}, shear {} (rms of the mean curves above {:g} % "
-                            "of the maximum stress)\n",
+  return text + fmt::format("  model error with the best constants: plates {}, shear {} (rms over the mean curves "
+                            "above {:g} % of the maximum stress)\n",
                             percent(fit.modelError(true)), percent(fit.modelError(false)), 100 * kCountedFrom);
 }
 
@@ -60,9 +59,9 @@ std::string scmFitToml(const TestPlan& plan, const ScmFit& fit, std::string& why
     why = fmt::format("K = {:.4g} m is not positive", modulus);
   if (!why.empty()) return "";
   std::string text =
-      fmt::format("# Soil contact model (terrain.kind = \"scm\") fitted to {}virtual tests of {}, grains of {:g} "
-                  "mm, by\n# grouser soil {} --fit-scm. Half widths of 95 % intervals; model error of the "
-                  "plates {}, of shear {}.\n[scm]\n",
+      fmt::format("# Soil contact model (terrain.kind = \"scm\") fitted to {}virtual tests of {} with grains of {:g} "
+                  "mm by\n# `grouser soil {} --fit-scm`. +- is the half width of the 95 % interval. Model error: "
+                  "plates {}, shear {}.\n[scm]\n",
                   plan.options.coarse ? "coarse " : "", plan.soil.name, 2e3 * plan.soil.grainRadius, plan.soil.name,
                   percent(fit.modelError(true)), percent(fit.modelError(false)));
   for (const auto& [q, e] : fit.constants) text += lineOf(q, q == Quantity::cohesion ? std::max(0.0, at(q)) : at(q), e);
@@ -96,7 +95,7 @@ std::string scmCurvesCsv(const TestPlan& plan, const ScmFit& fit) {
 void reportScmFit(const TestPlan& plan, const jobs::Pieces& pieces) {
   const SoilResults results = resultsOf(plan, pieces);
   if (!results.hasPlates() || !results.hasShear())
-    return fmt::print("fit       skipped: {} missing; run the same command again to continue\n",
+    return fmt::print("fit       skipped: {} missing; repeat the command to continue\n",
                       results.hasShear() ? "all tests of a plate are" : "shear tests under all loads are");
   const ScmFit fit = fitScm(plan, pieces, results);
   const std::string text = scmFitText(plan, fit);
@@ -105,14 +104,14 @@ void reportScmFit(const TestPlan& plan, const jobs::Pieces& pieces) {
   fmt::print("{}", text);
   const auto& folder = pieces.folder();
   if (toml.empty())
-    support::tell("WARNING: scm_fit.toml is not written: {}; use more seeds, or larger plates\n", why);
+    support::tell("WARNING: scm_fit.toml was not written: {}; use more seeds or larger plates\n", why);
   else
     support::replaceTextFile(folder / "scm_fit.toml", toml);
   support::replaceTextFile(folder / "scm_fit.txt", text);
   support::replaceTextFile(folder / "scm_residuals.csv", scmResidualsCsv(plan, fit));
   support::replaceTextFile(folder / "scm_curves.csv", scmCurvesCsv(plan, fit));
   output::drawPicture("scm_fit.py", {folder / "scm_curves.csv"}, folder / "scm_fit.png");
-  if (!toml.empty()) fmt::print("fit       {}: add it to a scene\n", (folder / "scm_fit.toml").string());
+  if (!toml.empty()) fmt::print("fit       {} (add it to a scene)\n", (folder / "scm_fit.toml").string());
 }
 
 } // namespace grouser::virtual_tests

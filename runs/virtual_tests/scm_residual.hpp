@@ -20,7 +20,7 @@ struct FittedCurve {
 };
 
 struct TestResidual {
-  double rms = 0, largest = 0; ///< of measured / fitted - 1 [-]; the largest with its sign
+  double rms = 0, largest = 0; ///< deviation measured / fitted - 1 [-]; the largest with its sign
   double largestAt = 0;        ///< way [m]
   int points = 0;
 };
@@ -31,7 +31,7 @@ TestResidual residualOf(const FittedCurve& curve);
 struct GroupResidual {
   double rms = 0, largest = 0; ///< over all tests [-]
   double model = 0;   ///< model error: rms deviation of the mean curve, less the contribution of seed scatter [-]
-  double scatter = 0; ///< standard deviation of a test from the mean curve, rms over the way; NaN of one test [-]
+  double scatter = 0; ///< standard deviation of a test from the mean curve, rms over the way; NaN for one test [-]
 };
 /// The mean curve covers the range in which all tests have points that count. NaN if there is none.
 GroupResidual residualOf(const std::vector<FittedCurve>& tests);

@@ -18,12 +18,12 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kPitch = 2;                // [d] from tooth to tooth
+constexpr double kPitch = 2;                // [d] tooth spacing
 constexpr double kBack = 2;                 // [d] thickness of the plates behind their teeth
 constexpr double kBeyond = 2;               // [d] minimum extent of plates beyond the boundaries
 constexpr double kRounded = 0.25;           // [d] radius of the spheres of a plate's mesh
 constexpr double kRamp = 30, kPressed = 70; // [d sqrt(density / stress)] duration of the load ramp, and start of shear
-constexpr double kPlateMass = 0.25;         // over that of the sample
+constexpr double kPlateMass = 0.25;         // plate mass over sample mass
 constexpr auto kEntry = "max_overlap = 0.5\n"; // as between grains, for soft grains with initial overlap
 constexpr double kOffPlates = 2;               // [d] distance of the core from the plate tips
 
@@ -97,7 +97,7 @@ void writePlates(const ShearCell& cell, const BedSize& size, double d, const std
 struct Layer {
   BedGrains grains;
   double upper = 0; ///< height of the tips of the upper plate [m]
-  double mass = 0;  ///< of the grains [kg]
+  double mass = 0;  ///< total grain mass [kg]
 };
 
 /// Scene sections of both plates; the load on the upper one rises for `ramp` [s].

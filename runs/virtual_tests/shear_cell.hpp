@@ -16,7 +16,7 @@ struct ShearCell {
   /// Measure the stress of the core, which requires linear springs without cohesion; else its columns are 0.
   bool core = true;
   double tooth = 0.7;     ///< [d] height of the teeth, 2 d apart
-  double tip = 0;         ///< [d] breadth of their tips
+  double tip = 0;         ///< [d] breadth of the tooth tips
   bool pressesIn = false; ///< press the upper plate in before grains are cohesive
 };
 
@@ -27,8 +27,8 @@ inline const std::vector<std::string> kShearColumns = {"strain [-]",       "shea
                                                        "core xz [Pa]",     "core zx [Pa]",        "porosity [-]",
                                                        "coordination [-]", "inertial number [-]", "sheared [-]"};
 
-/// Prepares a sample and shears it under `stress` [Pa]. Meshes of the plates are written into `folder`. `kept`: folder
-/// of poured samples, for other stresses with the same seed; empty: none.
+/// Prepares a sample and shears it under `stress` [Pa]. Writes the plate meshes into `folder`. `kept`: folder with
+/// poured samples, reused for other stresses with the same seed; empty: none.
 jobs::Table shearCell(const Soil& soil, const ShearCell& cell, double stress, std::int64_t seed,
                       const std::filesystem::path& folder, const base::Exec& exec,
                       const std::filesystem::path& kept = {});

@@ -19,10 +19,10 @@ struct Soil {
   double spread = 0.25;                    ///< half width of the uniform radius distribution (by number) over the mean
   double preparationFriction = 0.5;        ///< [-] during settling: smaller is denser
   std::string preparationLaw;              ///< grains.law during settling; empty: the same
-  double stepsPerContact = 14;             ///< of the shortest contact
-  double impactSpeed = 0;                  ///< [m/s] if above 0: for the time step of Hertz' contacts
-  double meanVolume() const;               ///< of a grain [m3]
-  Soil prepared() const;                   ///< with friction and law of the preparation
+  double stepsPerContact = 14;             ///< steps per shortest contact
+  double impactSpeed = 0;                  ///< [m/s] for the time step of Hertz contacts, if above 0
+  double meanVolume() const;               ///< mean grain volume [m3]
+  Soil prepared() const;                   ///< soil with friction and law of the preparation
   std::string toml(double friction) const; ///< [material.grain]
   /// Start of a scene: [run], and the material. `run`: further keys of [run].
   std::string scene(double duration, std::int64_t seed, double friction, const base::Vec3d& gravity,
@@ -41,9 +41,9 @@ struct BedSize {
   std::string run() const;                 ///< keys of [run]
 };
 
-/// Pours a bed from a cloud onto `below` (scene sections with a floor at about z = 0) and settles it. `folder`: files
-/// of `below`. `kept`: folder of poured beds, reused for identical scenes; empty: none. Throws SimulationError if it
-/// does not come to rest.
+/// Pours a bed from a cloud onto `below` (scene sections with a floor at about z = 0) and settles it. `folder`:
+/// files of `below`. `kept`: folder of poured beds, reused for identical scenes; empty: none. Throws SimulationError if
+/// the bed does not come to rest.
 BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& below, std::int64_t seed,
                   const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept = {});
 /// Removes the files of pourBed().

@@ -23,7 +23,8 @@ namespace {
 using support::Estimate;
 
 std::string spanText(const PublishedSpan& span) {
-  return fmt::format("{:.4g} to {:.4g}{}", span.low, span.high, span.isTolerance ? " (one source, widened)" : "");
+  return fmt::format("{:.4g} to {:.4g}{}", span.low, span.high,
+                     span.isTolerance ? " (single source, range widened)" : "");
 }
 
 /// JSON number; null if not finite.
@@ -60,19 +61,19 @@ bool isPlate(TestKind kind) { return kind == TestKind::small || kind == TestKind
 /// A layer that slides along the teeth measures their friction, not its strength.
 std::string slipText(const SoilResults& r) {
   constexpr double kSlides = 0.7;
-  return fmt::format(
-      "  shear within the soil: {:.0f} % of the plate displacement, {:.0f} % in the worst test{}\n", 100 * r.sheared,
-      100 * r.leastSheared,
-      r.leastSheared < kSlides
-          ? "; where soil slides along the teeth, c and phi are those of the teeth: use larger grains or less cohesion"
-          : "");
+  return fmt::format("  shear within the soil: {:.0f} % of the plate displacement, at least {:.0f} % in each test{}\n",
+                     100 * r.sheared, 100 * r.leastSheared,
+                     r.leastSheared < kSlides ? "; if the soil slides along the teeth, c and phi describe the teeth, "
+                                                "not the soil: use larger grains or less cohesion"
+                                              : "");
 }
 
 /// A large relaxation during the hold means that inertia contributed to the pressure.
 std::string motionText(const Estimate& added) {
   constexpr double kMuch = 0.1;
-  return fmt::format("relaxes by {} % when held{}\n", jobs::valueText({100 * added.value, 100 * added.halfWidth}),
-                     added.value > kMuch ? ": plate motion adds to the pressure; reduce --plate-waves" : "");
+  return fmt::format("pressure relaxation at constant sinkage: {} %{}\n",
+                     jobs::valueText({100 * added.value, 100 * added.halfWidth}),
+                     added.value > kMuch ? ": the plate motion increases the pressure; reduce --plate-waves" : "");
 }
 
 /// Warning about beds and samples looser than random packings of spheres; empty if none.
@@ -134,10 +135,10 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     if (r.plates[i] == 0) continue;
     const double b = plan.breadth(kBreadths[i]);
     text += fmt::format("  plate {:.3g} m, {}: ", b, base::counted(r.plates[i], "seed"));
-    text += fmt::format("k {} kN/m^(n+2), n alone {}, goodness of fit {}; ", jobs::valueText(r.k[i]),
+    text += fmt::format("k {} kN/m^(n+2), n of this plate {}, goodness of fit {}; ", jobs::valueText(r.k[i]),
                         jobs::valueText(r.ownN[i]), jobs::valueText(r.goodness[i]));
     text += atGivenNText(plan, r, i);
-    text += fmt::format("origin {} mm below the mean surface, straight line starts at {:.0f} % of the maximum "
+    text += fmt::format("origin {} mm below the mean surface, steepest straight line starts at {:.0f} % of the maximum "
                         "pressure; n from first contact {}; ",
                         jobs::valueText(r.bedding[i]), 100 * r.lineBegins[i].value, jobs::valueText(r.nFromContact[i]));
     text += fmt::format("k_u {} kN/m3 unloading from {} kPa, {} reloading; ", jobs::valueText(r.unloading[i]),
@@ -145,8 +146,8 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
             motionText(r.addedByMotion[i]);
   }
   if (r.wider)
-    text += fmt::format("  bin of twice the width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n",
-                        100 * r.wider->value, 100 * r.wider->halfWidth, jobs::verdictText(jobs::judge(*r.wider, 0.05)));
+    text += fmt::format("  bin of double width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n", 100 * r.wider->value,
+                        100 * r.wider->halfWidth, jobs::verdictText(jobs::judge(*r.wider, 0.05)));
   if (r.hasShear())
     text += fmt::format("  shear, {}, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
                         "misfit of 1 - exp(-j/K) {}\n",
@@ -154,8 +155,8 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
                         jobs::valueText(r.peakCohesion), jobs::valueText(r.hump), jobs::valueText(r.misfit)) +
             slipText(r);
   if (r.reposeTests > 0)
-    text += fmt::format("  repose, {}: flow starts at a tilt of {} deg\n", base::counted(r.reposeTests, "seed"),
-                        jobs::valueText(r.stability));
+    text += fmt::format("  angle of repose, {}: flow starts at a tilt of {} deg\n",
+                        base::counted(r.reposeTests, "seed"), jobs::valueText(r.stability));
   for (const TestCosts& c : r.costs) {
     text += fmt::format("  {:<6} {:>9}, porosity {}", c.name, base::counted(c.tests, "test"),
                         jobs::plusMinus({c.porosity, c.porosityHalfWidth}, 4));
@@ -289,8 +290,8 @@ void reportSoil(const TestPlan& plan, const jobs::Pieces& pieces, int missing) {
   std::string text = constantsTable(plan, results) + detailsTable(plan, results);
   const std::vector<NotedTest> noted = notedTests(plan, pieces, TestNote::shorterSteps);
   if (!noted.empty())
-    text += fmt::format("  with {:g} times as many steps per contact, after a failed first attempt:{}\n", kShorterSteps,
-                        textOf(noted));
+    text += fmt::format("  repeated with {:g} times as many steps per contact, after the first attempt failed:{}\n",
+                        kShorterSteps, textOf(noted));
   std::fflush(stdout);
   std::string warnings;
   for (const std::string& warning : {doubtsText(results, plan), looseText(plan, results)})
@@ -298,7 +299,8 @@ void reportSoil(const TestPlan& plan, const jobs::Pieces& pieces, int missing) {
   support::tell("{}", warnings);
   fmt::print("{}", text);
   text = warnings + text;
-  if (missing > 0) fmt::print("{} missing: call again with --resume\n", base::counted(missing, "test is", "tests are"));
+  if (missing > 0)
+    fmt::print("{} missing; repeat the command with --resume\n", base::counted(missing, "test is", "tests are"));
   const auto& folder = pieces.folder();
   support::writeTextFile(folder / "soil.txt", text, "--out");
   support::writeTextFile(folder / "constants.csv", constantsCsv(plan, results), "--out");

@@ -30,7 +30,8 @@ std::string textOf(const std::vector<NotedTest>& tests) {
 }
 
 std::string failedTestsText(const std::vector<NotedTest>& tests) {
-  return "these tests failed, also with shorter steps (try more --steps-per-contact in a new folder):" + textOf(tests);
+  return "these tests failed, even with shorter steps (use a larger --steps-per-contact and a new folder):" +
+         textOf(tests);
 }
 
 } // namespace grouser::virtual_tests

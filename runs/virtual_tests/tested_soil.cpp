@@ -42,11 +42,11 @@ struct BedKeys {
 
 base::Table<BedKeys> bedTable() {
   base::Table<BedKeys> t("bed", "Bed of the soil");
-  t.add("grain_radius", &BedKeys::grainRadius, "m", "mean radius that [material] is valid at")
+  t.add("grain_radius", &BedKeys::grainRadius, "m", "mean radius for which [material] is valid")
       .above(0)
       .atMost(10)
       .required();
-  t.add("radius_spread", &BedKeys::spread, "-", "half width of the uniform radius distribution over the mean")
+  t.add("radius_spread", &BedKeys::spread, "-", "half width of the uniform radius distribution / mean radius")
       .atLeast(0)
       .atMost(0.9);
   t.add("porosity", &BedKeys::porosity, "-", "porosity of the bed").atLeast(0.2).atMost(0.7);
@@ -77,7 +77,7 @@ std::string tomlOf(const std::string& key, const base::Section& section, const b
     return base::toToml(scaled(key, static_cast<double>(*whole), ratio));
   if (const auto* text = std::get_if<std::string>(&node.value)) return base::toToml(*text);
   if (const auto* flag = std::get_if<bool>(&node.value)) return base::toToml(*flag);
-  section.fail(key, "is a list; keys of [material] are numbers, words or booleans");
+  section.fail(key, "is a list, but keys of [material] must be numbers, words or booleans");
 }
 
 /// "soil.toml:14" -> 14; 0 if missing.
@@ -106,8 +106,8 @@ fs::path fileOf(const std::string& nameOrFile) {
   std::vector<fs::path> tried;
   fs::path file = scene::findSoil(nameOrFile, "", tried);
   if (!file.empty()) return file;
-  throw base::InputError(fmt::format("unknown soil {}; {}; or set a file that ends in .toml", nameOrFile,
-                                     scene::soilHint(nameOrFile, "")));
+  throw base::InputError(
+      fmt::format("unknown soil {}; {}; or specify a soil file (.toml)", nameOrFile, scene::soilHint(nameOrFile, "")));
 }
 
 /// Copies the keys of a checked material, and derived values.

@@ -42,15 +42,15 @@ struct TestedSoil {
   /// The same without density and friction, one per line.
   std::string law;
   std::string lawWithoutPull;                  ///< the same without cohesion and adhesion
-  double density = 0;                          ///< [kg/m3] of the solid
+  double density = 0;                          ///< [kg/m3] solid density
   double friction = 0;                         ///< [-]
-  double young = 0;                            ///< [Pa] of Hertz' contacts; 0: a different law
-  double poisson = 0;                          ///< [-] with `young`
+  double young = 0;                            ///< [Pa] Young's modulus of Hertz contacts; 0: a different law
+  double poisson = 0;                          ///< [-] Poisson's ratio, with `young`
   bool isPlain = false;                        ///< linear springs without cohesion
   double grainRadius = 0;                      ///< [m] mean radius in the tests
   double fileRadius = 0;                       ///< [m] radius for which the file's numbers are valid
-  double spread = 0;                           ///< of the radii [-]
-  std::optional<double> porosity;              ///< [-] of the bed; empty: settled with the soil's own friction
+  double spread = 0;                           ///< [-] half width of the radius distribution over the mean
+  std::optional<double> porosity;              ///< [-] bed porosity; empty: settled with the soil's own friction
   double calibratedFrom = 0, calibratedTo = 0; ///< [m] radii; both 0 if the file has none
   std::vector<PublishedValue> published;
 

@@ -17,8 +17,8 @@ constexpr int kFlatSteps = 10;
 /// Two pushes that return to within this distance, while one does not, are a cycle [radius].
 constexpr double kCycle = 0.01;
 
-/// Moves `centre` until a sphere of `radius` lies inside: repeatedly away from the nearest surface point (successive
-/// projection onto half-spaces). False if that does not converge, as between two faces of a thin plate.
+/// Moves `centre` until a sphere of `radius` is inside: repeatedly away from the nearest surface point (successive
+/// projection onto half-spaces). Returns false without convergence, as between two faces of a thin plate.
 bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double radius) {
   Vec3d before = centre, beforeThat = centre + normal * radius;
   for (int i = 0; i < kPushes; ++i) {

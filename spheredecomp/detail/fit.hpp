@@ -8,22 +8,22 @@ namespace grouser::spheredecomp::detail {
 
 using base::SetSphere;
 
-/// Largest protrusion of a fitted sphere [radius].
+/// Maximum protrusion of a fitted sphere [radius].
 inline constexpr double kFitTolerance = 0.005;
 
 /// Limits and method of a sphere fit.
 struct Fit {
   double smallest; ///< [radius]
-  bool touching;   ///< true: largest sphere that touches the surface at the point; false: largest that fits nearby, by
+  bool touching;   ///< true: largest sphere tangent to the surface at the point; false: largest that fits nearby, by
                    ///< bisection
 };
 
-/// The sphere for the surface at `point` with outward normal `normal`: `radius` deep under it; next to an edge, as near
-/// to that as it lies inside; if the part is too thin, a smaller one, down to `fit.smallest`. `flat` and `area` stay 0.
+/// Fits a sphere below the surface at `point` with outward normal `normal`: at a depth of `radius`; next to an edge, as
+/// close to that as it fits; if the part is too thin, smaller, down to `fit.smallest`. `flat` and `area` remain 0.
 SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius, const Fit& fit);
 
-/// Greatest radius of a flat disc for the sphere [m], at most `limit`: at twelve points of its rim the inflated disc
-/// stays within the mesh to `tolerance` [radius]. `closely`: at twice as many points, and of all rings within the rim,
+/// Maximum radius of a flat disc for the sphere [m], at most `limit`, for which the inflated disc stays within the mesh
+/// to `tolerance` [radius] at twelve points of its rim. `closely`: tests twice as many points, on all inner rings too,
 /// so that no disc covers a small hole.
 double flatRadius(const OuterSurface& outer, const SetSphere& sphere, double limit, double tolerance, bool closely);
 

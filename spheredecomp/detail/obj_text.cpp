@@ -51,7 +51,7 @@ void checkLine(const std::string& line, const Fail& fail) {
   const bool hasMark = word.starts_with("\xEF\xBB\xBF");
   const char kind = hasMark && word.size() == 4 ? word[3] : word.size() == 1 ? word[0] : ' ';
   if (std::string("vVfF").find(kind) == std::string::npos) return;
-  if (hasMark) fail(fmt::format("a byte-order mark stands before \"{}\"; save the file without one", kind));
+  if (hasMark) fail(fmt::format("a byte-order mark precedes \"{}\"; save the file without one", kind));
   if (line.front() != kind || kind == 'V' || kind == 'F')
     fail(fmt::format("the line is indented or in upper case; it must begin with \"{}\"", kind == 'V'   ? 'v'
                                                                                          : kind == 'F' ? 'f'

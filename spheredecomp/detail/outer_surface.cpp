@@ -13,7 +13,7 @@ using Corners = std::array<Vec3d, 3>;
 double triangleArea(const Corners& t) { return norm(cross(t[1] - t[0], t[2] - t[0])) / 2; }
 Vec3d centroid(const Corners& t) { return (t[0] + t[1] + t[2]) * (1.0 / 3); }
 
-/// Longest edge: its index k (from corner k to k + 1) and its length.
+/// Returns the longest edge: its index k (from corner k to k + 1) and its length.
 std::pair<std::size_t, double> longestEdge(const Corners& t) {
   std::size_t best = 0;
   double best2 = -1;
@@ -22,15 +22,15 @@ std::pair<std::size_t, double> longestEdge(const Corners& t) {
   return {best, sqrt(best2)};
 }
 
-/// The two halves of a triangle cut through the middle of edge k; both keep its orientation.
+/// Splits a triangle at the middle of edge k; both halves keep its orientation.
 std::pair<Corners, Corners> bisect(const Corners& t, std::size_t k) {
   const Vec3d middle = (t[k] + t[(k + 1) % 3]) * 0.5;
   const Vec3d& apex = t[(k + 2) % 3];
   return {Corners{t[k], middle, apex}, Corners{middle, t[(k + 1) % 3], apex}};
 }
 
-/// True if two triangles come nearer than about `gap`: no separating axis among both normals, the nine cross products
-/// of edges and, for triangles in one plane, the normals of the edges within it.
+/// True if two triangles are within about `gap`: no separating axis among both normals, the nine edge cross products
+/// and, for coplanar triangles, the in-plane normals of their edges.
 bool meet(const Corners& a, const Corners& b, double gap) {
   auto separated = [&](const Vec3d& axis) {
     const double length2 = norm2(axis);
@@ -55,7 +55,7 @@ bool meet(const Corners& a, const Corners& b, double gap) {
   return true;
 }
 
-/// Sorts the pieces of the mesh's triangles into outer surface and inside.
+/// Classifies the pieces of the mesh's triangles as outer surface or inside.
 struct Sorter {
   const MeshQuery& solid;
   double resolution, gap;
@@ -85,8 +85,8 @@ struct Sorter {
     sortPiece(c, t, cutters);
   }
 
-  /// Bisects a piece until no other triangle cuts it or it is down to `resolution`, then keeps the parts on the outer
-  /// surface.
+  /// Bisects a piece until no other triangle intersects it or its size is `resolution`, then keeps the parts on the
+  /// outer surface.
   void sortPiece(const Corners& c, std::uint32_t t, const std::vector<std::uint32_t>& cutters) {
     std::vector<std::uint32_t> still;
     for (const std::uint32_t s : cutters)
@@ -99,7 +99,7 @@ struct Sorter {
     }
     const Vec3d middle = centroid(c), step = solid.normal(t) * gap;
     if (solid.winding(middle + step) != 0) return;
-    // Coinciding faces raise the winding number together: each counts by its share.
+    // Coincident faces raise the winding number together: each counts with its fraction.
     const int within = std::abs(solid.winding(middle - step));
     if (within == 0) return;
     for (const Vec3d& v : c) {

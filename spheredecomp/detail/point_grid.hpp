@@ -10,7 +10,7 @@
 
 namespace grouser::spheredecomp::detail {
 
-/// Points in cubic cells, for spatial search. Points of one cell keep their order of insertion.
+/// Points binned in cubic cells, for spatial search. Points in a cell keep their insertion order.
 class PointGrid {
 public:
   /// @param cell  edge of a cell [m], > 0
@@ -18,8 +18,8 @@ public:
 
   void add(const base::Vec3d& p, std::uint32_t id) { cells_[key(index(p.x), index(p.y), index(p.z))].push_back(id); }
 
-  /// Calls visit(id) for the points of the cells that the cube of half edge `reach` [m] about p touches, until it
-  /// returns true. Returns whether it did.
+  /// Calls visit(id) for the points in all cells that overlap the cube of half edge `reach` [m] about p, until a call
+  /// returns true. Returns whether one did.
   template <class Visit> bool any(const base::Vec3d& p, double reach, Visit&& visit) const {
     for (std::int64_t i = index(p.x - reach), i1 = index(p.x + reach); i <= i1; ++i)
       for (std::int64_t j = index(p.y - reach), j1 = index(p.y + reach); j <= j1; ++j)
@@ -30,7 +30,7 @@ public:
     return false;
   }
 
-  /// The same for all points.
+  /// Calls visit(id) for all of these points.
   template <class Visit> void each(const base::Vec3d& p, double reach, Visit&& visit) const {
     any(p, reach, [&](std::uint32_t id) {
       visit(id);
@@ -40,7 +40,7 @@ public:
 
 private:
   std::int64_t index(double x) const { return static_cast<std::int64_t>(std::floor(x * scale_)); }
-  /// 21 bits an axis, offset to be positive: a million cells each way.
+  /// Cell key with 21 bits per axis, offset to be positive: a million cells in each direction.
   static std::uint64_t key(std::int64_t i, std::int64_t j, std::int64_t k) {
     constexpr std::int64_t kOffset = 1 << 20;
     return static_cast<std::uint64_t>(i + kOffset) << 42 | static_cast<std::uint64_t>(j + kOffset) << 21 |

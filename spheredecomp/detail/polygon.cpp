@@ -9,7 +9,7 @@ namespace {
 
 using base::Vec3d;
 
-/// Ears of faces with more corners are not compared: the cost is cubic.
+/// Maximum number of corners for comparing ears, whose cost is cubic.
 constexpr std::size_t kMostCompared = 64;
 
 struct Point {
@@ -17,7 +17,7 @@ struct Point {
   bool operator==(const Point&) const = default;
 };
 
-/// Twice the area of abc, positive where it turns left.
+/// Twice the signed area of abc, positive for a left turn.
 double turn(const Point& a, const Point& b, const Point& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
@@ -31,8 +31,8 @@ Vec3d vectorArea(const std::vector<Vec3d>& corners) {
   return sum;
 }
 
-/// The outline seen along the axis that its normal is nearest to, anticlockwise: coordinates stay as they are, so that
-/// corners on a straight side are found exactly.
+/// Projects the outline along the axis nearest to its normal, anticlockwise: coordinates are unchanged, so that corners
+/// on a straight side are found exactly.
 std::vector<Point> projected(const std::vector<Vec3d>& corners) {
   const Vec3d n = vectorArea(corners);
   const int axis = std::fabs(n.x) >= std::fabs(n.y) && std::fabs(n.x) >= std::fabs(n.z) ? 0
@@ -53,7 +53,7 @@ public:
       left_.push_back(k);
       size2 = std::max(size2, length2(points_[0], points_[k]));
     }
-    // Corners beside a straight side by rounding of the file count as on it.
+    // Corners that deviate from a straight side by rounding of the file count as on it.
     flat_ = 1e-7 * std::sqrt(size2);
   }
 
@@ -72,25 +72,25 @@ public:
 private:
   const Point& at(std::size_t k) const { return points_[left_[k % left_.size()]]; }
 
-  /// Least height of a triangle [m].
+  /// Minimum height of a triangle [m].
   double height(const Point& a, const Point& b, const Point& c) const {
     const double longest2 = std::max({length2(a, b), length2(b, c), length2(c, a)});
     return longest2 > 0 ? turn(a, b, c) / std::sqrt(longest2) : 0;
   }
 
-  /// Left of the line from a to b, or on it.
+  /// True left of the line from a to b, or on it.
   bool isLeftOf(const Point& a, const Point& b, const Point& p) const {
     return turn(a, b, p) >= -flat_ * std::sqrt(length2(a, b));
   }
 
-  /// True if the ear at b can be clipped: no other corner lies in the triangle or on its sides, except their ends.
+  /// True if the ear at b can be clipped: no other corner is in the triangle or on its sides, except their ends.
   bool isFree(std::size_t ear) const {
     const std::size_t n = left_.size();
     const Point &a = at(ear + n - 1), &b = at(ear), &c = at(ear + 1);
     for (std::size_t k = 2; k + 1 < n; ++k) {
       const Point& p = at(ear + k);
       if (p == a || p == b || p == c) {
-        // End of a bridge, which occurs twice: no other side may lead from it into the ear.
+        // End of a bridge, which occurs twice: no other side may enter the ear from it.
         if (leadsInto(ear + k, a, b, c)) return false;
         continue;
       }
@@ -108,8 +108,8 @@ private:
     return beginsInside(at(k + left_.size() - 1)) || beginsInside(at(k + 1));
   }
 
-  /// The ear with the largest minimum height, or the first one of very large faces; a degenerate one only if no other
-  /// is left, as when the remaining corners lie on a line. left_.size() if there is none.
+  /// Returns the ear with the largest minimum height, or the first one for very large faces; a degenerate one only if
+  /// no other remains, as for collinear corners. left_.size() if there is none.
   std::size_t bestEar() const {
     const std::size_t n = left_.size();
     std::size_t best = n, empty = n;
@@ -145,7 +145,7 @@ bool isConvex(const std::vector<Vec3d>& corners) {
   double size2 = 0;
   for (const Point& p : points) size2 = std::max(size2, length2(points[0], p));
   const double rounding = 1e-7 * size2; // rounding of float coordinates
-  // Left turns alone may wind round twice, as a pentagram does: then some triangle of the fan is negative.
+  // Left turns alone may wind twice, as in a pentagram: then some triangle of the fan has negative area.
   for (std::size_t k = 0; k < n; ++k)
     if (!(turn(points[k], points[(k + 1) % n], points[(k + 2) % n]) > rounding)) return false;
   for (std::size_t k = 1; k + 1 < n; ++k)
@@ -164,7 +164,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Vec3d>& 
     area += turn(points[0], points[k], points[k + 1]);
     size2 = std::max({size2, length2(points[0], points[k]), length2(points[0], points[k + 1])});
   }
-  // Triangles that overlap have more area than the outline.
+  // Overlapping triangles have a larger total area than the outline.
   const double rounding = 1e-6 * size2;
   return std::fabs(clipper.clippedArea() - area) <= rounding ? clipper.triangles()
                                                              : std::vector<std::array<std::uint32_t, 3>>{};

@@ -9,13 +9,13 @@
 
 namespace grouser::spheredecomp::detail {
 
-/// Cuts a face of any number of corners into triangles, as indices of its corners: ears are clipped in the face's own
-/// plane, the best-shaped first. Every corner stays a corner of some triangle, also where it lies on a straight side,
-/// so that neighbouring faces still share all edges. A hole that a bridge (two coinciding sides) joins to the outline
-/// is kept. Empty where the outline crosses itself.
+/// Triangulates a face with any number of corners, as corner indices: ear clipping in the face plane, best-shaped ears
+/// first. Every corner remains a corner of some triangle, even on a straight side, so that neighbouring faces still
+/// share all edges. A hole connected to the outline by a bridge (two coincident sides) is preserved. Empty if the
+/// outline intersects itself.
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<base::Vec3d>& corners);
 
-/// True if an outline is strictly convex, seen along its normal, beyond float rounding.
+/// True if an outline is strictly convex, seen along its normal, by more than float rounding.
 bool isConvex(const std::vector<base::Vec3d>& corners);
 
 } // namespace grouser::spheredecomp::detail

@@ -7,14 +7,14 @@
 
 namespace grouser::terrain::detail {
 
-/// BoundaryContacts of equal grains of one material with planes at rest, under the linear law, in SIMD lanes: wall by
-/// wall first the grains in contact, then the law. A grain sums its walls in their order, as BoundaryContacts does.
+/// SIMD version of BoundaryContacts for equal grains of one material, planes at rest and the linear law. For each wall
+/// it finds the grains in contact, then evaluates the law. Walls are summed in the order of BoundaryContacts.
 template <int kWidth, unsigned kFeatures> class BoundarySimd {
 public:
   GROUSER_SIMD BoundarySimd(const GrainKernelData& data, const ForceData<float>& forces)
       : data_(data), forces_(forces) {}
 
-  /// Places [first, last) of the list of grains near boundaries.
+  /// Processes places [first, last) of the list of grains near boundaries.
   GROUSER_SIMD void run(int first, int last) {
     for (int k = first; k < last; k += kGrains) block(k, last - k < kGrains ? last - k : kGrains);
   }
@@ -30,8 +30,8 @@ public:
 
 private:
   static constexpr bool kWithFriction = kFeatures & contact::kFriction, kWithLedger = kFeatures & kLedger;
-  static constexpr int kLanes = kWidth < 16 ? 4 : 8; ///< of numbers in double
-  static constexpr int kGrains = 64;                 ///< of a block
+  static constexpr int kLanes = kWidth < 16 ? 4 : 8; ///< lanes in double precision
+  static constexpr int kGrains = 64;                 ///< grains per block
   using Float = Simd<float, kWidth>;
   using Bits = Simd<std::int32_t, kWidth>;
   using Vec = base::Vec3<Float>;
@@ -70,7 +70,7 @@ private:
     }
   }
 
-  /// Lists the grains that wall b touches; returns how many.
+  /// Lists the grains in contact with wall b; returns their number.
   GROUSER_SIMD int find(int b, int grains) {
     const Wall& wall = data_.walls[b];
     const auto radius = static_cast<double>(forces_.radius);
@@ -88,11 +88,11 @@ private:
       base::storeMarked(overlap_ + found, overlap, touching);
       found += __builtin_popcount(touching);
     }
-    for (int c = found; c < found + kWidth; ++c) grain_[c] = 0, overlap_[c] = forces_.radius; // lanes that none takes
+    for (int c = found; c < found + kWidth; ++c) grain_[c] = 0, overlap_[c] = forces_.radius; // unused lanes
     return found;
   }
 
-  /// BoundaryContacts::touchFixed() for `count` contacts, starting at c.
+  /// Same as BoundaryContacts::touchFixed() for `count` contacts, starting at c.
   GROUSER_SIMD void touch(int b, int c, int count) {
     std::uint32_t slots[kWidth];
     for (int l = 0; l < kWidth; ++l) slots[l] = slot_[grain_[c + l]];
@@ -138,7 +138,7 @@ private:
     const std::int64_t place = std::int64_t{first_} + grain;
     return data_.boundaryHistory + (place * data_.boundaryCount + b) * contact::historyWidth(kFeatures);
   }
-  /// Stores vector components as rows, in the order of the lanes.
+  /// Stores vector components as rows, in lane order.
   GROUSER_SIMD static void storeAll(Float4* rows, Float (&in)[4]) {
     base::transpose(in);
     for (int l = 0; l < kWidth; ++l) {
@@ -148,7 +148,7 @@ private:
     }
   }
 
-  /// BoundaryContacts::accountWalls() and accountDissipation().
+  /// Same as BoundaryContacts::accountWalls() and accountDissipation().
   GROUSER_SIMD void account(int grains) {
     const LedgerScale& scale = data_.ledgerScale;
     for (int g = 0; g < grains; g += kLanes) {
@@ -178,13 +178,13 @@ private:
   const ForceData<float>& forces_;
   Long damped_{}, rubbed_{}, pushed_[3] = {}, twisted_[3] = {};
   // Grains of the block.
-  int first_ = 0; ///< place of its first grain in the list
+  int first_ = 0; ///< list index of its first grain
   std::uint32_t slot_[kGrains];
-  std::int32_t now_[kGrains], before_[kGrains]; ///< walls that they touch, a bit each
+  std::int32_t now_[kGrains], before_[kGrains]; ///< bit mask of walls in contact
   double x_[3][kGrains];
   Float4 force_[kGrains], torque_[kGrains]; ///< fourth numbers: damped, rubbed
   float deepest_[kGrains];
-  // Grains in contact with one wall; lanes may write beyond the last.
+  // Grains in contact with one wall; lanes may write beyond the end.
   std::int32_t grain_[kGrains + 16];
   float overlap_[kGrains + 16];
   Float4 spring_[kWidth] = {}, reacted_[kWidth], turned_[kWidth];

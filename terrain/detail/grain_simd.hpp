@@ -13,24 +13,24 @@
 
 namespace grouser::terrain::detail {
 
-/// The step of grains k in [first, last) of a launch, kWidth contacts side by side. It takes the grains in blocks whose
-/// contacts fit into the processor's first cache, and each block in five sweeps:
+/// Steps grains k in [first, last) of a launch, kWidth contacts at once. Grains are processed in blocks whose contacts
+/// fit into the L1 cache, each block in five sweeps:
 ///
-///   find     which candidates touch, several of one grain at a time;
-///   collect  what the law needs of each contact, as rows of four numbers;
-///   contact  geometry and law, kWidth contacts at a time;
-///   sum      grain by grain: its contacts in the order of the neighbours' ids;
-///   advance  the step, several grains at a time (AdvanceLanes).
+///   find     finds the contacts among the candidates, several of one grain at a time;
+///   collect  collects the input of the law for each contact, as rows of four numbers;
+///   contact  evaluates geometry and law, kWidth contacts at a time;
+///   sum      sums the contacts of each grain in the order of the neighbours' ids;
+///   advance  advances several grains at a time (AdvanceLanes).
 ///
-/// The law is contact::contactForce() itself. The rest repeats GrainStep and addCompensated() with the same operations
-/// on the same numbers in the same order; where those functions branch, both sides are computed and one is selected. So
-/// the bits are the same. Rare cases go to GrainStep itself.
+/// The law is contact::contactForce() itself. All else repeats GrainStep and addCompensated() with the same operations
+/// in the same order; where those functions branch, both sides are computed and one is selected. Results are therefore
+/// bitwise equal. Rare cases are passed to GrainStep itself.
 ///
 /// kFeatures is one of kSimdKernels, or kGeneral: then features are tested at run time, and contacts of several
-/// materials are computed law by law, each time in the lanes with that law.
+/// materials are computed law by law, each in the lanes with that law.
 ///
-/// The code is compiled for processors that may be absent: it calls only inlined functions, so that no copy for wide
-/// registers is linked into the rest of the program.
+/// The code is compiled for instruction sets that may be unavailable: it calls only inlined functions, so that the
+/// linker cannot use its copies in the rest of the program.
 template <int kWidth, unsigned kFeatures> class GrainSimd : ContactBlock<kWidth, kFeatures> {
 public:
   GROUSER_SIMD GrainSimd(const GrainKernelData& data, const ForceData<float>& forces)
@@ -44,13 +44,13 @@ public:
   }
 
   GROUSER_SIMD void run(int first, int last) {
-    // A copy that no store can alias: values derived from it are computed once, not for each contact.
+    // A local copy, which no store can alias: derived values are computed once, not for each contact.
     const ForceData<float> f = forces_;
     for (int k = first; k < last;) {
       const int from = k;
       grains_ = contacts_ = 0;
       while (k < last && grains_ < kGrains && contacts_ + candidatesOf(k) <= kContacts) find(k++);
-      if (k == from) { // a large grain among small ones has more neighbours than a block
+      if (k == from) { // a large grain among small ones may have more neighbours than a block holds
         stepAlone(data_, f, k++, accumulator_);
         continue;
       }
@@ -84,11 +84,11 @@ private:
       kFeatures & (contact::kGeneral | contact::kHertz | contact::kFriction | contact::kRollingFriction |
                    contact::kCohesion | contact::kManyMasses | contact::kPlastic);
   static_assert(kGrains == Advance::kGrains);
-  static constexpr int kUsual = 6; ///< contacts of a grain
+  static constexpr int kUsual = 6; ///< most grains have at most this many contacts
   static constexpr unsigned kAll = (1u << kWidth) - 1;
 
-  /// Collects the rows of each contact. Addresses are loaded once: the compiler must assume that stored rows alias
-  /// them.
+  /// Collects the rows of each contact. Addresses are loaded once, because the compiler must assume that stored rows
+  /// alias them.
   GROUSER_SIMD void collect() {
     const base::Position* const position = data_.position;
     const contact::Motion* const motion = data_.motion;
@@ -99,14 +99,14 @@ private:
       const std::size_t i = grain_[c], j = other_[c];
       store(apart_ + c, load<Int4>(position + j) - load<Int4>(position + i));
       const auto v = load<Float4>(&motion[i].velocity), u = load<Float4>(&motion[j].velocity);
-      // The fourth number: of grains of one radius 1 where j never moves, else 0; of others what velocities have there.
+      // Fourth number: if radii are equal, 1 for a fixed j, else 0; if radii differ, velocity.w of j.
       Float4 relative = v - u;
       if (has(kManyRadii)) relative[3] = u[3];
       moving_[c] = relative;
       auto spin = load<Float4>(&motion[i].spin);
       if (bothSpins()) {
         theirs_[c] = load<Float4>(&motion[j].spin);
-        // The fourth number of theirs: the pair of materials.
+        // Fourth number of theirs_: the pair of materials.
         if (has(kManyMaterials)) theirs_[c][3] += spin[3] * static_cast<float>(data_.materials);
         if (has(kManyRadii)) spin[3] = v[3];
       } else {
@@ -130,27 +130,27 @@ private:
       if (has(contact::kPlastic)) spring[dent] = dent_[c][0], spring[dent + 1] = dent_[c][1];
     }
   }
-  /// collect() for a grain at a periodic boundary.
+  /// Same as collect(), for a grain at a periodic boundary.
   GROUSER_SIMD void collectAcross(int g) {
     for (int c = begin_[g]; c < begin_[g + 1]; ++c) store(apart_ + c, Block::apart(grain_[c], other_[c]));
   }
 
   GROUSER_SIMD static Vec firstThree(const Float (&r)[4]) { return {r[0], r[1], r[2]}; }
 
-  /// Parameters of the law from both grains of each contact.
+  /// Parameters of the law from the two grains of each contact.
   struct Pair {
     Long reach2;
-    Float reach, mass, share;              ///< effective mass; of what is dissipated, that of grain i
+    Float reach, mass, share;              ///< effective mass; share of grain i in the dissipation
     Float dampingShare;                    ///< multiplies both damping coefficients
-    Float ownMass, ownRadius, otherRadius; ///< where they differ
+    Float ownMass, ownRadius, otherRadius; ///< if radii or masses differ
     Float otherMass;
   };
-  /// Law and densities of two materials in touch.
+  /// Law and densities of a pair of materials in contact.
   struct Materials {
     const contact::BasicLaw<float>& law;
     float ownPerCube, otherPerCube; ///< mass over radius^3 [kg/m3]
   };
-  /// Materials of the first lane in `left`; `taken`: all lanes that have the same.
+  /// Returns the materials of the first lane in `left`; `taken`: all lanes with the same materials.
   GROUSER_SIMD Materials materialsOf(const Float& pairs, unsigned left, const ForceData<float>& f, Int& taken) const {
     taken = ~Int{};
     if (!has(kManyMaterials)) return {f.law, f.massPerCube, f.massPerCube};
@@ -161,7 +161,7 @@ private:
             static_cast<float>(data_.massPerCube[pair % data_.materials])};
   }
 
-  /// `own`, `other`: velocity.w of both; of grains of one radius `other` tells whether it never moves.
+  /// `own`, `other`: velocity.w of the two grains; if radii are equal, `other` marks a fixed grain.
   GROUSER_SIMD Pair pairOf(const Float& own, const Float& other, const Materials& of, const ForceData<float>& f) const {
     Pair pair{};
     pair.share = base::broadcast<Float>(0.5f), pair.dampingShare = base::broadcast<Float>(1);
@@ -187,7 +187,7 @@ private:
     return pair;
   }
 
-  /// Replaces rows from `rows` on where lanes are `taken`.
+  /// Replaces rows, starting at `rows`, in the lanes set in `taken`.
   GROUSER_SIMD void storeTaken(Float4* rows, Float (&in)[4], const Int& taken) const {
     if (has(kManyMaterials)) {
       Float before[4];
@@ -197,8 +197,8 @@ private:
     base::storeRows(rows, in);
   }
 
-  /// GrainStep::touchNeighbour() of the contacts starting at c. Rows of forces and torques replace those of motion, in
-  /// those lanes that have the materials of the first one in `left`; returns these lanes, a bit each.
+  /// GrainStep::touchNeighbour() for the contacts starting at c. In the lanes with the materials of the first lane in
+  /// `left`, rows of forces and torques replace rows of motion. Returns the bit mask of these lanes.
   GROUSER_SIMD unsigned computeContacts(int c, unsigned left, const ForceData<float>& f) {
     Float rows[4], relative[4], turning[4], theirs[4], spring[4];
     base::loadRows(apart_ + c, rows);
@@ -258,7 +258,7 @@ private:
     return base::laneBits(taken);
   }
 
-  /// Rolling resistance of these contacts: rows of torques, and what is dissipated, replace those of places.
+  /// Computes rolling resistance: rows of torques and dissipation replace rows of positions.
   GROUSER_SIMD void roll(int c, const ForceData<float>& f, const contact::BasicLaw<float>& law, const Pair& both,
                          contact::RollingMotion<Float> motion, const contact::BasicReaction<Float>& reaction,
                          const Int& taken) {
@@ -280,11 +280,11 @@ private:
     storeTaken(apart_ + c, torques, taken);
   }
 
-  /// Sum over the contacts of a grain; fourth numbers as in rows.
+  /// Sum over the contacts of a grain; the fourth numbers are those of the rows.
   struct Sum {
     Float4 force{}, torque{}, most{}, rubbed{}, rolled{}, dented{};
   };
-  /// Contact c, where `there`.
+  /// Adds contact c if `there` is set.
   GROUSER_SIMD void add(int c, const Int4& there, Sum& sum) const {
     const auto row = [&](const Float4* rows) { return base::bitsAs<Float4>(base::bitsAs<Int4>(rows[c]) & there); };
     const Float4 turning = row(turning_);
@@ -298,7 +298,7 @@ private:
     }
     sum.most = turning > sum.most ? turning : sum.most;
   }
-  /// Copies the state of a grain that never moves.
+  /// Copies the unchanged state of a fixed grain.
   GROUSER_SIMD void keep(int i) {
     if (data_.features & kLoads && data_.loads.range[i] != 0) return copyFixedGrain(data_, forces_, i, accumulator_);
     data_.nextPosition[i] = data_.position[i], data_.nextMotion[i] = data_.motion[i];
@@ -309,9 +309,9 @@ private:
     if (hasFixed() && has(kLedger)) accountFixedContacts(g, i);
     Sum all;
     const int first = begin_[g], n = begin_[g + 1] - first;
-    // Without a branch for the most frequent counts, which would often be mispredicted: adding zero changes no sum that
-    // started at zero. Masks come from memory, since the compiler turns comparisons into masked loads, which wait for
-    // the rows just stored.
+    // No branch for the most frequent counts, which would often be mispredicted: adding zero does not change a sum that
+    // started at zero. Masks are loaded from memory, since the compiler turns comparisons into masked loads, which wait
+    // for the rows just stored.
     const std::int32_t* const there = there_ + (n < kUsual ? kUsual - n : 0);
 #pragma GCC unroll 6
     for (int k = 0; k < kUsual; ++k) add(first + k, Int4{} + there[k], all);
@@ -333,7 +333,7 @@ private:
     if (atSide_[g] || pressed || loaded) [[unlikely]]
       addOthers(g, i, pressed ? place : 0, loaded, force, torque);
   }
-  /// Adds loads in double: moving surfaces and parts.
+  /// Adds loads in double precision: moving surfaces and parts.
   GROUSER_SIMD void addOthers(int g, int i, std::uint32_t place, bool loaded, const Float4& force,
                               const Float4& torque) {
     Double4 f4 = base::toDouble(force), t4 = base::toDouble(torque);
@@ -365,8 +365,8 @@ private:
   }
 
   const ForceData<float>& forces_;
-  GrainAccumulator accumulator_; ///< of rare cases
-  /// kUsual masks starting at kUsual - n: n set, then clear.
+  GrainAccumulator accumulator_; ///< sums of rare cases
+  /// kUsual masks, starting at kUsual - n: n set, then clear.
   const std::int32_t there_[2 * kUsual] = {-1, -1, -1, -1, -1, -1};
   Advance advance_;
   alignas(64) Float4 apart_[kRows], moving_[kRows], turning_[kRows], theirs_[kRows], spring_[kRows], angle_[kRows],
@@ -375,8 +375,8 @@ private:
 
 namespace {
 
-/// One kernel. Not inlined, so that its machine code does not depend on the number of kernels; internal linkage, so
-/// that the linker cannot replace it with the copy of another instruction set.
+/// One kernel. Not inlined, so that its machine code does not depend on the number of kernels; internal linkage
+/// prevents the linker from replacing it by the copy of another instruction set.
 template <int kWidth, unsigned kFeatures> __attribute__((noinline, flatten)) void
 runOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) {
   GrainSimd<kWidth, kFeatures> some(d, f);
@@ -386,7 +386,7 @@ runOf(const GrainKernelData& d, const ForceData<float>& f, int first, int last) 
 
 } // namespace
 
-/// Runs the kernel that simdKernel() names.
+/// Runs the kernel selected by simdKernel().
 template <int kWidth, std::size_t... kPlace> GROUSER_SIMD void
 runSimd(const GrainKernelData& d, const ForceData<float>& f, int first, int last, std::index_sequence<kPlace...>) {
   const unsigned wanted = simdKernel(d.features);

@@ -6,17 +6,17 @@
 
 namespace grouser::terrain::detail {
 
-/// GrainStep::advance() for kLanes grains side by side, from the contact forces of a block of grains. The same
-/// operations on the same numbers in the same order; unusual grains go to GrainStep itself.
+/// GrainStep::advance() for kLanes grains at once, from the contact forces of a block of grains. Operations, numbers
+/// and order are identical; unusual grains are passed to GrainStep itself.
 template <int kLanes, unsigned kFeatures> class AdvanceLanes {
 public:
-  static constexpr int kGrains = 64; ///< of a block
+  static constexpr int kGrains = 64; ///< grains per block
   enum class Way : std::int32_t { lanes, alone, done };
 
   GROUSER_SIMD AdvanceLanes(const GrainKernelData& data, const ForceData<float>& forces)
       : data_(data), forces_(forces), accumulator_(data) {}
 
-  /// Forces in rows of four, as they are summed; their fourth numbers: damping loss, and the deepest overlap.
+  /// Adds the forces of a grain, in rows of four; fourth numbers: damping loss, and maximum overlap.
   GROUSER_SIMD void add(int g, int slot, const Float4& force, const Float4& torque, float rubbed, float rolled,
                         float slipped) {
     const int lane = laneOf(g);
@@ -25,7 +25,7 @@ public:
     if (has(kLedger)) rubbed_[lane] = rubbed, rolled_[lane] = rolled;
     if (slips()) slipped_[lane] = slipped;
   }
-  /// Adds a grain that is already advanced, or fixed.
+  /// Adds a grain that has already been advanced, or is fixed.
   GROUSER_SIMD void addDone(int g, int slot) {
     const int lane = laneOf(g);
     slot_[lane] = static_cast<std::uint32_t>(slot), way_[lane] = static_cast<std::int32_t>(Way::done);
@@ -33,12 +33,12 @@ public:
     if (has(kLedger)) rubbed_[lane] = rolled_[lane] = 0;
     if (slips()) slipped_[lane] = 0;
   }
-  /// Passes grain g to GrainStep, with this load instead of that of add().
+  /// Marks grain g for GrainStep, with this load instead of that of add().
   GROUSER_SIMD void setAlone(int g, const Double4& force, const Double4& torque) {
     way_[laneOf(g)] = static_cast<std::int32_t>(Way::alone), forceAlone_[g] = force, torqueAlone_[g] = torque;
   }
 
-  /// Advances the first `grains` of the block; `rare`: accumulates those that go to GrainStep.
+  /// Advances the first `grains` of the block; `rare` accumulates those passed to GrainStep.
   GROUSER_SIMD void run(int grains, GrainAccumulator& rare) {
     for (int g = grains; g % kLanes != 0; ++g) addDone(g, static_cast<int>(slot_[0]));
     for (int g = 0; g < grains; g += kLanes)
@@ -46,7 +46,7 @@ public:
         stepAlone(g, left, rare);
   }
 
-  /// Energy accounting of all grains so far except those that went to GrainStep.
+  /// Energy accounting of all grains so far, except those passed to GrainStep.
   GROUSER_SIMD const LaneAccumulator<kLanes, kFeatures>& accumulator() const { return accumulator_; }
 
 private:
@@ -61,7 +61,7 @@ private:
   using Double = Simd<double, kLanes>;
   static constexpr unsigned kAll = (1u << kLanes) - 1;
 
-  // Grains stand in the lanes in the order that loadRows() gives them. A row's place in its group, of a lane and back:
+  // Lane of a grain, in the order defined by loadRows(), and the inverse mapping:
   GROUSER_SIMD static int laneOf(int g) {
     constexpr int kStride = kLanes / 4;
     const int row = g % kLanes;
@@ -69,8 +69,8 @@ private:
   }
   GROUSER_SIMD static int rowOf(int lane) { return lane % 4 * (kLanes / 4) + lane / 4; }
 
-  // Components of a group's grains, from their rows, which lie kBytes apart, and back. `together`: their slots follow
-  // each other.
+  // Loads or stores the components of a group's grains, with rows kBytes apart.
+  // `together`: the slots of the group are consecutive.
   template <std::size_t kBytes = 16, class V>
   GROUSER_SIMD void loadAll(const void* from, int g, bool together, V (&out)[4]) const {
     if (kBytes == 16 && together) return base::loadRows(static_cast<const Float4*>(from) + slot_[g], out);
@@ -90,8 +90,8 @@ private:
   }
   static constexpr std::size_t kApart = sizeof(contact::Motion);
 
-  /// addCompensated(). Remainders are counted in 2^-39 of the value's binade, both powers of two: dividing by one is
-  /// multiplying by its inverse, to the last bit.
+  /// addCompensated() in SIMD. Remainders are in units of 2^-39 of the value's binade, a power of two: division equals
+  /// multiplication by the inverse, bit for bit.
   struct Compensated {
     Double sum, rounding;
   };
@@ -112,7 +112,7 @@ private:
     const Int bits = base::bitsAs<Int>(v) & 0x7F800000, least = base::broadcast<Int>(kLeastBinade);
     return bits < least ? least : bits;
   }
-  /// halfSquareGained()
+  /// SIMD version of halfSquareGained().
   GROUSER_SIMD static Double halfSquareGained(const Double& faster, const Compensated& now) {
     return faster * (now.sum - faster * 0.5) + now.rounding * now.sum;
   }
@@ -137,7 +137,7 @@ private:
             data_.maxOverlapShare * radius};
   }
 
-  /// Advances kLanes grains starting at g; returns those left to GrainStep, a bit each.
+  /// Advances kLanes grains starting at g; returns the bit mask of those passed to GrainStep.
   GROUSER_SIMD unsigned step(int g, bool together) {
     Float v[4], w[4], force[4], torque[4];
     Int kept[4], p[4], q[4], keep[4];
@@ -149,7 +149,7 @@ private:
     Int ordinary = load<Int>(way_ + g) == static_cast<std::int32_t>(Way::lanes);
     ordinary &= ~(torque[3] > size.maxOverlap);
     Double work[3];
-    // Without history and parts torques are zero, and spins stay as they are.
+    // Without history and parts, torques are zero and spins are constant.
     const bool turns =
         has(contact::kFriction | contact::kRollingFriction | contact::kPlastic) || data_.features & kLoads;
     keep[3] = kept[3] & ~0x3FFFFFFF, q[3] = p[3];
@@ -166,7 +166,7 @@ private:
       keep[a] = (rv & 0xFFFF) | rw << 16;
       Double displacement = speed.sum * data_.unitsPerSpeed;
       const auto near = (displacement > -kMostUnitsPerStep) & (displacement < kMostUnitsPerStep);
-      displacement = near ? displacement : Double{}; // a speed that is no number must not reach the integer conversion
+      displacement = near ? displacement : Double{}; // a NaN speed must not reach the integer conversion
       // advanceKeeping()
       const Int place = kept[3] << (22 - 10 * a) >> 22; // ten bits each
       const Double wanted = displacement + base::toDouble(place) * (1.0 / kPlacesPerUnit);
@@ -176,7 +176,7 @@ private:
       keep[3] |= (rest & 0x3FF) << (10 * a);
       const Int units = base::toInt(whole);
       q[a] = p[a] + units;
-      // The high words change where a low word passes its end.
+      // The high words change when a low word overflows.
       const Int passes = (base::bitsAs<Unsigned>(q[a]) < base::bitsAs<Unsigned>(p[a])) ^ (units < 0);
       ordinary &= base::convert<std::int32_t>(near) & ~passes;
     }
@@ -199,7 +199,7 @@ private:
     return kAll & ~which;
   }
 
-  /// Marks the list as stale if one of these grains is too far from where it was listed.
+  /// Marks the list as stale if one of these grains has moved too far since it was listed.
   GROUSER_SIMD void raiseWhereStale(int g, const Int (&q)[4], unsigned which) const {
     Int was[4];
 #pragma GCC unroll 4
@@ -213,7 +213,7 @@ private:
     base::transpose(was);
     const Double x = base::toDouble(q[0] - was[0]), y = base::toDouble(q[1] - was[1]),
                  z = base::toDouble(q[2] - was[2]);
-    // Rounded: beyond this margin it decides.
+    // This sum is rounded; within the margin the exact sum below decides.
     const auto perhaps = x * x + y * y + z * z > static_cast<double>(data_.halfSkinUnits2) * (1 - 1e-12);
     unsigned far = base::laneBits(base::convert<std::int32_t>(perhaps)) & which;
     for (; far != 0; far &= far - 1) {

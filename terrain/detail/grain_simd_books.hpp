@@ -7,7 +7,7 @@
 namespace grouser::base {
 
 #if defined(__AVX512F__)
-// Conversions of eight, as those of four in simd_rows.hpp. Masked forms: GCC 12 warns about the others.
+// Conversions of eight numbers, like those of four in simd_rows.hpp. Masked forms: GCC 12 warns about the others.
 constexpr __mmask8 kEightLanes = 0xFF;
 using Float8 = Simd<float, 8>;
 using Int8 = Simd<std::int32_t, 8>;
@@ -21,7 +21,7 @@ GROUSER_SIMD Double8 toDouble(const Int8& v) {
 GROUSER_SIMD Float8 toFloat(const Double8& v) {
   return bitsAs<Float8>(_mm512_maskz_cvtpd_ps(kEightLanes, bitsAs<__m512d>(v)));
 }
-/// Towards zero.
+/// Rounds towards zero.
 GROUSER_SIMD Int8 toInt(const Double8& v) {
   return bitsAs<Int8>(_mm512_maskz_cvttpd_epi32(kEightLanes, bitsAs<__m512d>(v)));
 }
@@ -47,12 +47,12 @@ using base::Simd;
 using base::SimdVector;
 using base::store;
 
-/// Whether grains have a feature (or one of several): known at compile time but in the general kernel.
+/// True if the grains have a feature (or one of several): known at compile time except in the general kernel.
 template <unsigned kFeatures> GROUSER_SIMD bool hasFeature(const GrainKernelData& d, unsigned feature) {
   return ((kFeatures & contact::kGeneral ? d.features : kFeatures) & feature) != 0;
 }
 
-/// wholeQuanta()
+/// SIMD version of wholeQuanta().
 template <SimdVector V> GROUSER_SIMD Simd<std::int64_t, base::kWidthOf<V>> wholeOf(V quanta) {
   using Long = Simd<std::int64_t, base::kWidthOf<V>>;
   const V most = base::broadcast<V>(0x1p51), shift = base::broadcast<V>(0x1.8p52);
@@ -60,21 +60,21 @@ template <SimdVector V> GROUSER_SIMD Simd<std::int64_t, base::kWidthOf<V>> whole
   quanta = quanta < most ? quanta : most;
   return base::bitsAs<Long>(quanta + shift) - base::bitsAs<Long>(shift);
 }
-/// base::axisOf()
+/// SIMD version of base::axisOf().
 template <SimdVector V>
 GROUSER_SIMD Simd<std::int64_t, base::kWidthOf<V>> axisOf(const V& low, const V& high, int axis) {
   const V top = high << (22 - 10 * axis) >> 22;
   return base::convert<std::int64_t>(top) << 32 |
          base::convert<std::int64_t>(base::bitsAs<Simd<std::uint32_t, base::kWidthOf<V>>>(low));
 }
-/// Exact: coordinates have 42 bits.
+/// Exact conversion to double: coordinates have 42 bits.
 template <SimdVector V> GROUSER_SIMD Simd<double, base::kWidthOf<V>> exactly(const V& units) {
   using Double = Simd<double, base::kWidthOf<V>>;
   const Double shift = base::broadcast<Double>(0x1.8p52);
   return base::bitsAs<Double>(units + base::bitsAs<V>(shift)) - shift;
 }
 
-/// Energy accounting of kLanes grains side by side: GrainStep::account().
+/// Energy accounting of kLanes grains at once: GrainStep::account().
 template <int kLanes, unsigned kFeatures> class LaneAccumulator {
 public:
   using Int = Simd<std::int32_t, kLanes>;
@@ -87,7 +87,7 @@ public:
   struct LostLanes {
     Double damped, rubbed, rolled, slipped;
   };
-  /// `work`: by axis; `massShare`: of the mass of the model; of the grains in `which`.
+  /// `work`: per axis; `massShare`: mass / model mass; for the grains in `which`.
   GROUSER_SIMD void add(const Double (&work)[3], const LostLanes& lost, const Int (&place)[4], const Double& massShare,
                         const Int& which) {
     const Long mask = base::convert<std::int64_t>(which);
@@ -108,7 +108,7 @@ public:
     }
   }
 
-  /// Adds the sums of all lanes.
+  /// Adds the sums over all lanes to `accumulator`.
   GROUSER_SIMD void addTo(GrainAccumulator& accumulator) const {
     for (int l = 0; l < kLanes; ++l) {
       accumulator.of[kWork] += work_[l], accumulator.of[kTurnover] += turnover_[l];

@@ -7,11 +7,11 @@
 
 namespace grouser::terrain::detail {
 
-/// Finds the contacts of a block of grains, several candidates at a time; and the features for all sweeps of GrainSimd.
+/// Finds the contacts of a block of grains, several candidates at a time. Base class that tests features for GrainSimd.
 template <int kWidth, unsigned kFeatures> class ContactBlock {
 protected:
-  static constexpr int kGrains = 64, kContacts = 192; ///< of a block
-  static constexpr int kFound = kWidth < 8 ? 4 : 8;   ///< candidates that are tried side by side
+  static constexpr int kGrains = 64, kContacts = 192; ///< sizes of a block
+  static constexpr int kFound = kWidth < 8 ? 4 : 8;   ///< candidates tested at once
   using Found = Simd<std::int32_t, kFound>;
   using FoundFloat = Simd<float, kFound>;
 
@@ -22,7 +22,7 @@ protected:
     return has(contact::kFriction | contact::kRollingFriction | contact::kPlastic);
   }
   GROUSER_SIMD bool slips() const { return has(contact::kHertz) && has(contact::kFriction) && has(kLedger); }
-  GROUSER_SIMD bool bothSpins() const { return has(contact::kRollingFriction | kManyRadii); } ///< not their sum alone
+  GROUSER_SIMD bool bothSpins() const { return has(contact::kRollingFriction | kManyRadii); } ///< else only the sum
   GROUSER_SIMD unsigned layout() const { return kFeatures & contact::kGeneral ? data_.features : kFeatures; }
   GROUSER_SIMD std::size_t historyWidth() const { return contact::historyWidth(layout()); }
   GROUSER_SIMD std::size_t dentPlace() const { return contact::plasticPlace(layout()); }
@@ -37,18 +37,18 @@ protected:
     return stays(i) ? 0 : static_cast<int>(data_.neighbours.count[i]);
   }
 
-  /// History of a place of the neighbour list.
+  /// History of an entry of the neighbour list.
   GROUSER_SIMD float* springOf(std::uint32_t entry) const {
     return data_.neighbours.history + historyWidth() * std::size_t{entry};
   }
 
-  /// Appends the contacts of the k-th grain to the block; a fixed grain needs none.
+  /// Appends the contacts of the k-th grain to the block; does nothing for a fixed grain.
   GROUSER_SIMD void find(int k) {
     const int i = slotOf(k), n = candidatesOf(k);
     begin_[grains_] = contacts_;
     samePlace_[grains_] = atSide_[grains_] = false;
     if (stays(i)) return void(++grains_);
-    const std::uint32_t row = data_.neighbours.start[i]; // its places follow each other
+    const std::uint32_t row = data_.neighbours.start[i]; // its entries are consecutive
     const std::uint32_t* const slot = data_.neighbours.slot + row;
     const Int4 p = load<Int4>(data_.position + i);
     const std::uint32_t* const reach = has(kManyRadii) ? data_.neighbours.reach + row : nullptr;
@@ -73,7 +73,7 @@ protected:
         const auto units = base::convert<float>(load<Found>(reach + m));
         reach2 = units * units;
       }
-      // Squares of distances in float are right to 5 roundings, 3e-7: beyond this margin they decide.
+      // Float rounds squared distances up to 5 times, by 3e-7 in total: outside this margin the comparison is certain.
       const auto surely2 = reach2 * (1 - 2e-6f), perhaps2 = reach2 * (1 + 2e-6f);
       const auto open = ((distance2 < perhaps2) & (distance2 >= surely2)) | (distance2 == 0.0f);
       unsigned touching = base::laneBits(distance2 < surely2) & inRow;
@@ -94,7 +94,7 @@ protected:
     contacts_ = c;
     ++grains_;
   }
-  /// Resets the springs of new contacts. Bit k is of place `first` + k.
+  /// Resets the springs of new contacts. Bit k corresponds to entry `first` + k.
   GROUSER_SIMD void begin(std::uint64_t before, std::uint64_t now, std::uint32_t first) const {
     if (!hasHistory()) return;
     for (std::uint64_t begun = now & ~before; begun != 0; begun &= begun - 1) {
@@ -105,7 +105,7 @@ protected:
     }
   }
 
-  /// Corrects those bits of `touching` that are set in `open`, by exact squares.
+  /// Corrects the bits of `touching` that are set in `open`, using exact squares.
   GROUSER_SIMD unsigned decide(int i, const std::uint32_t* slot, const std::uint32_t* reach, unsigned touching,
                                unsigned open) {
     for (; open != 0; open &= open - 1) {
@@ -126,7 +126,7 @@ protected:
     return Int4{static_cast<std::int32_t>(way.x), static_cast<std::int32_t>(way.y), static_cast<std::int32_t>(way.z),
                 0};
   }
-  /// Whether a neighbour of a grain here may lie beyond a periodic boundary.
+  /// True if a neighbour of a grain at `place` may be across a periodic boundary.
   GROUSER_SIMD bool isAtSide(const Int4& place) const {
     const base::Vec3l u = base::toUnits(base::bitsAs<base::Position>(place));
     const auto skin = static_cast<std::int64_t>(2 * __builtin_sqrt(static_cast<double>(data_.halfSkinUnits2))) + 2;
@@ -146,9 +146,9 @@ protected:
   int grains_ = 0, contacts_ = 0;
   int begin_[kGrains + 1];
   bool samePlace_[kGrains], atSide_[kGrains];
-  // Contacts of the block, with padding that the last lanes may read and write.
+  // Contacts of the block, padded for reads and writes of the last lanes.
   static constexpr int kRows = kContacts + std::max(8, kWidth);
-  std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both, place in the neighbour list
+  std::uint32_t grain_[kRows], other_[kRows], entry_[kRows]; ///< slots of both grains; entry in the neighbour list
 };
 
 } // namespace grouser::terrain::detail

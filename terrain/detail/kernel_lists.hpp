@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The combinations of features that kernels are compiled for. Kernels are instantiated from these lists
-// (grain_kernels.cu, grain_simd.hpp) and chosen from them (kernel_choice.cpp).
+// Combinations of features for which kernels are compiled. Kernels are instantiated (grain_kernels.cu, grain_simd.hpp)
+// and selected (kernel_choice.cpp) from these lists.
 #pragma once
 
 #include "terrain/grain_model.hpp"
@@ -38,10 +38,10 @@ template <std::size_t kSize> constexpr bool allDiffer(const std::array<unsigned,
   return true;
 }
 
-/// Scenes have a ledger; benchmarks may omit it.
+/// Scenes always have a ledger; benchmarks may omit it.
 inline constexpr unsigned kBed = kFriction | kBoundaries | kLedger;
 
-/// Beds of soil: each of these features, with and without.
+/// Soil beds: every combination of these features.
 constexpr std::array<unsigned, 32> soilKernels() {
   constexpr unsigned kEach[] = {kHertz, kRollingFriction, kManyRadii, kFixed, kLoads};
   std::array<unsigned, 32> sets{};
@@ -62,7 +62,7 @@ inline constexpr std::array kOtherKernels = {
     kBed | kSurfaces, kBed | kSurfaces | kRollingFriction, kBed | kSurfaces | kFixed, kBed | kSurfaces | kManyRadii,
     kBed | kSurfaces | kFixed | kManyRadii, kBed | kSurfaces | kFixed | kManyRadii | kRollingFriction};
 
-/// Elastic-plastic soils under a vehicle; those of a constant pull besides (`cohesion`) are of Hertz' law.
+/// Elastic-plastic soils under a vehicle; the variants with constant attraction (`cohesion`) use Hertz's law.
 inline constexpr unsigned kYielding = kBed | kPlastic | kManyRadii | kRollingFriction,
                           kEepa = kYielding | kHertz | kCohesion;
 inline constexpr std::array kPlasticKernels = {kYielding,
@@ -78,7 +78,7 @@ inline constexpr std::array kPlasticKernels = {kYielding,
                                                kEepa | kLoads,
                                                kEepa | kFixed | kLoads};
 
-/// Soils of Hertz' law that stick, under a vehicle.
+/// Cohesive Hertz soils under a vehicle.
 inline constexpr unsigned kSoil = kBed | kHertz | kManyRadii, kSticky = kSoil | kCohesion;
 inline constexpr std::array kCohesiveKernels = {kSticky,
                                                 kSticky | kLoads,
@@ -112,12 +112,12 @@ inline constexpr std::array kBevameterKernels = {kSheared,
                                                  kPressed | kSlipping,
                                                  kPressed | kSlipping | kCohesion};
 
-/// Kernels of the grains' step. They do not depend on a height-map floor.
+/// Kernels of the grain step, independent of a height-map floor.
 inline constexpr auto kStepKernels =
     joined(soilKernels(), kPlasticKernels, kCohesiveKernels, kBevameterKernels, kOtherKernels);
 static_assert(allDiffer(kStepKernels));
 
-/// Features that kernels of walls and floor depend on. The search on a floor needs many registers.
+/// Features that affect the kernels of walls and floor. The search on a floor requires many registers.
 inline constexpr unsigned kAtBoundaries = kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii |
                                           kManyMaterials | kSurfaces | kFloor | contact::kGeneral;
 inline constexpr unsigned kSoilWalls = kHertz | kFriction | kRollingFriction | kManyRadii;
@@ -151,19 +151,19 @@ inline constexpr std::array kBoundaryKernels = {0u,
                                                 kSoilWalls | kCohesion | kPlastic | kSurfaces};
 static_assert(allDiffer(kBoundaryKernels));
 
-/// Whether a kernel is compiled with, and without, a ledger. The step's features determine it; kernels of walls and
+/// Variants compiled with and without a ledger. In the grain step the feature set determines it; kernels of walls and
 /// floor without a ledger are compiled for the benchmark.
 constexpr bool withLedger(unsigned set, bool ofStep) { return !ofStep || set & (kLedger | contact::kGeneral); }
 constexpr bool withoutLedger(unsigned set, bool ofStep) {
   return set & contact::kGeneral || (ofStep ? !(set & kLedger) : set == kFriction);
 }
 
-/// Features of the grains' step in SIMD that are known at compile time. Features tested at run time need no other
+/// Features of the SIMD grain step that are fixed at compile time. Features tested at run time need no additional
 /// kernel.
 inline constexpr unsigned kSimdCompiled =
     kHertz | kFriction | kRollingFriction | kCohesion | kPlastic | kManyRadii | kLedger;
 inline constexpr unsigned kSimdAsked = kBoundaries | kSurfaces | kLoads | kPeriodic | kFixed | kFloor;
-/// Each of these laws with friction, with and without many radii and a ledger; and grains without friction.
+/// Each of these laws with friction, with and without many radii and a ledger; and frictionless grains.
 constexpr auto simdKernels() {
   constexpr std::array kLaws = {0u,
                                 kHertz,
@@ -182,7 +182,7 @@ constexpr auto simdKernels() {
 inline constexpr auto kSimdKernels = simdKernels();
 static_assert(allDiffer(kSimdKernels));
 
-/// The SIMD kernel for grains of these features, or kGeneral.
+/// Returns the SIMD kernel for grains of these features, or kGeneral.
 constexpr unsigned simdKernel(unsigned features) {
   const unsigned own = features & kSimdCompiled;
   return (features & ~(kSimdCompiled | kSimdAsked)) == 0 && isListed(kSimdKernels, own) ? own : contact::kGeneral;

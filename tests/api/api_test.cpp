@@ -69,7 +69,7 @@ TEST_F(Api, AVehicleIsReadAndSteered) {
   EXPECT_EQ(now.left.tension.size(), 46u);
   EXPECT_NEAR(now.groundForce.z, 9.81 * vehicle.mass(), 0.3 * 9.81 * vehicle.mass());
   EXPECT_THROW(vehicle.setThrottle(1, 1), InputError);
-  // Neither is set where one may not be.
+  // Neither changes if one is invalid.
   const std::string before = simulation.hash();
   EXPECT_THROW(vehicle.setSprocketSpeed(1, 1e9), InputError);
   EXPECT_EQ(simulation.hash(), before);
@@ -141,22 +141,22 @@ TEST_F(Api, WhatIsWrongIsAnErrorOfItsType) {
   Scene scene = Scene::fromText(kFall);
   try {
     scene.set("run.duratoin", 2.0);
-    FAIL() << "an unknown key was taken";
+    FAIL() << "an unknown key was accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("duration"), std::string::npos) << error.what();
   }
-  EXPECT_EQ(scene.duration(), 0.1); // as it was
+  EXPECT_EQ(scene.duration(), 0.1); // unchanged
   Simulation simulation(scene);
   EXPECT_FALSE(simulation.hasVehicle());
   EXPECT_THROW(simulation.vehicle(), InputError);
   EXPECT_THROW(simulation.step(0), InputError);
   EXPECT_THROW(simulation.setLoad("hull", {1, 0, 0}), InputError);
-  // A grain that falls 1 m onto so soft a plane penetrates it: SimulationError, and the state stays readable.
+  // A grain falls 1 m onto so soft a plane that it penetrates: SimulationError, and the state remains readable.
   Simulation unsound(Scene::fromText(kFall));
   EXPECT_THROW(unsound.step(2000), SimulationError);
   EXPECT_EQ(unsound.grains().position.size(), 2u);
-  EXPECT_THROW(unsound.step(), InputError) << "it has failed";
-  unsound.finish(); // nothing is left to do
+  EXPECT_THROW(unsound.step(), InputError) << "the simulation has failed";
+  unsound.finish(); // nothing to do
   EXPECT_THROW(simulation.stepFor(std::nan("")), InputError);
   EXPECT_THROW(simulation.step(std::numeric_limits<std::int64_t>::max()), InputError);
 }
@@ -204,7 +204,7 @@ TEST_F(Api, ARunGoesOnInItsFolderOrInAnotherOne) {
     second.finish();
   }
   Simulation again = Simulation::resumed(vehicleScene(), checkpoint, options);
-  EXPECT_THROW(Simulation::resumed(vehicleScene(), checkpoint, options), InputError) << "two in a folder at once";
+  EXPECT_THROW(Simulation::resumed(vehicleScene(), checkpoint, options), InputError) << "two simulations in one folder";
   again.step(50);
   EXPECT_EQ(again.hash(), hash);
   again.finish();
@@ -230,7 +230,7 @@ TEST_F(Api, AFolderIsRefusedBeforeTheBedSettles) {
   Options options;
   options.folder = folder_;
   std::ofstream(folder_ / "mine.txt") << "kept";
-  options.settling = [](double, double) { FAIL() << "settled for nothing"; };
+  options.settling = [](double, double) { FAIL() << "unexpected settling"; };
   EXPECT_THROW(Simulation(Scene::fromFile(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml"), options),
                InputError);
   EXPECT_TRUE(fs::exists(folder_ / "mine.txt"));
@@ -254,7 +254,7 @@ TEST_F(Api, OfThrottleAndSpeedTheLastOneCounts) {
 
 TEST_F(Api, SeveralKeysAreSetTogether) {
   Scene scene = Scene::fromText(kFall);
-  EXPECT_THROW(scene.set("source.low", std::vector<double>{0, 0, 3}), InputError) << "a source needs more than that";
+  EXPECT_THROW(scene.set("source.low", std::vector<double>{0, 0, 3}), InputError) << "the source lacks other keys";
   scene.set({"run.duration=0.2", "run.time_step=2e-4"});
   EXPECT_EQ(scene.duration(), 0.2);
   EXPECT_THROW(scene.set({"run.duration=0.3", "run.time_stp=1e-4"}), InputError);

@@ -45,7 +45,7 @@ bool refusesOthers(const grouser::Options& options, int rank) {
   } catch (const grouser::InputError& error) {
     if (!holds(std::string(error.what()).find("rank 1") != std::string::npos, error.what())) return false;
   }
-  simulation.step(); // the refused inputs are gone
+  simulation.step(); // the rejected inputs are gone
   try {
     simulation.step(rank == 1 ? 2 : 1);
     return holds(false, "ranks that step otherwise stepped on");

@@ -11,7 +11,7 @@
 namespace grouser::assets {
 namespace {
 
-/// All that is committed: of the vehicle, and of rigs.
+/// All committed files: of the vehicle, and of rigs.
 std::vector<NamedMesh> allParts() {
   std::vector<NamedMesh> parts = vehicleParts();
   for (const auto& more : {m113Parts(), robotParts(), rigParts()}) parts.insert(parts.end(), more.begin(), more.end());
@@ -31,14 +31,14 @@ double volumeOf(const TriangleMesh& mesh) {
 
 TEST(RigMeshes, GrouserWheel_HasTheVolumeOfDrumAndBlades) {
   GrouserWheelDims dims;
-  dims.facets = 200; // as good as round
+  dims.facets = 200; // nearly round
   const double r = dims.radius, b = dims.width, t = dims.grouserThickness, h = dims.grouserHeight;
   const double drum = 3.14159265358979 * r * r * b, blades = dims.grousers * t * h * b;
-  // A blade's foot cuts t^3 / 12 r off a drum's round: a part in a million of the drum.
+  // A blade's foot removes t^3 / 12 r of a drum's rim: a part in a million of the drum.
   EXPECT_NEAR(volumeOf(grouserWheel(dims)), drum + blades, 1e-5 * drum);
   double tip = 0;
   for (const auto& v : grouserWheel().vertices) tip = std::max(tip, v.x);
-  EXPECT_NEAR(tip, r + h, 1e-12) << "the first blade stands on the +x side, its end flat";
+  EXPECT_NEAR(tip, r + h, 1e-12) << "the first blade is on the +x side, with a plane end";
   EXPECT_THROW(grouserWheel({0.1, 0.1, 100, 0.01, 0.01, 1}), std::invalid_argument);
 }
 
@@ -50,7 +50,7 @@ TEST(VehicleMeshes, Generator_ReproducesCommittedFilesByteForByte) {
     std::stringstream committed;
     committed << file.rdbuf();
     const std::string made = toObj(part);
-    // Compared as one boolean: a failed comparison of texts would print 100 kB.
+    // Compared as one boolean: a failed text comparison would print 100 kB.
     EXPECT_TRUE(made == committed.str()) << part.name << ".obj differs; if meant, run grouser_assets assets/meshes";
     EXPECT_LT(made.size(), 200000u) << part.name;
   }
@@ -74,7 +74,7 @@ TEST(VehicleMeshes, WheelRim_HasTheMeanRadiusAsked) {
   const TriangleMesh mesh = wheel(dims);
   double rim = 0;
   for (const auto& v : mesh.vertices) rim = std::max(rim, std::sqrt(v.x * v.x + v.z * v.z));
-  // Mean over the angle of the polygon's radius, by the midpoint rule within one facet; the rule's own error is
+  // Mean over the angle of the polygon's radius, by the midpoint rule within one facet; the rule's error is
   // d^2/24n^2.
   const double d = 3.14159265358979 / dims.facets;
   double mean = 0;
@@ -91,7 +91,7 @@ TEST(VehicleMeshes, SprocketProfile_HasTenTeethAtTheirRadii) {
     tip = std::max(tip, r);
     if (r > dims.hubRadius + 1e-6) bottom = std::min(bottom, r);
   }
-  // The tip's coordinates are rounded to 0.1 mm in the table that gives them.
+  // The tip's coordinates are rounded to 0.1 mm in their table.
   EXPECT_NEAR(tip, dims.landRadius, 1e-4);
   EXPECT_NEAR(bottom, dims.pinRadius - dims.seatRadius, 1e-12);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sort, scan, maximum and lists: what the standard library's serial ones give, for any number of threads.
+// Sort, scan, maximum and lists: equal to the standard library's serial results, for any number of threads.
 #include "base/algorithms.hpp"
 
 #include "base/random.hpp"

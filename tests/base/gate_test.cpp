@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Work that is launched before its data are there.
+// Work launched before its data are available.
 #include "base/gate.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr Watch kNothing{};
 
-/// Numbers that go to the device behind the gate, and come back.
+/// Numbers that pass to the device behind the gate, and return.
 struct There {
   explicit There(const Exec& e) : exec(e), gate(e), sent(e, 1500), back(e, 1500), cleared(e, 1) {}
   void launch(const Watch& watch = kNothing) {
@@ -46,19 +46,19 @@ TEST(Gate, LetsOneRunPassForEachOpening) {
 
 TEST(Gate, WorkLaunchedAheadSeesWhatIsWrittenBeforeTheOpeningOnCuda) {
   const Exec exec = testExec();
-  if (exec.onCpu()) GTEST_SKIP() << "nothing is launched ahead on a CPU";
+  if (exec.onCpu()) GTEST_SKIP() << "a CPU launches no work ahead";
   There t(exec);
   t.launch();
   for (int k = 0; k < 1000; ++k) {
     t.write(3.0 * k);
     t.gate.open();
-    t.launch(); // waits, or has not begun
+    t.launch(); // waits, or has not started
     t.gate.await(Gate::kFirst);
     t.expectBack(3.0 * k);
     EXPECT_TRUE(isBusy(exec));
   }
   t.gate.callOff();
-  t.expectBack(3.0 * 999); // what was called off has told nothing
+  t.expectBack(3.0 * 999); // a cancelled launch leaves no results
   t.write(7), t.launch(), t.gate.open();
   t.gate.await(Gate::kSecond);
   t.expectBack(7);
@@ -66,16 +66,16 @@ TEST(Gate, WorkLaunchedAheadSeesWhatIsWrittenBeforeTheOpeningOnCuda) {
 
 TEST(Gate, WhatIsWatchedCallsARunOffWithoutTheHostOnCuda) {
   const Exec exec = testExec();
-  if (exec.onCpu()) GTEST_SKIP() << "nothing is launched ahead on a CPU";
+  if (exec.onCpu()) GTEST_SKIP() << "a CPU launches no work ahead";
   There t(exec);
   const Array<std::uint64_t> flags(exec, std::vector<std::uint64_t>{5, 1});
   t.write(1), t.launch({flags.data(), {5, 1}}), t.gate.open(), t.gate.await(Gate::kSecond);
   t.expectBack(1);
   *t.cleared.host() = 9, t.cleared.upload();
   t.write(2), t.launch({flags.data(), {5, 0}});
-  synchronize(exec); // does not hang: nobody waits for the host
+  synchronize(exec); // does not hang: no kernel waits for the host
   t.expectBack(1);
-  EXPECT_EQ(t.cleared.device().at(0), 9u) << "nor is anything cleared";
+  EXPECT_EQ(t.cleared.device().at(0), 9u) << "nor is any array cleared";
   t.write(3), t.launch(), t.gate.open(), t.gate.await(Gate::kSecond);
   t.expectBack(3);
 }

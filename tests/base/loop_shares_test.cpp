@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loops on a CPU: shared by their cost, each item once, whatever the threads.
+// Loops on a CPU: distributed by cost, each item once, for any number of threads.
 #include "base/for_each_group.cuh"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 /// Number of threads.
 struct CountThreads {
-  double cost; // [ns] that the loop is told
+  double cost; // [ns] cost per item of the loop
   std::atomic<int>* most;
   double nanoseconds() const { return cost; }
   void operator()(int) const { *most = std::max(most->load(), omp_get_num_threads()); }
@@ -42,11 +42,11 @@ TEST(LoopShares, FortyBlocksOfGrainsAreSharedAndAHundredCheapItemsAreNot) {
 
 TEST(LoopShares, AllThreadsOrOne) {
   EXPECT_EQ(threadsForLoop(40, 60.0 * 256, 16), 16);
-  EXPECT_EQ(threadsForLoop(3, 1e6, 16), 16) << "a team that shrinks loses its threads";
+  EXPECT_EQ(threadsForLoop(3, 1e6, 16), 16) << "a smaller team would release its threads";
   EXPECT_EQ(threadsForLoop(1, 1e9, 16), 1);
   EXPECT_EQ(threadsForLoop(0, 5, 16), 1);
   EXPECT_EQ(threadsForLoop(1000, 5, 2), 2) << "5 us";
-  EXPECT_EQ(threadsForLoop(1000, 5, 16), 1) << "5 us, and 16 threads to call";
+  EXPECT_EQ(threadsForLoop(1000, 5, 16), 1) << "5 us, and 16 threads to start";
   EXPECT_EQ(threadsForLoop(2000, 5, 16), 16);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which key an unknown one is likely to be, of all sections of a file; and when none.
+// Suggested key for an unknown one, from all sections of a file; or none.
 #include "base/nearest_key.hpp"
 
 #include <gtest/gtest.h>

@@ -31,7 +31,7 @@ TEST(Position, DifferencesAreExactAcrossEveryBorder) {
     ASSERT_EQ(static_cast<std::int64_t>(got.x), d.x);
     ASSERT_EQ(static_cast<std::int64_t>(got.y), d.y);
     ASSERT_EQ(static_cast<std::int64_t>(got.z), d.z);
-    ASSERT_EQ(difference(fromUnits(a + d), fromUnits(a)), -got) << "the same from either side";
+    ASSERT_EQ(difference(fromUnits(a + d), fromUnits(a)), -got) << "symmetric";
   }
 }
 
@@ -47,7 +47,7 @@ TEST(PositionScale, ResolvesAHundredMillionthOfADiameter) {
 }
 
 TEST(PositionScale, OfADiameterThatIsNoLengthEnds) {
-  // As a broken scene may give them; their places are then out of range.
+  // Possible values of a damaged scene; their positions are then out of range.
   for (const double diameter : {0.0, 2e-320, 1e-300}) {
     const PositionScale s = positionScale(diameter);
     EXPECT_EQ(s.unit * s.perMetre, 1) << diameter;
@@ -75,16 +75,16 @@ TEST(Period, PlacesOnTheUpperBoundaryAreThoseOnTheLowerOne) {
   EXPECT_EQ(back(-500), 0);
   EXPECT_EQ(back(1499), 0);
   EXPECT_EQ(back(1500), -1);
-  EXPECT_EQ(period.periodsBack(1, 1 << 30), 0) << "it has none along y";
+  EXPECT_EQ(period.periodsBack(1, 1 << 30), 0) << "no period along y";
   EXPECT_EQ(period.wrapped({1500, 7, -9}), (Vec3l{-500, 7, -9}));
-  // Half a period away two images are as near: always the same one of them.
+  // At half a period two images are equally near: always the same one is chosen.
   EXPECT_EQ(period.apart(fromUnits({-500, 0, 0}), fromUnits({500, 0, 0})), (Vec3l{-1000, 0, 0}));
   EXPECT_EQ(period.apart(fromUnits({500, 0, 0}), fromUnits({-500, 0, 0})), (Vec3l{-1000, 0, 0}));
   EXPECT_EQ(period.apart(fromUnits({-400, 0, 0}), fromUnits({1400, 0, 0})), (Vec3l{-200, 0, 0}));
 }
 
 TEST(ElementaryFunctions, AgreeWithTheCLibraryToAFewUlp) {
-  // The bound is relative to the value, or to 1 where the function passes zero.
+  // The bound is relative to the value, or to 1 near zeros of the function.
   double worst = 0;
   for (int i = -4000; i <= 4000; ++i) {
     const double x = 0.0031 * i;

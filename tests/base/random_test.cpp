@@ -68,7 +68,7 @@ TEST(Random, InputsDoNotTradePlaces) {
 }
 
 TEST(Random, ValuesNeverChange) {
-  // Saved beds and expected state hashes depend on them; figures from a separate program (Python integers). The mixer's
+  // Saved beds and expected state hashes depend on them; values from a separate program (Python integers). The mixer's
   // first output is the published first output of SplitMix64 for seed 0.
   static_assert(detail::mix(detail::kGolden) == 0xE220A8397B1DCDAFull);
   static_assert(hash(0, 0, 0) == 0x238275BC38FCBE91ull);

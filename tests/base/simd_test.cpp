@@ -81,7 +81,7 @@ TEST(Simd, TransposesBlocksOfFour) {
   expectTransposed<Simd<double, 4>>();
 }
 
-/// Numbers of a thing meet in one lane, and go back to their row.
+/// Numbers of one item share a lane, and return to their row.
 template <class V> void expectRows() {
   constexpr int kWidth = kWidthOf<V>;
   std::array<Float4, kWidth> rows, back{};
@@ -141,7 +141,7 @@ TEST(Simd, StoresWhatIsMarkedSideBySide) {
 TEST(Simd, ThreeNumbersLeaveTheFourthAlone) {
   float four[4] = {1, 2, 3, 4};
   EXPECT_EQ(load3(four)[2], 3);
-  EXPECT_EQ(load3(four)[3], 0) << "not what lies behind";
+  EXPECT_EQ(load3(four)[3], 0) << "not the following number";
   store3(four, Float4{5, 6, 7, 8});
   EXPECT_EQ(four[2], 7);
   EXPECT_EQ(four[3], 4);

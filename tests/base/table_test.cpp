@@ -13,7 +13,7 @@ enum class Side { left, right };
 
 } // namespace
 
-/// A spare wheel cannot be asked for.
+/// The key of a spare wheel is not supported.
 template <> struct EnumWords<WheelKind> {
   static constexpr EnumWord<WheelKind> list[] = {{WheelKind::road, "road"}, {WheelKind::idler, "idler"}};
 };
@@ -78,7 +78,7 @@ TEST(Document, SuppliedKeysStandWhereNoneIsGiven) {
   d.supply("wheel", "b", "kind", "idler", "s.toml:9");
   d.supply("axle", "c", "kind", "spare", "s.toml:7");
   const Section root = d.root(), wheels = root.section("wheel");
-  EXPECT_EQ(std::get<std::string>(wheels.section("a").node().find("kind")->value), "road") << "the file's own";
+  EXPECT_EQ(std::get<std::string>(wheels.section("a").node().find("kind")->value), "road") << "the file's own value";
   EXPECT_EQ(std::get<std::string>(wheels.section("b").node().find("kind")->value), "idler");
   EXPECT_EQ(wheels.section("b").origin(), "s.toml:9");
   EXPECT_EQ(std::get<std::string>(root.section("axle").section("c").node().find("kind")->value), "spare");
@@ -231,7 +231,7 @@ TEST(Overrides, AreCheckedLikeTheFile) {
   EXPECT_NE(complaint("", {"wheel.radius"}).find("the value is missing"), std::string::npos);
   EXPECT_NE(complaint("", {"wheel..radius=1"}).find("not of the form"), std::string::npos);
   EXPECT_NE(complaint("radius = 1", {"wheel.radius.x=1"}).find("is a value, not a section"), std::string::npos);
-  // An override cannot smuggle in a second key.
+  // An override cannot add a second key.
   EXPECT_NE(complaint("", {"wheel.kind=\"road\"\nradius = 3"}), "");
 }
 
@@ -273,13 +273,13 @@ TEST(NearestWord, CountsSwapsAsOneEdit) {
   EXPECT_EQ(editDistance("raduis", "radius"), 1);
   EXPECT_EQ(editDistance("Radius", "radius"), 0);
   EXPECT_EQ(editDistance("", "abc"), 3);
-  EXPECT_EQ(nearestWord("drivr", {"drive", "driver"}), "driver") << "a letter was left out";
+  EXPECT_EQ(nearestWord("drivr", {"drive", "driver"}), "driver") << "a missing letter";
   EXPECT_EQ(nearestWord("drivr", {"driver", "drive"}), "driver");
-  EXPECT_EQ(nearestWord("driv", {"driver", "drive"}), "drive") << "the nearer one";
+  EXPECT_EQ(nearestWord("driv", {"driver", "drive"}), "drive") << "the nearest one";
   EXPECT_EQ(nearestWord("fricton", {"density", "friction", "fraction"}), "friction");
 }
 
-/// Tracks whose length was once called span, and before that reach.
+/// Tracks with two former names of the length: span, and before that reach.
 struct Track {
   double length = 1;
   std::vector<Side> sides;
@@ -307,7 +307,7 @@ TEST(FormerKeys, AreReadAndNoted) {
                                        " is now called length; rename it (the next version rejects the old name)"});
   }
   EXPECT_TRUE(trackDocument("[track]\nlength = 7\n").notes().empty());
-  EXPECT_TRUE(trackDocument("[wheel]\nspan = 7\n").notes().empty()); // another section's own key
+  EXPECT_TRUE(trackDocument("[wheel]\nspan = 7\n").notes().empty()); // key of another section
 }
 
 TEST(FormerKeys, AreNotedOnceForAllEntriesOfAList) {

@@ -10,7 +10,7 @@ namespace {
 
 using base::Vec3d;
 
-/// Numbers from -1 to 1 that are the same everywhere.
+/// Platform-independent numbers from -1 to 1.
 class Numbers {
 public:
   double next() { return 2 * base::uniform(17, 3, 0, count_++) - 1; }
@@ -20,7 +20,7 @@ private:
   std::uint32_t count_ = 0;
 };
 
-/// Tangential energy alone: what is stored with the spring less what is stored without it.
+/// Tangential energy only: stored with the spring minus stored without it.
 double tangentialEnergy(const BasicLaw<double>& law, double overlap, double radius, const Vec3d& shear) {
   return storedEnergy(law, overlap, radius, shear) - storedEnergy(law, overlap, radius, Vec3d{});
 }
@@ -36,7 +36,7 @@ TEST(ContactBooks, SlidingLosesItsWorkLessWhatItsSpringGains) {
       const double limit = law.friction * (law.hertz ? law.stiffness * std::sqrt(radius * overlap) : law.stiffness) *
                            overlap,
                    kt = law.hertz ? law.tangentialStiffness * std::sqrt(radius * overlap) : law.tangentialStiffness;
-      // Springs from none to one at the limit, and steps by as much.
+      // Springs from zero to the limit, and steps of the same size.
       const Vec3d before = numbers.across() * (0.7 * limit / kt), slip = numbers.across() * (limit / kt / dt);
       Vec3d shear = before;
       const auto r =
@@ -52,7 +52,7 @@ TEST(ContactBooks, SlidingLosesItsWorkLessWhatItsSpringGains) {
         continue;
       }
       ++slid;
-      // The overlap was less by the way of this step.
+      // The previous overlap was smaller by the travel of this step.
       const double gained = tangentialEnergy(law, overlap, radius, shear) -
                             tangentialEnergy(law, overlap - approach * dt, radius, before);
       EXPECT_NEAR(r.rubbed + r.slipped, work - gained, 1e-12 * (work + turned));
@@ -66,7 +66,7 @@ TEST(ContactBooks, SlidingIsNotDampedToo) {
   BasicLaw<double> law = linear<double>();
   Vec3d shear;
   const auto r = contactForce<kGeneral>(law, {{0, 0, 1}, 1e-4, {3, 0, 0}, 0.01, 0.005}, 1e-6, shear);
-  EXPECT_NEAR(norm(Vec3d{r.force.x, r.force.y, 0}), 0.5 * 1e5 * 1e-4, 1e-12) << "its dashpot alone is beyond the cone";
+  EXPECT_NEAR(norm(Vec3d{r.force.x, r.force.y, 0}), 0.5 * 1e5 * 1e-4, 1e-12) << "its dashpot alone exceeds the cone";
   EXPECT_EQ(r.damped, 0);
 }
 
@@ -104,7 +104,7 @@ TEST(ContactBooks, RollingDashpotsTakeWhatTheyBrake) {
   double lost = 0;
   const Vec3d torque = rollingTorque(law, {{0, 0, 1}, Vec3d{spin, 0, 0}, radius, inertia}, 10.0, 1e5, dt, angle, lost);
   EXPECT_NEAR(torque.x, -stiffness * spin * dt - dashpot * spin, 1e-12);
-  // With the spin in the middle of the step of a sphere that turns about its centre, 7/2 times easier.
+  // With the mid-step spin of a sphere rotating about its centre, 7/2 times the compliance.
   EXPECT_NEAR(lost, dashpot * spin * (spin + 1.75 * torque.x * dt / inertia) * dt, 1e-18);
   EXPECT_GT(lost, 0);
 }

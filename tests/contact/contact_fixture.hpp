@@ -27,7 +27,7 @@ template <class T> BasicLaw<T> hertz() {
   return law;
 }
 
-/// One sphere against a fixed plane z = 0, as the pure laws see it: moved by the scheme of the grains' step
+/// One sphere on a fixed plane z = 0, for tests of the pure laws: integrated with the scheme of the grains' step
 /// (symplectic Euler), in double.
 struct SphereOnPlane {
   BasicLaw<double> law;
@@ -36,7 +36,7 @@ struct SphereOnPlane {
   base::Vec3d shear{}, angle{};
   double dissipated = 0, deepest = 0, strongest = 0, touched = 0;
   bool touching = false;
-  bool fullArm = true; ///< the tangential force acts at R, as in the closed forms; else at R - overlap
+  bool fullArm = true; ///< the tangential force acts at R, as in the closed forms; otherwise at R - overlap
 
   double overlap() const { return radius - position.z; }
   double inertia() const { return 0.4 * mass * radius * radius; }

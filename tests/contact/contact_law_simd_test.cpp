@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The law on many contacts side by side: each lane has the bits of that contact alone.
+// SIMD contact law: each lane is bitwise equal to a single contact.
 #include "base/random.hpp"
 #include "base/simd.hpp"
 #include "contact/plastic_simd.hpp"
@@ -24,7 +24,7 @@ std::uint64_t bitsOf(double x) {
   return std::bit_cast<std::uint64_t>(x == x ? x : std::numeric_limits<double>::quiet_NaN());
 }
 
-/// Contacts of all kinds: pressed and parting, sticking and sliding, stretched and new.
+/// Contacts of all kinds: approaching and separating, sticking and sliding, tensile and new.
 template <class T> struct RandomContacts {
   std::uint64_t count = 0;
   T in(double least, double most) { return static_cast<T>(least + (most - least) * base::uniform(7, 0, count++)); }
@@ -70,7 +70,7 @@ template <unsigned kFeatures, int kWidth, class T> void expectLanesAsAlone(const
       sliding += norm(tangential) > T(0.999) * law.friction * alone.pressing;
     }
   }
-  if (law.friction > 0) { // both kinds are there, often side by side
+  if (law.friction > 0) { // both kinds exist, often in adjacent lanes
     EXPECT_GT(sliding, 200 * kWidth / 20);
     EXPECT_LT(sliding, 200 * kWidth * 19 / 20);
   }
@@ -104,7 +104,7 @@ TEST(ContactLawSimd, AttractionHertzCohesionAndManyMasses) {
   expectLanesAsAlone<kGeneral, 8>(many);
 }
 
-/// Contacts that are pressed, let go and drawn apart at random: each is often on every branch of the law.
+/// Contacts loaded, unloaded and separated at random: each visits every branch of the law.
 template <int kWidth> void expectYieldingAsAlone(const BasicPlasticity<float>& p, bool isHertz, bool sticks = true) {
   using Numbers = base::Simd<float, kWidth>;
   RandomContacts<float> random;
@@ -116,7 +116,7 @@ template <int kWidth> void expectYieldingAsAlone(const BasicPlasticity<float>& p
   int loading = 0, unloading = 0, pulling = 0;
   for (int round = 0; round < 3000; ++round) {
     for (std::size_t l = 0; l < kWidth; ++l) {
-      if (random.in(0, 1) < 0.02f) { // another contact
+      if (random.in(0, 1) < 0.02f) { // a new contact
         state[l] = {}, states.deepest[l] = states.origin[l] = 0;
         springs.effectiveRadius[l] = random.in(0.002, 0.03), overlaps[l] = random.in(1e-7, 1e-4);
       }
@@ -157,7 +157,7 @@ TEST(ContactLawSimd, ContactsThatYield) {
 }
 
 TEST(ContactLawSimd, LudingsContacts) {
-  BasicPlasticity<float> p{0.6f, 0, 0, 0, 0, 0.01f, 0.5f, 2}; // full depth among the overlaps
+  BasicPlasticity<float> p{0.6f, 0, 0, 0, 0, 0.01f, 0.5f, 2}; // the full depth lies among the overlaps
   expectYieldingAsAlone<4>(p, false);
   expectYieldingAsAlone<8>(p, false);
   expectYieldingAsAlone<16>(p, false);
@@ -188,7 +188,7 @@ template <int kWidth, class T> void expectRollingAsAlone(T stiffness) {
       all.radius[l] = one[l].radius, all.inertia[l] = one[l].inertia;
       pressing[l] = random.in(-1, 10), normal[l] = stiffness, lost[l] = T(1e-3);
     }
-    const auto stiffens = [](const auto& way) { // Hertz: as much as a contact that comes or goes by a third
+    const auto stiffens = [](const auto& way) { // Hertz: as much as adding or removing a third of a contact
       using Way = std::remove_cvref_t<decltype(way)>;
       return hertzChange(base::broadcast<Way>(T(1e-4)), way);
     };

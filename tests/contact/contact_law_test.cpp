@@ -11,13 +11,13 @@ using base::Vec3f;
 using testing::hertz, testing::linear;
 
 TEST(ContactLaw, SpringTurnsIntoTheTangentPlane) {
-  // A spring left from a contact whose normal has since turned by 0.6 rad, at rest: all of its force is tangential.
+  // A spring of a contact whose normal has since rotated by 0.6 rad, at rest: all of its force is tangential.
   Vec3f shear{1e-5f, 0, 0};
   const ContactGeometry touch{{0.6f, 0.8f, 0}, 1e-3f, {}, 0.1f};
   const auto law = linear<float>();
   const Reaction r = contactForce<kFriction>(law, touch, 1e-5f, shear);
   EXPECT_NEAR(dot(shear, touch.normal), 0, 1e-12) << "float round-off of 1e-5";
-  EXPECT_NEAR(dot(r.force, touch.normal), -law.stiffness * touch.overlap, 1e-4) << "the spring adds nothing to it";
+  EXPECT_NEAR(dot(r.force, touch.normal), -law.stiffness * touch.overlap, 1e-4) << "the spring adds no normal force";
 }
 
 template <unsigned kFeatures> void expectMirrored(const BasicLaw<float>& law) {
@@ -53,7 +53,7 @@ TEST(ContactLaw, NeverPullsUnlessAllowed) {
   EXPECT_EQ((contactForce<kHertz | kFriction>(h, parting, 1e-5f, shear).force.z), 0);
 }
 
-/// The special function and the general one, which decides at run time.
+/// The specialised function and the general one, which branches at run time.
 template <unsigned kFeatures, class T> void expectSameBits(const BasicLaw<T>& law) {
   base::Vec3<T> shear{T(2e-6), T(-3e-6), T(1e-6)}, other = shear;
   const BasicContactGeometry<T> touch{
@@ -83,13 +83,13 @@ TEST(ContactLaw, GeneralFunctionGivesTheBitsOfTheSpecialOnes) {
 }
 
 TEST(ContactLaw, FrictionOfStickySurfacesIsLimitedByWhatPresses) {
-  // Just touching: the net force pulls, but the surfaces are pressed together by as much as the cohesion pulls.
+  // Just touching: the net force is attractive, but the surfaces are pressed together by the cohesion.
   auto law = linear<double>();
   law.damping = law.tangentialDamping = 0, law.pullPerRadius = 1000;
-  base::Vec3d shear{1, 0, 0}; // far beyond the limit
+  base::Vec3d shear{1, 0, 0}; // far above the limit
   const BasicContactGeometry<double> touch{{0, 0, 1}, 1e-5, {}, 0.1, 0.01};
   const auto r = contactForce<kFriction | kCohesion>(law, touch, 1e-6, shear);
-  EXPECT_NEAR(r.force.z, 10 - 1, 1e-12) << "pull 1000 N/m x 0.01 m, less k overlap";
+  EXPECT_NEAR(r.force.z, 10 - 1, 1e-12) << "pull 1000 N/m x 0.01 m, minus k overlap";
   EXPECT_NEAR(r.force.x, -0.5 * 1, 1e-12) << "friction x k overlap";
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A grain that crushes against a part: the plateau of the force, what is lost, what springs back, how fast it
-// converges.
+// A grain that crushes on a part: the force plateau, dissipation, elastic rebound, order of
+// convergence.
 #include "contact/crushing.hpp"
 
 #include "contact/grain_part_contacts.hpp"
@@ -25,7 +25,7 @@ constexpr double kStrength = kCap / (4 * kRadius * kRadius); // 2.5e5 Pa
 constexpr double kFloat = 1e-6;                              // forces and overlaps are float
 constexpr double kPlace = 2e-5;                              // overlaps of 1 mm are differences of 10 mm
 
-/// One grain under a plate that nothing but the test moves.
+/// One grain under a plate whose motion the test sets.
 struct Press {
   base::SphereSet set = plate(0.05, 0.004, 0.004);
   GrainPartModel model;
@@ -45,7 +45,7 @@ struct Press {
     loads = base::Array<PartLoad>(exec, 1);
   }
 
-  /// Force on the grain whose middle is at height z above the plate and which moves at `speed` along z.
+  /// Force on the grain with its centre at height z above the plate, moving at `speed` along z.
   double force(double z, double speed = 0) {
     const base::Array<base::Position> position(exec, std::vector{model.scale.fromMetres({0, 0, z})});
     const base::Array<Motion> flight(exec, std::vector{Motion{{0, 0, static_cast<float>(speed), 0}, {}}});
@@ -57,7 +57,7 @@ struct Press {
     contacts->compute(grains, motion, loads.data());
     return -model.force.value(loads.at(0).force.z);
   }
-  /// The same in this depth, where it has come within one step.
+  /// The same at this depth, reached in one step.
   double pressTo(double depth) {
     const double speed = (depth - depth_) / model.timeStep;
     depth_ = depth;
@@ -72,28 +72,28 @@ TEST(Crushing, ForceOverDepthHasItsPlateauAtSigmaTimesDiameterSquaredAndUnloadsA
   Press press;
   for (double depth = 1e-4; depth < 5e-3; depth += 1e-4)
     EXPECT_NEAR(press.force(kRadius - depth), std::min(kStiffness * depth, kCap), kPlace * kCap) << depth;
-  // Pressed in by 4.9 mm its dent is 3.9 mm.
+  // At an overlap of 4.9 mm its dent is 3.9 mm.
   for (double depth = 4.9e-3; depth > 0; depth -= 1e-4)
     EXPECT_NEAR(press.force(kRadius - depth), std::max(0.0, kStiffness * (depth - 3.9e-3)), kPlace * kCap) << depth;
 }
 
 TEST(Crushing, WorkIsWhatIsHeldAndWhatIsDissipated) {
   Press press;
-  // Spring and plateau are straight lines: their work is known exactly, however coarse the steps.
+  // Spring and plateau are straight lines: their work is exact at any step.
   const double depth = 4.3e-3;
   for (const double d : {0.4e-3, 1.7e-3, 2.1e-3, depth}) press.pressTo(d);
   GrainPartContacts::Ledger l = press.contacts->ledger();
   EXPECT_NEAR(l.elastic, 0.5 * kCap * kYield, kPlace * kCap * kYield);
   EXPECT_NEAR(l.crushed, kCap * (depth - kYield), kPlace * kCap * kYield);
   EXPECT_EQ(l.capped, 1);
-  // Back out to half of the elastic overlap: a quarter is held, nothing more is lost.
+  // Back to half of the elastic overlap: a quarter is stored, no further loss.
   const double lost = l.crushed;
   press.pressTo(depth - 0.5 * kYield);
   l = press.contacts->ledger();
   EXPECT_NEAR(l.elastic, 0.125 * kCap * kYield, kPlace * kCap * kYield);
   EXPECT_EQ(l.crushed, lost);
   EXPECT_EQ(l.capped, 0);
-  // And in again as far as before: the same place on the plateau.
+  // Reloaded to the same overlap: the same point on the plateau.
   press.pressTo(depth);
   l = press.contacts->ledger();
   EXPECT_NEAR(l.elastic, 0.5 * kCap * kYield, kPlace * kCap * kYield);
@@ -119,10 +119,10 @@ TEST(Crushing, TheDashpotAddsToTheSpringUpToTheCapAndNotBeyond) {
 }
 
 TEST(Crushing, ABlowBeyondTheCapConvergesToItsRestitution) {
-  // A hundredth of the strength: F_c = 25 N, y = 0.25 mm, of 20 mJ it holds 3.125 mJ.
+  // A hundredth of the strength: F_c = 25 N, y = 0.25 mm; 3.125 mJ of 20 mJ are stored.
   const double strength = kStrength / 4, cap = kCap / 4, wanted = 0.5 * cap * cap / kStiffness / (0.5 * kMass * 4);
   const auto error = [&](double timeStep) {
-    double worst = 0; // over several places of first touch
+    double worst = 0; // over several phases of first touch
     for (const double start : {0.11, 0.37, 0.58, 0.83}) {
       Press press(strength, 0, timeStep);
       double z = kRadius + start * 2 * timeStep, v = -2;

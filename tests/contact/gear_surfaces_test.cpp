@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts of a running gear by its shapes: rims, horns and bosses against closed forms and sums over a million points.
+// Contacts of a running gear from its shapes: rims, horns and bosses against closed forms and sums over 1e6 points.
 #include "contact/gear_surfaces.hpp"
 
 #include "base/bits.hpp"
@@ -20,7 +20,7 @@ constexpr double kStep = 1e-4;
 
 void put(Vec3P& to, int lane, const Vec3d& v) { to.x[lane] = v.x, to.y[lane] = v.y, to.z[lane] = v.z; }
 
-/// A wheel of radius r on a plate z = 0 of length 2 half and width w, its axle at height h over x.
+/// A wheel of radius r on a plate z = 0 of length 2 half and width w, with its axle at height h above x.
 RimsOnPlates rim(double r, double half, double w, double x, double h, const Vec3d& axis = {0, 1, 0}) {
   RimsOnPlates rims{};
   for (int l = 0; l < kPointLanes; ++l) {
@@ -42,7 +42,7 @@ TEST(GearSurfaces, ARimOnAPlateIsPressedByTheClosedForm) {
     EXPECT_NEAR(p.force.z, -force, 1e-5 * force) << depth;
     EXPECT_NEAR(p.force.x, 0, 1e-12 * force);
     EXPECT_NEAR(p.area, 2 * a * w, 1e-12);
-    EXPECT_NEAR(p.torque.y, 0.01 * force, 1e-5 * 0.01 * force) << "about the plate's middle";
+    EXPECT_NEAR(p.torque.y, 0.01 * force, 1e-5 * 0.01 * force) << "about the plate's centre";
     EXPECT_EQ(sums.weight[2], 0) << "an idle lane";
   }
 }
@@ -62,7 +62,7 @@ TEST(GearSurfaces, ARimOverTheEndOfAPlateTouchesOnlyTheRest) {
 }
 
 TEST(GearSurfaces, ATiltedRimHasTheForceAndMomentOfAMillionPoints) {
-  const double r = 0.19, w = 0.08, h = r - 4e-4, tilt = 4e-3; // one side of the plate lies 0.16 mm lower
+  const double r = 0.19, w = 0.08, h = r - 4e-4, tilt = 4e-3; // one side of the plate is lower by 0.16 mm
   const Vec3d axis = base::normalized(Vec3d{0.01, 1, tilt});
   const PatchPressure p = pressRims(kLaw, kStep, rim(r, 0.068, w, 0, h, axis)).lane(3);
   Vec3d force, torque;
@@ -86,24 +86,24 @@ TEST(GearSurfaces, RelaxationResistsTheApproachAndNeverPulls) {
   const double r = 0.19, depth = 3e-4;
   RimsOnPlates rims = rim(r, 0.068, 0.08, 0, r - depth);
   const double still = -pressRims(law, kStep, rims).lane(3).force.z;
-  put(rims.motion.velocity, 3, {0, 0, 0.1}); // the plate comes
+  put(rims.motion.velocity, 3, {0, 0, 0.1}); // the plate approaches
   const PatchPressure coming = pressRims(law, kStep, rims).lane(3);
-  // K times area times relaxation times speed, but for the slant of the pressure at the chord's ends.
+  // K times area times relaxation times speed, except for the inclined pressure at the chord's ends.
   EXPECT_NEAR(-coming.force.z - still, law.modulus * coming.area * 2e-5, 2e-3 * still);
   EXPECT_NEAR(coming.dissipated, law.modulus * coming.area * 2e-5 * 0.1 * kStep, 1e-2 * coming.dissipated);
   put(rims.motion.velocity, 3, {0, 0, -10});
   EXPECT_EQ(pressRims(law, kStep, rims).lane(3).weight, 0);
 }
 
-/// Overlap of a point with a disc behind its side, rim and chamfer, the least of all three.
+/// Overlap of a point with a disc behind its side, rim and chamfer: the smallest of the three.
 double discDepth(double side, double rho, double radius, double chamfer) {
   return std::min({side, radius - rho, (side + radius - rho - chamfer) * std::sqrt(0.5)});
 }
 
 TEST(GearSurfaces, AHornsSideHasTheForceOfAMillionPoints) {
-  // A horn that tapers by 6 mm of 60, at the side of discs, with a shift, a turn and a lean.
+  // A horn with a taper of 6 mm in 60, beside discs, with an offset, a yaw and a tilt.
   for (const double radius : {0.19, 0.09})
-    for (const double shift : {6e-4, 1.5e-3, 5e-3}) { // the last lies deeper than the chamfer: the rim pushes out
+    for (const double shift : {6e-4, 1.5e-3, 5e-3}) { // the last is deeper than the chamfer: the rim pushes out
       FaceAtDisc f;
       const double turn = 2e-3, lean = 3e-3;
       f.axis = base::normalized(Vec3d{turn, 1, lean});
@@ -172,7 +172,7 @@ std::vector<std::pair<double, double>> outline(const GapProfile& g) {
   return points;
 }
 
-/// Force on a boss at (x, y) of the half x > 0, by 4000 of its points and the nearest of the outline.
+/// Force on a boss at (x, y) of the half x > 0, from 4000 of its points and the nearest of the outline.
 std::pair<double, double> forceByPoints(const GapProfile& g, double x, double y) {
   const std::vector<std::pair<double, double>> profile = outline(g);
   double fx = 0, fy = 0;
@@ -228,7 +228,7 @@ TEST(GearSurfaces, ABossFeelsEveryGapAlikeAndBothHalvesAsMirrors) {
   EXPECT_NEAR(mirrored[0].force.z, -first[1].force.z, 1e-9 * first[1].weight);
   EXPECT_NEAR(mirrored[0].force.x, first[1].force.x, 1e-9 * first[1].weight);
   const auto free = pressBoss(kLaw, kStep, gap(), bossAt(0, 0, 3));
-  EXPECT_EQ(free[0].weight + free[1].weight, 0) << "half a millimetre of play";
+  EXPECT_EQ(free[0].weight + free[1].weight, 0) << "half a millimetre of clearance";
 }
 
 TEST(GearSurfaces, HaveTheSameBitsOnEveryProcessor) {

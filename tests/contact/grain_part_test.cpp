@@ -141,8 +141,8 @@ TEST(GrainInCorner, HasOnePatchOnEachFace) {
   EXPECT_NEAR(r.onGrain.z, kGrainStiffness * b, 0.01);
 }
 
-/// What a grain of its own radius and material, which slides, turns and sinks into a corner, gets in some steps and
-/// leaves behind. Whoever may crush takes the kernel of all features.
+/// State of a grain of given radius and material after some steps of sliding, rolling and sinking into a
+/// corner. Grains that may crush use the kernel with all features.
 struct Trace {
   std::vector<GrainLoad> loads;
   std::vector<std::int64_t> sums;

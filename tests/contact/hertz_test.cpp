@@ -16,7 +16,7 @@ struct Solid {
   double shear() const { return young / (2 * (1 + poisson)); }
 };
 
-/// Against a rigid plane (`moduli` 1: E_eff = E / (1 - nu^2)) or against a sphere of the same (2).
+/// Contact with a rigid plane (`moduli` 1: E_eff = E / (1 - nu^2)) or an equal sphere (2).
 /// `tangentialDamping`: over the critical damping of the tangential spring, as a share of the normal one's.
 BasicLaw<double> lawOf(const Solid& s, int moduli, double restitution, double friction, bool attraction = false,
                        double tangentialDamping = 0) {
@@ -34,7 +34,7 @@ BasicLaw<double> lawOf(const Solid& s, int moduli, double restitution, double fr
 
 double sphereMass(const Solid& s, double radius) { return s.density * 4 / 3 * base::kPi * radius * radius * radius; }
 
-/// Falls onto the plane and leaves it. For two equal spheres: mass and radius are the effective ones.
+/// Impact on the plane and rebound. For two equal spheres: mass and radius are the effective ones.
 SphereOnPlane impact(const BasicLaw<double>& law, double radius, double mass, const base::Vec3d& velocity, double dt) {
   SphereOnPlane s{law, radius, mass};
   s.position.z = radius + 0.5 * dt * -velocity.z;
@@ -68,13 +68,13 @@ TEST(Hertz, ElasticImpactsMatchTheClosedFormsWithSecondOrder) {
     const SphereOnPlane s = impact(law, radius, mass, {0, 0, -speed}, c.duration / 4000);
     EXPECT_NEAR(s.deepest, c.deepest, 1e-5 * c.deepest) << c.name << ": O(1 / steps^2)";
     EXPECT_NEAR(s.strongest, c.force, 2e-5 * c.force) << c.name;
-    EXPECT_NEAR(s.touched, c.duration, 2.0 / 4000 * c.duration) << c.name << ": a step at either end";
+    EXPECT_NEAR(s.touched, c.duration, 2.0 / 4000 * c.duration) << c.name << ": one step at either end";
     EXPECT_NEAR(s.velocity.z, speed, 1e-5 * speed) << c.name;
   }
 }
 
 TEST(Hertz, RestitutionIsAsAskedAtEverySpeed) {
-  // Chung and Ooi test 3; the law that never pulls and the one that may.
+  // Chung and Ooi test 3; the law without attraction and the one with it.
   const Solid solids[] = {{3.8e11, .23, 4000}, {1e11, .25, 7000}};
   for (const Solid& solid : solids)
     for (const bool attraction : {false, true})
@@ -110,12 +110,12 @@ struct Oblique {
 };
 
 TEST(HertzMindlin, ObliqueImpactMatchesTheConvergedReference) {
-  // Chung and Ooi test 4, aluminium oxide: constant speed, varied angle. An independent program kept the tangential
-  // force itself, in increments: unchanged while the contact is loaded, scaled with the contact radius while unloaded.
+  // Chung and Ooi test 4, aluminium oxide: constant speed, varied angle. An independent program integrates the shear
+  // force in increments: unchanged while the contact is loaded, scaled with the contact radius during unloading.
   const Solid solid{3.8e11, .23, 4000};
   const double radius = 0.0025, mass = sphereMass(solid, radius), speed = 3.9, friction = 0.092;
   auto law = lawOf(solid, 1, 0.98, friction);
-  // The reference takes the damping of the law that may pull (Tsuji), with the law that may not: e = 0.98008.
+  // The reference uses the damping of the attractive law (Tsuji) in the law without attraction: e = 0.98008.
   const double beta = hertzDampingRatioFor(0.98, true);
   law.rootDamping = 2 * beta * std::sqrt(1.5 * law.stiffness);
   const double dt = hertzImpact(law.stiffness * 0.75, radius, mass, speed).duration / 4000;
@@ -129,7 +129,7 @@ TEST(HertzMindlin, ObliqueImpactMatchesTheConvergedReference) {
   for (const Oblique& c : cases) {
     const double theta = c.angle * base::kPi / 180;
     const double vt = speed * base::sin(theta), vn = speed * base::cos(theta);
-    // Stepped by that program to the same scheme and step: where each meets the first touch differs.
+    // Values of that program with the same scheme and step: the phases of first touch differ.
     const auto expectLike = [&](const SphereOnPlane& s, double ratio, double spin, double rebound) {
       EXPECT_NEAR(s.velocity.x / vt, ratio, 2e-4) << c.angle;
       EXPECT_NEAR(-s.spin.y, spin, 0.05) << c.angle;
@@ -173,14 +173,14 @@ TEST(HertzMindlin, ConstantNormalSpeedMatchesTheDigitisedCurves) {
   for (const Curve& curve : curves) {
     const double radius = 1e-5, mass = sphereMass(curve.solid, radius), vn = 5, friction = 0.3;
     auto law = lawOf(curve.solid, 1, 1, friction);
-    law.tangentialStiffness /= 2; // the paper's plane is rigid against pressing, of the same solid against shearing
+    law.tangentialStiffness /= 2; // the paper's plane is rigid in compression, of the same solid in shear
     const double dt = hertzImpact(law.stiffness * 0.75, radius, mass, vn).duration / 2000;
     for (const auto& [before, after] : curve.points) {
       const SphereOnPlane s = impact(law, radius, mass, {before * friction * vn, 0, -vn}, dt);
       const double psi = (s.velocity.x - s.spin.y * radius) / (friction * vn);
-      // The spring gives a part of its energy up as the contact is unloaded, the paper's finite elements less: a tenth
-      // of the rebound where the ball sticks, and where it sticks at first and slips later at most 0.45 of a range
-      // of 9.
+      // The spring releases part of its energy during unloading; the paper's finite elements release less. Tolerance: a
+      // tenth of the rebound if the ball sticks; 0.45 of a range of 9 if it sticks first
+      // and slips later.
       EXPECT_NEAR(psi, after, before <= 2 ? 0.15 : before < 5 ? 0.45 : 0.06) << before;
       if (before > 6.5) {
         EXPECT_NEAR(psi, before - 7, 2e-3) << "gross sliding";

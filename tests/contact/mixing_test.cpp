@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws from the properties of materials, without a scene.
+// Contact laws from material properties, without a scene.
 #include "contact/mixing.hpp"
 
 #include "base/math.hpp"
@@ -54,7 +54,7 @@ std::vector<double> numbersOf(const ContactLaw& l) {
           l.fixedShare};
 }
 
-/// Rebound over impact speed of a sphere of this mass on a plane, both of the material, in 2000 steps a contact.
+/// Rebound over impact speed of a sphere of this mass on a plane, both of the material, at 2000 steps per contact.
 double reboundOf(const MaterialProperties& material, double mass) {
   const double radius = 0.01, speed = 0.5;
   const ContactLaw law = mixedLaw(material, material, {}, mass);
@@ -86,7 +86,7 @@ TEST(MixedLaw, HertzCompliancesAddUp) {
   EXPECT_TRUE(law.hertz);
   EXPECT_NEAR(law.stiffness / (4.0 / 3 * modulus), 1, 1e-14);
   EXPECT_NEAR(law.tangentialStiffness / (8 * shear), 1, 1e-14);
-  // Against something much stiffer E / (1 - nu^2) remains.
+  // Against a much stiffer material E / (1 - nu^2) remains.
   const ContactLaw onSteel = mixedLaw(hertzMaterial(2e7, 0.4), hertzMaterial(2e17, 0.3));
   EXPECT_NEAR(onSteel.stiffness / (4.0 / 3 * 2e7 / (1 - 0.16)), 1, 1e-9);
 }
@@ -101,21 +101,21 @@ TEST(MixedLaw, EnergiesHaveTheirGeometricMeanAndCoefficientsTheSmaller) {
   EXPECT_NEAR(law.pullPerRadius, 2 * base::kPi * 0.6, 1e-14);
   EXPECT_EQ(law.friction, 0.3);
   EXPECT_EQ(law.rollingFriction, 0.1);
-  EXPECT_FALSE(law.attraction) << "both must allow it";
+  EXPECT_FALSE(law.attraction) << "both materials must allow it";
   a.adhesionRadius = 0.01, b.adhesionRadius = 0.04;
   const ContactLaw grown = mixedLaw(a, b);
   EXPECT_EQ(grown.pullPerRadius, 0);
-  EXPECT_NEAR(grown.pull(0.01), 2 * base::kPi * 0.6 * 0.01, 1e-15) << "of two grains of 20 mm, the mean of the radii";
+  EXPECT_NEAR(grown.pull(0.01), 2 * base::kPi * 0.6 * 0.01, 1e-15) << "for two grains of 20 mm, the mean of the radii";
   PairProperties pair;
   pair.cohesion = 2, pair.friction = 0.7, pair.rollingFriction = 0;
   const ContactLaw given = mixedLaw(linearMaterial(1e5), b, pair);
   EXPECT_EQ(given.friction, 0.7);
   EXPECT_EQ(given.rollingFriction, 0);
-  EXPECT_NEAR(given.pull(0.02), 2 * base::kPi * 2 * 0.02, 1e-14) << "of grains of 40 mm";
+  EXPECT_NEAR(given.pull(0.02), 2 * base::kPi * 2 * 0.02, 1e-14) << "for grains of 40 mm";
 }
 
 TEST(MixedLaw, ContactsReboundWithTheirRestitution) {
-  // Symplectic Euler is of first order with dashpots: 2000 steps a contact leave less than 1e-3.
+  // Symplectic Euler is of first order with dashpots: 2000 steps per contact leave less than 1e-3.
   for (const bool attraction : {false, true})
     for (const double restitution : {0.3, 0.8})
       for (MaterialProperties m : {linearMaterial(2e5), hertzMaterial(5e7, 0.3)}) {
@@ -159,13 +159,13 @@ TEST(MixedLaw, YieldsIfBothMaterialsDo) {
   const auto p = mixedLaw(a, b).plastic;
   EXPECT_EQ(p.share, 0.4);
   EXPECT_NEAR(p.pull, 1.5 * base::kPi * 4 * std::sqrt(2 * std::pow(0.4, 2.0 / 3)), 1e-12);
-  EXPECT_EQ(p.exponent, 4) << "the larger, in halves";
+  EXPECT_EQ(p.exponent, 4) << "the larger, in steps of 0.5";
   MaterialProperties c = linearMaterial(1e5), d = c;
   c.law = d.law = LawKind::luding;
   c.plasticDepth = 0.1, c.adhesionStiffness = 3e4, d.adhesionStiffness = 2e4;
   const auto luding = mixedLaw(c, d).plastic;
   EXPECT_DOUBLE_EQ(luding.fullDepth, 2 * 0.1 / MaterialProperties::kPlasticity);
-  EXPECT_DOUBLE_EQ(luding.adhesion, 0.2) << "over the stiffness";
+  EXPECT_DOUBLE_EQ(luding.adhesion, 0.2) << "relative to the stiffness";
 }
 
 TEST(MixedLaw, LengthOfAContactAndOfAWaveAreThoseOfTheClosedForms) {
@@ -204,7 +204,7 @@ TEST(MixedLaw, ErrorSaysWhichMaterialAndPropertyAreAtFault) {
   expect(linear, damped, Reason::dampingBesideRestitution, true, "damping");
   EXPECT_EQ(mixedLaw(damped, linear, {}, 1e-9).damping,
             2 * std::sqrt(1e5 / 1e-9) * dampingRatioFor(MaterialProperties::kRestitution, false))
-      << "the larger: of one mass they compare";
+      << "the larger: both refer to one mass";
   expect(hertz, bare, Reason::youngMissing, true, "young");
   expect(bare, hertz, Reason::youngMissing, false, "young");
 }

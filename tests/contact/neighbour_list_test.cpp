@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The neighbour list against a search over all pairs, and the history that its contacts carry from list to list.
+// The neighbour list against a search over all pairs, and the contact history kept from list to list.
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "contact/neighbour_list.hpp"
@@ -24,7 +24,7 @@ double randomNumber(int sphere, int axis, const char* what) {
   return base::uniform(7, base::purpose(what), static_cast<std::uint64_t>(sphere), static_cast<std::uint64_t>(axis));
 }
 
-/// Spheres and their list, as the grains keep them: sorted in space at every build. Spheres are known by their ids.
+/// Spheres and their list, as in the grains: sorted in space at every rebuild. Ids identify spheres.
 struct Bed {
   explicit Bed(std::vector<Vec3l> places, int width = 0, const base::Period& period = {}, std::vector<float> radii = {},
                std::int64_t smallest = 0)
@@ -33,7 +33,7 @@ struct Bed {
   void build() {
     std::vector<Position> positions;
     for (const Vec3l& u : place) positions.push_back(base::fromUnits(u));
-    // The slots of the last build; further spheres behind them.
+    // Slots of the last rebuild; new spheres follow.
     while (id.size() < place.size()) id.push_back(static_cast<std::uint32_t>(id.size()));
     base::Array<Position> bySlot(exec, gathered(positions, id));
     list.sort(bySlot.data(), place.size());
@@ -51,7 +51,7 @@ struct Bed {
     return to;
   }
 
-  /// Neighbours by id of the sphere, in the order of the list.
+  /// Neighbours by sphere id, in the order of the list.
   std::vector<Ids> rows() const {
     const NeighbourList::HostCopy host = list.toHost();
     std::vector<Ids> out(id.size());
@@ -61,7 +61,7 @@ struct Bed {
     return out;
   }
 
-  /// By pair of ids: the first number of history, of those that are marked as touching.
+  /// By pair of ids: the first history number of pairs that touch.
   using History = std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<float>>;
   History history(std::size_t width) const {
     const NeighbourList::HostCopy host = list.toHost();
@@ -75,7 +75,7 @@ struct Bed {
       }
     return out;
   }
-  /// Marks the pairs of `marks` as touching, with these numbers, and all others as not.
+  /// Marks the pairs of `marks` as touching, with these numbers, and all others as not touching.
   void setHistory(const History& marks, std::size_t width) {
     NeighbourList::HostCopy host = list.toHost();
     std::fill(host.touching.begin(), host.touching.end(), 0);
@@ -97,7 +97,7 @@ struct Bed {
   NeighbourList list;
 };
 
-/// Random spheres in a box of this edge, in diameters.
+/// Random spheres in a box with this edge in diameters.
 std::vector<Vec3l> randomPlaces(int count, double edge) {
   std::vector<Vec3l> places(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
@@ -107,7 +107,7 @@ std::vector<Vec3l> randomPlaces(int count, double edge) {
   return places;
 }
 
-/// Rows from all pairs, nearest images where a period is given.
+/// Rows from all pairs, with nearest images if there is a period.
 std::vector<Ids> bruteForce(const std::vector<Vec3l>& place, const base::Period& period = {},
                             const std::vector<float>& radius = {}) {
   std::vector<Ids> rows(place.size());
@@ -144,7 +144,7 @@ TEST(NeighbourList, TheSkinEndsToTheUnit) {
 
 TEST(NeighbourList, SpheresOfSeveralSizesReachAsFarAsTheirRadii) {
   std::vector<float> radius;
-  for (int i = 0; i < 1200; ++i) // whole units that a float holds
+  for (int i = 0; i < 1200; ++i) // whole units that a float can represent
     radius.push_back(static_cast<float>(i % 5 ? 1 << 22 : (kDiameter / 2) & ~std::int64_t{0xFF}));
   Bed bed(randomPlaces(1200, 6), 0, {}, radius);
   bed.build();
@@ -152,7 +152,7 @@ TEST(NeighbourList, SpheresOfSeveralSizesReachAsFarAsTheirRadii) {
 }
 
 TEST(NeighbourList, FineCellsHoldTheSamePairs) {
-  // Coarse below, fine above, a few coarse ones among the fine; periods that no cell divides.
+  // Coarse spheres below, fine ones above, a few coarse ones among the fine; periods that are no multiple of a cell.
   std::vector<Vec3l> place = randomPlaces(4000, 9);
   const auto radiusOf = [&](std::size_t i) {
     const double height = static_cast<double>(place[i].z) / (9.0 * kDiameter) + 0.5; // 0 to 1
@@ -174,7 +174,7 @@ TEST(NeighbourList, FineCellsHoldTheSamePairs) {
     ring.build();
     EXPECT_EQ(ring.rows(), bruteForce(inside, period, radius)) << smallest;
   }
-  place[7] = {std::int64_t{1} << 40, 0, 0}; // one far away widens all cells
+  place[7] = {std::int64_t{1} << 40, 0, 0}; // a distant one widens all cells
   Bed wide(place, 0, {}, radius, kDiameter / 5);
   wide.build();
   EXPECT_EQ(wide.rows(), bruteForce(place, {}, radius));
@@ -189,13 +189,13 @@ TEST(NeighbourList, PairsAcrossPeriodicBoundariesAreListed) {
   bed.build();
   const std::vector<Ids> expected = bruteForce(place, period);
   EXPECT_EQ(bed.rows(), expected);
-  EXPECT_NE(expected, bruteForce(place)) << "some do lie across";
+  EXPECT_NE(expected, bruteForce(place)) << "some pairs lie across the boundary";
 }
 
 TEST(NeighbourList, AFewSpheresFarAwayDoNotHideOthers) {
   std::vector<Vec3l> place = randomPlaces(300, 5);
   place.push_back({std::int64_t{1} << 40, 0, 0});
-  // The low words of these two agree with those of others.
+  // The low words of these two equal those of others.
   place.push_back(place[0] + Vec3l{std::int64_t{1} << 32, 0, 0});
   place.push_back(place[1] + Vec3l{0, std::int64_t{1} << 33, 10});
   Bed bed(place);
@@ -222,7 +222,7 @@ TEST_P(History, FollowsThePairOfIdsThroughARebuild) {
   bed.setHistory(marks, width);
   ASSERT_EQ(bed.history(width), marks);
 
-  // All move by half a diameter at most, some out of each other's reach; and some enter.
+  // All move by half a diameter at most, some out of reach of each other; new ones enter.
   const std::vector<Ids> slots{bed.id};
   for (std::size_t i = 0; i < bed.place.size(); ++i)
     for (int a = 0; a < 3; ++a)
@@ -243,7 +243,7 @@ TEST_P(History, FollowsThePairOfIdsThroughARebuild) {
       ++lost;
   }
   EXPECT_GT(lost, 100u);
-  EXPECT_EQ(bed.history(width), kept) << "and no other pair has any";
+  EXPECT_EQ(bed.history(width), kept) << "and no other pair has history";
 }
 
 TEST(NeighbourList, ForgottenHistoryIsGone) {
@@ -261,7 +261,7 @@ TEST(NeighbourList, RowsTravelAsIdsAndHistories) {
   Bed bed({{0, 0, 0}, {kDiameter, 0, 0}, {0, kDiameter, 0}, {5 * kDiameter, 0, 0}}, 3);
   bed.build();
   bed.setHistory({{{0, 1}, {1, 2, 3}}, {{0, 2}, {4, 5, 6}}, {{1, 0}, {7, 8, 9}}}, 3);
-  Ids slots; // of spheres 0 and 3
+  Ids slots; // slots of spheres 0 and 3
   for (const std::uint32_t wanted : {0u, 3u})
     slots.push_back(static_cast<std::uint32_t>(std::find(bed.id.begin(), bed.id.end(), wanted) - bed.id.begin()));
   base::Array<std::uint32_t> leaving(bed.exec, slots);
@@ -277,7 +277,7 @@ TEST(NeighbourList, RowsTravelAsIdsAndHistories) {
   float history[6];
   std::memcpy(history, &words[3], sizeof history);
   for (int k = 0; k < 6; ++k) EXPECT_EQ(history[k], static_cast<float>(k + 1));
-  EXPECT_EQ(words[rows.words()], 0u) << "sphere 3 touches nobody";
+  EXPECT_EQ(words[rows.words()], 0u) << "sphere 3 has no contacts";
 }
 
 TEST(NeighbourList, ACollapsedBedIsRefused) {

@@ -13,7 +13,7 @@ using base::Vec3d;
 TEST(Disc, IsThePlaneWithinItsFlatAndRoundBeyond) {
   const Disc disc{{0, 0, -0.01f}, 0.01f, {0, 0, 1}, 0.02f};
   const DiscDistance above = distanceTo(disc, {0.015, 0, 0.03});
-  EXPECT_NEAR(above.distance - 0.01, 0.03, 1e-8) << "float round-off of a 0.04 m distance";
+  EXPECT_NEAR(above.distance - 0.01, 0.03, 1e-8) << "float round-off of a distance of 0.04 m";
   EXPECT_FLOAT_EQ(above.normal.z, 1);
   const DiscDistance beside = distanceTo(disc, {0.05, 0, -0.01});
   EXPECT_NEAR(beside.distance, 0.03, 1e-8);
@@ -21,7 +21,7 @@ TEST(Disc, IsThePlaneWithinItsFlatAndRoundBeyond) {
 }
 
 TEST(SurfaceGrid, PruningNeverChangesTheNearestDisc) {
-  // Against all discs, for balls all around a plate and in a corner, at three radii.
+  // Compared with all discs, for balls around a plate and in a corner, at three radii.
   for (const bool inCorner : {false, true}) {
     const base::SphereSet set = inCorner ? corner(0.06, 0.005, 0.006) : plate(0.06, 0.005, 0.006);
     const SurfaceGrid grid(base::cpuExec(1), set, 0.027, 0.0045);

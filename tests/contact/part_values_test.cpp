@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contacts of parts with damping, turning and all directions unlike; and times of contacts in closed form.
+// Contacts of parts with damping and rotation in general directions; and contact times in closed form.
 #include "contact/grain_part_contacts.hpp"
 #include "contact/patch_contacts.hpp"
 #include "contact/restitution.hpp"
@@ -18,7 +18,7 @@ using base::Vec3d;
 TEST(ContactTimes, AreThoseOfTheDampedSwing) {
   EXPECT_NEAR(contactDuration(100, 0, true), base::kPi / 100, 1e-15);
   EXPECT_NEAR(contactDuration(100, 0.6, true), base::kPi / 80, 1e-15);
-  // Without attraction until the force is zero: x'' = -x - 2 zeta x', by small steps.
+  // Without attraction, until the force is zero: x'' = -x - 2 zeta x', in small steps.
   for (const double zeta : {0.1, 0.6, 1.0, 1.5}) {
     double x = 0, v = 1, t = 0;
     constexpr double kStep = 1e-5;
@@ -61,30 +61,30 @@ TEST(SlidingContact, DissipatesTheForceTimesTheWayLessWhatTheSpringHolds) {
     const BasicContactGeometry<double> touch{{0, 0, -1}, overlap, {0.6 * v, -0.8 * v, 0}, m, 0.005};
     const auto r = contactForce<kGeneral>(law, touch, dt, shear);
     booked += r.damped + r.rubbed, work -= dot(r.force, touch.velocity) * dt;
-    if (n < 600) { // 0.14 mm of spring at 0.3 um a step
+    if (n < 600) { // 0.14 mm of spring elongation at 0.3 um per step
       bookedBefore = booked, workBefore = work;
       continue;
     }
-    // On Coulomb's cone, against the slip; the spring is as long as it holds that force.
+    // On Coulomb's cone, against the slip; the spring has the length of that force.
     EXPECT_NEAR(r.force.x, -0.6 * 0.4 * normal, 1e-12 * normal);
     EXPECT_NEAR(r.force.y, 0.8 * 0.4 * normal, 1e-12 * normal);
     EXPECT_NEAR(r.force.z, normal, 1e-12 * normal);
     EXPECT_NEAR(norm(shear), 0.4 * normal / law.tangentialStiffness, 1e-15);
   }
   const double stored = 0.5 * 0.4 * normal * 0.4 * normal / law.tangentialStiffness;
-  EXPECT_NEAR(booked - bookedBefore, work - workBefore, 1e-12 * work) << "all work is lost where it slides";
-  EXPECT_NEAR(booked, work - stored, 1e-3 * work) << "the first steps stick: springs work with their force at the end";
-  // Turned back at a tenth of the speed it holds like a spring and a dashpot, until the limit on the other side.
+  EXPECT_NEAR(booked - bookedBefore, work - workBefore, 1e-12 * work) << "all work is dissipated during sliding";
+  EXPECT_NEAR(booked, work - stored, 1e-3 * work) << "the first steps stick: the spring's work uses its end force";
+  // After reversal at a tenth of the speed it acts as a spring and a dashpot, up to the opposite limit.
   const double slow = 0.1 * v, ct = 1000 * m;
   for (int n = 1; n <= 20; ++n) {
     const BasicContactGeometry<double> touch{{0, 0, -1}, overlap, {-0.6 * slow, 0.8 * slow, 0}, m, 0.005};
     const auto r = contactForce<kGeneral>(law, touch, dt, shear);
-    const double along = 0.6 * r.force.x - 0.8 * r.force.y; // positive: with the former slip
+    const double along = 0.6 * r.force.x - 0.8 * r.force.y; // positive: along the previous slip
     EXPECT_NEAR(along, -0.4 * normal + law.tangentialStiffness * slow * n * dt + ct * slow, 1e-12 * normal);
   }
 }
 
-/// A plate of 0.1 m on a large one, with a foundation that damps.
+/// A plate of 0.1 m on a large one, with a damped foundation.
 TEST(PlateValues, DampAcrossAndAlong) {
   const base::Exec exec = base::cpuExec(1);
   const base::SphereSet small = plate(0.05, 0.005, 0.005), large = plate(0.2, 0.005, 0.008);
@@ -105,7 +105,7 @@ TEST(PlateValues, DampAcrossAndAlong) {
   const base::Array<double> travelled(exec, std::vector<double>{model.margin});
   contacts.compute(motion, travelled.data(), loads.data());
   const Vec3d f = model.quanta.force.value(loads.at(0).force);
-  // Closing at 10 mm/s; sliding by (20, -30) mm/s, of which a step's way is in the spring.
+  // Approach at 10 mm/s; sliding at (20, -30) mm/s, one step of which is in the spring.
   const double kt = ratio * modulus * area, along = kt * (model.timeStep + relaxation);
   EXPECT_NEAR(f.z, modulus * area * (overlap + relaxation * 0.01), 1e-3 * f.z);
   EXPECT_NEAR(f.x, -along * 0.02, 1e-3 * along * 0.02);
@@ -139,7 +139,7 @@ TEST(GrainOnPartValues, SlipTakesTheSpinsAndVelocitiesOfBoth) {
   contacts.compute(grains, motion, loads.data());
   const Vec3d f = model.force.value(loads.at(0).force); // on the part
   const Vec3d arm{0, 0, -(R - overlap)}, point = x + arm, slip = v + cross(w, arm) - V - cross(W, point - centre);
-  // One step of way in the spring; floats.
+  // One step of elongation; floats.
   EXPECT_NEAR(f.x, kt * slip.x * model.timeStep, 1e-3 * kt * norm(slip) * model.timeStep);
   EXPECT_NEAR(f.y, kt * slip.y * model.timeStep, 1e-3 * kt * norm(slip) * model.timeStep);
   EXPECT_NEAR(f.z, -1e6 * overlap, 1e-3 * 1e6 * overlap);

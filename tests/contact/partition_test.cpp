@@ -34,7 +34,7 @@ TEST(Partition, EveryPlaceHasOneOwner) {
 
 TEST(Partition, EvenWeightIsCutIntoEqualSlabs) {
   const Partition p({4, 1, 1}, {0, 0, 0}, {4000000, 10, 10}, evenWeights());
-  for (int k = 0; k < 3; ++k) // bins are whole units wide, up to one too wide each
+  for (int k = 0; k < 3; ++k) // bins are whole units wide, each up to one unit too wide
     EXPECT_NEAR(static_cast<double>(p.cuts(0)[static_cast<std::size_t>(k)]), 1e6 * (k + 1), kPartitionBins);
 }
 

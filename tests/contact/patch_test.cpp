@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extended surfaces: the pressure law does not depend on the cut, loads balance, friction sticks and slides.
+// Extended surfaces: the pressure law does not depend on the sphere set, loads balance, friction sticks and slides.
 #include "contact/patch_contacts.hpp"
 
 #include "part_fixture.hpp"
@@ -29,7 +29,7 @@ struct PlateOnPlate {
                                                   std::vector<int>{0, 1}, std::vector<PartPair>{{0, 1}});
     loads = base::Array<PartLoad>(exec, 2);
   }
-  /// Small plate (a) stands on its lower face, 30 mm below its origin, tilted about y; `v` is its velocity.
+  /// Small plate (a) stands on its lower face, 30 mm below its origin, inclined about y; `v` is its velocity.
   void step(const Vec3d& origin, const Vec3d& v, double tilt = 0) {
     PartMotion a = atRest(origin, {std::sqrt(1 - tilt * tilt / 4), 0, tilt / 2, 0}), b = atRest({});
     a.velocity = v;
@@ -79,14 +79,14 @@ TEST(PlateOnPlate, SticksOnItsSpringThenSlidesAtCoulombsLimit) {
     EXPECT_NEAR(bench.force(0).x, -std::min(spring, limit), 1e-6 * limit + 1e-3 * std::min(spring, limit));
     x += speed * bench.model.timeStep;
   }
-  // Work of friction equals what was dissipated plus what is left in the spring.
+  // Friction work equals dissipation plus the elastic energy of the spring.
   const double slid = x - 0.5 * 1e9 * bench.area() * overlap / kt;
   const auto ledger = bench.contacts->ledger();
   EXPECT_NEAR(ledger.dissipated, 0.5 * bench.force(0).z * slid, 0.03 * ledger.dissipated) << "one step of 100";
 }
 
 TEST(PlateOnPlate, ChangingAreaGivesNoEnergy) {
-  // Tilt until half of the face lifts off, shear, level, shear back on the whole face: friction may only take work.
+  // Tilts until half of the face lifts off, shears, levels, shears back on the whole face: friction may only dissipate.
   PlateOnPlate bench(0.005, 5.0);
   const double overlap = 1e-4, reach = 2e-5, tilt = 4e-3;
   const int n = 40;
@@ -112,7 +112,7 @@ TEST(PlateOnPlate, ChangingAreaGivesNoEnergy) {
 }
 
 TEST(PlateOnPlate, PulledFastAndPushedBackSlowlyGivesNoEnergy) {
-  // Fast, the dashpot alone is beyond Coulomb's limit while the spring is hardly stretched.
+  // At high speed the dashpot alone exceeds Coulomb's limit with hardly any spring elongation.
   PlateOnPlate bench(0.005, 0.1);
   bench.model.law.relaxation = 0.1;
   bench.contacts = std::make_unique<PartPartContacts>(bench.exec, bench.model,

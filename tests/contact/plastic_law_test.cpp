@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Elastic-plastic contacts against their closed forms, branch by branch, and their energy along paths.
+// Elastic-plastic contacts against their closed forms, branch by branch, and energy along load paths.
 #include "contact_fixture.hpp"
 
 #include "base/random.hpp"
@@ -17,7 +17,7 @@ using Plasticity = BasicPlasticity<double>;
 
 constexpr double kRadius = 0.01;
 
-/// As the scene's laws make it.
+/// Plasticity as set by the scene's laws.
 Plasticity eepa(bool hertz, double share, double surfaceEnergy, double exponent) {
   Plasticity p;
   const double m = hertz ? 1.5 : 1;
@@ -45,7 +45,7 @@ protected:
   double m = hertz ? 1.5 : 1, k1 = hertz ? 4e8 * std::sqrt(kRadius) : 1e5;
   Spring spring = springOf(hertz);
   double deepest = 1e-4;
-  double round = 1e-13 * k1 * std::pow(deepest, m); ///< of the forces here
+  double round = 1e-13 * k1 * std::pow(deepest, m); ///< rounding error of the forces here
 };
 
 TEST_P(Eepa, EnergyThatGrowsWithTheRadiusPullsLikeAConstantOneOfThatRadius) {
@@ -66,7 +66,7 @@ TEST_P(Eepa, IsLoadedByTheElasticLawAndUnloadedAlongASteeperLine) {
   EXPECT_NEAR(std::pow(s.origin / k1, 1 / m), zero, 1e-12 * zero);
   for (const double x : {0.95e-4, 0.8e-4, 0.99 * deepest, 1.001 * zero})
     EXPECT_NEAR(forceAt(p, spring, x, s), k2 * (std::pow(x, m) - std::pow(zero, m)), 10 * round) << "back and forth";
-  EXPECT_NEAR(forceAt(p, spring, deepest, s), k1 * std::pow(deepest, m), 10 * round) << "meets the first loading again";
+  EXPECT_NEAR(forceAt(p, spring, deepest, s), k1 * std::pow(deepest, m), 10 * round) << "returns to the virgin curve";
   EXPECT_NEAR(forceAt(p, spring, 1.2 * deepest, s), k1 * std::pow(1.2 * deepest, m), 10 * round) << "and follows it";
 }
 
@@ -77,7 +77,7 @@ TEST_P(Eepa, WithoutAdhesionItPartsWithoutForceAndIsFlattened) {
   const double zero = std::pow(0.6, 1 / m) * deepest;
   EXPECT_EQ(forceAt(p, spring, 0.5 * zero, s), 0);
   const double k2 = k1 / 0.4, from = 0.5 * zero, x = 0.6 * zero;
-  EXPECT_NEAR(forceAt(p, spring, x, s), k2 * (std::pow(x, m) - std::pow(from, m)), 10 * round) << "from where it was";
+  EXPECT_NEAR(forceAt(p, spring, x, s), k2 * (std::pow(x, m) - std::pow(from, m)), 10 * round) << "from unloading on";
 }
 
 TEST_P(Eepa, PullsUpToThePullOffForceAndFallsByTheExponentBeyond) {
@@ -87,20 +87,20 @@ TEST_P(Eepa, PullsUpToThePullOffForceAndFallsByTheExponentBeyond) {
     forceAt(p, spring, deepest, s);
     const double k2 = k1 / 0.4, zero = std::pow(0.6, 1 / m) * deepest;
     const double pull = 1.5 * M_PI * 500 * std::sqrt(2 * zero * kRadius);
-    ASSERT_LT(pull, 0.5 * k2 * std::pow(zero, m)) << "below the bound";
+    ASSERT_LT(pull, 0.5 * k2 * std::pow(zero, m)) << "below the limit";
     const double turn = std::pow(std::pow(zero, m) - pull / k2, 1 / m);
     EXPECT_NEAR(forceAt(p, spring, turn * (1 + 1e-12), s), -pull, 1e-9 * pull);
     State before = s;
     for (const double part : {0.9, 0.5, 0.1})
       EXPECT_NEAR(forceAt(p, spring, part * turn, s), -pull * std::pow(part, chi), 1e-12 * pull) << chi;
-    // Loaded again along the steep line, from wherever it is.
+    // Reloads along the steep line from any point.
     s = before;
     const double x = 0.5 * turn, a = pull * std::pow(0.5, chi);
     forceAt(p, spring, x, s);
     const double origin = std::pow(x, m) + a / k2;
     EXPECT_NEAR(forceAt(p, spring, 1.1 * x, s), k2 * (std::pow(1.1 * x, m) - origin), 1e-11 * pull) << chi;
     const double yields = std::pow(origin / 0.6, 1 / m);
-    EXPECT_NEAR(forceAt(p, spring, yields, s), k1 * std::pow(yields, m), 1e-10 * pull) << "first loading again";
+    EXPECT_NEAR(forceAt(p, spring, yields, s), k1 * std::pow(yields, m), 1e-10 * pull) << "virgin curve";
     EXPECT_NEAR(forceAt(p, spring, deepest, s), k1 * std::pow(deepest, m), 10 * round);
   }
 }
@@ -116,7 +116,7 @@ TEST_P(Eepa, PullIsAtMostHalfOfTheSteepLinesAtZero) {
 }
 
 TEST_P(Eepa, ImpactReturnsWhatPlasticWorkLeaves) {
-  // Undamped, without adhesion: e^2 is the share of the work of loading that unloading gives back.
+  // Undamped, without adhesion: e^2 is the share of the loading work that unloading returns.
   const double share = 0.5, depth = std::pow(share, 1 / m);
   const double back = 1 - share / (1 - share) * (1 - depth) * m; // linear: k1/k2
   std::vector<double> errors;
@@ -175,7 +175,7 @@ TEST(Luding, PullsByItsAdhesionStiffnessAndForgetsTheDepth) {
       EXPECT_NEAR(forceAt(p, spring, x, s), -kc * x, 1e-12 * kc * turn);
       EXPECT_LT(s.deepest, before);
       before = s.deepest;
-      State again = s; // the steep line of that depth begins just here
+      State again = s; // the steep line of that depth starts exactly here
       const double k = k1 + 3 * k1 * std::min(1.0, s.deepest / full), zero = (1 - k1 / k) * s.deepest;
       EXPECT_NEAR(k * (x - zero), -kc * x, 1e-9 * kc * turn);
       EXPECT_NEAR(forceAt(p, spring, 1.01 * x, again), k * (1.01 * x - zero), 1e-9 * kc * turn);
@@ -183,8 +183,8 @@ TEST(Luding, PullsByItsAdhesionStiffnessAndForgetsTheDepth) {
   }
 }
 
-/// Work along a path of overlaps less what is stored and has yielded, over the work without signs. By the trapezoid:
-/// second order in the steps.
+/// Work along a path of overlaps minus stored and plastic energy, over the absolute work. Trapezoidal rule:
+/// second order in the step.
 double imbalance(const Plasticity& p, const Spring& spring, const std::vector<double>& turns, int steps) {
   State s;
   double work = 0, most = 0, yielded = 0, force = 0, at = 0;
@@ -194,7 +194,7 @@ double imbalance(const Plasticity& p, const Spring& spring, const std::vector<do
       const double x = from + (turn - from) * k / steps;
       const BasicPlasticForce<double> r = plasticForce(p, spring, x, s);
       work += 0.5 * (force + r.force) * (x - at), most += 0.5 * std::fabs((force + r.force) * (x - at));
-      EXPECT_GE(r.yielded, -1e-12 * most) << "never given back";
+      EXPECT_GE(r.yielded, -1e-12 * most) << "never negative";
       yielded += r.yielded, force = r.force, at = x;
     }
   }
@@ -217,7 +217,7 @@ TEST(PlasticEnergy, WorkIsStoredOrYielded) {
 }
 
 TEST(PlasticEnergy, IsTheSameBeforeAndAfterAStepHasSeenTheOverlap) {
-  // Between steps a contact is measured at an overlap that its state does not know yet.
+  // Between steps a contact may have an overlap that its state does not contain yet.
   for (const double to : {1.4e-4, 7e-5, 3e-5, 4e-6})
     for (int law = 0; law < 3; ++law) {
       const Plasticity p = law == 2 ? luding(0.75, 0.05, 0.8) : eepa(law == 1, 0.6, 500, 1.5);
@@ -243,7 +243,7 @@ TEST(PlasticContact, FrictionIsLimitedByForceAndAdhesionTogether) {
   const double zero = 0.6e-4, pull = 1.5 * M_PI * 500 * std::sqrt(2 * zero * kRadius);
   const auto r = contactForce<kFriction | kPlastic>(law, touch(zero, 100), 1e-6, shear, &s);
   EXPECT_NEAR(r.force.z, 0, 1e-9);
-  EXPECT_NEAR(std::fabs(r.force.x), law.friction * pull, 1e-9 * pull) << "unloaded, and still held";
+  EXPECT_NEAR(std::fabs(r.force.x), law.friction * pull, 1e-9 * pull) << "unloaded, with adhesion";
   EXPECT_NEAR(r.pressing, pull, 1e-9 * pull);
 }
 
@@ -256,7 +256,7 @@ TEST(PlasticContact, DashpotDoesNotHelpToPull) {
   State still = s;
   const auto slow = contactForce<kPlastic>(law, {{0, 0, 1}, 0.5e-4, {}, 0.01, kRadius}, 1e-6, shear, &still);
   const auto fast = contactForce<kPlastic>(law, {{0, 0, 1}, 0.5e-4, {0, 0, -3}, 0.01, kRadius}, 1e-6, shear, &s);
-  EXPECT_GT(slow.force.z, 0) << "it pulls";
+  EXPECT_GT(slow.force.z, 0) << "attractive";
   EXPECT_EQ(slow.force.z, fast.force.z);
   EXPECT_EQ(fast.damped, 0);
 }

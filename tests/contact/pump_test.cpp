@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A contact that is sheared and rolled to and fro while its load varies takes work at every phase and never gives any.
+// A contact under cyclic shear and rolling with varying load absorbs work at every phase and never releases net work.
 #include "base/math.hpp"
 #include "contact/strongest_force.hpp"
 #include "contact_fixture.hpp"
@@ -17,23 +17,23 @@ using base::Vec3f;
 constexpr double kRadius = 0.01, kMass = 0.01, kDepth = 1e-4; // a hundredth of the radius
 
 struct Work {
-  double normal = 0, sliding = 0, rolling = 0; ///< done on the contact [J]
-  double turnover = 0;                         ///< without signs [J]
-  double lost = 0;                             ///< as it is booked [J]
-  double gained = 0;                           ///< by the spring of shear [J]
+  double normal = 0, sliding = 0, rolling = 0; ///< work done on the contact [J]
+  double turnover = 0;                         ///< absolute work [J]
+  double lost = 0;                             ///< dissipation in the ledger [J]
+  double gained = 0;                           ///< energy gained by the shear spring [J]
 };
 
 struct Drive {
-  double depth;   ///< amplitude of the overlap over its mean [-]; beyond 1 the surfaces part
+  double depth;   ///< amplitude of the overlap over its mean [-]; beyond 1 the surfaces separate
   double phase;   ///< phase lag of shear and rolling [rad]
   double shear;   ///< [m]
   double angle;   ///< amplitude of rolling [rad]
-  int ratio;      ///< periods of the load in one of the shear
-  int steps;      ///< a period of the shear
-  bool turning{}; ///< shear goes round, not to and fro
+  int ratio;      ///< periods of the load per period of the shear
+  int steps;      ///< per period of the shear
+  bool turning{}; ///< shear rotates instead of reversing
 };
 
-/// Work of one period in which nothing is at rest: after two others, which leave the springs as the next ones do.
+/// Work of one steady-state period: after two others, which set the springs as the next period does.
 Work pumped(const BasicLaw<double>& law, const Drive& drive) {
   const double period = 0.05, dt = period / drive.steps; // 20 Hz
   Vec3d shear, angle;
@@ -79,7 +79,7 @@ struct Named {
   BasicLaw<double> law;
 };
 
-/// Every law, without its dashpots and with them.
+/// Every law, with and without dashpots.
 std::vector<Named> laws() {
   std::vector<Named> all;
   for (const double friction : {0.1, 0.5, 100.0})
@@ -118,7 +118,7 @@ std::vector<Named> laws() {
 }
 
 TEST(Pump, AShearedAndRolledContactUnderAVaryingLoadNeverDoesWork) {
-  // Rounding alone may seem to give: 1e-12 of what goes to and fro.
+  // Rounding alone may seem to release energy: 1e-12 of the exchanged energy.
   for (const Named& each : laws())
     for (const int ratio : {1, 2})
       for (const double depth : {0.5, 0.95, 1.3})
@@ -135,7 +135,7 @@ TEST(Pump, AShearedAndRolledContactUnderAVaryingLoadNeverDoesWork) {
 }
 
 TEST(Pump, ASurfacePulledFastAndPushedBackSlowlyNeverGivesWork) {
-  // Fast, the dashpot alone is beyond Coulomb's limit while the spring is hardly stretched; slow, the spring is all.
+  // At high speed the dashpot alone exceeds Coulomb's limit with hardly any spring; at low speed only the spring acts.
   constexpr double kLength = 2e-5;
   for (const Named& each : laws())
     for (const int fast : {2, 20, 200})
@@ -154,7 +154,7 @@ TEST(Pump, ASurfacePulledFastAndPushedBackSlowlyNeverGivesWork) {
             work -= dot(r.force, slid);
           }
         };
-        slide(-kLength, 20000); // the springs are at what the path leaves behind
+        slide(-kLength, 20000); // the springs are in their steady state
         for (int cycle = 0; cycle < 3; ++cycle) {
           if (cycle == 2) work = 0;
           slide(kLength, fast), slide(-kLength, 20000);
@@ -164,13 +164,13 @@ TEST(Pump, ASurfacePulledFastAndPushedBackSlowlyNeverGivesWork) {
 }
 
 TEST(Pump, LargeForcesAndSmallOnesObeyCoulomb) {
-  // Single precision holds squares of forces from 1e-19 to 1e19 N only.
+  // Single precision represents squares of forces only from 1e-19 to 1e19 N.
   for (const double radius : {1e-6, 1e-3, 1.0, 100.0, 1000.0}) {
     BasicLaw<double> law = hertz<double>();
     law.rootDamping = law.tangentialRootDamping = 0;
     const BasicLaw<float> single = scaledFor(law, radius).as<float>();
     for (const double share : {1e-8, 1e-4, 0.1}) {
-      Vec3f shear{static_cast<float>(share * radius), 0, 0}; // far beyond the limit
+      Vec3f shear{static_cast<float>(share * radius), 0, 0}; // far above the limit
       const BasicContactGeometry<float> touch{
           {0, 0, -1}, static_cast<float>(share * radius), {}, 1, static_cast<float>(radius)};
       const auto r = contactForce<kGeneral>(single, touch, 1e-9f, shear);
@@ -188,7 +188,7 @@ TEST(Pump, WhatAHertzContactTakesIsBookedToAnErrorThatFallsWithTheStep) {
     const Work w = pumped(law, {0.5, 0.7, 1e-5, 0, 2, k ? 16000 : 2000});
     error[k] = std::fabs(w.sliding - w.gained - w.lost) / w.lost;
   }
-  EXPECT_LT(error[1], 2e-3) << "16000 steps a period";
+  EXPECT_LT(error[1], 2e-3) << "16000 steps per period";
   EXPECT_LT(error[1], 0.15 * error[0]) << "first order in the step";
 }
 

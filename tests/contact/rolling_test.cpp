@@ -35,22 +35,22 @@ TEST(RollingResistance, RollingBallStopsWhereAConstantTorqueStopsIt) {
     s.step(dt);
     if (stopped == 0 && s.velocity.x <= 0) stopped = i * dt;
   }
-  // The rolling spring is wound up first, over mu_r R F / k_r = F / (2.25 k mu_r R) rad, i.e. 2e-4 m of way here.
+  // The rolling spring builds up first, over mu_r R F / k_r = F / (2.25 k mu_r R) rad, i.e. 2e-4 m of travel here.
   EXPECT_NEAR(s.position.x, x, 5e-4);
   EXPECT_NEAR(stopped, t, 0.01 * t);
-  // The wound spring swings out at 57 1/s with a damping ratio of 0.3.
+  // The spring oscillation decays at 57 1/s with a damping ratio of 0.3.
   EXPECT_NEAR(s.spin.y, 0, 1e-6) << "type C comes to rest";
   EXPECT_NEAR(s.velocity.x, 0, 1e-7);
 }
 
 TEST(RollingResistance, PushedSphereIsAtRestWithinASecond) {
-  // Ai et al. 2011, test 1, as Chrono has it.
+  // Ai et al. 2011, test 1, as in Chrono.
   SphereOnPlane s = resting(0.2);
   s.radius = 0.5, s.mass = 1, s.law.friction = 0.3;
   s.position.z = s.radius - s.mass * kGravity / s.law.stiffness;
   s.velocity.x = 1;
   for (int i = 0; i < 50000; ++i) s.step(2e-5);
-  EXPECT_LT(norm(s.spin), 1e-3) << "the mark of Chrono's test";
+  EXPECT_LT(norm(s.spin), 1e-3) << "criterion of Chrono's test";
 }
 
 TEST(RollingResistance, HoldsOnASlopeUpToItsCoefficient) {
@@ -59,10 +59,10 @@ TEST(RollingResistance, HoldsOnASlopeUpToItsCoefficient) {
     const double theta = base::atan(0.1 * share);
     s.gravity = {kGravity * base::sin(theta), 0, -kGravity * base::cos(theta)};
     for (int i = 0; i < 25000; ++i) s.step(2e-5);
-    const double wound = norm(s.velocity); // once the spring is at its limit
+    const double wound = norm(s.velocity); // after the spring has reached its limit
     for (int i = 0; i < 25000; ++i) s.step(2e-5);
     const double rolled = (norm(s.velocity) - wound) / 0.5;
-    // Beyond: a = (5/7) g (sin - mu_r cos).
+    // Above the limit: a = (5/7) g (sin - mu_r cos).
     const double free = 5.0 / 7 * kGravity * (base::sin(theta) - 0.1 * base::cos(theta));
     if (share < 1)
       EXPECT_LT(norm(s.velocity), 1e-6);
@@ -95,7 +95,7 @@ TEST(RollingResistance, EnergyBalances) {
 }
 
 TEST(Cohesion, PullOffForceIsTwoPiWRadius) {
-  // Hung from the plane and drawn down slowly: holds just below the pull-off force, falls just above.
+  // Hung from the plane and pulled down slowly: holds just below the pull-off force, falls just above.
   const double w = 0.05, radius = 1e-3, pull = 2 * base::kPi * w * radius;
   for (const double share : {0.99, 1.01}) {
     SphereOnPlane s;
@@ -114,7 +114,7 @@ TEST(Cohesion, PullOffForceIsTwoPiWRadius) {
 }
 
 TEST(Cohesion, SlowBallSticksAndFastOneLeavesWithItsEnergy) {
-  // Without damping the pull gives on approach what it takes on parting.
+  // Without damping the work of adhesion on approach equals that on separation.
   SphereOnPlane s;
   s.radius = 1e-3, s.mass = 1e-5, s.law.stiffness = 100, s.law.pullPerRadius = 0.3;
   const double dt = base::kPi * std::sqrt(s.mass / s.law.stiffness) / 4000;

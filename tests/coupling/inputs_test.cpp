@@ -53,7 +53,7 @@ TEST(Inputs, AreRestoredAsTheyWereSaved) {
   EXPECT_EQ(again.words(), inputs.words());
   EXPECT_THROW(again.restore({1, 2, 3}), base::InputError);
   std::vector<double> unknown = inputs.save();
-  unknown[1] = 99; // a kind that a later program may know
+  unknown[1] = 99; // a kind of a later program version
   EXPECT_THROW(again.restore(unknown), base::InputError);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A ground model outside the library, behind the interface of the library's own: the steps of
+// A custom ground model outside the library, with the library's interface: the steps of
 // CONTRIBUTING.md#adding-a-ground.
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
@@ -20,13 +20,13 @@ namespace {
 using base::Vec3d;
 
 constexpr double kStep = 1e-4;               // [s]
-constexpr double kStiffness = 1e5;           // of each edge [N/m]: the vehicle sinks in by some millimetres
+constexpr double kStiffness = 1e5;           // per edge [N/m]: the vehicle sinks by some millimetres
 constexpr double kDamping = 1e3;             // [N s/m]
 constexpr double kGravity = 9.81;            // [m/s2]
-constexpr double kEdges[] = {-0.045, 0.045}; // where a shoe's grousers stand, from its middle [m]
+constexpr double kEdges[] = {-0.045, 0.045}; // positions of a shoe's grousers, from its centre [m]
 
 /// Winkler's ground in its simplest form: level, at height 0, with a spring and a dashpot under both edges of each
-/// shoe. The springs also hold an edge where it touched down, and that place is the ground's state. Runs on one CPU
+/// shoe. Springs tie an edge to its touchdown point; these points are the ground's state. Runs on one CPU
 /// thread only.
 class SpringGround : public Ground {
 public:
@@ -51,7 +51,7 @@ public:
     timeStep_ = on.timeStep;
     return quanta_ = {on.quanta.force, on.quanta.torque};
   }
-  void refreshContacts(const base::Array<contact::PartMotion>&) override {} // all shoes are looked at in every step
+  void refreshContacts(const base::Array<contact::PartMotion>&) override {} // all shoes are checked in every step
   void compute(const base::Exec&, const base::Array<contact::PartMotion>& motion, const double*,
                contact::PartLoad* loads) override {
     elastic_ = 0;
@@ -76,8 +76,8 @@ public:
 
 private:
   struct Edge {
-    std::size_t part; ///< among the contact parts
-    Vec3d place;      ///< in its frame [m]
+    std::size_t part; ///< index of the contact part
+    Vec3d place;      ///< position in its frame [m]
   };
   std::vector<Edge> edges_;
   std::vector<double> state_;
@@ -85,7 +85,7 @@ private:
   double elastic_{}, timeStep_{};
 };
 
-/// One track of the light vehicle, set down on springs; with short ramps.
+/// One track of the light vehicle, placed on springs; with short ramps.
 SimulationSetup onSprings() {
   SimulationSetup setup = oneTrack(kStep);
   setup.ground.otherKind = [](const GroundSetup&, const base::Exec&) { return std::make_unique<SpringGround>(); };
@@ -124,7 +124,7 @@ TEST(OtherGround, CarriesTheVehicleThatSettlesOnIt) {
   EXPECT_LT(std::fabs(ledger.residual), 1e-9 * ledger.turnover);
   EXPECT_LT(std::fabs(ledger.integrationError), 0.1 * ledger.turnover);
   EXPECT_NEAR(force.x, 0, 0.01 * weight);
-  // Springs that carry W together and share it evenly hold W^2 / (2 n k).
+  // Springs that evenly share a load W store W^2 / (2 n k).
   const auto& ground = dynamic_cast<const SpringGround&>(*simulation.actingGround());
   const double carrying = 2 * 14; // edges, at most, of the shoes between first and last road wheel
   EXPECT_GT(ground.elastic(), 0.99 * weight * weight / (2 * carrying * kStiffness));
@@ -144,7 +144,7 @@ TEST(OtherGround, GoesOnFromASavedStateWithTheSameBits) {
   Simulation elsewhere(onSprings(), base::cpuExec(1), moved, {}, cutOnce());
   for (Simulation* s : {&straight, &resumed, &elsewhere}) advanceTo(*s, 0.25);
   EXPECT_EQ(resumed.stateHash(), straight.stateHash());
-  EXPECT_NE(elsewhere.vehicle()->save().words(), straight.vehicle()->save().words()) << "the springs pull elsewhere";
+  EXPECT_NE(elsewhere.vehicle()->save().words(), straight.vehicle()->save().words()) << "the touchdown points differ";
 }
 
 TEST(OtherGround, IsRefusedBesideGrains) {

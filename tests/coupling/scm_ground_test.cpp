@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The light vehicle on deformable soil: it sinks to Bekker's sinkage, drives, leaves ruts, and goes on with the same
-// bits.
+// The light vehicle on deformable soil: it sinks to Bekker's sinkage, drives, leaves ruts, and resumes
+// bitwise identically.
 #include "coupling/ledger_entries.hpp"
 #include "coupling/scm_ground.hpp"
 #include "coupling/simulation.hpp"
@@ -62,7 +62,7 @@ TEST(ScmGround, CarriesTheVehicleWithItsBooksClosed) {
   const double weight = 9.81 * simulation.vehicle()->assembly().mass;
   const double swing = (upward() - before) / (rows * kStep);
   EXPECT_NEAR(pressed / rows, weight + swing, 0.005 * weight) << "weight plus the inertia force of the swinging hull";
-  // Loads concentrate under the road wheels, and the maximum sinkage is that of the set-down: between the sinkage at
+  // Loads concentrate under the road wheels, and the maximum sinkage is the initial one: between the sinkage at
   // the mean pressure and eight times that.
   const double k = lete().modulusAt(0.28), mean = std::pow(weight / (area / rows) / k, 1 / 0.793);
   EXPECT_GT(deepest, mean);
@@ -75,7 +75,7 @@ TEST(ScmGround, CarriesTheVehicleWithItsBooksClosed) {
   EXPECT_GT(energy.shear, 0);
   EXPECT_GT(energy.elastic, 0);
   EXPECT_EQ(ledger.soil.compaction, energy.compaction);
-  EXPECT_EQ(ledger.dissipated.soil, energy.lost()) << "apart from the contacts of parts with each other";
+  EXPECT_EQ(ledger.dissipated.soil, energy.lost()) << "except for the contacts of parts with each other";
   EXPECT_LT(ledger.dissipated.parts, ledger.dissipated.total() - energy.lost() + 1e-9);
 }
 
@@ -101,8 +101,8 @@ TEST(ScmGround, ReportsItsSurfaceAndStresses) {
   double most = 0;
   for (const scm::PadLoad& load : padsOf(simulation).pads().loads())
     pressed += load.pressed, most = std::max(most, load.sinkage);
-  EXPECT_NEAR(carried, pressed, 0.05 * pressed) << "but for damping and the pitch of the shoes";
-  EXPECT_NEAR(deepest, most, 1e-12) << "under a shoe the surface lies at the shoe, not where it rebounds to";
+  EXPECT_NEAR(carried, pressed, 0.05 * pressed) << "except for damping and the pitch of the shoes";
+  EXPECT_NEAR(deepest, most, 1e-12) << "under a shoe the surface is at the shoe, not at the rebound level";
 }
 
 TEST(ScmGround, GoesOnFromASavedStateWithTheSameBits) {

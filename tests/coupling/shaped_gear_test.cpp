@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The running gear by its shapes: samples of meshes come to the same as they get finer, loads are opposite, a vehicle
-// that stands is carried.
+// The running gear from its shapes: sampled meshes converge to it under refinement, loads are opposite, a stationary
+// vehicle is supported.
 #include "coupling/shaped_gear.hpp"
 
 #include "base/math.hpp"
@@ -48,7 +48,7 @@ base::TriangleMesh prism(const std::vector<std::pair<double, double>>& polygon, 
   return mesh;
 }
 
-/// Force of a wheel of radius 0.19 m on a plate that it overlaps, both cut into spheres of `radius`.
+/// Force of a wheel of radius 0.19 m on an overlapping plate, both converted to spheres of `radius`.
 double forceOfSamples(double radius, double overlap) {
   // Its lowest part, 15 degrees to either side, in facets of a quarter degree.
   std::vector<std::pair<double, double>> segment;
@@ -89,7 +89,7 @@ TEST(ShapedGear, SamplesComeToItAsTheyGetFiner) {
   }
 }
 
-/// The default vehicle as it is assembled, with parts that can be moved.
+/// The assembled default vehicle, with movable parts.
 struct Vehicle {
   vehicle::Assembly assembly =
       vehicle::assemble(vehicle::readVehicleSpec({GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml", {}}));
@@ -142,7 +142,7 @@ TEST(ShapedGear, LoadsAreOpposite) {
   }
   EXPECT_EQ(sum, base::Vec3l{}) << "to the last bit";
   EXPECT_LT(norm(moment), 1e-7 * norm(v.force(idler)));
-  EXPECT_LT(v.force(idler).x, -1e4) << "the track holds the idler back";
+  EXPECT_LT(v.force(idler).x, -1e4) << "the track pushes the idler back";
   EXPECT_GT(v.force(sprocket).x, 1e3) << "bosses hold the sprocket";
   EXPECT_GT(std::fabs(v.torque(idler).y), 10) << "plates brake its spin";
 }
@@ -150,7 +150,7 @@ TEST(ShapedGear, LoadsAreOpposite) {
 TEST(ShapedGear, AHornHoldsAWheelThatShiftsAcross) {
   Vehicle v;
   const std::size_t wheel = v.partOf(vehicle::PartKind::kRoadWheel, 0);
-  // 27 mm from the middle to a disc, 15 mm of horn, 3 mm of chamfer on a horn that tapers by 1 in 10.
+  // 27 mm from the middle to a disc, 15 mm of horn, 3 mm of chamfer on a horn with a taper of 1 in 10.
   for (const double shift : {0.0, 0.011}) {
     v.motion[wheel].origin.y = v.motion[wheel].centre.y = v.assembly.spec.trackOffset + shift;
     v.step();
@@ -179,7 +179,7 @@ TEST(ShapedGear, GoesOnFromWhatWasSaved) {
   EXPECT_EQ(resumed.gear.ledger().dissipated, v.gear.ledger().dissipated);
 }
 
-/// Without damping and friction no motion may make energy, however deep the parts lie in each other.
+/// Without damping and friction no motion may create energy, however deep the parts overlap.
 TEST(ShapedGear, ForcesAreTheSlopeOfTheElasticEnergy) {
   Vehicle v;
   ShapedGear gear{v.assembly, v.parts, {{kModulus, 0, 0, 0.8}, quanta(), kTimeStep}};
@@ -200,7 +200,7 @@ TEST(ShapedGear, ForcesAreTheSlopeOfTheElasticEnergy) {
   using vehicle::PartKind;
   for (const PartKind kind : {PartKind::kSprocket, PartKind::kRoadWheel, PartKind::kRoller, PartKind::kIdler}) {
     moved = v.partOf(kind, 0);
-    // A wheel that shifts across leaves a plate with its rim's end, which pushes on nothing.
+    // A wheel that shifts sideways loses the plate at its rim's end, where no force acts.
     const double bar = kind == PartKind::kSprocket ? 0.02 : 0.12;
     double worst = 0;
     for (int k = 0; k < 200; ++k) {

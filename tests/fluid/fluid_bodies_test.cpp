@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies, walls and probes of the particle fluid, and states that it goes on from.
+// Bodies, walls and probes of the particle fluid, and resumed states.
 #include "base/error.hpp"
 #include "tests/fluid/water.hpp"
 
@@ -67,8 +67,8 @@ TEST(Fluid, WorkAndMomentumOfAMovingBodyAreThoseOfTheFluid) {
   EXPECT_NEAR(end.total() - start.total(), work, 0.01 * work);
 }
 
-/// Two plates under water, 6 x 6 spacings, of which the upper comes down onto the lower at 0.6 m/s, rests on it and
-/// goes up again. Returns the greatest speed of the water over that of sound.
+/// Two plates under water, 6 x 6 spacings: the upper one approaches the lower at 0.6 m/s, rests on it and
+/// rises again. Returns the largest speed of the water over the speed of sound.
 double pressWaterBetweenPlates(bool touches) {
   FluidSetup s = tankOfWater();
   const double dx = s.model.spacing;
@@ -76,7 +76,7 @@ double pressWaterBetweenPlates(bool touches) {
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)
       for (int k = 0; k < 2; ++k) plate.markers.push_back({(i - 2.5) * dx, (j - 2.5) * dx, (k - 0.5) * dx});
-  plate.start.pose = {{0.31, 0.21, 0.125}, {}}; // its lattice lies beside that of the other
+  plate.start.pose = {{0.31, 0.21, 0.125}, {}}; // its lattice is offset from the other's
   s.bodies.push_back(plate);
   plate.start.pose.position = {0.3, 0.2, 0.375};
   s.bodies.push_back(plate);
@@ -99,7 +99,7 @@ double pressWaterBetweenPlates(bool touches) {
   return fastest;
 }
 
-/// Between surfaces that touch there is no room for particles: they go into the plates or aside, and are not shot out.
+/// Touching surfaces leave no room for particles: these enter the plates or move aside, and are not ejected.
 TEST(Fluid, WaterBetweenPlatesThatTouchIsNotShotOut) {
   EXPECT_LT(pressWaterBetweenPlates(true), 0.3);
   bool stopped = false;
@@ -112,7 +112,7 @@ TEST(Fluid, WaterBetweenPlatesThatTouchIsNotShotOut) {
   EXPECT_TRUE(stopped || fastest > 0.4) << fastest;
 }
 
-/// A state goes on with the same bits, in whatever order of particles and however old its lists were.
+/// A resumed state is bitwise identical, for any order of particles and any age of lists.
 TEST(Fluid, GoesOnFromASavedState) {
   FluidSetup s = cubeInWater(0.3);
   s.model.shifting = 1, s.surfaceDivergence = 2.75;
@@ -159,8 +159,8 @@ TEST(Fluid, BodiesAndProbesHaveTheSameBitsOnCuda) {
   EXPECT_EQ(host.levelsAt(places, 1.0), device.levelsAt(places, 1.0));
 }
 
-/// A particle shot at a wall, without fluid around it, comes back as fast as it came; at up to a tenth of the sound
-/// speed, from places opposite a marker and between markers, it never gets behind the first layer.
+/// A particle shot at a wall, without fluid around it, returns at the same speed; up to a tenth of the sound
+/// speed, opposite a marker or between markers, it never passes the first layer.
 TEST(Fluid, NothingPassesAWall) {
   for (const double speed : {0.05, 0.5, 1.0})
     for (const double beside : {0.0, 0.025}) {
@@ -181,8 +181,8 @@ TEST(Fluid, NothingPassesAWall) {
     }
 }
 
-/// Work against the contact of a plane layer of markers, in the middle between them, beside its closed form: in fluid
-/// at the greatest compression, c^2 s = 0.3 c^2, no particle is pressed through.
+/// Work against the contact of a plane layer of markers, midway between them, against its closed form: at the fluid's
+/// largest compression, c^2 s = 0.3 c^2, no particle penetrates.
 TEST(Fluid, TheBarrierOfAWallIsAboveTheGreatestPressure) {
   const auto barrier = [](int dimensions) {
     FluidSetup s;
@@ -208,7 +208,7 @@ TEST(Fluid, TheBarrierOfAWallIsAboveTheGreatestPressure) {
   EXPECT_GT(barrier(2), kGreatestCompression);
 }
 
-/// Contact close to a marker, far beyond the pair terms of the fluid: closed form, and exactly opposite.
+/// Contact close to a marker, far beyond the fluid's pair terms: closed form, and exactly opposite forces.
 TEST(Fluid, ContactNearAMarkerKeepsItsSize) {
   FluidSetup s;
   const FluidModel& m = s.model = water(3, 0.05);
@@ -220,8 +220,8 @@ TEST(Fluid, ContactNearAMarkerKeepsItsSize) {
   EXPECT_EQ(fluid.forceBalance(), base::Vec3l{});
 }
 
-/// A particle that stands 0.6 spacings from a marker would leave it at 0.72 times the speed of sound, by the potential
-/// 3 c^2 (1 - r/r0)^2; since it is pushed less the faster it parts, it does not reach half of that speed.
+/// A particle at 0.6 spacings from a marker would leave it at 0.72 times the speed of sound, with the potential
+/// 3 c^2 (1 - r/r0)^2; the force decreases with its separation speed, so that it stays below half of that speed.
 TEST(Fluid, AParticleThatPartsFastFromAMarkerIsPushedLess) {
   FluidSetup s;
   FluidModel& m = s.model = water(3, 0.05);
@@ -237,7 +237,7 @@ TEST(Fluid, AParticleThatPartsFastFromAMarkerIsPushedLess) {
 
 // --- probes
 
-/// Pressure and level of still water at a wall, in the middle and above; dry places.
+/// Pressure and level of still water at a wall, in the middle and above; dry probes.
 TEST(Fluid, ProbesReadPressureAndLevel) {
   Fluid fluid(tankOfWater(), testExec());
   const std::vector<double> p =
@@ -254,7 +254,7 @@ TEST(Fluid, ProbesReadPressureAndLevel) {
   EXPECT_EQ(level[2], 0.1);
 }
 
-/// A sheet of water in the air wets a wire along its thickness.
+/// A sheet of water in the air wets a wire over its thickness.
 TEST(Fluid, LevelProbesDoNotCountAir) {
   FluidSetup s = tankOfWater();
   std::erase_if(s.particles, [](const FluidParticle& p) { return p.position.z < 0.2; });
@@ -262,7 +262,7 @@ TEST(Fluid, LevelProbesDoNotCountAir) {
   EXPECT_NEAR(sheet, 0.3, 0.05 * s.model.spacing + 0.0025);
 }
 
-/// Motion of a body that is too quick for the lists is refused with name and remedy.
+/// A body motion too fast for the lists is rejected with name and remedy.
 TEST(Fluid, ABodyThatOutrunsTheListsIsAFault) {
   FluidSetup s = cubeInWater(0);
   Fluid fluid(s, testExec());

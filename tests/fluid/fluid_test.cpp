@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The particle fluid against closed forms of its own discrete equations, exact balances, and one answer everywhere.
+// The particle fluid against closed forms of its own discrete equations, exact balances, and identical results.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "tests/fluid/water.hpp"
@@ -19,7 +19,7 @@ using base::Vec3d;
 // --- kernel
 
 /// Sums over a cubic lattice [-]: of V W, and of V r.grad W in the bulk and in the first and second layer of a half
-/// space. Figures of an independent computation to their last digit.
+/// space. Digits of an independent computation.
 TEST(Wendland, HasTheSumsOfACubicLattice) {
   struct Row {
     double smoothing, volume, first, second;
@@ -102,7 +102,7 @@ TEST(Fluid, ALoneParticleFallsFreely) {
   for (int k = 0; k < 1000; ++k) fluid.step();
   const double t = fluid.time();
   const FluidSnapshot end = fluid.snapshot();
-  // Each half step rounds a place to a unit of 2e-8 spacings.
+  // Each half step rounds positions to units of 2e-8 spacings.
   EXPECT_NEAR(end.position[0].x, 0.2 + t + 0.25 * t * t, 2e-7);
   EXPECT_NEAR(end.position[0].z, 1 + 3 * t - 0.5 * kGravity * t * t, 2e-7);
   EXPECT_NEAR(end.velocity[0].z, 3 - kGravity * t, 1e-12);
@@ -152,7 +152,7 @@ TEST(Fluid, SoundHasTheSpeedOfTheLattice) {
 
 TEST(Fluid, AStillTankStaysStillAndItsFloorBearsTheWeight) {
   FluidSetup s = tankOfWater();
-  s.model.diffusion = 0.5; // without gravity's part the water swells, five times as fast as by default
+  s.model.diffusion = 0.5; // without the gravity term the water expands, five times as fast as by default
   Fluid fluid(s, testExec());
   const double bottom = fluid.model().density * kGravity * 0.5;
   double force = 0;
@@ -244,7 +244,7 @@ TEST(Fluid, ShiftingRestoresTheLattice) {
   }
 }
 
-/// A viscous square with a rotation that grows with the radius: central forces have no moment, those of Morris do.
+/// A viscous square whose rotation grows with the radius: central forces have no moment, those of Morris do.
 TEST(Fluid, CentralViscosityConservesAngularMomentum) {
   double change[2];
   for (const bool central : {false, true}) {
@@ -273,7 +273,7 @@ TEST(Fluid, CentralViscosityConservesAngularMomentum) {
   EXPECT_GT(change[0], 1e-3);
 }
 
-/// Without walls, gravity, viscosity and diffusion only the time step changes the energy, by an error of second order.
+/// Without walls, gravity, viscosity and diffusion only the time step changes the energy: a second-order error.
 TEST(Fluid, TheErrorOfEnergyIsOfSecondOrderInTheStep) {
   std::vector<double> errors;
   for (const int finer : {1, 2, 4}) {
@@ -324,7 +324,7 @@ TEST(Fluid, HasOneAnswerOnAnyThreadsAndOrderOfParticles) {
     if (threads == 1) hash = fluid.hash();
     EXPECT_EQ(fluid.hash(), hash);
   }
-  // Particles in another order move to the same bits.
+  // Particles in another order move bitwise identically.
   FluidSetup shuffled = s;
   std::reverse(shuffled.particles.begin(), shuffled.particles.end());
   Fluid first(s, testExec()), second(shuffled, testExec());
@@ -339,7 +339,7 @@ TEST(Fluid, HasOneAnswerOnAnyThreadsAndOrderOfParticles) {
   EXPECT_EQ(a.compression, b.compression);
 }
 
-/// A channel of fluid between a wall at rest and one that moves, periodic along x.
+/// A channel of fluid between a fixed and a moving wall, periodic along x.
 FluidSetup movingWall() {
   FluidSetup s;
   FluidModel& m = s.model = water(2, 0.05);
@@ -420,7 +420,7 @@ TEST(Fluid, AFaultNamesStepParticleAndRemedy) {
   FluidSetup pressed = tankOfWater();
   pressed.model.timeStep *= 9;
   EXPECT_NE(messageOf(pressed, 300).find("smaller time step"), std::string::npos) << messageOf(pressed, 300);
-  // A particle is compressed by what comes near it.
+  // Neighbours that approach compress a particle.
   FluidSetup met = alone;
   met.model = water(3, 0.1), met.model.diffusion = 0;
   met.particles = {{{0, 0, 0}, {8, 0, 0}, 0.295}, {{0.1, 0, 0}, {-8, 0, 0}, 0}};
@@ -434,7 +434,7 @@ TEST(Fluid, AFaultNamesStepParticleAndRemedy) {
   EXPECT_NE(messageOf(lost, 9000).find("left the walls or the range of positions; close the gap in the walls"),
             std::string::npos)
       << messageOf(lost, 9000);
-  // A particle that falls beside a wall.
+  // A particle falls beside a wall.
   lost.model = water(3, 0.1), lost.particles = {{{0, 0, 0}, {0, 0, -9}, 0}}, lost.markers = {{{1, 0, 0}}};
   EXPECT_NE(messageOf(lost, 900).find("m left the walls"), std::string::npos) << messageOf(lost, 900);
 }
@@ -445,12 +445,12 @@ TEST(Lattice, FillsATankAndItsWallsWithoutGapsOrOverlaps) {
   const FluidSetup s = tankOfWater();
   EXPECT_EQ(s.particles.size(), 12u * 8 * 10);
   const std::size_t layers = 3; // 2 x 1.3 spacings
-  // Rounded edges: what lies deeper than the support behind an edge is left out.
+  // Rounded edges: points deeper than the support behind an edge are left out.
   std::size_t inBox = (12 + 2 * layers) * (8 + 2 * layers) * (18 + layers);
   EXPECT_LT(s.markers.size(), inBox - 12u * 8 * 18);
   for (const WallMarker& m : s.markers)
     EXPECT_TRUE(m.position.x < 0 || m.position.x > 0.6 || m.position.y < 0 || m.position.y > 0.4 || m.position.z < 0);
-  // A particle beside the floor sees as many neighbours as one in the bulk: the sum of V W is that of the lattice.
+  // A particle at the floor has as many neighbours as one in the bulk: the sum of V W is that of the lattice.
   const Wendland kernel = s.model.kernel();
   const auto sumAt = [&](const Vec3d& p) {
     double sum = 0;

@@ -39,7 +39,7 @@ inline FluidSetup damBreak() {
   return s;
 }
 
-/// A cube of 8 spacings, held under water: markers in a lattice of its own, turned about z.
+/// A cube of 8 spacings, held under water: markers on its own lattice, rotated about z.
 inline FluidSetup cubeInWater(double turn) {
   FluidSetup s;
   FluidModel& m = s.model = water(3, 0.05);

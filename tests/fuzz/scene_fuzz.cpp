@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Feeds broken scenes to the parser. Whatever the bytes are, it must load them, or refuse them by one InputError that
-// begins with file and line; and what it loads must survive being written as the resolved copy and read again.
+// Feeds damaged scenes to the parser. It must load any bytes, or reject them with one InputError that
+// starts with file and line; a loaded scene must survive writing as the resolved copy and reading again.
 //
 //   grouser_fuzz_scene [--seconds N] [--seed S] [--cases N] [--show] CORPUS...
 //
-// CORPUS: files, or folders whose *.toml are taken. The mutations follow from the seed and the number of the case, so
-// that `--seed S --first CASE --cases 1` repeats one. With clang and GROUSER_LIBFUZZER libFuzzer makes the inputs.
+// CORPUS: files, or folders with *.toml. The mutations follow from the seed and the number of the case, so
+// that `--seed S --first CASE --cases 1` repeats one. With clang and GROUSER_LIBFUZZER libFuzzer generates the inputs.
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
@@ -33,14 +33,14 @@ using namespace grouser;
 
 constexpr const char* kName = "fuzz.toml";
 
-/// Ends the program, and with it the fuzzing, at the first fault.
+/// Ends the program, and so the fuzzing, at the first fault.
 [[noreturn]] void fault(std::string_view input, const std::string& what) {
   std::ofstream("fuzz_failure.toml", std::ios::binary) << input;
   std::fprintf(stderr, "fault: %s\nthe input is kept in fuzz_failure.toml\n", what.c_str());
   std::abort();
 }
 
-/// "fuzz.toml:12: ..." or "fuzz.toml:12:3: ..."; a scene in which nothing stands has no line to name.
+/// "fuzz.toml:12: ..." or "fuzz.toml:12:3: ..."; an empty scene has no line.
 bool namesLine(const std::string& message) {
   const std::string head = std::string(kName) + ":";
   if (message.rfind(head, 0) != 0 || message.find('\n') != std::string::npos) return false;
@@ -48,7 +48,7 @@ bool namesLine(const std::string& message) {
          message.find("nothing to simulate") != std::string::npos;
 }
 
-/// The message of a refusal; empty where the scene was loaded.
+/// The error message; empty if the scene was loaded.
 std::string tryScene(std::string_view input) {
   try {
     const scene::Scene scene = setup::parseScene(input, kName);
@@ -79,17 +79,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
 #else
 
-// Called by the sanitizers before they end the program; not there without them.
+// Called by the sanitizers before they end the program; absent without them.
 // NOLINTNEXTLINE(readability-identifier-naming)
 extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
 
 namespace {
 
-std::string current; // for the death callback alone
+std::string current; // only for the death callback
 
 void keepCurrent() { std::ofstream("fuzz_failure.toml", std::ios::binary) << current; }
 
-/// Makes broken scenes of sound ones.
+/// Creates damaged scenes from valid ones.
 class Mutator {
 public:
   Mutator(std::vector<std::string> corpus, std::uint64_t seed, std::uint64_t number)
@@ -102,7 +102,7 @@ public:
   }
 
 private:
-  std::size_t below(std::size_t n) { return n > 0 ? random_() % n : 0; } // the same on every library
+  std::size_t below(std::size_t n) { return n > 0 ? random_() % n : 0; } // the same for every library
 
   std::size_t lineStart(const std::string& text) {
     const std::size_t at = text.rfind('\n', below(text.size() + 1));
@@ -113,7 +113,7 @@ private:
     return at == std::string::npos ? text.size() : at + 1;
   }
 
-  /// The value behind a "=", for another.
+  /// Replaces the value after a "=".
   void changeValue(std::string& text) {
     static constexpr std::array kValues = {"0",
                                            "-1",
@@ -184,16 +184,16 @@ private:
     case 0: // one byte
       if (!text.empty()) text[below(text.size())] = static_cast<char>(below(256));
       break;
-    case 1: // a line away
+    case 1: // a line removed
       if (const std::size_t at = lineStart(text); at < text.size()) text.erase(at, lineEnd(text, at) - at);
       break;
-    case 2: { // a line again, elsewhere
+    case 2: { // a line duplicated elsewhere
       const std::size_t at = lineStart(text);
       const std::string line = text.substr(at, lineEnd(text, at) - at);
       text.insert(lineStart(text), line);
       break;
     }
-    case 3: // cut short
+    case 3: // truncated
       text.resize(below(text.size() + 1));
       break;
     case 4:
@@ -204,10 +204,10 @@ private:
       text = text.substr(0, lineStart(text)) + other.substr(below(other.size() + 1));
       break;
     }
-    case 6: // some bytes away
+    case 6: // some bytes removed
       if (const std::size_t at = below(text.size()); at < text.size()) text.erase(at, 1 + below(8));
       break;
-    default: // the likeliest mistake of people
+    default: // the most common human mistake
       changeValue(text);
     }
   }
@@ -235,7 +235,7 @@ std::vector<std::string> readCorpus(const std::vector<fs::path>& places) {
   return corpus;
 }
 
-/// A message without its names and numbers: one for each way to be refused.
+/// A message without names and numbers: one for each kind of error.
 std::string kindOf(const std::string& message) {
   std::string kind;
   for (const char c : message.substr(message.find(": ") + 2))

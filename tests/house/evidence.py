@@ -11,10 +11,10 @@ from pathlib import Path
 FOLDER, INDEX = 'docs/evidence/', 'docs/evidence/README.md'
 HEAD = """# Records of measurements
 
-One record for each claim: what was measured, command, machine, commit, table, verdict. Written by
-`tests/house/evidence.py > docs/evidence/README.md` from the records' headers.
+Each record documents one claim: measured quantities, command, machine, commit, table and verdict. To update this index,
+run `tests/house/evidence.py > docs/evidence/README.md`, which reads the records.
 
-| record | last date | first verdict |
+| record | latest date | first verdict |
 |---|---|---|
 """
 

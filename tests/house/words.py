@@ -2,6 +2,7 @@
 """Rule on language: phrases and openings that plain English does not have, in documents, messages, help and
 comments."""
 import re
+from pathlib import Path
 
 from checkout import line_at
 
@@ -20,8 +21,10 @@ PHRASES = {
     r'\bit comes to\b': 'it is',
     r'\bwhat hangs on\b': 'loads on',
 }
-#: Openings of documentation comments that name nothing.
-OPENINGS = r'(?:Of|What|Whoever|Whose|How|Those|That which|By what)\b'
+#: A comment line, or a comment behind code, that begins with such a word names nothing, or is the rest of a sentence that
+#: should break elsewhere.
+OPENINGS = r'(?:[Oo]f|[Ww]hat|[Ww]hatever|Whoever|[Ww]hose|How|[Tt]hose|By what)\b'
+MARKS = {'.py': '#', '.toml': '#', '.sh': '#', '.cmake': '#', '.js': '//'}
 #: Files whose words are data: columns of stored results, and this list.
 EXCEPTIONS = {'tests/house/words.py', 'tests/house/words_test.py',
               'runs/validation/studies/trial_files.hpp', 'runs/validation/studies/random_vehicles_command.cpp'}
@@ -37,6 +40,11 @@ def words(house):
         for phrase, better in PHRASES.items():
             for match in re.finditer(phrase, text):
                 yield f'{path}:{line_at(text, match.start())}: "{match[0]}"; better: {better}'
-        if path not in house.documents:
-            for match in re.finditer(rf'^[ \t]*/// ({OPENINGS})', text, re.M):
-                yield f'{path}:{line_at(text, match.start(1))}: a comment begins with "{match[1]}"; name its subject first'
+    for path in house.files:
+        suffix = Path(path).suffix
+        mark = MARKS.get(suffix, '//[/!]?<?' if path in house.code else None)
+        if mark is None or path.startswith('tests/') or path in EXCEPTIONS:
+            continue
+        text = house.text.get(path) or (house.root / path).read_text(encoding='utf-8')
+        for match in re.finditer(rf'(?:^|[ \t]){mark} +({OPENINGS})', text, re.M):
+            yield f'{path}:{line_at(text, match.start(1))}: a comment begins with "{match[1]}"; name its subject first'

@@ -21,8 +21,10 @@ class Words(unittest.TestCase):
             self.assertEqual(faults(words, {'docs/evidence/a.md': bad, 'tests/base/a.cpp': f'// {bad}'}), [], bad)
 
     def test_openings_that_name_nothing(self):
-        for bad in ('Of one step.', 'What swings on it.', 'How it ends.', 'Those that stay.'):
-            self.assertEqual(len(faults(words, {'base/a.hpp': f'/// {bad}\nint a;'})), 1, bad)
+        for bad in ('Of one step.', 'What swings on it.', 'How it ends.', 'Those that stay.', 'of the bed [m]'):
+            for text in (f'/// {bad}\nint a;', f'int a; ///< {bad}\n', f'int a; // {bad}\n'):
+                self.assertEqual(len(faults(words, {'base/a.hpp': text})), 1, text)
+            self.assertEqual(len(faults(words, {'runs/scenes/a.toml': f'a = 1  # {bad}\n'})), 1, bad)
         for good in ('Offset of a step.', 'Howe truss.', 'Mass that oscillates on it.'):
             self.assertEqual(faults(words, {'base/a.hpp': f'/// {good}\nint a;'}), [], good)
 

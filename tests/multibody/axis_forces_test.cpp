@@ -32,9 +32,9 @@ TEST(AxisForces, TorquesOnOneAxisAddUpWithBothIntegrators) {
 }
 
 TEST(AxisForces, AStopIsDampedBothWaysUntilItWouldPull) {
-  // 1 kg at 2 m/s into 1e4 N/m with a damping ratio of 0.3, that is 60 N s/m: in it goes as a damped swing to
-  // v / omega exp(-zeta / r atan(r / zeta)), r = sqrt(1 - zeta^2), and loses the same share of its speed on the way
-  // back, where it is let go at k x + c x' = 0.
+  // 1 kg at 2 m/s into 1e4 N/m with a damping ratio of 0.3, i.e. 60 N s/m: on entry a damped oscillation to
+  // v / omega exp(-zeta / r atan(r / zeta)), r = sqrt(1 - zeta^2); the return loses the same share of the speed, until
+  // the release at k x + c x' = 0.
   const double v = 2, omega = 100, zeta = 0.3, r = std::sqrt(1 - zeta * zeta);
   const double deepest = v / omega * base::exp(-zeta / r * base::atan(r / zeta));
   for (const double side : {1.0, -1.0}) {

@@ -7,7 +7,7 @@
 #include <string>
 
 /// Mechanisms with reference solutions (Library of Computational Benchmark Problems, IFToMM; Schiehlen 1990 for
-/// Andrews' squeezing mechanism), and how far a run is from them.
+/// Andrews' squeezing mechanism), and the error of a run.
 namespace grouser::multibody::test {
 
 inline SolverOptions rattle(int order = 2, Springs springs = Springs::kExplicit) {
@@ -40,7 +40,7 @@ inline Mechanism pendulumOnARod() {
   return p;
 }
 
-/// Uniform rod of 1 m and 1 kg between two points of the x-z plane; its x axis runs from one to the other.
+/// Uniform rod of 1 m and 1 kg between two points of the x-z plane; its x axis points from one to the other.
 inline int addRod(Model& model, const std::string& name, const Vec3d& from, const Vec3d& to, const Vec3d& v = {},
                   const Vec3d& w = {}) {
   const double l = length(to - from);
@@ -50,7 +50,7 @@ inline int addRod(Model& model, const std::string& name, const Vec3d& from, cons
 }
 
 /// N-four-bar (IFToMM A02): N + 1 uprights and N couplers, all rods uniform, 1 m, 1 kg, started upright with B0 moving
-/// at 1 m/s. Passes a position in which all rods are in line twice a turn.
+/// at 1 m/s. Passes a position with all rods in line twice per turn.
 inline Mechanism fourBars(int n) {
   Mechanism m;
   const Vec3d v{1, 0, 0}, w{0, 1, 0};
@@ -74,12 +74,12 @@ inline Mechanism fourBars(int n) {
   return m;
 }
 
-/// Top of the first upright.
+/// Tip of the first upright.
 inline Vec3d tipOf(const Mechanism& m) { return 2.0 * m.state.pose[0].position; }
 
 /// Andrews' squeezing mechanism (constants as in the test set for initial value problems, Mazzia and Magherini 2008,
-/// and in Hairer and Wanner 1996, VII.7), in the x-y plane, seven bodies in three loops, closed in the position q0 that
-/// the test set gives. A constant torque of 0.033 N m on K1; a stiff spring on K3.
+/// and in Hairer and Wanner 1996, VII.7), in the x-y plane, seven bodies in three loops, closed in the reference
+/// position q0. A constant torque of 0.033 N m on K1; a stiff spring on K3.
 struct Andrews {
   // NOLINTBEGIN(readability-identifier-naming): the names of the test set
   static constexpr double m[8] = {0, .04325, .00365, .02373, .00706, .07050, .00706, .05498};

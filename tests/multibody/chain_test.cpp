@@ -76,15 +76,15 @@ TEST(Chains, SmallSwingsHaveTheEigenfrequencies) {
     m.start();
     SolverOptions o = rattle();
     Solver solver(m.model, o);
-    // Project onto the lowest mode: with a heavy tip that is the tip; without, the mean of all links moves with all
-    // modes, the lowest by far the most.
+    // Projection onto the lowest mode: with a heavy tip, the tip's motion; otherwise the mean of all links: it contains
+    // all modes, but mainly the lowest.
     const double dt = 2e-3;
     std::vector<double> crossing;
     const auto swing = [&] {
       if (tip > 0) return m.state.pose[static_cast<std::size_t>(n)].position.x;
       double sum = 0;
       for (int i = 0; i < n; ++i) {
-        // j0 of the continuum, as a weight.
+        // j0 of the continuum as the weight function.
         const double s = 2.404825557695773 * std::sqrt((n - i - 0.5) / n);
         double bessel = 0, term = 1;
         for (int k = 1; k < 30; ++k) bessel += term, term *= -0.25 * s * s / (k * k);
@@ -136,8 +136,8 @@ TEST(Chains, StrandBetweenRollersHangsInItsCatenary) {
 }
 
 TEST(Chains, BeltOverTwoPulleysCarriesHalfTheIdlersForceAndTheTorque) {
-  // A belt as a coupling of two pulleys, a spring pushes the idler's slide away: at rest the reactions say T = F_s / 2
-  // in either strand; a torque M on the driven pulley against a brake gives M / R between the strands.
+  // A belt as a coupling of two pulleys, a spring pushes the idler's slide outwards: at rest the tension is T = F_s / 2
+  // in either strand; a torque M on the driven pulley against a brake makes a difference of M / R between the strands.
   const double R = 0.25, F = 8000, M = 500;
   Mechanism m;
   const Mat3d I = Mat3d::diagonal({1, 1, 2});
@@ -157,7 +157,7 @@ TEST(Chains, BeltOverTwoPulleysCarriesHalfTheIdlersForceAndTheTorque) {
   AxisSpring tensioner;
   tensioner.name = "tensioner", tensioner.joint = 1, tensioner.stiffness = 1e6, tensioner.preload = F;
   m.model.addAxisSpring(tensioner);
-  // The belt holds the idler: a stiff rod along its strands.
+  // The belt supports the idler: a stiff rod along its strands.
   PointSpring strands;
   strands.name = "strands", strands.bodyB = 1, strands.stiffness = 1e8, strands.damping = 1e4, strands.restLength = 2;
   m.model.addPointSpring(strands);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace detail;
 
-/// Two bodies in general position, joint frames that do not coincide: the rows' formulas hold open or closed.
+/// Two bodies in general position, with joint frames apart: the rows' formulas hold for open and closed joints.
 struct Pair {
   Constraint c{};
   Pose A, B;
@@ -77,7 +77,7 @@ TEST_P(MultibodyRows, JacobianIsTheDerivativeOfTheConstraint) {
 }
 
 TEST_P(MultibodyRows, ForcesOnTheTwoBodiesBalance) {
-  // Rigid motions of both bodies together do no work on any row, however open the joint is.
+  // Rigid motions of both bodies together do no work on any row, even if the joint is open.
   const Pair p = openPair(GetParam());
   const Frame FA = frameOf(p.A), FB = frameOf(p.B);
   const JointFrames f = framesOf(p.c, FA, FB);
@@ -130,7 +130,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, MultibodyRows,
 
 TEST(MultibodyAngle, GrowsWithTheRelativeRotationOverManyTurns) {
   Pair p = openPair(ConstraintKind::kRevolute);
-  // Close the joint: B's frame onto A's, then turn B about the common axis.
+  // Closes the joint: B's frame onto A's, then turns B about the common axis.
   const Pose X_WJ = compose(p.A, {p.c.point_A, rotationBy({0.1, 0.2, -0.4})});
   p.B = compose(X_WJ, inverse({p.c.point_B, rotationBy({0.3, -0.1, 0.2})}));
   const Vec3d z = rotate(X_WJ.orientation, {0, 0, 1});
@@ -152,7 +152,7 @@ TEST(MultibodyAngle, GrowsWithTheRelativeRotationOverManyTurns) {
 }
 
 TEST(MultibodyRotation, DiscreteSpinMomentumIsTheSameAtBothEndsOfAStep) {
-  // The inertia turns with the body by exp(dt w); backwards in time dt changes sign.
+  // The inertia rotates with the body by exp(dt w); backwards in time dt changes sign.
   const Mat3d R = rotationBy({0.4, -0.3, 0.7}).matrix(), I = rotatedInertia(R, Mat3d::diagonal({1, 2, 3 - 1e-3}));
   const Vec3d w{0.7, -1.1, 0.4};
   for (const double dt : {1e-3, 0.1, 0.3, 1.0, 1.8}) {

@@ -64,7 +64,7 @@ TEST_P(Couplings, ADrivesTorqueIsPartOfItsJointsACouplingsForceStandsBesideThem)
   EXPECT_NEAR(m.state.coupling[0].force, -2 * alpha * 0.1, 1e-9);
 }
 
-/// Three wheels on axles of their own, coupled as told: {first, second, ratio}.
+/// Three wheels on separate axles with couplings {first, second, ratio}.
 struct Mesh {
   int first, second;
   double ratio;
@@ -95,7 +95,7 @@ std::string errorOf(const Model& model) {
 }
 
 TEST(CouplingCheck, RatiosThatContradictEachOtherAreRefusedWithTheNamesOfAll) {
-  // Two ratios for two wheels; loops of three whose last ratio is not the product of the others, one of them backwards.
+  // Two ratios for two wheels; loops of three whose last ratio is not the product of the others, one of them reversed.
   EXPECT_EQ(errorOf(wheels({{0, 1, -2}, {0, 1, 3}})),
             "coupling 'mesh 1': joint 'hub 1' cannot move 3 times as far as joint 'hub 0': with 'mesh 0' it moves "
             "-2 times as far; remove one of them, or correct a ratio");
@@ -129,7 +129,7 @@ TEST(CouplingCheck, ATrainThatAgreesWithItselfIsTaken) {
   };
   EXPECT_EQ(freedom({{0, 1, -2}, {0, 1, -2}}), 2);
   EXPECT_EQ(freedom({{0, 1, -2}, {1, 2, -3}, {0, 2, 6}}), 1);
-  EXPECT_EQ(freedom({{0, 1, 1e-3}, {1, 2, 1e-3}}), 1) << "a reduction by a million is no lock";
+  EXPECT_EQ(freedom({{0, 1, 1e-3}, {1, 2, 1e-3}}), 1) << "a reduction by a million does not lock";
 }
 
 TEST_P(Couplings, ScrewTurnsAngleIntoSlide) {
@@ -154,7 +154,7 @@ TEST_P(Couplings, ScrewTurnsAngleIntoSlide) {
 }
 
 TEST(CouplingForce, IsThatOfTheMotionAlsoOnATurningArm) {
-  // A nut that must spin to slide outwards on a turning arm: (m + I / p^2) r'' = m w^2 r; the thread's force m (r'' -
+  // A nut that must spin to slide outwards on a rotating arm: (m + I / p^2) r'' = m w^2 r; the thread's force m (r'' -
   // w^2 r).
   const double p = 0.3, w = 2, r0 = 0.5, mass = 2, I = 0.25;
   Mechanism m;
@@ -182,7 +182,7 @@ TEST(CouplingForce, IsThatOfTheMotionAlsoOnATurningArm) {
 }
 
 TEST_P(Couplings, FourBodiesFeelNoNetForceOrTorque) {
-  // Two free pairs, each on a revolute, geared to one another: linear momentum stays, and each pair's own reactions
+  // Two free pairs, each on a revolute, geared together: linear momentum is constant, and each pair's own reactions
   // cancel.
   Mechanism m;
   for (int i = 0; i < 4; ++i)

@@ -50,7 +50,7 @@ TEST(MultibodyDrive, ConstantSpeedAgainstGravityReadsTheWeightsTorque) {
     worst = std::max(worst, std::fabs(p.state.joint[0].driveForce + m * 9.81 * l * base::cos(angle)));
   }
   EXPECT_NEAR(p.state.joint[0].position, w * dt * 50001, 1e-9);
-  EXPECT_LT(worst, 1e-5); // of order (w dt)^2 of the centrifugal force's lever, and round-off
+  EXPECT_LT(worst, 1e-5); // order (w dt)^2 of the centrifugal force's lever arm, and round-off
 }
 
 TEST(MultibodyDrive, SwitchedOffTheAxisIsFree) {
@@ -91,7 +91,7 @@ Mechanism fourBar() {
 double fourBarError(double dt, int& singular) {
   Mechanism m = fourBar();
   Solver solver(m.model);
-  EXPECT_EQ(solver.redundantRowNames().size(), 6u) << solver.report(); // three a loop
+  EXPECT_EQ(solver.redundantRowNames().size(), 6u) << solver.report(); // three per loop
   const int steps = static_cast<int>(std::lround(10 / dt));
   for (int i = 0; i < steps; ++i) {
     solver.step(m.state, m.loads, dt);
@@ -108,14 +108,14 @@ TEST(MultibodyFourBar, PassesItsSingularPositionsAndFollowsTheExactSolution) {
                finer = fourBarError(5e-4, singular);
   std::printf("four-bar error at 10 s: %.3e %.3e %.3e m, orders %.2f %.2f, %d singular rows on the way\n", coarse, fine,
               finer, std::log2(coarse / fine), std::log2(fine / finer), singular);
-  // The scheme's only first-order error is the start's half step of force, which vanishes upright.
+  // The scheme's only first-order error is the half-step force of the start, which vanishes upright.
   EXPECT_LT(finer, 1e-5); // measured 4.2e-6
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
   EXPECT_NEAR(std::log2(fine / finer), 2, 0.1);
 }
 
 TEST(MultibodyFourBar, StartsInItsSingularPositionWithoutDroppingNeededRows) {
-  // Uprights along x: everything on one line.
+  // Uprights along x: all bodies in one line.
   Model flat;
   for (int i = 0; i < 3; ++i)
     flat.addBody(makeBody("upright " + std::to_string(i), 1, Mat3d::diagonal({1.0 / 12, 1.0 / 12, 1e-3}),
@@ -135,7 +135,7 @@ TEST(MultibodyFourBar, StartsInItsSingularPositionWithoutDroppingNeededRows) {
   State state = makeState(flat);
   const Loads loads = makeLoads(flat);
   for (int i = 0; i < 2000; ++i) solver.step(state, loads, 1e-3);
-  // All uprights still parallel.
+  // All uprights are still parallel.
   EXPECT_NEAR(state.pose[2].position.z - state.pose[0].position.z, 0, 1e-6);
 }
 

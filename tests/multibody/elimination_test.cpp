@@ -27,7 +27,7 @@ ConstraintEdge other(std::vector<int> bodies) {
   return edge;
 }
 
-/// A saddle-point system with made-up numbers on a given graph, in the solver and as a dense matrix.
+/// A saddle-point system with synthetic numbers on a given graph, in the solver and as a dense matrix.
 struct MadeUpSystem {
   MadeUpSystem(int bodyCount, std::vector<ConstraintEdge> graph)
       : bodies(bodyCount), edges(std::move(graph)), e(bodies, edges),
@@ -72,7 +72,7 @@ struct MadeUpSystem {
     }
   }
 
-  /// Forces along the axes of some frame, torques about three made-up axes.
+  /// Forces along the axes of a frame, torques about three arbitrary axes.
   void addJoint(int c, const double (&G)[6], unsigned active) {
     const ConstraintEdge& edge = edges[static_cast<std::size_t>(c)];
     const Mat3d R = rotationBy(3.0 * vector()).normalized().matrix();
@@ -93,7 +93,7 @@ struct MadeUpSystem {
     addRows(c, J, G, active);
   }
 
-  /// Full rows of random numbers in the rows of the mask.
+  /// Full rows of random numbers for the rows of the mask.
   void addOther(int c, const double (&G)[6], unsigned active) {
     std::vector<Block> J(edges[static_cast<std::size_t>(c)].bodies.size(), Block{});
     for (Block& side : J)
@@ -103,7 +103,7 @@ struct MadeUpSystem {
     addRows(c, J, G, active);
   }
 
-  /// Largest residual of the solution for a random right-hand side (zero in rows that are not active).
+  /// Largest residual of the solution for a random right-hand side (zero in inactive rows).
   double residual() {
     std::vector<Vector6> x(n / 6);
     std::vector<double> rhs(n);
@@ -117,7 +117,7 @@ struct MadeUpSystem {
     double worst = 0;
     for (std::size_t i = 0; i < n; ++i) {
       double sum = -rhs[i];
-      // The matrix has -dLambda for its unknown.
+      // The unknown of the matrix is -dLambda.
       for (std::size_t j = 0; j < n; ++j)
         sum += entry(i, j) * (static_cast<int>(j / 6) < bodies ? 1 : -1) * x[j / 6][j % 6];
       if (!(std::fabs(sum) <= worst)) worst = std::fabs(sum);
@@ -134,10 +134,10 @@ struct MadeUpSystem {
   unsigned seed = 12345;
 };
 
-// Residuals below are round-off times the growth of an elimination without pivoting, of systems of size one.
+// Residual bounds are round-off times the growth of an elimination without pivoting, for systems of size one.
 
 TEST(MultibodyElimination, SolvesATreeOfAllKindsOfJoints) {
-  // Two trees, one on the world: fixed, revolute, universal, spherical, prismatic, cylindrical; a branch of three.
+  // Two trees, one on the world: fixed, revolute, universal, spherical, prismatic, cylindrical; a three-way branch.
   MadeUpSystem s(9, {joint(-1, 0, 0x3f), joint(0, 1), joint(2, 1, 0x0f), joint(1, 3, 0x07), joint(1, 4, 0x1f, 0x23),
                      joint(4, 5, 0x0f, 0x23), joint(6, 7), joint(8, 7)});
   EXPECT_EQ(s.e.tree().independent, 2);
@@ -157,7 +157,7 @@ TEST(MultibodyElimination, SolvesSoftAndDrivenAxes) {
 }
 
 TEST(MultibodyElimination, SolvesABranchedGraphWithLoopsSpringsAndTwoParts) {
-  // All but the first rows are soft, so that no loop has more rows than freedoms.
+  // All but the first rows are soft, so that no loop has more rows than degrees of freedom.
   MadeUpSystem s(9, {joint(-1, 0, 0x01), joint(0, 1, 0x01), joint(1, 2, 0x01), joint(2, 0, 0x01), joint(2, 3, 0x01),
                      joint(2, 4, 0x01), joint(2, 5, 0x01), joint(5, 6, 0x01), joint(6, 3, 0x01), joint(7, 8, 0x01),
                      joint(8, -1, 0x01), other({4, 1}), other({6, -1}), other({3, 4, 5, 8})});
@@ -170,7 +170,7 @@ TEST(MultibodyElimination, SolvesABranchedGraphWithLoopsSpringsAndTwoParts) {
 }
 
 TEST(MultibodyElimination, SolvesNestedAndNeighbouringLoops) {
-  // A ladder of four windows on a free rail: each loop has its top in the one before.
+  // A ladder of four windows on a free rail: the top of each loop is in the previous one.
   std::vector<ConstraintEdge> graph;
   for (int i = 0; i < 4; ++i)
     for (const auto& [a, b] :
@@ -186,7 +186,7 @@ TEST(MultibodyElimination, SolvesNestedAndNeighbouringLoops) {
 }
 
 TEST(MultibodyElimination, SolvesHardLoopsBetweenTwoBusyBodies) {
-  // Two loops through bodies 0 and 1, five hard rows a joint: rows of a loop are independent only once both are in.
+  // Two loops through bodies 0 and 1, five hard rows per joint: rows are independent only with both loops eliminated.
   MadeUpSystem s(8, {joint(0, 1, 0x07), joint(0, 2), joint(2, 3, 0x07), joint(3, 1), joint(0, 4), joint(4, 5, 0x07),
                      joint(5, 1), joint(6, 7)});
   for (int c = 0; c < 8; ++c) s.addJoint(c, {}, s.edges[static_cast<std::size_t>(c)].hard);
@@ -234,8 +234,8 @@ std::vector<ConstraintEdge> ring(int links) {
 TEST(MultibodyElimination, WorkForARingIsLinearInItsLinks) {
   const auto work = [](int links) { return Elimination(links, ring(links)).multiplications(); };
   const long w46 = work(46), w92 = work(92), w184 = work(184);
-  EXPECT_EQ(w184 - w92, 2 * (w92 - w46)); // linear, exactly
-  EXPECT_LT((w92 - w46) / 46, 700) << "multiplications a link, factor and one solution";
+  EXPECT_EQ(w184 - w92, 2 * (w92 - w46)); // exactly linear
+  EXPECT_LT((w92 - w46) / 46, 700) << "multiplications per link, factorisation and one solution";
 }
 
 TEST(MultibodyElimination, ARingIsTakenApartOppositeItsWeakestJoint) {

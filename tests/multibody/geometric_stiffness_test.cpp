@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Swings across the tension of joints and springs: their rate in closed form, and the steps that they bear.
+// Oscillations across the tension of joints and springs: closed-form frequencies, and stable steps.
 #include "base/error.hpp"
 #include "benchmarks.hpp"
 
@@ -12,7 +12,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// The power iteration stops when it grows by less than 1e-5 a turn: the eigenvalue may still be a hundredth above.
+/// The power iteration stops at a growth below 1e-5 per iteration: the eigenvalue may be larger by a hundredth.
 constexpr double kRateError = 0.01;
 
 SolverOptions scheme(Integrator integrator) {
@@ -26,7 +26,7 @@ double rateOf(const Mechanism& m, std::string* part = nullptr) {
 }
 
 /// Point masses at equal distances `pitch` on the x axis, joined by distance joints, or by springs under tension; the
-/// last hangs on a slider that is pulled along with `force`.
+/// last is tied to a slider under the force `force`.
 Mechanism beadedString(int beads, double mass, double pitch, double force, bool springs) {
   Mechanism m;
   for (int i = 0; i < beads; ++i) {
@@ -68,7 +68,7 @@ TEST(GeometricStiffness, TautStringOfBeadsSwingsAsItsClosedFormSays) {
         }
 }
 
-/// A rod of 0.8 m, on a revolute at its end, at rest below it or, `upright`, above it.
+/// A rod of 0.8 m, on a revolute at its end, at rest below it or, if `upright`, above it.
 Mechanism rodWithWeight(double weight, bool upright) {
   Mechanism m;
   const double z = upright ? 0.4 : -0.4;
@@ -83,7 +83,7 @@ Mechanism rodWithWeight(double weight, bool upright) {
 }
 
 TEST(GeometricStiffness, PendulumSwingsAndAnUprightOneFallsAtTheSameRate) {
-  // omega^2 = g (m l / 2 + M l) / (I + m l^2 / 4 + M l^2); one mode, so that only the derivative's error is left.
+  // omega^2 = g (m l / 2 + M l) / (I + m l^2 / 4 + M l^2); one mode, so that only the derivative's error remains.
   for (const double weight : {1e-3, 1.0, 1e6}) {
     const double expected = std::sqrt(9.81 * (2 * 0.4 + weight * 0.8) / (0.11 + 2 * 0.16 + weight * 0.64));
     for (const bool upright : {false, true})
@@ -91,7 +91,7 @@ TEST(GeometricStiffness, PendulumSwingsAndAnUprightOneFallsAtTheSameRate) {
   }
 }
 
-/// Ten links under a weight, hung up, a little out of the vertical's way.
+/// Ten links under a weight, suspended, slightly off the vertical.
 Mechanism chainWithWeight(double weight) {
   const int n = 10;
   const double l = 0.15;
@@ -117,7 +117,7 @@ TEST(GeometricStiffness, ChainBearsStepsUpToTheStatedOneAndNoLongerOnes) {
         Mechanism m = chainWithWeight(weight);
         Solver solver(m.model, scheme(integrator));
         const double dt = share * solver.stabilityLimit() / solver.geometricStiffnessRate(m.state, m.loads);
-        // It swings as a whole to twice the 1 mrad that gravity leans; what grows bends the pins.
+        // It swings as a whole to twice the 1 mrad of inclined gravity; an instability bends the pins.
         double widest = 0;
         try {
           for (int i = 0; i < 3000 && widest < 0.01; ++i) {
@@ -139,7 +139,7 @@ TEST(GeometricStiffness, NamesWhatIsUnderTensionAndIsZeroWithoutForces) {
   Mechanism slack = beadedString(3, 1, 0.3, 0, false);
   EXPECT_EQ(rateOf(slack, &part), 0);
   EXPECT_EQ(part, "");
-  // The light bead is the quickest; rods 1 and 2 hold it.
+  // The light bead has the highest frequency; rods 1 and 2 hold it.
   Mechanism m;
   for (int i = 0; i < 3; ++i) {
     Body bead = makeBody("bead " + std::to_string(i), i == 1 ? 0.01 : 1, {}, {{0, 0, -0.3 * (i + 1)}, {}});
@@ -150,7 +150,7 @@ TEST(GeometricStiffness, NamesWhatIsUnderTensionAndIsZeroWithoutForces) {
     m.model.addJoint({"rod " + std::to_string(i), JointType::kDistance, i == 0 ? kWorld : i - 1, i, {}, {}});
   m.start();
   rateOf(m, &part);
-  EXPECT_EQ(part, "joint 'rod 1'"); // it bears more than rod 2
+  EXPECT_EQ(part, "joint 'rod 1'"); // it carries more than rod 2
 }
 
 } // namespace

@@ -37,7 +37,7 @@ TEST(MultibodyJoints, PrismaticRailTakesTheTorqueOfALoadBesideIt) {
   Solver solver(p.model);
   solver.step(p.state, p.loads, 1e-3);
   EXPECT_NEAR(p.state.joint[0].force.z, 2 * 9.81, 1e-9);
-  // The weight at 0.4 m turns by +y; the rail holds against it.
+  // The weight at 0.4 m causes a moment about +y; the rail resists it.
   EXPECT_NEAR(p.state.joint[0].torque.y, -2 * 9.81 * 0.4, 1e-9);
 }
 

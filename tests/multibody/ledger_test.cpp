@@ -10,14 +10,14 @@
 #include <string>
 #include <vector>
 
-/// The books (multibody/ledger.hpp). What is left over is rounding: 1e-9 of the turnover bounds it with room, since
+/// Energy ledger (multibody/ledger.hpp). The residual is rounding: 1e-9 of the turnover is a safe bound, since
 /// 1e4 steps round by some 1e-16 sqrt(1e4) of it.
 namespace grouser::multibody::test {
 namespace {
 
 constexpr double kRounding = 1e-9;
 
-/// Two rods of 1 m, hanging from a pin, let go from the horizontal.
+/// Two rods of 1 m hang from a pin, released from the horizontal.
 Mechanism doublePendulum() {
   Mechanism m;
   addRod(m.model, "upper", {}, {1, 0, 0});
@@ -28,7 +28,7 @@ Mechanism doublePendulum() {
   return m;
 }
 
-/// A bob on a spring from a point of the world, let go stretched and aside, with a speed out of the plane.
+/// A bob on a spring from a fixed point, released stretched and off-axis, with a speed out of the plane.
 Mechanism springPendulum(double damping = 0) {
   Mechanism m;
   m.model.addBody(makeBody("bob", 1, Mat3d::diagonal({0.1, 0.1, 0.1}), {{0.8, 0, -0.9}, {}}, {0, 0.5, 0}));
@@ -40,7 +40,7 @@ Mechanism springPendulum(double damping = 0) {
   return m;
 }
 
-/// A top of 1 kg whose centre is 0.3 m from its tip, leaning by 0.4 rad, at 20 rad/s.
+/// A top of 1 kg with its centre 0.3 m from its tip, inclined by 0.4 rad, at 20 rad/s.
 Mechanism heavyTop() {
   Mechanism m;
   const Quat lean = aboutY(0.4);
@@ -56,14 +56,14 @@ Mechanism shoes() {
   RingSpec ring;
   ring.links = 12, ring.spin = 3, ring.joints = RingJoints::kOneSphericalOneUniversal;
   addRing(m.model, ring);
-  // Hangs by a spring and is pushed out of round.
+  // Hangs by a spring and is pushed off centre.
   m.model.addPointSpring({"rope", kWorld, 0, {0, 0, 1}, {}, 500, 0, 0.6, 0});
   m.start();
   m.loads.external[3].force = {4, 2, 1}, m.loads.external[5].torque = {0.1, 0.2, 0.05};
   return m;
 }
 
-/// A crank on a slide with a gear, all that impulses go through: coupling, drive, stops, bushing, fixed body.
+/// A crank on a slide with a gear, with all impulse paths: coupling, drive, stops, bushing, fixed body.
 Mechanism oddments() {
   Mechanism m;
   Body bed = makeBody("bed", 1, Mat3d::identity(), {{0, 0, -1}, {}});
@@ -96,7 +96,7 @@ struct Case {
   std::string name;
   std::function<Mechanism()> make;
   double step, duration; ///< [s]
-  double coarse;         ///< a step at which the motion is ill resolved [s]
+  double coarse;         ///< a step too long to resolve the motion [s]
 };
 const std::vector<Case>& cases() {
   static const std::vector<Case> all{{"pendulum", pendulumOnARod, 1e-3, 10, 0.1},
@@ -114,7 +114,7 @@ SolverOptions accepting(SolverOptions options) {
   return options;
 }
 
-/// Sums of |momentum| over the bodies, about the world's origin: what rounding of the sums is a part of.
+/// Sums of |momentum| over the bodies, about the world's origin: reference for rounding of the sums.
 struct Scale {
   double linear = 0, angular = 0;
 };
@@ -139,7 +139,7 @@ void expectClosedBooks(const Case& c, const SolverOptions& options, double step)
     if (i % 16 == 0) widen(scale, m);
   }
   const Balance b = balance(m.model, m.state, m.loads);
-  EXPECT_GT(b.turnover, 1) << "something has moved";
+  EXPECT_GT(b.turnover, 1) << "the bodies have moved";
   EXPECT_LE(std::fabs(b.leftOver), kRounding * b.turnover);
   EXPECT_NEAR(b.kineticGain + b.potentialGain + b.elasticGain + b.dissipated() + b.integrationError,
               b.driveWork + b.externalWork, kRounding * b.turnover);
@@ -161,7 +161,7 @@ void expectClosedBooks(const Case& c, const SolverOptions& options, double step)
   }
 }
 
-/// 1e4 and more steps but for the coarse ones, where the motion is ill resolved and the books must close all the same.
+/// 1e4 or more steps, except for the coarse ones, where the motion is unresolved and the ledger must still close.
 void expectClosedBooksAtEveryStep(const SolverOptions& options) {
   for (const Case& c : cases())
     for (const double step : {c.coarse, c.step, c.step / 2, c.step / 4}) {
@@ -186,7 +186,7 @@ TEST(MultibodyLedger, BackwardStagesLeaveOverWhatRounds) {
     }
 }
 
-/// Largest integration error so far of a run [J].
+/// Largest integration error of a run so far [J].
 double worstError(Mechanism m, const SolverOptions& options, double step, double duration) {
   Solver solver(m.model, accepting(options));
   double worst = 0;
@@ -197,7 +197,7 @@ double worstError(Mechanism m, const SolverOptions& options, double step, double
   return worst;
 }
 
-// Over times in which the motions are smooth and do not yet diverge.
+// Durations in which the motions are smooth and do not yet diverge.
 TEST(MultibodyLedger, IntegrationErrorFallsWithTheOrder) {
   struct Smooth {
     std::string name;
@@ -221,7 +221,7 @@ TEST(MultibodyLedger, IntegrationErrorFallsWithTheOrder) {
                                     {"rattle, order 4", rattle(4), 4, 0.2}};
   for (const Smooth& c : all)
     for (const Scheme& s : schemes) {
-      // Numerical damping of Euler's implicit spring is no small thing at these steps.
+      // Numerical damping of Euler's implicit spring is considerable at these steps.
       const double step = s.order == 1 ? c.step / 16 : c.step;
       const double coarse = worstError(c.make(), s.options, step, c.duration);
       const double fine = worstError(c.make(), s.options, step / 2, c.duration);
@@ -240,7 +240,7 @@ Mechanism carrier(double speed, double position) {
   return m;
 }
 
-// A damped oscillator, let go at x0: x = x0 e^(-d t) (cos w t + d / w sin w t), loss = energy then - energy now.
+// A damped oscillator, released at x0: x = x0 e^(-d t) (cos w t + d / w sin w t), loss = energy then - energy now.
 TEST(MultibodyLedger, DissipatedIsTheTrueLossOfADampedOscillatorByCause) {
   constexpr double kMass = 2, kStiffness = 50, kJoint = 0.7, kSpring = 1.4, kStart = 0.3, kTime = 1.7;
   const double d = (kJoint + kSpring) / (2 * kMass), w = std::sqrt(kStiffness / kMass - d * d);
@@ -272,7 +272,7 @@ TEST(MultibodyLedger, DissipatedIsTheTrueLossOfADampedOscillatorByCause) {
   }
 }
 
-// Along a slide RATTLE's stops conserve energy but for their dampers: what these took is what the speed has lost.
+// Along a slide RATTLE's stops conserve energy except for their dampers: their loss equals the kinetic energy lost.
 TEST(MultibodyLedger, ADampedStopTakesWhatTheCarrierLoses) {
   Mechanism m;
   m.model.addBody(makeBody("carrier", 2, Mat3d::identity(), {}, {3, 0, 0}));
@@ -286,7 +286,7 @@ TEST(MultibodyLedger, ADampedStopTakesWhatTheCarrierLoses) {
     Solver solver(m.model, options);
     while (m.state.time < 0.2) solver.step(m.state, m.loads, 1e-3);
     const Balance b = balance(m.model, m.state, m.loads);
-    EXPECT_LT(m.state.twist[0].v.x, -0.5) << "it has come back";
+    EXPECT_LT(m.state.twist[0].v.x, -0.5) << "it has returned";
     EXPECT_GT(b.stopDamping, 0.5);
     EXPECT_EQ(b.jointDamping, 0);
     EXPECT_EQ(b.springDamping, 0);
@@ -310,7 +310,7 @@ TEST(MultibodyLedger, AConstantTorqueWorksTorqueTimesAngle) {
     Solver solver(m.model, options);
     for (int i = 0; i < 1000; ++i) solver.step(m.state, m.loads, kStep);
     const Balance b = balance(m.model, m.state, m.loads);
-    // Euler's angle is that of a whole step at the speed of its end: half a step's gain of speed per step ahead.
+    // Euler's angle advances by a full step at the end speed: half a step's gain of speed per step ahead.
     const double ahead = options.integrator == Integrator::kRattle ? 0 : 0.5 * kStep * (m.state.joint[0].rate - 2);
     EXPECT_NEAR(b.driveWork, kTorque * (m.state.joint[0].position - ahead), 1e-9);
     EXPECT_NEAR(b.driveWork, 0.5 * 0.7 * (m.state.joint[0].rate * m.state.joint[0].rate - 4), 1e-9);
@@ -350,7 +350,7 @@ TEST(MultibodyLedger, AFreeChainKeepsItsMomentaAndBooksNothingFromOutside) {
   }
 }
 
-// Euler's readings are means over the step, so their sum is what the hook has given.
+// Euler's readings are means over the step, so their sum is the impulse of the hook.
 TEST(MultibodyLedger, AHangingChainIsBalancedByItsHook) {
   Mechanism m = chain(true);
   Solver solver(m.model, accepting({}));
@@ -384,7 +384,7 @@ TEST(MultibodyLedger, AChangeThatNobodyBooksIsLeftOver) {
   }
 }
 
-// Ramps of preload, stiffness and gravity put in what is neither stored nor work.
+// Ramps of preload, stiffness and gravity add energy that is neither stored nor work.
 TEST(MultibodyLedger, RampsAreNoIntegrationError) {
   const auto run = [](double step) {
     Mechanism m = springPendulum();
@@ -429,9 +429,9 @@ TEST(MultibodyLedger, AMillionSmallWorksAreSummedLikeOne) {
   double plain = 0;
   sum += 1e6, plain += 1e6;
   for (int i = 0; i < 1000000; ++i) sum += 0.1, plain += 0.1;
-  EXPECT_EQ(sum.sum, plain) << "the plain sum is kept, for the hash";
+  EXPECT_EQ(sum.sum, plain) << "the hash uses the plain sum";
   EXPECT_GT(std::fabs(plain - 1.1e6), 1e-6);
-  EXPECT_NEAR(sum, 1.1e6, 1e-9); // of 0.1 itself: 5.6e-18 a million times, and the last place
+  EXPECT_NEAR(sum, 1.1e6, 1e-9); // rounding of 0.1: 5.6e-18 a million times, and the last place
 }
 
 } // namespace

@@ -7,12 +7,12 @@
 
 #include <string>
 
-/// Mechanisms that several tests of the room use. All lie in the x-z plane and turn about y.
+/// Mechanisms shared by several tests of this folder. All are in the x-z plane and rotate about y.
 namespace grouser::multibody::test {
 
 inline const Vec3d kY{0, 1, 0};
 
-/// Orientation turned by `angle` [rad] about y, from z towards x.
+/// Orientation rotated by `angle` [rad] about y, from z towards x.
 inline Quat aboutY(double angle) { return {base::cos(angle / 2), 0, base::sin(angle / 2), 0}; }
 
 /// Inertia of a small, nearly point-like mass [kg m2].
@@ -51,7 +51,7 @@ struct RingSpec {
   double pitch = 0.1, mass = 1, spin = 0; ///< [m], [kg], [rad/s] about y
   double damping = 0;                     ///< [N m s/rad] in every revolute
   RingJoints joints = RingJoints::kAllRevolute;
-  Mat3d inertia = Mat3d::diagonal({0.002, 0.001, 0.0025}); ///< of a link: x along it, y along the pins [kg m2]
+  Mat3d inertia = Mat3d::diagonal({0.002, 0.001, 0.0025}); ///< inertia of a link: x along it, y along the pins [kg m2]
   Vec3d centre{};
   std::string name = "link";
 };
@@ -59,7 +59,7 @@ struct RingSpec {
 /// Radius of the pins of a regular ring [m].
 inline double pinRadius(const RingSpec& s) { return s.pitch / (2 * base::sin(base::kPi / s.links)); }
 
-/// Adds a ring of equal links that spins about its centre; joint i joins link i to link i + 1.
+/// Adds a ring of equal links spinning about its centre; joint i joins link i to link i + 1.
 inline void addRing(Model& model, const RingSpec& s) {
   const int first = static_cast<int>(model.bodies().size());
   const double R = pinRadius(s), apothem = R * base::cos(base::kPi / s.links);

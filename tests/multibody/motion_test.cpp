@@ -24,7 +24,7 @@ std::string nameOf(JointType type) {
 
 class EveryJoint : public ::testing::TestWithParam<std::tuple<JointType, Integrator>> {};
 
-/// Two free bodies, tumbling, joined by one joint in general position.
+/// Two free, tumbling bodies joined by one joint in general position.
 Mechanism tumblingPair(JointType type) {
   Mechanism m;
   m.model.addBody(makeBody("A", 2, kShaftInertia, {{0, 0, 0}, {}}, {0.1, -0.2, 0.3}, {0.5, 1.5, -0.7}));
@@ -52,7 +52,7 @@ TEST_P(EveryJoint, DoesNoWorkAndDoesNotDrift) {
   solver.projectVelocities(m.state, m.loads);
   EXPECT_LT(solver.velocityError(m.state), 1e-14);
   const bool rattling = integrator == Integrator::kRattle;
-  // Euler's first step still has to turn the start velocity into a mean: take the energy after it.
+  // Euler's first step turns the start velocity into a mean: compares with the energy after it.
   const double dt = 1e-3;
   if (!rattling) solver.step(m.state, m.loads, dt);
   const Totals start = totals(m.model, m.state, m.loads);
@@ -114,7 +114,7 @@ TEST(Universal, OutputShaftHasTheSpeedOfHookesJoint) {
   }
   std::printf("Hooke's joint: output speed off by %.1e rad/s, drive torque up to %.3f N m\n", worst, torque);
   EXPECT_LT(worst, 1e-11);
-  EXPECT_GT(torque, 0.1); // the output's inertia is sped up and slowed down twice a turn
+  EXPECT_GT(torque, 0.1); // the output speeds up and slows down twice per turn
 }
 
 // ---------------------------------------------------------------------------------------------- cylindrical, bushing
@@ -174,11 +174,11 @@ TEST(Cylindrical, LimitsHoldOnBothAxes) {
     solver.step(m.state, m.loads, 1e-3);
     z = std::max(z, m.state.slide[0].position), a = std::max(a, m.state.joint[0].position);
   }
-  // Half the slide's impact energy in its stop of 1e7 N/m: 0.2 + 3 sqrt(2 / 1e7); a step of 1 ms may go 3 mm further.
+  // Half the slide's impact energy in its stop of 1e7 N/m: 0.2 + 3 sqrt(2 / 1e7); a step of 1 ms may add 3 mm.
   EXPECT_LT(z, 0.2 + 3 * std::sqrt(2 / 1e7) + 3e-3);
   EXPECT_LT(a, 0.4 + 5e-3);
-  // The discrete gradient gives back what it took: the nut comes back at 3 m/s although omega dt = 2.2; the damped stop
-  // takes some of the rotation.
+  // The discrete gradient returns the stored energy: the nut rebounds at 3 m/s although omega dt = 2.2; the damped stop
+  // dissipates some of the rotation.
   EXPECT_NEAR(m.state.twist[0].v.z, -3, 1e-9);
   EXPECT_LT(m.state.twist[0].w.z, 0);
   EXPECT_GT(m.state.twist[0].w.z, -2);
@@ -271,7 +271,7 @@ TEST(ImposedMotion, PositionLawIsMetInPositionAndRateWithoutDrift) {
     const double t = m.state.time, a = m.state.joint[0].position;
     position = std::max(position, std::fabs(a - d.law.value(t)));
     rate = std::max(rate, std::fabs(m.state.joint[0].rate - d.law.rate(t)));
-    // Closed form of the piston's place.
+    // Closed form of the piston's position.
     const double x = 0.1 * std::sin(a) + std::sqrt(0.09 - 0.01 * std::cos(a) * std::cos(a));
     slide = std::max(slide, std::fabs(m.state.pose[2].position.x - x));
     const double now = drivePower(m.model, m.state, 0);
@@ -283,7 +283,7 @@ TEST(ImposedMotion, PositionLawIsMetInPositionAndRateWithoutDrift) {
   EXPECT_LT(rate, 1e-12);
   EXPECT_LT(slide, 1e-12);
   EXPECT_NEAR(energy(m) - start, m.state.ledger.driveWork, 1e-3);
-  EXPECT_NEAR(work, m.state.ledger.driveWork, 2e-2); // the first step has no power before it
+  EXPECT_NEAR(work, m.state.ledger.driveWork, 2e-2); // the first step has no previous power
 }
 
 TEST(ImposedMotion, DriveTorqueIsThatOfInverseDynamics) {
@@ -322,7 +322,7 @@ TEST(ImposedMotion, SpeedLawLeadsToItsIntegralWithBothIntegrators) {
 }
 
 TEST(ImposedMotion, ABlowAtTheStartIsInTheLedgerOnce) {
-  // A wheel at rest, driven at 4 rad/s from the first step on: the drive's work is the kinetic energy.
+  // A wheel at rest, driven at 4 rad/s from the first step: the drive's work equals the kinetic energy.
   for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
     Mechanism m;
     Drive d;

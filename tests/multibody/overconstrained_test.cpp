@@ -13,7 +13,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// A closed chain of revolutes given by points and axes: link i joins pin i to pin i + 1; link 0 is the world.
+/// A closed chain of revolutes from points and axes: link i joins pin i to pin i + 1; link 0 is the world.
 Mechanism closedChain(const std::vector<Vec3d>& point, const std::vector<Vec3d>& axis) {
   Mechanism m;
   const int n = static_cast<int>(point.size());
@@ -30,8 +30,8 @@ Mechanism closedChain(const std::vector<Vec3d>& point, const std::vector<Vec3d>&
   return m;
 }
 
-/// Starts the mechanism along its own freedom with a kinetic energy of about 1 J, runs it, and checks that nothing
-/// opens.
+/// Starts the mechanism along its degree of freedom with a kinetic energy of about 1 J, runs it, and checks that no
+/// joint opens.
 void expectMoves(Mechanism& m, const char* what, int freedom, int redundant, double duration = 5) {
   SolverOptions o = rattle();
   o.startVelocities = StartVelocities::kAccept;
@@ -104,7 +104,7 @@ TEST(Overconstrained, BricardsTrihedralLinkageMoves) {
 }
 
 TEST(Overconstrained, ExtraParallelRodsAreDropped) {
-  // A parallelogram with five uprights where two would do; planar, so each loop has three redundant rows, and each
+  // A parallelogram with five uprights where two suffice; planar, so each loop has three redundant rows, and each
   // extra upright one more.
   Mechanism m;
   m.model.addBody(makeBody("beam", 3, Mat3d::diagonal({0.1, 1, 1}), {{2, 0, 1}, {}}));
@@ -128,7 +128,7 @@ TEST(Overconstrained, DoorOnThreeHinges) {
 }
 
 TEST(Overconstrained, SarrusLinkageMovesStraight) {
-  // Two platforms joined by two pairs of hinged plates at right angles: the upper one moves along z only.
+  // Two platforms joined by two pairs of hinged plates at right angles: the upper one moves only along z.
   Mechanism m;
   m.model.addBody(makeBody("platform", 2, Mat3d::diagonal({0.1, 0.1, 0.2}), {{0, 0, 1.2}, {}}));
   int k = 0;
@@ -171,7 +171,7 @@ TEST(Overconstrained, RodsOfAPlanarParallelogramByDistanceJoints) {
 }
 
 TEST(Overconstrained, AStartInLineIsReportedAsSingularAndMovesOn) {
-  // A parallelogram folded flat: a row more than the three redundant ones has no pivot there, and there only.
+  // A parallelogram folded flat: one more row besides the three redundant ones lacks a pivot, only in this position.
   Mechanism m;
   addRod(m.model, "crank", {0, 0, 0}, {1, 0, 0}, {0, 0, -2.5}, {0, 5, 0});
   addRod(m.model, "rocker", {1, 0, 0}, {2, 0, 0}, {0, 0, -2.5}, {0, 5, 0});
@@ -195,11 +195,11 @@ TEST(Overconstrained, AStartInLineIsReportedAsSingularAndMovesOn) {
     double apart = 0;
     for (int i = 0; i < 3000; ++i) {
       solver.step(m.state, m.loads, 1e-3);
-      // It stays a parallelogram: crank and rocker are parallel.
+      // It remains a parallelogram: crank and rocker are parallel.
       const Vec3d d = m.state.pose[1].position - m.state.pose[0].position;
       apart = std::max(apart, length(d - Vec3d{1, 0, 0}));
     }
-    // Gaps of up to the tolerance, over the sine of the angles next to the line, half a step's 5e-3 rad: 4e-8.
+    // Gaps up to the tolerance, over the sine of the angles near the straight line, half a step's 5e-3 rad: 4e-8.
     EXPECT_LT(apart, integrator == Integrator::kRattle ? 1e-11 : 4e-8);
   }
 }

@@ -50,7 +50,7 @@ TEST(MultibodyPendulum, RodTensionIsThreeWeightsCosine) {
   const double dt = 1e-4;
   double bottom = 0, worst = 0;
   for (int i = 0; i < 23679; ++i) {
-    const double height = -p.state.pose[0].position.z; // where the step's force acts
+    const double height = -p.state.pose[0].position.z; // position of the step's force
     solver.step(p.state, p.loads, dt);
     const double tension = length(p.state.joint[0].force);
     worst = std::max(worst, std::fabs(tension - 3 * 9.81 * height));
@@ -78,7 +78,7 @@ TEST(MultibodyPendulum, RodOnRevoluteMatchesReferenceAccelerationAndPeriod) {
     solver.step(p.state, p.loads, dt);
     if (i + 1 == 10000) position1 = p.state.pose[0].position.x, height1 = p.state.pose[0].position.z;
     const double rate = p.state.joint[0].rate;
-    // Rates belong to the middles of the steps: the rate turns from negative to positive after one period.
+    // Rates refer to the middles of the steps: the rate changes from negative to positive after one period.
     if (lastRate < 0 && rate >= 0) period = p.state.time - dt / 2 - dt * rate / (rate - lastRate);
     lastRate = rate;
   }
@@ -103,13 +103,13 @@ TEST(MultibodyPendulum, EnergyHasNoSecularLoss) {
     if (i < 2368) early = std::max(early, std::fabs(energy()));
     if (i >= 100000 - 2368) late = std::max(late, std::fabs(energy()));
   }
-  // The energy of staggered states oscillates by m g v dt / 2 = 0.022 J; over 42 periods that must not grow.
+  // The energy of staggered states oscillates by m g v dt / 2 = 0.022 J; over 42 periods it must not grow.
   EXPECT_LT(early, 0.03);
   EXPECT_NEAR(late, early, 2e-4);
 }
 
 TEST(MultibodyPendulum, LedgerClosesWithTheStep) {
-  // Kinetic energy = start + works; each impulse works over the mean of the rates before and after it.
+  // Kinetic energy = start + works; the work of each impulse uses the mean of the rates before and after it.
   Mechanism p = pointPendulum();
   Solver solver(p.model);
   const auto residual = [&](double dt) {

@@ -12,7 +12,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// Measures the order from the errors at two steps and says both.
+/// Measures the order from the errors at two steps and reports both.
 double measuredOrder(const char* what, int order, double dt, double ratio, const std::function<double(double)>& error) {
   const double coarse = error(dt), fine = error(dt / ratio);
   const double measured = std::log(coarse / fine) / std::log(ratio);
@@ -44,7 +44,7 @@ TEST(Rattle, PointMassHoldsNineDigitsOverAHundredSeconds) {
 }
 
 TEST(Rattle, PointMassHoldsEightDigitsOverTwoThousandSeconds) {
-  // 997 swings; energy must not creep: each step's position constraint is met to round-off.
+  // 997 oscillations; the energy must not drift: each step's position constraint is exact to round-off.
   Mechanism p = pendulumOnARod();
   run(p, rattle(8), 0.02, 2000);
   const double error = length(p.state.pose[0].position - Vec3d{-.8146030685890322, 0, -.5800188278369355});
@@ -54,7 +54,7 @@ TEST(Rattle, PointMassHoldsEightDigitsOverTwoThousandSeconds) {
 }
 
 TEST(Rattle, RodTensionIsThatOfTheExactMotion) {
-  // 3 m g cos(theta) from horizontal release; the reading has no error but that of the state.
+  // 3 m g cos(theta) from horizontal release; the reading has only the error of the state.
   Mechanism p = pendulumOnARod();
   Solver solver(p.model, rattle(8));
   double worst = 0, most = 0;
@@ -98,7 +98,7 @@ TEST(Rattle, FourBarsPassTheirSingularPositionWithTheOrderOfTheScheme) {
 }
 
 TEST(Rattle, AndrewsMechanismConvergesToTheReference) {
-  // beta at 0.03 s from an index-1 formulation with DOP853, self-converged to 3e-12 (the published digits differ
+  // beta at 0.03 s from an index-1 formulation with DOP853, self-converged to 3e-12 (the published digits deviate
   // by 1.4e-9).
   const double reference = 15.810771195153;
   for (const int order : {2, 4, 8}) {
@@ -114,7 +114,7 @@ TEST(Rattle, AndrewsMechanismConvergesToTheReference) {
       error = std::fabs(Andrews::beta(a) - reference);
       return error;
     });
-    // Order 8 is at round-off and the reference's own 4e-12 with either step.
+    // Order 8 is at round-off and at the reference's own 4e-12 with either step.
     if (order == 8)
       EXPECT_LT(error, 2e-11);
     else
@@ -134,7 +134,7 @@ TEST(Rattle, FreeTopFollowsTheClosedForm) {
                                             const Vec3d before = totals(t.model, t.state, t.loads).angularMomentum;
                                             run(t, rattle(order), h, 10);
                                             const Vec3d after = totals(t.model, t.state, t.loads).angularMomentum;
-                                            EXPECT_EQ(after, before); // no torque, no change: to the last bit
+                                            EXPECT_EQ(after, before); // without torque no change: bitwise equal
                                             return attitudeError(t.state.pose[0].orientation, at10);
                                           });
     EXPECT_NEAR(measured, order, 0.2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Reactions of joints that hold more than is needed: of least norm.
+// Reactions of redundant joints: minimum norm.
 #include "benchmarks.hpp"
 
 #include <gtest/gtest.h>
@@ -43,8 +43,8 @@ std::vector<JointReaction> asRead(const State& state) {
   return read;
 }
 
-/// Hinges at z_i above their middle, all alike, take -kappa z_i horizontally and the moment -kappa L^2 each, with
-/// kappa (sum z_i^2 + n L^2) = W b: Lagrange's conditions of the least norm.
+/// Equal hinges at z_i above their centre each have -kappa z_i horizontally and the moment -kappa L^2, with
+/// kappa (sum z_i^2 + n L^2) = W b: Lagrange's conditions of the minimum norm.
 TEST(RedundantReactions, SymmetricDoorsShareTheirWeight) {
   const double b = 0.45, W = 20 * 9.81;
   for (const std::vector<double>& hinges : {std::vector<double>{0.2, 1.8}, std::vector<double>{0.2, 1.0, 1.8}})
@@ -65,10 +65,10 @@ TEST(RedundantReactions, SymmetricDoorsShareTheirWeight) {
           EXPECT_LT(length(shared[i].force - Vec3d{-kappa * (hinges[i] - 1), 0, W / n}), 1e-10 * W) << i;
           EXPECT_LT(length(shared[i].torque - Vec3d{0, -kappa * L2, 0}), 1e-10 * W) << i;
         }
-        // The solver itself gives all to the first hinge.
+        // Without this option the first hinge carries all.
         EXPECT_LT(length(m.state.joint[1].force), 1e-10 * W);
       }
-  // A length that is short beside the door's: a couple of forces, as on hinges without a moment.
+  // A length much smaller than the door: a couple of forces, as on hinges without moments.
   Mechanism m = doorOn({0.2, 1.8}, b);
   SolverOptions o;
   o.momentLength = 1e-4;
@@ -78,7 +78,7 @@ TEST(RedundantReactions, SymmetricDoorsShareTheirWeight) {
 }
 
 TEST(RedundantReactions, BalanceInMotionWhatTheReadingsBalance) {
-  // A door that swings, and a chain of four-bars through positions in which all rods are in line.
+  // A swinging door, and a chain of four-bars through positions with all rods in line.
   Mechanism door = doorOn({0.2, 1.0, 1.8});
   setTwist(door.model, door.state, 0, {{0, 0.9, 0}, {0, 0, 2}});
   Mechanism bars = fourBars(3);
@@ -98,7 +98,7 @@ TEST(RedundantReactions, BalanceInMotionWhatTheReadingsBalance) {
       changed = std::max(changed, length(shared.back().force - read.back().force));
     }
     EXPECT_LT(worst, 1e-11);
-    EXPECT_EQ(changed > 1, m == &door); // what is across the plane of the four-bars has no load
+    EXPECT_EQ(changed > 1, m == &door); // forces across the plane of the four-bars are zero
   }
   // m (a - g), with the centripetal acceleration of the centre of mass.
   Solver solver(door.model, rattle());
@@ -109,7 +109,7 @@ TEST(RedundantReactions, BalanceInMotionWhatTheReadingsBalance) {
   EXPECT_LT(length(sum - (Vec3d{0, 0, 20 * 9.81} - 20 * w * w * out)), 1e-9);
 }
 
-/// A beam on five uprights where two would do, its joints given in one order or the other.
+/// A beam on five uprights where two suffice, with its joints in one order or the other.
 Mechanism uprights(bool reversed) {
   Mechanism m;
   m.model.addBody(makeBody("beam", 3, Mat3d::diagonal({0.1, 1, 1}), {{2, 0, 1}, {}}));
@@ -140,11 +140,11 @@ TEST(RedundantReactions, AreTheSameWhicheverRowsTheSolverLeavesOut) {
       readings = std::max(readings, length(one.state.joint[j].force - other.state.joint[k].force));
     }
   }
-  EXPECT_LT(difference, 1e-8); // of some 100 N; the two motions part by round-off
+  EXPECT_LT(difference, 1e-8); // forces are some 100 N; the two motions diverge by round-off
   EXPECT_GT(readings, 1);
 }
 
-/// A parallelogram that is all but folded flat: to turn its coupler, rods must carry a torque over a lever of `angle`.
+/// A parallelogram folded almost flat: rotating its coupler requires a torque of rods with a lever arm of `angle`.
 TEST(RedundantReactions, BalanceNextToASingularPosition) {
   const double angle = 1e-5, torque = 1;
   Mechanism m;
@@ -172,7 +172,7 @@ TEST(RedundantReactions, BalanceNextToASingularPosition) {
 }
 
 TEST(RedundantReactions, LeaveTheOthersUnchangedToTheBit) {
-  // A pendulum of two rods on a door: its pins lie on no loop.
+  // A pendulum of two rods on a door: its pins belong to no loop.
   for (const bool redundant : {false, true}) {
     Mechanism m = doorOn(redundant ? std::vector<double>{0.2, 1.8} : std::vector<double>{0.2});
     addRod(m.model, "upper", {0.9, 0, 1}, {0.9, 0, 0});
@@ -203,7 +203,7 @@ TEST(RedundantReactions, ADrivenFourBarKeepsWhatItsPlaneDetermines) {
     m.model.addJointAt("a", JointType::kRevolute, kWorld, 0, frameWithZ({0, 0, 0}, kY));
     m.model.addJointAt("b", JointType::kRevolute, 0, 1, frameWithZ({0, 0, 1}, kY));
     m.model.addJointAt("c", redundant ? JointType::kRevolute : JointType::kSpherical, 1, 2, frameWithZ({2, 0, 2}, kY));
-    // Across its x axis it turns about y, too: cylindrical lets it slide along y.
+    // It also turns about y, across its x axis: cylindrical allows sliding along y.
     m.model.addJointAt("d", redundant ? JointType::kRevolute : JointType::kCylindrical, kWorld, 2,
                        frameWithZ({2, 0, 0}, kY));
     Drive drive;
@@ -225,13 +225,13 @@ TEST(RedundantReactions, ADrivenFourBarKeepsWhatItsPlaneDetermines) {
   }
   std::vector<JointReaction> shared = solver.reactions(m.state), sound = reference.reactions(plain.state);
   for (std::size_t j = 0; j < 4; ++j) {
-    // Some 30 N; the two runs part by round-off.
+    // Some 30 N; the two runs diverge by round-off.
     EXPECT_LT(length(shared[j].force - sound[j].force), 1e-8) << j;
     EXPECT_NEAR(shared[j].torque.y, sound[j].torque.y, 1e-8) << j;
   }
   EXPECT_NEAR(driveForce(m.model, m.state, 0), shared[0].torque.y, 1e-8);
 
-  // Across the plane the coupler's load is shared by both feet.
+  // Across the plane both feet share the coupler's load.
   m.loads.external[1].force.y = 100;
   solver.step(m.state, m.loads, 1e-3);
   shared = solver.reactions(m.state);

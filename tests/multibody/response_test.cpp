@@ -12,7 +12,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// A ring of links with damped joints, and a body that a spring ties to one of them.
+/// A ring of links with damped joints, and a body tied to one link by a spring.
 Mechanism dampedRing() {
   Mechanism m;
   RingSpec spec;
@@ -42,7 +42,7 @@ double difference(const std::vector<Twist>& a, const std::vector<Twist>& b) {
   return most;
 }
 
-/// Largest difference between the twists at the end of a step and those that its response predicts.
+/// Largest difference between the twists at the end of a step and those predicted by its response.
 double errorOfPrediction(double dt) {
   Mechanism m = dampedRing();
   Solver solver(m.model);

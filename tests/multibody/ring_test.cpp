@@ -49,7 +49,7 @@ TEST_P(MultibodyRing, SpinningFreelyHasTheClosedFormTensionInEveryJoint) {
   // and gaps of round-off size over dt^2.
   EXPECT_LT(worst, 2e-3);
   EXPECT_LE(gap, 1e-10);
-  // The mean twist of a step leaves the constraints at its end by half a step of centripetal acceleration, w^2 p dt
+  // The mean twist of a step violates the constraints at its end by half a step of centripetal acceleration, w^2 p dt
   // / 2.
   EXPECT_LT(solver.velocityError(m.state), 1.1 * spec.spin * spec.spin * spec.pitch * dt / 2);
 }
@@ -61,7 +61,7 @@ TEST_P(MultibodyRing, PerturbedLinkKeepsMomentumAndEnergy) {
   Mechanism m = ring(spec);
   Solver solver(m.model);
   const double dt = 1e-4;
-  // An impulse of 3 N s on one link, in the plane and beside its centre.
+  // An impulse of 3 N s on one link, in the plane and off its centre.
   m.loads.external[5] = {{2e4, 0, 2.2e4}, {0, 30, 0}};
   solver.step(m.state, m.loads, dt);
   m.loads.external[5] = {};
@@ -89,8 +89,8 @@ INSTANTIATE_TEST_SUITE_P(Joints, MultibodyRing,
                          ::testing::Values(RingJoints::kAllRevolute, RingJoints::kOneSphericalOneUniversal));
 
 TEST(MultibodyRingRedundancy, DroppedRowsStayClosedWhenTheRingTumblesInSpace) {
-  // The whole ring turned about a slanted axis, and one link struck sideways: the rows that were dropped at the start,
-  // in the plane, must be implied in every position.
+  // The ring rotated about an oblique axis, with a lateral impulse on one link: the rows dropped at the start,
+  // in the plane, must be redundant in every position.
   RingSpec spec;
   spec.spin = 6;
   Mechanism m = ring(spec);
@@ -150,7 +150,7 @@ TEST(MultibodyRingRedundancy, BothWaysGiveTheSameMotion) {
   double worst = 0;
   for (std::size_t i = 0; i < a.state.pose.size(); ++i)
     worst = std::max(worst, length(a.state.pose[i].position - b.state.pose[i].position));
-  EXPECT_LT(worst, 1e-8); // positionTolerance over the time
+  EXPECT_LT(worst, 1e-8); // positionTolerance over time
 }
 
 } // namespace

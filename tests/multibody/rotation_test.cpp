@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Series of rotations on both sides of where they give way to the closed forms, against the C library's functions in
+// Series of rotations on both sides of the switch to closed forms, against the C library's functions in
 // extended precision.
 #include "multibody/detail/rotation.hpp"
 #include "multibody/detail/rotation_simd.hpp"
@@ -16,7 +16,7 @@ namespace {
 constexpr double kEps = std::numeric_limits<double>::epsilon();
 const Vec3d kAxis{2.0 / 7, -3.0 / 7, 6.0 / 7};
 
-/// Just below, at and just above `at`, and on both sides farther off.
+/// Just below, at and just above `at`, and farther on both sides.
 std::vector<double> around(double at) {
   return {0.1 * at,        0.5 * at, at * (1 - 1e-9), std::nextafter(at, 0), at, std::nextafter(at, 1e9),
           at * (1 + 1e-9), 2 * at};
@@ -29,7 +29,7 @@ TEST(RotationSeries, QuaternionOfAVectorIsTheClosedFormAcrossTheSwitch) {
   for (const double angle : angles) {
     const Quat q = rotationBy(kAxis * angle);
     const long double h = 0.5L * angle;
-    // The closed forms of base/math.hpp are right to some units in the last place of 1.
+    // The closed forms of base/math.hpp are accurate to some units in the last place of 1.
     EXPECT_NEAR(q.w, static_cast<double>(std::cos(h)), 2 * kEps) << angle;
     for (int a = 0; a < 3; ++a) {
       const double part = (&q.x)[a], wanted = static_cast<double>(std::sin(h)) * kAxis[a];
@@ -54,7 +54,7 @@ TEST(RotationSeries, RotationVectorIsTheInverseAcrossItsSwitches) {
     }
   }
   const Vec3d back = rotationVector({-0.8, 0.6, 0, 0});
-  EXPECT_NEAR(back.x, -2 * std::acos(0.8), 4 * kEps) << "the short way";
+  EXPECT_NEAR(back.x, -2 * std::acos(0.8), 4 * kEps) << "the short way round";
 }
 
 TEST(RotationSeries, FactorOfTheInverseTangentMapIsTheClosedFormAcrossItsSwitch) {
@@ -62,10 +62,10 @@ TEST(RotationSeries, FactorOfTheInverseTangentMapIsTheClosedFormAcrossItsSwitch)
   squares.insert(squares.end(), {0, 1e-300, 1e-16, 1e-6, 1e-3, 0.1, 0.5, 1, 2});
   for (const double s : squares) {
     const long double h = std::sqrt(static_cast<long double>(s));
-    // (1 - h cot h) / (4 h^2); for small ones its first terms, since even the long double loses there.
+    // (1 - h cot h) / (4 h^2); for small h its first terms, since even long double loses digits there.
     const long double wanted = s < 1e-3 ? (1.0L / 3 + s * (1.0L / 45 + s * (2.0L / 945 + s / 4725.0L))) / 4
                                         : (1 - h * std::cos(h) / std::sin(h)) / (4 * static_cast<long double>(s));
-    // The closed form subtracts: 1 - h cot h is h^2 / 3, so that it has lost a factor 3 / h^2 of its digits.
+    // The closed form subtracts: 1 - h cot h is h^2 / 3, so that it loses a factor of 3 / h^2 of its digits.
     const double tolerance = s < 0.01 ? 4 * kEps : 16 * kEps / s;
     EXPECT_NEAR(inverseTangentFactor(s) / static_cast<double>(wanted), 1, tolerance) << s;
   }
@@ -111,7 +111,7 @@ TEST(RotationSeries, QuaternionOfAMatrixIsRightInEachOfItsFourCases) {
 }
 
 TEST(RotationSeries, ATurnIsTheSameOnBothSidesOfTheSwitch) {
-  // One turn of h = 1/4 by the series, and two of half of it: exp is a homomorphism on one axis.
+  // One rotation of h = 1/4 by the series, and two of half of it: exp is a homomorphism on one axis.
   const Quat half = rotationBy(kAxis * 0.25), whole = rotationBy(kAxis * 0.5), twice = half * half;
   EXPECT_NEAR(whole.w, twice.w, 2 * kEps);
   EXPECT_NEAR(whole.y, twice.y, 2 * kEps);

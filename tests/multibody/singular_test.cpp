@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Singular positions: N four-bars in a row, all rods in line twice a turn, where the constraints lose rank and other
-/// motions branch off. Steps land at any distance from it.
+/// Singular positions: N four-bars in a row, all rods in line twice per turn, where the constraints lose rank and other
+/// motions branch off. Steps may come at any distance from them.
 #include "benchmarks.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// As fourBars(), but in the x-y plane with all bodies' axes along the world's: rows then lie along and across the
+/// Like fourBars(), but in the x-y plane with all bodies' axes along the world's: rows are then along and across the
 /// rods, and those along them lose their pivots altogether.
 Mechanism alignedFourBars(int n) {
   Mechanism m;
@@ -38,7 +38,7 @@ Mechanism alignedFourBars(int n) {
 }
 
 struct Passage {
-  double error = 0, drift = 0; ///< of the first upright's tip at the end [m]; of the energy, at most [J]
+  double error = 0, drift = 0; ///< error of the first upright's tip at the end [m]; largest energy drift [J]
 };
 
 Passage pass(int n, const SolverOptions& options, double dt, double t, const Vec3d& tip) {
@@ -70,7 +70,7 @@ const Case kCases[] = {
 };
 
 // Measured: 17 dt^2 for 2, 41 dt^2 for 40, at 1e-2 s 22 dt^2; the joints' tolerance of 1e-10 m leaves up to 1e-6 more.
-// The energy of the nodes goes to and fro by dt times its rate, without drift.
+// The energy of the nodes oscillates by dt times its rate, without drift.
 TEST(SingularPosition, EulerPassesItAtAnyStep) {
   for (const Case& c : kCases)
     for (const double dt : c.steps) {
@@ -90,7 +90,7 @@ TEST(SingularPosition, RattlePassesItAtAnyStepWithItsOrder) {
     }
 }
 
-// Measured: 2e-6 m and 5e-6 J at most; where no stage ends all but in line, errors go with dt^4.
+// Measured: 2e-6 m and 5e-6 J at most; if no stage ends nearly in line, errors scale with dt^4.
 TEST(SingularPosition, FourthOrderKeepsItsEnergyThroughIt) {
   for (const double dt : {1e-2, 6.25e-3, 3e-3, 1.56e-3, 7e-4}) {
     const Passage p = pass(2, rattle(4), dt, 10, kCases[0].tip);
@@ -99,8 +99,8 @@ TEST(SingularPosition, FourthOrderKeepsItsEnergyThroughIt) {
   }
 }
 
-// What a solver keeps from step to step is time saved only: a resumed run has a new one. A drive puts all rods in line
-// at the ends of two steps: rows that have no pivot there are missing in the matrix that is kept.
+// Factors kept between steps only save time: a resumed run computes new ones. A drive puts all rods in line
+// at the ends of two steps: rows without a pivot there are missing in the kept matrix.
 TEST(SingularPosition, ANewSolverInEveryStepGivesTheSameBits) {
   SolverOptions loose = rattle();
   loose.positionTolerance = 1e-9;
@@ -113,7 +113,7 @@ TEST(SingularPosition, ANewSolverInEveryStepGivesTheSameBits) {
     }
     Solver solver(kept.model, options);
     int singular = 0;
-    constexpr int kQuarter = 50; // steps of a quarter turn
+    constexpr int kQuarter = 50; // steps per quarter turn
     for (int i = 0; i < 4 * kQuarter; ++i) {
       const double dt = base::kPi / 2 / kQuarter;
       solver.step(kept.state, kept.loads, dt);

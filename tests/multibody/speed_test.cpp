@@ -13,8 +13,8 @@ namespace grouser::multibody::test {
 namespace {
 
 struct Cost {
-  double microseconds = 1e9; ///< a step; best of five trials
-  double solves = 0;         ///< of the slowest part, mean a step
+  double microseconds = 1e9; ///< per step; best of five trials
+  double solves = 0;         ///< solves of the slowest part, mean per step
 };
 
 Cost costOfAStep(Mechanism& m, int steps, double dt) {
@@ -91,7 +91,7 @@ TEST(MultibodySpeed, CostOfARingGrowsLinearlyWithItsLinks) {
   const double t46 = c46.microseconds, t92 = c92.microseconds, t184 = c184.microseconds;
   std::printf("ring step: %.1f us (46), %.1f us (92), %.1f us (184); ratios %.2f %.2f; solves %.2f %.2f %.2f\n", t46,
               t92, t184, t92 / t46, t184 / t92, c46.solves, c92.solves, c184.solves);
-  // Linear growth gives 4, quadratic 16; the bound leaves room for busy machines.
+  // Linear growth yields 4, quadratic 16; the bound leaves room for busy machines.
   EXPECT_LT(t184 / t46, 10);
 }
 
@@ -100,7 +100,7 @@ TEST(MultibodySpeed, VehicleSizedStep) {
   const Cost cost = costOfAStep(m, 400, 5e-5);
   std::printf("two rings of 46 and a chassis with %zu bodies: %.1f us a step, %.2f solves\n",
               m.model.bodies().size() - 93, cost.microseconds, cost.solves);
-  EXPECT_LT(cost.microseconds, 2000); // the real-time budget is 60; this only catches a lost order of magnitude
+  EXPECT_LT(cost.microseconds, 2000); // the real-time budget is 60; detects only a loss by an order of magnitude
 }
 
 } // namespace

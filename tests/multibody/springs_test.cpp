@@ -65,7 +65,7 @@ TEST(MultibodySprings, SliderOnSpringSettlesAtPreloadAndWeight) {
   }
   EXPECT_NEAR(p.state.joint[0].position, (preload - m * 9.81) / k, 1e-9);
   EXPECT_NEAR(p.state.joint[0].springForce, m * 9.81, 1e-5);
-  // Energy: what the spring gave was lifted or burnt.
+  // Energy: the spring's work is lifted or dissipated.
   const Totals t = totals(p.model, p.state, p.loads);
   EXPECT_NEAR(p.state.ledger.springWork + p.state.ledger.gravityWork, p.state.ledger.dissipated, 1e-8);
   EXPECT_NEAR(-t.elastic, p.state.ledger.springWork, 0.02 * std::fabs(t.elastic)); // implicit spring: loss of order dt
@@ -130,15 +130,15 @@ TEST(MultibodySprings, PointSpringOscillatesAtItsFrequency) {
   const double omega = std::sqrt(k * (1 / m1 + 1 / m2));
   const int half = static_cast<int>(std::lround(base::kPi / omega / dt));
   for (int i = 0; i < half; ++i) solver.step(p.state, p.loads, dt);
-  // After half a period 0.1 m of stretch has become 0.1 m of compression, less the implicit spring's damping
-  // omega dt / 2 a radian: 0.1 pi omega dt / 2 = 6.4e-5 m.
+  // After half a period 0.1 m of elongation becomes 0.1 m of compression, minus the implicit spring's damping of
+  // omega dt / 2 per radian: 0.1 pi omega dt / 2 = 6.4e-5 m.
   EXPECT_NEAR(p.state.spring[0].length, l0 - 0.1, 1e-4);
   EXPECT_NEAR(length(totals(p.model, p.state, p.loads).linearMomentum), 0, 1e-12);
   EXPECT_NEAR(p.state.spring[0].force, k * 0.1, 0.5);
 }
 
 TEST(MultibodySprings, HeavyJointDampingIsStableAtAnyStep) {
-  // 0.02 kg m2 and 100 N m s/rad: explicit damping would need steps below 0.4 ms.
+  // 0.02 kg m2 and 100 N m s/rad: explicit damping would require steps below 0.4 ms.
   for (const double c : {5.0, 100.0})
     for (const double dt : {5e-5, 1e-3, 0.1}) {
       Mechanism p;
@@ -156,8 +156,8 @@ TEST(MultibodySprings, HeavyJointDampingIsStableAtAnyStep) {
 }
 
 TEST(MultibodySprings, ClosingTheJointsDoesNotMoveSoftRows) {
-  // A rod on a damped pin, off its centre of mass, so that every step opens the joint and closes it again. The angle
-  // must go on as the damping alone says: w = w0 exp(-c t / I), angle = w0 I / c (1 - exp(-c t / I)).
+  // A rod on a damped pin, off its centre of mass, so that every step opens and closes the joint. The angle
+  // must follow the damping alone: w = w0 exp(-c t / I), angle = w0 I / c (1 - exp(-c t / I)).
   const double c = 0.8, l = 0.5, m = 2, inertia = 0.2 + m * l * l, w0 = 12, dt = 1e-5;
   Mechanism p;
   p.model.addBody(makeBody("rod", m, kWheelInertia, {{l, 0, 0}, {}}, cross(w0 * kY, Vec3d{l, 0, 0}), w0 * kY));
@@ -168,7 +168,7 @@ TEST(MultibodySprings, ClosingTheJointsDoesNotMoveSoftRows) {
   for (int i = 0; i < 100000; ++i) solver.step(p.state, p.loads, dt);
   const double decay = base::exp(-c / inertia);
   EXPECT_NEAR(p.state.joint[0].rate, w0 * decay, 1e-4);
-  EXPECT_NEAR(p.state.joint[0].position, w0 * inertia / c * (1 - decay), 2e-4); // of order w0 dt
+  EXPECT_NEAR(p.state.joint[0].position, w0 * inertia / c * (1 - decay), 2e-4); // order w0 dt
   EXPECT_NEAR(p.state.ledger.dissipated, 0.5 * inertia * w0 * w0 * (1 - decay * decay), 2e-3);
 }
 

@@ -14,7 +14,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// Two masses on one rail joined by a point spring; the second hangs on the rail's end by another.
+/// Two masses on one rail joined by a point spring; another spring ties the second to the rail's end.
 Mechanism twoSprings(double k, double massRatio) {
   Mechanism m;
   const Mat3d I = Mat3d::diagonal({1, 1, 1});
@@ -33,7 +33,7 @@ Mechanism twoSprings(double k, double massRatio) {
   return m;
 }
 
-/// Largest energy over 2000 steps, in terms of the start's.
+/// Largest energy over 2000 steps, relative to the start.
 double growth(Mechanism& m, Solver& solver, double dt) {
   const double start = energy(m);
   double most = 1;
@@ -63,7 +63,7 @@ TEST(Stability, ExplicitSpringsAreStableUpToTheStatedStepAndRefusedBeyond) {
       Solver other(beyond.model, rattle());
       try {
         other.step(beyond.state, beyond.loads, 1.02 * limit);
-        FAIL() << "not refused";
+        FAIL() << "not rejected";
       } catch (const base::InputError& e) {
         const std::string message = e.what();
         EXPECT_NE(message.find("spring '"), std::string::npos) << message;
@@ -72,7 +72,7 @@ TEST(Stability, ExplicitSpringsAreStableUpToTheStatedStepAndRefusedBeyond) {
     }
 }
 
-/// Velocity of the lighter mass over its first, after each of some steps; dampers alone act.
+/// Velocity of the lighter mass over its first, after various steps; only dampers act.
 std::vector<double> braked(double damping, Integrator integrator, double dt, double* rate = nullptr) {
   Mechanism m = twoSprings(1e-9, 3);
   m.model = Model();
@@ -99,19 +99,19 @@ std::vector<double> braked(double damping, Integrator integrator, double dt, dou
   return velocities;
 }
 
-/// No momentum in all, so that the reduced mass of 3/4 kg counts: rate 4/3 c. Of rattle a step multiplies a velocity by
-/// (2 - rate dt) / (2 + rate dt): beyond 2 / rate it turns round each time.
+/// Total momentum is zero, so that the reduced mass of 3/4 kg applies: rate 4/3 c. A rattle step scales velocities by
+/// (2 - rate dt) / (2 + rate dt): beyond 2 / rate they reverse every step.
 TEST(Stability, DampingRateIsThatOfTheReducedMassAndTwoOverItIsWhereRattleTurnsVelocitiesRound) {
   double rate = 0;
   braked(300, Integrator::kRattle, 1e-6, &rate);
-  EXPECT_NEAR(rate, 400, 1e-4 * 400); // of the power iteration
+  EXPECT_NEAR(rate, 400, 1e-4 * 400); // power iteration
   for (const double share : {0.5, 0.95, 1.05, 100.0}) {
     const std::vector<double> v = braked(300, Integrator::kRattle, share * 2 / rate);
     const double factor = (1 - share) / (1 + share);
     double expected = 1;
     for (const double now : v) EXPECT_NEAR(now, expected *= factor, 1e-3) << share; // the lever is its length at half
   }
-  for (const double now : braked(300, Integrator::kSymplecticEuler, 1)) EXPECT_GE(now, -1e-9) << "any step";
+  for (const double now : braked(300, Integrator::kSymplecticEuler, 1)) EXPECT_GE(now, -1e-9) << "at any step";
 }
 
 TEST(Stability, CompositionsAreStableUpToTheirOwnLimitsAndNotBeyond) {
@@ -121,7 +121,7 @@ TEST(Stability, CompositionsAreStableUpToTheirOwnLimitsAndNotBeyond) {
       Mechanism m = twoSprings(1e4, 1e3);
       Solver solver(m.model, rattle(order));
       const double limit = solver.stableStep(m.state, m.loads);
-      // Past the check: begin with softer springs.
+      // After the check: start with softer springs.
       for (auto& s : m.loads.pointSprings) s.stiffnessFactor = 0.8;
       solver.step(m.state, m.loads, (i == 0 ? 0.99 : 1.01) * limit);
       for (auto& s : m.loads.pointSprings) s.stiffnessFactor = 1;
@@ -139,13 +139,13 @@ TEST(Stability, CompositionsAreStableUpToTheirOwnLimitsAndNotBeyond) {
 }
 
 TEST(Stability, ExplicitSpringsAreUnstableJustBeyondTheStatedStep) {
-  // A spring so soft at the start that the limit is far, made stiff by its control: the check is for the loads it is
-  // given.
+  // A spring too soft at the start to limit the step, stiffened by its control: the check uses the loads that it
+  // receives.
   Mechanism m = twoSprings(1e4, 1);
   Solver solver(m.model, rattle());
   const double limit = solver.stableStep(m.state, m.loads);
   for (auto& s : m.loads.pointSprings) s.stiffnessFactor = 0.9;
-  solver.step(m.state, m.loads, 1.02 * limit); // stable with 0.9 of the stiffness, and checked only now and then
+  solver.step(m.state, m.loads, 1.02 * limit); // stable at 0.9 of the stiffness; the check is only periodic
   for (auto& s : m.loads.pointSprings) s.stiffnessFactor = 1;
   const double start = energy(m);
   double most = 0;
@@ -165,7 +165,7 @@ TEST(Stability, ImplicitSpringsAreStableAtAnyStep) {
           SolverOptions o = rattle(2, Springs::kImplicit);
           o.integrator = integrator;
           Solver solver(m.model, o);
-          // Midpoint conserves the energy of linear springs, but for round-off of k dt^2; Euler loses it.
+          // Midpoint conserves the energy of linear springs, except for round-off of k dt^2; Euler loses it.
           if (integrator == Integrator::kSymplecticEuler) solver.step(m.state, m.loads, dt);
           EXPECT_LT(growth(m, solver, dt), integrator == Integrator::kRattle ? 1 + 1e-6 + 1e-14 * k * dt * dt : 1.5)
               << "k " << k << " ratio " << ratio << " dt " << dt;
@@ -232,7 +232,7 @@ TEST(Stability, ChainHoldsTipMassesUpToAMillionLinks) {
     m.model.addJointAt("hook", JointType::kSpherical, n - 1, n, {{0, 0, -0.15 * n}, {}});
     m.start();
     Solver solver(m.model, rattle());
-    // A nudge in the middle: the lateral waves of a tip of 1e6 run fast, the joints must not open.
+    // A disturbance in the middle: lateral waves of a tip of 1e6 are fast; the joints must not open.
     m.loads.external[n / 2].force = {10, 0, 0};
     double gap = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -244,7 +244,7 @@ TEST(Stability, ChainHoldsTipMassesUpToAMillionLinks) {
     std::printf("chain of %d, tip %.0e: tension at the top %.6e of %.6e N, gap %.1e m\n", n, tip,
                 length(m.state.joint[0].force), expected, gap);
     EXPECT_LT(gap, 1e-13);
-    EXPECT_NEAR(length(m.state.joint[0].force), expected, 2e-2 * expected); // it swings
+    EXPECT_NEAR(length(m.state.joint[0].force), expected, 2e-2 * expected); // it oscillates
   }
 }
 

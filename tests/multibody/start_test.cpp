@@ -47,7 +47,7 @@ TEST(Start, VelocitiesThatBreakAJointAreRefusedByNameOrProjected) {
     Solver solver(model, o);
     State state = makeState(model);
     const double lost = solver.projectVelocities(state, makeLoads(model));
-    EXPECT_NEAR(lost, 0.5 * 0.5 * 0.5, 1e-14); // the radial part alone is lost
+    EXPECT_NEAR(lost, 0.5 * 0.5 * 0.5, 1e-14); // only the radial part is lost
     EXPECT_NEAR(state.twist[0].v.z, -1, 1e-14);
     EXPECT_NEAR(state.joint[0].rate, 1, 1e-14);
     EXPECT_LT(solver.velocityError(state), 1e-14);
@@ -134,7 +134,7 @@ TEST(Start, FramesThatDoNotMeetAreRefused) {
         {"coincide", "spherical"});
   }
   {
-    // Half a turn about x: the dot products of the angle rows vanish, yet z points the other way.
+    // Half a turn about x: the dot products of the angle rows vanish, although z points the opposite way.
     Model model;
     model.addBody(makeBody("link", 1, kRodInertia, {{}, {0, 1, 0, 0}}));
     model.addJoint({"weld", JointType::kFixed, kWorld, 0, {}, {}});
@@ -200,7 +200,7 @@ TEST(TimeLaws, RateAndIntegralBelongToTheValue) {
   law.ramps = {{0.1, 1.4, 2.2}, {0, 2, 1}};
   const double h = 1e-5;
   for (const double t : {-0.7, -0.2, 0.05, 0.77, 1.9, 2.9}) {
-    // Central differences: h^2 / 6 of third derivatives of some tens, and 1e-16 / h.
+    // Central differences: h^2 / 6 times third derivatives of some tens, and 1e-16 / h.
     EXPECT_NEAR(law.rate(t), (law.value(t + h) - law.value(t - h)) / (2 * h), 5e-9) << t;
     EXPECT_NEAR(law.acceleration(t), (law.rate(t + h) - law.rate(t - h)) / (2 * h), 5e-8) << t;
     EXPECT_NEAR(law.value(t), (law.integral(t + h) - law.integral(t - h)) / (2 * h), 5e-9) << t;
@@ -214,7 +214,7 @@ TEST(TimeLaws, RateAndIntegralBelongToTheValue) {
 
 TEST(TimeLaws, ATableOfPositionsBeginsAndEndsAtRest) {
   const TimeLaw law{{}, {}, {{0, 1, 2, 3}, {0, 0.5, 0.2, 0.2}}, {}};
-  // From both sides of the ends, and of every time between: a jump of the rate would be an impact.
+  // From both sides of the ends and of all times in between: a jump of the rate would be an impact.
   for (const double t : {0.0, 1.0, 2.0, 3.0}) {
     const double before = law.rate(t - 1e-9), after = law.rate(t + 1e-9); // curvature of 10 times 2e-9
     EXPECT_NEAR(before, after, 1e-7) << t;
@@ -222,7 +222,7 @@ TEST(TimeLaws, ATableOfPositionsBeginsAndEndsAtRest) {
       EXPECT_NEAR(law.rate(t), 0, 1e-14) << t;
     }
   }
-  // Two places alone: half-way after half the time, at one and a half times the mean rate.
+  // Only two positions: half-way after half the time, at 1.5 times the mean rate.
   const TimeLaw two{{}, {}, {{0, 2}, {0, 1}}, {}};
   EXPECT_NEAR(two.value(1), 0.5, 1e-15);
   EXPECT_NEAR(two.rate(1), 0.75, 1e-15);

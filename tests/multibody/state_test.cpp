@@ -18,7 +18,7 @@ namespace {
 
 const Mat3d kArmInertia = Mat3d::diagonal({0.4, 0.7, 0.5});
 
-/// A bit of everything: ring, chassis with sprung arms and wheels, slide with stops, drive, point spring.
+/// A model with all features: ring, chassis with sprung arms and wheels, slide with stops, drive, point spring.
 Mechanism vehicleLike() {
   Mechanism m;
   RingSpec ring;
@@ -75,7 +75,7 @@ TEST(MultibodyState, ResumedRunEqualsTheStraightRunToTheLastBit) {
 }
 
 TEST(MultibodyState, HashOfARunIsTheSameOnEveryMachineAndBuild) {
-  // FNV-1a over the state's bytes, but for books. A change needs a reason in the commit that changes it.
+  // FNV-1a over the bytes of the state without the ledger. A change needs a reason in its commit.
   Mechanism m = vehicleLike();
   Solver solver(m.model);
   runSteps(m, solver, 0, 300);
@@ -113,7 +113,7 @@ TEST(MultibodyState, EveryNumberOfTheBooksIsSavedAndRestored) {
     return all;
   };
   EXPECT_EQ(numbers(other.state.ledger), numbers(l));
-  // The trailing State::kBooks numbers are the books but for the five plain sums.
+  // The last State::kBooks numbers are the ledger without its five plain sums.
   const std::vector<double> fresh = vehicleLike().state.save();
   std::size_t changed = 0;
   for (std::size_t i = saved.size() - State::kBooks; i < saved.size(); ++i) changed += saved[i] != fresh[i];
@@ -150,7 +150,7 @@ TEST(MultibodyState, LedgerOfAVehicleClosesWithTheStep) {
 }
 
 TEST(MultibodyState, IndependentPartsDoNotInfluenceEachOther) {
-  // The ring of the vehicle-like model alone moves exactly as beside the rest.
+  // The ring of the vehicle-like model moves exactly as it does without the other bodies.
   Mechanism both = vehicleLike(), alone;
   RingSpec ring;
   ring.links = 12, ring.spin = 2, ring.damping = 5, ring.centre = {0, 2, 0};
@@ -189,7 +189,7 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
   expectMessage([&] { body(1, Mat3d::diagonal({1, 1, 2.1})); }, "shoe 3", "triangle");
   expectMessage([&] { body(1, {{{1, 0.6, 0}, {0.6, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "they are 0.4, 1, 1.6");
   expectMessage([&] { body(1, {{{1, 0.1, 0}, {0, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "symmetric");
-  body(1, Mat3d::diagonal({1, 1, 2})); // a flat plate is allowed
+  body(1, Mat3d::diagonal({1, 1, 2})); // a flat plate is valid
   expectMessage([&] { body(1, kArmInertia); }, "shoe 3", "duplicate");
   Body ground = makeBody("ground", 1, kArmInertia, {});
   ground.fixed = true;
@@ -252,7 +252,7 @@ TEST(MultibodyErrors, NotANumberIsReportedWithItsPlace) {
   EXPECT_THROW(solver.step(m.state, m.loads, 1e-3), base::SimulationError);
 }
 
-// Two rods in the y-z plane whose end a drive pulls out of reach, on ball joints in the world's axes: nothing opens
+// Two rods in the y-z plane on ball joints in the world's axes; a drive pulls their end out of reach: no gap opens
 // along x.
 TEST(MultibodyErrors, ADriveOutOfReachNamesARowThatStaysOpen) {
   for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
@@ -273,7 +273,7 @@ TEST(MultibodyErrors, ADriveOutOfReachNamesARowThatStaysOpen) {
     Solver solver(m.model, options);
     try {
       while (m.state.time < 1) solver.step(m.state, m.loads, 1e-2);
-      FAIL() << "the rods are 2 m long";
+      FAIL() << "the rods are only 2 m long";
     } catch (const base::SimulationError& e) {
       const std::string what = e.what();
       EXPECT_GT(m.state.time, 0.7) << what;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// End stops: what they give back, how exactly, and how that goes with the step.
+// End stops: restitution, accuracy, and dependence on the step.
 #include "mechanisms.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ SolverOptions rattle(int order = 2) {
   return o;
 }
 
-/// A slider that falls on a stop below.
+/// A slider that falls onto a stop.
 Mechanism bouncingSlider(double stiffness, double damping) {
   Mechanism p;
   p.model.addBody(makeBody("slider", 2, Mat3d::diagonal({0.1, 0.1, 0.1}), {{0, 0, 0}, {}}));
@@ -35,7 +35,7 @@ Mechanism bouncingSlider(double stiffness, double damping) {
   return p;
 }
 
-/// A double pendulum whose upper rod meets a stop, so that the row turns and masses change.
+/// A double pendulum with a stop on its upper rod, so that the row rotates and effective masses change.
 Mechanism bouncingPendulum(double stiffness) {
   Mechanism p;
   p.model.addBody(makeBody("rod", 1, Mat3d::diagonal({0.01, 0.08, 0.08}), {{0.5, 0, 0}, {}}));
@@ -52,7 +52,7 @@ Mechanism bouncingPendulum(double stiffness) {
   return p;
 }
 
-/// Largest change of energy over so many bounces off the stop of joint 0 [J].
+/// Largest energy change over so many bounces at the stop of joint 0 [J].
 double energyChange(Mechanism p, double dt, int bounces, double until) {
   Solver solver(p.model, rattle());
   const double start = energyOf(p);
@@ -76,13 +76,13 @@ TEST(MultibodyStops, SliderReturnsItsEnergyOverAThousandBouncesAtAnyStep) {
 }
 
 TEST(MultibodyStops, DoublePendulumBetweenStopsHoldsItsEnergyToSecondOrder) {
-  // Rows turn and masses change while a stop is touched; the motion is chaotic. Measured 9e3 dt^2 to 1.3e4 dt^2 [J].
+  // Rows rotate and masses change during contact; the motion is chaotic. Measured 9e3 dt^2 to 1.3e4 dt^2 [J].
   for (const double dt : {1e-3, 5e-4, 2.5e-4})
     EXPECT_LT(energyChange(bouncingPendulum(1e4), dt, 1000, 30), 3e4 * dt * dt) << dt;
 }
 
 TEST(MultibodyStops, BouncesKeepTimeToSecondOrder) {
-  // Between two stops of stiffness k a slider flies for L / v, and each bounce lasts pi / omega.
+  // Between two stops of stiffness k a slider travels for L / v, and each bounce lasts pi / omega.
   const double mass = 2, k = 1e4, v = 0.7, omega = std::sqrt(k / mass), half = 0.1;
   const double flight = 2 * half / v, bounce = base::kPi / omega, end = 7.31;
   double rest = end - half / v, side = 1;
@@ -101,8 +101,8 @@ TEST(MultibodyStops, BouncesKeepTimeToSecondOrder) {
     Solver solver(p.model, rattle());
     const double dt = end / steps;
     for (int i = 0; i < steps; ++i) solver.step(p.state, p.loads, dt);
-    // 22 bounces; the midpoint rule makes each longer by pi / omega (omega dt)^2 / 12, of 15 mm altogether, and the
-    // first and last step of a touch move it by as much.
+    // 22 bounces; the midpoint rule extends each by pi / omega (omega dt)^2 / 12, of 15 mm altogether, and the
+    // first and last step of a contact shift it by as much.
     EXPECT_NEAR(p.state.joint[0].position, exact, 22 * v * bounce * (omega * dt) * (omega * dt) / 6 + 1e-12) << steps;
     EXPECT_NEAR(std::fabs(p.state.joint[0].rate), v, 1e-12 * steps);
   }
@@ -114,7 +114,7 @@ SolverOptions symplecticEuler() {
   return o;
 }
 
-/// Share of its speed that a slider of 2 kg keeps at a stop, and the hardest that the stop pulls at it [N].
+/// Restitution of a slider of 2 kg at a stop, and the largest attraction of the stop [N].
 struct Bounce {
   double restitution, pull;
 };
@@ -135,7 +135,7 @@ Bounce bounceOff(const SolverOptions& options, double stiffness, double damping,
   return bounce;
 }
 
-/// Spring and damper that never pull let go where k x + c x' = 0:
+/// Spring and damper without attraction release where k x + c x' = 0:
 ///   e = exp(-2 zeta acos(zeta) / sqrt(1 - zeta^2)),   zeta = c / (2 sqrt(k m))
 /// (Schwager and Poeschel 2007, Granular Matter 9:465).
 double restitutionOf(double zeta) { return std::exp(-2 * zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta)); }
@@ -145,17 +145,17 @@ TEST(MultibodyStops, DampedStopGivesBackTheClosedFormOfItsRestitution) {
   struct Case {
     SolverOptions options;
     int order;
-    double share; ///< bound of the error over (omega dt)^order; less than half of it was measured
+    double share; ///< bound of the error over (omega dt)^order; more than twice the measured one
   };
   for (const auto& [options, order, share] : {Case{rattle(), 2, 1.0}, Case{symplecticEuler(), 1, 1.5}})
     for (const double zeta : {0.05, 0.3, 0.8}) {
       double error[2]{};
       for (int fine = 0; fine < 2; ++fine)
-        for (int phase = 0; phase < 8; ++phase) { // the worst over where in a step the touch begins
+        for (int phase = 0; phase < 8; ++phase) { // worst case over the phase of first contact
           const double dt = (fine ? 0.01 : 0.02) / omega;
           const Bounce b = bounceOff(options, k, 2 * zeta * mass * omega, dt, phase / 8.0);
           error[fine] = std::max(error[fine], std::fabs(b.restitution - restitutionOf(zeta)));
-          EXPECT_LE(b.pull, 1e-9 * k * 1 / omega) << "round-off of the greatest push; zeta " << zeta;
+          EXPECT_LE(b.pull, 1e-9 * k * 1 / omega) << "round-off of the largest force; zeta " << zeta;
         }
       EXPECT_LT(error[0], share * std::pow(0.02, order)) << zeta << " order " << order;
       EXPECT_LT(error[1], share * std::pow(0.01, order)) << zeta << " order " << order;
@@ -163,26 +163,26 @@ TEST(MultibodyStops, DampedStopGivesBackTheClosedFormOfItsRestitution) {
 }
 
 TEST(MultibodyStops, BothIntegratorsGiveTheWorkedExample) {
-  // k 1e5 N/m, c 200 N s/m, m 2 kg: e = 0.53942; damped on the way in alone it would be its root, 0.7345.
+  // k 1e5 N/m, c 200 N s/m, m 2 kg: e = 0.53942; damping on entry alone would yield its root, 0.7345.
   EXPECT_NEAR(restitutionOf(200 / (2 * std::sqrt(1e5 * 2))), 0.53942, 5e-6);
   for (const SolverOptions& options : {rattle(), rattle(4), symplecticEuler()})
     EXPECT_NEAR(bounceOff(options, 1e5, 200, 1e-5, 0.3).restitution, 0.53942, 2e-3); // omega dt = 2.2e-3, order 1
 }
 
 TEST(MultibodyStops, BodyRestsOnADampedStopAtItsStaticOverlap) {
-  // Gravity alone holds it there: neither integrator may take the damper's limit for a reason to let go.
+  // Static load by gravity: neither integrator may treat the damper's limit as a release.
   for (const SolverOptions& options : {rattle(), symplecticEuler()}) {
     Mechanism p = bouncingSlider(1e4, 250); // zeta 0.88
     p.state.pose[0].position.z = p.state.joint[0].position = -0.1;
     Solver solver(p.model, options);
     for (int i = 0; i < 2000; ++i) solver.step(p.state, p.loads, 1e-3);
-    EXPECT_NEAR(p.state.joint[0].position, -0.1 - 2 * 9.81 / 1e4, 1e-12); // exp(-60 t) is over
+    EXPECT_NEAR(p.state.joint[0].position, -0.1 - 2 * 9.81 / 1e4, 1e-12); // exp(-60 t) has decayed
     EXPECT_NEAR(p.state.joint[0].springForce, 2 * 9.81, 1e-8);
   }
 }
 
 TEST(MultibodyStops, WhatAStopTakesIsDissipatedToTheLastOfItsSpring) {
-  // While the damper is at its limit it takes what the spring gives: nothing is left in the books of the spring.
+  // While the damper is at its limit it dissipates the spring's energy: the spring leaves no residual in the ledger.
   // Relative to 1 J; symplectic Euler's own error is 2 omega dt of that (measured 1.3), rattle's of round-off.
   for (const auto& [options, error] : {std::pair{rattle(), 1e-12}, {symplecticEuler(), 0.015}}) {
     Mechanism p = bouncingSlider(1e6, 1000);

@@ -19,7 +19,7 @@ Mechanism top(const Vec3d& w) {
   return m;
 }
 
-/// Geodesic distance of two attitudes [rad].
+/// Geodesic distance of two orientations [rad].
 double attitudeError(const Quat& a, const Quat& b) {
   const Quat d = a * b.conjugate();
   return 2 * std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
@@ -49,7 +49,7 @@ TEST(MultibodyTop, AttitudeFollowsTheClosedFormWithOrderTwo) {
 }
 
 TEST(MultibodyTop, ExactGyroscopicsKeepTheOrderOverAllSteps) {
-  // Met to 1e-10 rad the equation takes an iteration less below 4e-4 s, and the error is ten times as large as above.
+  // With a tolerance of 1e-10 rad the equation needs one iteration less below 4e-4 s, and the error is 10 times larger.
   SolverOptions options;
   options.exactGyroscopics = true;
   double before = 0;
@@ -78,7 +78,7 @@ TEST(MultibodyTop, FlipsAtTheClosedFormIntervals) {
 }
 
 TEST(MultibodyTop, EnergyOfAFastTopStaysBounded) {
-  // Half a radian a step about the unstable axis: the explicit gyroscopic term would blow up here.
+  // Half a radian per step about the unstable axis: an explicit gyroscopic term would be unstable here.
   Mechanism m = top({0.5, 50, 0.5});
   Solver solver(m.model);
   solver.step(m.state, m.loads, 0.01);
@@ -95,7 +95,7 @@ TEST(MultibodyTop, EnergyOfAFastTopStaysBounded) {
 }
 
 TEST(MultibodyTop, SteadyPrecessionOfAHeavyTop) {
-  // Disc on a rod in a spherical joint, spinning fast: slow steady precession solves
+  // Disc on a rod in a spherical joint, spinning fast: slow steady precession satisfies
   //   (I3 - I1) cos(theta) W^2 + I3 s W - m g l = 0 at theta = 90 degrees, i.e. W = m g l / (I3 s) exactly.
   const double m = 2, l = 0.3, i3 = 0.04, i1 = 0.03, spin = 80, W = m * 9.81 * l / (i3 * spin);
   Mechanism p;
@@ -113,7 +113,7 @@ TEST(MultibodyTop, SteadyPrecessionOfAHeavyTop) {
     nod = std::max(nod, std::fabs(p.state.pose[0].position.z));
   }
   const Vec3d& x = p.state.pose[0].position;
-  EXPECT_LT(nod, 1e-4); // nutation started by the half step, of order dt
+  EXPECT_LT(nod, 1e-4); // nutation caused by the half step, of order dt
   EXPECT_NEAR(base::atan2(x.y, x.x), W * steps * dt, 1e-3);
 }
 

@@ -25,7 +25,7 @@ class Fault:
         return folders[-2 if folders[-1] == 'detail' else -1]
 
     def stages(self):
-        """Programs and filters to run, in this order, before the whole suite. Rooms without tests use those of whole
+        """Programs and filters to run, in this order, before the whole suite. Folders without tests use those of whole
         scenes."""
         own = [tuple(t.split(':', 1)) for t in self.tests]
         has_tests = any(path.parent.name == self.room() for path in TESTS.rglob('*_test.c*'))
@@ -55,7 +55,7 @@ def load_faults(folder):
 
 
 def find(faults, names):
-    """Faults of the given rooms or names; all if none is given."""
+    """All faults of the given folders or names; all if none is given."""
     if not names:
         return faults
     return [f for f in faults if any(f.name == n or f.name.startswith(n + '/') for n in names)]

@@ -85,11 +85,11 @@ class Workshop:
             self.built.clear()
 
     def rooms(self):
-        """Rooms with tests; each has its own program."""
+        """Folders with tests; each has its own program."""
         return sorted({file.parent.name for file in (self.tree / 'tests').rglob('*_test.c[pu]*')} - {'ranks'})
 
     def build(self, program):
-        """Builds a room's test program, or all of them. Throws BuildError."""
+        """Builds a folder's test program, or all of them. Throws BuildError."""
         if program in self.built:
             return
         target = 'grouser_tests' if program == 'all' else 'grouser_tests_' + program

@@ -16,7 +16,7 @@ FLAGS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=
 
 
 def find():
-    """The installed browser; None if there is none."""
+    """The installed browser; None without one."""
     return next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
@@ -55,7 +55,7 @@ class Browser:
         self.close()
 
     def message(self, seconds=60):
-        """The next message; TimeoutError without one."""
+        """The next message; TimeoutError if none arrives."""
         end = time.monotonic() + seconds
         while b"\0" not in self.rest:
             if not select.select([self.read], [], [], max(0.0, end - time.monotonic()))[0]:
@@ -103,7 +103,7 @@ class Browser:
         return found["result"].get("value")
 
     def until(self, expression, seconds=60):
-        """Waits for it to become true."""
+        """Waits until the expression is true."""
         end = time.monotonic() + seconds
         while not self.value(expression):
             if time.monotonic() > end:

@@ -12,7 +12,7 @@ import grouser
 
 class Files(FolderTest):
     def test_damaged_json_is_told_with_its_place(self):
-        """Messages are one line: file, line, column, remedy; no messages of Python."""
+        """Messages are one line: file, line, column, remedy; no Python traceback."""
         openers = {"check.json": grouser.open_check, "soil.json": grouser.open_soil, "events.json": grouser.open_events,
                    "calibration.json": grouser.open_calibration}
         whole = {"check.json": {"figures": [], "cases": []}, "soil.json": {"soil": "s", "constants": {}},
@@ -96,7 +96,7 @@ class Files(FolderTest):
         run.close()
         run.close()
         for name in ("results.h5", "frames.h5"):
-            h5py.File(f"done/{name}", "r+").close()  # which HDF5 refuses while it is open for reading
+            h5py.File(f"done/{name}", "r+").close()  # HDF5 rejects this while the file is open for reading
         for what, name in ((lambda: run["ledger.kinetic"], "results"), (lambda: run.time, "results"),
                            (lambda: run.constants, "results"), (lambda: run.scene, "results"),
                            (lambda: frame.position, "frames"), (lambda: frames.parts, "frames")):

@@ -14,6 +14,7 @@ from pathlib import Path
 
 from fixture import ROOT, FolderTest
 
+import browser
 import grouser
 
 sys.path.insert(0, str(ROOT / "cmake"))
@@ -144,7 +145,7 @@ class Sources(unittest.TestCase):
         sources = [file for room in rooms for file in (ROOT / room).rglob("*") if file.suffix in (".cpp", ".hpp", ".cu", ".cuh")]
         included = {name for file in sources
                     for name in re.findall(r"^ *#include <([\w+.-]+(?:/[^>]+|\.h))>", file.read_text(encoding="utf-8"), re.M)}
-        # Of the system, the compiler and the CUDA toolkit.
+        # Licences of the system, the compiler and the CUDA toolkit are not listed.
         of_none = re.compile(r"(sys|linux|cooperative_groups|cuda).*|(fcntl|dlfcn|unistd|signal|sched|poll|dirent|errno|omp|"
                              r"immintrin|malloc|execinfo|fenv|termios|spawn|getopt|math|stdint|cxxabi)\.h|nv.*|grouser/.*")
         libraries = {name.split("/")[0] for name in included if not of_none.fullmatch(name)}
@@ -280,6 +281,15 @@ class Site(FolderTest):
         index = (self.folder / "site/index.html").read_text()
         self.assertIn("tutorial.html", index)
         self.assertTrue((self.folder / "site/docs/tutorial.html").is_file())
+
+    @unittest.skipIf(browser.find() is None, "no Chromium is installed: apt-get install chromium-headless-shell")
+    def test_pages_fit_the_width_of_a_phone(self):
+        self.assertEqual(self.site(ROOT).returncode, 0)
+        with browser.Browser() as phone:
+            phone.call("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=True)
+            for page in [self.folder / "site/index.html", *(self.folder / "site/docs").glob("*.html")]:
+                phone.open(page)
+                self.assertLessEqual(phone.value("document.documentElement.scrollWidth"), 390, page.name)
 
     def test_broken_links_are_told(self):
         root = self.folder / "house"

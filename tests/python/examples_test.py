@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The examples work, and their figures agree with known results."""
+"""The examples run, and their results agree with known values."""
 import csv
 import unittest
 
@@ -29,14 +29,14 @@ class BouncingGrain(FolderTest):
         measured = bouncing_grain.main(str(self.folder))
         self.assertEqual(len(measured), 3)
         impact = (2 * GRAVITY * bouncing_grain.HEIGHT) ** 0.5  # [m/s]
-        # Speeds are of frames 1 ms apart: each may miss g dt of the impact's.
+        # Speeds come from frames 1 ms apart: each may miss g dt of the impact speed.
         tolerance = 2 * GRAVITY * 1e-3 / impact
         for asked, found in measured.items():
             self.assertAlmostEqual(found, asked, delta=tolerance)
 
 
 class PlateStress(unittest.TestCase):
-    """The runs take minutes: docs/reports.md has their figure."""
+    """The runs take minutes: docs/reports.md has the figure."""
 
     def test_compares_with_the_tabulated_influence_of_a_square(self):
         self.assertAlmostEqual(float(plate_stress.below_corner(1.0, 1.0, 1.0)), 0.1752, 4)  # Newmark's table
@@ -52,7 +52,7 @@ class PlateStress(unittest.TestCase):
 
 
 class BoulderDrops(unittest.TestCase):
-    """The runs take minutes: docs/mechanisms.md#example-scenes has their figure."""
+    """The runs take minutes: docs/mechanisms.md#example-scenes has the figure."""
 
     def test_finds_the_exponent_of_depths_that_follow_the_experiments(self):
         heights = numpy.array(boulder_drops.DROP_HEIGHTS)
@@ -73,7 +73,7 @@ class BoulderDrops(unittest.TestCase):
 
 
 class TowedBlock(unittest.TestCase):
-    """The runs take minutes: docs/mechanisms.md#example-scenes has their figure."""
+    """The runs take minutes: docs/mechanisms.md#example-scenes has the figure."""
 
     def test_puts_the_nose_ahead_of_the_sole(self):
         self.assertEqual(len(towed_block.shapes_of(90)), 1)
@@ -103,22 +103,22 @@ class TrackSinkage(FolderTest):
             carried = numpy.isfinite(table).any(axis=0)
             self.assertGreater(carried.sum(), 4)
             self.assertTrue((carried == numpy.isfinite(means[side])).all())
-            # The text has six digits.
+            # The text output has six digits.
             numpy.testing.assert_allclose(means[side][carried], numpy.nanmean(table[:, carried], axis=0), rtol=1e-5,
                                           atol=1e-6)
 
-        # A shoe in the frames is where the series say: its plate's lowest point lies within a shoe of its frame.
+        # Shoe positions agree between frames and series: the lowest point of the plate is within one shoe.
         heights = run.by_shoe("pad_height")["left"]
         places = run.frames.part("left shoe 0")
         for time in (0.0, 0.3):
             self.assertLess(abs(heights.at(time)[0] - places["z"].at(time)), 0.15)
         self.assertAlmostEqual(run.surface.x[-1] - run.surface.x[0], 4.2, delta=0.2)
-        # The vehicle has pressed the bed down below its tracks: less than a grain is no rut.
+        # The vehicle has pressed the bed down below its tracks: less than a grain is not a rut.
         rise = run.surface.final_height - run.surface.height
         self.assertEqual(rise.shape, (len(run.surface.y), len(run.surface.x)))
         self.assertLess(rise.min(), -0.01)
 
-        # The checkpoint at the end and the last frame hold the same grains: a frame has floats.
+        # The checkpoint at the end and the last frame contain the same grains: frames have floats.
         bed, last = run.bed(), run.frames[-1]
         order = numpy.argsort(last.id)
         self.assertEqual(len(bed), len(last))
@@ -138,13 +138,13 @@ class ErrorBars(FolderTest):
         force = sweep["ground force z"]
         self.assertEqual(force.unit, "N")
         self.assertEqual(force.value.shape, (6,))
-        # The mean that the sweep tells is that of its runs, and of the series in the files of these.
+        # The mean printed by the sweep equals that of its runs, and of the series in their files.
         first = sweep.means["ground force z"][0]
         self.assertAlmostEqual(first.mean.value, numpy.mean(force.value[:3]), places=6)
         with sweep.runs[0].open() as run:
             series = run["surfaces.ground.force"]["z"].between(0.1, 0.2)
             self.assertAlmostEqual(float(numpy.mean(series.value)), force.value[0], places=6)
-        # Friction 0.5 is neither of the swept, but weighs as much; the bar of all is no less than that of the seeds.
+        # Friction 0.5 is not in the sweep, but has the same weight; the total bar is at least that of the seeds.
         figure = check["ground force z"]
         self.assertGreaterEqual(figure.bar.half_width, figure.by_seeds.half_width)
         self.assertEqual(set(figure.errors), {"step"})
@@ -158,12 +158,12 @@ class ErrorBars(FolderTest):
 
 
 class Controllers(FolderTest):
-    """Each fails with its own error if it misses its goal."""
+    """Each fails with its own error if it misses its target."""
 
     def test_cruise_control_holds_its_speed_up_the_slope_and_is_replayed(self):
         self.assertAlmostEqual(cruise_control.main(str(self.folder / "held")), cruise_control.GOAL, delta=0.01)
         said = grouser.call(["run", "--replay", str(self.folder / "held")])
-        self.assertIn("the same state hash", said)
+        self.assertIn("same state hash", said)
 
     def test_slip_control_finds_the_pull(self):
         slip, pull = slip_control.main(0.1)

@@ -110,7 +110,7 @@ class FieldsOfTheSoil(FolderTest):
             self.assertFalse(run.frames[0].has_fields)
 
     def test_refuse_cells_that_do_not_fit(self):
-        for keys, words in (({"fields_cell": 0.01}, "smaller than the largest grain, whose diameter is 0.02 m"),
+        for keys, words in (({"fields_cell": 0.01}, "smaller than the largest grain diameter, 0.02 m"),
                             ({"fields_cell": 0.02, "fields_low": [0, 0, 0]}, "fields_low .*requires fields_high"),
                             ({"fields_cell": 0.02, "fields_low": [0, 0, 0], "fields_high": [1, 0, 1]}, "along y; raise it"),
                             ({"fields_cell": 0.02, "fields_low": [0, 0, 0], "fields_high": [9, 9, 9]},

@@ -244,9 +244,9 @@ def prism(outline, height=1.0):
     return v, f
 
 
-# Only the cube as a whole, each face in its place, is cut so.
+# Only the complete cube, with all faces in place, has this conversion.
 CUBE_CUT = Right(["thing: 92 spheres"])
-# An error in a mesh says what to do about it.
+# Mesh errors suggest a remedy.
 REMEDY = "export|repair|close|flip|correct|give it|write|remove|make all"
 
 CASES = {
@@ -294,7 +294,7 @@ CASES = {
     "mesh negative indices": mesh(obj(faces=[tuple(k - 9 for k in f) for f in CUBE_FACES]), CUBE_CUT),
     "mesh nan": mesh(obj(vertices=[(float("nan"), 0, 0)] + CUBE[1:]), Error(["thing.obj"])),
     "mesh inf": mesh(obj(vertices=[(float("inf"), 0, 0)] + CUBE[1:]), Error(["thing.obj"])),
-    "mesh decimal commas": mesh(obj().replace("0.1", "0,1"), CUBE_CUT),  # the reader takes them as points
+    "mesh decimal commas": mesh(obj().replace("0.1", "0,1"), CUBE_CUT),  # the reader treats them as points
     "mesh a coordinate missing": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1"), Error(["thing.obj:8", "2 of"])),
     "mesh a coordinate missing and a vertex to spare": mesh(
         obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1\nv 0 0 0.2"), Error(["thing.obj:8", "2 of its 3"])),
@@ -309,7 +309,7 @@ CASES = {
     "mesh degenerate triangle": mesh(obj(faces=CUBE_FACES + [(1, 2, 2)]), CUBE_CUT),
     "mesh two shells": mesh(obj(*shells((3, 0, 0))), Right(["thing: 184 spheres"])),
     "mesh hollow": mesh(obj(*shells((.25, .25, .25), .5, flipped())), Right(["thing: 182 spheres"])),
-    "mesh shells across": mesh(obj(*shells((.5, .5, .5))), Right(["thing: 137 spheres"])),  # what either shell encloses
+    "mesh shells across": mesh(obj(*shells((.5, .5, .5))), Right(["thing: 137 spheres"])),  # union of both shells
     "mesh concave polygon": mesh(obj(*prism(L_SHAPE)), Right(["thing: 245 spheres"])),
     "mesh stl": mesh(stl(), CUBE_CUT, "thing.stl"),
     "mesh stl that says solid": mesh(stl(b"solid exported"), CUBE_CUT, "thing.stl"),

@@ -246,7 +246,7 @@ class Calls(FolderTest):
         self.assertGreater(branch.time[0], finished.time[-1])
         with self.assertRaisesRegex(grouser.InputError, "--from-checkpoint"):
             scene.sweep("branches", {"run.seed": [1, 2]}, from_checkpoint="long/checkpoint.h5")
-        with self.assertRaisesRegex(grouser.InputError, "--until rest waits for a vehicle"):
+        with self.assertRaisesRegex(grouser.InputError, "--until rest requires a vehicle"):
             scene.run("rest", until="rest")
 
     def test_what_was_printed_comes_back(self):

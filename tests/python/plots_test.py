@@ -35,13 +35,13 @@ SHOES = 24
 
 
 def pads(rise):
-    """[rows, shoes]: the shoes have ground contact one after the other, and then rise by this height [m]."""
+    """[rows, shoes]: the shoes are on the ground one after the other, and then rise by this height [m]."""
     left = 0.1 * numpy.arange(SHOES)[None, :] - 0.6 * TIME[:, None]
     return numpy.clip(-left, 0, None) * rise - 0.01, left > 0
 
 
 def written(file, rise=0.5, final=True, **more):
-    """The results of a drive on a bed that plots read."""
+    """Results of a drive on a bed, as input of the plots."""
     values = {"vehicle/position": numpy.stack([0.3 * TIME, 0 * TIME, 0 * TIME], 1)}
     height, on_ground = pads(rise)
     for side in series.SIDES:
@@ -136,7 +136,7 @@ class Readable(FolderTest):
             self.assertEqual(len(over_time), 1)
 
     def test_single_shoes_have_the_time_of_the_table(self):
-        """The sprockets start at 1 s: the first shoe of the picture starts at 0 s, as in sinkage_shoes.csv."""
+        """The sprockets start at 1 s: the first shoe in the plot starts at 0 s, as in sinkage_shoes.csv."""
         written("results.h5")
         kept = []
         with mock.patch.object(drawing, "save", lambda figure, *_, **__: kept.append(figure)), \
@@ -161,7 +161,7 @@ INTERVALS = """k,figure,seeds,mean,half width,difference to the first,half width
 
 
 class Doubtful(FolderTest):
-    """Figures of runs that hardly drove or are incomplete are marked."""
+    """Results of runs that hardly drove or are incomplete are marked."""
 
     def written(self, intervals=""):
         (self.folder / "summary.csv").write_text(SUMMARY)

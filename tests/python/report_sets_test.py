@@ -72,7 +72,7 @@ class Pages(PageTest):
         ledger = [name for name in self.numbers() if name.endswith("ledger.kinetic at the end")]
         self.assertEqual(len(ledger), 1, "that of the only combination with a whole run")
         frames = (runs[5] / "frames.h5").read_bytes()
-        within = frames.rindex(b"SNOD")  # where opening does not see it
+        within = frames.rindex(b"SNOD")  # damage inside: opening the file does not detect it
         (runs[5] / "frames.h5").write_bytes(frames[:within] + b"LOST" + frames[within + 4:])
         self.opened("sweep")
         self.assertIn(f"{runs[5].name}/frames.h5: damaged or incomplete", self.browser.value(
@@ -140,7 +140,7 @@ class Pages(PageTest):
         with open(table, newline="") as kept:
             rows = list(csv.DictReader(kept))
         row = next(row for row in rows if row["figure"].startswith("ground force z"))
-        row.update({"seeds": "1", "half width": "inf"})  # as the program writes it of one seed
+        row.update({"seeds": "1", "half width": "inf"})  # as the program writes it for one seed
         with open(table, "w", newline="") as fresh:
             writer = csv.DictWriter(fresh, rows[0])
             writer.writeheader()
@@ -220,7 +220,7 @@ class Pages(PageTest):
         for name, seconds in cells:
             self.same(shown[name], seconds, name)
         for figure in check.json["figures"]:
-            for error in figure["errors"]:  # as if the seeds showed little, and the step had a bar far above its change
+            for error in figure["errors"]:  # as if the seed scatter were small, and the step's bar far above its change
                 error["bar"] = {"step": 0.7, "precision": 0.9}[error["axis"]] * abs(figure["value"])
             figure["seeds_half_width"], figure["bar"] = 0.1 * abs(figure["value"]), 0.75 * abs(figure["value"])
         (self.folder / "check/check.json").write_text(json.dumps(check.json))
@@ -229,7 +229,7 @@ class Pages(PageTest):
         self.assertTrue(self.browser.value(f"{over}.looks.length && {over}.looks.every(look => look.marked)"))
         largest = self.browser.value("[...document.querySelectorAll('#shares td:last-child')].map(c => c.textContent)")
         self.assertEqual(set(largest), {"step (70 %)"}, "precision is in no bar where seeds matter")
-        # Its runs write no frames: what is seen is the checkpoint's.
+        # Its runs write no frames: the view shows the checkpoint.
         with grouser.open_run("check/base,seed=1") as run:
             self.assertIsNone(run.frames)
             bed = run.bed()
@@ -368,7 +368,7 @@ class Pages(PageTest):
         self.assertEqual(plots["Young"], ("young [Pa]", [[[1, 2, 3, 4], [8e7, 8e7, 8e7, 3e8]]]))
         self.assertEqual(plots["Pressure of the small plate"][1][0], [[3, 4], [25.5, 49.0], [3.25, 4.5]])
         self.assertIn("Plates", plots, "tests of the calibrated soil")
-        # The bar of the first trial is there to be seen, upright at its place.
+        # The bar of the first trial is visible, upright and in place.
         marked = self.browser.value("""(() => { const g = report.plots.find(p => p.entry.title.startsWith("phi")).graph;
           const c = g.hidden_.getContext("2d"), scale = g.hidden_.width / g.hidden_.clientWidth;
           const [x, y] = g.toDomCoords(1, 27.123456789 - 0.5);

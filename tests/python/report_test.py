@@ -104,7 +104,7 @@ class Refused(FolderTest):
             (self.folder / "run" / name).rename(self.folder / "kept")
             self.refuses("run", ["run: ", name, "run it again"], "--out", "damaged.html")
             (self.folder / "kept").rename(self.folder / "run" / name)
-        for name in ("results.h5", "frames.h5"):  # within, where opening does not see it
+        for name in ("results.h5", "frames.h5"):  # damage inside: opening the file does not detect it
             whole = (self.folder / "run" / name).read_bytes()
             nodes = [m.start() for m in re.finditer(b"SNOD", whole)]
             for node in (nodes[0], nodes[-1]):
@@ -161,7 +161,7 @@ class Refused(FolderTest):
             time.sleep(0.02)
         os.killpg(started.pid, signal.SIGINT)
         told = started.communicate(timeout=60)[0]
-        self.assertEqual((started.returncode, told), (130, "interrupted; no page was written\n"))
+        self.assertEqual((started.returncode, told), (130, "interrupted; no report was written\n"))
         self.assertEqual({file.name for file in self.folder.iterdir()}, {"sweep", "program", "asked"})
 
     def test_a_signal_to_the_program_reaches_the_script(self):
@@ -177,7 +177,7 @@ class Refused(FolderTest):
             time.sleep(0.02)
         started.send_signal(signal.SIGTERM)
         told = started.communicate(timeout=60)[1]
-        self.assertEqual((started.returncode, told[:48]), (143, "grouser: stopped by SIGTERM; no page was written"))
+        self.assertEqual((started.returncode, told[:50]), (143, "grouser: stopped by SIGTERM; no report was written"))
 
     def test_a_page_that_is_interrupted_while_it_is_written_is_taken_back(self):
         code = ("import os, sys; sys.argv = ['report.py', *sys.argv[2:]]; sys.path.insert(0, sys.argv.pop(1)); "
@@ -211,7 +211,7 @@ class Pages(PageTest):
         self.assertEqual(self.browser.value("[report.space.grains.count, report.space.time.length]"), [100, 3])
 
     def ground_pressure_is_of_the_shoes_in_contact(self, folder):
-        """Four carry 100 kPa, the others are pulled by 102: that is 100 kPa in every row."""
+        """Four carry 100 kPa, the others are pulled by 102 kPa: the expected mean is 100 kPa in every row."""
         with h5py.File(f"{folder}/results.h5", "r+") as file:
             for side in ("left", "right"):
                 pressure, carries = (file[f"vehicle/{side}/{name}/value"] for name in ("ground_pressure", "on_ground"))
@@ -273,7 +273,7 @@ class Pages(PageTest):
         for _ in range(60):
             page.press("Tab")
             where = page.value("document.activeElement.id || document.activeElement.tagName")
-            if where == "BODY":  # behind the last
+            if where == "BODY":  # past the last control
                 break
             drawn = page.value("(() => { const s = getComputedStyle(document.activeElement); "
                                "return s.outlineStyle !== 'none' && parseFloat(s.outlineWidth) >= 1; })()")
@@ -325,7 +325,7 @@ class Pages(PageTest):
             self.assertIn(f"[{series.unit}]", page.value(f"{plot}.entry.y"))
 
     def looks_change(self, page):
-        """Dark where the system is dark, white on paper."""
+        """Dark theme if the system's is dark; white when printed."""
         back = "getComputedStyle(document.body).backgroundColor"
         self.assertEqual(page.value(back), "rgb(255, 255, 255)")
         page.media(scheme="dark")
@@ -399,7 +399,7 @@ class Pages(PageTest):
         self.assertTrue(math.isfinite(self.browser.value("report.space.grains.fastest")))
 
     def test_what_is_damaged_beside_the_results(self):
-        """The scene comes from results.h5, a damaged picture is reported; figures of the last part are marked."""
+        """The scene comes from results.h5, a damaged picture is reported; results of a short steady part are marked."""
         self.run_of_grains("run", "--steps", "40")
         grouser.call(["run", "grains.toml", "--out", "run", "--resume"])
         begun = grouser.open_run("run").manifest["resumed_from_step"]
@@ -462,7 +462,7 @@ class Pages(PageTest):
             self.assertIn(early, caption)
             self.assertEqual(self.browser.value("[...document.querySelectorAll('#figures table')[0].querySelectorAll("
                                                 "'tbody tr')].map(r => r.cells[0].textContent)"), ["force"])
-        for step in ("1e-4", "1.4e-4"):  # of which the last one ends before the duration of the scene
+        for step in ("1e-4", "1.4e-4"):  # the last one ends before the duration of the scene
             grouser.call(["run", "grains.toml", "--out", f"whole{step}", "--set", f"run.time_step={step}"])
             self.opened(f"whole{step}")
             caption = self.browser.value("document.querySelector('#figures caption').textContent")

@@ -51,7 +51,7 @@ class Grains(FolderTest):
         with grouser.Simulation(grouser.Scene(FALL)) as sim:
             held = sim.positions
             self.assertEqual((held.shape, held.dtype), ((2, 3), numpy.float64))
-            self.assertIs(sim.positions, held)  # of one step there is one
+            self.assertIs(sim.positions, held)  # a single step has one array
             before = held.copy()
             with self.assertRaises(ValueError):
                 held[0, 0] = 1
@@ -59,7 +59,7 @@ class Grains(FolderTest):
             self.assertIsNot(sim.positions, held)
             numpy.testing.assert_array_equal(held, before)
             self.assertLess(sim.positions[0, 2], before[0, 2])
-            # Nobody holds it: the memory is used again.
+            # No references remain: the memory is reused.
             del held
             address = sim.positions.ctypes.data
             sim.step(1)
@@ -93,12 +93,12 @@ class Vehicles(FolderTest):
             self.assertAlmostEqual(sim.vehicle.right.sprocket_speed - sim.vehicle.left.sprocket_speed, 0.5, delta=1e-9)
             self.assertEqual(sim.vehicle.left.tension.shape, (46,))
             self.assertGreater(sim.vehicle.speed, 0.05)
-            sim.set_sprocket_speed(1.0)  # behind the last step: part of the state that is left
+            sim.set_sprocket_speed(1.0)  # after the last step: part of the final state
         ended = grouser.open_run(out).manifest["state_hash"]
         run = grouser.open_run(out)
         self.assertEqual(run.status, "finished")
         said = grouser.call(["run", "--replay", str(out), "--threads", "2", "--out", str(self.folder / "again")])
-        self.assertRegex(said, r"replay +\d+ inputs of .*: the same state hash")
+        self.assertRegex(said, r"replay +\d+ inputs of .*: same state hash")
         self.assertEqual(grouser.open_run(self.folder / "again").manifest["state_hash"], ended)
 
     def test_a_checkpoint_goes_on_with_what_acts(self):
@@ -172,7 +172,7 @@ class Process(FolderTest):
             with self.assertRaises(KeyboardInterrupt):
                 sim.step(10_000_000)
             self.assertLess(time.monotonic() - begun, 5)
-            sim.step(1)  # it is whole
+            sim.step(1)  # the state is valid
 
     def test_errors_free_what_they_leave(self):
         sim = grouser.Simulation(grouser.Scene(FALL))
@@ -190,14 +190,14 @@ class Process(FolderTest):
             grouser.Simulation(scene)
 
     def test_an_unsound_simulation_says_so_and_can_be_looked_at(self):
-        sim = grouser.Simulation(grouser.Scene(FALL))  # so soft, a grain that falls 1 m goes through the plane
+        sim = grouser.Simulation(grouser.Scene(FALL))  # a grain that falls 1 m penetrates so soft a plane
         with self.assertRaises(grouser.SimulationError) as caught:
             sim.step(2000)
         self.assertEqual(caught.exception.exit_code, 3)
         self.assertEqual(sim.positions.shape, (2, 3))
         with self.assertRaisesRegex(grouser.InputError, "has failed"):
             sim.step()
-        sim.finish()  # there is nothing to finish
+        sim.finish()  # nothing to finish
 
     def test_positions_are_those_of_the_state_that_was_restored(self):
         with grouser.Simulation(grouser.Scene(FALL)) as sim:
@@ -213,7 +213,7 @@ class Process(FolderTest):
             self.assertTrue((sim.positions == there).all())
             sim.step(10)
             sim.positions
-            sim.restore(self.folder / "aside.h5")  # at the same step, another state
+            sim.restore(self.folder / "aside.h5")  # same step, different state
             self.assertTrue((sim.positions == aside).all())
 
     def test_a_forked_process_says_that_it_cannot_run_threads(self):
@@ -241,7 +241,7 @@ class Process(FolderTest):
             with self.assertRaises(AttributeError):
                 sim.sprocket_speed = 3
         scene = vehicle_scene()
-        scene["vehicle.gear_contact_model"] = "samples"  # its shoes are cut into spheres
+        scene["vehicle.gear_contact_model"] = "samples"  # its shoes are converted to spheres
         with grouser.Simulation(scene, threads=1) as sim:
             self.assertIn("shoe.obj", sim.warnings[0])
         with self.assertRaisesRegex(grouser.InputError, "threads = -1"):

@@ -44,7 +44,7 @@ TEST(Comm, BroadcastGivesEveryRankWhatOneHas) {
 
 TEST(Comm, WaitingForALateRankIsCountedInEveryCall) {
   const Comm& comm = test::comm();
-  if (comm.alone()) GTEST_SKIP() << "one rank waits for nobody";
+  if (comm.alone()) GTEST_SKIP() << "one rank never waits";
   const struct {
     const char* name;
     std::function<void()> call;
@@ -55,14 +55,14 @@ TEST(Comm, WaitingForALateRankIsCountedInEveryCall) {
                {"broadcast", [&] { comm.broadcast(Bytes(3), 0); }}};
   constexpr double kLate = 0.05; // [s]
   for (const auto& [name, call] : calls) {
-    // Once in a few tries all ranks but the late one must have come on time, however busy the machine is.
+    // In one of a few tries all ranks except the late one must be on time, however busy the machine is.
     double longest = 0;
     for (int attempt = 0; attempt < 20 && longest < kLate / 2; ++attempt) {
       comm.sumOf(1);
       const double before = comm.waited();
       if (comm.first()) std::this_thread::sleep_for(std::chrono::duration<double>(kLate));
       call();
-      double waited = comm.first() ? 1e300 : comm.waited() - before; // the least of all others
+      double waited = comm.first() ? 1e300 : comm.waited() - before; // the smallest of all others
       waited = -waited;
       comm.maximum(&waited, 1);
       longest = std::max(longest, -waited);
@@ -72,7 +72,7 @@ TEST(Comm, WaitingForALateRankIsCountedInEveryCall) {
 }
 
 TEST(Comm, MessagesLargerThanOnePartArriveWhole) {
-  // Half a gigabyte a rank would be slow: this one only crosses the border between eager and rendezvous messages.
+  // Half a gigabyte per rank would be slow: this size just crosses the limit between eager and rendezvous messages.
   const Comm& comm = test::comm();
   const int next = (comm.rank() + 1) % comm.size(), before = (comm.rank() + comm.size() - 1) % comm.size();
   if (comm.alone()) GTEST_SKIP() << "one rank sends no messages";

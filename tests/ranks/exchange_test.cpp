@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The exchange protocol with an element type that is no grain: a passive tracer with a concentration, a label and a
+// The exchange protocol with a custom element type: a passive tracer with a concentration, a label and a
 // colour, which is exchanged twice within a step.
 #include "contact/exchange.hpp"
 #include "tests/ranks/ranks.hpp"
@@ -16,9 +16,9 @@ namespace {
 constexpr ExchangeOptions kOnCpus{.peers = base::PeerUse::never};
 using Colour = std::array<std::uint32_t, 3>;
 
-/// Tracers on a line, one for each whole place; a place belongs to rank place / kEach.
+/// Tracers on a line, one per integer position; a position belongs to rank position / kEach.
 struct Tracers {
-  static constexpr std::uint32_t kEach = 10; ///< places of one rank
+  static constexpr std::uint32_t kEach = 10; ///< positions per rank
   base::Exec exec = base::cpuExec(1);
   base::Array<double> concentration{exec};
   base::Array<std::uint32_t> place{exec};
@@ -33,7 +33,7 @@ struct Tracers {
 
 double concentrationAt(std::uint32_t place) { return 1.0 / (place + 1.0); }
 
-/// The tracers of this rank, at its own places.
+/// The tracers of this rank, at its own positions.
 Tracers startingTracers() {
   Tracers t;
   t.owned = Tracers::kEach;
@@ -60,7 +60,7 @@ void route(Exchange& exchange, const Tracers& t, const std::vector<std::pair<std
 
 TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   const base::Comm& comm = test::comm();
-  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with: see OneRank";
+  if (comm.alone()) GTEST_SKIP() << "one rank has no exchange partner: see OneRank";
   const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
   Tracers t = startingTracers();
 
@@ -73,13 +73,13 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
   migration.run(t.everything());
   const std::uint32_t top = static_cast<std::uint32_t>(left + 1) * Tracers::kEach - 1;
   for (std::uint32_t k = 0; k < 2; ++k) {
-    const std::uint32_t p = top - k; // the order on the route is kept
+    const std::uint32_t p = top - k; // the order is preserved in transit
     EXPECT_EQ(t.place.data()[t.owned + k], p);
     EXPECT_EQ(t.concentration.data()[t.owned + k], concentrationAt(p));
     EXPECT_EQ(t.colour.data()[t.owned + k], (Colour{p, p * p, p + 7}));
   }
 
-  // Ghosts: the first tracer is known to the left, with its concentration alone.
+  // Ghosts: the left neighbour receives the first tracer, with its concentration only.
   Exchange ghosts(t.exec, comm, kOnCpus);
   route(ghosts, t, {{0, left}});
   ASSERT_EQ(ghosts.importCount(), 1u);
@@ -90,7 +90,7 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
     t.concentration.data()[0] += 1;
     const ExchangeField field = fieldOf(t.concentration);
     ghosts.start({&field, 1});
-    t.concentration.data()[0] += 0.5; // after it was sent: must not travel
+    t.concentration.data()[0] += 0.5; // changed after sending: must not be sent
     ghosts.finish({&field, 1});
     const double first = concentrationAt(static_cast<std::uint32_t>(right) * Tracers::kEach);
     EXPECT_EQ(t.concentration.data()[ghost], first + 1 + 1.5 * half);
@@ -101,7 +101,7 @@ TEST(Exchange, HandsOverWholeElementsAndUpdatesGhostsTwiceAStep) {
 
 TEST(Exchange, PackedInManyLaunchesTheSameArrives) {
   const base::Comm& comm = test::comm();
-  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  if (comm.alone()) GTEST_SKIP() << "one rank has no exchange partner";
   const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
   // Elements of six words: 1, 2 and 3 of the 7 at a time.
   for (const std::size_t words : {1u, 12u, 19u}) {
@@ -124,7 +124,7 @@ TEST(Exchange, PackedInManyLaunchesTheSameArrives) {
 
 TEST(Exchange, FollowsElementsThatMoveToOtherSlots) {
   const base::Comm& comm = test::comm();
-  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  if (comm.alone()) GTEST_SKIP() << "one rank has no exchange partner";
   const int right = (comm.rank() + 1) % comm.size(), left = (comm.rank() + comm.size() - 1) % comm.size();
   Tracers t = startingTracers();
   Exchange ghosts(t.exec, comm, kOnCpus);
@@ -148,12 +148,12 @@ TEST(Exchange, FollowsElementsThatMoveToOtherSlots) {
 
 TEST(Exchange, OneElementMayGoToManyRanksAndNoneToOthers) {
   const base::Comm& comm = test::comm();
-  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  if (comm.alone()) GTEST_SKIP() << "one rank has no exchange partner";
   Tracers t = startingTracers();
   Exchange exchange(t.exec, comm, kOnCpus);
   // Rank 0 sends its tracer 5 to all others; the others send nothing.
   std::vector<std::pair<std::uint32_t, int>> leaving;
-  for (int r = comm.size() - 1; r > 0 && comm.first(); --r) leaving.emplace_back(5, r); // not in the order of ranks
+  for (int r = comm.size() - 1; r > 0 && comm.first(); --r) leaving.emplace_back(5, r); // not ordered by rank
   route(exchange, t, leaving);
   EXPECT_EQ(exchange.importCount(), comm.first() ? 0u : 1u);
   EXPECT_EQ(exchange.exportCount(), leaving.size());
@@ -167,12 +167,12 @@ TEST(Exchange, OneElementMayGoToManyRanksAndNoneToOthers) {
 
 TEST(Exchange, RefusesToFinishWithOtherFields) {
   const base::Comm& comm = test::comm();
-  if (comm.alone()) GTEST_SKIP() << "one rank has nobody to exchange with";
+  if (comm.alone()) GTEST_SKIP() << "one rank has no exchange partner";
   Tracers t = startingTracers();
   Exchange exchange(t.exec, comm, kOnCpus);
   route(exchange, t, {});
   const ExchangeField wide = fieldOf(t.colour), narrow = fieldOf(t.place);
-  EXPECT_THROW(exchange.finish({&wide, 1}), std::logic_error); // nothing was started
+  EXPECT_THROW(exchange.finish({&wide, 1}), std::logic_error); // no exchange is active
   exchange.start({&wide, 1});
   EXPECT_THROW(exchange.finish({&narrow, 1}), std::logic_error);
   exchange.finish({&wide, 1});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fluid on any number of ranks: bits, loads, probes and totals equal those on one.
+// Fluid on any number of ranks: bitwise equal states, loads, probes and totals.
 #include "base/error.hpp"
 #include "tests/fluid/water.hpp"
 #include "tests/ranks/ranks.hpp"
@@ -13,7 +13,7 @@ namespace {
 
 using base::Vec3d;
 
-/// Results that callers can read.
+/// Results accessible to callers.
 struct Seen {
   std::uint64_t hash;
   base::Vec3l balance;
@@ -40,7 +40,7 @@ Seen seen(Fluid& fluid) {
   return s;
 }
 
-/// A rotating cube is towed through the water surface.
+/// A rotating cube, towed through the water surface.
 std::vector<BodyMotion> drawn(const FluidSetup& s, int step) {
   BodyMotion m = s.bodies[0].start;
   const double t = (step + 1) * s.model.timeStep, turn = 0.3 + 2 * t;
@@ -66,7 +66,7 @@ TEST(FluidOnRanks, HasTheBitsOfOneRank) {
   EXPECT_EQ(shared.bytesSent() > 0, !test::comm().alone());
 }
 
-/// Particles cross borders, which follow them, and come from a state of one rank.
+/// Particles cross subdomain borders, which follow them, starting from a state of one rank.
 TEST(FluidOnRanks, ADamBreakMovesFromRankToRank) {
   const FluidSetup s = damBreak();
   Fluid alone = made(s, {}), shared = made(s, {test::comm(), {test::comm().size(), 1, 1}, {}, true});

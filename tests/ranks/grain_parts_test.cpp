@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains that slide over a part while they migrate: their contact springs migrate with them.
+// Grains that slide over a part and migrate: their contact springs migrate with them.
 #include "contact/grain_part_contacts.hpp"
 #include "terrain/grains.hpp"
 #include "tests/contact/part_fixture.hpp"
@@ -24,7 +24,7 @@ GrainModel pebbles() {
   return m;
 }
 
-/// 48 pebbles on a plate that is level and rough; all slide along it, most across a border.
+/// 48 pebbles on a level and rough plate; all slide along it, most across a subdomain border.
 std::vector<GrainSpec> sliding() {
   std::vector<GrainSpec> start;
   for (int y = 0; y < 6; ++y)
@@ -127,7 +127,7 @@ TEST_P(PartsOnRanks, HandedOverTwiceBetweenTwoStepsNothingIsLost) {
   for (int step = 1; step <= 600; ++step) {
     alone.step(), shared.step();
     if (step % 150 != 0 || !ranks) continue;
-    // The cuts jump, twice before the next step: nearly all grains change hands, some two times.
+    // The cuts jump, twice before the next step: nearly all grains migrate, some twice.
     for (const double cut : {-0.2, 0.3}) {
       std::array<std::vector<std::int64_t>, 3> weights;
       for (auto& w : weights) w.assign(contact::kPartitionBins, 1);

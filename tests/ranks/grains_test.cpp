@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bitwise identical results on any number of ranks: grains that slide, spin, touch walls and cross borders.
+// Bitwise identical results on any number of ranks: grains that slide, spin, touch walls and cross subdomain borders.
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "terrain/bed_tops.hpp"
@@ -15,7 +15,7 @@
 namespace grouser::terrain::testing {
 namespace {
 
-/// A block of 360 grains thrown across the box: nearly all of them change their subdomain.
+/// A block of 360 grains thrown across the box: nearly all change their subdomain.
 std::vector<GrainSpec> thrownBlock() { return gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9}); }
 
 Boundaries box(const GrainModel& m) {
@@ -27,7 +27,7 @@ PartitionOptions shared(const std::array<int, 3>& shape = {0, 0, 0}, bool rebala
   return {test::comm(), shape, {}, rebalance};
 }
 
-/// All words, on every rank, in the order of ids.
+/// All state words, on every rank, ordered by id.
 std::vector<std::uint32_t> allWords(const Grains& grains) {
   std::vector<std::uint32_t> words;
   for (const auto& part : grains.system().comm.gatherAll(grains.state().words()))
@@ -79,7 +79,7 @@ TEST(GrainsOnRanks, FieldsHaveTheBitsOfOneRank) {
   }
 }
 
-/// Separate test, as eight ranks on two cores take a minute for all.
+/// A separate test, since eight ranks on two cores take a minute for all.
 TEST(GrainsOnRanks, EqualBitsWhereEveryAxisIsDivided) {
   if (test::comm().size() != 8) GTEST_SKIP() << "requires 2 x 2 x 2 ranks";
   const GrainModel m = gravel();
@@ -88,7 +88,7 @@ TEST(GrainsOnRanks, EqualBitsWhereEveryAxisIsDivided) {
   EXPECT_EQ(allWords(grains), expected());
 }
 
-/// Noise as fine and nearly as high as the grains: most touch the floor in several places.
+/// Noise with the wavelength and nearly the height of the grains: most touch the floor in several places.
 Boundaries roughBox(const GrainModel& m) {
   Boundaries sides = box(m);
   const Rectangle area{-0.3, 1.2, -0.3, 0.9};
@@ -115,7 +115,7 @@ TEST(GrainsOnRanks, EqualBitsOnGroundWithHollowsTighterThanTheGrains) {
 }
 
 TEST(GrainsOnRanks, EqualBitsOfYieldingContacts) {
-  // Plastic states migrate with their grains, and with the springs of walls.
+  // Plastic states migrate with their grains and with wall springs.
   GrainModel m = gravel();
   m.law.plastic = {0.6, 0.6, 0.3, 400, 0, 0, 3};
   Grains alone(base::cpuExec(1), m, box(m), thrownBlock());
@@ -167,7 +167,7 @@ TEST(GrainsOnRanks, EqualBitsAboveAFloorOfFixedGrains) {
     std::vector<GrainSpec> start = gravelBlock(12, 6, 3, {2.5, 1.0, -1}, {3, -2, 9});
     if (manyRadii)
       for (std::size_t i = 0; i < start.size(); ++i) start[i].radius = (i % 3 ? 1 : 0.6) * m.radius;
-    for (int i = 0; i < 24 * 14; ++i) // between the others' ids too
+    for (int i = 0; i < 24 * 14; ++i) // interleaved with the others' ids
       start.insert(start.begin() + i / 2,
                    GrainSpec{{0.04 * (i % 24), 0.04 * (i / 24) - 0.03, -0.03}, {}, {}, manyRadii ? 0.02 : 0, 0, true});
     Boundaries sides = box(m);
@@ -176,7 +176,7 @@ TEST(GrainsOnRanks, EqualBitsAboveAFloorOfFixedGrains) {
     advance(alone, 1200), advance(grains, 1200);
     EXPECT_EQ(allWords(grains), alone.state().words());
     EXPECT_EQ(grains.state().books, alone.state().books);
-    EXPECT_GT(alone.ledger().impulse.z, 0) << "they have been thrown back";
+    EXPECT_GT(alone.ledger().impulse.z, 0) << "they have bounced";
     EXPECT_EQ(grains.ledger().contacts, alone.ledger().contacts);
     EXPECT_EQ(norm(grains.ledger().impulse - alone.ledger().impulse), 0);
     Grains resumed(base::cpuExec(1), m, sides, start, shared());
@@ -242,7 +242,7 @@ TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
   const GrainModel m = gravel(0.6);
   Grains grains(base::cpuExec(1), m, box(m), thrownBlock(), shared({0, 0, 0}, true));
   if (GrainDistribution* ranks = grains.distribution()) {
-    // Every 300 steps all cuts jump: most grains change hands at once, some ranks are left with none.
+    // Every 300 steps all cuts jump: most grains migrate at once, some ranks are left with none.
     for (int k = 0; k < 10; ++k) {
       std::array<std::vector<std::int64_t>, 3> weights;
       for (auto& w : weights) w.assign(contact::kPartitionBins, 1), w[400 * static_cast<std::size_t>(k)] = 100000;
@@ -260,9 +260,9 @@ TEST(GrainsOnRanks, EqualBitsForOtherSkinsAndCutsThatMove) {
 
 TEST(GrainsOnRanks, SpringsOfWallsGoWithGrainsThatMigrate) {
   const GrainModel m = gravel();
-  // A layer that strikes the floor and slides along it.
+  // A layer hits the floor and slides along it.
   Grains grains(base::cpuExec(1), m, box(m), gravelBlock(14, 8, 1, {0.2, 0.3, -0.2}, {}, {0, 0, -0.004}), shared());
-  advance(grains, 10); // of the 29 of a contact
+  advance(grains, 10); // a contact lasts 29
   GrainDistribution* const ranks = grains.distribution();
   if (!ranks) GTEST_SKIP() << "one rank has no migration";
   const auto held = [&] {
@@ -350,7 +350,7 @@ TEST(GrainsOnRanks, RolesAreAsDefined) {
   grains.refreshNeighbours();
   const Subdomain& s = grains.distribution()->subdomain();
   EXPECT_EQ(s.uniques().size() + s.masters().size() + s.ghosts(), grains.view().count);
-  // Every grain has one owner, and every owned grain that another rank's grain may touch is a master.
+  // Every grain has one owner; every owned grain within reach of another rank's grain is a master.
   EXPECT_EQ(grains.system().comm.sumOf(static_cast<std::int64_t>(s.uniques().size() + s.masters().size())), 360);
   const double range = 2.3 * m.radius + 1e-6;
   const auto positions = base::toHost(base::cpuExec(1), grains.view().position, grains.view().count);
@@ -362,7 +362,7 @@ TEST(GrainsOnRanks, RolesAreAsDefined) {
     const bool slave = grains.view().ghost[i] != 0;
     EXPECT_EQ(lattice.ownerOf(u) != grains.system().comm.rank(), slave);
     if (slave) continue;
-    bool needed = false; // some foreign grain within range
+    bool needed = false; // another rank's grain within range
     for (const GrainSpec& other : start) {
       const int owner = lattice.ownerOf(base::toUnits(grains.scale().fromMetres(other.position)));
       needed = needed || (owner != grains.system().comm.rank() &&
@@ -383,7 +383,7 @@ TEST(GrainsOnRanks, AFaultNamesTheGrainOnAllRanks) {
   Grains grains(base::cpuExec(1), m, box(m), start, shared());
   try {
     advance(grains, 1);
-    FAIL() << "no rank has noticed";
+    FAIL() << "no rank reported an error";
   } catch (const base::SimulationError& error) {
     EXPECT_NE(std::string(error.what()).find("grain 200 at"), std::string::npos) << error.what();
     EXPECT_EQ(std::string(error.what()).find("e+300"), std::string::npos) << error.what();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ranks that read each other's memory, on CPUs, or on GPUs with GROUSER_TEST_DEVICE=cuda.
+// Ranks with shared access to each other's memory, on CPUs, or on GPUs with GROUSER_TEST_DEVICE=cuda.
 #include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/peer_reduction.hpp"
@@ -32,7 +32,7 @@ protected:
       }
     }
     if (!exec.onCpu() && !base::PeerMemory(exec, comm, PeerUse::automatic).allSeeAll())
-      GTEST_SKIP() << "the GPUs of this machine do not see each other's memory";
+      GTEST_SKIP() << "the GPUs of this machine lack peer access";
   }
   const base::Comm& comm = test::comm();
   base::Exec exec;
@@ -51,13 +51,13 @@ TEST(PeersOnCpus, WhoInsistsIsToldWhy) {
   if (test::comm().alone()) GTEST_SKIP() << "one rank has no peers";
   try {
     const base::PeerMemory memory(base::cpuExec(1), test::comm(), PeerUse::always, std::size_t{1} << 46);
-    FAIL() << "there is no machine with so much memory: " << memory.allSeeAll();
+    FAIL() << "no machine has so much memory: " << memory.allSeeAll();
   } catch (const base::InputError& e) {
     EXPECT_NE(std::string(e.what()).find("enough shared memory"), std::string::npos) << e.what();
   }
 }
 
-/// Open files of this process, by /proc/self/fd.
+/// Open files of this process, from /proc/self/fd.
 int openFiles() {
   const std::filesystem::directory_iterator files("/proc/self/fd");
   return static_cast<int>(std::distance(begin(files), end(files)));
@@ -75,15 +75,15 @@ TEST_F(Peers, LeaveNeitherNamesNorOpenFiles) {
   comm.wait();
   {
     base::PeerMemory memory(exec, comm, PeerUse::always);
-    EXPECT_EQ(openFiles(), before) << "all have mapped it: nobody else may";
-    EXPECT_EQ(names(), named) << "a kill now would leave it";
+    EXPECT_EQ(openFiles(), before) << "all ranks have mapped it: its name is closed to others";
+    EXPECT_EQ(names(), named) << "a kill now would leave the file";
   }
   comm.wait();
 }
 
 TEST_F(Peers, WhatOneWritesTheOthersRead) {
   base::PeerMemory memory(exec, comm, PeerUse::always);
-  for (const std::size_t bytes : {std::size_t{100}, std::size_t{5} << 20}) { // the second makes it grow
+  for (const std::size_t bytes : {std::size_t{100}, std::size_t{5} << 20}) { // the second exceeds the initial size
     memory.reserve(bytes);
     const std::vector<std::uint32_t> mine(bytes / 4, static_cast<std::uint32_t>(comm.rank()) + 1);
     base::copyToDevice(exec, memory.own(), mine.data(), bytes);
@@ -102,7 +102,7 @@ TEST_F(Peers, AgreeOnTheLeastAndOnEveryBit) {
   base::PeerReduction agreement(exec, comm, PeerUse::always);
   ASSERT_TRUE(agreement.possible());
   const auto me = static_cast<std::uint64_t>(comm.rank()), all = static_cast<std::uint64_t>(comm.size());
-  // In each run another rank has the minimum; twenty are launched at once without the host.
+  // Another rank has the minimum in each run; twenty are launched at once without the host.
   constexpr std::uint64_t kRuns = 20;
   std::vector<std::uint64_t> said;
   for (std::uint64_t k = 0; k < kRuns; ++k) {
@@ -120,12 +120,12 @@ TEST_F(Peers, AgreeOnTheLeastAndOnEveryBit) {
   }
 }
 
-/// Message of one rank to another in a run.
+/// Message of one rank to another in one run.
 std::uint32_t said(std::uint32_t run, int from, int to) {
   return 10'000 * run + 100 * static_cast<std::uint32_t>(from) + static_cast<std::uint32_t>(to);
 }
 
-/// Element r is sent to rank r; received elements follow in rank order.
+/// Element r goes to rank r; received elements follow in rank order.
 void sendToAllOthers(const base::Exec& exec, const base::Comm& comm, contact::Exchange& exchange) {
   std::vector<std::uint64_t> to;
   std::vector<std::uint32_t> from;
@@ -138,7 +138,7 @@ void sendToAllOthers(const base::Exec& exec, const base::Comm& comm, contact::Ex
   exchange.setImportSlots(static_cast<std::size_t>(comm.size()));
 }
 
-/// Messages of this rank to each other, `width` times.
+/// Messages of this rank to all others, `width` times.
 std::vector<std::uint32_t> sayings(const base::Comm& comm, std::uint32_t run, std::size_t width = 1) {
   std::vector<std::uint32_t> all;
   for (int r = 0; r < comm.size(); ++r) all.insert(all.end(), width, said(run, comm.rank(), r));
@@ -155,9 +155,9 @@ void expectHeard(const base::Comm& comm, std::uint32_t run, const std::uint32_t*
   }
 }
 
-/// Consecutive runs with few or many words: each rank must receive the messages of the same run.
+/// Consecutive runs with few or many words: all messages received by a rank belong to the same run.
 void exchangeMany(const base::Exec& exec, const base::Comm& comm, PeerUse use) {
-  constexpr std::size_t kWide = 200'000; // the fields of later runs make the memory grow
+  constexpr std::size_t kWide = 200'000; // the fields of later runs enlarge the memory
   const auto size = static_cast<std::size_t>(comm.size());
   contact::Exchange exchange(exec, comm, {.peers = use});
   EXPECT_EQ(exchange.peersOnly(), use == PeerUse::always);
@@ -170,14 +170,14 @@ void exchangeMany(const base::Exec& exec, const base::Comm& comm, PeerUse use) {
     base::copyToDevice(exec, array.data(), sayings(comm, run, width).data(), 4 * size * width);
     const contact::ExchangeField field{array.data(), static_cast<std::uint32_t>(width)};
     exchange.start({&field, 1});
-    base::setZero(exec, array.data(), 4 * size * width); // after it was packed: must not travel
+    base::setZero(exec, array.data(), 4 * size * width); // changed after packing: must not be sent
     exchange.finish({&field, 1});
     expectHeard(comm, run, array.toHost().data(), width);
   }
 }
 
 TEST_F(Peers, WaitForReadersThatAreLate) {
-  // One rank repeatedly reads late: data that the others pack next must not reach it.
+  // One rank repeatedly reads late: data packed next by the others must not reach it.
   contact::Exchange exchange(exec, comm, {.peers = PeerUse::always});
   sendToAllOthers(exec, comm, exchange);
   constexpr std::uint32_t kRuns = 30;
@@ -208,11 +208,11 @@ TEST_F(Peers, StepsTogetherGiveTheBitsOfOneRankOnACpu) {
   // Alternates sixteen steps at once and single steps; reads energies, adds grains, and resumes a saved run.
   using namespace terrain;
   GrainModel m = testing::gravel();
-  m.mostSimdLanes = 1; // lanes take one step at a time
+  m.mostSimdLanes = 1; // lanes compute one step at a time
   const Boundaries box{
       {{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}, {{0, -1, 0}, -0.5, m.law}}, {}};
   std::vector<GrainSpec> start = testing::gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9});
-  for (GrainSpec& g : start) g.velocity.x += 3 * g.position.x; // lists end on one rank before they end on another
+  for (GrainSpec& g : start) g.velocity.x += 3 * g.position.x; // rebuild times differ between ranks
   const std::vector<GrainSpec> more = testing::gravelBlock(3, 3, 1, {0, 0, -1}, {}, {0, 0, 0.6});
   Grains alone(base::cpuExec(1), m, box, start);
   PartitionOptions together;
@@ -237,7 +237,7 @@ TEST_F(Peers, StepsTogetherGiveTheBitsOfOneRankOnACpu) {
   EXPECT_EQ(words(shared), alone.state().words()) << "with grains added";
   shared.restore(shared.state());
   advance(alone, 150), advance(shared, 150);
-  EXPECT_EQ(words(shared), alone.state().words()) << "after it was saved and loaded";
+  EXPECT_EQ(words(shared), alone.state().words()) << "after saving and loading";
   EXPECT_GT(shared.system().rebuilds, 3);
 }
 

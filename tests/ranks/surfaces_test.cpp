@@ -11,7 +11,7 @@ namespace {
 
 struct Outcome {
   std::vector<std::uint32_t> words;
-  std::vector<Vec3d> loads; ///< of every step
+  std::vector<Vec3d> loads; ///< loads at every step
 };
 
 Outcome runMill(const PartitionOptions& partition, double skin = 0.3, std::int64_t stop = 0) {

@@ -13,7 +13,7 @@
 
 namespace grouser::test {
 
-/// A table of text cells; quotes are taken off.
+/// A table of text cells, without quotes.
 struct Csv {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
@@ -39,7 +39,7 @@ struct Csv {
     if (found == header.end() || row >= rows.size()) return "no such cell";
     return rows[row][static_cast<std::size_t>(found - header.begin())];
   }
-  /// A cell as a number, NaN where it is empty or not there.
+  /// A cell as a number, NaN if it is empty or missing.
   double number(std::size_t row, const std::string& column) const {
     const std::string cell = at(row, column);
     char* end = nullptr;

@@ -12,18 +12,18 @@
 
 namespace grouser::test {
 
-/// The bytes of a file; none where there is no file.
+/// The bytes of a file; empty without a file.
 inline std::string contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Makes a file of these bytes.
+/// Creates a file with these bytes.
 inline void put(const std::filesystem::path& path, const std::string& bytes) {
   std::ofstream(path, std::ios::binary) << bytes;
 }
 
-/// A test with an empty folder of its own, which is gone afterwards. Tests of several processes do not meet.
+/// A test with its own empty folder, removed afterwards. Parallel tests have different folders.
 class FolderTest : public ::testing::Test {
 protected:
   void SetUp() override {

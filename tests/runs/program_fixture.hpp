@@ -11,13 +11,13 @@
 
 namespace grouser::test {
 
-/// What a call of the program left.
+/// Result of a call of the program.
 struct Outcome {
-  int code = -1; ///< its exit status; 128 + the signal where one ended it, as of a shell
+  int code = -1; ///< its exit status; 128 + the signal if one ended it, as in a shell
   std::string out, errors;
   double seconds = 0;
 
-  /// "state-hash 0123456789abcdef step 100", or everything where there is none.
+  /// "state-hash 0123456789abcdef step 100", or the whole output without one.
   std::string hash() const {
     std::smatch match;
     return std::regex_search(out, match, std::regex("state-hash [0-9a-f]{16} step [0-9]+")) ? match.str()
@@ -25,8 +25,8 @@ struct Outcome {
   }
   bool hasHash() const { return hash().rfind("state-hash ", 0) == 0; }
 
-  /// What the program calls an error, in its own words: the rest of that line; empty where there is none, or another
-  /// after it.
+  /// Error message of the program: the rest of that line; empty if there is none, or if another
+  /// follows.
   std::string error() const {
     const std::string before = "grouser: error: ";
     const std::size_t at = errors.find(before);
@@ -36,13 +36,13 @@ struct Outcome {
   }
 };
 
-/// The program lies beside the tests.
+/// The program is in the folder of the tests.
 inline std::filesystem::path programUnderTest() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "grouser";
 }
 
-/// Commands of a shell in `folder`, with the program as $grouser. What they print lies beside the folder, in FOLDER.out
-/// and FOLDER.err: all that is in it the program or the test has put there. Nothing is kept from run to run.
+/// Shell commands in `folder`, with the program as $grouser. Their output goes beside the folder, to FOLDER.out
+/// and FOLDER.err: `folder` holds only files of the program or the test. Each run starts without kept files.
 inline Outcome shellIn(const std::filesystem::path& folder, const std::string& commands) {
   const std::string out = folder.string() + ".out", errors = folder.string() + ".err";
   const auto start = std::chrono::steady_clock::now();
@@ -56,7 +56,7 @@ inline Outcome shellIn(const std::filesystem::path& folder, const std::string& c
   return o;
 }
 
-/// A test that calls the program as a user does, in a folder of its own.
+/// A test that calls the program from the command line, in its own folder.
 class ProgramTest : public FolderTest {
 protected:
   void SetUp() override {
@@ -69,7 +69,7 @@ protected:
   }
 
   Outcome shell(const std::string& commands) const { return shellIn(folder_, commands); }
-  /// `grouser WORDS`; `before`: for the shell, to do first.
+  /// `grouser WORDS`; `before`: shell commands that run first.
   Outcome call(const std::string& words, const std::string& before = "") const {
     return shell(before + "\"$grouser\" " + words);
   }

@@ -10,7 +10,7 @@
 
 namespace grouser::test {
 
-/// A test that starts the program on several ranks, in a folder of its own that holds a small bed.
+/// A test that starts the program on several ranks, in its own folder with a small bed.
 class OnRanks : public ProgramTest {
 protected:
   void SetUp() override {
@@ -24,7 +24,7 @@ protected:
                               "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1; " +
                               commands);
   }
-  /// `grouser WORDS`, on 1 rank without a launcher.
+  /// `grouser WORDS`, without a launcher on 1 rank.
   Outcome run(int ranks, const std::string& words, const std::string& before = "") const {
     return shell(before + (ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : "") + "\"$grouser\" " + words);
   }

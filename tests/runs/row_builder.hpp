@@ -14,7 +14,7 @@
 
 namespace grouser::test {
 
-/// Makes up a row by the paths of its channels, in any order. What is not set stays NaN.
+/// Builds a row from the paths of its channels, in any order. Unset values are NaN.
 class RowBuilder {
 public:
   explicit RowBuilder(const std::vector<output::Channel>& channels) {

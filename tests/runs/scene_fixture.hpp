@@ -5,7 +5,7 @@
 
 namespace grouser::test {
 
-/// A scene in which every section stands, for tests that break one line of it.
+/// A scene with all sections, for tests that break one line of it.
 inline std::string wholeScene() {
   return R"(version = 1
 [run]
@@ -47,7 +47,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
   return at == std::string::npos ? "" : text.replace(at, from.size(), to);
 }
 
-/// The scene without mistakes.
+/// The valid scene.
 inline std::string goodScene() { return replaced(wholeScene(), "pictures = false", "picture = false"); }
 
 } // namespace grouser::test

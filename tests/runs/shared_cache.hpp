@@ -10,8 +10,8 @@
 
 namespace grouser {
 
-/// The folder in which the tests of one call of ctest share what they have cut and settled, or none: then each prepares
-/// all by itself. ctest begins with an empty one (tests/CMakeLists.txt), so that nothing is of another build.
+/// Cache folder shared by the tests of one ctest call for sphere sets and settled beds; without it each test prepares
+/// its own. ctest starts with an empty folder (tests/CMakeLists.txt), so that it holds no data of another build.
 inline std::string sharedCache() {
   const char* folder = std::getenv("GROUSER_TEST_CACHE");
   return folder ? folder : "";
@@ -23,12 +23,12 @@ template <typename Cache> Cache* inSharedCache() {
   return kept ? &*kept : nullptr;
 }
 
-/// For simulations whose test is not about cutting parts, or settling beds; null where nothing is shared. What is taken
-/// has the bits of what would be cut or settled (KeptSpheres.*, KeptBeds.*, and the hashes of OneAnswer.*).
+/// For simulations in tests not about converting parts or settling beds; null without a shared folder. Cached data
+/// are bitwise equal to new ones (KeptSpheres.*, KeptBeds.*, and the hashes of OneAnswer.*).
 inline storage::SphereCache* sharedSpheres() { return inSharedCache<storage::SphereCache>(); }
 inline storage::BedCache* sharedBeds() { return inSharedCache<storage::BedCache>(); }
 
-/// Before a call of the program whose preparation is none of the test's claims.
+/// Use before a call of the program whose preparation is not under test.
 inline std::string withSharedCache() { return "export GROUSER_CACHE='" + sharedCache() + "'; "; }
 
 } // namespace grouser

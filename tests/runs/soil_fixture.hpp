@@ -8,7 +8,7 @@
 
 namespace grouser::test {
 
-/// A linear soil of grains of 10 mm, with a damping that goes with the radius.
+/// A linear soil of grains of 10 mm, with damping proportional to the radius.
 inline constexpr const char* kLoam = R"(version = 1
 [soil]
 title = "loam"
@@ -42,7 +42,7 @@ grain_radius = 0.01
 command = "a command"
 )";
 
-/// A lone grain of a material.
+/// A single grain of a material.
 inline std::string grainOf(const std::string& material, double radius, const std::string& more = "") {
   return "version = 1\n[run]\nduration = 1\n" + more +
          "[[grain]]\nposition = [0, 0, 1]\nradius = " + std::to_string(radius) + "\nmaterial = \"" + material + "\"\n";
@@ -55,7 +55,7 @@ inline std::string bedOf(const std::string& material, const std::string& more = 
          material + "\"\n" + more;
 }
 
-/// A test with a folder in which that soil lies as soils/loam.toml.
+/// A test with a folder that contains this soil as soils/loam.toml.
 class SoilTest : public FolderTest {
 protected:
   void SetUp() override {

@@ -28,7 +28,7 @@ Solid solid(const contact::SurfaceGeometry& shape) {
   return s;
 }
 
-/// The wheel: its axis, z of the shape, lies along -y; it has turned by `turn` about +y.
+/// The wheel: its axis, z of the shape, is along -y; it has rotated by `turn` about +y.
 contact::PartMotion wheelAt(double x, double z, double turn, double speed, double rate) {
   contact::PartMotion m{};
   const double c = std::cos(turn), s = std::sin(turn);
@@ -61,7 +61,7 @@ WheelLoad rolled(const SoilConstants& soil, double sinkage, double slip, double 
   return mean;
 }
 
-/// The same by integration along the ground, for nodes that keep their shear.
+/// The same by integration along the ground, for nodes with shear history.
 WheelLoad integrated(const SoilConstants& soil, double sinkage, double slip) {
   const double k = soil.modulusAt(kWidth);
   const double yielded = k * std::pow(sinkage, soil.exponent), stiffness = unloadingStiffness(soil, sinkage, yielded);
@@ -91,9 +91,9 @@ TEST(BodyContacts, TowedWheelSinksAndResistsAsBekkerHasIt) {
   smooth.elasticRatio = 1e4; // no rebound
   // Closed forms for 1 kN: z = 55.45 mm and R = b k z^(n+1) / (n+1) = 252.4 N.
   const WheelLoad plastic = rolled(smooth, 0.05545, 0, 0.01, 0.0025);
-  EXPECT_NEAR(plastic.lift, 1000, 15) << "a node behind the lowest point carries for up to a step";
+  EXPECT_NEAR(plastic.lift, 1000, 15) << "a node behind the lowest point carries load for up to one step";
   EXPECT_NEAR(plastic.pull, -252.4, 2.5);
-  smooth.elasticRatio = 10; // the soil behind the lowest point pushes: z = 46.54 mm, R = 158.0 N
+  smooth.elasticRatio = 10; // the soil behind the lowest point rebounds: z = 46.54 mm, R = 158.0 N
   const WheelLoad elastic = rolled(smooth, 0.04654, 0, 0.01, 0.0025);
   EXPECT_NEAR(elastic.lift, 1000, 10);
   EXPECT_NEAR(elastic.pull, -158.0, 3);
@@ -114,7 +114,7 @@ TEST(BodyContacts, TorqueOfAWheelIsOfFirstOrderInTheStep) {
   const double coarse = torque(4e-3), fine = torque(2e-3), finest = torque(1e-3);
   EXPECT_NEAR((coarse - fine) / (fine - finest), 2, 0.5) << coarse << " " << fine << " " << finest;
   const double expected = integrated(drySand(), 0.0455, 0.2).torque;
-  EXPECT_NEAR(2 * finest - fine, expected, 0.02 * expected) << "the rest is of the grid";
+  EXPECT_NEAR(2 * finest - fine, expected, 0.02 * expected) << "the residual is due to the grid";
 }
 
 TEST(BodyContacts, BoxPressesAndSlidesAsAPadOfItsSize) {
@@ -139,10 +139,10 @@ TEST(BodyContacts, BoxPressesAndSlidesAsAPadOfItsSize) {
     const Vec3d a = box.bodies().loads()[0].force, b = pad.pads().loads()[0].force;
     EXPECT_LT(norm(a - b), 2e-3 * norm(b)) << k;
   }
-  EXPECT_LT(box.bodies().loads()[0].force.x, -0.02 * box.bodies().loads()[0].force.z) << "shear against the motion";
+  EXPECT_LT(box.bodies().loads()[0].force.x, -0.02 * box.bodies().loads()[0].force.z) << "shear opposes the motion";
 }
 
-/// Work of a rolling and sliding wheel less the energies of the soil [J].
+/// Work of a rolling and sliding wheel minus the energies of the soil [J].
 double unexplained(int steps, double& turnover) {
   SoilMap map(0.02, level);
   SoilConstants soil = drySand();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shoes with grousers and sides, sinkage by slip, and soil that moves aside.
+// Shoes with grousers and sides, slip sinkage, and displaced soil.
 #include "base/math.hpp"
 #include "scm/soil_contacts.hpp"
 
@@ -94,13 +94,13 @@ TEST(PadContacts, ShearSinksAPlateAtConstantPressure) {
   contact::PartMotion m = at({0, 0, -depth});
   contacts.step(&m);
   const double before = lift(contacts);
-  for (int k = 1; k <= 300; ++k) { // down by a tenth of the slip
+  for (int k = 1; k <= 300; ++k) { // sinks by a tenth of the slip
     m = at({-1e-4 * k, 0, -depth - 1e-5 * k});
     contacts.step(&m);
   }
   EXPECT_NEAR(map.at(0, 0).slipSinkage, 0.003, 2e-5);
-  EXPECT_NEAR(lift(contacts), before, 0.02 * before) << "the same pressure, deeper";
-  EXPECT_GT(contacts.energy().slipSinkage, 0.5 * before * 0.003) << "the weight's work is lost";
+  EXPECT_NEAR(lift(contacts), before, 0.02 * before) << "the same pressure at a larger depth";
+  EXPECT_GT(contacts.energy().slipSinkage, 0.5 * before * 0.003) << "the weight's work is dissipated";
   for (int k = 301; k <= 600; ++k) {
     m = at({-1e-4 * k, 0, -depth - 3e-3});
     contacts.step(&m);
@@ -123,11 +123,11 @@ TEST(PadContacts, WidthIsThatOfTheRunOfShoesInContact) {
   };
   lay(1, 1, 0), lay(1, 1, 3);
   const double lone = lift(contacts, 1);
-  lay(1, 3, 6), lay(1, 3, 9); // the second time as a run
+  lay(1, 3, 6), lay(1, 3, 9); // the second time as part of a track
   const double inRun = lift(contacts, 2);
   EXPECT_NEAR(lone / inRun, lete().modulusAt(2 * kHalfLength) / lete().modulusAt(2 * kHalfWidth), 1e-9);
   lay(0, 1, 12), lay(0, 1, 15);
-  EXPECT_NEAR(lift(contacts, 0), lone, 1e-9 * lone) << "the loop is closed, and its far neighbours hang";
+  EXPECT_NEAR(lift(contacts, 0), lone, 1e-9 * lone) << "the loop is closed; shoes on its upper run do not count";
 }
 
 /// Loose soil on the map [m3].
@@ -148,9 +148,9 @@ TEST(Berms, HoldTheDisplacedShareOfTheRut) {
   map.forEach([&](std::int32_t, std::int32_t, const Node& n) { sunk += n.firmDepth(), waiting += n.displaced; });
   sunk *= 0.034 * 0.034, waiting *= 0.034 * 0.034;
   EXPECT_NEAR(looseVolume(map) + waiting, 0.4 * sunk, 1e-9 * sunk);
-  EXPECT_EQ(looseVolume(map), contacts.movedVolume()) << "to the quantum";
+  EXPECT_EQ(looseVolume(map), contacts.movedVolume()) << "exact in quanta";
   EXPECT_GT(map.at(0, 5).surface(), 0) << "a berm beside the rut";
-  EXPECT_EQ(map.at(8, 0).looseQuanta, 0) << "not ahead of it";
+  EXPECT_EQ(map.at(8, 0).looseQuanta, 0) << "not ahead of the shoe";
 }
 
 TEST(Berms, SlideToTheAngleOfReposeWithoutLossOfVolume) {
@@ -186,7 +186,7 @@ TEST(LoadedNodes, LooseSoilCarriesUntilTheFirmSoilCarriesMore) {
   m = at({0, 0, -bottom + 0.01 - 0.004});
   contacts.step(&m);
   EXPECT_NEAR(lift(contacts), area * k * std::pow(0.004, 0.793), 2e-3 * lift(contacts))
-      << "as virgin soil, from its surface";
+      << "like virgin soil, from its surface";
   m = at({0, 0, -0.0199});
   contacts.step(&m);
   EXPECT_NEAR(lift(contacts), area * map.at(0, 0).state.pressureAt(0.0199), 1e-6 * lift(contacts));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Pads on soil: areas on the grid, a track's traction and resistance, holding on a slope, and energies of a path.
+// Pads on soil: areas on the grid, a track's traction and resistance, static grip on a slope, and energies of a path.
 #include "scm/soil_contacts.hpp"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ terrain::SurfaceJet level(double, double) { return {}; }
 
 Pad shoe(int part) { return {part, {}, {1, 0, 0}, {0, 1, 0}, kHalfLength, kHalfWidth, 2 * kHalfWidth}; }
 
-/// A pad at a place, turned by a heading about z and then pitched about its own y axis.
+/// A pad at a position, rotated by a heading about z and then pitched about its own y axis.
 contact::PartMotion at(Vec3d centre, double heading = 0, double pitch = 0) {
   contact::PartMotion m{};
   const double c = std::cos(heading), s = std::sin(heading), cp = std::cos(pitch), sp = std::sin(pitch);
@@ -53,7 +53,7 @@ TEST(PadContacts, AreaOfAPadDoesNotDependOnHowItLiesOnTheGrid) {
     for (int k = 0; k < 50; ++k) {
       const contact::PartMotion m = at({0.0013 * k, 0, -0.01});
       contacts.step(&m);
-      EXPECT_NEAR(contacts.pads().loads()[0].force.z, expected, 1e-4 * expected) << "no ripple along the grid";
+      EXPECT_NEAR(contacts.pads().loads()[0].force.z, expected, 1e-4 * expected) << "no grid dependence";
     }
   }
 }
@@ -62,7 +62,7 @@ TEST(PadContacts, StressesAtNodesAddUpToTheLoads) {
   constexpr double kSpacing = 0.02, kDeep = 0.01;
   SoilMap map(kSpacing, level);
   SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0), shoe(1)}, {}, 1e-4);
-  // Two shoes side by side, which share nodes, slip by 5 mm.
+  // Two adjacent shoes, which share nodes, slip by 5 mm.
   contact::PartMotion m[2];
   for (const double slip : {0.0, -0.005}) {
     m[0] = at({slip, 0.003, -kDeep}, 0.3);
@@ -95,7 +95,7 @@ TEST(PadContacts, APitchedPadBearsByItsHorizontalArea) {
   SoilContacts contacts(lete(), 0.5, {}, map, {shoe(0)}, {}, 1e-4);
   const contact::PartMotion m = at({0, 0, -kDeep}, 0, kPitch);
   contacts.step(&m);
-  // Its normal leans along x; the vertical force is the integral of p over x and y.
+  // Its normal is inclined along x; the vertical force is the integral of p over x and y.
   double expected = 0;
   constexpr int kPieces = 2000;
   for (int i = 0; i < kPieces; ++i) {
@@ -119,7 +119,7 @@ TEST(PadContacts, ShoesThatSlipPullAsJanosiHasIt) {
     const double expected = strength * area * (1 - std::exp(-slip / K));
     EXPECT_NEAR(contacts.pads().loads()[0].force.x, expected, 1e-3 * strength * area) << slip;
   }
-  // Reversed, the force changes its sign after K ln 2.
+  // Reversed, the force changes sign after K ln 2.
   for (int i = 0; i <= 83; ++i) {
     const contact::PartMotion m = at({-0.06 + 1e-4 * i, 0, -z});
     contacts.step(&m);
@@ -140,7 +140,7 @@ TEST(PadContacts, LeavesARutWhoseDepthIsTheSinkageLessTheRebound) {
 }
 
 TEST(PadContacts, NodesBetweenTwoPadsRememberTheDeeperWhateverTheirOrder) {
-  // A row of nodes lies in the middle of the gap, under both contacts by a quarter of its squares.
+  // A row of nodes lies in the middle of the gap, under both contacts by a quarter of its area.
   const double pitch = 2 * kHalfLength + 0.018, x = -0.009;
   SoilMap other(0.034, level);
   SoilContacts alone(lete(), 0.5, {}, other, {shoe(0)}, {}, 1e-4);
@@ -155,7 +155,7 @@ TEST(PadContacts, NodesBetweenTwoPadsRememberTheDeeperWhateverTheirOrder) {
     const double together = contacts.pads().loads()[static_cast<std::size_t>(1 - first)].pressed;
     EXPECT_LT(together, 0.98 * alone.pads().loads()[0].pressed) << "the deeper pad has compacted its edge";
     contacts.step(after);
-    EXPECT_EQ(contacts.pads().loads()[static_cast<std::size_t>(1 - first)].pressed, together) << "which stays so";
+    EXPECT_EQ(contacts.pads().loads()[static_cast<std::size_t>(1 - first)].pressed, together) << "the state persists";
     loads[first] = {contacts.pads().loads()[static_cast<std::size_t>(first)],
                     contacts.pads().loads()[static_cast<std::size_t>(1 - first)]};
   }
@@ -163,8 +163,8 @@ TEST(PadContacts, NodesBetweenTwoPadsRememberTheDeeperWhateverTheirOrder) {
     EXPECT_EQ(loads[0][static_cast<std::size_t>(k)].pressed, loads[1][static_cast<std::size_t>(k)].pressed);
 }
 
-/// Energies of a path: press, slide and turn, lift. What forces do on the pad is what the soil holds and has lost, up
-/// to the error of the steps, which is of first order.
+/// Energies of a path: press, slide and turn, lift. Work on the pad equals the soil's stored and dissipated energy, up
+/// to the step error, which is of first order.
 double unexplained(int steps, double& turnover) {
   SoilMap map(0.034, level);
   SoilConstants soil = lete();

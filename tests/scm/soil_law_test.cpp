@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws of a place and of a piece of a pad against closed forms (Bekker, Wong, Janosi), on four soils of Wong's book.
+// Laws of a point and of a pad element against closed forms (Bekker, Wong, Janosi), for four soils of Wong's book.
 #include "scm/compaction.hpp"
 #include "scm/shear.hpp"
 
@@ -72,7 +72,7 @@ const std::vector<Soil> kSoils = {{"LETE sand",
                                    34.43,
                                    {17.431, 25.161, 28.555, 30.285, 31.324}}};
 
-/// Sinkage at which a place of virgin soil bears a pressure, by small steps.
+/// Sinkage at which a point of virgin soil carries a pressure, in small steps.
 double sinkTo(double pressure, Compaction& place, const Soil& soil, const PressureCurve& curve, Compression& all,
               double from) {
   const double k = soil.constants.modulusAt(kBreadth);
@@ -103,17 +103,17 @@ TEST(Compaction, APlateSinksReboundsAndSinksAgainAsBekkerAndWongHaveIt) {
     EXPECT_NEAR(1e3 * (place.sinkage - place.rebound()), soil.rebound, 1e-3 * soil.rebound);
     EXPECT_NEAR(place.elastic(down.pressure), soil.held, 1e-3 * soil.held);
     EXPECT_NEAR(down.work, down.loss + place.elastic(down.pressure), 1e-12 * down.work);
-    // Off and on again: the same line, no loss, the same sinkage.
+    // Unloading and reloading: the same line, no loss, the same sinkage.
     const Compression up = compress(place, soil.constants, curve, k, z, 0);
     EXPECT_EQ(up.pressure, 0);
     EXPECT_NEAR(up.work, -place.elastic(kPressure), 1e-3 * soil.held);
     EXPECT_EQ(up.loss, 0);
     const Compaction rested = place;
     const Compression again = compress(place, soil.constants, curve, k, 0, z);
-    EXPECT_NEAR(again.pressure, kPressure, 1e-4 * kPressure) << "the second pass sinks no deeper";
+    EXPECT_NEAR(again.pressure, kPressure, 1e-4 * kPressure) << "the second pass adds no sinkage";
     EXPECT_EQ(again.loss, 0);
     EXPECT_EQ(place.sinkage, rested.sinkage);
-    // Beyond it the virgin curve goes on.
+    // Beyond it the virgin curve continues.
     Compression on;
     const double deeper = sinkTo(60e3, place, soil, curve, on, z);
     EXPECT_NEAR(1e3 * deeper, soil.deeper, 3e-4 * soil.deeper);
@@ -140,7 +140,7 @@ TEST(Compaction, TheEnergyOfAPathIsThatOfItsSteps) {
 
 TEST(Compaction, LosesNoEnergyBackwardsWhateverTheConstantsAre) {
   SoilConstants soil = kSoils[0].constants;
-  soil.unloadingGrowth = 5.03e5; // far softer than virgin soil: the guard acts
+  soil.unloadingGrowth = 5.03e5; // far softer than virgin soil: the limit applies
   for (const double n : {0.5, 0.793, 1.0, 1.6}) {
     soil.exponent = n;
     const PressureCurve curve(n, 0.5);
@@ -151,7 +151,7 @@ TEST(Compaction, LosesNoEnergyBackwardsWhateverTheConstantsAre) {
       const Compression c = compress(place, soil, curve, soil.modulusAt(kBreadth), z, next);
       EXPECT_GE(c.loss, -1e-12) << n << " " << i;
       EXPECT_LE(place.rebound(), place.sinkage);
-      EXPECT_GE(place.rebound(), 0) << "never above its old surface";
+      EXPECT_GE(place.rebound(), 0) << "never above its initial surface";
       z = next;
     }
   }
@@ -170,7 +170,7 @@ TEST(Compaction, AStifferLoadBeginsWhereItsCurveMeetsThePresentLine) {
   EXPECT_EQ(c.loss, 0);
   const Compression further = compress(place, soil.constants, curve, 6e6, beyond, 0.02);
   EXPECT_NEAR(further.pressure, 6e6 * std::pow(0.02, 0.793), 1e-4 * further.pressure);
-  // A softer load later does not soften it.
+  // A later, softer unloading does not soften it.
   EXPECT_NEAR(compress(place, soil.constants, curve, 5e6, 0.02, 0.021).pressure, 6e6 * std::pow(0.021, 0.793),
               1e-4 * further.pressure);
 }
@@ -190,8 +190,8 @@ TEST(Shear, GrowsAsJanosiHasItAndTurnsWithTheSlip) {
   advance(back, -K * std::log(2.0), 0, K);
   EXPECT_NEAR(back.x, 0, 1e-15);
   advance(back, -K, 0, K);
-  EXPECT_NEAR(back.x, -1 + std::exp(-1.0), 1e-15) << "-1 + 2 exp(-j / K) from the reversal on";
-  // A turn of 90 degrees.
+  EXPECT_NEAR(back.x, -1 + std::exp(-1.0), 1e-15) << "-1 + 2 exp(-j / K) after the reversal";
+  // A rotation by 90 degrees.
   Shear turned{1, 0};
   advance(turned, 0, 2 * K, K);
   EXPECT_NEAR(turned.x, std::exp(-2.0), 1e-15);
@@ -209,8 +209,8 @@ TEST(Shear, LagsBehindACircularSlip) {
     angle = next;
   }
   EXPECT_NEAR(std::sqrt(s.square()), 1 / std::sqrt(1 + K * K / (kRadius * kRadius)), 1e-4);
-  const double along = s.y, inward = -s.x; // the slip goes along y, the centre lies towards -x
-  EXPECT_NEAR(std::atan2(-inward, along), std::atan(K / kRadius), 1e-3) << "14 degrees: stress of a past direction";
+  const double along = s.y, inward = -s.x; // the slip is along y, the centre is towards -x
+  EXPECT_NEAR(std::atan2(-inward, along), std::atan(K / kRadius), 1e-3) << "14 degrees: stress lags the slip";
 }
 
 TEST(Shear, WorkIsExactAndItsLossNeverNegative) {

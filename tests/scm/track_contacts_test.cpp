@@ -94,7 +94,7 @@ TEST(TrackContacts, MomentOfATurnOnTheSpotIsTheSumOfTheShearOfAllShoes) {
     m = at({0, 0, -kSinkage}, 1e-3 * k);
     contacts.step(&m);
   }
-  // Each point slips on a circle about the centre; its shear lags by atan(K / radius).
+  // Each point slips on a circle about the centre; its shear stress lags by atan(K / radius).
   double expected = 0;
   constexpr int kCells = 400;
   for (int i = 0; i < kCells; ++i)

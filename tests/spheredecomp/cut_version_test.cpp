@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sets are kept from run to run under cutOrigin(): what makes another set must make another origin.
+// Sphere sets are cached under cutOrigin(): any change of the set must change the origin.
 #include "base/bits.hpp"
 #include "base/hash.hpp"
 #include "spheredecomp/decompose.hpp"
@@ -32,12 +32,12 @@ SphereSet cutOf(const std::string& part, const DecompositionOptions& options) {
   return decompose(importMesh(std::string(GROUSER_SOURCE_DIR) + "/assets/meshes/" + part + ".obj"), part, options);
 }
 
-// Where this is red, kept sets of former programs are no longer those that this one cuts: raise kCutVersion, then store
-// its new value and the new hashes here. Never the hashes alone.
+// If this fails, cached sets of earlier programs differ from new ones: increment kCutVersion, then store its
+// new value and the new hashes here. Never update only the hashes.
 TEST(CutVersion, IsRaisedWhenAnySphereChanges) {
   EXPECT_EQ(kCutVersion, 1);
   EXPECT_EQ(hashOf(cutOf("shoe", {.radius = 0.01})), "ff51723c3b65e918");
-  EXPECT_EQ(hashOf(cutOf("sprocket", {.radius = 0.03})), "dbfc99cafa75cc9b"); // of shells that overlap
+  EXPECT_EQ(hashOf(cutOf("sprocket", {.radius = 0.03})), "dbfc99cafa75cc9b"); // shells that overlap
   EXPECT_EQ(hashOf(cutOf("roller", {.targetCount = 300})), "f02c9ae3fe4050d6");
   EXPECT_EQ(hashOf(cutOf("idler", {.radius = 0.04, .spacingRatio = 0.8, .maxDip = 0.1, .flatTolerance = 0.05})),
             "2675b14d18272f65");
@@ -57,11 +57,11 @@ TEST(CutOrigin, DiffersWithEveryInput) {
   EXPECT_TRUE(isNew(mesh, {.radius = 0.01, .maxDip = 0.06}));
   EXPECT_TRUE(isNew(mesh, {.radius = 0.01, .flatTolerance = 0.02}));
   EXPECT_TRUE(isNew(mesh, {.radius = 0.01, .interior = false}));
-  EXPECT_TRUE(isNew(shapes::box({0, 0, 0}, {0.1, 0.2, std::nextafter(0.3, 1)}), plain)) << "a bit of one coordinate";
+  EXPECT_TRUE(isNew(shapes::box({0, 0, 0}, {0.1, 0.2, std::nextafter(0.3, 1)}), plain)) << "one bit of one coordinate";
   EXPECT_TRUE(isNew(shapes::box({0, 0, 0}, {0.2, 0.4, 0.6}), plain)) << "the mesh at another scale";
   TriangleMesh turned = mesh;
   std::swap(turned.indices[0], turned.indices[1]);
-  EXPECT_TRUE(isNew(turned, plain)) << "the same corners joined in another way";
+  EXPECT_TRUE(isNew(turned, plain)) << "the same corners with other connectivity";
   TriangleMesh more = shapes::box({1, 0, 0}, {1.1, 0.1, 0.1}, mesh);
   EXPECT_TRUE(isNew(more, plain));
 }

@@ -36,7 +36,7 @@ TEST(Decompose, Box_NormalsAndPlanesAreExact) {
     const Vec3d n = s.normal;
     ASSERT_EQ(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1.0);
     ASSERT_DOUBLE_EQ(s.offset, std::abs(n.x) * kHalf.x + std::abs(n.y) * kHalf.y + std::abs(n.z) * kHalf.z);
-    // A fitted sphere may stand out by kFitTolerance; from the lattice it is exact.
+    // A fitted sphere may protrude by kFitTolerance; lattice spheres are exact.
     ASSERT_LE(dot(n, s.centre) + s.radius, s.offset + 1e-15);
     ASSERT_EQ(s.radius, 0.01);
   }
@@ -94,7 +94,7 @@ TEST(Decompose, Count_GrowsAsVolumeOverSpacingCubed) {
   const TriangleMesh mesh = shapes::ball(0.1, 64);
   for (const double r : {0.016, 0.008}) {
     const double lattice = signedVolume(mesh) / (r * r * r);
-    // The shell is one layer instead of 1.5, and holes are closed: within a share of it that falls with r.
+    // The shell has one layer instead of 1.5, and holes are closed: within a share that decreases with r.
     EXPECT_NEAR(static_cast<double>(shapes::cut(mesh, r).spheres.size()) / lattice, 1, 3 * r / 0.1) << r;
   }
 }
@@ -128,7 +128,7 @@ TEST(Decompose, RoundParts_AreSmoothToTheDipAsked) {
   for (const double dip : {0.1, 0.03}) {
     options.maxDip = dip;
     const Quality q = measure(mesh, decompose(mesh, "ball", options));
-    // Between the samples that were tested, 0.33 r apart, the surface may dip more: see DecompositionOptions::maxDip.
+    // Between the tested samples, 0.33 r apart, the surface may be lower: see DecompositionOptions::maxDip.
     const double farthest = std::sqrt(2 * dip) + 0.165;
     EXPECT_LT(q.discs.meshToSet, 0.5 * farthest * farthest * options.radius);
     EXPECT_LT(q.discs.protrusion, 0.015 * options.radius);
@@ -150,14 +150,14 @@ TEST(Decompose, ThinPlate_GetsSpheresOfHalfItsThickness) {
 
 TEST(Decompose, OverlappingShells_HaveNoSurfaceInsideTheUnion) {
   TriangleMesh mesh = shapes::box({-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1});
-  mesh = shapes::box({-0.03, -0.03, 0.05}, {0.03, 0.03, 0.2}, mesh); // a post that stands in the block
+  mesh = shapes::box({-0.03, -0.03, 0.05}, {0.03, 0.03, 0.2}, mesh); // a post inside the block
   const SphereSet set = shapes::cut(mesh, 0.01);
   for (std::size_t i = 0; i < set.surfaceCount; ++i) {
     const Vec3d p = set.spheres[i].centre;
     const bool deep = p.z < 0.08 && p.z > -0.08 && std::abs(p.x) < 0.08 && std::abs(p.y) < 0.08;
     EXPECT_FALSE(deep) << p.x << " " << p.y << " " << p.z;
   }
-  // Outer area: both boxes without the post's foot and its print; pieces along the seam are as large as spacing / 6.
+  // Outer area: both boxes without the post's foot and contact area; pieces along the seam are up to spacing / 6 wide.
   EXPECT_NEAR(set.meshArea, 6 * 0.04 + 4 * 0.06 * 0.1, 0.24 * 0.01 / 6);
   EXPECT_NEAR(areaOf(set), set.meshArea, 1e-12);
 }

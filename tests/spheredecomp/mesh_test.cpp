@@ -19,7 +19,7 @@
 namespace grouser::spheredecomp {
 namespace {
 
-/// Points of a deterministic spread within [-1, 1]^3: additive recurrence by irrational steps.
+/// Quasi-random points within [-1, 1]^3: additive recurrence with irrational steps.
 Vec3d spread(int i) {
   auto part = [&](double step) { return 2 * (step * i - std::floor(step * i)) - 1; };
   return {part(0.8191725133961645), part(0.6710436067037893), part(0.5497004779019703)};
@@ -38,7 +38,7 @@ double solidAngleWinding(const TriangleMesh& mesh, const Vec3d& p) {
   return sum / (4 * base::kPi);
 }
 
-/// A file that is gone with the test.
+/// A temporary file.
 struct File {
   std::string path;
   File(const std::string& name, const std::string& text) : path(::testing::TempDir() + name) {
@@ -107,10 +107,10 @@ TEST(ImportMesh, AnObjOfAnotherNameOrLineEnd_IsCheckedAlike) {
   const File returns("grouser_returns.obj", old);
   EXPECT_NE(messageOf(returns.path).find("lines end in bare carriage returns"), std::string::npos);
   const File marked("grouser_mark.obj", "\xEF\xBB\xBF" + std::string(kTetrahedron) + "f 2 3 4\n");
-  EXPECT_NE(messageOf(marked.path).find("byte-order mark stands before \"v\""), std::string::npos);
+  EXPECT_NE(messageOf(marked.path).find("byte-order mark precedes \"v\""), std::string::npos);
 }
 
-/// A tetrahedron; of `text`, or in binary.
+/// A tetrahedron; from `text`, or binary.
 std::string tetrahedronAsPly(bool text, std::int32_t lastIndex = 3, const std::string& lastVertex = "0 0 1\n") {
   std::string file = std::string("ply\nformat ") + (text ? "ascii" : "binary_little_endian") +
                      " 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
@@ -132,7 +132,7 @@ TEST(ImportMesh, ADamagedPly_IsRefusedWhereverItEnds) {
     const std::string good = tetrahedronAsPly(text);
     const File file("grouser_good.ply", good);
     EXPECT_EQ(messageOf(file.path), "no error");
-    // The last byte of the text ends the line only.
+    // The last byte of the text is only a line end.
     for (std::size_t size = text ? good.find("end_header") : 0; size + 1 < good.size(); size += text ? 1 : 5) {
       const File cut("grouser_cut.ply", good.substr(0, size));
       EXPECT_NE(messageOf(cut.path).find("grouser_cut.ply:"), std::string::npos) << size << ": " << messageOf(cut.path);
@@ -236,7 +236,7 @@ TEST(OuterSurface, ShellsThatTouch_LoseTheirCommonFace) {
   const detail::OuterSurface outer(mesh, 0.02);
   EXPECT_NEAR(outer.area(), 10, 1e-12);
   EXPECT_NEAR(outer.volume(), 2, 1e-12);
-  // The same box twice is one box.
+  // Two identical boxes form one box.
   const TriangleMesh twice = shapes::box({0, 0, 0}, {1, 1, 1}, shapes::box({0, 0, 0}, {1, 1, 1}));
   EXPECT_NEAR(detail::OuterSurface(twice, 0.05).area(), 6, 1e-12);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faces of many corners, and vertices that files leave apart by rounding.
+// Faces with many corners, and vertices that differ by rounding in the file.
 #include "spheredecomp/detail/polygon.hpp"
 
 #include "base/error.hpp"
@@ -39,9 +39,9 @@ Outline comb(int teeth) {
   }
   return o;
 }
-/// A square with a square hole, which a bridge joins to the outline.
+/// A square with a square hole, connected to the outline by a bridge.
 Outline bridged() { return {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}; }
-/// Corners on straight sides, one of them twice.
+/// Corners on straight sides, one of them duplicate.
 Outline split() { return {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {3, 1}, {1, 1}, {1, 1.5}, {1, 2}, {0, 2}, {0, 1}}; }
 Outline spiral() {
   Outline out, in;
@@ -71,7 +71,7 @@ double perimeterOf(const Outline& o) {
   return sum;
 }
 
-/// Corners of the prism's lower and upper end, turned about an oblique axis.
+/// Corners of the prism's lower and upper end, rotated about an oblique axis.
 std::vector<Vec3d> cornersOf(const Outline& o, double height, double turn) {
   const base::Quat q{base::cos(turn / 2), base::sin(turn / 2) * 0.6, base::sin(turn / 2) * 0.48,
                      base::sin(turn / 2) * 0.64};
@@ -106,7 +106,7 @@ std::string prismAsPly(const Outline& o, double turn) {
   return text + lower + "\n" + upper + "\n";
 }
 
-/// The mesh of a text, through a file that is gone afterwards.
+/// The mesh of a text, through a temporary file.
 TriangleMesh imported(const std::string& text, const std::string& ending, std::string* note = nullptr) {
   const std::string path =
       ::testing::TempDir() + "grouser_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ending;
@@ -118,7 +118,7 @@ TriangleMesh imported(const std::string& text, const std::string& ending, std::s
   return importMesh(path, note);
 }
 
-// Files are read as floats: coordinates to 6e-8 of their size, areas to a few times that.
+// Files contain floats: coordinates are accurate to 6e-8 of their size, areas to a few times that.
 TEST(ImportMesh, NGons_HaveVolumeAndAreaOfTheirPrism) {
   constexpr double kFloat = 1e-6;
   for (const Outline& o : {lShape(), star(5), star(17), comb(4), comb(9), bridged(), split(), spiral()})
@@ -205,7 +205,7 @@ Faces torus() {
   return t;
 }
 
-// Cuts and their hashes follow from the triangles: those of quads are as before faces of many corners were cut here.
+// Sphere sets and their hashes follow from the triangles: those of quads are unchanged since faces with many corners.
 TEST(ImportMesh, Quads_KeepTheirFan) {
   const Faces box{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
                   {{0, 3, 2, 1}, {4, 5, 6, 7}, {5, 4, 0, 1}, {6, 5, 1, 2}, {7, 6, 2, 3}, {4, 7, 3, 0}}};
@@ -241,7 +241,7 @@ TEST(Triangulate, AnOutlineThatCrossesItselfIsRefused) {
   }
 }
 
-/// A box whose faces each have corners of their own, written with `digits`, the upper ones moved by `apart`.
+/// A box whose faces have separate corners, written with `digits`, the upper ones displaced by `apart`.
 std::string looseBox(double thickness, double apart) {
   const auto corner = [&](int i) { return Vec3d{i & 1 ? 0.4 : 0, i & 2 ? 0.4 : 0, i & 4 ? thickness : 0}; };
   std::string text, faces;
@@ -268,7 +268,7 @@ TEST(ImportMesh, VerticesApartByRounding_AreWeldedAndTold) {
   EXPECT_NE(note.find("14 vertices"), std::string::npos) << note;
   note.clear();
   imported(looseBox(0.001, 0), ".obj", &note);
-  EXPECT_EQ(note, "") << "vertices that are equal are welded without a word";
+  EXPECT_EQ(note, "") << "equal vertices are welded without a message";
 }
 
 TEST(ImportMesh, VerticesOfFiveDigits_AreWelded) {
@@ -288,7 +288,7 @@ TEST(ImportMesh, VerticesOfFiveDigits_AreWelded) {
 TEST(ImportMesh, WeldingDoesNotCollapseAThinSheet) {
   std::string note;
   EXPECT_NEAR(signedVolume(imported(looseBox(1e-4, 4e-7), ".obj", &note)), 0.16 * 1e-4, 0.16 * 1e-6);
-  // Thinner than what is welded: open, as it was, rather than another body.
+  // Thinner than the welding distance: the mesh stays open instead of changing its shape.
   EXPECT_THROW(imported(looseBox(1e-6, 4e-7), ".obj"), base::InputError);
   EXPECT_THROW(imported(looseBox(0.001, 1e-4), ".obj"), base::InputError) << "real gaps stay open";
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Thin and pointed parts: what their spheres stand out, and that the default cut keeps it within what is permitted.
+// Thin and pointed parts: protrusion of their spheres, and the default conversion keeps it within the limit.
 #include "spheredecomp/protrusion.hpp"
 
 #include "base/error.hpp"
@@ -28,7 +28,7 @@ struct Cut {
   SphereSet set;
   Protrusion protrusion;
 };
-/// By the default radius, a fortieth of the diagonal, for grains of 10 mm.
+/// Conversion with the default radius, a fortieth of the diagonal, for grains of 10 mm.
 Cut cutFor(const TriangleMesh& mesh, double grain = 0.01, double permitted = 0.02) {
   Cut cut;
   cut.set = decomposeWithin(mesh, "part", {.radius = diagonal(mesh) / 40, .interior = false},
@@ -36,12 +36,12 @@ Cut cutFor(const TriangleMesh& mesh, double grain = 0.01, double permitted = 0.0
   return cut;
 }
 
-/// Height at which a ball of `radius` rests on the rounded discs over (x, y), coming from above.
+/// Height at which a ball of `radius` rests on the rounded discs above (x, y), approached from above.
 double restingHeight(const SphereSet& set, double x, double y, double radius) {
   double height = -1;
   for (const base::SetSphere& s : set.spheres) {
     if (std::hypot(s.centre.x - x, s.centre.y - y) > s.flat + s.radius + radius) continue;
-    // The ball touches where its distance to the disc's core is both radii: by halving from above.
+    // The ball touches where its distance to the disc's core is the sum of both radii: bisection from above.
     const auto gap = [&](double z) {
       const Vec3d apart = Vec3d{x, y, z} - s.centre;
       const Vec3d along = apart - s.normal * dot(apart, s.normal);
@@ -56,7 +56,7 @@ double restingHeight(const SphereSet& set, double x, double y, double radius) {
   return height;
 }
 
-// A hole between discs may be a fifth of their radius wide, into which a ball of their radius sinks by 2 %.
+// A hole between discs may be a fifth of their radius wide; a ball of their radius sinks into it by 2 %.
 constexpr double kSinks = 0.02;
 
 TEST(ThinPart, ABallRestsOnASheetOfAnyThickness) {
@@ -113,7 +113,7 @@ TEST(ThinPart, WedgesTipsAndThinWallsDoNotStandOut) {
     const Cut cut = cutFor(mesh);
     EXPECT_LE(cut.protrusion.distance, 2e-4) << name;
     EXPECT_LE(cut.set.spheres.size(), 3e4) << name;
-    // The plain cut of the same radius, for what the measure sees.
+    // The plain conversion with the same radius, to test the measure.
     const SphereSet plain = decompose(mesh, name, {.radius = diagonal(mesh) / 40, .interior = false});
     EXPECT_GT(largestProtrusion(mesh, plain).distance, 2e-4) << name;
   }
@@ -131,7 +131,7 @@ TEST(ThinPart, BeyondTheBudgetAnErrorNamesPlaceAndRemedy) {
   }
 }
 
-// A lens has few spheres by its area, but at its rim they shrink: ten times the budget and a minute, uncut short.
+// A lens has few spheres by area, but they shrink at its rim: ten times the budget and a minute without the limit.
 TEST(ThinPart, SpheresThatShrinkAtEdgesCountAsWell) {
   const TriangleMesh lens = shapes::turned({{0, -0.0005}, {0.1, 0}, {0, 0.0005}}, 64);
   try {
@@ -159,7 +159,7 @@ TEST(ThinPart, AWarningAdvisesToRemoveTheKeyAlone) {
   CutReport report{"part", "mesh.0.sphere_radius", 0.01, 100, {1e-3, {}}, {1e-4, 0.005, 1e-4, false}};
   const std::string said = protrusionWarning(report);
   EXPECT_NE(said.find("remove mesh.0.sphere_radius to choose"), std::string::npos) << said;
-  EXPECT_EQ(said.find("lower"), std::string::npos) << "a smaller radius may stand out more: " << said;
+  EXPECT_EQ(said.find("lower"), std::string::npos) << "a smaller radius may protrude more: " << said;
 }
 
 TEST(ThinPart, AMeshWithinTheLimitKeepsItsCut) {

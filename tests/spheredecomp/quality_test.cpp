@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures of a sphere set: how they scale, and that each face of a box has its own area.
+// Properties of a sphere set: scaling, and separate areas of each face of a box.
 #include "spheredecomp/quality.hpp"
 
 #include "shapes.hpp"

@@ -21,7 +21,7 @@ inline TriangleMesh box(const Vec3d& low, const Vec3d& high, TriangleMesh mesh =
   return mesh;
 }
 
-/// Body of revolution about z of a profile (radius, z) that starts and ends on the axis, z ascending.
+/// Body of revolution about z with a profile (radius, z) that starts and ends on the axis, z ascending.
 inline TriangleMesh turned(const std::vector<std::pair<double, double>>& profile, std::uint32_t facets) {
   TriangleMesh mesh;
   for (const auto& [r, z] : profile)
@@ -35,7 +35,7 @@ inline TriangleMesh turned(const std::vector<std::pair<double, double>>& profile
       if (profile[p].first > 0) mesh.indices.insert(mesh.indices.end(), {a, b, d});
       if (profile[p + 1].first > 0) mesh.indices.insert(mesh.indices.end(), {a, d, c});
     }
-  // The axis carries one vertex for each facet; make it one.
+  // The axis has one vertex per facet; merges them.
   for (std::uint32_t& i : mesh.indices) {
     if (i < facets) i = 0;
     if (i >= (profile.size() - 1) * facets) i = static_cast<std::uint32_t>((profile.size() - 1) * facets);
@@ -57,7 +57,7 @@ inline TriangleMesh cylinder(double radius, double height, std::uint32_t facets)
   return turned({{0, 0}, {radius, 0}, {radius, height}, {0, height}}, facets);
 }
 
-/// Cut into spheres of that radius [m], with all else by default.
+/// Converted to spheres of that radius [m], with other options at their defaults.
 inline base::SphereSet cut(const TriangleMesh& mesh, double radius) {
   DecompositionOptions options;
   options.radius = radius;

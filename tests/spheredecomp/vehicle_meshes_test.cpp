@@ -24,12 +24,12 @@ TriangleMesh part(const std::string& name) {
   return importMesh(std::string(GROUSER_SOURCE_DIR) + "/assets/meshes/" + name + ".obj");
 }
 
-/// A turn about y by `angle` [rad] and a shift.
+/// A rotation about y by `angle` [rad] and a translation.
 Pose pose(double angle, const Vec3d& position) {
   return {position, {base::cos(angle / 2), 0, base::sin(angle / 2), 0}};
 }
 
-/// Depth of the deepest point of A's outer surface within B [m], 0 where they are apart; A is placed in B's frame.
+/// Depth of the deepest point of A's outer surface inside B [m], 0 without overlap; A is placed in B's frame.
 double penetration(const std::vector<detail::SurfaceSample>& a, const Pose& pose_BA, const MeshQuery& b) {
   double deepest = 0;
   for (const auto& sample : a) {
@@ -43,7 +43,7 @@ std::vector<detail::SurfaceSample> samplesOf(const TriangleMesh& mesh) {
   return detail::OuterSurface(mesh, 0.004).samples(0.004);
 }
 
-/// The next shoe along +x, turned about the common pin by `fold`: positive lifts its far end to the wheels' side.
+/// The next shoe along +x, rotated about the common pin by `fold`: positive lifts its far end towards the wheels.
 Pose nextShoe(double fold) {
   const Pose turn = pose(-fold, {});
   return {Vec3d{kPitch / 2, 0, 0} + base::rotate(turn.orientation, {kPitch / 2, 0, 0}), turn.orientation};
@@ -64,7 +64,7 @@ TEST(VehicleMesh, NeighbouringShoes_ClearEachOtherAtEveryFold) {
     const Pose back{-base::rotate(next.orientation.conjugate(), next.position), next.orientation.conjugate()};
     EXPECT_EQ(penetration(samples, back, shoe), 0) << degrees;
   }
-  // The check can see a clash: folded outwards by 40 degrees the pads meet.
+  // The check can detect a collision: folded outwards by 40 degrees the pads overlap.
   EXPECT_GT(penetration(samples, nextShoe(-40 * kDegree), shoe), 0.001);
 }
 
@@ -73,7 +73,7 @@ TEST(VehicleMesh, SprocketSeat_HoldsThePinWithItsClearance) {
   for (int k = 0; k < 10; ++k) {
     const double angle = 36 * k * kDegree;
     const Vec3d pin{kSprocketPinRadius * base::cos(angle), 0.16, kSprocketPinRadius * base::sin(angle)};
-    // Chords of the seat arc of 7.5 degrees lie 0.04 mm inside it.
+    // Chords of the seat arc of 7.5 degrees are 0.04 mm inside it.
     EXPECT_NEAR(sprocket.signedDistance(pin), 0.0185, 5e-5) << k;
   }
 }
@@ -89,7 +89,7 @@ TEST(VehicleMesh, ShoeOnSprocket_TouchesNothingButItsSeats) {
   ASSERT_NEAR(base::atan2(boss.z, boss.x), 36 * kDegree, 1e-6);
   ASSERT_NEAR(std::sqrt(boss.x * boss.x + boss.z * boss.z), kSprocketPinRadius, 1e-6);
   EXPECT_EQ(penetration(samples, seated, sprocket), 0);
-  // All but the bosses stays more than 5 mm away, hub and horn included.
+  // All except the bosses stays more than 5 mm away, including hub and horn.
   double nearest = 1;
   for (const auto& sample : samples)
     if (std::abs(sample.point.y) < 0.1449)
@@ -104,7 +104,7 @@ TEST(VehicleMesh, WheelsOnShoe_TouchThePlatesAndClearTheHorn) {
     const MeshQuery wheel(part(name));
     for (const double x : {-0.06, 0.0, 0.03}) {
       const Pose shoe{{x, 0, -radius - 0.020}, {}};
-      // Rim corners stand out of the mean circle by radius (pi / 128)^2 / 3 = 0.04 mm at most.
+      // Rim corners protrude from the mean circle by at most radius (pi / 128)^2 / 3 = 0.04 mm.
       EXPECT_LT(penetration(samples, shoe, wheel), 5e-5) << name << x;
     }
   }
@@ -113,7 +113,7 @@ TEST(VehicleMesh, WheelsOnShoe_TouchThePlatesAndClearTheHorn) {
 TEST(VehicleMesh, Decomposition_MeetsItsFigures) {
   for (const double radius : {0.010, 0.005})
     for (const char* name : {"shoe", "road_wheel", "roller", "idler", "sprocket"}) {
-      // The wheels at 5 mm would take most of the room's test time and show nothing new.
+      // Wheels at 5 mm would dominate the test time of this folder and test nothing new.
       if (radius < 0.01 && std::string(name) != "shoe") continue;
       const TriangleMesh mesh = part(name);
       DecompositionOptions options;
@@ -121,7 +121,7 @@ TEST(VehicleMesh, Decomposition_MeetsItsFigures) {
       const SphereSet set = decompose(mesh, name, options);
       const Quality q = measure(mesh, set);
       std::cout << report(set, q);
-      // Right-angled corners are rounded by (sqrt 3 - 1) r = 0.73 r; the feet of the shoe's plates are a little
+      // Right-angled corners are rounded by (sqrt 3 - 1) r = 0.73 r; the feet of the shoe's plates are slightly
       // sharper.
       EXPECT_LT(q.discs.hausdorff(), 0.8 * radius) << name;
       // flatTolerance for discs, and the facets of rims.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle on rigid ground: its weight, the tension of its track, the grade that it holds, its resistance to turning.
+// A vehicle on rigid ground: weight, track tension, maximum grade, turning resistance.
 #include "runs/setup/load_scene.hpp"
 #include "tests/system/driven_fixture.hpp"
 
@@ -17,7 +17,7 @@ using base::Vec3d;
 
 constexpr double kGravity = 9.81; // [m/s2]
 
-/// With its sprockets held, under a gravity that leans by (x, y) of its size.
+/// Sprockets locked, gravity inclined by (x, y) of its magnitude.
 scene::Scene standing(double x, double y) {
   const double z = -std::sqrt(1 - x * x - y * y);
   return setup::parseScene(
@@ -32,7 +32,7 @@ scene::Scene standing(double x, double y) {
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
 }
 
-/// sin of a slope of tangent t.
+/// sin of a slope with tangent t.
 double sinOf(double t) { return t / std::sqrt(1 + t * t); }
 
 TEST(AtRest, GroundForceOverASecondIsTheWeight) {
@@ -43,12 +43,12 @@ TEST(AtRest, GroundForceOverASecondIsTheWeight) {
   const Vec3d force = simulation.vehicle()->meanGroundForce();
   const double weight = simulation.vehicle()->assembly().mass * kGravity;
   std::printf("ground force / weight = %.6f\n", force.z / weight);
-  EXPECT_NEAR(force.z / weight, 1, 1e-3) << "the bar; what swings has left is far less";
+  EXPECT_NEAR(force.z / weight, 1, 1e-3) << "the bar; the residual oscillation is far smaller";
   EXPECT_LT(std::hypot(force.x, force.y), 1e-3 * weight);
 }
 
-/// Cut through both strands between the idler and what else the track touches: nothing but the tensioner holds the part
-/// in front along its slide. The idler turns freely, so both strands pull alike, but for their weight.
+/// Section through both strands between the idler and the next contact of the track: only the tensioner holds the part
+/// in front along its slide. The idler turns freely, so both strands have equal tension except for their weight.
 TEST(AtRest, BothStrandsPullAsTheIdlerDemands) {
   Simulation simulation = begin(standing(0, 0));
   advance(simulation, 2);
@@ -59,7 +59,7 @@ TEST(AtRest, BothStrandsPullAsTheIdlerDemands) {
   const double lastRoller = spec.roller.x.back() + spec.roller.radius;
   for (const vehicle::Track& track : assembly.tracks) {
     const multibody::JointReading& slide = state.joint[static_cast<std::size_t>(track.slideJoint)];
-    // The pins nearest to the cut, at the front of the rearmost shoe in front of it.
+    // The pins nearest to the section, at the front of the rearmost shoe ahead of it.
     const double cut = lastRoller + spec.shoe.pitch;
     double topGap = 1e9, lowGap = 1e9;
     Vec3d top, low;
@@ -68,7 +68,7 @@ TEST(AtRest, BothStrandsPullAsTheIdlerDemands) {
       const Vec3d pin = hull.toBody(shoe.toWorld({0.5 * spec.shoe.pitch, 0, 0})) + spec.chassis.centre;
       const Vec3d force = hull.toBody(hull.position + state.joint[static_cast<std::size_t>(track.shoeJoints[i])].force);
       const double from = spec.roadWheel.firstX + (spec.roadWheel.count - 1) * spec.roadWheel.spacing;
-      // The lower strand rises from the last wheel to the idler; its middle is free.
+      // The lower strand rises from the last wheel to the idler; its middle has no contact.
       const double middle = 0.5 * (from + spec.idler.x);
       if (pin.z > 0 && std::fabs(pin.x - cut) < topGap) topGap = std::fabs(pin.x - cut), top = force;
       if (pin.z < spec.roadWheel.z && std::fabs(pin.x - middle) < lowGap)
@@ -78,9 +78,9 @@ TEST(AtRest, BothStrandsPullAsTheIdlerDemands) {
     std::printf("%s: tensioner %.1f N, strands %.1f + %.1f N along it, tensions %.1f and %.1f N\n",
                 vehicle::sideName(track.side), slide.springForce, std::fabs(top.x), std::fabs(low.x), norm(top),
                 norm(low));
-    EXPECT_NEAR(together / slide.springForce, 1, 1e-3) << "what still swings";
-    // Alike, but for the weight of the half metre of chain that the lower strand hangs below the upper: 0.3 kN, half
-    // of it to either side of the mean.
+    EXPECT_NEAR(together / slide.springForce, 1, 1e-3) << "residual oscillation";
+    // Equal except for the weight of the half metre of chain that the lower strand hangs below the upper: 0.3 kN,
+    // i.e. half of that on either side of the mean.
     const double demanded = slide.springForce / (std::fabs(top.x) / norm(top) + std::fabs(low.x) / norm(low));
     EXPECT_NEAR(norm(top), demanded, 0.05 * demanded);
     EXPECT_NEAR(norm(low), demanded, 0.05 * demanded);
@@ -89,8 +89,8 @@ TEST(AtRest, BothStrandsPullAsTheIdlerDemands) {
   }
 }
 
-/// As the weight comes on the tracks give way, and the vehicle begins to slide. Below its friction it is braked, by
-/// g (mu cos - sin) = 0.12 m/s2 at 0.98 of it, and comes to rest; above it goes on, ever faster.
+/// As the weight is applied the tracks yield and the vehicle starts to slide. Below the friction limit it slows by
+/// g (mu cos - sin) = 0.12 m/s2 at 0.98 of the limit, and stops; above it the speed keeps growing.
 TEST(AtRest, TheGradeThatItHoldsIsItsFriction) {
   constexpr double kFriction = 0.8;
   const auto hull = [](const Simulation& s) { return s.vehicle()->state().pose[0].position.x; };
@@ -99,7 +99,7 @@ TEST(AtRest, TheGradeThatItHoldsIsItsFriction) {
   const double rests = hull(held);
   advance(held, 3.9);
   std::printf("at 0.98 of the friction the hull moves by %.2g m in half a second\n", rests - hull(held));
-  EXPECT_LT(std::fabs(rests - hull(held)), 3e-3) << "it swings on its track by a millimetre or two";
+  EXPECT_LT(std::fabs(rests - hull(held)), 3e-3) << "it oscillates on its track by a millimetre or two";
 
   Simulation slides = begin(standing(-sinOf(1.02 * kFriction), 0));
   advance(slides, 1.2);
@@ -109,7 +109,7 @@ TEST(AtRest, TheGradeThatItHoldsIsItsFriction) {
   const vehicle::Observation seen = slides.vehicle()->observe();
   EXPECT_NEAR(seen.groundForce.x / seen.groundForce.z, kFriction, 1e-4 * kFriction) << "each shoe slides";
   const double gained = (before - slides.ledger().momentum.x) / slides.vehicle()->assembly().mass;
-  // Downhill, where it slides to, the ground holds it back, and what it gains is left of its weight.
+  // Downhill, in the sliding direction, the ground decelerates it; the excess of its weight accelerates it.
   EXPECT_NEAR(seen.netThrust, -seen.groundForce.x, 1e-9 * seen.groundForce.x);
   const double weight = slides.vehicle()->assembly().mass * kGravity;
   EXPECT_NEAR(seen.drawbarPull, gained / 0.5 * slides.vehicle()->assembly().mass, 1e-6 * weight)
@@ -118,10 +118,10 @@ TEST(AtRest, TheGradeThatItHoldsIsItsFriction) {
   EXPECT_GT(gained, 0.01);
 }
 
-/// In a pivot turn each shoe slides to its side, and along its track a little: friction against its way. Moments are
-/// those of the forces across the hull, about its own vertical.
+/// In a pivot turn each shoe slides sideways, and slightly along its track: friction opposes this motion. The moments
+/// are those of the lateral forces, about the hull's vertical axis.
 struct Turning {
-  double measured = 0;  ///< of the shoes' measured forces [N m]
+  double measured = 0;  ///< moment of the shoes' measured forces [N m]
   double corrected = 0; ///< sum of mu N_i x_i, as far as shoe i slides across
   double plain = 0;     ///< sum of mu N_i |x_i|, x from the middle of the turn
 };

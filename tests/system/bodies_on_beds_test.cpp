@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies that are placed on a settled bed, weigh what their shapes weigh, and count grains: closed forms and refusals.
+// Bodies placed on a settled bed, their masses from shapes, and grain counts: closed forms and rejected scenes.
 #include "base/comm.hpp"
 #include "base/error.hpp"
 #include "base/math.hpp"
@@ -70,7 +70,7 @@ TEST(ConeShape, GapIsTheDistanceToTheNearestPointOfItsSurface) {
       const bool within = std::fabs(p.z) < half.z && rho < wide;
       EXPECT_NEAR(gap.distance, within ? -nearest : nearest, 1e-4);
       EXPECT_NEAR(norm(gap.normal), 1, 1e-12);
-      EXPECT_NEAR(gapTo(cone, p - gap.normal * gap.distance).distance, 0, 1e-12) << "the point lies on the surface";
+      EXPECT_NEAR(gapTo(cone, p - gap.normal * gap.distance).distance, 0, 1e-12) << "the point is on the surface";
     }
   }
 }
@@ -93,7 +93,7 @@ TEST(ConeShape, FarthestPointIsThatOfItsMesh) {
   }
 }
 
-/// Volume, centre and inertia by points at random in the shape's box.
+/// Volume, centre and inertia by random points in the shape's box.
 TEST(BodyMass, ClosedFormsAgreeWithSampledSolids) {
   std::mt19937 dice(3);
   std::uniform_real_distribution<double> any(-1, 1);
@@ -113,7 +113,7 @@ TEST(BodyMass, ClosedFormsAgreeWithSampledSolids) {
       volume += share, height += share * z, across += share * (p.y * p.y + z * z),
           along += share * (p.x * p.x + p.y * p.y);
     }
-    // Four standard errors of so many points.
+    // Four standard errors for so many points.
     EXPECT_NEAR(closed.volume, volume, 0.01 * volume);
     EXPECT_NEAR(height / volume, 0, 0.004 * half.z);
     EXPECT_NEAR(closed.inertia.m[0][0], across, 0.015 * across);
@@ -136,7 +136,7 @@ TEST(BodyMass, ShapesGiveMassAndInertiaByTheParallelAxisTheorem) {
     EXPECT_NEAR(I.m[0][1], 0, 1e-12 * mass);
   };
   check("density = 1000\n", 2000 * ball);
-  check("", 5000 * ball); // the material's
+  check("", 5000 * ball); // the material's density
   check("mass = 3\n", 3);
   // A turned box has products of inertia: of 0.2 x 0.4 x 0.1 m about z by 30 degrees.
   const MechanismSetup turned = setup::mechanismSetup(sceneOf(
@@ -162,7 +162,7 @@ TEST(BodyMass, ContradictionsAreRefusedAtTheirPlace) {
   says(refusal(kGrain + body("b", "probe_position = [0.1, 0, 0]\n" + shape)), "body.0.probe_position");
 }
 
-/// A ball on a bar, and a joint, a spring and a bushing that the world holds.
+/// A ball on a bar, and a joint, a spring and a bushing to the world.
 std::string liftedBodies(const std::string& keys) {
   return body("ball", "position = [0.3, 0, 1]\n[[body.shape]]\nkind = \"sphere\"\nradius = 0.05\n") +
          "[[body]]\nname = \"bar\"\nmass = 1\nbox = [0.1, 0.1, 0.1]\nposition = [0.3, 0, 1.5]\n"
@@ -178,7 +178,7 @@ TEST(AboveBed, LiftsBodiesAndWhatTheWorldHoldsTogether) {
   const auto s = made(sceneOf(kBed + liftedBodies("[mechanism]\nabove_bed = 0.004\n")));
   const multibody::Model& model = s->mechanism()->model();
   const double way = model.bodies()[0].pose.position.z - 1;
-  // The ball's square holds the highest grain; the ball itself may stand farther from it.
+  // The highest grain is inside the ball's square; the ball itself may be farther from it.
   double top = -1;
   const terrain::GrainSnapshot g = s->ground().grains->snapshot();
   for (std::size_t k = 0; k < g.position.size(); ++k) {
@@ -222,7 +222,7 @@ TEST(BodyProbe, WeighsTheGrainsWithCentresInItsBox) {
   for (int k = 0; k < 6; ++k)
     grains +=
         fmt::format("[[grain]]\nposition = [{}, 0, 0]\nradius = {}\nmaterial = \"soil\"\n", 0.1 * k, 0.01 + 0.002 * k);
-  // The box of the turned body covers x from 0.05 to 0.35 m.
+  // The box of the rotated body extends in x from 0.05 to 0.35 m.
   const auto s = made(sceneOf(grains + body("b", "mass = 1\ninertia = [1, 1, 1]\nposition = [0.1, 0, 0.5]\n"
                                                  "axis = [0, 0, 1]\nangle = 90\nprobe_size = [0.02, 0.3, 0.02]\n"
                                                  "probe_position = [0, -0.1, -0.5]\n[[body.shape]]\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of mechanisms that touch grains: closed forms, energy balance, and refused scenes.
+// Bodies of mechanisms that touch grains: closed forms, energy balance, and rejected scenes.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/surface_geometry.hpp"
@@ -48,7 +48,7 @@ void advanceTo(Simulation& s, double time) {
   while (s.time() < time - 0.5 * s.timeStep()) s.step();
 }
 
-/// Four fixed grains in a square, on which a cube can lie.
+/// Four fixed grains in a square that support a cube.
 std::string feet() {
   std::string all;
   for (const char* place : {"[-0.03, -0.03, 0]", "[0.03, -0.03, 0]", "[-0.03, 0.03, 0]", "[0.03, 0.03, 0]"})
@@ -67,7 +67,7 @@ TEST(ShapeGap, CapsuleIsTheNearestPointOfItsSegment) {
     for (int i = -500; i <= 500; ++i) nearest = std::min(nearest, norm(p - Vec3d{0, 0, i * 1e-3}));
     EXPECT_NEAR(gap.distance, nearest - 0.3, 1e-5);
     EXPECT_NEAR(norm(gap.normal), 1, 1e-12);
-    // The surface point lies on the surface.
+    // The surface point is on the surface.
     EXPECT_NEAR(gapTo(capsule, p - gap.normal * gap.distance).distance, 0, 1e-12);
   }
 }
@@ -80,11 +80,11 @@ TEST(Bodies, WeightIsTheMeanContactForceAtRest) {
   const Vec3d force = s->mechanism()->contactForces()[0];
   EXPECT_NEAR(force.z, 2 * 9.81, 1e-3 * 2 * 9.81);
   EXPECT_LT(std::hypot(force.x, force.y), 1e-3 * 2 * 9.81);
-  // Each foot bears a quarter: overlap = m g / (4 k).
+  // Each foot carries a quarter: overlap = m g / (4 k).
   EXPECT_NEAR(s->mechanism()->state().pose[0].position.z, 0.06 - 2 * 9.81 / 4e5, 1e-7);
 }
 
-/// A body so heavy that it acts as a wall: the law is that of the grain's mass, as against all parts.
+/// A body so heavy that it acts as a wall: the law uses the grain's mass, as for all parts.
 TEST(Bodies, ABallBouncesOffAGrainAsTheLawSays) {
   const double radius = 0.01, mass = 2500 * 4.0 / 3 * base::kPi * radius * radius * radius;
   const auto rebound = [&](double step) {
@@ -114,7 +114,7 @@ TEST(Bodies, MomentumOfBodyAndGrainsIsConservedToRounding) {
   const Vec3d linear = s->ledger().momentum, angular = s->ledger().angularMomentum;
   advanceTo(*s, 0.05);
   const Ledger l = s->ledger();
-  EXPECT_GT(l.dissipated.total(), 1e-3) << "they have met";
+  EXPECT_GT(l.dissipated.total(), 1e-3) << "they have collided";
   EXPECT_LT(norm(l.momentum - linear), 1e-9 * norm(linear));
   EXPECT_LT(norm(l.angularMomentum - angular), 1e-6 * norm(angular)) << "torques on grains have single precision";
   EXPECT_EQ(l.impulseResidual, Vec3d{}) << "integers";
@@ -161,7 +161,7 @@ TEST(Bodies, LightBodiesAskForAShorterStep) {
   };
   EXPECT_EQ(step(1000), step(100));
   EXPECT_LT(step(0.001), 0.7 * step(100));
-  // As a plate of 1 g at the step that is allowed: it comes to rest.
+  // A plate of 1 g at the allowed step comes to rest.
   const auto s = made(head("") + feet() + cube("[0, 0, 0.0605]", 0.001));
   advanceTo(*s, 0.4);
   EXPECT_LT(norm(s->mechanism()->state().twist[0].v), 1e-4);
@@ -201,12 +201,11 @@ TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
   const scene::Scene dense = sceneOf(head("", "density = 2500\n") + grain("[0, 0, 0]") +
                                      "[[body]]\nname = \"ball\"\nposition = [0, 0, 0.2]\nmaterial = \"glass\"\n"
                                      "[[body.shape]]\nkind = \"sphere\"\nradius = 0.05\n");
-  EXPECT_TRUE(setup::freeSurfaceNotes(dense).empty()) << "its mass follows from its shape";
+  EXPECT_TRUE(setup::freeSurfaceNotes(dense).empty()) << "its shape determines its mass";
   const scene::Scene light = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 0.01) +
                                      "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\nvelocity = [0, 0, -0.1]\n");
-  EXPECT_EQ(setup::bodyContactsNote(light),
-            "bodies pass through planes, boxes, cylinders and meshes that move; for contact with bodies use a driven "
-            "[[body]]");
+  EXPECT_EQ(setup::bodyContactsNote(light), "bodies pass through planes, boxes, cylinders and meshes that move, which "
+                                            "have contact with grains only; use a driven [[body]] instead");
   ASSERT_EQ(setup::freeSurfaceNotes(light).size(), 1u);
   EXPECT_NE(setup::freeSurfaceNotes(light)[0].find("body \"cube\" has a mass of 0.01 kg"), std::string::npos);
 }
@@ -239,7 +238,7 @@ TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
   says(refused("kind = \"sphere\"\nradius = 0"), "outside (0");
   says(refused("kind = \"ball\"\nradius = 1"), "sphere");
   says(refused("kind = \"sphere\"\nradius = 1\naxis = [0, 0, 1]"), "does not apply to a sphere");
-  says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\naxis = [0, 0, 0]"), "is zero");
+  says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\naxis = [0, 0, 0]"), "has zero length");
   says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\nangle = 3"), "does not apply to a capsule");
   says(refused("kind = \"box\"\nsize = [1, 1, 1]\nangle = 3"), "both or neither");
   says(refused("kind = \"sphere\"\nradius = 1\ncolour = 3"), "colour");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies of mechanisms that touch rigid surfaces and each other: closed forms, energy balance, and refused scenes.
+// Bodies of mechanisms that touch rigid surfaces and each other: closed forms, energy balance, and rejected scenes.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/shape_points.hpp"
@@ -63,7 +63,7 @@ void advanceTo(Simulation& s, double time) {
 }
 const multibody::State& stateOf(const Simulation& s) { return s.mechanism()->state(); }
 
-/// Energy that the ledger does not explain over the energy exchanged [-].
+/// Energy residual of the ledger over the exchanged energy [-].
 double residualShare(Simulation& s) {
   const Ledger l = s.ledger();
   return std::fabs(l.residual) / l.turnover;
@@ -90,7 +90,7 @@ TEST(ShapePoints, CarryTheAreaOfTheShape) {
 }
 
 TEST(BodyContacts, RestOnAPlaneByModulusTimesVolume) {
-  const double modulus = 1e8; // equal materials keep theirs
+  const double modulus = 1e8; // equal materials keep their modulus
   const auto s =
       made(head({}, "foundation_modulus = 1e8\n") + kPlane + box("block", "[0.2, 0.1, 0.1]", 10, "[0, 0, 0.05]") +
            ball("ball", 0.05, 1, "[0, 1, 0.05]") + wheel(0.1, 0.08, 5, "[0, -1, 0.1]"));
@@ -99,7 +99,7 @@ TEST(BodyContacts, RestOnAPlaneByModulusTimesVolume) {
   advanceTo(*s, 0.5);
   const auto& pose = stateOf(*s).pose;
   const auto force = s->mechanism()->contactForces();
-  // Side faces press their lowest row of points in too.
+  // Side faces also press with their lowest row of points.
   const double deep = 10 * kGravity / (modulus * 0.02);
   EXPECT_NEAR(0.05 - pose[0].position.z, deep, 0.08 * deep);
   const double ofBall = std::sqrt(kGravity / (base::kPi * modulus * 0.05));
@@ -161,7 +161,7 @@ TEST(BodyContacts, WheelRollsDownASlopeAtTwoThirdsOfGSine) {
   EXPECT_NEAR((stateOf(*s).twist[0].v.x - before) / 0.5, expected, 0.02 * expected);
 }
 
-/// A hull on four driven wheels of radius 0.1 m, 0.5 m from axle to axle, at a rim speed of 0.2 m/s.
+/// A hull on four driven wheels of radius 0.1 m, wheelbase 0.5 m, at a rim speed of 0.2 m/s.
 std::string rover(double hull, double wheelMass) {
   std::string text =
       fmt::format("[[body]]\nname = \"hull\"\nmass = {}\nbox = [0.6, 0.3, 0.1]\nposition = [0, 0, 0.2498]\n"
@@ -205,7 +205,7 @@ TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
                 torque / (mass * along * 0.1));
     EXPECT_GT(slip, 0) << modulus;
     EXPECT_LT(slip, creep) << modulus;
-    // Moments about the contact of an axle: the height of the centre of mass moves load to the rear.
+    // Moments about the contact of an axle: the height of the centre of mass shifts load to the rear.
     const double height = (hull * 0.25 + 4 * wheelMass * 0.1) / mass, shift = mass * along * height / 0.5;
     const auto force = s->mechanism()->contactForces();
     EXPECT_NEAR(force[1].z + force[2].z, 0.5 * mass * across - shift, 0.02 * mass * across) << "front, " << modulus;
@@ -268,7 +268,7 @@ TEST(BodyContacts, BodiesCollideWithExactMomentum) {
   const multibody::Totals now = s->mechanism()->bodiesBalance().now;
   EXPECT_LT(norm(now.linearMomentum - start.linearMomentum), 1e-9) << before.x;
   EXPECT_LT(norm(now.angularMomentum - start.angularMomentum), 1e-6);
-  EXPECT_LT(stateOf(*s).twist[0].v.x, 0) << "they have met";
+  EXPECT_LT(stateOf(*s).twist[0].v.x, 0) << "they have collided";
   EXPECT_LT(now.kinetic, start.kinetic);
   EXPECT_LT(residualShare(*s), 1e-9);
 }

@@ -51,7 +51,7 @@ TEST(ComplementarityScene, APlateLiesOnGrainsWithItsWeightHoweverLight) {
   }
 }
 
-/// Runs a scene whole and resumed, and compares states and solver totals.
+/// Runs a scene uninterrupted and resumed, and compares states and solver totals.
 void expectResumes(const std::string& text) {
   coupling::Simulation whole = made(text), first = made(text, 1);
   while (first.steps() < 60) first.step();
@@ -169,7 +169,7 @@ TEST(ComplementarityScene, ABedSettlesAsWithPenaltyContacts) {
   ASSERT_EQ(explicitly.ground().structure->porosity, solved.ground().structure->porosity);
   const double before = solved.ledger().potential;
   while (solved.time() < 0.1) solved.step();
-  // At rest it stays where it was, with the springs that it came with.
+  // A body at rest stays in place, with the springs of the restored state.
   EXPECT_LT(solved.ledger().fastestGrain, 0.01);
   const double weight = static_cast<double>(solved.ground().grains->count()) * 2500 * 4.19 * 0.04 * 0.04 * 0.04 * 9.81;
   EXPECT_NEAR(solved.ledger().potential, before, weight * 1e-4);

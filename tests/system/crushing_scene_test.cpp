@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One grain that a mesh crushes on a plane: its force, its ledger, its end, and one answer for all of it.
+// One grain that a mesh crushes on a plane: force, ledger, removal, and identical results of all runs.
 #include "ledger_fixture.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -14,10 +14,10 @@ namespace grouser::coupling::ledgers {
 namespace {
 
 constexpr double kStiffness = 1e5, kYield = 1e-3, kCap = kStiffness * kYield; // 100 N at an overlap of 1 mm
-constexpr double kSpeed = 0.05;                                               // of the plate [m/s]
+constexpr double kSpeed = 0.05;                                               // plate speed [m/s]
 
-// Dashpots under the load of others book gamma dt / 2 = 2.2 % of the 0.1 J that the springs take up otherwise than the
-// steps lose it (docs/steps.md#energy-ledger); of the plate's 0.7 J. The order is a test of its own.
+// Dashpots under external load dissipate gamma dt / 2 = 2.2 % of the 0.1 J of the springs in a way that differs from
+// the steps' own loss (docs/steps.md#energy-ledger); of the plate's 0.7 J. A separate test covers the order.
 constexpr double kDashpots = 6e-3;
 
 class CrushingScene : public grouser::test::FolderTest {
@@ -35,7 +35,7 @@ protected:
     }
     grouser::test::put(folder_ / "block.obj", obj);
   }
-  /// A grain on a plane under a block that comes down on it; `more`: of the material.
+  /// A grain on a plane under a descending block; `more`: keys of the material.
   scene::Scene scene(double step, const std::string& more, const std::string& run = "precision = \"double\"") const {
     return sceneOf(
         material(0.3, 0, more, kStiffness) + oneBall(kRadius, "") +
@@ -57,14 +57,14 @@ TEST_F(CrushingScene, TheForceStaysAtTheCapAndTheLedgerCloses) {
     s->restartMeans();
   }
   const Ledger l = s->ledger();
-  // 0.06 s at 50 mm/s on the plateau: the plate's work is all of it crushing. A step is 1 um of 3 mm.
+  // 0.06 s at 50 mm/s on the plateau: all of the plate's work is crushing. A step is 1 um of 3 mm.
   EXPECT_NEAR((l.dissipated.crushing - before) / (kCap * kSpeed * 0.06), 1, 1e-3);
   EXPECT_EQ(l.cappedNow, 1);
-  // Plate and plane hold a yield's worth each.
+  // Plate and plane each store the elastic energy at yield.
   EXPECT_NEAR(l.elastic / (kCap * kYield), 1, 1e-3);
   EXPECT_NEAR((l.elastic + l.dissipated.total() + l.kinetic) / l.driveWork, 1, kDashpots);
   EXPECT_LT(std::fabs(l.residual), 1e-11) << "a few quanta of 2e-12 J";
-  // The spring of the plate alone would hold k x overlap: what it was cut by, over the time since the cap was reached.
+  // The spring of the plate alone would store k x overlap, less its part cut by the cap: speed times time since then.
   const double overlap = kSpeed * s->time() - 1e-4 - kYield; // less the plane's share
   EXPECT_NEAR(l.cutImpulse / (0.5 * kStiffness * (overlap - kYield) * (overlap - kYield) / kSpeed), 1, 5e-3);
 }
@@ -87,13 +87,13 @@ TEST_F(CrushingScene, AGrainCrushedToItsMiddleIsTakenOutAndBooked) {
   EXPECT_NEAR(s->time() * kSpeed, 0.0111, 5e-5);
   EXPECT_EQ(s->ground().grains->count(), 0u);
   EXPECT_NEAR(s->takenOut().mass, ballMass(), 1e-9 * ballMass());
-  // What the plane held goes with it; what the plate held is dissipated.
+  // The energy stored at the plane leaves with the grain; the energy stored at the plate is dissipated.
   EXPECT_NEAR(s->takenOut().energy / (0.5 * kCap * kYield), 1, 1e-2);
   for (int k = 0; k < 100; ++k) s->step();
   const Ledger l = s->ledger();
   EXPECT_NEAR(l.dissipated.crushing / (kCap * (kRadius - kYield) + 0.5 * kCap * kYield), 1, 1e-3);
-  EXPECT_NEAR(l.elastic / (0.5 * kCap * kYield), 1, 1e-2) << "what the plane held when the grain was taken out";
-  EXPECT_LT(std::fabs(l.kinetic + l.potential), 1e-3 * kCap * kYield) << "it was hardly moving";
+  EXPECT_NEAR(l.elastic / (0.5 * kCap * kYield), 1, 1e-2) << "energy stored at the plane when the grain was removed";
+  EXPECT_LT(std::fabs(l.kinetic + l.potential), 1e-3 * kCap * kYield) << "it was nearly at rest";
   EXPECT_LT(std::fabs(l.residual), 1e-11) << "a few quanta of 2e-12 J";
   EXPECT_LT(norm(l.momentumResidual), 1e-6 * kCap * s->time()) << "rounding of the sums";
   EXPECT_NEAR((l.elastic + l.dissipated.total()) / l.driveWork, 1, kDashpots);
@@ -103,7 +103,7 @@ TEST_F(CrushingScene, WithoutStrengthItPassesThroughAndTheRunSaysWhere) {
   const auto s = made(scene(2e-5, ""));
   try {
     while (s->time() < 0.9) s->step();
-    FAIL() << "goes on";
+    FAIL() << "no error";
   } catch (const base::SimulationError& error) {
     const std::string said = error.what();
     EXPECT_NE(said.find("grain 0"), std::string::npos) << said;
@@ -118,7 +118,7 @@ TEST_F(CrushingScene, AStrengthThatIsNotReachedChangesNoBit) {
     while (s->time() < 0.03) s->step();
     return s->stateHash();
   };
-  // Another state is kept (the dents), so another hash: positions, velocities and forces are compared.
+  // The state includes the dents, so the hash differs: compares positions, velocities and forces.
   const auto state = [&](const std::string& more) {
     const auto s = made(scene(2e-5, more, "precision = \"single\""));
     while (s->time() < 0.03) s->step();
@@ -165,7 +165,7 @@ TEST(CrushedBed, HasOneAnswerForThreadsSkinsKernelsAndResumedRuns) {
     return endOf(*s);
   };
   const End one = run("", 1, true, 0);
-  EXPECT_GE(one.grains, 2) << "nothing was crushed";
+  EXPECT_GE(one.grains, 2) << "no grain was crushed";
   EXPECT_EQ(run("", 2, true, 0), one) << "threads";
   EXPECT_EQ(run("skin = 0.7", 1, true, 0), one) << "skin";
   EXPECT_EQ(run("", 1, false, 0), one) << "general kernel";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle drives off when the ground bears it, whatever gravity is and whenever rows are written.
+// A vehicle starts when the ground supports it, for any gravity and output interval.
 #include "coupling/simulation.hpp"
 #include "coupling/vehicle_rig.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -11,7 +11,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// When the vehicle on rigid ground drives off [s]; rows every `rowEvery` steps, 0: none.
+/// Start time of the vehicle on rigid ground [s]; rows every `rowEvery` steps, 0: none.
 double drivesOff(int rowEvery, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides = {"vehicle.sphere_radius=0.02", "driver.tension_ramp=0.03",
                                         "driver.weight_ramp=0.05", "driver.rest_time_limit=1.0"};

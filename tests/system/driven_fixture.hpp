@@ -11,13 +11,13 @@
 
 namespace grouser::coupling {
 
-/// A simulation at its start, on the device under test; its vehicle's parts are cut once for all tests.
+/// A simulation at its start, on the device under test; its vehicle's parts are converted once for all tests.
 inline Simulation begin(const scene::Scene& scene, int threads = 1) {
   return Simulation(
       setup::simulationSetup(scene), testExec(threads), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
 
-/// To the step nearest to `until` [s].
+/// Advances to the step nearest to `until` [s].
 inline void advance(Simulation& simulation, double until) {
   const auto to = std::llround(until / simulation.timeStep());
   while (simulation.steps() < to) simulation.step();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Courses, engines and torques in a whole run: the same bits on any number of threads and resumed.
+// Courses, engines and torques in complete runs: bitwise identical on any number of threads and resumed.
 #include "coupling/simulation.hpp"
 #include "coupling/vehicle_rig.hpp"
 #include "runs/scene/scene.hpp"
@@ -25,7 +25,7 @@ scene::Scene sceneOf(const std::string& file, std::vector<std::string> overrides
   return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/" + file, overrides);
 }
 
-/// A scene without its sprockets' speed, from a copy of the file.
+/// A scene without sprocket speeds, from a copy of the file.
 scene::Scene freed(const std::string& file, const std::vector<std::string>& overrides) {
   scene::Scene scene = sceneOf(file, {});
   std::string resolved = scene::resolvedToml(scene);
@@ -56,7 +56,7 @@ TEST(DriverModes, CourseByEnginesOnABedIsOneAnswerOnAnyThreadsAndResumed) {
   const auto saved = one.save();
   ASSERT_TRUE(saved.vehicle);
   ASSERT_EQ(saved.vehicle->driver.size(), 3u);
-  for (const double value : saved.vehicle->driver) EXPECT_NE(value, 0) << "there is something to carry over";
+  for (const double value : saved.vehicle->driver) EXPECT_NE(value, 0) << "there is state to carry over";
   Simulation resumed(setup::simulationSetup(scene), base::cpuExec(1), saved, {}, sharedSpheres());
   while (resumed.steps() < 1000) resumed.step(), one.step();
   EXPECT_EQ(resumed.stateHash(), one.stateHash());
@@ -68,7 +68,7 @@ TEST(DriverModes, TorquesBeginWithTheDriveAndAreThoseThatAreGiven) {
   Simulation s(setup::simulationSetup(freed("rigid.toml", overrides)), base::cpuExec(1), quietly, {}, sharedBeds(),
                sharedSpheres());
   while (s.time() < 0.0195) s.step();
-  EXPECT_NEAR(s.vehicle()->observe().tracks[0].sprocketSpeed, 0, 1e-9) << "held until then";
+  EXPECT_NEAR(s.vehicle()->observe().tracks[0].sprocketSpeed, 0, 1e-9) << "locked until then";
   while (s.time() < 0.1) s.step();
   const vehicle::Observation o = s.vehicle()->observe();
   EXPECT_NEAR(o.tracks[0].driveTorque, 3000, 1e-6);

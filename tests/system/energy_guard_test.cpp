@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The guard stops runs whose time integration creates or loses energy, at fixed steps, and no others.
+// The guard stops runs whose time integration creates or loses energy, at fixed steps, and only those.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -24,12 +24,12 @@ Ledger books(double error, double turnover) {
 TEST(EnergyGuard, JudgesBothSignsAgainstWhatWasExchangedSinceTheLastLook) {
   EnergyGuard guard;
   guard.look(books(5, 1000));
-  EXPECT_EQ(guard.judge(books(5 + 3.9, 1010), 0), "") << "three tenths of 10 J may be lost, and a thousandth of 1010 J";
+  EXPECT_EQ(guard.judge(books(5 + 3.9, 1010), 0), "") << "allowed loss: 0.3 of 10 J plus 0.001 of 1010 J";
   EXPECT_NE(guard.judge(books(5 + 4.1, 1010), 0).find("lost 4.1 J"), std::string::npos);
-  EXPECT_EQ(guard.judge(books(5 - 1.9, 1010), 0), "") << "a tenth may be made, and a thousandth of 1010 J";
+  EXPECT_EQ(guard.judge(books(5 - 1.9, 1010), 0), "") << "allowed gain: 0.1 of 10 J plus 0.001 of 1010 J";
   EXPECT_NE(guard.judge(books(5 - 2.1, 1010), 0), "");
   EXPECT_NE(guard.judge(books(5 - 3.6, 1010), 0).find("created 3.6 J"), std::string::npos);
-  EXPECT_EQ(guard.judge(books(5 - 3.6, 1010), 1e7), "") << "rounding of ten MJ";
+  EXPECT_EQ(guard.judge(books(5 - 3.6, 1010), 1e7), "") << "rounding of 10 MJ";
 }
 
 TEST(EnergyGuard, WorkOfDrivesAndLossesCountAsExchanged) {
@@ -60,7 +60,7 @@ TEST(EnergyGuard, AQuarterOfWhatSpringsTakeUpIsNoAlarm) {
   EXPECT_NE(guard.judge(l, 0), "");
   l.elastic = -2.5; // 0.3 + 0.001 + 0.625
   EXPECT_EQ(guard.judge(l, 0), "");
-  guard.look(l); // the springs stay as they are
+  guard.look(l); // spring energy unchanged
   l.integrationError += 0.9, l.turnover += 1;
   EXPECT_NE(guard.judge(l, 0), "");
 }
@@ -70,7 +70,7 @@ TEST(EnergyGuard, WhereDampersGiveWhatTheStepsLoseNothingIsMade) {
   guard.look(books(0, 0));
   Ledger l = books(0.5, 10);
   l.dissipated.damping = -0.6;
-  EXPECT_EQ(guard.judge(l, 0), "") << "a tenth of a joule is given";
+  EXPECT_EQ(guard.judge(l, 0), "") << "a gain of a tenth of a joule";
   l.dissipated.damping = -0.9;
   EXPECT_NE(guard.judge(l, 0).find("dampers created 0.4 J"), std::string::npos) << guard.judge(l, 0);
 }
@@ -81,7 +81,7 @@ TEST(EnergyGuard, WorkOfDrivesBeforeTheLastLookHidesNothing) {
   l.driveWork = 100;
   guard.look(l);
   l.integrationError = -3;
-  EXPECT_NE(guard.judge(l, 0), "") << "nothing has been exchanged since";
+  EXPECT_NE(guard.judge(l, 0), "") << "no energy exchanged since then";
 }
 
 TEST(EnergyGuard, DampersThatGiveEnergyAreSeen) {
@@ -96,7 +96,7 @@ TEST(EnergyGuard, DampersThatGiveEnergyAreSeen) {
   EXPECT_NE(guard.judge(l, 0).find("dampers"), std::string::npos);
 }
 
-/// Of a vehicle that has been about for a while.
+/// A vehicle after some time of driving.
 Ledger booksOfParts() {
   Ledger l = books(0, 1e5);
   l.dissipated.parts = 500, l.dissipated.joints = 1500;
@@ -116,36 +116,36 @@ TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsIsHeldAgainstWhatIsDissipated) {
   EXPECT_EQ(guard.judge(l, 0), "") << "of 420 J";
   l.dissipated = {};
   l.dissipated.damping = 2400;
-  EXPECT_EQ(guard.judge(l, 0), "") << "contacts of grains are judged by what they exchange";
+  EXPECT_EQ(guard.judge(l, 0), "") << "grain contacts are compared with their exchanged energy";
 }
 
-/// As of 1.8 million grains of loam under a vehicle whose tracks are being tightened.
+/// Numbers of 1.8 million grains of loam under a vehicle during track tensioning.
 TEST(EnergyGuard, ABedThatBreathesBeforeAVehicleHasDissipatedMuchIsNoAlarm) {
   EnergyGuard guard;
   Ledger l = books(-0.074, 0.38);
   l.dissipated.parts = 0.3, l.dissipated.damping = 0.08;
   l.elastic = -2;
-  EXPECT_NE(guard.judge(l, 0), "") << "springs of the vehicle hide nothing";
+  EXPECT_NE(guard.judge(l, 0), "") << "elastic energy of the vehicle hides no error";
   guard.look(l);
   EXPECT_NE(guard.judge(l, 0).find("since the start"), std::string::npos);
   l.grainElastic = -2; // a tenth of the other 0.306 J, a thousandth of 0.76 J, and a quarter of 0.3 J
   EXPECT_EQ(guard.judge(l, 0), "");
   EnergyGuard later = guard, restored;
   l.grainElastic = -0.1;
-  EXPECT_NE(guard.judge(l, 0).find("since the start"), std::string::npos) << "a bed that holds little hides less";
+  EXPECT_NE(guard.judge(l, 0).find("since the start"), std::string::npos) << "with less elastic energy, less is hidden";
   l.grainElastic = -2;
   later.look(l);
   restored.restore(later.save());
   l.grainElastic = -0.1;
-  EXPECT_EQ(later.judge(l, 0), "") << "it has breathed, and will again";
+  EXPECT_EQ(later.judge(l, 0), "") << "the bed's oscillation is allowed";
   EXPECT_EQ(restored.judge(l, 0), "");
-  l.integrationError = -0.11; // the last look: nothing since
+  l.integrationError = -0.11; // the last check: no change since then
   guard.look(l), later.look(l);
-  EXPECT_NE(later.judge(l, 0).find("since the start"), std::string::npos) << "however much the bed holds";
+  EXPECT_NE(later.judge(l, 0).find("since the start"), std::string::npos) << "regardless of the bed's elastic energy";
 }
 
-/// As of 1.8 million grains 1024 steps after the start: the bed's contacts seem to have given more than parts have
-/// taken. Without the hundredth of 4.1 J 0.016 J would be allowed.
+/// Numbers of 1.8 million grains 1024 steps after the start: the bed's contacts seem to have released more than parts
+/// dissipated. Without a hundredth of 4.1 J the limit would be 0.016 J.
 TEST(EnergyGuard, ABedThatHoldsMuchMoreThanPartsHaveTakenHidesAHundredthOfIt) {
   EnergyGuard guard;
   Ledger l = books(-0.035, 0.21);
@@ -160,7 +160,7 @@ TEST(EnergyGuard, ABedThatHoldsMuchMoreThanPartsHaveTakenHidesAHundredthOfIt) {
       << guard.judge(l, 0);
 }
 
-/// As of 1.5 million grains 0.75 m deep, 512 steps after the start: weight times radius of all of them is 2800 J.
+/// Numbers of 1.5 million grains 0.75 m deep, 512 steps after the start: total weight times radius is 2800 J.
 TEST(EnergyGuard, WhatIsNothingBesideTheWeightOfABedIsNoAlarm) {
   EnergyGuard guard;
   Ledger l = books(-0.0231, 0.3);
@@ -179,7 +179,7 @@ TEST(EnergyGuard, WhatIsNothingBesideTheWeightOfABedIsNoAlarm) {
   }
 }
 
-/// The same later on: where what grains seem to give were taken from what parts have dissipated, 0.03 J were allowed.
+/// The same later: if the losses of parts were subtracted from the apparent gain of grains, the limit would be 0.03 J.
 TEST(EnergyGuard, WhatGrainsSeemToGiveDoesNotLessenWhatPartsHaveDissipated) {
   EnergyGuard guard;
   Ledger l = books(-0.15, 2.1);
@@ -187,7 +187,7 @@ TEST(EnergyGuard, WhatGrainsSeemToGiveDoesNotLessenWhatPartsHaveDissipated) {
   l.elastic = l.grainElastic = 4.1;
   guard.look(l);
   EXPECT_EQ(guard.judge(l, 0), "") << "a tenth of the other 0.7 J, and a quarter of 0.44 J, are 0.18 J";
-  // Since the last look: nothing is held in springs, and dashpots of grains seem to give what parts take.
+  // Since the last check: springs store nothing, and dashpots of grains seem to release what parts dissipate.
   l.turnover += 3, l.integrationError -= 0.05, l.dissipated.parts += 1, l.dissipated.damping -= 0.9;
   EXPECT_EQ(guard.judge(l, 0), "") << "a tenth of the other 0.95 J";
   l.integrationError -= 0.06;
@@ -201,7 +201,7 @@ TEST(EnergyGuard, WhatStepsMakeInContactsOfPartsAddsUp) {
   guard.look(l);
   for (int look = 1; look <= 6; ++look) {
     l.turnover += 1000, l.dissipated.parts += 100, l.integrationError -= 55;
-    // The last time 330 J: a tenth of the other 2270 J, and a thousandth of 108,600 J, are 335.6 J.
+    // The last time 330 J: a tenth of the other 2270 J plus a thousandth of 108,600 J are 335.6 J.
     EXPECT_EQ(guard.judge(l, 0), "") << look;
     guard.look(l);
   }
@@ -236,7 +236,7 @@ std::string heap(int number, const std::string& material, const std::string& vel
   return text;
 }
 
-/// Steps of `share` of the limit, also above it, which a scene file may not ask for.
+/// Steps of `share` of the limit, also above it, where a scene file is rejected.
 Simulation simulationAt(const std::string& text, double share) {
   const scene::Scene scene = setup::parseScene(text, "heap.toml");
   SimulationSetup setup = setup::simulationSetup(scene);
@@ -245,7 +245,7 @@ Simulation simulationAt(const std::string& text, double share) {
   return Simulation(std::move(setup), base::cpuExec(1), [](double, double) {});
 }
 
-/// Two grains pressed together, from rest: the first step gives them m v^2 / 2, and takes m v^2 from the spring.
+/// Two grains pressed together, from rest: the first step adds m v^2 / 2 and takes m v^2 from the spring.
 TEST(EnergyGuard, AFewStepsAreNotJudgedBeforeAContactIsOver) {
   const scene::Scene scene = setup::parseScene(
       "version = 1\n[run]\nduration = 1\ntime_step = 1e-4\ngravity = [0, 0, 0]\n[material.soil]\nstiffness = 1e5\n"
@@ -255,7 +255,7 @@ TEST(EnergyGuard, AFewStepsAreNotJudgedBeforeAContactIsOver) {
   Simulation simulation(setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {});
   simulation.step();
   const Ledger after = simulation.ledger();
-  ASSERT_GT(std::fabs(after.integrationError), EnergyGuard::kMostLost * after.turnover) << "nothing to be mistaken for";
+  ASSERT_GT(std::fabs(after.integrationError), EnergyGuard::kMostLost * after.turnover) << "no significant error";
   EXPECT_NO_THROW(simulation.checkEnergy());
 }
 
@@ -308,8 +308,8 @@ TEST(EnergyGuard, RemembersWhatItHasSeenAtEveryLook) {
 }
 
 TEST(EnergyGuard, WhatRestsOnAVeryStiffPlaneIsNoAlarm) {
-  // Its overlap, a millionth of the radius, is some tens of the resolution of its place: by that its weight works, and
-  // next to nothing else is exchanged.
+  // Its overlap, a millionth of the radius, is some tens of the position resolution: this is its weight's work, and
+  // hardly any other energy is exchanged.
   const double radius = 0.045, stiffness = 4.5e8,
                weight = 2500 * 4 / 3.0 * 3.14159265 * radius * radius * radius * 9.81;
   const std::string text = fmt::format(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stress of grains on whatever a scene can put under them, and on the way of a run.
+// Soil stress above all possible supports of a scene, and during a run.
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -18,7 +18,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// Supports of a grain, each with its upper side at z = 0.
+/// Supports of a grain, each with its top at z = 0.
 struct Support {
   const char* name;
   std::string text;
@@ -35,7 +35,7 @@ std::string fileOfCube() {
   return path.string();
 }
 
-/// Gravity leans: friction bears its part along the ground.
+/// Inclined gravity: friction carries the component along the ground.
 TEST_P(StressOfOneGrain, IsTheForceOfItsSupportTimesItsRadius) {
   constexpr double kAlong = 1, kDown = 9.5; // [m/s2]
   const std::string text =
@@ -72,7 +72,7 @@ INSTANTIATE_TEST_SUITE_P(
                         "[[body.shape]]\nkind = \"box\"\nsize = [0.1, 0.1, 0.1]\n"}),
     [](const ::testing::TestParamInfo<Support>& each) { return std::string(each.param.name); });
 
-/// Moving surfaces, bodies, a mesh, cohesion: what is measured on the way leaves every bit as it is.
+/// Moving surfaces, bodies, a mesh, cohesion: measurements during the run do not change any bit.
 class FieldsOnTheWay : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FieldsOnTheWay, ChangeNoBitOfTheRun) {
@@ -83,7 +83,7 @@ TEST_P(FieldsOnTheWay, ChangeNoBitOfTheRun) {
   for (int k = 0; k < 8; ++k) {
     const terrain::SoilFields a = fieldsOf(measured, terrain::fieldGrid({-1, -1, -1}, {1, 1, 1}, 0.1, {}));
     if (k == 7) {
-      plain.ledger(); // rows call it; it may sort the grains anew
+      plain.ledger(); // as in rows; it may sort the grains anew
       const terrain::SoilFields b = fieldsOf(plain, a.grid);
       EXPECT_EQ(a.stress, b.stress);
       EXPECT_EQ(a.porosity, b.porosity);

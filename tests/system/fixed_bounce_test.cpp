@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Given restitution of grains on fixed surfaces and fixed grains.
+// Specified restitution of grains on fixed surfaces and fixed grains.
 #include "tests/system/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace grouser::coupling::ledgers {
 namespace {
 
-/// Rebound over impact speed of a ball that comes down at 1 m/s on `ground`, which lies below z = 0.
+/// Rebound over impact speed of a ball that falls at 1 m/s onto `ground`, which lies below z = 0.
 double reboundOn(const std::string& ground, const std::string& law, const std::string& run) {
   const std::string text = fmt::format("[material.soil]\ndensity = {}\nfriction = 0\n{}\n", kDensity, law) + ground +
                            ballAt("[0, 0, 0.01001]", "velocity = [0, 0, -1]");
@@ -43,11 +43,11 @@ TEST(FixedGrainOfAScene, ThatYieldsReturnsABallAsAWallDoes) {
                           "restitution = 0.7";
   const double wall = reboundOn(kPlane, law, "precision = \"double\"");
   EXPECT_NEAR(reboundOn(kFixed, law, "precision = \"double\""), wall, 1e-3);
-  EXPECT_LT(wall, 0.65) << "plastic work besides";
+  EXPECT_LT(wall, 0.65) << "plastic work in addition";
 }
 
 TEST(FixedGrainOfAScene, TakesADampingThatIsGivenAsItIs) {
-  // gamma = 2 zeta omega with the omega of the full mass, of the damped swing that may pull.
+  // gamma = 2 zeta omega with the omega of the full mass, for damped contacts with attraction.
   const double omega = std::sqrt(1e5 / ballMass()), zeta = 0.2;
   const std::string law = fmt::format("stiffness = 1e5\ndamping = {}\nattraction = true", 2 * zeta * omega);
   EXPECT_NEAR(reboundOn(kFixed, law, "precision = \"double\""),

@@ -12,7 +12,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// On level rigid ground of 6 m, at 4 rad/s from 0.15 s on; `more` follows, a [stop] among it.
+/// On level rigid ground of 6 m, at 4 rad/s from 0.15 s; `more` adds keys, including a [stop].
 scene::Scene sceneWith(const std::string& more, const std::string& vehicle = {},
                        const std::vector<std::string>& overrides = {}) {
   return setup::parseScene("version = 1\n[run]\nduration = 4\ntime_step = 1e-4\n[material.steel]\nstiffness = 1e6\n"
@@ -27,7 +27,7 @@ scene::Scene sceneWith(const std::string& more, const std::string& vehicle = {},
                            GROUSER_SOURCE_DIR "/tests/scenes/flow.toml", overrides);
 }
 
-/// What has ended it within so many steps.
+/// Reason of the end within so many steps.
 std::string endOf(Simulation& simulation, std::int64_t within) {
   while (simulation.steps() < within && simulation.vehicle()->ended().empty()) simulation.advance(1000);
   return simulation.vehicle()->ended();
@@ -40,9 +40,9 @@ TEST(Flow, EndsAfterADistance) {
   Simulation simulation = begin(scene);
   EXPECT_NE(endOf(simulation, 6000).find("stop.distance: the vehicle is 0.1"), std::string::npos);
   EXPECT_GE(way(simulation), 0.1);
-  EXPECT_LT(way(simulation), 0.1 + 50 * 1e-4 * 1.2) << "a look every 50 steps, at 4 rad/s on 0.245 m";
+  EXPECT_LT(way(simulation), 0.1 + 50 * 1e-4 * 1.2) << "checked every 50 steps, at 4 rad/s on 0.245 m";
   EXPECT_EQ(simulation.steps() % 50, 0);
-  // A run that goes on from its end is over at once; one that is asked for more goes on.
+  // A run resumed from its end stops at once; one with a longer limit continues.
   EXPECT_FALSE(Simulation(setup::simulationSetup(scene), testExec(), simulation.save(), {}, sharedSpheres())
                    .vehicle()
                    ->ended()
@@ -58,11 +58,11 @@ TEST(Flow, EndsBeforeTheEdge) {
   const std::string end = endOf(simulation, 8000);
   EXPECT_NE(end.find("stop.edge: the "), std::string::npos) << end;
   EXPECT_NE(end.find("within 0.5 m of the terrain's edge"), std::string::npos) << end;
-  EXPECT_GT(way(simulation) + 1, 2.3) << "it has driven there";
+  EXPECT_GT(way(simulation) + 1, 2.3) << "it has driven to the edge";
 }
 
 TEST(Flow, GoesOnWhereItWasSetDownNearerToTheEndThanThat) {
-  // Its rear shoes stand some 0.15 m inside, and it drives away from there.
+  // Its rear shoes are some 0.15 m inside, and it drives away from the edge.
   Simulation simulation = begin(sceneWith("[stop]\nedge = 0.5\n", "", {"vehicle.position=\"auto\""}));
   EXPECT_EQ(endOf(simulation, 3000), "");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes with a fluid: floating bodies against closed forms, energies, resumed runs, and one answer.
+// Scenes with a fluid: floating bodies against closed forms, energies, resumed runs, and identical results.
 #include "base/error.hpp"
 #include "coupling/fluid_domain.hpp"
 #include "coupling/simulation.hpp"
@@ -45,7 +45,7 @@ std::vector<fluid::BodyLoad> columnLoads(const Simulation& s) { return fluidOf(s
 
 double heightOf(const Simulation& s) { return s.mechanism()->state().pose[0].position.z; }
 
-/// A box of half the density of water comes to rest half under water, within 0.15 spacings; its mean load is its
+/// A box of half the density of water settles half under water, within 0.15 spacings; its mean load is its
 /// weight. The water keeps its volume within a hundredth.
 TEST(FluidScene, ABoxFloatsAtItsDraught) {
   std::string probes;
@@ -70,7 +70,7 @@ TEST(FluidScene, ABoxFloatsAtItsDraught) {
   EXPECT_NEAR(level - 0.02, water, 0.01 * water);
 }
 
-/// A box of a fiftieth of the density of water, whose ghost inertia is above its mass: it bobs, and is not thrown.
+/// A box of 2 % of the density of water, with a ghost inertia above its mass: it oscillates and is not ejected.
 TEST(FluidScene, ALightBoxIsNotThrown) {
   Simulation s = madeFluid(waterTank(floatingBox(0.4, 0.49)));
   ASSERT_GT(s.setup().fluid->bodies[0].gain, 10);
@@ -83,7 +83,7 @@ TEST(FluidScene, ALightBoxIsNotThrown) {
   EXPECT_LT(fastest, 0.5);
 }
 
-/// All energies but the step's error, which is small against what was exchanged.
+/// All energies except the step's error, which is small against the exchanged energy.
 TEST(FluidScene, EnergiesClose) {
   Simulation s = madeFluid(waterTank(floatingBox(20, 0.45)));
   while (s.time() < 0.5) s.step();
@@ -93,7 +93,7 @@ TEST(FluidScene, EnergiesClose) {
   EXPECT_LT(std::fabs(l.residual), 1e-9);
 }
 
-/// A driven body: the drive's work is in the water.
+/// A driven body: the drive's work goes to the water.
 TEST(FluidScene, WorkOfADriveGoesIntoTheWater) {
   Simulation s = madeFluid(waterTank(floatingBox(20, 0.2) +
                                      "[[joint]]\nname = \"rail\"\ntype = \"prismatic\"\nbodies = [\"world\", "
@@ -111,7 +111,7 @@ TEST(FluidScene, HasOneAnswerOnAnyThreadsAndWhenResumed) {
   Simulation one = madeFluid(text, 1), two = madeFluid(text, 2);
   const int steps = 151;
   ASSERT_GT(one.setup().fluid->stepsPerStep, 1);
-  ASSERT_NE(steps % one.setup().fluid->stepsPerStep, 0) << "resumes between two steps of the fluid";
+  ASSERT_NE(steps % one.setup().fluid->stepsPerStep, 0) << "must resume between two steps of the fluid";
   for (int k = 0; k < steps; ++k) one.step(), two.step();
   EXPECT_EQ(one.stateHash(), two.stateHash());
   Simulation resumed(setup::simulationSetup(setup::parseScene(text, "fluid.toml")), testExec(2), one.save());
@@ -121,15 +121,15 @@ TEST(FluidScene, HasOneAnswerOnAnyThreadsAndWhenResumed) {
   EXPECT_EQ(resumed.ledger().dissipated.fluid, one.ledger().dissipated.fluid);
 }
 
-/// One track and the hull above it, held over the ground, in a tank: water to 0.3 m above the lowest grousers, a
-/// spacing of 0.06 m, as thick as the shoes.
+/// One track and the hull above it, held over the ground, in a tank: water to 0.3 m above the lowest grousers, at
+/// a spacing of 0.06 m, the thickness of the shoes.
 const std::string kFord = fmt::format(
     "version = 1\n[run]\nduration = 3.0\n[vehicle]\nspec = \"{}/assets/vehicles/light_tracked.toml\"\nchassis = "
     "\"fixed\"\ntracks = \"single\"\n[driver]\nsprocket_speed = 2.0\ndrive_start = 10\n[fluid]\nspacing = "
     "0.06\ntank_low = [-0.6, -0.9, -0.18]\ntank_high = [3.3, 0.9, 0.9]\nlevel = 0.3\n",
     GROUSER_SOURCE_DIR);
 
-/// The water lifts a vehicle by the weight of what it displaces, with shoes one spacing thick within 30 %.
+/// The lift on a vehicle is the weight of the displaced water, within 30 % for shoes one spacing thick.
 TEST(FluidScene, AVehicleIsLiftedByTheWaterItDisplaces) {
   Simulation s = madeFluid(kFord, 2);
   const setup::StartingBodies bodies(setup::parseScene(kFord, "ford.toml"));
@@ -154,7 +154,7 @@ TEST(FluidScene, AVehicleIsLiftedByTheWaterItDisplaces) {
     torque += each[k].torque + cross(arm, each[k].force);
   }
   EXPECT_LT(norm(columnLoads(s)[1].torque - torque), 1e-9 * norm(torque));
-  // A run that is resumed between two steps of the fluid has the same rows.
+  // A run resumed between two steps of the fluid has the same rows.
   ASSERT_GT(s.setup().fluid->stepsPerStep, 1);
   if (s.steps() % s.setup().fluid->stepsPerStep == 0) s.step();
   const Simulation resumed(s.setup(), testExec(2), s.save(), {}, sharedSpheres());
@@ -178,7 +178,7 @@ TEST(FluidScene, RefusesAVehicleOnAnObstacle) {
   EXPECT_THROW(madeFluid(text, 2), base::InputError);
 }
 
-/// A vehicle that waits for rest drives off though the water carries more than 7 % of its weight.
+/// A vehicle that waits for rest starts although the water supports more than 7 % of its weight.
 TEST(FluidScene, AVehicleInWaterRests) {
   Simulation s = madeFluid(kRestingFord, 2);
   double lift = 0;
@@ -191,7 +191,7 @@ TEST(FluidScene, AVehicleInWaterRests) {
   EXPECT_GT(lift, 0.07 * 5018 * kWaterGravity);
 }
 
-/// A state without its fluid, or of more bodies, is of another scene.
+/// A state without its fluid, or with more bodies, belongs to another scene.
 TEST(FluidScene, RefusesTheStateOfAnotherScene) {
   const SimulationSetup setup =
       setup::simulationSetup(setup::parseScene(waterTank(floatingBox(5, 0.42)), "fluid.toml"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains in the running gear: counted by what they touch, and on a bed against the contacts of the ledger.
+// Grains in the running gear: counted by their contacts, and compared on a bed with the ledger's contacts.
 #include "coupling/gear_contacts.hpp"
 
 #include "coupling/simulation.hpp"
@@ -44,7 +44,7 @@ TEST(GearContacts, OnABedAreThePairsInTouch) {
   const std::int64_t patches = simulation.ledger().partContacts;
   const std::int64_t pairs = c.shoes + c.sprockets + c.roadWheels + c.rollers + c.idlers + c.hull;
   EXPECT_GT(c.shoes, 20);
-  EXPECT_LE(pairs, patches) << "a pair in touch has a patch at least";
+  EXPECT_LE(pairs, patches) << "a touching pair has at least one patch";
   EXPECT_GE(pairs, patches / contact::kPatches);
   EXPECT_LE(c.pinched, c.stones);
 }

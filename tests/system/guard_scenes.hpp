@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-/// Pieces of small scenes for the tests of the guard.
+/// Components of small scenes for the tests of the guard.
 namespace grouser::test {
 
 const char* const kNoGravity = "gravity = [0, 0, 0]\n";
@@ -17,7 +17,7 @@ inline std::string run(double duration, const std::string& more = "") {
                      duration, more);
 }
 
-/// A material of linear springs, but for what `more` says.
+/// A material of linear springs, with the keys of `more`.
 inline std::string soil(double restitution, double friction, const std::string& more = "",
                         const std::string& stiffness = "2e4", const std::string& name = "soil") {
   return fmt::format("[material.{}]\nstiffness = {}\nrestitution = {:g}\nfriction = {:g}\n{}", name, stiffness,
@@ -45,7 +45,7 @@ inline std::string walls(double half) {
 
 struct Fill {
   int number = 60;
-  double half = 0.03, low = 0, high = 0.07; ///< of the block [m]
+  double half = 0.03, low = 0, high = 0.07; ///< block dimensions [m]
   const char* radius = "0.005";
   const char* more = ""; ///< velocity, radius_to
   const char* material = "soil";
@@ -83,7 +83,7 @@ inline std::string joint(const std::string& name, const std::string& first, cons
                      more);
 }
 
-/// Links of 0.1 m that hang together, level at the start.
+/// Connected links of 0.1 m, level at the start.
 inline std::string chain(int links) {
   std::string text;
   for (int i = 0; i < links; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Where a vehicle is put, which steps are refused, and that created energy stops a run.
+// Initial position of a vehicle, rejected steps, and a stop on created energy.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
@@ -33,7 +33,7 @@ TEST(Placement, OutsideIsRefusedWithTheRoomItNeeds) {
   const scene::Scene scene = rigid({"vehicle.position=[7.0, 0]"});
   try {
     setup::placeVehicle(scene, vehicle::readVehicleSpec(scene.vehicle->source()));
-    FAIL() << "the front would hang over the edge";
+    FAIL() << "the front would extend over the edge";
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("requires 3.4"), std::string::npos) << error.what();
   }
@@ -76,8 +76,8 @@ TEST(TimeStep, TheStiffestLawOfTheSceneSetsTheLimit) {
 }
 
 TEST(TimeStep, DampingCountsForTheModeNotForOneContact) {
-  // Restitution 0.1, clamped: zeta 1.24318785 of a pair. Each of a grain's contacts has c = zeta sqrt(2 k m); the mode
-  // of 8 k / m has 8 c / m: dt = 4 / (C + sqrt(C^2 + 4 K)).
+  // Restitution 0.1, clamped: zeta 1.24318785 of a pair. Each of a grain's contacts has c = zeta sqrt(2 k m); the
+  // mode of 8 k / m has 8 c / m: dt = 4 / (C + sqrt(C^2 + 4 K)).
   scene::Scene s = setup::parseScene(kBall, "ball.toml", {"material.soil.restitution=0.1", "material.soil.friction=0"});
   s.planes.clear();
   const double mass = 2500 * 4.0 / 3 * base::kPi * 0.027 * 0.027 * 0.027, k = 1e6;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies beside a vehicle: joints to it, contacts with its ground and its parts, one answer.
+// Bodies beside a vehicle: joints to it, contacts with its ground and its parts, identical results.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -73,14 +73,14 @@ TEST(HitchedBodies, CartFollowsAndACrateIsPushed) {
   EXPECT_GT(way, 0.15);
   EXPECT_NEAR(bodyOf(*s, 0).position.x - cart, way, 0.05) << "the hull pitches at the crate";
   EXPECT_GT(bodyOf(*s, 3).position.x - pushed, 0.03);
-  // The cart's weight stands on its wheels and on the hitch.
+  // Wheels and hitch carry the cart's weight.
   const std::size_t first = s->setup().mechanism->ofVehicle.bodies;
   const auto force = s->vehicle()->contactForces();
   const double wheels = force[first + 1].z + force[first + 2].z;
   const double hitch = s->vehicle()->solver().reactions(s->vehicle()->state()).back().force.z;
-  EXPECT_EQ(force[first], Vec3d{}) << "the cart touches nothing";
+  EXPECT_EQ(force[first], Vec3d{}) << "the cart has no contacts";
   EXPECT_NEAR(wheels + hitch, (kCart + 2 * kWheel) * kGravity, 0.2 * kCart * kGravity);
-  // Contacts between vehicle and crate cancel: all together is the weight.
+  // Contacts between vehicle and crate cancel: the total is the weight.
   double all = 0;
   for (const Vec3d& f : force) all += f.z;
   const double weight = (s->vehicle()->assembly().mass + kCart + 2 * kWheel + 300) * kGravity;

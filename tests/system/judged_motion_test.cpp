@@ -20,16 +20,16 @@ using namespace test; // pieces of scenes
 
 TEST(SwingGrowth, CountsWhatLastsAndNoPeak) {
   SwingGrowth growth;
-  for (int k = 0; k < 10; ++k) { // every other look is a peak
+  for (int k = 0; k < 10; ++k) { // every other check is a peak
     EXPECT_TRUE(growth.bears(3, 50));
     EXPECT_TRUE(growth.bears(0.9, 50));
   }
-  // (1.05 + sqrt(1.05^2 - 1))^2 = 1.877 a step: a million within 22 steps, from the second look on.
+  // (1.05 + sqrt(1.05^2 - 1))^2 = 1.877 per step: a million within 22 steps, from the second check.
   EXPECT_TRUE(growth.bears(1.05, 50));
   EXPECT_FALSE(growth.bears(1.05, 50));
   SwingGrowth slow;
   EXPECT_TRUE(slow.bears(1.0001, 50));
-  EXPECT_TRUE(slow.bears(1.0001, 50)); // 1.0287 a step
+  EXPECT_TRUE(slow.bears(1.0001, 50)); // 1.0287 per step
   const std::vector<double> saved = slow.save();
   EXPECT_NEAR(saved[0], 1.0287, 1e-4);
   EXPECT_NEAR(saved[1], std::pow(saved[0], 50), 1e-9 * saved[1]);

@@ -13,7 +13,7 @@
 #include <memory>
 #include <string>
 
-/// Scenes of which a test knows where the energy must go.
+/// Scenes with known energy paths.
 namespace grouser::coupling::ledgers {
 
 constexpr double kRadius = 0.01, kDensity = 2500, kGravity = 9.81;
@@ -37,7 +37,7 @@ inline std::string oneBall(double height, const std::string& motion) {
   return ballAt(fmt::format("[0, 0, {}]", height), motion) + planeThrough("[0, 0, 0]", "[0, 0, 1]");
 }
 
-/// `run`: more keys of that section; in double precision where there are none.
+/// `run`: more keys of that section; double precision without them.
 inline scene::Scene sceneOf(const std::string& things, double duration, double step, const std::string& run = {}) {
   return setup::parseScene(fmt::format("version = 1\n[run]\nduration = {}\ntime_step = {}\n{}\n{}", duration, step,
                                        run.empty() ? "precision = \"double\"" : run, things),

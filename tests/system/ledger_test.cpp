@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The ledger of scenes of grains: it closes to rounding at every step, contains the true losses, and its integration
+// The ledger of grain scenes: it closes to rounding at every step, contains the true losses, and its integration
 // error falls with the time step.
 #include "tests/system/ledger_fixture.hpp"
 
@@ -29,7 +29,7 @@ double orderOf(const std::vector<double>& errors) {
 }
 
 TEST(LedgerOfGrains, ElasticBounceThatSticksDissipatesNothing) {
-  // Springs alone act: no dashpot, and no sliding but where the contact ends.
+  // Only springs act: no dashpot, and sliding only as the contact ends.
   for (const double step : {4e-5, 2e-5, 1e-5}) {
     const Ledger l = after(material(1, 0) + oneBall(0.06, "velocity = [0.5, 0, -1]\nspin = [0, 3, 1]"), 0.2, step);
     EXPECT_EQ(l.dissipated.total(), 0) << step;
@@ -41,7 +41,7 @@ TEST(LedgerOfGrains, ElasticBounceThatSticksDissipatesNothing) {
 }
 
 TEST(LedgerOfGrains, IntegrationErrorOfBouncesFallsWithTheStep) {
-  // Where within a step a contact begins is as good as random: root of the mean square over 24 heights.
+  // The phase of the first touch within a step is effectively random: root mean square over 24 heights.
   std::vector<double> errors;
   for (const double step : {4e-5, 2e-5, 1e-5}) {
     double sum = 0;
@@ -52,7 +52,7 @@ TEST(LedgerOfGrains, IntegrationErrorOfBouncesFallsWithTheStep) {
     errors.push_back(std::sqrt(sum));
   }
   EXPECT_GT(orderOf(errors), 0.9);
-  EXPECT_LT(errors[2], 1e-3 * 0.5 * ballMass()) << "of a ball at 1 m/s, 100 steps a contact";
+  EXPECT_LT(errors[2], 1e-3 * 0.5 * ballMass()) << "for a ball at 1 m/s, 100 steps per contact";
 }
 
 TEST(LedgerOfGrains, DampedBounceLosesWhatItsRestitutionSays) {
@@ -78,7 +78,7 @@ TEST(LedgerOfGrains, SlidingBallLosesTwoSeventhsOfItsEnergyToFriction) {
   const std::string ball = oneBall(kRadius - ballMass() * kGravity / 1e5, "velocity = [1, 0, 0]");
   for (const double step : {4e-5, 1e-5}) {
     const Ledger l = after(material(0.5, 0.3) + ball, 0.15, step);
-    // Of the step: the first and the last of its 2400 steps of sliding; of the model: the arm is shorter by the
+    // Step error: the first and the last of its 2400 steps of sliding; model error: the lever arm is shorter by the
     // overlap.
     EXPECT_NEAR(l.dissipated.friction / loss, 1, 2 * step / 0.097 + 1e-3);
     EXPECT_LT(l.dissipated.damping, 1e-3 * loss);
@@ -90,13 +90,13 @@ TEST(LedgerOfGrains, RollingBallLosesAllOfItsEnergyToRollingResistance) {
   const double speed = 0.3, energy = 0.7 * ballMass() * speed * speed; // with the spin of rolling
   const std::string ball = oneBall(kRadius - ballMass() * kGravity / 1e5, "velocity = [0.3, 0, 0]\nspin = [0, 30, 0]");
   const Ledger l = after(material(0.5, 0.8, "rolling_friction = 0.1") + ball, 0.8, 2e-5);
-  EXPECT_LT(l.kinetic, -0.999 * energy) << "it rests";
-  EXPECT_NEAR(l.dissipated.rolling / energy, 1, 0.03) << "some is rubbed and damped where it stops";
+  EXPECT_LT(l.kinetic, -0.999 * energy) << "it is at rest";
+  EXPECT_NEAR(l.dissipated.rolling / energy, 1, 0.03) << "some energy is lost to friction and damping as it stops";
   EXPECT_NEAR(l.dissipated.total() / energy, 1, 2e-3);
 }
 
 TEST(LedgerOfGrains, BoxOfGrainsClosesAtEveryStep) {
-  // The limit is 1.7e-5 s. What has fallen is what was lost; the error of the step is a share that falls with it.
+  // The limit is 1.7e-5 s. Potential energy lost equals dissipation; the error is a share that falls with the step.
   std::vector<double> errors;
   for (const double step : {1.6e-5, 8e-6, 4e-6}) {
     const Ledger l = after(material(0.5, 0.5) + boxOfGrains(), 0.25, step);
@@ -124,13 +124,13 @@ TEST(LedgerOfGrains, BoxOfGrainsClosesAtEveryStep) {
 }
 
 TEST(LedgerOfGrains, MomentaBalanceWithGravityAndWalls) {
-  // A ball thrown at a wall turns its momentum round; about the origin gravity and the wall turn it too.
+  // A ball thrown at a wall reverses its momentum; gravity and the wall also change its moment about the origin.
   const Ledger l = after(material(0.8, 0.4) + "[[grain]]\nposition = [0.2, 0.1, 0.3]\nvelocity = [1, 0.3, 0.5]\n"
                                               "spin = [3, -5, 40]\nradius = 0.01\nmaterial = \"soil\"\n[[plane]]\n"
                                               "point = [0.25, 0, 0]\nnormal = [-1, 0, 0]\nmaterial = \"soil\"\n",
                          0.2, 1e-5);
   EXPECT_LT(l.momentum.x, -0.7 * ballMass()) << "it has bounced";
-  // Velocities up to 2 m/s keep 40 bits: so much may each of 20,000 steps round the same way.
+  // Velocities up to 2 m/s have 40 bits: all of 20,000 steps may round in the same direction.
   EXPECT_LT(norm(l.momentumResidual), 20000 * ballMass() * 2 * 0x1p-40);
   EXPECT_LT(norm(l.angularResidual), 20000 * ballMass() * 2 * 0x1p-40);
 }
@@ -151,7 +151,7 @@ TEST(LedgerOfGrains, LiftThatCarriesAGrainPutsInItsWeight) {
                            "\"soil\"\n[[plane]]\npoint = [0, 0, 0]\nvelocity = [0, 0, 0.1]\nmaterial = \"soil\"\n";
   const Ledger l = after(material(0.3, 0.5) + lift, 0.5, 2e-5);
   const double lifted = ballMass() * kGravity * 0.05;
-  EXPECT_NEAR(l.driveWork / lifted, 1, 1e-3) << "it swings a little at first";
+  EXPECT_NEAR(l.driveWork / lifted, 1, 1e-3) << "small initial oscillation";
   EXPECT_NEAR(l.potential / lifted, 1, 1e-3);
   EXPECT_LT(std::fabs(l.integrationError), 1e-3 * lifted);
   EXPECT_LT(norm(l.momentumResidual), 1e-9 * ballMass() * kGravity * 0.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Surfaces under load along one axis that are pulled or turned besides: sheared plates and loaded wheels, against
+// Surfaces under load along one axis that are also pulled or turned: sheared plates and loaded wheels, against
 // closed forms.
 #include "base/math.hpp"
 #include "base/sphere.hpp"
@@ -18,9 +18,9 @@ namespace {
 using base::Vec3d;
 
 constexpr double kLoad = 40, kMass = 1;
-const double kNormal = kLoad + 9.81 * kMass; // that the load's mass and the load press with [N]
+const double kNormal = kLoad + 9.81 * kMass; // normal force of the load and its weight [N]
 
-/// Grains in the corner of a rough floor and a rough wall at x = 0.01, below something slick: they stay where they are.
+/// Grains in the corner of a rough floor and a rough wall at x = 0.01, below a slippery surface: they do not move.
 std::string corner(const std::vector<double>& at = {0}) {
   std::string text = R"(version = 1
 [run]
@@ -76,11 +76,11 @@ TEST(LoadedPlate, PulledOverGrainsThatStayIsHeldByFrictionTimesItsLoad) {
   const auto s = made(corner({-0.04, 0, 0.04}) + loaded(kPlate, "velocity = [0.1, 0, 0]\n"
                                                                 "spin = [0, 0, 0]\npivot = [0, -0.5, 0.03]\n"));
   const Surfaces::Observation o = between(*s, 0.6, 0.65);
-  // What is left of the swing after the ramp and the jerk of the pull.
+  // Residual oscillation after the ramp and the jerk of the pull.
   EXPECT_NEAR(o.force.z, kNormal, 1e-4 * kNormal);
   EXPECT_NEAR(o.force.x, -0.1 * o.force.z, 1e-5 * kNormal);
   EXPECT_NEAR(o.force.y, 0, 1e-4 * kNormal);
-  EXPECT_NEAR(o.power, 0.1 * 0.1 * kNormal, 1e-3 * o.power) << "of the pull: the load does no work at rest";
+  EXPECT_NEAR(o.power, 0.1 * 0.1 * kNormal, 1e-3 * o.power) << "work of the pull; the load does no work at rest";
   EXPECT_NEAR(o.position.x, 0.1 * 0.45, 1e-12);
   const Vec3d lever{0, 0.5, 0};
   EXPECT_LT(norm(o.pivotTorque - o.torque - cross(lever, o.force)), 1e-9 * kNormal) << "about the pivot";
@@ -110,7 +110,7 @@ TEST(LoadedPlate, TurnedOverGrainsThatStayTakesFrictionTimesLoadTimesArm) {
   const auto s = made(text);
   const Surfaces::Observation o = between(*s, 0.6, 0.65, 2);
   EXPECT_NEAR(o.force.z, kNormal, 1e-4 * kNormal);
-  // The grains give way by mu N / (2 k) = 2.5e-6 m only, but turn about their contacts with it by some 1e-5 m.
+  // The grains yield by only mu N / (2 k) = 2.5e-6 m, but rotate about their contacts by some 1e-5 m.
   EXPECT_NEAR(o.torque.z, -0.1 * kNormal * kArm, 1e-3 * 0.1 * kNormal * kArm);
   EXPECT_NEAR(o.pivotTorque.z, o.torque.z, 1e-6 * std::fabs(o.torque.z)) << "the pivot lies below its centre";
   EXPECT_NEAR(o.power, 0.5 * 0.1 * kNormal * kArm, 1e-3 * o.power);
@@ -119,7 +119,7 @@ TEST(LoadedPlate, TurnedOverGrainsThatStayTakesFrictionTimesLoadTimesArm) {
 TEST(LoadedWheel, SpinningOnTheSpotTakesFrictionTimesLoadTimesRadius) {
   const auto s = made(corner() + loaded(kWheel, "spin = [0, -2, 0]\n")); // its lowest point goes to +x
   const Surfaces::Observation o = between(*s, 0.6, 0.65);
-  // The grain lies against the wall by some 1e-5 m: the contact stands aslant by that over R + r.
+  // The grain touches the wall with an offset of some 1e-5 m: the contact is inclined by that over R + r.
   EXPECT_NEAR(o.force.z, kNormal, 1e-3 * kNormal);
   EXPECT_NEAR(o.force.x, -0.1 * kNormal, 1e-2 * 0.1 * kNormal);
   EXPECT_NEAR(o.torque.y, 0.1 * kNormal * 0.1, 1e-2 * 0.1 * kNormal * 0.1);
@@ -130,7 +130,7 @@ TEST(LoadedWheel, RollingFreelyFeelsNoFrictionAndSlippingAllOfIt) {
   const auto pull = [](double spin) {
     const auto s = made(corner() + loaded(kWheel, fmt::format("velocity = [0.05, 0, 0]\nspin = [0, {}, 0]\n", spin)));
     const Surfaces::Observation o = between(*s, 0.205, 0.21);
-    // 0.4 mm past the top of the grain: the contact stands aslant.
+    // 0.4 mm past the top of the grain: the contact is inclined.
     const Vec3d normal = base::normalized(Vec3d{0.05 * 0.0075, 0, 0.11});
     return dot(o.force, Vec3d{normal.z, 0, -normal.x}) / norm(o.force);
   };
@@ -150,7 +150,7 @@ TEST(LoadedPlate, HeightConvergesAtFirstOrderAsSymplecticEulerDoes) {
     return s->surfaces()->pose(0, s->steps()).position.z;
   };
   const double h = height(1), half = height(2), quarter = height(4), eighth = height(8);
-  EXPECT_GT(std::fabs(h - half), 1e-9) << "rounding decides nothing";
+  EXPECT_GT(std::fabs(h - half), 1e-9) << "the difference is above rounding";
   EXPECT_NEAR((h - half) / (half - quarter), 2, 0.3);
   EXPECT_NEAR((half - quarter) / (quarter - eighth), 2, 0.15);
 }
@@ -164,10 +164,10 @@ TEST(LoadedPlate, LedgerClosesAndThePullIsWhatFrictionTakes) {
   const double pulled = 0.1 * kNormal * 0.1 * 0.3;
   EXPECT_NEAR(b.driveWork - a.driveWork, pulled, 1e-3 * pulled);
   EXPECT_NEAR(b.dissipated.friction - a.dissipated.friction, pulled, 2e-3 * pulled);
-  // Rounding: nearly nothing moves but the plate across, so of what goes through, not of the turnover.
+  // Rounding: only the plate moves, across; the bound refers to the impulse, not to the turnover.
   EXPECT_LT(std::fabs(b.residual), 1e-9 * b.driveWork);
   EXPECT_LT(std::fabs(b.integrationError - a.integrationError), 1e-3 * pulled);
-  EXPECT_LT(norm(b.momentumResidual), 1e-9) << "of some 30 N s";
+  EXPECT_LT(norm(b.momentumResidual), 1e-9) << "impulses are some 30 N s";
 }
 
 TEST(LoadedMesh, CubeThatIsPressedPulledAndTurnedActsAsTheBoxDoes) {
@@ -181,7 +181,7 @@ TEST(LoadedMesh, CubeThatIsPressedPulledAndTurnedActsAsTheBoxDoes) {
                                 motion));
   const Surfaces::Observation a = between(*box, 0.25, 0.3), b = between(*mesh, 0.25, 0.3);
   EXPECT_GT(a.force.z, 0.5 * kNormal);
-  EXPECT_LT(norm(a.force - b.force), 0.02 * norm(a.force)) << "its discs are floats, and round its edges";
+  EXPECT_LT(norm(a.force - b.force), 0.02 * norm(a.force)) << "its discs are floats with rounded edges";
   EXPECT_LT(norm(a.torque - b.torque), 0.02 * norm(a.force) * 0.05);
   EXPECT_NEAR(a.position.z, b.position.z, 1e-6);
 }

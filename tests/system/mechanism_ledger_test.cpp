@@ -18,7 +18,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// Rounding of 1e4 steps and more is some 1e-14 of the turnover.
+/// Rounding of 1e4 or more steps is some 1e-14 of the turnover.
 constexpr double kRounding = 1e-9;
 
 SimulationSetup setupOf(const std::string& scene, const std::vector<std::string>& overrides = {}) {
@@ -94,10 +94,10 @@ TEST(MechanismLedger, OfAVehiclesBodiesClosesToRounding) {
   EXPECT_NE(l.elasticGain, 0);
   EXPECT_GT(l.springDamping, 0);
   EXPECT_LE(std::fabs(l.leftOver), kRounding * l.turnover);
-  EXPECT_EQ(l.kineticGain, l.now.kinetic) << "it begins at rest";
+  EXPECT_EQ(l.kineticGain, l.now.kinetic) << "it starts at rest";
   EXPECT_NEAR(l.kineticGain + l.potentialGain + l.elasticGain + l.dissipated() + l.integrationError,
               l.driveWork + l.externalWork, kRounding * l.turnover);
-  EXPECT_LE(norm(l.linearLeftOver), 1e-9) << "of some 1e4 N s";
+  EXPECT_LE(norm(l.linearLeftOver), 1e-9) << "impulses are some 1e4 N s";
   EXPECT_LE(norm(l.angularLeftOver), 1e-8);
 }
 

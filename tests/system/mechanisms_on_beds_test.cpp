@@ -122,7 +122,7 @@ TEST(WheelOnABed, IsTheSameAsABodyAndAsAFreeSurface) {
   struct Sum {
     double mean = 0, square = 0;
     void add(double x) { mean += x / kFalls, square += x * x / kFalls; }
-    double variance() const { return (square - mean * mean) / (kFalls - 1); } ///< of the mean
+    double variance() const { return (square - mean * mean) / (kFalls - 1); } ///< variance of the mean
   } pull[2], torque[2];
   for (int k = 0; k < kFalls; ++k) {
     const Times times{0.2, 0.25, 0.7};
@@ -136,12 +136,12 @@ TEST(WheelOnABed, IsTheSameAsABodyAndAsAFreeSurface) {
   }
   EXPECT_LT(std::fabs(pull[1].mean - pull[0].mean), 3 * std::sqrt(pull[0].variance() + pull[1].variance()));
   EXPECT_LT(std::fabs(torque[1].mean - torque[0].mean), 3 * std::sqrt(torque[0].variance() + torque[1].variance()));
-  EXPECT_LT(std::sqrt(pull[0].variance()), 0.06 * kWeight) << "the comparison says something";
+  EXPECT_LT(std::sqrt(pull[0].variance()), 0.06 * kWeight) << "the comparison is significant";
 }
 
-constexpr double kRun = 0.1; ///< of random mechanisms [s]
+constexpr double kRun = 0.1; ///< duration of random mechanisms [s]
 
-/// A chain of two to four bodies with shapes on a bed, with random joints, drives and places.
+/// A chain of two to four bodies with shapes on a bed, with random joints, drives and positions.
 std::string randomMechanism(unsigned seed) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bodies with a shape from a mesh file: among grains, on rigid surfaces, on each other, and refused scenes.
+// Bodies with a mesh shape: among grains, on rigid surfaces, on each other, and rejected scenes.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "contact/shape_points.hpp"
@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr double kGravity = 9.81;
 
-/// Folder of a test's meshes and scene; removed at the end.
+/// Folder with a test's meshes and scene; removed at the end.
 class Folder {
 public:
   Folder() {
@@ -113,7 +113,7 @@ TEST(MeshPoints, CarryTheAreaAndLieInTheirFaces) {
   for (const contact::SurfaceSample& s : contact::meshPoints(mesh, 0.01, [](const Vec3d&) { return false; })) {
     area += s.area, moment += s.centre.as<double>() * static_cast<double>(s.area);
     farthest = std::max(farthest, std::fabs(gapTo(box, s.centre.as<double>()).distance));
-    // The cluster is that of the face: a corner lies in three.
+    // The cluster is that of the face: a corner belongs to three.
     const Vec3d p = s.centre.as<double>();
     EXPECT_NEAR(std::fabs(p[static_cast<int>(s.cluster / 2)]), box.half[static_cast<int>(s.cluster / 2)], 1e-7);
   }
@@ -122,7 +122,7 @@ TEST(MeshPoints, CarryTheAreaAndLieInTheirFaces) {
   EXPECT_LT(norm(moment), 1e-3 * area * 0.1) << "two triangles of a face have different points";
   const auto upper = contact::meshPoints(mesh, 0.01, [](const Vec3d& p) { return p.z < 0.02; });
   EXPECT_FALSE(upper.empty());
-  for (const contact::SurfaceSample& s : upper) EXPECT_EQ(s.cluster, 5u) << "others are hidden";
+  for (const contact::SurfaceSample& s : upper) EXPECT_EQ(s.cluster, 5u) << "the others are hidden";
 }
 
 TEST(MeshBodies, WeightIsTheMeanContactForceOnGrains) {
@@ -135,7 +135,7 @@ TEST(MeshBodies, WeightIsTheMeanContactForceOnGrains) {
   const Vec3d force = s->mechanism()->contactForces()[0];
   EXPECT_NEAR(force.z, 2 * kGravity, 1e-3 * 2 * kGravity);
   EXPECT_LT(std::hypot(force.x, force.y), 1e-3 * 2 * kGravity);
-  // Each foot bears a quarter: overlap = m g / (4 k), on the plane of the face to single precision.
+  // Each foot carries a quarter: overlap = m g / (4 k), relative to the face in single precision.
   EXPECT_NEAR(stateOf(*s).pose[0].position.z, 0.06 - 2 * kGravity / 4e5, 1e-6);
 }
 
@@ -158,7 +158,7 @@ TEST(MeshBodies, StandOnEachOtherByPointsAndSpheres) {
   const Folder folder;
   folder.cube();
   folder.box("slab.obj", {-0.1, -0.1, -0.02}, {0.1, 0.1, 0.02});
-  // Box on mesh, mesh on mesh, mesh on box: the smaller one has the points.
+  // Box on mesh, mesh on mesh, mesh on box: sample points are on the smaller one.
   const std::string slab = "[[body.shape]]\nkind = \"mesh\"\nfile = \"slab.obj\"\n";
   const std::string ofSlab = "mass = 5\nbox = [0.2, 0.2, 0.04]\n";
   const auto s = folder.made(
@@ -190,7 +190,7 @@ TEST(MeshBodies, MomentumIsConservedWhereTwoMeet) {
   const multibody::Totals now = s->mechanism()->bodiesBalance().now;
   EXPECT_LT(norm(now.linearMomentum - start.linearMomentum), 1e-9);
   EXPECT_LT(norm(now.angularMomentum - start.angularMomentum), 1e-6);
-  EXPECT_LT(stateOf(*s).twist[0].v.x, 0.9) << "they have met";
+  EXPECT_LT(stateOf(*s).twist[0].v.x, 0.9) << "they have collided";
   EXPECT_LT(now.kinetic, start.kinetic);
 }
 
@@ -244,7 +244,7 @@ TEST(MeshBodies, HaveOneAnswerWhenResumedAndWithTwoThreads) {
 
 TEST(MeshBodies, HollowOnesHoldGrainsAndBodies) {
   const Folder folder;
-  // A tray of five walls that overlap: inside is where the winding number is not zero.
+  // A tray of five overlapping walls: the inside is where the winding number is not zero.
   fs::path tray = fs::path(folder.scene()).parent_path() / "tray.obj";
   std::ofstream file(tray);
   int first = 1;
@@ -332,7 +332,7 @@ TEST(MeshBodies, BadFilesAndKeysAreRefusedAtTheirPlace) {
   refused(cube + "radius = 0.1", "shape.0.radius = 0.1 does not apply to a mesh");
   refused(cube + "size = [1, 1, 1]", "does not apply to a mesh");
   refused(cube + "length = 1", "does not apply to a mesh");
-  refused(cube + "angle = 3", "and angle rotate a mesh together");
+  refused(cube + "angle = 3", "and angle must be set together for a mesh");
   refused("kind = \"sphere\"\nradius = 0.1\nfile = \"cube.obj\"", "does not apply to a sphere");
   refused("kind = \"sphere\"\nradius = 0.1\nsphere_radius = 0.01", "does not apply to a sphere");
   refused("kind = \"box\"\nsize = [1, 1, 1]\nscale = 2", "does not apply to a box");

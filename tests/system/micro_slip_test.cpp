@@ -24,13 +24,13 @@ TEST(MicroSlip, ElasticBounceThatSticksLosesATenthByItAndNothingElse) {
                              kStill + precision);
       EXPECT_EQ(l.dissipated.damping + l.dissipated.rolling, 0);
       EXPECT_GE(l.dissipated.friction, 0);
-      EXPECT_LT(l.dissipated.friction, 0.02 * energy) << "where the contact ends";
+      EXPECT_LT(l.dissipated.friction, 0.02 * energy) << "at the end of the contact";
       EXPECT_GT(l.dissipated.microSlip, 0.08 * energy);
       EXPECT_LT(l.dissipated.microSlip, 0.16 * energy);
       error[k] = std::fabs(l.integrationError) / l.dissipated.total();
     }
-    EXPECT_LT(error[1], 0.02) << "400 steps a contact";
-    EXPECT_LT(error[1], 0.5 * error[0] + 1e-3) << "it falls with the step";
+    EXPECT_LT(error[1], 0.02) << "400 steps per contact";
+    EXPECT_LT(error[1], 0.5 * error[0] + 1e-3) << "it decreases with the step";
   }
 }
 
@@ -40,8 +40,8 @@ TEST(MicroSlip, LinearSpringsHaveNone) {
 }
 
 TEST(MicroSlip, BallShakenUnderAVaryingLoadGivesNoWork) {
-  // A table shakes it at 20 Hz, a lid presses it at 40 Hz: whatever the phase, what friction and springs take is not
-  // below 0, and the drives put in what was dissipated, to the error of the step.
+  // A table shakes it at 20 Hz, a lid presses it at 40 Hz: at any phase, losses in friction and springs are not
+  // negative, and the drives supply the dissipated energy, to the error of the step.
   for (const double friction : {0.3, 10.0})
     for (int phase = 0; phase < 360; phase += 45) {
       const std::string table =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole vehicle: one answer, rest on the bed, the rigid-ground control, and sinkage on the bed.
+// The whole vehicle: identical results, rest on the bed, the rigid-ground control, and sinkage on the bed.
 #include "coupling/simulation.hpp"
 
 #include "runs/setup/load_scene.hpp"
@@ -23,7 +23,7 @@ constexpr const char* kCoupledHash = "a730de5cca96dbe3";
 
 void quiet(double, double) {}
 
-/// `together`: steps that are asked for at once, which a GPU is given ahead; 0: each by itself.
+/// `together`: steps per call, which a GPU batches; 0: single steps.
 std::string coupledHash(const base::Exec& exec, const std::vector<std::string>& overrides = {},
                         std::int64_t together = 0, storage::BedCache* beds = nullptr,
                         storage::SphereCache* spheres = nullptr) {
@@ -50,12 +50,12 @@ TEST(OneAnswer, CoupledSceneOnCuda) {
   EXPECT_EQ(coupledHash(base::cudaExec()), kCoupledHash);
 }
 
-/// In one batch; in batches of an odd number, which begin with either buffer, with lists that end within them; in
+/// Steps in one batch; in batches of an odd number, which start with either buffer, with rebuilds within them; and in
 /// pairs.
 TEST(OneAnswer, CoupledSceneOnCudaLaunchedAhead) {
   if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
   EXPECT_EQ(coupledHash(base::cudaExec(), {}, 2000), kCoupledHash);
-  EXPECT_EQ(coupledHash(base::cudaExec(), {"run.skin=0.02"}, 13), kCoupledHash) << "lists that end within a batch";
+  EXPECT_EQ(coupledHash(base::cudaExec(), {"run.skin=0.02"}, 13), kCoupledHash) << "rebuilds within a batch";
   EXPECT_EQ(coupledHash(base::cudaExec(), {"run.skin=0.8"}, 2), kCoupledHash);
 }
 
@@ -63,7 +63,7 @@ TEST(OneAnswer, CoupledSceneInBatchesOfSteps) {
   EXPECT_EQ(coupledHash(base::cpuExec(2), {}, 100, sharedBeds(), sharedSpheres()), kCoupledHash);
 }
 
-/// Of soil that coheres, as loam does, and holds on to the shoes.
+/// Cohesive soil, such as loam, that adheres to the shoes.
 TEST(OneAnswer, OfSoilThatSticksToTheVehicle) {
   const auto hash = [](const base::Exec& exec, const std::string& adhesion) {
     Simulation simulation(setup::simulationSetup(setup::loadScene(
@@ -79,7 +79,7 @@ TEST(OneAnswer, OfSoilThatSticksToTheVehicle) {
   if (base::cudaAvailable()) {
     EXPECT_EQ(hash(base::cudaExec(), "0.5"), one);
   }
-  EXPECT_NE(hash(base::cpuExec(1), "0"), one) << "the hash must see what sticks";
+  EXPECT_NE(hash(base::cpuExec(1), "0"), one) << "the hash must depend on adhesion";
 }
 
 /// Hash of a run with complementarity contacts. `resumes`: continues from a saved state halfway.
@@ -104,7 +104,7 @@ std::string solvedHash(const base::Exec& exec, const std::string& skin = "0.3", 
 
 TEST(OneAnswer, VehicleOnGrainsWhoseContactsAreSolvedFor) {
   const std::string one = solvedHash(base::cpuExec(1));
-  EXPECT_EQ(solvedHash(base::cpuExec(2), "0.6", true), one) << "threads, lists, and a stop on the way";
+  EXPECT_EQ(solvedHash(base::cpuExec(2), "0.6", true), one) << "threads, lists, and a resumed run";
   if (base::cudaAvailable()) {
     EXPECT_EQ(solvedHash(base::cudaExec()), one);
   }
@@ -120,17 +120,17 @@ TEST(OneAnswer, AnotherSeedIsAnotherState) {
   };
   const std::string one = hash("run.seed=7");
   EXPECT_EQ(hash("run.seed=7"), one);
-  EXPECT_NE(hash("run.seed=8"), one) << "the hash must see the state";
+  EXPECT_NE(hash("run.seed=8"), one) << "the hash must depend on the state";
 }
 
-/// What happened to one shoe.
+/// Track history of one shoe.
 struct Track {
   std::vector<double> time, height;
   std::vector<bool> onGround;
 };
 
 struct Drive {
-  std::vector<double> time, speed; ///< of the left track's tooth passages
+  std::vector<double> time, speed; ///< times of the left track's tooth passages
   std::vector<Track> shoes;
 };
 
@@ -193,7 +193,7 @@ bool passed(const Track& t, double from) {
   return carried >= 15 && !t.onGround.back() && t.height.back() > lowest + 0.03;
 }
 
-/// The first of the last four consecutive shoes that did: those that stood longest on the ground run.
+/// The first of the last four consecutive shoes that did: those with the longest ground contact.
 std::size_t fourShoes(const Drive& d, double from) {
   for (std::size_t s = d.shoes.size() - 3; s-- > 0;) {
     bool all = true;
@@ -216,7 +216,7 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
   double lowest = 1, highest = -1;
   for (const Track& shoe : d.shoes)
     for (std::size_t i = 0; i < shoe.time.size(); ++i) {
-      // Only shoes that are well inside the ground run: loaded for 0.1 s before and after.
+      // Only shoes well inside the ground contact: loaded for 0.1 s before and after.
       bool inside = shoe.time[i] > begin + 0.3;
       for (std::size_t k = i < 10 ? 0 : i - 10; k <= i + 10; ++k)
         inside = inside && k < shoe.time.size() && shoe.onGround[k];
@@ -228,13 +228,13 @@ TEST(RigidGround, ShoesStayLevelAndSpeedIsPitchRadiusTimesOmega) {
   double sum = 0;
   int n = 0;
   for (std::size_t i = 0; i < d.time.size(); ++i)
-    if (d.time[i] > 3.0) sum += d.speed[i], ++n; // it swings for two seconds
+    if (d.time[i] > 3.0) sum += d.speed[i], ++n; // it oscillates for two seconds
   EXPECT_NEAR(sum / n / (omega * spec.pitchRadius()), 1, 0.004);
 
   const Line line = slopeOnGround(d, fourShoes(d, begin), begin);
   std::printf("rigid: heights within %.3f mm, speed %.4f of omega r, slope %.3g +- %.2g m/s\n",
               1e3 * (highest - lowest), sum / n / (omega * spec.pitchRadius()), line.slope, line.error);
-  EXPECT_LT(std::fabs(line.slope), 1e-3) << "the bed's slope is compared with this bound";
+  EXPECT_LT(std::fabs(line.slope), 1e-3) << "bound for the slope on a bed";
 }
 
 TEST(GranularBed, ShoesSinkWhileTheyCarryAndArePickedUp) {
@@ -255,7 +255,7 @@ TEST(GranularBed, CarriesTheWholeWeightAtRest) {
                             testScene("coupled.toml"), {"driver.sprocket_speed=0", "driver.weight_ramp=0.3",
                                                         "driver.drive_start=0.4", "vehicle.sphere_radius=0.03"})),
                         testExec(), quiet, {}, sharedBeds(), sharedSpheres());
-  // The lowest pad, from when the track is tight until the weight has come on.
+  // The lowest pad, from tightening of the track until the full weight is on.
   const auto lowest = [&] {
     const std::vector<double> pads = simulation.vehicle()->observe().tracks[0].padHeight;
     return *std::min_element(pads.begin(), pads.end());
@@ -270,7 +270,7 @@ TEST(GranularBed, CarriesTheWholeWeightAtRest) {
   const double force = simulation.vehicle()->meanGroundForce().z;
   std::printf("rest: ground force / weight = %.5f, sunk by %.1f mm\n", force / weight, 1e3 * sunk);
   EXPECT_NEAR(force / weight, 1, 0.005);
-  EXPECT_GT(sunk, 3e-3) << "three times what shoes on rigid ground differ by";
+  EXPECT_GT(sunk, 3e-3) << "three times the scatter of shoes on rigid ground";
 }
 
 } // namespace

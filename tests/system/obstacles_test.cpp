@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle on rigid surfaces: it rests on a box as on ground, on a log with its hull, climbs a step, and has one
-// answer.
+// A vehicle on rigid surfaces: it rests on a box as on ground, on a log with its hull, climbs a step; identical
+// results.
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/system/driven_fixture.hpp"
@@ -45,11 +45,11 @@ TEST(OnABox, RestsAsOnGroundOfThatHeight) {
               ground.vehicle()->meanGroundForce().z / weight);
   EXPECT_NEAR(force.z / weight, 1, 1e-3);
   EXPECT_NEAR(force.z, ground.vehicle()->meanGroundForce().z, 1e-6 * weight) << "rounding";
-  EXPECT_NEAR(box.vehicle()->meanForceOn(0).z, -force.z, 1e-9 * weight) << "the ground below carries nothing";
+  EXPECT_NEAR(box.vehicle()->meanForceOn(0).z, -force.z, 1e-9 * weight) << "the ground below carries no load";
   for (std::size_t b = 0; b < box.vehicle()->state().pose.size(); ++b)
     EXPECT_LT(norm(box.vehicle()->state().pose[b].position - ground.vehicle()->state().pose[b].position),
               b == 0 ? 1e-7 : 2e-6)
-        << b << ": rounding; the slack strands let it grow, to 5e-7 m";
+        << b << ": rounding; slack strands amplify it to 5e-7 m";
 }
 
 TEST(OnABox, SinkageIsMeasuredFromItsTop) {
@@ -60,12 +60,12 @@ TEST(OnABox, SinkageIsMeasuredFromItsTop) {
   for (const double sinkage : seen.tracks[0].sinkage) {
     if (!std::isfinite(sinkage)) continue;
     ++shoes;
-    EXPECT_NEAR(sinkage, -0.015, 1e-3) << "the grousers' height above it";
+    EXPECT_NEAR(sinkage, -0.015, 1e-3) << "height of the grousers";
   }
   EXPECT_GT(shoes, 8);
 }
 
-/// A log across, between the tracks, higher than the hull's clearance of 255 mm.
+/// A log across, between the tracks, above the hull's clearance of 255 mm.
 std::string log(double x) {
   return fmt::format("[[cylinder]]\nposition = [{}, 0, 0.02]\naxis = [0, 1, 0]\nradius = 0.3\nlength = 1.4\n"
                      "material = \"steel\"\nname = \"log\"\n",
@@ -83,7 +83,7 @@ TEST(OnALog, TheHullCarriesTheVehicle) {
   std::printf("on a log: all / weight = %.5f, log %.5f\n", all.z / weight, -log.z / weight);
   EXPECT_NEAR(all.z / weight, 1, 0.01);
   EXPECT_LT(log.z, -0.2 * weight);
-  // Over the log the belly, 200 mm below the vehicle's origin, lies on its top at 0.32 m.
+  // On the log the belly, 200 mm below the vehicle's origin, is at 0.32 m.
   const base::Pose hull = vehicle::partPose(simulation.vehicle()->assembly().parts[0], simulation.vehicle()->state());
   const Vec3d over = hull.toBody({2.43, 0, 0.32});
   EXPECT_NEAR(over.z, -0.2, 2e-3);
@@ -128,7 +128,7 @@ TEST(OneAnswer, AnObstacleOutOfReachChangesNoBit) {
   Simulation bare = begin(sceneWith("", 0, "sprocket_speed = 0", "hull_touches = false"));
   for (Simulation* s : {&with, &without, &bare}) stepTo(*s, 2000);
   EXPECT_EQ(with.stateHash(), without.stateHash());
-  EXPECT_EQ(bare.stateHash(), without.stateHash()) << "a hull that touches nothing";
+  EXPECT_EQ(bare.stateHash(), without.stateHash()) << "a hull without contacts";
 }
 
 TEST(SetDown, AWallInTheTracksIsRefused) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One scene, one answer: the golden hash of every scene in tests/scenes without a vehicle, for threads, lists and a
-// stop on the way. tests/gpu compares the same scenes on CPU and GPU, tests/ranks their parts on several ranks.
+// Identical results: the golden hash of every scene in tests/scenes without a vehicle, for threads, lists and a
+// resumed run. tests/gpu compares the same scenes on CPU and GPU, tests/ranks parts of them on several ranks.
 #include "coupling/simulation.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -13,13 +13,13 @@
 namespace grouser::coupling {
 namespace {
 
-/// A change of a hash is a change of the physics or of its order of operations, and needs a stated reason in the
+/// A change of a hash means a change of the physics or of its order of operations, and needs a reason in the
 /// commit.
 struct Golden {
   const char* scene;
   int steps;
   const char* hash;
-  std::vector<std::string> otherLists; ///< for another skin; grains that are thrown would cross a thin one in a step
+  std::vector<std::string> otherLists; ///< for another skin; grains thrown fast would cross a thin one in a step
 };
 std::ostream& operator<<(std::ostream& out, const Golden& g) { return out << g.scene; }
 

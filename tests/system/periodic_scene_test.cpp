@@ -41,7 +41,7 @@ SettleReport settled(const scene::Scene& scene, LaidGround& ground) {
 }
 
 TEST(JoinedBed, IsAsDenseAtItsSidesAsInside) {
-  // Averaged over the axis, a bed with walls is thinner there: no centre is nearer to them than a radius.
+  // Averaged over the axis, a walled bed is less dense near its walls: no centre is closer to them than a radius.
   const auto share = [](const std::vector<std::string>& overrides) {
     LaidGround ground;
     settled(bed(overrides), ground);
@@ -75,7 +75,7 @@ TEST(TiledBed, OfJoinedTilesIsInBalanceAtOnce) {
   EXPECT_EQ(four.contacts, 4 * one.contacts);
   EXPECT_NEAR(four.elastic, 4 * one.elastic, 1e-5 * four.elastic); // quanta of each grain
   EXPECT_NEAR(four.kinetic, 4 * one.kinetic, 1e-9 * four.kinetic);
-  // What has come to rest in a ring of its own stays at rest: springs and all are there, across the seams too.
+  // A bed that settled in a periodic ring stays at rest: all springs exist, across the seams too.
   const auto before = whole.grains->snapshot().position;
   for (int k = 0; k < 500; ++k) whole.grains->refreshNeighbours(), whole.grains->step();
   const auto after = whole.grains->snapshot().position;
@@ -110,7 +110,7 @@ TEST(TiledBed, FillsHillsOnALevelFloorUpToTheHeightMap) {
 }
 
 TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
-  // In periodic tiles, as without the surface; one that stands in the bed is refused.
+  // Works in periodic tiles as without the surface; a surface inside the bed is an error.
   const auto ledgerWith = [](const std::string& box) {
     const std::string text =
         "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\nperiodic = [true, true]\n[material.soil]\nstiffness = "
@@ -127,7 +127,7 @@ TEST(TiledBed, SurfacesElsewhereDoNotTouchTheTile) {
   const terrain::GrainLedger without = ledgerWith(""), far = ledgerWith(at + "5]\n");
   EXPECT_GT(without.boundaryContacts, 50);
   EXPECT_EQ(far.boundaryContacts, without.boundaryContacts);
-  EXPECT_EQ(far.elastic, without.elastic) << "springs against the floor";
+  EXPECT_EQ(far.elastic, without.elastic) << "springs on the floor";
   EXPECT_EQ(far.kinetic, without.kinetic);
   EXPECT_THROW(ledgerWith(at + "-0.05]\n"), base::InputError);
 }
@@ -163,7 +163,7 @@ TEST(PeriodicBoundaries, GrainsOfASceneTouchAcrossThem) {
   EXPECT_EQ(buildGround(setup::groundSetup(scene("-0.461"), kStep), base::cpuExec(1)).grains->ledger().contacts, 1);
   EXPECT_EQ(buildGround(setup::groundSetup(scene("-0.459"), kStep), base::cpuExec(1)).grains->ledger().contacts, 0);
   EXPECT_THROW(buildGround(setup::groundSetup(scene("-0.49"), kStep), base::cpuExec(1)), base::InputError)
-      << "too deep at the start";
+      << "overlap at the start is too deep";
   EXPECT_THROW(buildGround(setup::groundSetup(scene("-0.51"), kStep), base::cpuExec(1)), base::InputError) << "outside";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Objects placed on a settled bed: the bed settles as if alone, positions are correct, and results are identical.
+// Objects placed on a settled bed: the bed settles without them, positions are correct, and results are identical.
 #include "coupling/placed_on_bed.hpp"
 
 #include "base/error.hpp"
@@ -27,7 +27,7 @@ namespace {
 
 using base::Vec3d;
 
-/// Some 200 grains of several radii on a floor of fixed ones.
+/// Some 200 grains of mixed radii on a floor of fixed grains.
 std::string bedScene(const std::string& more) {
   return "version = 1\n[run]\nduration = 0.5\n[material.soil]\nstiffness = 1e5\nrestitution = 0.2\n[material.steel]\n"
          "stiffness = 2e5\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\nheight_range = [0, "
@@ -94,12 +94,12 @@ TEST(PutOnBed, BedHasTheBitsOfOneAloneWhateverIsPutOnIt) {
   EXPECT_TRUE(std::equal(alone.radius.begin(), alone.radius.end(), rig.radius.begin()));
   EXPECT_TRUE(std::equal(alone.fixed.begin(), alone.fixed.end(), rig.fixed.begin()));
   EXPECT_GT(std::count(alone.fixed.begin(), alone.fixed.end(), 1u), 10);
-  // Tops are found in single precision: of 0.1 m.
+  // Tops are computed in single precision, relative to 0.1 m.
   EXPECT_NEAR(with->settled().highest, highestUnder(with->ground().grains->snapshot(), n, -9, 9, -9, 9), 1e-7);
 }
 
 TEST(PutOnBed, SpringsOnWhatStoodInTheBedStayItsOwn) {
-  // Four walls, the floor (in one place or several), then surfaces: the sill is the last.
+  // Four walls, the floor (in one or several places), then surfaces: the sill is the last.
   const std::string sill = "[[box]]\nname = \"sill\"\nposition = [0.2, 0, -0.05]\nsize = [0.04, 0.4, 0.08]\n"
                            "material = \"steel\"\n";
   for (const char* interpolation : {"smooth", "monotone"}) {
@@ -113,7 +113,7 @@ TEST(PutOnBed, SpringsOnWhatStoodInTheBedStayItsOwn) {
     int touching = 0;
     for (std::size_t k = 0; k < alone.rows(); ++k) {
       EXPECT_EQ(rig.wallBits[k] >> before & 1u, alone.wallBits[k] >> (before - 1) & 1u);
-      EXPECT_EQ(rig.wallBits[k] >> (before - 1) & 1u, 0u) << "the plate stands above";
+      EXPECT_EQ(rig.wallBits[k] >> (before - 1) & 1u, 0u) << "the plate is above the bed";
       EXPECT_EQ(rig.wallShear[after * k + before], alone.wallShear[before * k + before - 1]);
       for (std::size_t b = 0; b + 1 < before; ++b)
         EXPECT_EQ(rig.wallShear[after * k + b], alone.wallShear[before * k + b]);
@@ -132,7 +132,7 @@ TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
   EXPECT_NEAR(s->surfaces()->pose(0, 0).position.z - 0.02,
               highestUnder(bed, bed.position.size(), 0.2, 0.4, -0.1, 0.1) + 0.002, 1e-12);
   const SurfaceMotion& motion = s->surfaces()->surface(0).motion;
-  EXPECT_NEAR(motion.at(0).centre.z - motion.at(0).pivot.z, 1, 1e-12) << "the pivot goes with it";
+  EXPECT_NEAR(motion.at(0).centre.z - motion.at(0).pivot.z, 1, 1e-12) << "the pivot moves with it";
   const terrain::GrainSnapshot now = s->ground().grains->snapshot();
   Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (std::size_t k = bed.position.size(); k < now.position.size(); ++k) {
@@ -157,7 +157,7 @@ TEST(PutOnBed, OverlapIsRefusedWithNumbersAndRemedy) {
   EXPECT_THROW(sceneWithBed(plate("above_bed = 0.1\nplaced = \"before\"\n")), base::InputError);
   EXPECT_THROW(sceneWithBed("[[plane]]\nmaterial = \"steel\"\nabove_bed = 0.1\n"), base::InputError)
       << "no lowest point";
-  // Two grains over one place, which no bed tells apart.
+  // Two grains at one position, which no bed can separate.
   const std::string stone =
       "[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.02\nmaterial = \"steel\"\nabove_bed = 0.01\n";
   EXPECT_NE(refusal(sceneWithBed(stone + stone)).find("m deep in grain"), std::string::npos);
@@ -168,7 +168,7 @@ TEST(PutOnBed, WhatRestsStandsInTheBedAndWhatMovesComesLater) {
     return made(sceneWithBed(plate(keys), {"box.plate.position.2=0.0"}))->ground().grains->count();
   };
   const std::size_t all = made(sceneWithBed(""))->ground().grains->count();
-  EXPECT_LT(count(""), all) << "laid around";
+  EXPECT_LT(count(""), all) << "grains surround it";
   EXPECT_EQ(count("velocity = [0, 0, 0.1]\nplaced = \"before\"\n"), count(""));
   EXPECT_FALSE(setup::isPutOnBed(sceneWithBed(plate(""))));
   EXPECT_TRUE(setup::isPutOnBed(sceneWithBed(plate("velocity = [0, 0, 0.1]\n"))));
@@ -185,7 +185,7 @@ std::string manyRigs() {
          "every = 1\nstart = 0.02\n";
 }
 
-/// tests/scenes/rigs.toml; its hash for threads, lists and a stop stands in one_answer_scenes_test.cpp.
+/// tests/scenes/rigs.toml; one_answer_scenes_test.cpp has its hash for threads, lists and a stop.
 TEST(PutOnBed, ResumedAtItsStartAlsoHasTheBitsOfAStraightRun) {
   const scene::Scene scene = sceneWithBed(manyRigs());
   const auto straight = made(scene);
@@ -198,8 +198,8 @@ TEST(PutOnBed, ResumedAtItsStartAlsoHasTheBitsOfAStraightRun) {
 }
 
 TEST(PutOnBed, LargerStonesLeaveTheBedToItself) {
-  // A stone of three radii coarsens the units of places by two bits: springs and overlaps stay, and what is left of the
-  // bed's motion goes on as without it, until rounding of 1e-9 m and of damping by each contact's own mass tells.
+  // A stone of three radii coarsens the position units by two bits: springs and overlaps are kept, and the residual
+  // motion of the bed continues as before, until rounding of 1e-9 m and damping by each contact's own mass differ.
   const std::vector<std::string> steps{"run.time_step=1e-4"};
   const auto alone = made(sceneWithBed("", steps)),
              s = made(sceneWithBed("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.09\nmaterial = \"steel\"\n"

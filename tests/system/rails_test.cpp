@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A hull on rails, over both tracks and over a single one, on rigid ground.
+// A hull on rails, over both tracks or a single one, on rigid ground.
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/system/driven_fixture.hpp"
@@ -35,20 +35,20 @@ TEST(OnRails, ASingleTrackDrivesStraightUnderItsLoad) {
   simulation.restartMeans();
   const vehicle::Observation before = simulation.vehicle()->observe();
   const double rising = simulation.ledger().momentum.z;
-  constexpr double kTeeth = 3 * 0.314159; // [s] that three teeth take
+  constexpr double kTeeth = 3 * 0.314159; // [s] duration of three teeth
   advance(simulation, 1.5 + kTeeth);
   const vehicle::Observation seen = simulation.vehicle()->observe();
   const double weight = assembly.mass * 9.81, heading = 20 * std::atan(1.0) / 45;
   std::printf("single track: ground force / weight %.5f, speed %.4f m/s, pitch %.4f rad\n", seen.groundForce.z / weight,
               norm(seen.position - before.position), seen.pitchAngle);
   const double gained = (simulation.ledger().momentum.z - rising) / kTeeth;
-  EXPECT_NEAR((seen.groundForce.z - gained) / weight, 1, 2e-4) << "the rails bear the carriage, 1e-4 of the hull";
-  EXPECT_NEAR(seen.heading, heading, 1e-8) << "what joints leave open";
+  EXPECT_NEAR((seen.groundForce.z - gained) / weight, 1, 2e-4) << "the rails carry the carriage, 1e-4 of the hull";
+  EXPECT_NEAR(seen.heading, heading, 1e-8) << "joint tolerance";
   EXPECT_NEAR(seen.rollAngle, 0, 1e-8);
   const base::Vec3d way = seen.position - before.position;
   EXPECT_NEAR(-std::sin(heading) * way.x + std::cos(heading) * way.y, 0, 1e-8);
   const double paid = 2 * assembly.spec.pitchRadius() * kTeeth;
-  EXPECT_NEAR(norm(way), paid, 0.03 * paid) << "a pitch that swings, and slip";
+  EXPECT_NEAR(norm(way), paid, 0.03 * paid) << "oscillating pitch, and slip";
   EXPECT_NE(seen.pitchAngle, 0);
   const Ledger l = simulation.ledger();
   EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
@@ -68,7 +68,7 @@ TEST(OnRails, ALevelHullDoesNotPitchAsItPulls) {
   EXPECT_LT(std::fabs(pitch[1]), 1e-8);
 }
 
-/// Both tracks on one straight line, though they turn at different speeds.
+/// Both tracks on one straight line, although their speeds differ.
 TEST(OnRails, AHullDoesNotYawThoughItsTracksWantTo) {
   scene::Scene scene = onRails("chassis = \"guided\"");
   scene.driver.sprocketSpeed.reset(), scene.driver.left = 1, scene.driver.right = 3;

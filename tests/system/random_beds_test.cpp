@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random beds: prepared to a porosity, graded, on rough floors, the same on all threads, after a resume and in tiles.
+// Random beds: prepared to a porosity, graded, on rough floors; identical on all threads, after a resume and in tiles.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/settling.hpp"
@@ -17,7 +17,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// Twelve mean diameters wide and six deep, between periodic boundaries; quick to settle.
+/// Twelve mean diameters wide and six deep, between periodic boundaries; settles quickly.
 scene::Scene randomBed(const std::vector<std::string>& overrides = {}) {
   return setup::parseScene("version = 1\n[run]\nduration = 0.02\ntime_step = 2e-4\nperiodic = [true, true]\n"
                            "[material.soil]\nstiffness = 1e5\nrestitution = 0.3\n"
@@ -34,7 +34,7 @@ std::unique_ptr<Simulation> simulated(const scene::Scene& scene, int threads = 1
 const terrain::BedStructure& structure(const Simulation& s) { return *s.ground().structure; }
 
 TEST(BedPreparation, PorosityWantedIsReachedWithTheSameFrictionForEverySeed) {
-  // Beds of 1000 grains scatter by 0.004 about what the small bed of the bisection has (12 seeds).
+  // Beds of 1000 grains scatter by 0.004 about the porosity of the bisection's small bed (12 seeds).
   const auto dense = simulated(randomBed({"terrain.porosity=0.37"})),
              loose = simulated(randomBed({"terrain.porosity=0.4"})),
              other = simulated(randomBed({"terrain.porosity=0.4", "run.seed=4"}));
@@ -47,12 +47,12 @@ TEST(BedPreparation, PorosityWantedIsReachedWithTheSameFrictionForEverySeed) {
   EXPECT_NE(loose->stateHash(), other->stateHash());
   for (const auto* s : {&dense, &loose, &other}) {
     EXPECT_LT(structure(**s).order, 0.05);
-    // The grains rub with their own friction again.
+    // The grains have their own friction again.
     EXPECT_EQ((*s)->ground().grains->model().law.friction, 0.5);
   }
 }
 
-/// Keeps them in memory.
+/// Keeps beds in memory.
 struct Remembered final : FoundFrictions {
   mutable std::map<std::string, double> all;
   std::optional<double> find(const std::string& origin) const override {
@@ -78,7 +78,7 @@ TEST(BedPreparation, FrictionIsFoundOnceForBedsOfOneSoil) {
   EXPECT_EQ(looks, 0) << "no bed has settled";
   EXPECT_EQ(found.all.size(), 1u);
   EXPECT_NE(friction({"material.soil.rolling_friction=0.1"}), first);
-  EXPECT_GT(looks, 0) << "another soil";
+  EXPECT_GT(looks, 0) << "a different soil";
 }
 
 TEST(BedPreparation, LooserBedsNeedMoreFrictionAndEverySeedTheSame) {
@@ -97,10 +97,10 @@ TEST(BedPreparation, GrainsStickOnlyOnceTheyLie) {
   sticky.emplace_back("material.soil.cohesion=100"); // 8 N, five times the weight of a grain
   const auto dry = simulated(randomBed(wanted)), moist = simulated(randomBed(sticky));
   EXPECT_NEAR(structure(*moist).porosity, 0.38, 0.012);
-  // What sticks again packs a little more closely; falling as it sticks it needs a third of this friction.
+  // Cohesive grains pack slightly more densely afterwards; cohesion during the fall requires a third of this friction.
   EXPECT_NEAR(moist->settled().friction / dry->settled().friction, 1, 0.3);
   EXPECT_NEAR(moist->ground().grains->model().law.pull(0.0125), 2 * base::kPi * 100 * 0.0125, 1e-9) << "and stick then";
-  // Fallen as they stick they would lie far more loosely.
+  // With cohesion during the fall the bed would be far looser.
   const auto fallen = simulated(randomBed({"material.soil.cohesion=100", "terrain.settle_kinetic_energy=1e-2"}));
   EXPECT_GT(structure(*fallen).porosity, 0.42);
 }
@@ -108,7 +108,7 @@ TEST(BedPreparation, GrainsStickOnlyOnceTheyLie) {
 TEST(BedPreparation, PorosityOutOfReachIsRefusedWithWhatCanBeReached) {
   try {
     simulated(randomBed({"terrain.porosity=0.25"}));
-    FAIL() << "spheres of these radii do not pack so densely";
+    FAIL() << "spheres of these radii cannot pack so densely";
   } catch (const base::InputError& error) {
     for (const char* part : {"terrain.porosity = 0.25", "cannot be reached", "choose a porosity between"})
       EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
@@ -142,13 +142,13 @@ TEST(RandomBeds, FixedGrainsHoldTheFloor) {
   const auto fixed = std::count_if(grains.fixed.begin(), grains.fixed.end(), [](auto f) { return f != 0; });
   EXPECT_EQ(fixed, 12 * 12);
   EXPECT_TRUE(smooth->ground().grains->snapshot().fixed.empty());
-  // Where the ground slopes by 0.35 the one comes to rest; the other rolls on its lowest grains without end.
+  // On a slope of 0.35 one bed comes to rest; the other rolls on its lowest grains without end.
   const std::string slope = "run.gravity=[3.43, 0, -9.81]";
   EXPECT_NO_THROW(simulated(randomBed({slope})));
   EXPECT_THROW(simulated(randomBed({slope, "terrain.floor_grains=false"})), base::SimulationError);
 }
 
-/// With the friction that brings them to their porosity beds would flow down this slope without end.
+/// With the friction of the porosity search beds would flow down this slope without end.
 void expectPreparedLevel(const std::vector<std::string>& more) {
   constexpr double kSlope = 0.35;
   std::vector<std::string> all = {"terrain.porosity=0.39", "run.gravity=[3.43, 0, -9.8]"};
@@ -178,7 +178,7 @@ TEST(RandomBeds, GradedBedKeepsItsFineGrainsAbove) {
   ASSERT_TRUE(na > 500 && nb > 50);
   EXPECT_NEAR(above / na, 0.015, 0.001);
   EXPECT_GT(below / nb, 0.026);
-  EXPECT_LT(fineBelow, 0.03 * nb) << "hardly any of the fine ones has trickled down";
+  EXPECT_LT(fineBelow, 0.03 * nb) << "hardly any fine grain has moved down";
 }
 
 TEST(RandomBeds, TilesKeepTheirPorosity) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains from 1 um to 10 m: where E / (rho v^2) and v^2 / (g R) are the same, so is the motion in radii.
+// Grains from 1 um to 10 m: with equal E / (rho v^2) and v^2 / (g R), the motion in radii is the same.
 #include "tests/system/ledger_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace grouser::coupling::ledgers {
 namespace {
 
-/// Moduli go with the radius, stiffnesses and energies of a surface with its square.
+/// Moduli scale with the radius, stiffnesses and surface energies with its square.
 std::string lawOf(const std::string& name, double radius) {
   const double modulus = 1e9 * radius, stiffness = 2e9 * radius * radius, energy = 8e3 * radius * radius;
   const std::string linear = fmt::format("stiffness = {}\n", stiffness), hertz = fmt::format("young = {}\n", modulus);
@@ -28,7 +28,7 @@ struct Motion {
   std::vector<base::Vec3d> place, velocity, spin; ///< in radii, root(g R) and root(g / R)
 };
 
-/// A ball that comes down on a floor, rolls on it and strikes another, `others` radii large, from the side.
+/// A ball that falls onto a floor, rolls on it and hits another one, `others` radii large, from the side.
 Motion motionOf(const std::string& law, double radius, const std::string& precision, double other) {
   const double g = kGravity, speed = std::sqrt(g * radius), time = std::sqrt(radius / g);
   const auto at = [&](double x, double y, double z) {
@@ -68,9 +68,9 @@ INSTANTIATE_TEST_SUITE_P(Laws, Scale, ::testing::Values("linear", "hertz", "cohe
                          [](const auto& law) { return std::string(law.param); });
 
 TEST_P(Scale, MotionInRadiiIsTheSameFromAMicrometreToTenMetres) {
-  for (const double other : {1.0, 0.7}) { // grains of one mass, and of many
+  for (const double other : {1.0, 0.7}) { // grains of equal mass, and of mixed masses
     const Motion reference = motionOf(GetParam(), 0.01, "double", other);
-    EXPECT_GT(norm(reference.velocity[1]), 0.1) << "it was struck";
+    EXPECT_GT(norm(reference.velocity[1]), 0.1) << "it was hit";
     for (const char* precision : {"single", "double"})
       for (const double radius : {1e-6, 3e-6, 1e-5, 1e-3, 1.0, 10.0}) {
         const Motion m = motionOf(GetParam(), radius, precision, other);

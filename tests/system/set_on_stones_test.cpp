@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle set down on a bed whose stones stand above its smooth surface touches none of them.
+// A vehicle placed on a bed with stones above its smooth surface touches none of them.
 #include "coupling/grains_under_shoes.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -16,7 +16,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// A random bed of 1,600 grains, not settled: stones lie as they were thrown.
+/// A random bed of 1,600 grains, not settled: stones are at their initial positions.
 std::unique_ptr<Simulation> onStones(int seed, const std::vector<std::string>& more = {}) {
   std::vector<std::string> overrides = more;
   overrides.push_back("run.seed=" + std::to_string(seed));
@@ -31,8 +31,8 @@ std::unique_ptr<Simulation> onStones(int seed, const std::vector<std::string>& m
       setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, base::Comm{}, nullptr, sharedSpheres());
 }
 
-/// Deepest that a grain reaches into the box about pad and grousers of a shoe that looks down [m]; negative: how far
-/// the nearest is off, as far as it lies under one.
+/// Deepest overlap of a grain with the box about pad and grousers of a downward shoe [m]; negative: distance of
+/// the nearest grain below the shoe.
 double deepest(const Simulation& s) {
   const vehicle::Assembly& assembly = s.vehicle()->assembly();
   const vehicle::ShoeSpec& shoe = assembly.spec.shoe;
@@ -62,13 +62,13 @@ TEST(SetOnStones, NoShoeStandsInAGrain) {
     EXPECT_LE(into, 0) << "seed " << seed;
     if (lift > 0) {
       ++lifted;
-      // Beside a pad by half a radius a sphere falls by 0.58 of the way: 5 mm over the distance of a node.
+      // At half a radius beside a pad a sphere is lower by 0.58 of the distance: 5 mm over the distance of a node.
       EXPECT_GT(into, -0.006) << "seed " << seed;
     }
     s->step();
     EXPECT_EQ(norm(s->vehicle()->meanGroundForce()), 0) << "seed " << seed;
   }
-  EXPECT_GT(lifted, 0) << "no stone stood up in any of these beds";
+  EXPECT_GT(lifted, 0) << "none of these beds has a protruding stone";
 }
 
 TEST(SetOnStones, AResumedVehicleStoodWhereItWasSetDown) {
@@ -82,7 +82,7 @@ TEST(SetOnStones, AResumedVehicleStoodWhereItWasSetDown) {
     EXPECT_EQ(resumed.stateHash(), straight->stateHash());
     return;
   }
-  FAIL() << "no stone stood up in any of these beds";
+  FAIL() << "none of these beds has a protruding stone";
 }
 
 } // namespace

@@ -37,7 +37,7 @@ TEST(Settling, ForceRatioIsMetWhereItIsAskedFor) {
   double loose = 0, tight = 0;
   const SettleReport byEnergy = settled(settlingBed({}), loose),
                      byBoth = settled(settlingBed({"terrain.settle_force_ratio=0.02"}), tight);
-  EXPECT_GT(loose, 0.04) << "the energy alone asks for less, or this shows nothing";
+  EXPECT_GT(loose, 0.04) << "a looser criterion by energy alone, or the test shows nothing";
   EXPECT_LT(tight, 0.03); // one step after it was below 0.02
   EXPECT_GT(byBoth.time, byEnergy.time);
 }
@@ -48,7 +48,7 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
   LaidGround ground = buildGround(setup, base::cpuExec(1));
   try {
     settle(*setup.grains->bed, ground, [](double, double) {});
-    FAIL() << "nothing rests to 1e-9";
+    FAIL() << "no bed settles to 1e-9";
   } catch (const base::SimulationError& error) {
     for (const char* part :
          {"did not settle within 0.3 s", "of its weight, required: less than 1e-09", "settle_force_ratio"})
@@ -56,8 +56,8 @@ TEST(Settling, WhatIsNotMetInTimeIsNamedWithItsValue) {
   }
 }
 
-// Between two looks of a bed that breathes its grains may be slow: what keeps it from rest is the worst of the last
-// ones.
+// Between two checks the grains of an oscillating bed may be slow: the criterion is the worst value of the last
+// checks.
 TEST(Settling, WhatIsToldOfARestlessBedIsTheMostOfTheLastFiveLooks) {
   const scene::Scene scene = settlingBed({"terrain.settle_force_ratio=1e-9", "terrain.settle_time_limit=0.26"});
   const GroundSetup setup = setup::groundSetup(scene, 2e-4);
@@ -65,11 +65,11 @@ TEST(Settling, WhatIsToldOfARestlessBedIsTheMostOfTheLastFiveLooks) {
   std::vector<double> seen;
   try {
     settle(*setup.grains->bed, ground, [&](double, double agitation) { seen.push_back(agitation); });
-    FAIL() << "nothing rests to 1e-9";
+    FAIL() << "no bed settles to 1e-9";
   } catch (const base::SimulationError& error) {
     ASSERT_GE(seen.size(), 6U);
     const double most = *std::max_element(seen.end() - 5, seen.end());
-    ASSERT_GT(most, 1.2 * seen.back()) << "or this shows nothing";
+    ASSERT_GT(most, 1.2 * seen.back()) << "or the test shows nothing";
     EXPECT_NE(
         std::string(error.what())
             .find(fmt::format("in the last 5 checks, 0.02 s apart, the kinetic energy per grain was up to {:.3g} of "

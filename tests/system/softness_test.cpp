@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Extreme stiffnesses: refused with key, value and the least that will do, or run.
+// Extreme stiffnesses: rejected with key, value and the smallest valid value, or run.
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -60,7 +60,7 @@ struct Soft {
   std::string unit;
 };
 
-/// A grain of 5 cm and 2000 kg/m3 weighs 10.27 N: on 0.2 radii it needs 1027 N/m.
+/// A grain of 5 cm and 2000 kg/m3 weighs 10.27 N: an overlap of 0.2 radii requires 1027 N/m.
 std::vector<Soft> softOnes() {
   return {{with("stiffness = 1e6"), "material.a.stiffness", 1, "N/m"},
           {with("stiffness = 1e6"), "material.b.stiffness", 500, "N/m"},
@@ -78,12 +78,12 @@ TEST(Softness, IsRefusedWithTheLeastThatWillDo) {
     ASSERT_NE(number, std::string::npos) << error;
     const double least = std::stod(error.substr(number + 12));
     EXPECT_EQ(errorOf(soft.text, set(least)), "") << soft.key;
-    EXPECT_NE(errorOf(soft.text, set(0.97 * least)), "") << soft.key << " could be " << least;
+    EXPECT_NE(errorOf(soft.text, set(0.97 * least)), "") << soft.key << " is too large; valid: " << least;
   }
 }
 
 TEST(Softness, NamesTheLeastFromTheWeight) {
-  // k = m g / (0.2 R), of the larger grain.
+  // k = m g / (0.2 R), for the larger grain.
   const std::string error = errorOf(with("stiffness = 1e6"), {"material.a.stiffness=1"});
   EXPECT_NE(error.find("raise it to 1.04e+03"), std::string::npos) << error;
   EXPECT_NE(error.find("radius 0.05 m"), std::string::npos) << error;
@@ -92,7 +92,7 @@ TEST(Softness, NamesTheLeastFromTheWeight) {
 TEST(Softness, IsNoneWithoutWeight) {
   const std::vector<std::string> floating = {"run.gravity=[0,0,0]", "material.a.stiffness=0.001"};
   EXPECT_EQ(errorOf(with("stiffness = 1e6"), floating), "");
-  // The stability rule would allow 0.9 s there: no longer than the run, nor than may be given.
+  // The stability rule would allow 0.9 s there: limited by the run's duration, and by the range of the key.
   EXPECT_EQ(setup::chooseTimeStep(setup::parseScene(with("stiffness = 1e6"), "scene.toml", floating)), 1e-2);
   EXPECT_EQ(setup::chooseTimeStep(
                 setup::parseScene(with("stiffness = 1e-3"), "scene.toml",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sound scenes at 50, 75 and 100 % of their limit step: no alarm, and one answer for all output intervals.
+// Valid scenes at 50, 75 and 100 % of their limit step: no alarm, and identical results for all output intervals.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -24,11 +24,11 @@ using namespace grouser::test; // pieces of scenes
 struct Sound {
   const char* name;
   std::string text;
-  double limit = 0; ///< of mechanisms: the longest step tried [s]
+  double limit = 0; ///< longest step tested, for mechanisms [s]
 };
 std::ostream& operator<<(std::ostream& out, const Sound& s) { return out << s.name; }
 
-/// Largest shares of the energy exchanged between two looks that steps have made or lost, beyond what never alarms.
+/// Largest shares of the exchanged energy that the steps created or lost between two checks, above the fixed allowance.
 struct Shares {
   double made = 0, gained = 0, lost = 0;
 };
@@ -44,7 +44,7 @@ double limitOf(const Sound& sound) {
                   setup::resolvingStep(setup::timeScales(scene), scene.run.stepsPerPeriod));
 }
 
-/// How a run with rows every `row` steps ends: its hash, or its error.
+/// Result of a run with rows every `row` steps: its hash, or its error.
 std::string driven(const Sound& sound, double step, std::int64_t row, int threads, Shares* shares = nullptr) {
   try {
     const scene::Scene scene = sceneOf(sound, {fmt::format("run.time_step={:.17g}", step)});
@@ -79,7 +79,7 @@ constexpr std::int64_t kRows[] = {11, 16, 77, 512, 1'000'000}; // steps
 
 class SoundScenes : public ::testing::TestWithParam<Sound> {
 protected:
-  /// What docs/steps.md#energy-ledger says of all of them.
+  /// The claim of docs/steps.md#energy-ledger for all of them.
   static void TearDownTestSuite() {
     std::cout << fmt::format("sound scenes: of what was exchanged between two looks the steps have made up to {:.1f} % "
                              "({}), {:.1f} % that was not dissipated at once ({}), lost up to {:.1f} % ({})\n",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle that stands, drives, turns, and is dropped on a small bed raises no alarm, whatever its output interval.
+// A vehicle that stands, drives, turns, or is dropped on a small bed raises no alarm at any output interval.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"
@@ -28,21 +28,21 @@ std::ostream& operator<<(std::ostream& out, const Drive& d) { return out << d.na
 
 class SoundVehicles : public ::testing::TestWithParam<Drive> {
 protected:
-  /// What docs/steps.md#energy-ledger says of them.
+  /// The claim of docs/steps.md#energy-ledger for them.
   static void TearDownTestSuite() {
     std::cout << fmt::format("sound vehicles: of what was dissipated the steps have made up to {:.1f} % between two "
                              "looks, beyond what never alarms, and up to {:.1f} % since the start\n",
                              100 * sinceLook, 100 * sinceStart);
   }
   static void note(const EnergyGuard& watch, const Ledger& now) {
-    if (now.dissipated.parts <= now.dissipated.ofGrains()) return; // not judged by heat
+    if (now.dissipated.parts <= now.dissipated.ofGrains()) return; // heat is not checked
     const EnergyGuard::Exchange x = watch.since(now, std::fabs(now.kinetic) + std::fabs(now.elastic));
     if (x.taken > 0 && -x.lost > x.neverAlarms) sinceLook = std::max(sinceLook, (-x.lost - x.neverAlarms) / x.taken);
     sinceStart = std::max(sinceStart, -now.integrationError / now.dissipated.total());
   }
   inline static double sinceLook = 0, sinceStart = 0;
 
-  /// How a drive with rows every `row` steps ends: its hash, or its error.
+  /// Result of a drive with rows every `row` steps: its hash, or its error.
   static std::string driven(double step, std::int64_t row) {
     std::vector<std::string> sets = GetParam().sets;
     sets.push_back(fmt::format("run.time_step={:g}", step));
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(Drives, SoundVehicles,
                                                  600}),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
-// Springs that a step does not resolve are refused before anything can turn so far: this asks for less.
+// Unresolved springs are rejected before rotations get so large: this case uses a lower limit.
 TEST(JudgedVehicle, PartsThatTurnTooFarAStepEndTheRun) {
   const scene::Scene scene =
       setup::loadScene(GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml",
@@ -104,7 +104,7 @@ TEST(JudgedVehicle, PartsThatTurnTooFarAStepEndTheRun) {
       setup, base::cpuExec(1), [](double, double) {}, {}, sharedBeds(), sharedSpheres());
   try {
     while (simulation.steps() < 100) simulation.step();
-    FAIL() << "goes on";
+    FAIL() << "no error";
   } catch (const base::SimulationError& error) {
     const std::string said = error.what();
     EXPECT_NE(said.find("step 50,"), std::string::npos) << said;

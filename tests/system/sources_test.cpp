@@ -74,9 +74,9 @@ TEST(Sources, FallingGrainsBringTheirEnergyWithThem) {
   EXPECT_EQ(simulation.ground().grains->count(), 10u);
   const Ledger l = simulation.ledger();
   EXPECT_GT(l.kinetic, 1.0);
-  // Free fall: what symplectic Euler leaves is m g v dt / 2 a grain, and 10 grains of 0.084 kg fall at 1 to 4.5 m/s.
+  // Free fall: symplectic Euler leaves m g v dt / 2 per grain; 10 grains of 0.084 kg fall at 1 to 4.5 m/s.
   EXPECT_NEAR(l.residual, 0, 10 * 0.084 * 10 * 4.5 * 1e-4 / 2 * 1.01);
-  // The first three have fallen for 0.35 s: h = v t + g t^2 / 2, exactly but for the step's g t dt / 2.
+  // The first three have fallen for 0.35 s: h = v t + g t^2 / 2, exact except for the step's g t dt / 2.
   const auto s = simulation.ground().grains->snapshot();
   const auto first = sourcesOf(scene).enteringAt(500);
   for (std::size_t i = 0; i < 3; ++i)
@@ -107,7 +107,7 @@ TEST(Sources, ABoxWithoutRoomIsRefused) {
   }
 }
 
-/// What a run says that sets a grain where something has come to be; "" where it does not mind.
+/// Error of a run that inserts a grain at an occupied place; "" if there is none.
 std::string stopOf(const std::string& sections, const std::vector<std::string>& overrides = {}) {
   const std::string text = "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\ngravity = [0, 0, 0]\nthreads = 1\n"
                            "[material.glass]\nstiffness = 1e5\n" +
@@ -146,7 +146,7 @@ TEST(Sources, TheDeepestOfManyInTheWayIsNamed) {
 }
 
 TEST(Sources, AnImageAcrossPeriodicBoundariesLiesInTheWayToo) {
-  // Not 1 m apart, which is 2^32 units of length: differences of the low words alone would find that image.
+  // Grains 2^32 units of length apart, not 1 m: low words alone would match that image.
   const std::string two = dropAt("[-0.59, 0, 1]", "0.0") + dropAt("[0.59, 0, 1]", "0.01");
   expectParts(stopOf(two, {"run.periodic=[true, false]", "run.domain_x=[-0.6, 0.6]"}),
               {"source.1", "0.02 m deep in grain 0 at (-0.59, 0, 1)"});
@@ -154,7 +154,7 @@ TEST(Sources, AnImageAcrossPeriodicBoundariesLiesInTheWayToo) {
 }
 
 TEST(Sources, ASurfaceThatForcesHaveMovedLiesInTheWayToo) {
-  // Under 100 N a box of 1 kg rises by 50 t^2 = 0.125 m in 0.05 s, and its top comes to 0.175 m.
+  // Under 100 N a box of 1 kg rises by 50 t^2 = 0.125 m in 0.05 s, and its top reaches 0.175 m.
   const std::string lid = "[[box]]\nname = \"lid\"\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nmaterial = \"glass\"\n"
                           "free = \"z\"\nmass = 1\nload = 100\n";
   expectParts(stopOf(lid + dropAt("[0, 0, 0.18]", "0.05")), {"source.0", "step 500", "0.015", "deep in lid"});
@@ -162,7 +162,7 @@ TEST(Sources, ASurfaceThatForcesHaveMovedLiesInTheWayToo) {
 }
 
 TEST(Sources, ARunFindsTheRoomThatItsSceneWasFoundToHave) {
-  // The second source throws its grains on a line that holds them about every second time.
+  // The second source inserts its grains on a line that is occupied about half of the time.
   constexpr const char* kLine = R"(
 [[source]]
 low = [-0.2, 0, 2.0]

@@ -37,7 +37,7 @@ void stepUntil(Simulation& s, std::int64_t step) {
   while (s.steps() < step) s.advance(step - s.steps());
 }
 
-/// Holds the hull's speed, by a rule that reads the state every 50 steps.
+/// Controls the hull's speed by a rule that reads the state every 50 steps.
 void control(Simulation& s, std::int64_t until) {
   while (s.steps() < until) {
     const double v = s.vehicle()->observe(Means::watch).velocity.x;
@@ -98,11 +98,11 @@ TEST(Steering, NothingActsBeforeTheDriveBegins) {
   const scene::Scene scene = sceneOf("rigid.toml");
   const auto steered = simulationOf(scene), alone = simulationOf(scene);
   for (const std::int32_t side : {0, 1}) steered->set({{0, InputKind::sprocketSpeed, side, false, {5}}});
-  stepUntil(*steered, 390), stepUntil(*alone, 390); // the drive begins at step 400
+  stepUntil(*steered, 390), stepUntil(*alone, 390); // the drive starts at step 400
   EXPECT_EQ(steered->vehicle()->state().save(), alone->vehicle()->state().save());
 }
 
-/// A body that nothing touches: F t / m, and the work of it.
+/// A body without contacts: F t / m, and the corresponding work.
 TEST(Steering, ALoadOnABodyDoesItsWork) {
   const char* text =
       "version = 1\n[run]\nduration = 1\ntime_step = 1e-3\ngravity = [0, 0, 0]\nintegrator = \"symplectic_euler\"\n"
@@ -131,13 +131,13 @@ TEST(Steering, TheWorkOfALoadOnTheHullIsInTheBooks) {
   const multibody::State& now = s->vehicle()->state();
   const Ledger l = s->ledger();
   EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
-  // The drives pull against it: without its work the books would not close.
+  // The drives act against it: without its work the ledger would not close.
   EXPECT_GT(std::fabs(400 * (now.pose.front().position.x - x)), 1);
   EXPECT_LT(std::fabs(l.integrationError), 0.05 * std::fabs(l.driveWork - before));
 }
 
-/// Grains that fall, then fly on: v = g1 t1 + g2 t2, to the discrete recurrence's rounding; no energy from nowhere. A
-/// step of symplectic Euler misses m g^2 dt^2 / 2 of it.
+/// Grains that fall, then fly on: v = g1 t1 + g2 t2, to the rounding of the recurrence; no energy is created. A
+/// step of symplectic Euler has an error of m g^2 dt^2 / 2.
 TEST(Steering, AnotherGravityActsFromTheNextStepOn) {
   const char* text = "version = 1\n[run]\nduration = 1\ntime_step = 1e-4\n[material.glass]\nstiffness = 1e4\n"
                      "[[grain]]\nposition = [0, 0, 5]\nradius = 0.01\nmaterial = \"glass\"\n"

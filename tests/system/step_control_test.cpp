@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Error-controlled steps are as long as their error allows, no shorter and no longer.
+// Error-controlled steps are as long as their error allows.
 #include "coupling/step_controller.hpp"
 #include "multibody/solver.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -19,7 +19,7 @@ using multibody::State;
 
 constexpr double kTolerance = 1e-4; ///< [m/s, rad/s]
 
-/// A scene of runs/mechanisms whose steps follow an error.
+/// A scene of runs/mechanisms with error-controlled steps.
 struct Controlled {
   explicit Controlled(const std::string& scene) : setup(setupOf(scene)) {
     loads.gravity = setup.gravity, kept.push_back(state);
@@ -36,7 +36,7 @@ struct Controlled {
   State state = multibody::makeState(setup.model);
   multibody::Loads loads = multibody::makeLoads(setup.model);
   StepController controller{*setup.control, setup.largestTurn};
-  std::vector<State> kept; ///< after every stretch
+  std::vector<State> kept; ///< after every interval
 
   void advance(double until) {
     controller.advance(solver, state, loads, until, [this] { kept.push_back(state); });
@@ -44,7 +44,7 @@ struct Controlled {
   double stretch(std::size_t i) const { return kept[i].time - kept[i - 1].time; }
 };
 
-/// What a stretch has added to places and turns, against 32 times shorter steps, as step_controller.hpp measures it.
+/// Error of positions and rotations of one interval against 32 times shorter steps, as in step_controller.hpp.
 double errorOf(Controlled& p, const State& before, const State& after) {
   State fine = before;
   const double h = after.time - before.time;
@@ -60,7 +60,7 @@ double errorOf(Controlled& p, const State& before, const State& after) {
 }
 
 TEST(StepControl, EveryStretchAddsNearlyWhatTheToleranceAllows) {
-  // A pendulum errs by its place, a disc on a torsion spring by its turn alone.
+  // A pendulum has an error in position, a disc on a torsion spring only in rotation.
   for (const char* scene : {"pendulum", "spring_torsion"}) {
     Controlled p(scene);
     p.advance(3);
@@ -69,10 +69,10 @@ TEST(StepControl, EveryStretchAddsNearlyWhatTheToleranceAllows) {
     int counted = 0;
     for (std::size_t i = 10; i + 1 < p.kept.size(); ++i, ++counted) {
       const double share = errorOf(p, p.kept[i - 1], p.kept[i]) / (kTolerance * p.stretch(i));
-      EXPECT_LT(share, 1.1) << scene << ", stretch " << i << ": of the third order, by its difference from the half";
+      EXPECT_LT(share, 1.1) << scene << ", interval " << i << ": third order, by difference from the half step";
       sum += share;
     }
-    // It aims at 0.9 of the longest, so at 0.81 of the error; less where the error has just fallen.
+    // The target is 0.9 of the longest step, i.e. 0.81 of the error; less if the error has just decreased.
     EXPECT_GT(sum / counted, 0.6) << scene;
   }
 }

@@ -46,17 +46,17 @@ double distance(const End& a, const End& b) {
   return most;
 }
 
-/// `time_step` of the scenes' own must go: it stands beside a tolerance.
+/// A scene's own `time_step` is removed: it is incompatible with a tolerance.
 const std::string kAuto = "run.time_step=auto";
 
 struct Case {
   const char* scene;
   double time;                     ///< [s]
-  double first;                    ///< tolerance, and three more, each a tenth of the one before [m/s, rad/s]
-  int order;                       ///< of the fixed steps that they are measured against
-  double step;                     ///< those [s]
+  double first;                    ///< tolerance; three more are each ten times smaller [m/s, rad/s]
+  int order;                       ///< order of the fixed reference steps
+  double step;                     ///< reference step [s]
   double most;                     ///< error at the end over the tolerance [s]
-  const char* more = "run.seed=1"; ///< a key besides
+  const char* more = "run.seed=1"; ///< an additional key
 };
 
 class Tolerance : public ::testing::TestWithParam<Case> {};
@@ -71,15 +71,15 @@ TEST_P(Tolerance, ErrorAtTheEndGoesWithIt) {
   for (int i = 0; i < 4; ++i, tolerance *= 0.1) {
     const End end = endOf(c.scene, c.time, {kAuto, c.more, fmt::format("run.tolerance={}", tolerance)});
     errors.push_back(distance(end, reference));
-    // Several times what was measured: where in a swing or bounce the steps fall makes as much.
+    // Several times the measured value: the phase of steps in an oscillation or bounce has an effect of this size.
     EXPECT_LT(errors.back(), c.most * tolerance) << tolerance;
     EXPECT_GT(end.record.largest, end.record.smallest);
   }
-  // Over three decades, but for the same chance.
+  // Over three decades, except for the same random effect.
   EXPECT_GT(errors.front() / errors.back(), 30);
 }
 
-// A pendulum; a squeezer that runs away; a door that is blown against a damped stop.
+// A pendulum; an accelerating squeezer; a door driven by wind against a damped stop.
 INSTANTIATE_TEST_SUITE_P(Mechanisms, Tolerance,
                          ::testing::Values(Case{"pendulum.toml", 5, 1e-3, 6, 1e-3, 3},
                                            Case{"andrews.toml", 0.03, 1e-1, 6, 2e-6, 1e-3},

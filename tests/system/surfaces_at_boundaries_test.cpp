@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes, cylinders and meshes have no images beyond periodic boundaries: what would need one is refused.
+// Boxes, cylinders and meshes have no images beyond periodic boundaries: positions that require one are rejected.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -12,7 +12,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// A grain of radius 0.02 m in a ring of 1 m along x, and something.
+/// A grain of radius 0.02 m in a ring of 1 m along x, and another surface.
 scene::Scene ring(const std::string& surface) {
   return setup::parseScene(
       "version = 1\n[run]\nduration = 1\ntime_step = 1e-4\nperiodic = [true, false]\ndomain_x = "
@@ -52,8 +52,8 @@ TEST(SurfacesAtPeriodicBoundaries, KeepAGrainsRadiusAwayOrReachAcross) {
 TEST(SurfacesAtPeriodicBoundaries, AreMeasuredAsTheyAreTurned) {
   // 0.6 x 0.1 turned by 45 degrees about y, with z 0.1: (0.6 + 0.1) / sqrt(2) long = 0.495.
   const std::string turned = "axis = [0, 1, 0]\nangle = 45\n";
-  EXPECT_EQ(refusal(box(0.27, 0.6, turned)), "") << "from 0.0225 m on";
-  EXPECT_NE(refusal(box(0.26, 0.6, turned)), "") << "from 0.0125 m on";
+  EXPECT_EQ(refusal(box(0.27, 0.6, turned)), "") << "from 0.0225 m";
+  EXPECT_NE(refusal(box(0.26, 0.6, turned)), "") << "from 0.0125 m";
   EXPECT_NE(refusal(box(0.27, 0.6)), "");
   const auto rod = [](double x, const std::string& axis) {
     return fmt::format(
@@ -70,7 +70,7 @@ TEST(SurfacesAtPeriodicBoundaries, OneThatMovesThereEndsTheRun) {
                         [](double, double) {});
   try {
     while (simulation.time() < 0.1) simulation.step();
-    FAIL() << "after 0.03 s it is a grain's radius from the boundary";
+    FAIL() << "after 0.03 s it is within a grain's radius of the boundary";
   } catch (const base::SimulationError& error) {
     EXPECT_NE(std::string(error.what()).find("box0 reaches from x = 0.78"), std::string::npos) << error.what();
     EXPECT_NEAR(simulation.time(), 0.03, 2e-4);

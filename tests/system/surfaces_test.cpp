@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid surfaces of scenes: their laws of motion, platens under load, what they measure, checkpoints, and what is
-// refused.
+// Rigid surfaces of scenes: their laws of motion, platens under load, measurements, checkpoints, and rejected
+// scenes.
 #include "base/sphere.hpp"
 #include "coupling/surfaces.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -60,7 +60,7 @@ TEST(SurfaceMotion, VelocityIsTheSlopeOfThePlaceAndEndsWithIt) {
   constexpr double kStep = 1e-5;
   for (const double t : {0.3, 0.9, 1.6}) {
     const auto now = motion.at(t), before = motion.at(t - kStep), after = motion.at(t + kStep);
-    // Third derivatives are below 200 m/s3: central differences are as good as that times h^2 / 6, and round-off / h.
+    // Third derivatives are below 200 m/s3: central differences are accurate to that times h^2 / 6, and round-off / h.
     EXPECT_LT(norm((after.centre - before.centre) * (0.5 / kStep) - now.velocity), 1e-8) << t;
     const base::Mat3d a = before.turned.matrix(), b = after.turned.matrix(), m = now.turned.matrix();
     for (int k = 0; k < 3; ++k) {
@@ -97,14 +97,14 @@ TEST(FreeSurface, RestsWhereGrainsCarryLoadAndWeight) {
   ASSERT_EQ(surfaces.count(), 2u);
   const double weight = base::sphereMass(2500, 0.01) * 9.81, pressed = (50 + 2 * 9.81) / 4, k = 1e5;
   const double height = 0.02 - pressed / k - (pressed + weight) / k + 0.01;
-  EXPECT_NEAR(surfaces.pose(1, s->steps()).position.z, height, 1e-3 * pressed / k) << "what is left of its swing";
+  EXPECT_NEAR(surfaces.pose(1, s->steps()).position.z, height, 1e-3 * pressed / k) << "residual oscillation";
   auto fresh = made(scene, 40000);
   fresh->restartMeans();
   fresh->step();
   EXPECT_NEAR(fresh->surfaces()->observe(1, 0).force.z, 4 * pressed, 1e-3 * pressed);
   EXPECT_NEAR(fresh->surfaces()->observe(0, 0).force.z, -4 * (pressed + weight), 1e-3 * pressed);
-  // Energy: the way of load and weight is in springs and heat. What dashpots take is booked with the speed in the
-  // middle of the step as one contact alone would make it, here two press a grain: first order in the step.
+  // Energy: the work of load and weight goes to springs and dissipation. Dashpot losses use the speed in the
+  // middle of the step as for a single contact; here two contacts load a grain: first order in the step.
   const Ledger l = s->ledger();
   EXPECT_NEAR(l.driveWork, 50 * (0.0301 - height), 1e-6 * 50);
   EXPECT_LT(std::fabs(l.residual), 0.05 * l.driveWork);
@@ -114,7 +114,7 @@ TEST(FreeSurface, IsCarriedAcrossWhileFreeAlongAnotherAxis) {
   const scene::Scene scene = sceneOf(kPress, {"box.lid.velocity=[0.05,0,0]", "box.lid.start=0.2"});
   const auto s = made(scene, 15000);
   EXPECT_NEAR(s->surfaces()->pose(0 + 1, 15000).position.x, 0.05 * 0.1, 1e-15);
-  // The grains roll below it with half its speed.
+  // The grains roll below it at half its speed.
   EXPECT_NEAR(s->ground().grains->snapshot().velocity[0].x, 0.025, 0.002);
 }
 
@@ -124,7 +124,8 @@ TEST(FreeSurface, AStepTooLongForItsMassIsRefused) {
     setup::chooseTimeStep(light);
     FAIL();
   } catch (const base::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("is above 1.54e-06 s, where the stiffest contact of the scene (lid of"),
+    EXPECT_NE(std::string(error.what())
+                  .find("is above 1.54e-06 s, the stability limit of the stiffest contact in the scene (lid of"),
               std::string::npos)
         << error.what(); // on the springs of all four grains
   }
@@ -147,7 +148,7 @@ TEST(Surfaces, TooQuickToBeFeltAreRefusedAndBeltsAreNot) {
   EXPECT_THROW(built(box + "amplitude = [0.1, 0, 0]\nfrequency = 800\n"), base::InputError);
   EXPECT_NO_THROW(built("[[plane]]\nvelocity = [900, 0, 0]\n"));
   EXPECT_THROW(built("[[plane]]\nvelocity = [0, 0, 900]\n"), base::InputError);
-  // 2 m from the pivot, at 400 rad/s: along the axis of turning that is no lever, across it 800 m/s.
+  // 2 m from the pivot, at 400 rad/s: along the rotation axis that is no lever arm, across it 800 m/s.
   const std::string auger = "[[cylinder]]\nposition = [0, 0, 0]\nradius = 0.05\nlength = 0.1\nspin = [0, 0, 400]\n";
   EXPECT_NO_THROW(built(auger + "pivot = [0, 0, -2]\n"));
   EXPECT_THROW(built(auger + "pivot = [2, 0, 0]\n"), base::InputError);
@@ -169,7 +170,7 @@ TEST(FreeSurface, TooQuickToBeFeltStopsTheRunAndIsNamed) {
     }
     return "";
   };
-  // Half a radius a step is 500 m/s, which a load of 1e6 N on 1 kg makes of it in 50 steps.
+  // Half a radius per step is 500 m/s, which a load of 1e6 N on 1 kg reaches in 50 steps.
   const std::string told = stop("1e6");
   for (const char* part :
        {"step 50, time 0.0005 s: the loaded surface lid moves at 510 m/s", "(500 m/s)", "lower its load"})
@@ -198,7 +199,7 @@ TEST(FreeSurface, APlaneMayLieOnAllGrainsAtOnce) {
 }
 
 TEST(ShakenPlate, PressesWithWeightAndItsAcceleration) {
-  // 10 Hz and 1 mm: 3.9 m/s2, the grain stays on it.
+  // 10 Hz and 1 mm: 3.9 m/s2, the grain keeps its contact.
   const scene::Scene scene =
       sceneOf("[[box]]\nposition = [0, 0, -0.01]\nsize = [0.1, 0.1, 0.02]\nmaterial = \"glass\"\n"
               "amplitude = [0, 0, 1e-3]\nfrequency = 10\nphase = -90\n" +
@@ -211,7 +212,7 @@ TEST(ShakenPlate, PressesWithWeightAndItsAcceleration) {
     for (int n = 0; n < 125; ++n) s->step();
     const double mean = s->surfaces()->observe(0, s->steps()).force.z, middle = 0.5 * (from + s->time());
     const double acceleration = 1e-3 * omega * omega * base::cos(omega * middle);
-    // A mean over 1/40 of the period is 0.1 % short of the middle; the swing of the contact at the start decays.
+    // A mean over 1/40 of the period is 0.1 % below the middle; the initial contact oscillation decays.
     EXPECT_NEAR(mean, -mass * (9.81 + acceleration), 0.01 * mass * 9.81) << middle;
   }
 }
@@ -225,10 +226,10 @@ TEST(Box, TurnedIsASlopeThatABallRollsDown) {
                                   0.03 * base::cos(angle) + 0.8 * base::sin(angle))));
   const auto s = made(scene, 20000);
   const double speed = norm(s->ground().grains->snapshot().velocity[0].as<double>());
-  EXPECT_NEAR(speed, 5.0 / 7 * 9.81 * base::sin(angle) * s->time(), 0.005 * speed) << "a short fall of rounded digits";
+  EXPECT_NEAR(speed, 5.0 / 7 * 9.81 * base::sin(angle) * s->time(), 0.005 * speed) << "fall shortened by rounding";
 }
 
-/// A drum with a lifter, a lid that grains push, a plane that shakes, and a source above.
+/// A drum with a lifter, a lid loaded by grains, a shaking plane, and a source above.
 const std::string kMill = R"([[cylinder]]
 name = "drum"
 position = [0, 0, 0]
@@ -275,7 +276,7 @@ TEST(Mill, ResumedRunHasTheBitsOfAStraightOneAndOfTwoThreads) {
   const scene::Scene scene = sceneOf(kMill);
   const auto straight = made(scene, 9000, 1), two = made(scene, 9000, 2);
   EXPECT_EQ(two->stateHash(), straight->stateHash());
-  EXPECT_GT(std::fabs(straight->surfaces()->save().surfaces[1].work), 0) << "the lifter has worked";
+  EXPECT_GT(std::fabs(straight->surfaces()->save().surfaces[1].work), 0) << "the lifter has done work";
   EXPECT_NE(straight->surfaces()->save().surfaces[3].offset, 0);
   for (const std::int64_t stop : {0, 4001}) {
     const auto first = made(scene, stop);
@@ -299,7 +300,7 @@ TEST(Mill, EnergyOfTheGrainsIsTheWorkOfItsSurfaces) {
     EXPECT_GT(l.dissipated.total(), 0.3 * l.driveWork);
     worst[half] = std::fabs(l.residual) / l.driveWork;
   }
-  // First order in the step: colliding contacts of 20 steps each leave per cents.
+  // First order in the step: collisions at 20 steps per contact leave several per cent.
   EXPECT_LT(worst[0], 0.05);
   EXPECT_LT(worst[1], 0.04);
 }
@@ -326,7 +327,7 @@ TEST(Surfaces, PicturesShowThemFromWhereGrainsAre) {
   EXPECT_NO_THROW(spheredecomp::checkClosed(spheredecomp::weld(output::surfaceMesh(planes, surfaces[3])), "rod"));
   EXPECT_NEAR(volume(1), 0.012 * 0.1 * 0.02, 1e-12);
   EXPECT_NEAR(volume(3), base::kPi * 0.08 * 0.08 * 0.02, 0.002 * volume(3)) << "a prism of 64 sides";
-  // The wall of a drum looks inwards: without its ends the theorem gives two thirds of the volume.
+  // The wall of a drum faces inwards: without its ends the theorem yields two thirds of the volume.
   EXPECT_NEAR(volume(2), -2.0 / 3 * base::kPi * 0.08 * 0.08 * 0.1, -0.002 * volume(2));
   const base::TriangleMesh plane = output::surfaceMesh(planes, surfaces[0]);
   ASSERT_FALSE(plane.indices.empty());
@@ -334,7 +335,7 @@ TEST(Surfaces, PicturesShowThemFromWhereGrainsAre) {
 }
 
 TEST(Surfaces, OfThePairsMaterialFollowOverrides) {
-  // On a smooth belt a grain stays, by the pair's own friction of 0.
+  // A grain stays on a smooth belt, by the pair's own friction of 0.
   const std::string belt = "[[plane]]\nmaterial = \"belt\"\nvelocity = [1, 0, 0]\n[material.belt]\nstiffness = 1e5\n" +
                            grainAt("[0, 0, 0.01]");
   EXPECT_GT(made(sceneOf(belt), 2000)->ground().grains->snapshot().velocity[0].x, 0.05);
@@ -343,7 +344,7 @@ TEST(Surfaces, OfThePairsMaterialFollowOverrides) {
       0);
 }
 
-/// A block of 0.1 m with edges turned about z, that moves and turns below two balls that slide and bounce on it.
+/// A block of 0.1 m with rotated edges, moving and turning below two sliding and bouncing balls.
 std::string movingBlock(const std::string& head) {
   return head +
          "position = [0, 0, -0.05]\naxis = [0, 0, 1]\nangle = 20\nmaterial = \"glass\"\nname = \"block\"\n"
@@ -359,8 +360,8 @@ TEST(Mesh, CubeActsAsTheBoxDoes) {
              box = made(sceneOf(movingBlock("[[box]]\nsize = [0.1, 0.1, 0.1]\n")), 10000);
   const auto a = mesh->ground().grains->snapshot(), b = box->ground().grains->snapshot();
   for (std::size_t i = 0; i < 2; ++i) {
-    // Its discs are floats: 4e-9 m of 0.05 m, of overlaps of 1e-6 m; bounces carry that on.
-    EXPECT_LT(norm(a.position[i] - b.position[i]), 2e-6) << "of a way of 0.01 m";
+    // Its discs are floats: 4e-9 m of 0.05 m, with overlaps of 1e-6 m; bounces amplify the difference.
+    EXPECT_LT(norm(a.position[i] - b.position[i]), 2e-6) << "the path is 0.01 m";
     EXPECT_LT(norm(a.velocity[i].as<double>() - b.velocity[i].as<double>()), 1e-3 * norm(b.velocity[i].as<double>()));
   }
   EXPECT_NEAR(mesh->surfaces()->observe(0, 0).force.z, box->surfaces()->observe(0, 0).force.z, 1e-4);
@@ -384,7 +385,7 @@ TEST(Mesh, ThatComesFromAfarMeetsAGrainThatHasNotMoved) {
   const scene::Scene scene = sceneOf(
       meshHead() + "position = [0, 0, -0.1]\nvelocity = [0, 0, 0.5]\nmaterial = \"glass\"\n" + grainAt("[0, 0, 0.01]"),
       {"run.gravity=[0,0,0]"});
-  // Struck off with the restitution of 0.3.
+  // Rebound with the restitution of 0.3.
   EXPECT_NEAR(static_cast<double>(made(scene, 6000)->ground().grains->snapshot().velocity[0].z), 0.5 * 1.3, 0.01);
 }
 
@@ -417,7 +418,7 @@ TEST(Surfaces, WhatCannotBeIsRefusedByName) {
                                    "material = \"glass\"\n";
   const Fault faults[] = {
       {"box.lid.size", "[0.1,-0.1,0.1]", "is outside"},
-      {"box.lid.velocity", "[0,0,0.1]", "the axis of free"},
+      {"box.lid.velocity", "[0,0,0.1]", "the free axis"},
       {"box.lid.amplitude", "[0,0,0.1]", "frequency [Hz] is missing"},
       {"box.lid.frequency", "3", "has no effect without amplitude"},
       {"box.lid.placed", "after_settling", "has no effect without a bed of grains"},
@@ -426,19 +427,19 @@ TEST(Surfaces, WhatCannotBeIsRefusedByName) {
       {"box.lid.start", "1.0", "on a fixed surface"},
       {"box.lid.free", "w", "x, y, z"},
       {"box.lid.angle", "3", "requires axis"},
-      {"box.lid.material", "cheese", "names no material"},
+      {"box.lid.material", "cheese", "is not a material"},
       {"box.lid.name", "floor", "the name of another surface"},
       {"box.lid.name", "my lid", "must not contain blanks"},
       {"box.lid.mass", "0", "is outside"},
       {"plane.floor.load", "3", "applies to free surfaces only"},
-      {"plane.floor.normal", "[0,0,0]", "is zero"},
+      {"plane.floor.normal", "[0,0,0]", "has zero length"},
       {"plane.floor.name", "cylinder0", "is the default name of another surface"},
-      {"cylinder.0.radius", "0.009", "which a hollow cylinder must contain"},
+      {"cylinder.0.radius", "0.009", "of a hollow cylinder must exceed"},
   };
   for (const Fault& f : faults) {
     try {
       sceneOf(lid, {f.key + "=" + f.value});
-      ADD_FAILURE() << f.key << " = " << f.value << " was taken";
+      ADD_FAILURE() << f.key << " = " << f.value << " was accepted";
     } catch (const base::InputError& error) {
       EXPECT_NE(std::string(error.what()).find(f.says), std::string::npos) << f.key << ": " << error.what();
     }

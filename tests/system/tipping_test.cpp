@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle on a side slope whose grip lets it tip rather than slide: the slope on which it does is that of its
+// A vehicle on a side slope with enough friction to tip rather than slide: the critical slope follows from its
 // geometry.
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
@@ -22,9 +22,9 @@ using base::Vec3d;
 
 constexpr double kEarth = 9.81; // [m/s2]
 
-/// On rigid arms, its sprockets held, its left side uphill: gravity leans to the right by `angle` [rad]. Shoes grip
-/// ground and wheels: at the friction of a ready vehicle's wheels, 0.35, the hull slides down to the horns of its shoes
-/// first, and the blow tips it degrees below its limit.
+/// On rigid arms, sprockets locked, left side uphill: gravity is inclined to the right by `angle` [rad]. Shoes have
+/// friction on ground and wheels: at the friction of a shipped vehicle's wheels, 0.35, the hull slides to the shoes'
+/// horns first, and the impact tips it degrees below its limit.
 scene::Scene leaning(double angle) {
   return setup::parseScene(
       fmt::format(
@@ -44,8 +44,8 @@ Simulation standingOn(double angle) {
       setup::simulationSetup(leaning(angle)), testExec(), [](double, double) {}, {}, nullptr, sharedSpheres());
 }
 
-/// Slope [rad] on which it tips over the right track's pads, as drawn. Its wheels lift off the left track's ground run,
-/// whose shoes lie on the ground until the track is taut: these do not hold it down.
+/// Slope [rad] at which it tips over the right track's pads, from the drawing. Wheels lift off the left track, whose
+/// shoes stay on the ground until the track is taut: they do not hold it down.
 double tippingAngle(const Simulation& simulation) {
   const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
   const std::vector<base::Pose>& poses = simulation.vehicle()->state().pose;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle on rigid ground that pulls: by forces, a sled, and a carriage that imposes its slip.
+// A vehicle on rigid ground with a towed load: forces, a sled, and a carriage that imposes its slip.
 #include "base/error.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "tests/system/driven_fixture.hpp"
@@ -28,7 +28,7 @@ scene::Scene sceneWith(const std::string& hitch, double speed = 2, double step =
       GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
 }
 
-/// Of the hitch from `from` to `to` [s].
+/// Mean state of the hitch from `from` to `to` [s].
 HitchObservation meanOver(Simulation& simulation, double from, double to) {
   advance(simulation, from);
   simulation.restartMeans();
@@ -54,11 +54,11 @@ TEST(Towing, AtHighSlipACarriageIsPulledByTheFrictionOfTheWholeWeight) {
   std::printf("pull / weight = %.5f at friction %.2f, speed / imposed %.6f, thrust / weight %.5f\n", coefficient,
               friction, o.speed / imposed, simulation.vehicle()->observe().netThrust / weightOf(simulation));
   EXPECT_NEAR(coefficient, friction, 0.02 * friction);
-  // The hull still swings on its arms, so the ground does not bear the weight alone within this second. Of what it
-  // bears friction is the whole pull, but for shoes that turn at the end of the run, and m a along the way.
-  EXPECT_NEAR(ground / borne, 1, 1e-4) << "impulse is momentum";
+  // The hull still oscillates on its arms, so the mean ground load is not exactly the weight. Friction on that load
+  // equals the pull, except for shoes that turn at the end of the ground contact, and m a along the track.
+  EXPECT_NEAR(ground / borne, 1, 1e-4) << "impulse equals momentum";
   EXPECT_NEAR(o.pull / ground, friction, 2e-3 * friction);
-  // The bar has given by pull / stiffness = 2.7 mm, of which a tenth comes and goes with the pull within a second.
+  // The bar yields by pull / stiffness = 2.7 mm; a tenth of that varies with the pull within a second.
   EXPECT_NEAR(o.speed, imposed, 3e-3 * imposed);
   EXPECT_NEAR(o.power, o.pull * o.speed, 0.01 * o.power);
   EXPECT_EQ(simulation.vehicle()->observe().drawbarPull, o.pull);
@@ -67,7 +67,7 @@ TEST(Towing, AtHighSlipACarriageIsPulledByTheFrictionOfTheWholeWeight) {
   EXPECT_LT(norm(l.momentumResidual), 1e-9 * weightOf(simulation) * simulation.time());
 }
 
-/// Sprockets that stand, on ground where a force moves the vehicle: what it pulls beyond friction accelerates it.
+/// Locked sprockets, a force moves the vehicle over the ground: the excess of pull over friction accelerates it.
 TEST(Towing, AForceBeyondFrictionAcceleratesTheVehicle) {
   Simulation simulation = begin(sceneWith("kind = \"force\"\nforce = 60e3\nramp = 0\n", 0));
   advance(simulation, 0.9);
@@ -83,9 +83,9 @@ TEST(Towing, AForceBeyondFrictionAcceleratesTheVehicle) {
   const double ground = load.x;
   EXPECT_NEAR(o.pull, 60e3, 1e-6);
   EXPECT_NEAR(momentum() - before, (ground - 60e3) * 0.3, 1e-6 * 60e3);
-  EXPECT_NEAR(ground / load.z, assembly.spec.contact.frictionGround, 0.01) << "the hull still swings on its arms";
+  EXPECT_NEAR(ground / load.z, assembly.spec.contact.frictionGround, 0.01) << "the hull still oscillates on its arms";
   EXPECT_LT(simulation.vehicle()->state().twist[0].v.x, -0.1);
-  // It slides backward on tracks that stand: the hitch draws it along, the ground holds it back.
+  // It slides backwards on locked tracks: the hitch pulls it, the ground resists.
   const vehicle::Observation seen = simulation.vehicle()->observe();
   EXPECT_NEAR(seen.drawbarPull, -60e3, 1e-6);
   EXPECT_EQ(seen.netThrust, -seen.groundForce.x);
@@ -98,12 +98,12 @@ TEST(Towing, ASledPullsWithItsFriction) {
   const HitchObservation o = meanOver(simulation, 2, 2 + 6 * 0.31416); // six teeth
   const double friction = 0.5 * 1500 * 9.81, thrust = simulation.vehicle()->meanGroundForce().x;
   std::printf("pull of the sled / mu m g = %.5f, thrust %.5f\n", o.pull / friction, thrust / friction);
-  EXPECT_NEAR(o.pull, friction, 0.01 * friction) << "m a of what the hull's speed still changes";
+  EXPECT_NEAR(o.pull, friction, 0.01 * friction) << "m a from the remaining speed change of the hull";
   EXPECT_NEAR((thrust - o.pull) * (simulation.time() - begun), simulation.ledger().momentum.x - before,
               1e-6 * friction);
 }
 
-/// The grip ends where the ramp has come to friction times weight.
+/// Traction is exceeded once the ramp reaches friction times weight.
 TEST(Towing, ARampStopsTheVehicleAtItsFriction) {
   Simulation simulation = begin(sceneWith("kind = \"ramp\"\nforce = 25e3\nrate = 10e3\n", 1));
   const vehicle::Assembly& assembly = simulation.vehicle()->assembly();
@@ -116,7 +116,7 @@ TEST(Towing, ARampStopsTheVehicleAtItsFriction) {
   simulation.step();
   const double pull = simulation.vehicle()->towing()->observe().pull;
   const double limit = assembly.spec.contact.frictionGround * weightOf(simulation);
-  // From where the ramp is at the limit M v' = -rate t: the speed that is left then is gone after sqrt(2 M v / rate).
+  // From the time at which the ramp reaches the limit M v' = -rate t: the residual speed lasts sqrt(2 M v / rate).
   const auto since = static_cast<std::size_t>((pull - limit) / kRate / simulation.timeStep());
   ASSERT_LT(since, speeds.size());
   const double left = speeds[speeds.size() - 1 - since], beyond = std::sqrt(2 * assembly.mass * left * kRate);
@@ -125,7 +125,7 @@ TEST(Towing, ARampStopsTheVehicleAtItsFriction) {
   EXPECT_NEAR(pull, limit + beyond, 0.03 * limit);
 }
 
-/// The same bits for threads, and resumed while the rope swings.
+/// Bitwise identical for threads, and resumed while the rope oscillates.
 void expectOneAnswer(const std::string& hitch) {
   scene::Scene scene = sceneWith(hitch);
   scene.driver.tensionRamp = 0.02, scene.driver.weightRamp = 0.1, scene.driver.driveStart = 0.15;
@@ -133,7 +133,7 @@ void expectOneAnswer(const std::string& hitch) {
   Simulation one = begin(scene, 1), two = begin(scene, 2);
   for (Simulation* s : {&one, &two}) advance(*s, 0.3);
   EXPECT_EQ(two.stateHash(), one.stateHash()) << "threads: " << hitch;
-  EXPECT_NE(two.vehicle()->towing()->observe().pull, 0) << "there is something to carry over: " << hitch;
+  EXPECT_NE(two.vehicle()->towing()->observe().pull, 0) << "the hitch has state to carry over: " << hitch;
   Simulation resumed(setup::simulationSetup(scene), testExec(2), two.save(), {}, sharedSpheres());
   EXPECT_EQ(resumed.stateHash(), one.stateHash());
   for (Simulation* s : {&one, &resumed}) advance(*s, 0.45);
@@ -150,7 +150,7 @@ TEST(OneAnswer, OfATowingVehicle) {
   for (const char* hitch : {"kind = \"speed\"\nslip = 0.3\n", "kind = \"ramp\"\nrate = 4000\n"}) expectOneAnswer(hitch);
 }
 
-/// Drives, hitch and what contacts and joints hold and lose.
+/// Drives, hitch, and stored and dissipated energy of contacts and joints.
 TEST(Towing, TheLedgerCloses) {
   Simulation simulation = begin(sceneWith("kind = \"speed\"\nslip = 0.3\nramp = 0.4\n", 1));
   advance(simulation, 1.1);

@@ -24,7 +24,7 @@ std::string yielding(const std::string& law, const std::string& more) {
 const std::string kHeadOn =
     ballAt("[-0.0101, 0, 0]", "velocity = [1, 0, 0]") + ballAt("[0.0101, 0, 0]", "velocity = [-1, 0, 0]");
 
-/// Relative error of what two balls lose head on, by the ledger's yielding and by its kinetic energy.
+/// Relative error of the energy lost in a head-on collision, by the ledger's yielding and by its kinetic energy.
 void expectLoss(const std::string& law, const std::string& more, double share, const std::string& balls, double mass) {
   const double energy = 0.5 * mass;
   std::vector<double> errors;
@@ -45,7 +45,7 @@ TEST(Yielding, HeadOnTheEnergyThatIsLostIsThatOfTheClosedForm) {
   expectLoss("eepa_linear", "plasticity = 0.64", 0.64, kHeadOn, 2 * ballMass()); // e^2 = k1 / k2
   const double depth = std::cbrt(0.64 * 0.64);
   expectLoss("eepa", "plasticity = 0.64", 0.64 / 0.36 * (1 - depth) * 1.5, kHeadOn, 2 * ballMass());
-  // k2 is greatest at once where phi_f is small.
+  // k2 reaches its maximum at once if phi_f is small.
   expectLoss("luding", "plasticity = 0.64\nplastic_depth = 1e-6", 0.64, kHeadOn, 2 * ballMass());
 }
 
@@ -54,7 +54,7 @@ TEST(Yielding, BallOnAPlaneYieldsToo) {
 }
 
 TEST(Yielding, StickyBallsStayTogether) {
-  // Slow enough for the pull-off work to be more than what is given back.
+  // Slow enough for the pull-off work to exceed the released energy.
   const std::string slow =
       ballAt("[-0.0101, 0, 0]", "velocity = [0.02, 0, 0]") + ballAt("[0.0101, 0, 0]", "velocity = [-0.02, 0, 0]");
   const auto contacts = [&](const std::string& energy) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains::advance(), which gives many steps to the device at once: the bits, the lists and the faults are those of
+// Grains::advance(), which launches many steps at once: bits, lists and errors are those of
 // single steps.
 #include "grain_fixture.hpp"
 #include "tests/device_under_test.hpp"
@@ -12,11 +12,11 @@
 namespace grouser::terrain::testing {
 namespace {
 
-/// A block of gravel that is thrown at the floor, with so thin a skin that lists end within many steps.
+/// A block of gravel thrown at the floor, with so thin a skin that rebuilds occur within many steps.
 Grains thrown(double speed, Precision precision = Precision::single, bool hills = false) {
   GrainModel model = gravel(0.02);
   model.precision = precision, model.floorLaw = model.law;
-  model.mostSimdLanes = 1; // a CPU then gives its steps as a GPU is given them
+  model.mostSimdLanes = 1; // a CPU then batches its steps like a GPU
   Boundaries floor;
   if (hills)
     floor.floor = HeightField::plane({-2, 3, -2, 3}, -0.05, 0.1, -0.05);
@@ -36,13 +36,13 @@ void advanceAtOnce(Grains& grains, std::int64_t steps) {
 
 TEST(BatchedSteps, EndWhereSingleStepsEnd) {
   Grains single = thrown(1), some = thrown(1);
-  // Not whole numbers of what goes at once, so that single steps come between.
+  // Not multiples of the batch size, so that single steps come in between.
   for (const int steps : {37, 16, 101, 32, 300}) {
     advance(single, steps);
     advanceAtOnce(some, steps);
     ASSERT_EQ(some.steps(), single.steps());
     ASSERT_EQ(some.system().rebuilds, single.system().rebuilds)
-        << "a list that has ended ends the steps that go at once";
+        << "a batch of steps ends at a rebuild, and the next one starts after it";
     ASSERT_EQ(some.state().words(), single.state().words()) << "after " << single.steps() << " steps";
   }
   EXPECT_GT(single.system().rebuilds, 10);
@@ -56,7 +56,7 @@ TEST(BatchedSteps, EndSoInDoubleAndOnAFloorToo) {
       advanceAtOnce(some, 150);
       EXPECT_EQ(some.state().words(), single.state().words());
       EXPECT_EQ(forceRatio(some.system()), forceRatio(single.system()))
-          << "which needs the velocities of the step before";
+          << "it requires the velocities of the step before";
     }
 }
 
@@ -66,7 +66,7 @@ TEST(BatchedSteps, LookingAtThemOrAddingToThemInBetweenChangesNothing) {
   for (int round = 0; round < 4; ++round) {
     advance(single, 40);
     advanceAtOnce(some, 40);
-    some.ledger(); // may list anew
+    some.ledger(); // may rebuild
     if (round == 1) single.add(more), some.add(more);
   }
   EXPECT_EQ(some.state().words(), single.state().words());
@@ -76,7 +76,7 @@ TEST(BatchedSteps, MixWithSingleSteps) {
   Grains single = thrown(1), mixed = thrown(1);
   advance(single, 200);
   for (int round = 0; round < 5; ++round) {
-    advance(mixed, 7); // an odd number: the state lies in the other buffer
+    advance(mixed, 7); // an odd number: the state is in the other buffer
     advanceAtOnce(mixed, 33);
   }
   EXPECT_EQ(mixed.state().words(), single.state().words());

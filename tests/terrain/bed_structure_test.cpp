@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures of a bed's structure against arrangements whose figures are known.
+// Structure of beds compared with known arrangements.
 #include "terrain/bed_structure.hpp"
 
 #include "base/random.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kRadius = 0.01;
 
-/// A box of grains from z = 0, with level surface and floor.
+/// A box of grains above z = 0, with level surface and floor.
 BedStructure measured(const std::vector<LyingGrain>& grains, double side, double height) {
   return measureBed(
       grains,
@@ -46,7 +46,7 @@ TEST(BedStructure, ClosePackingHasItsPorosityContactsAndOrder) {
   EXPECT_EQ(s.rattlers, 0);
   EXPECT_NEAR(s.meanDiameter, 2 * kRadius, 1e-12);
   EXPECT_NEAR(s.thickness, side, 1e-12);
-  // Its neighbours lie at 1, sqrt 2, sqrt 3 ... diameters, and nowhere between.
+  // Its neighbours are at 1, sqrt 2, sqrt 3 ... diameters, and nowhere in between.
   for (std::size_t k = 0; k < s.distance.size(); ++k) {
     if (s.distance[k] < 0.95 || (s.distance[k] > 1.1 && s.distance[k] < 1.35)) {
       EXPECT_EQ(s.radialDistribution[k], 0) << s.distance[k];
@@ -60,7 +60,7 @@ TEST(BedStructure, NearIsNoContact) {
   const BedStructure s = measured(closePacking(cells, -apart), side, side);
   EXPECT_EQ(s.coordination, 0);
   EXPECT_EQ(s.rattlers, 1);
-  EXPECT_EQ(s.order, 1) << "its places are those of a crystal";
+  EXPECT_EQ(s.order, 1) << "its sites are those of a crystal";
 }
 
 TEST(BedStructure, RandomPointsHaveAFlatRadialDistributionAndNoOrder) {
@@ -72,17 +72,17 @@ TEST(BedStructure, RandomPointsHaveAFlatRadialDistributionAndNoOrder) {
     grains.push_back({{at(0), at(1), at(2)}, kRadius, false});
   }
   const BedStructure s = measured(grains, kSide, kSide);
-  // Overlapping spheres at random leave exp(-number density x volume) free.
+  // Overlapping random spheres leave a share of exp(-number density x volume) free.
   const double filled = kGrains / (kSide * kSide * kSide) * 4.0 / 3 * M_PI * kRadius * kRadius * kRadius;
   EXPECT_NEAR(s.porosity, std::exp(-filled), 0.004);
   EXPECT_LT(s.order, 0.02);
-  // The density is taken of the grains' volume over 1 - porosity, which overlapping ones do not fill.
+  // The density follows from the grains' volume over 1 - porosity, which overlapping grains do not fill.
   const double scale = (1 - std::exp(-filled)) / filled;
   for (std::size_t k = 20; k < s.distance.size(); ++k) EXPECT_NEAR(s.radialDistribution[k] * scale, 1, 0.1);
 }
 
 TEST(BedStructure, ProfileFollowsTheSurface) {
-  // Grains fill the lower half; the surface is said to lie at the top: above the middle all is void.
+  // Grains fill the lower half; the surface is set to the top: above the middle all is void.
   const int cells = 10;
   const double overlap = 1e-6, side = cells * (2 * kRadius - overlap) * std::sqrt(2.0);
   const BedStructure s = measured(closePacking(cells, overlap), side, 2 * side);

@@ -21,7 +21,7 @@ constexpr double kRadius = 0.03;
 constexpr Rectangle kArea{0, 3, -1, 1};
 constexpr std::uint64_t kTest = base::purpose("terrain.bed-surface-test");
 
-/// Touching grains in a square lattice, several layers thick, whose tops lie on top(x, y, i).
+/// Touching grains in a square lattice, several layers thick, with tops at top(x, y, i).
 template <class F> std::vector<Seed> lattice(F&& top, int layers = 3) {
   std::vector<Seed> grains;
   for (int layer = 0; layer < layers; ++layer)
@@ -60,8 +60,8 @@ TEST(BedSurface, OfALevelLattice_IsThePlaneOnItsTops) {
 }
 
 TEST(BedSurface, OfAnInclinedLattice_StaysNearThePlaneOnItsTops) {
-  // Bias in radii times the slope. Measured: mean -0.14, from -0.79 to 1.00; the highest top within a diameter alone
-  // would lie 0.9 above on average.
+  // Bias in radii times the slope. Measured: mean -0.14, from -0.79 to 1.00; the highest top within a diameter
+  // would have a bias of 0.9 on average.
   for (const double slope : {0.1, 0.36}) {
     const BedSurface surface = surfaceOf(lattice([=](double x, double, std::size_t) { return slope * x; }));
     const Bias bias = biasOf(surface, [=](double x, double) { return slope * x; });
@@ -72,8 +72,8 @@ TEST(BedSurface, OfAnInclinedLattice_StaysNearThePlaneOnItsTops) {
 }
 
 TEST(BedSurface, OfAScatteredBed_LiesAboveTheMeanOfItsTopsByLessThanTheirScatter) {
-  // Tops scatter evenly by +- half a radius (standard deviation 0.29) and centres by +- 0.4 radii in the plane.
-  // Measured mean bias 0.07 radii; the highest top within a diameter alone would lie 0.4 radii above.
+  // Tops scatter uniformly by +- half a radius (standard deviation 0.29), centres by +- 0.4 radii in the plane.
+  // Measured mean bias 0.07 radii; the highest top within a diameter would have 0.4 radii.
   std::vector<Seed> grains =
       lattice([](double, double, std::size_t g) { return kRadius * (base::uniform(2, kTest, g) - 0.5); });
   for (std::size_t g = 0; g < grains.size(); ++g) {
@@ -94,13 +94,13 @@ TEST(BedSurface, TreatsXAndYAlike) {
   for (Seed& g : grains) std::swap(g.centre.x, g.centre.y);
   const Rectangle turned{kArea.yMin, kArea.yMax, kArea.xMin, kArea.xMax};
   const BedSurface mirrored(grains, HeightField::flat(turned, -1).view(), turned, 2 * kRadius);
-  // Round-off of the smoothing, whose two passes change places.
+  // Round-off of the smoothing, whose two passes are interchanged.
   for (double x = 0; x < 3; x += 0.017)
     for (double y = -1; y < 1; y += 0.19) ASSERT_NEAR(surface.height(x, y), mirrored.height(y, x), 10 * kEps);
 }
 
 TEST(BedSurface, FollowsARut) {
-  // A rut of 0.6 m (ten diameters) and 0.1 m: its bottom and the banks are met exactly.
+  // Ruts of 0.6 m (ten diameters) and 0.1 m: bottom and banks are exact.
   const auto rut = [](double x, double, std::size_t) { return x > 1.2 && x < 1.8 ? -0.1 : 0.0; };
   const BedSurface surface = surfaceOf(lattice(rut));
   EXPECT_NEAR(surface.height(1.5, 0), -0.1, 10 * kEps);
@@ -111,7 +111,7 @@ TEST(BedSurface, FollowsARut) {
 TEST(BedSurface, WithoutGrains_IsTheFloor) {
   const HeightField floor = HeightField::plane(kArea, 0.1, 0.2, -0.1);
   const BedSurface surface({}, floor.view(), kArea, 2 * kRadius);
-  // Lowest within a diameter: below the floor by slope times diameter at most. Never above.
+  // Lowest within a diameter: at most slope times diameter below the floor. Never above.
   const Bias bias = biasOf(surface, [&](double x, double y) { return floor.height(x, y); });
   EXPECT_GE(bias.least, -2 * kRadius * std::sqrt(0.05) - 10 * kEps);
   EXPECT_LE(bias.most, 10 * kEps);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Springs of walls, floor and surfaces exist only for grains near them, and move along when these are listed again.
+// Springs of walls, floor and surfaces exist only for grains near them, and are kept when the lists are rebuilt.
 #include "surface_fixture.hpp"
 
 #include "base/memory_held.hpp"
@@ -10,11 +10,11 @@
 namespace grouser::terrain::testing {
 namespace {
 
-constexpr int kNumbers = 3; ///< of the spring of one boundary
+constexpr int kNumbers = 3; ///< numbers per spring of one boundary
 
 std::size_t springsKept(const Grains& grains) { return grains.system().boundaries.springs().size(); }
 
-/// Deeper in the floor than it rests.
+/// Deeper in the floor than at rest.
 GrainSpec sliding(const GrainModel& m, const Vec3d& place) {
   return {place + Vec3d{0, 0, 0.999 * m.radius}, {0.02, 0.01, 0}, {}};
 }
@@ -22,7 +22,7 @@ GrainSpec sliding(const GrainModel& m, const Vec3d& place) {
 TEST(BoundarySprings, GoAlongWhenAGrainBeforeThemEntersTheListBetweenRebuilds) {
   const GrainModel m = roughBall(1e-5, 0.5, 0.3);
   const auto far = placed({-1, 0, 0.5}), near = placed({-0.2, 0, 0.5 + 0.05 + m.radius + 1e-4});
-  // The first hangs in the air where the box will come.
+  // The first grain is in the air where the box will arrive.
   GrainModel floating = m;
   floating.gravity = {0, 0, -1e-3};
   Grains grains(testExec(1), floating, {{floorPlane(m.law)}, {}, {}, {{boxOf({0.05, 0.05, 0.05}), m.law, far}}},
@@ -30,7 +30,7 @@ TEST(BoundarySprings, GoAlongWhenAGrainBeforeThemEntersTheListBetweenRebuilds) {
   advanceWith(
       grains, [&](std::int64_t) { return std::vector{far}; }, 0, 5);
   const GrainState before = grains.state();
-  ASSERT_GT(norm(before.wallShear[2]), 0) << "of the second grain on the floor";
+  ASSERT_GT(norm(before.wallShear[2]), 0) << "second grain on the floor";
   ASSERT_EQ(grains.system().boundaries.grainsListed(), 1u);
   const std::int64_t listings = grains.system().boundaries.listings(), rebuilds = grains.system().rebuilds;
   grains.setSurfacePoses({near});
@@ -40,7 +40,7 @@ TEST(BoundarySprings, GoAlongWhenAGrainBeforeThemEntersTheListBetweenRebuilds) {
   EXPECT_EQ(grains.system().boundaries.grainsListed(), 2u);
   EXPECT_EQ(grains.state().wallShear, before.wallShear);
   EXPECT_EQ(grains.state().words(), before.words());
-  // And back, when it has gone.
+  // The same after the box has left.
   grains.setSurfacePoses({far});
   grains.refreshNeighbours();
   EXPECT_EQ(grains.system().boundaries.grainsListed(), 1u);
@@ -60,8 +60,8 @@ TEST(BoundarySprings, OfAGrainThatLeavesTheListAndComesBackAreNew) {
     ASSERT_LT(grains.steps(), 20000);
   }
   EXPECT_EQ(grains.state().wallBits[0], 0u);
-  EXPECT_EQ(springsKept(grains), std::size_t{kNumbers}) << "of the other alone";
-  // A state knows no spring of a grain in the air.
+  EXPECT_EQ(springsKept(grains), std::size_t{kNumbers}) << "only of the other grain";
+  // The state holds no spring of a grain in the air.
   Grains fresh(testExec(1), m, {{floorPlane(m.law)}, {}}, thrown());
   fresh.restore(grains.state());
   while (grains.state().wallBits[0] == 0) {
@@ -69,14 +69,14 @@ TEST(BoundarySprings, OfAGrainThatLeavesTheListAndComesBackAreNew) {
     ASSERT_LT(grains.steps(), 40000);
   }
   EXPECT_EQ(grains.state().words(), fresh.state().words());
-  // One step of sliding is all that there is in it: 0.3 m/s at most, and the spin.
+  // The spring holds one step of sliding: 0.3 m/s at most, plus the spin.
   EXPECT_LT(norm(grains.state().wallShear[0]), 1.1 * 0.3 * m.timeStep + 1e-9);
   EXPECT_GT(norm(grains.state().wallShear[0]), 0);
 }
 
 TEST(BoundarySprings, AreKeptForGrainsOnTheListAlone) {
   const GrainModel m = gravel();
-  // Each about 3 mm from the outermost grains.
+  // Each lies about 3 mm from the outermost grains.
   const std::vector<Wall> walls{floorPlane(m.law),
                                 {{1, 0, 0}, -0.03, m.law},
                                 {{-1, 0, 0}, -0.562, m.law},
@@ -88,7 +88,7 @@ TEST(BoundarySprings, AreKeptForGrainsOnTheListAlone) {
   grains.invalidateNeighbours();
   grains.refreshNeighbours();
   const std::size_t listed = grains.system().boundaries.grainsListed();
-  EXPECT_GT(listed, 150u) << "a layer of 100 on the floor, and some at the walls";
+  EXPECT_GT(listed, 150u) << "a layer of 100 on the floor, and some grains at the walls";
   EXPECT_LT(listed, 500u);
   EXPECT_EQ(springsKept(grains), listed * 5 * kNumbers);
   // For every grain a mask and a place; for one on the list its slot, a load and five springs.
@@ -101,19 +101,19 @@ TEST(BoundarySprings, AreKeptForGrainsOnTheListAlone) {
 }
 
 TEST(Rebuild, TakesNoMoreMemoryThanStandsBetweenRebuilds) {
-  // Of a bed with few contacts: what is set aside for them fits in what is given back meanwhile.
+  // A bed with few contacts: the ledger's temporary arrays fit into the memory freed meanwhile.
   const GrainModel m = gravel();
   const base::Exec exec = testExec(1);
   Grains grains(exec, m, {{floorPlane(m.law)}, {}}, gravelBlock(20, 20, 20, {}));
   advance(grains, 200);
-  for (int k = 0; k < 2; ++k) { // the first time lists may grow
+  for (int k = 0; k < 2; ++k) { // lists may grow in the first pass
     base::restartMemoryPeak(exec);
     grains.invalidateNeighbours();
     grains.refreshNeighbours();
     base::synchronize(exec);
   }
-  const base::MemoryHeld held = base::memoryHeld(exec); // before the ledger takes some
-  ASSERT_LT(grains.ledger().contacts, 8000) << "two for each grain";
+  const base::MemoryHeld held = base::memoryHeld(exec); // before the ledger allocates
+  ASSERT_LT(grains.ledger().contacts, 8000) << "at most two per grain";
   EXPECT_GE(held.now, grains.system().deviceBytes());
   EXPECT_LE(held.most, held.now + 4096) << "allocators round up";
 }

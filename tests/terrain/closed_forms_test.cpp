@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Motions of one grain in closed form: sliding to rest on a damped spring, slip at the contact point of what turns, a
-// torque too small for a float.
+// Motions of one grain in closed form: sliding to rest on a damped spring, slip at the contact point of rotating bodies
+// and torques below float resolution.
 #include "contact/grain_loads.hpp"
 #include "surface_fixture.hpp"
 #include "tests/device_under_test.hpp"
@@ -28,11 +28,11 @@ TEST(SlidingWithDamping, EndsInADampedSwingOfTheTangentialSpring) {
     const double slip = t < 0 ? -3.5 * mu * g * t : -s0 * base::exp(-a * t) * (a * a + w * w) / w * base::sin(w * t);
     // Angular momentum about the contact is kept: v = 5/7 v0 + 2/7 of the slip.
     const GrainSnapshot s = grains.snapshot();
-    // The contact point stops once in 25,000 steps, and the spring has 1e-4 of a swing a step.
+    // The slip changes sign once in 25,000 steps, and the spring has 1e-4 of a period per step.
     EXPECT_NEAR(s.velocity[0].x, 5.0 / 7 * v0 + 2.0 / 7 * slip, 3e-6) << after;
     EXPECT_NEAR(s.spin[0].y * R, 5.0 / 7 * (v0 - slip), 1e-5) << after;
   }
-  EXPECT_GT(s0 * w, 5e-4) << "the swing is far above what is allowed";
+  EXPECT_GT(s0 * w, 5e-4) << "the oscillation is far above the tolerance";
 }
 
 TEST(RollingSwing, OfABallOnAPlaneDiesOutAsItsDampingRatioSays) {
@@ -44,7 +44,7 @@ TEST(RollingSwing, OfABallOnAPlaneDiesOutAsItsDampingRatioSays) {
   m.law.tangentialDamping = 1.2 * std::sqrt(m.law.stiffness / m.mass);
   const double k = m.law.stiffness, R = m.radius, overlap = m.mass * g / k;
   const double o = std::sqrt(2.25 * k * mu * mu / (1.4 * m.mass)), p = o * std::sqrt(1 - zeta * zeta);
-  const double w0 = 0.3 * o * m.mass * g / (2.25 * k * mu * R); // 0.3 of what its limit lets it swing
+  const double w0 = 0.3 * o * m.mass * g / (2.25 * k * mu * R); // 0.3 of the amplitude at its limit
   Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, R - overlap}, {w0 * R, 0, 0}, {0, w0, 0}}});
   std::int64_t taken = 0;
   for (const double angle : {0.5, 1.0, 2.0, 3.0, 4.5, 6.0}) {
@@ -52,11 +52,11 @@ TEST(RollingSwing, OfABallOnAPlaneDiesOutAsItsDampingRatioSays) {
     advance(grains, n - taken), taken = n;
     const double t = static_cast<double>(n) * m.timeStep;
     const double w = w0 * base::exp(-zeta * o * t) * (base::cos(p * t) - zeta * o / p * base::sin(p * t));
-    EXPECT_NEAR(grains.snapshot().spin[0].y, w, 0.02 * w0) << angle << ": what the tangential spring gives way";
+    EXPECT_NEAR(grains.snapshot().spin[0].y, w, 0.02 * w0) << angle << ": deflection of the tangential spring";
   }
 }
 
-/// Direction in which a grain is dragged in its first step, when all slips.
+/// Direction of the friction force on a grain in its first step, with full sliding.
 base::Vec3d dragged(const GrainModel& m, const Boundaries& boundaries, const std::vector<GrainSpec>& start,
                     const std::vector<SurfacePose>& poses, const base::Vec3d& normal) {
   Grains grains(testExec(1), m, boundaries, start);
@@ -70,7 +70,7 @@ base::Vec3d dragged(const GrainModel& m, const Boundaries& boundaries, const std
   return base::normalized(tangential);
 }
 
-/// Slips at the first touch: the dashpot alone is beyond Coulomb's limit.
+/// Sliding from the first touch: the dashpot alone exceeds Coulomb's limit.
 GrainModel slippery() {
   GrainModel m = ball(1e-6);
   makeRough(m.law, 0, 0.2);
@@ -87,7 +87,7 @@ TEST(SlipAtTheContact, OfAGrainOnATurningBoxTakesBothSpinsAndVelocities) {
   const SurfacePose pose = placed(centre, {}, {}, V, W);
   const Boundaries boundaries{.walls = {}, .floor = {}, .surfaces = {{boxOf({0.1, 0.1, 0.02}), m.law, pose}}};
   const Vec3d is = dragged(m, boundaries, {{place, v, w}}, {pose}, {0, 0, 1});
-  // The grain's lowest point, a radius less the overlap below; the box's point there, turning about its centre.
+  // The grain's lowest point, a radius minus the overlap below; the box's point there, rotating about its centre.
   const double arm = m.radius - overlap;
   const Vec3d grain = v + cross(w, Vec3d{0, 0, -arm}), box = V + cross(W, Vec3d{0.04, 0.03, 0.02});
   const Vec3d slip = grain - box;
@@ -98,7 +98,7 @@ TEST(SlipAtTheContact, OfAGrainOnATurningBoxTakesBothSpinsAndVelocities) {
 TEST(SlipAtTheContact, OfAGrainOnATurningCylinderIsTakenAtItsSurface) {
   const GrainModel m = slippery();
   const double radius = 0.05, overlap = 1e-5;
-  // The axis lies along y; the grain sits to the right above it, where the surface moves along (0.8, 0, -0.6).
+  // The axis is along y; the grain is above it to the right, where the surface moves along (0.8, 0, -0.6).
   const base::Quat aboutY = turn({1, 0, 0}, -base::kPi / 2);
   const Vec3d normal{0.6, 0, 0.8}, W{0, 12, 0}, V{0, 0.2, 0}, v{0.1, 0.1, -0.075}, w{0, 7, 0};
   const SurfacePose pose = placed({}, aboutY, {}, V, W);
@@ -124,14 +124,14 @@ TEST(SlipAtTheContact, OfTwoGrainsTakesEachOnesArm) {
     const Vec3d v{0.2, 0.1, 0}, w{5, 30, -9}, V{-0.1, 0.3, 0}, W{-40, 10, 3};
     const Vec3d is = dragged(
         m, {}, {{{0, 0, 0}, V, W, other, 0}, {{0, 0, other + m.radius - overlap}, v, w, m.radius, 0}}, {}, {0, 0, -1});
-    // Of the first one, relative to the second: both arms end in the middle of the overlap.
+    // Velocity of the first relative to the second: both lever arms end in the middle of the overlap.
     const Vec3d slip =
         V + cross(W, Vec3d{0, 0, other - overlap / 2}) - v - cross(w, Vec3d{0, 0, -m.radius + overlap / 2});
     EXPECT_NEAR(norm(is + base::normalized(Vec3d{slip.x, slip.y, 0})), 0, 2e-4) << other;
   }
 }
 
-/// Steps a grain under a torque that a part puts on it [N m].
+/// Steps a grain under a torque from a part [N m].
 base::Vec3d spunBy(const base::Vec3d& torque, const base::Vec3d& spin, int steps, const GrainModel& m) {
   const base::Exec exec = base::cpuExec(1);
   Grains grains(exec, m, {}, {{{}, {}, spin}});
@@ -150,7 +150,7 @@ TEST(SmallTorque, SpinsAGrainUpAsInExactNumbers) {
   const int steps = 100000;
   GrainModel m = ball(1e-6);
   const double inertia = 0.4 * m.mass * m.radius * m.radius;
-  // One radian a second squared, two and minus a half: 1e-6 rad/s a step, of which a float at 0.1 rad/s loses up to
+  // One radian per second squared, two and minus a half: 1e-6 rad/s per step; a float at 0.1 rad/s loses up to
   // 4e-9.
   const base::Vec3d alpha{1, 2, -0.5}, torque = alpha * inertia;
   const base::Vec3d given = torque.as<float>().as<double>() * (1 / inertia); // the load is a float
@@ -159,7 +159,7 @@ TEST(SmallTorque, SpinsAGrainUpAsInExactNumbers) {
 }
 
 TEST(SmallTorque, IsNotLostBesideAFastSpin) {
-  // At 100 rad/s a float's last place is 7.6e-6: 1e-6 a step would be lost altogether. A remainder counts in 1.2e-10.
+  // At 100 rad/s a float's last place is 7.6e-6: 1e-6 per step would be lost. A remainder resolves 1.2e-10.
   const int steps = 100000;
   const GrainModel m = ball(1e-6);
   const double inertia = 0.4 * m.mass * m.radius * m.radius;

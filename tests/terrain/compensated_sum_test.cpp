@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sums that keep what rounding cuts off, against the same sums in double.
+// Compensated float sums against the same sums in double.
 #include "base/random.hpp"
 #include "terrain/compensated_sum.hpp"
 
@@ -10,9 +10,9 @@
 namespace grouser::terrain {
 namespace {
 
-using Remainder = std::int16_t; ///< as addCompensated() takes it
+using Remainder = std::int16_t; ///< as in addCompensated()
 
-/// A float that keeps its remainder.
+/// A float with its remainder.
 struct Sum {
   float value = 0;
   Remainder remainder = 0;
@@ -37,12 +37,12 @@ TEST(CompensatedSum, EveryStepIsRightToAQuantum) {
     const double increment = (base::uniform(1, base::purpose("test.sum"), static_cast<std::uint64_t>(k)) - 0.5) * 1e-3;
     const Sum before = sum;
     const double returned = sum.add(increment);
-    // What was stored before, and after: value and remainder, by adding nothing.
+    // The stored values before and after: value and remainder, read by adding zero.
     Sum copy = sum, former = before;
     const double now = copy.add(0), then = former.add(0);
     const double quantum = std::ldexp(1.0, std::ilogb(std::fabs(sum.value) + 1e-30f)) * 0x1p-39;
     ASSERT_NEAR(now, then + increment, quantum) << k;
-    ASSERT_NEAR(returned, then + increment, 0x1p-52) << "what is returned is the sum before it is stored";
+    ASSERT_NEAR(returned, then + increment, 0x1p-52) << "the return value is the sum before it is stored";
     ASSERT_EQ(sum.value, static_cast<float>(returned)) << "the float is the nearest";
   }
 }

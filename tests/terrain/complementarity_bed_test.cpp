@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Many grains with complementarity contacts: one answer, momentum and energies.
+// Many grains with complementarity contacts: identical results, momentum and energies.
 #include "base/error.hpp"
 #include "impulse_fixture.hpp"
 #include "tests/device_under_test.hpp"
@@ -13,7 +13,7 @@ using contact::Compliance;
 
 Boundaries corner(const GrainModel& m) { return {{floorPlane(m.law), {{1, 0, 0}, -0.05, m.law}}, {}}; }
 
-/// A block that is thrown into a corner.
+/// A block thrown into a corner.
 Grains thrown(const base::Exec& exec, const GrainModel& m) {
   return {exec, m, corner(m), gravelBlock(6, 6, 5, {-0.6, 0.2, -1}, {1, 2, 3})};
 }
@@ -74,7 +74,7 @@ TEST_P(ComplementarityBed, KeepsMomentumAndItsBooks) {
             1e-5 * norm(after.angularImpulse));
   const double gained = after.kinetic + after.rotational - before.kinetic - before.rotational;
   EXPECT_NEAR(after.work, gained, 1e-6 * after.turnover);
-  // Implicit steps lose the remainder: less than a tenth. It is positive but for g h / 2 times the momentum, since
+  // Implicit steps dissipate the remainder: less than a tenth. It is positive except for g h / 2 times the momentum:
   // positions are half a step ahead of velocities.
   const double lost = before.potential - after.potential + before.elastic - after.elastic - after.dissipated() - gained;
   EXPECT_GT(lost, 0.5 * 9.81 * m.timeStep * (before.momentum.z - after.momentum.z) - 1e-3 * after.turnover);
@@ -83,7 +83,7 @@ TEST_P(ComplementarityBed, KeepsMomentumAndItsBooks) {
 
 INSTANTIATE_TEST_SUITE_P(Both, ComplementarityBed, ::testing::Values(Compliance::law, Compliance::rigid));
 
-/// A block of three sizes, all of which roll with resistance and hold together.
+/// A block of three sizes with rolling resistance and cohesion.
 std::vector<GrainSpec> mixedBlock(const base::Vec3d& velocity, const base::Vec3d& spin) {
   std::vector<GrainSpec> start = gravelBlock(6, 5, 4, velocity, spin);
   for (std::size_t k = 0; k < start.size(); ++k) start[k].radius = 0.021 + 0.003 * static_cast<double>(k * 7 % 3);
@@ -97,7 +97,7 @@ GrainModel mixedGravel(Compliance compliance, double skin = 0.3) {
 
 TEST_P(ComplementarityBed, PairsOfAllSizesBalance) {
   GrainModel m = mixedGravel(GetParam());
-  m.gravity = {}, m.complementarity->iterations = 30; // however well it is solved
+  m.gravity = {}, m.complementarity->iterations = 30; // regardless of the solver's accuracy
   Grains grains(testExec(2), m, {}, mixedBlock({}, {1, -2, 3}));
   const std::vector<GrainSpec> bullet{{{0.1, 0.1, 0.3}, {0, 0, -3}, {}, 0.024}};
   grains.add(bullet);
@@ -141,7 +141,7 @@ TEST(ComplementarityOfMany, ShorterStepsMeetThePenaltyLaw) {
   const base::Vec3d exact = place(1e-6, false);
   const double coarse = norm(place(1e-5, true) - exact), fine = norm(place(2.5e-6, true) - exact);
   EXPECT_LT(fine, 0.05 * norm(exact));
-  EXPECT_NEAR(coarse / fine, 4, 1) << "of first order";
+  EXPECT_NEAR(coarse / fine, 4, 1) << "first order";
 }
 
 TEST(ComplementarityOfMany, AStrictRunEndsWhereAStepIsNotSolved) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Steps with complementarity contacts against closed forms of few grains.
+// Steps with complementarity contacts against closed forms for a few grains.
 #include "grain_fixture.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -13,7 +13,7 @@ using contact::ImpulseFriction;
 
 constexpr double kG = 9.81;
 
-/// The reference ball in steps of `timeStep`, solved to far below what the tests tell apart.
+/// The reference ball in steps of `timeStep`, with a solver tolerance far below those of the tests.
 GrainModel impulsive(double timeStep, double friction, Compliance compliance = Compliance::rigid) {
   GrainModel m = roughBall(timeStep, friction, 0);
   m.precision = Precision::double_;
@@ -30,7 +30,7 @@ base::Vec3d velocityOf(const Grains& grains, std::size_t k = 0) { return grains.
 
 const ImpulseReport& report(const Grains& grains) { return grains.system().impulses->report(); }
 
-/// Gravity of a plane that is tilted by `angle`: along x, down it.
+/// Gravity on a plane inclined by `angle`: along x, downhill.
 base::Vec3d tilted(double angle) { return {kG * base::sin(angle), 0, -kG * base::cos(angle)}; }
 
 TEST(Complementarity, ABallRollsDownAnInclineUntilItSlips) {
@@ -60,7 +60,7 @@ TEST(Complementarity, ASlidingBallRollsAtFiveSeventhsOfItsSpeed) {
   EXPECT_LT(slides, 0.1);
   EXPECT_NEAR(velocityOf(grains).x, 5.0 / 7 * v, 1e-6);
   EXPECT_NEAR(grains.snapshot().position[0].z, m.radius, 1e-9);
-  // To rest of the slip it has come v^2 12 / (49 mu g), in steps that take the speed at their end; then it rolls.
+  // Until slip ends the distance is v^2 12 / (49 mu g), with end-of-step velocities; then it rolls.
   const double way = 12 * v * v / (49 * mu * kG) + 5.0 / 7 * v * (0.1 - slides);
   EXPECT_NEAR(grains.snapshot().position[0].x, way, 0.5 * h * (v - 5.0 / 7 * v) + 1e-6);
 }
@@ -74,7 +74,7 @@ TEST(Complementarity, TheConvexRelaxationLiftsWhatSlides) {
     advance(grains, 1);
     // It parts with mu times its slip: u_n = mu u_t, u_t = v - 3.5 mu p, u_n = p - g h for the impulse p over the mass.
     const double p = (mu * v + kG * h) / (1 + 3.5 * mu * mu);
-    EXPECT_NEAR(velocityOf(grains).z, mu * (v - 3.5 * mu * p), 1e-6) << "whatever the step";
+    EXPECT_NEAR(velocityOf(grains).z, mu * (v - 3.5 * mu * p), 1e-6) << "at any step";
   }
 }
 
@@ -117,7 +117,7 @@ TEST(Complementarity, ACradleSendsAllButTheFirstAway) {
 TEST(Complementarity, AColumnBearsItsWeight) {
   const int n = 8;
   GrainModel m = impulsive(1e-3, 0.5, Compliance::law);
-  m.law.stiffness = 500, m.law.damping = 1000; // overlaps of a million units of length
+  m.law.stiffness = 500, m.law.damping = 1000; // overlaps of a million length units
   std::vector<GrainSpec> column;
   for (int k = 0; k < n; ++k) column.push_back({{0, 0, (2 * k + 1) * m.radius}, {}, {}});
   Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, column);
@@ -133,7 +133,7 @@ TEST(Complementarity, AColumnBearsItsWeight) {
 }
 
 TEST(Complementarity, AWedgeWithoutFrictionIsHeldByBothWalls) {
-  // Walls at 30 degrees from the vertical bear m g each.
+  // Walls at 30 degrees from the vertical carry m g each.
   GrainModel m = impulsive(1e-3, 0, Compliance::law);
   m.law.stiffness = 500, m.law.damping = 1000;
   const double c = std::sqrt(0.75);
@@ -145,7 +145,7 @@ TEST(Complementarity, AWedgeWithoutFrictionIsHeldByBothWalls) {
 }
 
 TEST(Complementarity, RollingResistanceHoldsAndStops) {
-  const double rho = 0.1, h = 1e-3; // of the radius
+  const double rho = 0.1, h = 1e-3; // relative to the radius
   for (const double tangent : {0.08, 0.12}) {
     GrainModel m = impulsive(h, 0.8);
     m.law.rollingFriction = rho;
@@ -166,7 +166,7 @@ TEST(Complementarity, ABallThatIsHeldDoesNotCreep) {
   Grains grains(testExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius - sunk}, {}, {}}});
   advance(grains, 1000);
   const double rests = grains.snapshot().position[0].x;
-  EXPECT_GT(rests, 1e-8) << "its springs give way";
+  EXPECT_GT(rests, 1e-8) << "its springs yield";
   advance(grains, 1000);
   EXPECT_NEAR(grains.snapshot().position[0].x, rests, 1e-9);
 }
@@ -174,10 +174,10 @@ TEST(Complementarity, ABallThatIsHeldDoesNotCreep) {
 TEST(Complementarity, CohesionHoldsUpToItsForce) {
   for (const double share : {0.99, 1.01}) {
     GrainModel m = impulsive(1e-3, 0.5, Compliance::law);
-    m.law.pullPerRadius = share * m.mass * kG / m.radius; // of its weight, at a wall
+    m.law.pullPerRadius = share * m.mass * kG / m.radius; // share of its weight, on a wall
     m.law.stiffness = 500, m.law.damping = 1000;
     const Wall ceiling{{0, 0, -1}, -0.1, m.law};
-    const double presses = 0.01 * m.mass * kG / m.law.stiffness; // where the larger pull exceeds its weight
+    const double presses = 0.01 * m.mass * kG / m.law.stiffness; // larger pull exceeds its weight
     Grains grains(testExec(1), m, {{ceiling}, {}}, {{{0, 0, 0.1 - m.radius + presses}, {}, {}}});
     advance(grains, 80);
     if (share < 1)

@@ -14,7 +14,7 @@ using base::Vec3f;
 
 std::vector<Vec3f> forces(const Grains& grains) { return grains.snapshot({.contactForces = true}).contactForce; }
 
-/// What the float of the velocity before a step leaves open [N]: half of its last place at speeds below `most` [m/s].
+/// Resolution of contact forces from float velocities [N]: half a last place at speeds below `most` [m/s].
 double openForce(const GrainModel& m, double most) { return 0.5 * m.mass * 0x1p-23 * most / m.timeStep; }
 
 TEST(ContactForce, FreeFall_IsZero) {
@@ -33,7 +33,7 @@ TEST(ContactForce, OfTwoSpringsInTouch_IsTheLaw) {
   advance(grains, 1);
   const std::vector<Vec3f> f = forces(grains);
   const double expected = static_cast<double>(m.law.stiffness) * overlap;
-  // Both places are whole units; the velocity before was exactly 0.
+  // Both positions are whole units; the velocity before was exactly 0.
   const double tolerance = static_cast<double>(m.law.stiffness) * grains.scale().unit + 1e-6 * expected;
   EXPECT_NEAR(f[0].x, -expected, tolerance);
   EXPECT_NEAR(f[1].x, expected, tolerance);
@@ -50,14 +50,14 @@ TEST(ContactForce, HeapAtRest_CarriesItsWeight) {
                   {{0, -1, 0}, -0.15, m.law}},
                  {}};
   Grains grains(base::cpuExec(2), m, box, gravelBlock(3, 3, 3, {}));
-  // All motion is stopped now and then: what is left is a rest.
-  double left = 1; // mean of what is not in balance, over the weight
+  // All velocities are zeroed at intervals; the rest is the residual motion.
+  double left = 1; // mean force imbalance over the weight
   for (int k = 0; k < 300 && left > 1e-4; ++k) {
     grains.stop();
     advance(grains, 500);
     left = forceRatio(grains.system());
   }
-  ASSERT_LT(left, 1e-3) << "the heap rests";
+  ASSERT_LT(left, 1e-3) << "the heap is at rest";
   Vec3d sum;
   for (const Vec3f& f : forces(grains)) {
     EXPECT_LT(norm(f.as<double>() + weight), 27 * left * norm(weight) + openForce(m, 1e-3));
@@ -76,7 +76,7 @@ TEST(ContactForce, OfGrainsOfManyRadii_TakesEachMass) {
   advance(grains, 20000); // 0.2 s: both rest
   const std::vector<Vec3f> f = forces(grains);
   EXPECT_NEAR(f[0].z, m.mass * 9.81, 1e-3 * m.mass * 9.81);
-  EXPECT_NEAR(f[1].z, m.mass / 8 * 9.81, 1e-3 * m.mass * 9.81) << "a spring is right to a unit of position";
+  EXPECT_NEAR(f[1].z, m.mass / 8 * 9.81, 1e-3 * m.mass * 9.81) << "springs are accurate to one unit of position";
 }
 
 TEST(ContactForce, OutlivesARowOfResultsAndGrainsThatEnter) {
@@ -86,7 +86,7 @@ TEST(ContactForce, OutlivesARowOfResultsAndGrainsThatEnter) {
   const std::vector<Vec3f> before = forces(grains);
   double largest = 0;
   for (const Vec3f& f : before) largest = std::max(largest, norm(f.as<double>()));
-  ASSERT_GT(largest, m.mass * 9.81) << "some touch";
+  ASSERT_GT(largest, m.mass * 9.81) << "some grains touch";
   const std::int64_t rebuilds = grains.system().rebuilds;
   grains.invalidateNeighbours();
   grains.ledger();
@@ -95,14 +95,14 @@ TEST(ContactForce, OutlivesARowOfResultsAndGrainsThatEnter) {
   grains.add({{{0, 0, 1}, {0, 0.5, -1}, {}}});
   grains.ledger();
   std::vector<Vec3f> after = forces(grains);
-  EXPECT_LT(norm(after.back().as<double>()), openForce(m, 2.0)) << "it has touched nothing yet";
+  EXPECT_LT(norm(after.back().as<double>()), openForce(m, 2.0)) << "it has no contact yet";
   after.pop_back();
   EXPECT_EQ(after, before);
 }
 
 TEST(ContactForce, AfterStepsThatGoAsOne_IsThatOfTheLast) {
   GrainModel m = gravel();
-  m.mostSimdLanes = 1; // so that a CPU batches steps too
+  m.mostSimdLanes = 1; // so that a CPU batches steps as well
   Grains batched(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, gravelBlock(3, 3, 2, {0, 0, -1}));
   Grains single(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, gravelBlock(3, 3, 2, {0, 0, -1}));
   while (batched.steps() < 200) {

@@ -62,7 +62,7 @@ TEST_P(OnEveryGround, SphereAtTheBorder_TouchesTheTangentBeyondIt) {
 }
 
 TEST_P(OnEveryGround, SphereBesideAWall_TouchesWallAndFloor) {
-  // A step of two radii over one pixel of a fifth of a radius.
+  // A step of two radii across one pixel of a fifth of a radius.
   const HeightField step = fieldOf(GetParam(), 101, 5, [](double x, double) { return x > 0.99 ? 0.2 : 0.0; });
   for (const double away : {0.1, 0.095}) {
     const Feet feet = feetOf(step, {0.98 + 0.004 - away, 0.1, 0.0999}, 0.1);
@@ -100,7 +100,7 @@ TEST_P(OnEveryGround, SphereOnARidgeOrAPeak_HasOneFoot) {
 }
 
 TEST_P(OnEveryGround, PlaneInAnyCell_HasOneFootAtItsDistance) {
-  // A hollow elsewhere makes all cells within a radius of it search.
+  // A hollow elsewhere requires a search in all cells within a radius.
   const HeightField field = fieldOf(GetParam(), 41, 41, [](double x, double) { return std::max(0.5 * (x - 1), 0.0); });
   for (int i = 0; i < 200; ++i) {
     const Vec3d p{random(i, 0, 0.3, 0.9), random(i, 1, -0.8, 0.8), 0.0999};
@@ -110,7 +110,7 @@ TEST_P(OnEveryGround, PlaneInAnyCell_HasOneFootAtItsDistance) {
   }
 }
 
-/// Local minima of the distance on a dense lattice about `p`, nearer than `radius`; lower than all within two nodes.
+/// Local minima of the distance on a dense lattice about `p`, within `radius`; lower than all within two nodes.
 std::vector<double> denseMinima(const HeightFieldView& view, const Vec3d& p, double radius, int n) {
   const int size = 2 * n + 1;
   std::vector<double> d(static_cast<std::size_t>(size) * size);
@@ -140,7 +140,7 @@ TEST_P(OnEveryGround, OnNoise_FindsWhatADenseSearchFinds) {
     const HeightField field = fieldOf(GetParam(), 21, 21, [&](double, double) { return random(i++, 7, 0, 0.1); });
     const SearchedHeightField searched(Exec{}, field, radius);
     for (int k = 0; k < 50; ++k) {
-      // As deep as grains lie in the ground at most: the deepest overlap 0 to 0.1 radii.
+      // Typical depths of grains in the ground: the deepest overlap is 0 to 0.1 radii.
       Vec3d p{random(k, 0, 0.3, 1.7), random(k, 1, -0.7, 0.7), 0.5};
       const double overlap = radius * random(k, 2, 0, 0.1);
       double low = 0, high = 0.5;
@@ -185,7 +185,7 @@ TEST(Feet, OfACentreBelowTheGround_AreTheNearestAlone) {
 }
 
 TEST_P(OnEveryGround, CentreDeepBelowTheGround_IsStillFelt) {
-  // A run must stop there, not let the grain fall on.
+  // The run must stop there; the grain must not keep falling.
   int i = 0;
   const HeightField rough = fieldOf(GetParam(), 21, 21, [&](double, double) { return random(i++, 7, 0, 0.1); });
   for (int k = 0; k < 50; ++k) {
@@ -216,7 +216,7 @@ TEST(FeetLoads, OfFeetApart_AreThoseOfTheirOverlaps) {
 }
 
 TEST(FeetLoads, InAGentleCrease_AreTheSlopeOfTheirEnergy) {
-  // The bottom of the crease lies 4e-4 of 1e-3 m overlap above both feet's depth: two feet of one contact.
+  // The bottom of the crease is 4e-4 of 1e-3 m overlap above both feet's depth: two feet of one contact.
   const double radius = 0.1, slope = std::sqrt(8e-3), rise = 1e-5, step = 2e-4;
   for (const bool hertz : {false, true})
     for (const double off : {0.0, 1e-3, 4e-3, 7e-3, 8.5e-3}) {
@@ -243,7 +243,7 @@ TEST(FeetLoads, InAGentleCrease_AreTheSlopeOfTheirEnergy) {
       const double along = std::sqrt(1 + slope * slope);
       const double up = (energy(off, 1e-3 + rise) - energy(off, 1e-3 - rise)) / (2 * rise * along);
       const double aside = -(energy(off + step, 1e-3) - energy(off - step, 1e-3)) / (2 * step);
-      // The direction of the crease's bottom lies between the normals, to the square of the angle between them.
+      // The direction of the crease's bottom is between the normals, to the square of their angle.
       EXPECT_NEAR(force.z, up, 3e-3 * up) << off << (hertz ? " hertz" : "");
       EXPECT_NEAR(force.x, aside, 3e-3 * up) << off << (hertz ? " hertz" : "");
     }
@@ -279,7 +279,7 @@ TEST(FeetLoads, OnTheStepsOfAnEightBitMap_AreThoseOfOneContact) {
 }
 
 TEST_P(OnEveryGround, SphereInACone_TouchesAllAround) {
-  // A ring of more minima than there are places.
+  // A ring with more minima than slots.
   const double radius = 0.15;
   const HeightField cone = fieldOf(GetParam(), 201, 201, [](double x, double y) { return std::hypot(x - 1, y); });
   for (const double overlap : {1e-3, 1e-2}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fixed grains: bounces off them, energy accounting, and identical results.
+// Fixed grains: rebounds from them, energy accounting, and identical results.
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "surface_fixture.hpp"
@@ -19,7 +19,7 @@ struct Bounce {
   double restitution, deepest;
 };
 
-/// A grain that comes down at 1 m/s along z on a fixed one of `ground` radii.
+/// A grain that falls at 1 m/s along z onto a fixed one with a radius of `ground`.
 Bounce bounceOn(const GrainModel& m, double radius, double ground, std::int64_t steps) {
   const double reach = radius + ground;
   Grains grains(testExec(1), m, {},
@@ -35,7 +35,7 @@ Bounce bounceOn(const GrainModel& m, double radius, double ground, std::int64_t 
 }
 
 TEST(FixedGrain, GivesTheRestitutionOfTheFullMassWithTheLinearLaw) {
-  // As against a wall: closed forms of the free linear dashpot, with m instead of m / 2.
+  // As on a wall: closed forms of the undamped linear dashpot, with m instead of m / 2.
   const struct {
     double zeta, restitution, deepest;
   } cases[] = {{0, 1, 1.16677196e-4}, {0.05, 0.85446789, 1.08123827e-4}, {0.2, 0.52662060, 8.82237034e-5}};
@@ -45,13 +45,13 @@ TEST(FixedGrain, GivesTheRestitutionOfTheFullMassWithTheLinearLaw) {
     m.law.damping = 2 * c.zeta * omega0, m.law.attraction = true;
     m.timeStep = base::kPi / omega0 / 800, m.maxOverlap = 1;
     const Bounce bounce = bounceOn(m, m.radius, m.radius, 2000);
-    EXPECT_NEAR(bounce.restitution, c.restitution, 2e-3) << "entry and exit are jumped over: O(1 / 800 steps)";
+    EXPECT_NEAR(bounce.restitution, c.restitution, 2e-3) << "entry and exit fall between steps: O(1 / 800 steps)";
     EXPECT_NEAR(bounce.deepest, c.deepest, 0.008 * (1 + c.zeta) * c.deepest) << "the same";
   }
 }
 
 TEST(FixedGrain, GivesTheRestitutionOfTheFullMassWithHertz) {
-  for (const double ground : {0.01, 0.02}) { // of the fixed grain: the radius in the law is that of the pair
+  for (const double ground : {0.01, 0.02}) { // radius of the fixed grain: the law uses the pair's radius
     GrainModel m;
     m.radius = 0.02, m.mass = 2800 * 4.0 / 3 * base::kPi * 8e-6, m.skin = 0.5;
     const double effective = 4.8e7 / (2 * (1 - 0.04)), radius = 0.01, mass = m.mass / 8;
@@ -70,8 +70,8 @@ TEST(FixedGrain, GivesTheRestitutionOfTheFullMassWithHertz) {
 }
 
 TEST(FixedGrain, ObliqueImpactIsThatOnAPlane) {
-  // Psi_2 of Psi_1 for k_t / k_n = 0.8 (friction_test.cpp); the pole of a sphere is a plane to the way in a contact,
-  // 1e-3 radii. Discretisation of 400 steps, and the lever arm R - overlap / 2 instead of R.
+  // Psi_2 of Psi_1 for k_t / k_n = 0.8 (friction_test.cpp); the top of a sphere is plane over the path during contact,
+  // 1e-3 radii. Errors: discretisation of 400 steps, and the lever arm R - overlap / 2 instead of R.
   const double known[][2] = {{0.5, 0.17152395}, {1, 0.13970062}, {2, -0.64159851}, {4, -1.79999317}, {8, 1}};
   for (const double ground : {1.0, 4.0})
     for (const auto& [psi1, psi2] : known) {
@@ -117,7 +117,7 @@ GrainModel modelOf(const Kind& kind) {
   return m;
 }
 
-/// Grains that fall onto a floor of fixed ones, which overlap each other, and against a wall.
+/// Grains that fall onto a floor of overlapping fixed grains, and against a wall.
 std::vector<GrainSpec> overFixed(const Kind& kind, int layers = 3) {
   std::vector<GrainSpec> start;
   const auto u = [&](std::uint64_t k) { return base::uniform(5, 6, start.size(), k); };
@@ -155,9 +155,9 @@ TEST(FixedGrains, EveryKernelGivesTheBitsOfTheGeneralOne) {
     advance(special, 600);
     const std::string text = featureText(special.system().constants.features);
     EXPECT_NE(text.find("fixed grains"), std::string::npos);
-    EXPECT_GT(special.ledger().contacts, 0) << "some touch the floor: " << text;
+    EXPECT_GT(special.ledger().contacts, 0) << "some grains touch the floor: " << text;
     if (kind.ledger) {
-      EXPECT_GT(special.ledger().impulse.z, 0) << "and have been thrown back";
+      EXPECT_GT(special.ledger().impulse.z, 0) << "they have rebounded";
     }
     m.specialised = false, m.skin = 0.2, m.mostSimdLanes = 1;
     Grains general = bedOf(kind, m, testExec(2));
@@ -198,22 +198,22 @@ TEST(FixedGrains, BooksClose) {
     m.timeStep = 2e-6;
     Grains grains = bedOf(kind, m);
     const GrainLedger start = grains.ledger();
-    EXPECT_EQ(start.contacts, 0) << "fixed grains that overlap do not touch";
+    EXPECT_EQ(start.contacts, 0) << "overlaps of fixed grains are no contacts";
     EXPECT_EQ(start.elastic, 0);
     advance(grains, 5000);
     const GrainLedger l = grains.ledger();
-    const double weight = 108 * m.mass * norm(m.gravity) * 1e-2; // of all, over the time
+    const double weight = 108 * m.mass * norm(m.gravity) * 1e-2; // all grains, over the run
     // Sums of forces are floats.
     EXPECT_LT(norm((l.momentum - l.impulse) - start.momentum), 1e-6 * weight);
     EXPECT_LT(norm((l.angularMomentum - l.angularImpulse) - start.angularMomentum), 1e-6 * weight * 0.1);
     EXPECT_GT(norm(l.momentum - m.gravity * (108 * m.mass * 1e-2) - start.momentum), 0.01 * weight)
-        << "the floor has done something";
+        << "the floor has exerted forces";
     EXPECT_NEAR(l.work, l.kinetic + l.rotational - start.kinetic - start.rotational, 1e-6 * start.kinetic);
     const auto energy = [](const GrainLedger& g) {
       return g.kinetic + g.rotational + g.potential + g.elastic + g.dissipated();
     };
     EXPECT_GT(l.dissipated(), 0.3 * start.kinetic);
-    EXPECT_NEAR(energy(l), energy(start), 5e-3 * start.kinetic) << "impacts of 200 steps and more: first order";
+    EXPECT_NEAR(energy(l), energy(start), 5e-3 * start.kinetic) << "impacts of 200 or more steps: first order";
   }
 }
 
@@ -227,9 +227,9 @@ TEST(FixedGrains, HaveNoWeightAndCountInNoContactTwice) {
   advance(grains, 5000);
   const GrainLedger l = grains.ledger();
   EXPECT_EQ(l.contacts, 1);
-  EXPECT_NEAR(l.elastic, 0.5 * m.law.stiffness * overlap * overlap, 1e-3 * l.elastic) << "a unit in 6000 of overlap";
-  EXPECT_NEAR(l.potential, m.mass * 9.81 * 0.005, 1e-3 * l.potential) << "of one grain";
-  EXPECT_LT(forceRatio(grains.system()), 1e-3) << "at rest; the mean over the grains that may move";
+  EXPECT_NEAR(l.elastic, 0.5 * m.law.stiffness * overlap * overlap, 1e-3 * l.elastic) << "the overlap is 6000 units";
+  EXPECT_NEAR(l.potential, m.mass * 9.81 * 0.005, 1e-3 * l.potential) << "weight of one grain";
+  EXPECT_LT(forceRatio(grains.system()), 1e-3) << "at rest; mean over free grains";
   EXPECT_EQ(grains.system().fixedCount, 3u);
   const auto force = grains.snapshot({.contactForces = true}).contactForce;
   EXPECT_EQ(norm(force[0]), 0);
@@ -248,11 +248,11 @@ TEST(FixedGrains, TakeWhatPartsDoToThemAndHandItOn) {
     grains.refreshNeighbours();
     range.assign(grains.view().count, 0);
     for (std::size_t i = 0; i < range.size(); ++i)
-      if (grains.view().id[i] % 4 == 0) range[i] = 1; // the first load, of fixed ones and of others
+      if (grains.view().id[i] % 4 == 0) range[i] = 1; // the first load, for fixed and free grains
     const contact::GrainLoadsView loads{range.data(), &load, quantum, received};
     grains.step(&loads);
   }
-  EXPECT_EQ(received[0], 300 * 48 * load.force.x) << "21 fixed ones and 27 others";
+  EXPECT_EQ(received[0], 300 * 48 * load.force.x) << "21 fixed and 27 free grains";
   const Vec3d fromParts = quantum.value(base::Vec3l{received[0], received[1], received[2]}) * m.timeStep;
   const GrainLedger l = grains.ledger();
   EXPECT_LT(norm(l.momentum - first - l.impulse - fromParts), 1e-6 * norm(fromParts));
@@ -268,7 +268,7 @@ TEST(FixedGrains, SurfacesFeelThem) {
   grains.refreshNeighbours();
   grains.step();
   EXPECT_NEAR(grains.system().boundaries.surfaceLoads()[0].force.z, m.law.stiffness * depth, 1e-3);
-  EXPECT_NEAR(grains.ledger().impulse.z, m.law.stiffness * depth * m.timeStep, 1e-8) << "the ground holds it";
+  EXPECT_NEAR(grains.ledger().impulse.z, m.law.stiffness * depth * m.timeStep, 1e-8) << "the ground supports it";
   EXPECT_NEAR(grains.ledger().elastic, 0.5 * m.law.stiffness * depth * depth, 1e-6);
   EXPECT_EQ(norm(grains.ledger().momentum), 0);
 }
@@ -300,7 +300,7 @@ TEST(FixedGrains, WhereThereAreNone_NothingIsStoredForThem) {
   Grains other(testExec(1), m, {}, {{{0, 0, 0}, {}, {}}});
   EXPECT_NO_THROW(other.add({fixedAt({1, 0, 0})}));
   EXPECT_EQ(other.system().fixedCount, 1u);
-  EXPECT_THROW(other.restore(grains.state(), true), base::InputError) << "of another kind of scene";
+  EXPECT_THROW(other.restore(grains.state(), true), base::InputError) << "another kind of scene";
 }
 
 TEST(FixedGrains, ThatMove_AreRefused) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Foot points of eight spheres at a time, against the search for one.
+// Foot points of eight spheres at a time, against the scalar search.
 #include "terrain/foot_lanes.hpp"
 
 #include "base/random.hpp"
@@ -57,7 +57,7 @@ TEST_P(FootLanesOn, MatchTheScalarSearch) {
   EXPECT_GT(touching, 1500);
 }
 
-/// Where the iteration jumps over a crest, the scalar search finds the nearest point that it has seen.
+/// If the iteration jumps over a crest, the scalar search returns the nearest point found.
 TEST_P(FootLanesOn, LeaveFeetOnTheOtherSideOfACrestToTheScalarSearch) {
   const HeightField nodes = HeightField::sample(kArea, 101, 101, [](double x, double y) {
     return 0.2 * base::uniform(9, 1, static_cast<int>(std::lround(1e3 * x)), static_cast<int>(std::lround(1e3 * y)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Friction with history: oblique impact, sliding into rolling, inclines, the pyramid.
+// Friction with history: oblique impact, transition from sliding to rolling, inclines, the pyramid.
 #include "grain_fixture.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -26,8 +26,8 @@ double obliqueImpact(double psi1, double kappa, int stepsPerContact, double mu =
   return contactPoint / (mu * vn);
 }
 
-/// Psi_2 over Psi_1 for kappa = 2/7, 0.5, 0.8, 1: elastic, undamped springs, and the tangential one never longer than
-/// friction x normal force / k_t (the spring slips with the contact; codes that let it grow give other left halves).
+/// Psi_2 over Psi_1 for kappa = 2/7, 0.5, 0.8, 1: elastic, undamped springs, with the tangential one limited to
+/// friction x normal force / k_t (the spring slips with the contact; codes without this limit have other left halves).
 /// Event-driven solution, checked by brute force.
 struct Oblique {
   double psi1;
@@ -52,7 +52,7 @@ class ObliqueImpact : public ::testing::TestWithParam<int> {};
 
 TEST_P(ObliqueImpact, MatchesEventDrivenSolutionAtEveryAngle) {
   const auto k = static_cast<std::size_t>(GetParam());
-  // Discretisation, 400 steps a contact; and the lever arm is R - overlap (momentum balances), the reference takes R.
+  // Discretisation, 400 steps per contact; and the lever arm is R - overlap (momentum balance), in the reference R.
   for (const Oblique& row : kOblique)
     EXPECT_NEAR(obliqueImpact(row.psi1, kKappa[k], 400), row.psi2[k], 0.01 * (1 + row.psi1)) << "Psi_1 = " << row.psi1;
 }
@@ -93,7 +93,7 @@ TEST(BallOnIncline, RollsOrSlidesAsCoulombSays) {
     advance(grains, n);
     const auto s = grains.snapshot();
     const double a = s.velocity[0].x / (n * m.timeStep), alpha = s.spin[0].y * m.radius / (n * m.timeStep);
-    EXPECT_NEAR(a, rolls ? 3.503571 : 4.055429, 4e-3) << "one spring period of tangential adjustment";
+    EXPECT_NEAR(a, rolls ? 3.503571 : 4.055429, 4e-3) << "one spring period of tangential transient";
     EXPECT_NEAR(alpha, rolls ? 3.503571 : 2.123927, 4e-3);
   }
 }
@@ -125,7 +125,7 @@ TEST(Pyramid, StandsJustAboveTheCriticalFriction) {
 }
 
 TEST(TwoBalls, RubbingKeepsTheAngularMomentum) {
-  // Both lever arms must meet in one point: with arms of one radius each, overlap x friction would be lost every step.
+  // Both forces must act at one point: with lever arms of one radius each, overlap x friction would be lost every step.
   GrainModel m = ball(2e-6);
   m.law.friction = 0.5f;
   m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
@@ -143,7 +143,7 @@ TEST(TwoBalls, RubbingKeepsTheAngularMomentum) {
   };
   const double before = angular();
   advance(grains, 300);
-  EXPECT_GT(std::fabs(grains.snapshot().velocity[0].y), 0.1) << "they have rubbed";
+  EXPECT_GT(std::fabs(grains.snapshot().velocity[0].y), 0.1) << "they have slid";
   EXPECT_NEAR(angular() / before, 1, 1e-5) << "float forces; arms of a radius would lose 2 %";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The lists of fields and columns name each of them, and once.
+// The lists of fields and columns contain each of them exactly once.
 #include "terrain/grain_arrays.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace grouser::terrain::testing {
 namespace {
 
-/// Addresses in rising order.
+/// Addresses in ascending order.
 using Places = std::vector<const void*>;
 
 bool distinct(Places& places) {
@@ -17,7 +17,7 @@ bool distinct(Places& places) {
   return std::adjacent_find(places.begin(), places.end()) == places.end();
 }
 
-/// What visitRow() names.
+/// Names passed to visitRow().
 struct RowColumns {
   Places places;
   template <class T> void column(const std::vector<T>& values) { places.push_back(&values); }
@@ -36,7 +36,7 @@ TEST(GrainFields, AllNamesEachFieldOnce) {
   const GrainFields fields(GrainLayout{});
   Places places;
   std::apply([&](const auto&... field) { (places.push_back(&field), ...); }, GrainFields::all(fields));
-  EXPECT_TRUE(distinct(places)); // that none is missing is then a matter of their number: a static_assert
+  EXPECT_TRUE(distinct(places)); // completeness follows from their number: a static_assert
 }
 
 TEST(GrainFields, StateNamesEachColumnForHashAndFiles) {
@@ -63,7 +63,7 @@ TEST(GrainFields, WidthsFollowFromTheLayout) {
   EXPECT_EQ(more({.ledger = 1}), 0u);
   EXPECT_EQ(more({.periodic = 1}), sizeof(Crossings));
   EXPECT_EQ(more({.boundaries = 2}), 8u);
-  EXPECT_EQ(more({.boundaries = 5, .friction = 1, .rolling = 1}), 8u) << "springs stand for grains near them alone";
+  EXPECT_EQ(more({.boundaries = 5, .friction = 1, .rolling = 1}), 8u) << "springs exist for grains near boundaries";
   EXPECT_EQ(GrainFields(GrainLayout{}).bytesMadeAnew(), sizeof(base::Position) + 2 * sizeof(Vec4f) + 12);
 }
 

@@ -25,13 +25,13 @@ inline GrainModel ball(double timeStep) {
   return m;
 }
 
-/// Lets a linear `law` damp and rub, with tangential springs of 2/7 and dashpots of half the normal ones.
+/// Adds damping and friction to a linear `law`, with tangential springs of 2/7 and dashpots of half the normal ones.
 inline void makeRough(contact::ContactLaw& law, double damping, double friction = 0.5) {
   law.damping = damping, law.friction = friction;
   law.tangentialStiffness = law.stiffness * 2 / 7, law.tangentialDamping = 0.5 * damping;
 }
 
-/// The reference ball, heavy and rough, with damping ratio `zeta` [-] on what does not give way.
+/// The reference ball, heavy and rough, with damping ratio `zeta` [-] on rigid surfaces.
 inline GrainModel roughBall(double timeStep, double friction, double zeta) {
   GrainModel m = ball(timeStep);
   m.gravity = {0, 0, -9.81};
@@ -39,7 +39,7 @@ inline GrainModel roughBall(double timeStep, double friction, double zeta) {
   return m;
 }
 
-/// Rough grains as beds for vehicles have them: R = 27 mm, 2500 kg/m3, k = 1e6 N/m.
+/// Rough grains as in beds for vehicles: R = 27 mm, 2500 kg/m3, k = 1e6 N/m.
 inline GrainModel gravel(double skin = 0.3) {
   GrainModel m;
   m.radius = 0.027;
@@ -52,7 +52,7 @@ inline GrainModel gravel(double skin = 0.3) {
   return m;
 }
 
-/// A block of gravel that nowhere stands straight, all of it with one velocity and spin.
+/// A block of gravel without aligned columns, with one velocity and spin.
 inline std::vector<GrainSpec> gravelBlock(int across, int deep, int layers, const base::Vec3d& velocity,
                                           const base::Vec3d& spin = {}, const base::Vec3d& shift = {}) {
   std::vector<GrainSpec> start;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The CPU's step in lanes against the scalar kernels: the same bits for every width that this processor has.
+// SIMD steps on the CPU against the scalar kernels: bitwise identical for every width of this processor.
 #include "surface_fixture.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -19,13 +19,13 @@ using base::Vec3d;
 
 struct LaneKind {
   bool friction = true, ledger = true, walls = true, loads = false, attraction = false;
-  int grains = 391; ///< neither a multiple of a width nor of a block
+  int grains = 391; ///< not a multiple of a width or of a block
   double wallFriction = 0.5;
   bool hertz = false, rolling = false, periodic = false, fixed = false, surface = false;
-  double smallest = 1; ///< radii are uniform from this share on [-]
+  double smallest = 1; ///< radii are uniform from this share up [-]
   bool cohesive = false, yielding = false, luding = false;
-  double pull = 40, pullGrowth = 0;      ///< of contacts that yield, as BasicPlasticity has them
-  bool onDevice = false, special = true; ///< under test; by a kernel of its own where there is one
+  double pull = 40, pullGrowth = 0;      ///< plastic contacts, as in BasicPlasticity
+  bool onDevice = false, special = true; ///< device under test; specialised kernel if available
 };
 
 constexpr int kSteps = 400;
@@ -55,7 +55,7 @@ GrainModel laneModel(const LaneKind& kind) {
   return m;
 }
 
-/// A heap that falls, splashes against the walls and comes to lie in part: contacts begin, stick, slide and end.
+/// A falling heap that splashes against the walls and partly comes to rest: contacts start, stick, slide and end.
 std::vector<GrainSpec> heap(const LaneKind& kind) {
   std::vector<GrainSpec> start;
   const int grains = kind.grains;
@@ -78,7 +78,7 @@ std::vector<GrainSpec> heap(const LaneKind& kind) {
   return start;
 }
 
-/// Pushes every fifth grain, another fifth each step, by what depends on its id alone.
+/// Pushes every fifth grain, another fifth each step, by an amount that depends on its id alone.
 struct Pushes {
   std::vector<std::uint32_t> range;
   std::vector<std::uint32_t> slot;
@@ -101,7 +101,7 @@ struct Pushes {
   }
 };
 
-/// As a step that is launched ahead.
+/// As in a step launched ahead.
 void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
   GrainsAhead ahead(grains);
   ahead.launchUncoupled(loads);
@@ -112,7 +112,7 @@ void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
   ahead.end(0);
 }
 
-/// State and ledger sums.
+/// State words and ledger sums.
 std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threads, int steps, double skin = 0.5,
                                       bool apart = false) {
   GrainModel m = laneModel(kind);
@@ -122,7 +122,7 @@ std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threa
   std::vector<Wall> walls;
   if (kind.walls && !kind.fixed) walls = {{{0, 0, 1}, 0, wall}};
   if (kind.walls && !kind.periodic) walls.insert(walls.end(), {{{1, 0, 0}, -0.01, wall}, {{0, -1, 0}, -0.085, wall}});
-  // With a vehicle or without, they fall to the plane; between periodic boundaries it lies below the fixed grains.
+  // All cases fall to the plane; between periodic boundaries it lies below the fixed grains.
   if (kind.onDevice) walls = {{{0, 0, 1}, kind.periodic ? -0.02 : -0.001, wall}};
   Boundaries around{walls, {}};
   if (kind.periodic) around.periodic = {std::array{-0.005, 0.0685}, std::array{-0.006, 0.0685}};
@@ -141,7 +141,7 @@ std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threa
     else
       grains.step(kind.loads ? &loads : nullptr);
   }
-  EXPECT_TRUE(skin > 0.2 || grains.system().rebuilds > 5) << "the list is rebuilt on the way";
+  EXPECT_TRUE(skin > 0.2 || grains.system().rebuilds > 5) << "the list was rebuilt during the run";
   const GrainState state = grains.state();
   std::vector<std::uint32_t> words = state.words();
   for (const std::int64_t sum : state.books)
@@ -175,7 +175,7 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
                             {.ledger = false},
                             {.friction = false, .wallFriction = 0},
                             {.friction = false, .ledger = false, .wallFriction = 0},
-                            {.friction = false}, // only walls rub
+                            {.friction = false}, // friction on walls only
                             {.walls = false},
                             {.loads = true},
                             {.friction = false, .loads = true, .wallFriction = 0},
@@ -191,7 +191,7 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernel) {
   }
 }
 
-/// All that beds of soil have, each with and without.
+/// All features of soil beds, each on and off.
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
   for (int bits = 0; bits < 32; ++bits) {
     const LaneKind kind{.ledger = bits != 7,
@@ -203,7 +203,7 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
                         .fixed = (bits & 8) != 0,
                         .surface = bits % 5 == 1,
                         .smallest = bits & 4 ? 0.6 : 1,
-                        .cohesive = bits & 1 && bits % 7 < 4}; // lanes know that of Hertz' law
+                        .cohesive = bits & 1 && bits % 7 < 4}; // lanes support cohesion of Hertz contacts
     const auto expected = wordsAfter(kind, 1, 1, kSteps);
     for (const int lanes : {4, 8, 16})
       EXPECT_TRUE(wordsAfter(kind, lanes, 1, kSteps) == expected) << lanes << " lanes, kind " << bits;
@@ -211,7 +211,7 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelInBedsOfSoil) {
   }
 }
 
-/// Beds whose contacts yield, stick by what pressing has left, and come apart along their adhesive branch.
+/// Beds with plastic contacts that adhere according to their maximum overlap, and separate along the adhesive branch.
 TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelWhereContactsYield) {
   for (int bits = 0; bits < 24; ++bits) {
     const bool luding = bits >= 16;
@@ -238,9 +238,9 @@ TEST(GrainSimd, EveryWidthGivesTheBitsOfTheScalarKernelWhereContactsYield) {
   }
 }
 
-/// Kernels of soils that roll, stick, yield on fixed grains: between periodic boundaries, as a bevameter has them,
-/// alone and under a surface; and upon walls. On the device under test. Under a vehicle, which pushes at grains from
-/// the host, on a CPU alone.
+/// Kernels of soils with rolling, adhesion, yielding on fixed grains: between periodic boundaries, as in a bevameter,
+/// alone and under a surface; and on walls. On the device under test. Under a vehicle, which pushes grains from
+/// the host, on CPUs only.
 TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
   enum { settling, pressed, walled, driven };
   for (const int place : {settling, pressed, walled, driven})
@@ -255,8 +255,8 @@ TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
                     .yielding = (bits & 2) != 0,
                     .onDevice = true};
       kind.loads = place == driven;
-      if (kind.yielding && !kind.rolling) continue;                      // no kernel of its own
-      if (kind.yielding && kind.cohesive && place == settling) continue; // they settle without sticking
+      if (kind.yielding && !kind.rolling) continue;                      // no specialised kernel
+      if (kind.yielding && kind.cohesive && place == settling) continue; // they settle without cohesion
       if (place == driven && !testExec(1).onCpu()) continue;
       const auto special = wordsAfter(kind, 1, 2, kSteps);
       kind.special = false;
@@ -264,8 +264,8 @@ TEST(SoilKernels, GiveTheBitsOfTheGeneralOne) {
     }
 }
 
-/// One among many that are six times smaller has more neighbours than a word has bits; one of twelve times more than a
-/// block of contacts holds.
+/// A grain among six times smaller ones has more neighbours than a word has bits; with twelve times smaller ones more
+/// than a block of contacts holds.
 TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
   const auto check = [](double times, bool yields) {
     GrainModel m = laneModel({.hertz = yields, .rolling = true, .smallest = 0.5, .yielding = yields});
@@ -294,7 +294,7 @@ TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
   for (const double times : {6.0, 12.0}) check(times, false), check(times, true);
 }
 
-/// Two grains that touch by less than a float of the squares can tell, and two that just do not.
+/// Two grains whose overlap is below the resolution of float squares, and two that just do not touch.
 TEST(GrainSimd, TouchOfOneUnitIsFound) {
   GrainModel m = ball(1e-6);
   const double unit = base::positionScale(2 * m.radius).unit;
@@ -331,7 +331,7 @@ TEST(GrainSimd, FaultsAreThoseOfTheScalarKernel) {
   EXPECT_NE(messageOf(16, fast).find("moves at"), std::string::npos);
 }
 
-/// Coordinates whose low words wrap on the way.
+/// Coordinates whose low words wrap during the run.
 TEST(GrainSimd, GrainsCrossTheEndsOfTheirLowWords) {
   GrainModel m = ball(1e-5);
   const double wrap = 4294967296.0 * base::positionScale(2 * m.radius).unit;

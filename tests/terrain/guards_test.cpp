@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Faults that stop a run or prevent its start: coinciding grains, the end of the range, grains pressed together.
+// Faults that stop a run or prevent its start: coinciding grains, the end of the position range, excessive overlap.
 #include "grain_fixture.hpp"
 
 #include "base/error.hpp"
@@ -13,7 +13,7 @@ namespace {
 TEST(Guards, GrainsAtOnePlaceAreRefusedByTheirNumbers) {
   try {
     Grains grains(base::cpuExec(1), ball(1e-6), {}, {{{0, 0, 0}, {}, {}}, {{1, 0, 0}, {}, {}}, {{0, 0, 0}, {}, {}}});
-    FAIL() << "two grains at one place were taken";
+    FAIL() << "two grains at one position were accepted";
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("grains 0 and 2"), std::string::npos) << error.what();
   }
@@ -34,7 +34,7 @@ TEST(Guards, DeepOverlapStopsTheRun) {
   EXPECT_THROW(advance(grains, 1), base::SimulationError);
 }
 
-/// The fault of one step of a grain that is `overlap` radii deep in a plane.
+/// The error of one step of a grain with an overlap of `overlap` radii on a plane.
 Fault faultAtPlane(double overlap, int lanes) {
   GrainModel m = ball(1e-6);
   m.mostSimdLanes = lanes;
@@ -83,23 +83,23 @@ TEST(Guards, SqueezedContactsWithPlanesAreCountedApart) {
 }
 
 TEST(Guards, GrainsThatComeToOnePlaceStopTheRun) {
-  // They pass through each other, since hardly anything pushes them apart; no other alarm sees them at one place.
+  // They pass through each other, since hardly any force separates them; no other alarm detects them at one position.
   for (const int lanes : {16, 1}) {
     GrainModel m = ball(0x1p-13);
     m.law.stiffness = 1e-9, m.maxOverlap = 1.99, m.mostSimdLanes = lanes;
-    const double way = 0x1p-13; // of a step, at 1 m/s; a whole number of units
+    const double way = 0x1p-13; // path per step at 1 m/s; a whole number of units
     const auto pass = [&](double offset) {
       Grains grains(base::cpuExec(1), m, {},
                     {{{-8 * way, 0, 0}, {1, 0, 0}, {}}, {{8 * way, offset, 0}, {-1, 0, 0}, {}}});
       advance(grains, 16);
     };
-    EXPECT_NO_THROW(pass(0.1 * m.radius)) << "beside each other they do pass, lanes " << lanes;
+    EXPECT_NO_THROW(pass(0.1 * m.radius)) << "side by side they pass, lanes " << lanes;
     EXPECT_THROW(pass(0), base::SimulationError) << "lanes " << lanes;
   }
 }
 
 TEST(Guards, GrainsFarApartDoNotFeelEachOther) {
-  // 2^32 units apart the low words of the positions agree; far grains widen the cells until both share one.
+  // 2^32 units apart, the low words of positions agree; distant grains widen the cells until both share one.
   GrainModel m = ball(1e-6);
   const base::PositionScale scale = base::positionScale(2 * m.radius);
   const double alias = 4294967296.0 * scale.unit, far = 0.9 * scale.limit();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes over the cells of a height-field: which are near the ground, and which are over one plane.
+// Boxes over the cells of a height-field: those near the ground, and those over one plane.
 #include "terrain/height_field_cells.hpp"
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 namespace grouser::terrain {
 namespace {
 
-/// Level ground with a ditch along y, 30 mm deep, of planar facets; the ditch ends at y = 0.5 m.
+/// Level ground with a ditch along y, 30 mm deep, with planar facets; the ditch ends at y = 0.5 m.
 HeightField ditch() {
   const Rectangle area{-1, 1, -1, 1};
   const HeightField nodes = HeightField::sample(
@@ -28,7 +28,7 @@ TEST(HeightFieldCells, PlanarGroundIsFoundOnBothSidesOfADitch) {
   EXPECT_EQ(right->normal, (Vec3d{0, 0, 1}));
   EXPECT_EQ(right->height, 0);
   EXPECT_EQ(underOf(cells, -0.09, -0.08, -0.001).plane, right) << "one plane";
-  EXPECT_EQ(cells.under({-0.5, 0.6, -0.001}, {0.5, 0.65, 0}).plane, right) << "beyond its end";
+  EXPECT_EQ(cells.under({-0.5, 0.6, -0.001}, {0.5, 0.65, 0}).plane, right) << "beyond the end of the ditch";
   const Plane* bottom = underOf(cells, -0.01, 0.01, -0.031).plane;
   ASSERT_TRUE(bottom);
   EXPECT_NEAR(bottom->height, -0.03, 1e-15);
@@ -39,15 +39,15 @@ TEST(HeightFieldCells, DeepBoxesBesideAWallAreOverNoPlane) {
   const HeightFieldCells cells(ditch());
   EXPECT_TRUE(underOf(cells, 0.08, 0.09, -0.004).plane);
   EXPECT_FALSE(underOf(cells, 0.08, 0.09, -0.02).plane) << "the wall may be nearer than the ground above";
-  EXPECT_TRUE(underOf(cells, 0.11, 0.12, -0.02).plane) << "not this far from it";
+  EXPECT_TRUE(underOf(cells, 0.11, 0.12, -0.02).plane) << "too far from the wall";
 }
 
 TEST(HeightFieldCells, BoxesAreNearWhereACellUnderThemIsHighEnough) {
   const HeightFieldCells cells(ditch());
   EXPECT_TRUE(cells.near({-0.2, -0.01, -0.01}, {0.2, 0.01, 0}));
   EXPECT_FALSE(cells.near({-0.02, -0.01, -0.01}, {0.02, 0.01, 0})) << "in the ditch, above its bottom";
-  EXPECT_FALSE(cells.near({-0.2, -0.01, 0.01}, {0.2, 0.01, 0.02})) << "above all";
-  EXPECT_TRUE(cells.near({0.9, -0.01, 0.01}, {1.1, 0.01, 0.02})) << "beyond the border anything may come";
+  EXPECT_FALSE(cells.near({-0.2, -0.01, 0.01}, {0.2, 0.01, 0.02})) << "above all ground";
+  EXPECT_TRUE(cells.near({0.9, -0.01, 0.01}, {1.1, 0.01, 0.02})) << "beyond the border any ground is possible";
   EXPECT_FALSE(cells.under({0.9, -0.01, -0.01}, {1.1, 0.01, 0}).plane);
 }
 

@@ -31,7 +31,7 @@ double waves(double x, double y) {
 }
 HeightField waveField(int n) { return HeightField::sample(kFieldArea, 2 * n + 1, n + 1, waves); }
 
-/// Ground as rough as pictures allow: independent heights, slopes of about 10.
+/// Ground at the roughness limit of pictures: independent heights, slopes of about 10.
 HeightField noiseField() {
   int i = 0;
   return HeightField::sample(kFieldArea, 41, 21, [&](double, double) { return randomIn(i++, 9, 0, 1); });
@@ -245,8 +245,8 @@ TEST(HeightFieldBounds, ContainTheSurface_AndAreOfItsSize) {
   EXPECT_GE(bound.highest, highest);
   EXPECT_GE(bound.slope, slope);
   EXPECT_GE(bound.valleyCurvature, curvature);
-  // How far above: up to 2.4 times on noise, the worst case; on waves by a few per cent (slope) and 20 per cent
-  // (curvature).
+  // Overestimate of the bounds: up to a factor of 2.4 on noise, the worst case; on waves a few per cent (slope) and
+  // 20 per cent (curvature).
   EXPECT_LT(bound.slope, 3 * slope);
   EXPECT_LT(bound.valleyCurvature, 3 * curvature);
   const double k = 2 * base::kPi, a = 0.03; // steepest slope a k / 0.8, along y; sharpest hollow a (k / 0.8)^2

@@ -79,7 +79,7 @@ TEST_F(HeightmapFile, ColourIsKnown_AndGreyInThreeChannelsIsNone) {
 TEST_F(HeightmapFile, DamagedBytesOfAPng_AreFoundByItsChecksums) {
   const Bytes good = png(3, 3, 8, kGrey, {0, 10, 20, 30, 40, 50, 60, 70, 80});
   ASSERT_EQ(errorOf(good), "no error");
-  // Any bit of any chunk behind its length: type, data or checksum.
+  // Any bit of any chunk after its length: type, data or checksum.
   for (std::size_t at = 12; at < good.size(); ++at) {
     Bytes bad = good;
     bad[at] = static_cast<char>(bad[at] ^ 0x04);
@@ -132,7 +132,7 @@ TEST_F(HeightmapFile, PixelsThatTheHeaderDoesNotAnnounce_AreRefused) {
               std::string::npos)
         << message;
   }
-  // Interlaced, three of the seven pictures have pixels: (0, 0), (1, 0) and the second row.
+  // In interlaced pictures three of the seven passes have pixels: (0, 0), (1, 0) and the second row.
   const Bytes header = headerOf(2, 2, 8, kGrey, true), inParts{0, 10, 0, 20, 0, 30, 40};
   EXPECT_EQ(load(pngOf(header, inParts)).at(1, 0), 20 / 255.0);
   EXPECT_NE(errorOf(pngOf(header, inParts + '\x05')).find("the header specifies 7"), std::string::npos);
@@ -223,13 +223,13 @@ TEST_F(HeightmapFile, BrokenFiles_GiveOneErrorThatNamesTheFile) {
   for (const auto& [bytes, cause] : cases) {
     const std::string message = errorOf(bytes);
     EXPECT_EQ(message.find(file_.string()), 0u) << message;
-    EXPECT_NE(message.find(cause), std::string::npos) << message << " instead of: " << cause;
+    EXPECT_NE(message.find(cause), std::string::npos) << message << " expected: " << cause;
   }
 }
 
 TEST_F(HeightmapFile, EveryTruncation_IsAnError) {
   const Bytes good = png(4, 4, 8, kGrey, std::vector<int>(16, 9));
-  // All of the image data lies before the last 12 + 4 + 4 bytes (end chunk, checksums).
+  // All image data are before the last 12 + 4 + 4 bytes (end chunk, checksums).
   for (std::size_t n = 0; n + 20 < good.size(); ++n) EXPECT_NE(errorOf(good.substr(0, n)), "no error") << n << " bytes";
 }
 
@@ -290,7 +290,7 @@ TEST(Heightmaps, ShapesStayInTheRangeOfTheFormat_AtEverySize) {
 
 TEST(Heightmaps, FiguresInTheHelp_AreThoseOfTheShapes) {
   using namespace grouser::heightmaps;
-  constexpr double kHigh = 0.4, kLong = 20, kWide = 8; // [m] the terrain that the help speaks of
+  constexpr double kHigh = 0.4, kLong = 20, kWide = 8; // [m] the terrain in the help
   double low = 1, high = 0, ditchFrom = 1, ditchTo = 0, topFrom = 1, topTo = 0, steepest = 0;
   constexpr int n = 20000;
   for (int i = 0; i <= n; ++i) {
@@ -305,7 +305,7 @@ TEST(Heightmaps, FiguresInTheHelp_AreThoseOfTheShapes) {
     }
   }
   EXPECT_NEAR((high - low) * kHigh, 0.28, 1e-6);
-  EXPECT_NEAR((ditchTo - ditchFrom) * kLong, 3.2, 2 * kLong / n + 1e-3); // the cosine leaves its top slowly
+  EXPECT_NEAR((ditchTo - ditchFrom) * kLong, 3.2, 2 * kLong / n + 1e-3); // the cosine is flat near its top
   EXPECT_NEAR((step(0.5, 0) - step(0, 0)) * kHigh, 0.24, 1e-12);
   EXPECT_EQ(step(0.95, 0), step(0, 0));
   EXPECT_NEAR((topTo - topFrom) * kLong, 4.8, 2 * kLong / n);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains on floors with hollows tighter than they are: several contacts with one floor.
+// Grains on floors with hollows tighter than the grains: several contacts with one floor.
 #include "base/random.hpp"
 #include "grain_fixture.hpp"
 #include "terrain/grain_kernel_data.cuh"
@@ -38,7 +38,7 @@ TEST_P(HollowFloor, SphereInAValleyOf45Degrees_RestsOnBothFlanks) {
   m.precision = std::get<1>(GetParam());
   Grains grains = ballOn(groundOf(std::get<0>(GetParam()), valley), m, {0.001, 0.0013, 0.0085});
   advance(grains, 10000);
-  // Both springs together carry the weight; friction may carry up to its limit of it.
+  // Both springs together carry the weight; friction may carry up to its limit of that.
   const double overlap = m.mass * 9.81 / (std::sqrt(2.0) * m.law.stiffness);
   const Vec3d x = grains.snapshot().position.front();
   EXPECT_NEAR(x.z, std::sqrt(2.0) * m.radius, 2 * overlap);
@@ -60,7 +60,7 @@ TEST_P(HollowFloor, SphereInAPyramidsPit_RestsOnFourSides) {
 }
 
 TEST_P(HollowFloor, SphereRollsDownAGroove_WithItsArmToBothContacts) {
-  // Rolling about contacts that lie R / sqrt(2) from the axis: a = g sin(slope) / (1 + 2/5 R^2 / (R^2 / 2)).
+  // Rolling on contacts R / sqrt(2) from the axis: a = g sin(slope) / (1 + 2/5 R^2 / (R^2 / 2)).
   GrainModel m = roughBall(1e-5, 0.8, 0.3);
   m.precision = std::get<1>(GetParam());
   const double lean = 0.1;
@@ -70,7 +70,7 @@ TEST_P(HollowFloor, SphereRollsDownAGroove_WithItsArmToBothContacts) {
   const double from = static_cast<double>(grains.snapshot().velocity.front().y);
   advance(grains, 10000);
   const double gained = static_cast<double>(grains.snapshot().velocity.front().y) - from;
-  EXPECT_NEAR(gained, 9.81 * lean / 1.8 * 0.1, 1e-4 * gained); // the springs' swings die out in the first part
+  EXPECT_NEAR(gained, 9.81 * lean / 1.8 * 0.1, 1e-4 * gained); // the spring oscillations decay in the first part
   const GrainLedger l = grains.ledger();
   EXPECT_LT(std::fabs(l.rubbed), 1e-9);
 }
@@ -90,12 +90,12 @@ TEST_P(HollowFloor, ElasticBounceInAPit_KeepsItsEnergy) {
     advance(grains, 500);
     worst = std::max(worst, std::fabs(energy() - before));
   }
-  // Symplectic Euler at 180 steps a contact: the energy swings in the contacts by their share of a step.
+  // Symplectic Euler at 180 steps per contact: the energy oscillates in the contacts by their share of a step.
   EXPECT_LT(worst, 0.03 * height);
   EXPECT_NEAR(grains.ledger().dissipated(), 0, 1e-12 * height);
 }
 
-/// Pebbles thrown at ground as rough as they are: cells of a radius, up to a radius high.
+/// Pebbles thrown onto ground of equal roughness: cells of a radius, up to a radius high.
 Grains pebbles(const base::Exec& exec, Interpolation how, double skin = 0.3) {
   GrainModel m = gravel(skin);
   m.floorLaw = m.law;
@@ -121,9 +121,9 @@ TEST_P(RoughGround, PebblesComeToRestOnIt_AndTheLedgerCloses) {
   const GrainLedger start = grains.ledger();
   advance(grains, 6000);
   const GrainLedger end = grains.ledger();
-  EXPECT_GT(end.boundaryContacts, 16) << "one each";
+  EXPECT_GT(end.boundaryContacts, 16) << "more than one each";
   EXPECT_LT(end.kinetic, 0.1 * start.kinetic);
-  // Contacts that begin between two others, and symplectic Euler.
+  // Contacts that start between two others, and symplectic Euler.
   EXPECT_NEAR(total(end), total(start), 0.02 * end.dissipated());
 }
 
@@ -177,7 +177,7 @@ TEST(HollowFloor, SceneWithoutTightHollows_HasOneContactAndNoNormals) {
 }
 
 TEST(HollowFloor, MoreNailsThanPlaces_PushTheSphereUp) {
-  // Spikes a fifth of a radius apart, all of one height: the sphere is pressed onto a dozen of them at once.
+  // Spikes a fifth of a radius apart, all of equal height: the sphere is pressed onto a dozen of them at once.
   GrainModel m = ball(1e-5);
   Grains grains = ballOn(groundOf(
                              Interpolation::bilinear,

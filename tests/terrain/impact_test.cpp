@@ -12,7 +12,7 @@ struct Impact {
   double restitution, deepest, duration;
 };
 
-/// Ball at 1 m/s onto a plane; `phase` of a step between the start and first touch.
+/// Ball at 1 m/s onto a plane; `phase`: fraction of a step between start and first touch.
 Impact impactOnWall(double zeta, bool attraction, double stepsPerContact, double phase) {
   GrainModel m = ball(1);
   const double omega0 = std::sqrt(m.law.stiffness / m.mass);
@@ -45,7 +45,7 @@ class LinearImpact : public ::testing::TestWithParam<Case> {};
 
 TEST_P(LinearImpact, MatchesClosedFormWithFirstOrder) {
   const Case c = GetParam();
-  // Worst error over the phase of first touch, at two resolutions. The scheme jumps over entry and exit: order 1.
+  // Worst error over the phase of first touch, at two resolutions. Entry and exit fall between steps: order 1.
   double worst[2] = {0, 0}, deepest = 0;
   const double steps[2] = {200, 800};
   for (int r = 0; r < 2; ++r)
@@ -71,8 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{2.0, false, 0.04776873, 2.55010372e-5}));
 
 TEST(LinearImpactCoarse, RestitutionAtTwentyStepsIsWithinTwoHundredths) {
-  // Entry and exit are each known to a step of 1/20 of the contact; the loss grows with the damping, and so does what
-  // is missed of it: bounds as the discrete recurrence gives them, 0.0127, 0.0193 and 0.0322, rounded up.
+  // Entry and exit have an uncertainty of one step, 1/20 of the contact; the error of the loss grows with the damping:
+  // bounds from the discrete recurrence, 0.0127, 0.0193 and 0.0322, rounded up.
   const struct {
     double zeta, restitution, bound;
   } cases[] = {{0.1, 0.74407940, 0.02}, {0.2, 0.57174003, 0.02}, {0.5, 0.29843606, 0.035}};
@@ -82,7 +82,7 @@ TEST(LinearImpactCoarse, RestitutionAtTwentyStepsIsWithinTwoHundredths) {
 }
 
 TEST(LinearImpactCoarse, WorstErrorFallsWithTheFirstPowerOfTheStep) {
-  // Free, zeta = 0.2, n whole steps in the damped contact: an independent integration's worst |e - 0.52662060| over the
+  // Undamped exit, zeta = 0.2, n whole steps per contact: an independent integration's worst |e - 0.52662060| over the
   // phase of first touch, two digits given.
   const struct {
     double steps, worst;
@@ -112,8 +112,8 @@ TEST(TwoBalls, RestitutionDoesNotDependOnSpeed) {
     advance(grains, 400);
     const auto s = grains.snapshot();
     EXPECT_NEAR((s.velocity[1].x - s.velocity[0].x) / (2 * speed), 0.5, 5e-3)
-        << "discretisation at 130 steps a contact";
-    EXPECT_EQ(s.velocity[0].x, -s.velocity[1].x) << "momentum, to the last bit";
+        << "discretisation at 130 steps per contact";
+    EXPECT_EQ(s.velocity[0].x, -s.velocity[1].x) << "momentum is bitwise exact";
   }
 }
 

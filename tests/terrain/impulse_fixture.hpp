@@ -5,7 +5,7 @@
 
 namespace grouser::terrain::testing {
 
-/// Gravel in steps of a millisecond, solved to a hundredth of what gravity adds in one.
+/// Gravel in steps of a millisecond, solved to a hundredth of the gravity increment of one step.
 inline GrainModel impulsiveGravel(contact::Compliance compliance, double skin = 0.3) {
   GrainModel m = gravel(skin);
   m.timeStep = 1e-3;

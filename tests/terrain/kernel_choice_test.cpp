@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which kernel grains take, and whether a CPU computes several of their contacts side by side.
+// Kernel selection for grains, and whether a CPU computes several of their contacts in SIMD lanes.
 #include "terrain/kernel_choice.hpp"
 
 #include "terrain/detail/kernel_lists.hpp"
@@ -19,7 +19,7 @@ using contact::kRollingFriction;
 constexpr unsigned kRoughBed = kFriction | kBoundaries | kLedger, kUnderVehicle = kRoughBed | kLoads,
                    kYielding = kUnderVehicle | kHertz | kRollingFriction | kPlastic;
 
-/// Of grains that have friction, and yield as EEPA says where their features say that they do.
+/// Model of grains with friction; they yield by the EEPA law if their features include it.
 GrainModel roughModel() {
   GrainModel m;
   m.law.friction = 0.5;
@@ -27,7 +27,7 @@ GrainModel roughModel() {
   return m;
 }
 
-/// Whether such grains have a kernel of their own in SIMD.
+/// Whether such grains have a specialised SIMD kernel.
 bool ownSimd(unsigned features) {
   const KernelChoice choice = stepKernel(features, roughModel());
   EXPECT_EQ(choice.noSimd, nullptr) << featureText(features);
@@ -119,7 +119,7 @@ TEST(KernelChoice, WordsNameTheFeatureThatHasNoKernel) {
                                                "without many materials; ");
 #if defined(__x86_64__)
   has(kRoughBed | kManyRadii | kManyMaterials, "), general kernel");
-  has(kRoughBed | kPeriodic | kSurfaces | kFixed | kCohesion, "slower; on this CPU"); // two changes are no remedy
+  has(kRoughBed | kPeriodic | kSurfaces | kFixed | kCohesion, "slower; on this CPU"); // two changes are not suggested
 #endif
   has(kUnderVehicle | kHertz | kGeneral, "linear and hertz, friction");
   has(kUnderVehicle | kHertz | kGeneral, "; a specialised kernel exists if all contacts are hertz;");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The laws as the grains' step applies them: impacts, rolling, chains, gases, limits of stability.
+// The laws in the grains' step: impacts, rolling, chains, gases, stability limits.
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "grain_fixture.hpp"
@@ -69,7 +69,7 @@ TEST(RollingInStep, BallOnPlaneStopsAndStays) {
   EXPECT_LT(norm(s.spin[0]), 1e-3f);
 }
 
-/// Spheres in a row between two planes, pressed together: contact j keeps `pressed` overlap at rest.
+/// A row of spheres pressed between two planes: contact j has the overlap `pressed` at rest.
 struct Chain {
   GrainModel model = ball(1e-5);
   std::vector<GrainSpec> start;
@@ -95,10 +95,10 @@ TEST(Chain, NormalModeSwingsAtTheFrequencyOfTheDiscreteScheme) {
     const double dt = 0.2 / omega;
     Chain chain = c;
     chain.model.timeStep = dt;
-    const double speed = 2e-5 * omega; // 20 um: 1/5 of what would open a contact
+    const double speed = 2e-5 * omega; // 20 um: 1/5 of the amplitude that opens a contact
     for (int i = 0; i < c.n; ++i) chain.start[static_cast<std::size_t>(i)].velocity.x = speed * base::sin(q * (i + 1));
     Grains grains(testExec(1), chain.model, chain.boundaries, chain.start);
-    // From rest in the middle the scheme's velocity after m steps is v_0 cos(omegaNum (m - 1/2) dt) / cos(omegaNum
+    // From the rest position the scheme's velocity after m steps is v_0 cos(omegaNum (m - 1/2) dt) / cos(omegaNum
     // dt / 2), exactly, with omegaNum = 2 / dt asin(omega dt / 2).
     const double phase = 2 * base::asin(omega * dt / 2);
     double worst = 0;
@@ -135,11 +135,11 @@ TEST(Chain, StepIsStableJustBelowItsLimitAndNotAbove) {
     if (share < 1)
       EXPECT_LT(fastest, 2e-3);
     else
-      EXPECT_GT(fastest, 1e-2) << "grows by 1.6 a step";
+      EXPECT_GT(fastest, 1e-2) << "growth by 1.6 per step";
   }
 }
 
-/// Growth over many steps of one damped contact that never opens: a ball pressed between two planes.
+/// Growth over many steps of one damped, permanent contact: a ball pressed between two planes.
 double pinchedGrowth(double zeta, double share) {
   GrainModel m = ball(1);
   // Two springs: omega_0^2 = 2 k / m, and damping 2 gamma.
@@ -201,7 +201,7 @@ TEST(ElasticGas, EnergyStaysBoundedAndMomentumIsKept) {
     EXPECT_NEAR(least, 1, 0.02);
     EXPECT_NEAR(most, 1, 0.02);
   }
-  EXPECT_LT(spread[1], 0.8 * spread[0]) << "falls with the step";
+  EXPECT_LT(spread[1], 0.8 * spread[0]) << "decreases with the step";
 }
 
 } // namespace

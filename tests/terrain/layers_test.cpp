@@ -30,7 +30,7 @@ HeightField hills() {
     return 0.1 * base::sin(2 * base::kPi * x / 0.8) * base::cos(2 * base::kPi * y / 0.7);
   });
 }
-/// A wall half a metre high across the way, over one spacing of 5 cm.
+/// A wall half a metre high across the path, over one spacing of 5 cm.
 HeightField cliff() {
   return HeightField::sample(kLayersArea, 41, 21, [](double x, double) { return x < 1.01 ? 0.0 : 0.5; });
 }
@@ -46,7 +46,7 @@ LayerOptions options(FloorShape floor = FloorShape::follow) {
   return o;
 }
 
-/// Least distance of two centres, by cells of one diameter.
+/// Smallest distance of two centres, by cells of one diameter.
 double leastDistance(const std::vector<Seed>& grains) {
   std::map<std::tuple<int, int, int>, std::vector<int>> cells;
   const auto cell = [](double v) { return static_cast<int>(std::floor(v / (2 * kRadius))); };
@@ -64,7 +64,7 @@ double leastDistance(const std::vector<Seed>& grains) {
   return least;
 }
 
-/// Least distance between a grain and the points of the floor beneath its disc, on a grid; negative below the floor.
+/// Smallest distance between a grain and the floor points beneath its disc, on a grid; negative below the floor.
 double leastClearance(const HeightField& floor, const Seed& g) {
   double least = 1e9;
   const int n = 6;
@@ -114,7 +114,7 @@ TEST(Layers, WithoutJitterOnLevelGround_AreALatticeOneSpacingApart) {
   std::vector<double> z;
   for (const Seed& g : grains) z.push_back(g.centre.z);
   EXPECT_TRUE(std::is_sorted(z.begin(), z.end(), [](double a, double b) { return a < b - 1e-12; }));
-  // Round-off of a few sums of numbers of 0.5 m; square roots of differences lose a digit.
+  // Round-off of a few sums of 0.5 m; square roots of differences lose a digit.
   EXPECT_NEAR(z.front(), floor + 1.05 * kRadius, 10 * kEps);
   EXPECT_NEAR(z.back(), floor + 1.05 * kRadius + 4 * s, 100 * kEps);
   EXPECT_NEAR(grains[1].centre.x - grains[0].centre.x, s, 10 * kEps);
@@ -168,8 +168,8 @@ TEST(Layers, FlatFloor_IsOneBedBelowTheLowestPoint_AndFillsTheHills) {
   EXPECT_NEAR(plan.floor.height(0.3, 0.2), lowest - plan.thickness, 10 * kEps);
   EXPECT_GT(plan.layers, o.layers);
 
-  // The grains' volume is that between floor and surface, at the expected packing: columns are rounded to whole layers
-  // and no layer may overhang its supports; 5 % of the whole.
+  // The grains' volume is that between floor and surface, at the expected packing: columns have whole numbers of layers
+  // and no layer may overhang its supports; 5 % in total.
   const double volume =
       static_cast<double>(plan.grains) * 4.0 / 3.0 * base::kPi * kRadius * kRadius * kRadius / o.packing;
   double mean = 0;
@@ -180,8 +180,8 @@ TEST(Layers, FlatFloor_IsOneBedBelowTheLowestPoint_AndFillsTheHills) {
 }
 
 TEST(Layers, OnASlope_FollowItEvenly) {
-  // Mean height above the floor of each layer, on level ground and on a slope of 39 degrees: the same number of grains,
-  // and no layer rises by more than the slope asks (half a spacing in x and y times the slopes).
+  // Mean height above the floor of each layer, on level ground and on a slope of 39 degrees: equal numbers of grains,
+  // and no layer rises by more than the slope requires (half a spacing in x and y times the slopes).
   LayerOptions o = options();
   o.jitter = 0;
   const HeightField slope = steep();
@@ -208,7 +208,7 @@ TEST(Layers, SameSeed_SameBits_OtherSeed_OtherGrains) {
 }
 
 TEST(Layers, MoreLayers_LeaveTheFirstOnesInPlace) {
-  // Ids and random numbers of a grain depend on the layers below it only. The floor sinks with the bed's thickness.
+  // Ids and random numbers of a grain depend only on the layers below. The floor sinks with the bed's thickness.
   LayerOptions o = options();
   const auto few = layGrains(level(), o);
   o.layers = 7;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains of every law, of many radii and materials, in both precisions: one answer, and what must be conserved.
+// Grains of every law, with mixed radii and materials, in both precisions: identical results, and conserved quantities.
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "grain_fixture.hpp"
@@ -157,7 +157,7 @@ TEST(ManyKinds, ResumedRunGivesTheSameBits) {
   EXPECT_EQ(wordsOf(second), expected);
 }
 
-/// Grains flying into each other without gravity or walls: momentum, angular momentum about the origin, energy.
+/// Grains that collide without gravity or walls: momentum, angular momentum about the origin, energy.
 struct Totals {
   Vec3d momentum, angular;
   double scale = 0;
@@ -192,7 +192,7 @@ TEST(ManyKinds, MomentumAndAngularMomentumAreKept) {
     for (int k = 0; k < 20; ++k) advance(grains, 200), contacts += grains.ledger().contacts;
     ASSERT_GT(contacts, 100);
     const Totals after = totalsOf(grains, mass);
-    // Single: each force and torque is rounded to 6e-8 of itself on either side. Double: what is left is the float of
+    // Single: each force and torque has a relative rounding error of 6e-8. Double: the residual is float rounding of
     // velocities and radii in these sums.
     constexpr double share = 2e-6;
     EXPECT_LT(norm(after.momentum - before.momentum), share * before.scale / 0.05);
@@ -201,7 +201,7 @@ TEST(ManyKinds, MomentumAndAngularMomentumAreKept) {
 }
 
 TEST(ManyKinds, EqualSpheresAsManyRadiiMoveAlikeToRoundOff) {
-  // The kernel of many radii, forced by one far smaller grain elsewhere, against that of one radius.
+  // Compares the kernel for mixed radii, selected by one distant small grain, with that for one radius.
   Bed bed = bedOf({});
   bed.model.law.rootDamping = 0;
   const auto reference = [&](bool other) {
@@ -219,7 +219,7 @@ TEST(ManyKinds, EqualSpheresAsManyRadiiMoveAlikeToRoundOff) {
 }
 
 TEST(ManyKinds, SmallGrainsInReachOfALargeOneAreAllListed) {
-  // A ball with 200 small ones on its surface: more than one word of touching bits.
+  // A ball with 200 small ones on its surface: more contacts than bits of a word.
   GrainModel m = ball(1e-6);
   m.law.friction = 0.5, m.law.tangentialStiffness = 2e4;
   m.law.damping = 500;
@@ -249,7 +249,7 @@ TEST(ManyKinds, RadiiTooUnlikeAreRefused) {
 }
 
 TEST(ManyKinds, OneGrainFeelsMoreNeighboursThanAWordHasBits) {
-  // A ball with 150 small ones pressed into it from all sides, evenly: each is a contact of it, and keeps its spring.
+  // A ball with 150 small ones pressed on evenly from all sides: each is a contact with its own spring.
   constexpr int kSmall = 150;
   const Kind kind{.radii = true};
   GrainModel m = bedOf(kind).model;
@@ -268,7 +268,7 @@ TEST(ManyKinds, OneGrainFeelsMoreNeighboursThanAWordHasBits) {
     EXPECT_EQ(state.neighbour[static_cast<std::size_t>(k)], static_cast<std::uint32_t>(k + 1));
     EXPECT_NE(state.contactShear[static_cast<std::size_t>(k)], base::Vec3f{}) << "the ball turns under " << k + 1;
   }
-  // A run that goes on from there has lost nothing.
+  // A resumed run has lost nothing.
   Grains resumed(testExec(), m, {}, start);
   resumed.restore(state);
   advance(grains, 3), advance(resumed, 3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// One scene, one answer: threads, rebuild intervals and shifts by whole units do not change a bit.
+// Identical results: threads, rebuild intervals and shifts by whole units do not change a bit.
 #include "grain_fixture.hpp"
 #include "tests/device_under_test.hpp"
 
@@ -25,7 +25,7 @@ TEST(Heap, SameBitsForThreadsAndRebuildIntervals) {
 }
 
 TEST(Heap, SameBitsForAnyNumberOfThreads) {
-  // Four blocks of grains, so that threads take from each other what is left of a share.
+  // Four blocks of grains, so that threads share the remaining work.
   const auto run = [](int threads) {
     const GrainModel m = gravel(0.3);
     Grains grains(testExec(threads), m, {{{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}}, {}},
@@ -38,7 +38,7 @@ TEST(Heap, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Heap, MovesAlikeWhereverItStands) {
-  // Shifts by whole units of position, hundreds of metres: all but the places themselves is the same to the bit.
+  // Shifts by whole position units, hundreds of metres: all except the positions is bitwise identical.
   const double unit = base::positionScale(0.054).unit;
   const auto whole = [unit](double metres) { return std::floor(metres / unit) * unit; };
   const std::vector<std::uint32_t> here = runHeap(1, 0.3),
@@ -51,7 +51,7 @@ TEST(Heap, MovesAlikeWhereverItStands) {
 }
 
 TEST(Heap, NeighbourListLosesNoContact) {
-  // Against a brute-force search over all pairs.
+  // Compared with a brute-force search over all pairs.
   const GrainModel m = gravel();
   std::vector<GrainSpec> start;
   for (int i = 0; i < 300; ++i) start.push_back({{0.05 * (i % 7), 0.05 * (i / 7 % 7), 0.05 * (i / 49)}, {}, {}});
@@ -65,7 +65,7 @@ TEST(Heap, NeighbourListLosesNoContact) {
 }
 
 TEST(Heap, PairForcesBalanceToTheLastBit) {
-  // No gravity, no walls: the sum of all momenta stays what it was, up to the quantum of the kept remainders.
+  // No gravity, no walls: total momentum is constant, up to the quantum of the remainders.
   GrainModel m = gravel();
   m.gravity = {};
   std::vector<GrainSpec> start;
@@ -74,7 +74,7 @@ TEST(Heap, PairForcesBalanceToTheLastBit) {
   advance(grains, 2000);
   const GrainLedger ledger = grains.ledger();
   EXPECT_GT(ledger.kinetic, 1e-3) << "the cluster has burst apart";
-  // Velocities are floats: 64 grains, each read with half an ulp of about 1e-8 m/s.
+  // Velocities are floats: 64 grains, each with a resolution of half an ulp of about 1e-8 m/s.
   EXPECT_LT(norm(ledger.momentum), 64 * m.mass * 6e-8);
 }
 

@@ -10,11 +10,11 @@
 namespace grouser::terrain::testing {
 namespace {
 
-constexpr double kLengthX = 0.063, kLengthY = 0.047; // of the domain [m]: twelve and nine reaches or less
+constexpr double kLengthX = 0.063, kLengthY = 0.047; // domain size [m]: at most twelve and nine reaches
 
 GrainModel rubbing(double skin = 0.3) {
   GrainModel m = ball(1e-5);
-  m.gravity = {0, 0, -80}; // presses them together soon
+  m.gravity = {0, 0, -80}; // to bring them into contact soon
   makeRough(m.law, 2000);
   m.skin = skin;
   return m;
@@ -50,7 +50,7 @@ std::vector<GrainSpec> thrownAcross(const base::Vec3l& shift, bool manyRadii = f
   return start;
 }
 
-/// What does not depend on where the sides stand: velocities, spins, remainders and the springs of contacts.
+/// State that is independent of the boundary positions: velocities, spins, remainders and contact springs.
 struct Relative {
   std::vector<base::Vec3f> velocity, spin, shear;
   std::vector<std::uint32_t> neighbour;
@@ -79,7 +79,7 @@ GrainState end(const GrainModel& m, const base::Vec3l& shift, int threads = 1, b
 
 TEST(PeriodicBoundaries, NoBitDependsOnWhereTheyStand) {
   const GrainState here = end(rubbing(), {});
-  EXPECT_GT(crossed(here), 20) << "grains must have gone round";
+  EXPECT_GT(crossed(here), 20) << "grains must have crossed the boundary";
   EXPECT_GT(here.neighbour.size(), 40u) << "and touch each other";
   for (const base::Vec3l& shift : {base::Vec3l{123456789, 0, 0}, base::Vec3l{-234567890, 345678901, 0}}) {
     const GrainState there = end(rubbing(), shift, 2);
@@ -105,7 +105,7 @@ TEST(PeriodicBoundaries, NoBitDependsOnWhereTheyStandForManyRadiiThatRollInDoubl
 }
 
 TEST(PeriodicBoundaries, ListFindsEveryImageThatTouches) {
-  // Against a search over all pairs and all images, in a domain of few and of many cells.
+  // Compared with a search over all pairs and all images, in domains of few and many cells.
   for (const double length : {0.0361, 0.05, 0.2}) {
     GrainModel m = ball(1e-5);
     m.radius = 0.004;
@@ -131,7 +131,7 @@ TEST(PeriodicBoundaries, ListFindsEveryImageThatTouches) {
 }
 
 TEST(PeriodicBoundaries, FallAlongThemKeepsTheEnergy) {
-  // A slope of 45 degrees without end: kinetic energy is what the whole way has given.
+  // An endless slope of 45 degrees: the kinetic energy equals the work of gravity.
   GrainModel m = ball(1e-5);
   m.gravity = {6, -4, 0};
   Boundaries b;
@@ -141,7 +141,7 @@ TEST(PeriodicBoundaries, FallAlongThemKeepsTheEnergy) {
   constexpr int kSteps = 100000;
   advance(grains, kSteps);
   const GrainLedger after = grains.ledger();
-  const double t = kSteps * m.timeStep, way = 0.5 * 52 * t * (t + m.timeStep); // symplectic Euler's own parabola
+  const double t = kSteps * m.timeStep, way = 0.5 * 52 * t * (t + m.timeStep); // the parabola of symplectic Euler
   EXPECT_GT(crossed(grains.state()), 90);
   EXPECT_NEAR((before.potential - after.potential) / m.mass, way, 1e-6 * way);
   EXPECT_NEAR(after.kinetic - before.kinetic, before.potential - after.potential, 2e-5 * after.kinetic);
@@ -159,7 +159,7 @@ TEST(PeriodicBoundaries, MomentumOfAGasIsKept) {
   Grains grains(base::cpuExec(1), m, b, start);
   const base::Vec3d before = grains.ledger().momentum;
   advance(grains, 5000);
-  // Velocities are floats: each is read with half a last place of about 6e-8 m/s.
+  // Velocities are floats: each has a resolution of half a last place, about 6e-8 m/s.
   EXPECT_LT(norm(grains.ledger().momentum - before), 100 * m.mass * 6e-8);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Radii of beds: drawn numbers against the closed forms of their distributions.
+// Radii of beds: samples against the closed forms of their distributions.
 #include "terrain/radius_distribution.hpp"
 
 #include "base/random.hpp"
@@ -42,14 +42,14 @@ TEST(RadiusDistribution, MomentsOfDrawnRadiiAreThoseComputed) {
 }
 
 TEST(RadiusDistribution, StaysBetweenSmallestAndLargest) {
-  // A sieve that all passes, and one that nothing passes, hold no grain.
+  // A sieve with no residue, and one with no throughput, contain no grain.
   const RadiusDistribution emptyEnds{RadiusLaw::sieve, 0, 0, {0.001, 0.004, 0.01, 0.02, 0.5}, {0, 0, 0.4, 1, 1}};
   for (const RadiusDistribution& d : {uniform(), lognormal(), sieves(), emptyEnds}) {
     const std::vector<double> radii = drawn(d);
     const auto [least, most] = std::minmax_element(radii.begin(), radii.end());
     EXPECT_GE(*least, d.smallest() * (1 - 1e-12));
     EXPECT_LE(*most, d.largest() * (1 + 1e-12));
-    EXPECT_LT(*least, d.smallest() * 1.02) << "and comes near them";
+    EXPECT_LT(*least, d.smallest() * 1.02) << "and comes close to them";
     EXPECT_GT(*most, d.largest() * 0.95);
   }
 }
@@ -69,7 +69,7 @@ TEST(RadiusDistribution, MassThatPassesASieveIsAsTheCurveSays) {
     all += mass;
     for (int k = 0; k < 4; ++k) below[k] += 2 * r <= d.sieveDiameter[static_cast<std::size_t>(k)] ? mass : 0;
   }
-  // The few largest grains have most of the mass: their number scatters by 2 %.
+  // The few largest grains contain most of the mass: their number scatters by 2 %.
   for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(below[k] / all, d.passing[k], 0.03) << k;
   EXPECT_NEAR(d.medianByMass(), 0.5 * 0.02 * std::pow(2, 0.2 / 0.7), 1e-12);
 }
@@ -97,7 +97,7 @@ TEST(DepthGrading, GrowsBelowTheFineDepthUntilTheCoarsestRadius) {
   EXPECT_EQ(DepthGrading{}.scaleAt(3, 0.02), 1);
 }
 
-/// Grains per volume fall with the cube of the scale s = 1 + c z: the mean of s^4 over them is the integral of s over
+/// Grains per volume decrease with the cube of the scale s = 1 + c z: their mean of s^4 is the integral of s over
 /// that of 1 / s^3.
 TEST(DepthGrading, AMeanGrainIsHeavierThanOneAtTheSurface) {
   const double c = 5, depth = 0.6, end = 1 + c * depth;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Beds laid at random, and fixed grains on their floors, before they settle.
+// Random beds, and fixed grains on their floors, before settling.
 #include "terrain/bed.hpp"
 
 #include "base/error.hpp"
@@ -28,7 +28,7 @@ HeightField hilly() {
   return HeightField::sample(kArea, 33, 25, [](double x, double y) { return 0.1 * std::sin(5 * x) + 0.05 * y; });
 }
 
-/// The deepest overlap of two that are not both fixed, over the smaller radius; periods along x and y or 0.
+/// The deepest overlap of two grains, not both fixed, over the smaller radius; periods along x and y or 0.
 double deepestOverlap(const std::vector<Seed>& grains, double periodX = 0, double periodY = 0) {
   double deepest = -1;
   for (std::size_t a = 0; a < grains.size(); ++a)
@@ -55,7 +55,7 @@ TEST(RandomBed, HasTheVolumeThatTheDepthNeedsAndTheNumberThatIsPlanned) {
   const std::vector<Seed> grains = layGrains(level(), options());
   const double wanted = 0.8 * 0.6 * (0.3 - 1.15 * 0.02) * 0.58;
   EXPECT_NEAR(solidVolume(grains), wanted, base::sphereVolume(0.025));
-  // A volume scatters by 0.43 of its mean, their sum by 0.43 sqrt(number).
+  // A grain volume scatters by 0.43 of its mean, their sum by 0.43 sqrt(number).
   const auto planned = static_cast<double>(planBed(level(), options()).grains);
   EXPECT_NEAR(static_cast<double>(grains.size()), planned, 3 * 0.43 * std::sqrt(planned));
 }
@@ -86,7 +86,7 @@ TEST(RandomBed, PeriodicBedsDoNotTouchAcrossTheirSides) {
 }
 
 TEST(RandomBed, IsDisorderedAndEven) {
-  // Where the lattice of layers has peaks of height 1 in the Fourier sum over x, random places have none.
+  // Layers of a lattice have peaks of height 1 in the Fourier sum over x, random positions do not.
   const std::vector<Seed> grains = layGrains(level(), options());
   for (const double pitch : {0.04, 0.042, 0.05}) {
     double c = 0, s = 0;
@@ -94,7 +94,7 @@ TEST(RandomBed, IsDisorderedAndEven) {
       c += std::cos(2 * M_PI * g.centre.x / pitch), s += std::sin(2 * M_PI * g.centre.x / pitch);
     EXPECT_LT(std::hypot(c, s) / static_cast<double>(grains.size()), 5 / std::sqrt(double(grains.size())));
   }
-  // The column is evenly full: half of the volume lies below the middle of its height.
+  // The column is evenly filled: half of the volume is below half of its height.
   const double top = (0.3 - 1.15 * 0.02) * 0.58 / 0.28;
   double below = 0;
   for (const Seed& g : grains) below += g.centre.z - g.radius + 0.2 < 0.5 * top ? base::sphereVolume(g.radius) : 0;
@@ -119,7 +119,7 @@ TEST(RandomBed, GradedBedIsCoarseBelowAndTakesFarFewerGrains) {
   const double all = static_cast<double>(planBed(level(), fine).grains);
   EXPECT_LT(static_cast<double>(some.size()), 0.6 * all);
   EXPECT_NEAR(solidVolume(some), 0.8 * 0.6 * (0.3 - 1.15 * 0.01) * 0.58, 2 * base::sphereVolume(largestRadius(graded)));
-  // Radii follow the height that the grain begins at, within the window of its place.
+  // Radii follow the initial height of the grain, within the window of its cell.
   double low = 0, high = 0;
   int lows = 0, highs = 0;
   for (const Seed& s : some) {
@@ -143,13 +143,13 @@ TEST(FloorGrains, CoverTheFloorAndStayWhereGrainsMayLieOnThem) {
     EXPECT_NEAR(static_cast<double>(fixed), 0.48 / (0.04 * 0.04), 1);
     EXPECT_LT(deepestOverlap(grains), 0);
     for (std::size_t g = 0; g < grains.size(); ++g) {
-      EXPECT_EQ(grains[g].fixed, static_cast<std::int64_t>(g) < fixed) << "those of the floor come first";
+      EXPECT_EQ(grains[g].fixed, static_cast<std::int64_t>(g) < fixed) << "grains of the floor come first";
       if (!grains[g].fixed) continue;
       const double up = grains[g].centre.z - plan.floor.height(grains[g].centre.x, grains[g].centre.y);
       EXPECT_LE(up, 0);
       EXPECT_GE(up, -0.5 * grains[g].radius);
     }
-    // No grain of the smallest radius fits between them all the way down to the floor without touching one.
+    // No grain of the smallest radius fits between them down to the floor without contact.
     int free = 0, looked = 0;
     for (double x = 0.1; x < 0.7; x += 0.013)
       for (double y = -0.2; y < 0.2; y += 0.013, ++looked) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains that are taken out: what stays keeps its history and its numbers.
+// Removal of grains: the others keep their history and ids.
 #include "grain_fixture.hpp"
 #include "terrain/grain_removal.hpp"
 
@@ -17,7 +17,7 @@ TEST(GrainRemoval, IdsOfPlacesSkipThoseThatAreGone) {
 }
 
 TEST(GrainRemoval, OfAGrainThatTouchesNothingChangesNoBitOfTheOthers) {
-  // The last one hangs apart; the block falls and slides.
+  // The last one is isolated in the air; the block falls and slides.
   const auto run = [](bool remove) {
     std::vector<GrainSpec> start = gravelBlock(4, 3, 3, {0.3, 0.1, -0.4});
     const auto apart = static_cast<std::uint32_t>(start.size() / 2);
@@ -54,8 +54,8 @@ TEST(GrainRemoval, TakesTheContactsOfOthersWithIt) {
   EXPECT_EQ(left.total, 2u);
   const double before = static_cast<double>(left.velocity[0].x);
   advance(grains, 10);
-  EXPECT_EQ(static_cast<double>(grains.snapshot().velocity[0].x), before) << "nothing presses any more";
-  // New grains get new numbers.
+  EXPECT_EQ(static_cast<double>(grains.snapshot().velocity[0].x), before) << "no load remains";
+  // New grains get new ids.
   grains.add({{{1, 1, 1}, {}, {}}});
   EXPECT_EQ(grains.snapshot().id, (std::vector<std::uint32_t>{0, 2, 3}));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains taken up from their saved state go on to the same bits, whatever the threads, skin and device.
+// Grains restored from a saved state continue bitwise identically, for any threads, skin and device.
 #include "base/error.hpp"
 #include "grain_fixture.hpp"
 
@@ -53,7 +53,7 @@ End resumedAt(int step, const base::Exec& before, const base::Exec& after, doubl
 
 TEST(Resume, GrainsGoOnToTheSameBitsAndRebuildsFromAnyStep) {
   const End whole = straight();
-  ASSERT_GT(whole.rebuilds, 3) << "lists must have been built on both sides of the stop";
+  ASSERT_GT(whole.rebuilds, 3) << "rebuilds must occur before and after the stop";
   for (const int step : {0, 1, 1234, 2500, kSteps}) {
     const End end = resumedAt(step, base::cpuExec(1), base::cpuExec(2), 0.3);
     EXPECT_EQ(end.words, whole.words) << "stopped at step " << step;

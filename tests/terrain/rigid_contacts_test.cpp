@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A part on planes, boxes, cylinders and meshes: force by closed form, friction by Coulomb, opposite loads, one answer
-// with the height-field.
+// A part on planes, boxes, cylinders and meshes: normal force in closed form, Coulomb friction, opposite loads, and
+// results equal to the height-field's.
 #include "terrain/rigid_contacts.hpp"
 
 #include "base/hash.hpp"
@@ -28,7 +28,7 @@ using contact::testing::atRest;
 using contact::testing::plate;
 
 constexpr double kModulus = 1e9, kSpacing = 0.005, kStep = 1e-4;
-/// A quarter turn about y, that takes z to x.
+/// A quarter turn about y, from z to x.
 const base::Quat kTurned{std::sqrt(0.5), 0, std::sqrt(0.5), 0};
 
 contact::PatchQuanta quanta() {
@@ -38,11 +38,11 @@ contact::PatchQuanta quanta() {
   return q;
 }
 
-/// A plate of which a face lies 30 mm below its origin, and one surface.
+/// A plate with one face 30 mm below its origin, and one surface.
 struct Bench {
   RigidContacts::Model model{quanta(), kStep};
   base::SphereSet part = plate(0.05, 0.005, kSpacing), other = plate(0.2, 0.005, 0.008);
-  PartMotion at; ///< of the surface
+  PartMotion at; ///< motion of the surface
   std::unique_ptr<RigidContacts> contacts;
   std::vector<PartLoad> loads{2};
 
@@ -95,14 +95,14 @@ TEST(RigidContacts, AFaceOnPlaneBoxAndEndOfACylinderIsPressedByModulusTimesVolum
 
 TEST(RigidContacts, AMeshIsFeltAsItsFaces) {
   Bench bench({Surface::Kind::mesh, {}, 0, 1, 0}, atRest({}));
-  bench.step({0.0123, 0.0071, 0.03 - kOverlap}); // that plate's upper face lies at 0
+  bench.step({0.0123, 0.0071, 0.03 - kOverlap}); // that plate's upper face is at 0
   const double expected = kModulus * bench.area() * kOverlap;
   EXPECT_NEAR(bench.force(0).z, expected, 2e-4 * expected) << "float distances, 1e-8 m of 1e-4 m";
   EXPECT_EQ(bench.force(0) + bench.force(1), Vec3d{});
 }
 
 TEST(RigidContacts, ATurnedSurfaceTurnsTheForce) {
-  // The wall x = 0.5, solid behind, as a plane and as the top of a box; the plate's face looks to -x.
+  // The wall x = 0.5, solid behind, as a plane and as the top of a box; the plate's face points to -x.
   const std::pair<Surface, double> walls[] = {{shapeOf(SurfaceShape::plane, {}), 0.5},
                                               {shapeOf(SurfaceShape::box, {0.3, 0.2, 0.1}), 0.4}};
   for (const auto& [surface, x] : walls) {
@@ -134,7 +134,7 @@ TEST(RigidContacts, AFaceAlongAWallSticksOnItsSpringThenSlidesAtCoulombsLimit) {
   EXPECT_GT(bench.contacts->ledger().dissipated, 0);
 }
 
-/// A plate in the air over a slope, turned with it: 1 in 10 along x.
+/// An inclined plate above an equal slope: 1 in 10 along x.
 const base::Quat kSlope = base::Quat{1, 0, -0.5 * 0.0996686, 0}.normalized();
 
 TEST(RigidContacts, APlaneIsAPlaneWhateverItIsGivenAs) {
@@ -167,7 +167,7 @@ TEST(RigidContacts, OnASlopeTheForceIsSquareToIt) {
 }
 
 TEST(RigidContacts, WhatBoxesLeaveOutDoesNotTouch) {
-  // Every point by itself, on a box that it meets with an edge and a corner.
+  // Every point separately, on a box with an edge and a corner in contact.
   const Surface box = shapeOf(SurfaceShape::box, {0.04, 0.03, 0.1});
   const base::Quat turn = base::Quat{1, 0.02, -0.03, 0.1}.normalized();
   Bench bench(box, atRest({0.03, 0.02, 0}));
@@ -195,7 +195,7 @@ template <class Gap> Vec3d forceByPoints(const Bench& bench, const base::Pose& p
   return force;
 }
 
-/// A pose within some centimetres of a place, slightly turned.
+/// A pose within some centimetres of a point, slightly rotated.
 base::Pose poseNear(const Vec3d& place, int k, double tilt) {
   const auto within = [k](int i, double size) { return size * (2 * base::uniform(5, 0, i, k) - 1); };
   return {place + Vec3d{within(0, 0.15), within(1, 0.05), within(2, 4e-4)},
@@ -296,7 +296,7 @@ TEST(RigidContacts, APatchGoesOnFromWhatWasSaved) {
   EXPECT_EQ(resumed.contacts->ledger().patches, 1);
   for (int k = 5; k < 10; ++k) go(bench, k), go(resumed, k);
   EXPECT_EQ(resumed.loads[0].force, bench.loads[0].force);
-  // Lifted off, its spring is dissipated, also where it was loaded before the run was resumed.
+  // After lift-off, its spring is dissipated, also if it was loaded before a resume.
   resumed.contacts->restore(bench.contacts->save());
   const double held = resumed.contacts->ledger().elastic, before = resumed.contacts->ledger().dissipated;
   resumed.step({0, 0, 0.04});
@@ -308,7 +308,7 @@ TEST(RigidContacts, APatchGoesOnFromWhatWasSaved) {
 
 TEST(RigidContacts, APatchThatLeavesFastLosesWhatItHeldAndBooksIt) {
   Bench bench(shapeOf(SurfaceShape::plane, {}), atRest({}), nullptr, 2e-4);
-  // Apart by 1 m/s: the foundation would follow at an overlap over its relaxation, half a metre a second.
+  // Separating at 1 m/s: the foundation recovers at overlap over relaxation time, half a metre per second.
   const double speed = 1, held = 0.5 * kModulus * bench.area() * kOverlap * kOverlap;
   bench.step({0, 0, 0.03 - kOverlap}, {1, 0, 0, 0}, {0, 0, speed});
   EXPECT_EQ(bench.force(0), Vec3d{});
@@ -318,7 +318,7 @@ TEST(RigidContacts, APatchThatLeavesFastLosesWhatItHeldAndBooksIt) {
 
 TEST(RigidContacts, AHollowCylinderIsFeltFromBothSides) {
   for (const double side : {-1.0, 1.0}) {
-    // The wall stands along z at x = 0.5; the plate's face looks to it.
+    // The wall is vertical at x = 0.5; the plate's face points to it.
     Bench bench(shapeOf(SurfaceShape::tube, {5, 0, 1}), atRest({-4.5, 0, 0}));
     const base::Quat turn = side < 0 ? base::Quat{std::sqrt(0.5), 0, -std::sqrt(0.5), 0} : kTurned;
     bench.step({0.5 + side * (0.03 - 5e-4), 0, 0}, turn);

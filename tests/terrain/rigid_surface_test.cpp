@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Distances from rigid surfaces in closed form, and how far a surface may move before lists must be made anew.
+// Distances from rigid surfaces in closed form, and the travel of a surface that requires a rebuild.
 #include "base/random.hpp"
 #include "terrain/rigid_surface.hpp"
 
@@ -17,7 +17,7 @@ const SurfaceGeometry kBox{SurfaceShape::box, {1, 2, 3}};
 const SurfaceGeometry kCylinder{SurfaceShape::cylinder, {0.5, 0, 2}};
 const SurfaceGeometry kTube{SurfaceShape::tube, {0.5, 0, 2}};
 
-constexpr double kRoundOff = 8 * 0x1p-52 * 4; // a few operations on numbers of up to 4
+constexpr double kRoundOff = 8 * 0x1p-52 * 4; // a few operations on numbers up to 4
 
 void expectGap(const SurfaceGeometry& surface, const Vec3d& p, double distance, const Vec3d& normal) {
   const SurfaceGap gap = gapTo(surface, p);
@@ -35,7 +35,7 @@ TEST(RigidSurface, BoxHasFacesEdgesAndCorners) {
   expectGap(kBox, {0.3, -2.25, 1}, 0.25, {0, -1, 0});
   expectGap(kBox, {1.3, 2.4, 0}, 0.5, {0.6, 0.8, 0});               // an edge, 3-4-5
   expectGap(kBox, {-2, -4, -5}, 3, {-1.0 / 3, -2.0 / 3, -2.0 / 3}); // a corner, 1-2-2
-  expectGap(kBox, {0.9, 0, 0}, -0.1, {1, 0, 0});                    // within: out by the nearest face
+  expectGap(kBox, {0.9, 0, 0}, -0.1, {1, 0, 0});                    // inside: out by the nearest face
   expectGap(kBox, {0.1, -1.95, 2.9}, -0.05, {0, -1, 0});
 }
 
@@ -68,7 +68,7 @@ TEST(RigidSurface, NormalIsTheGradientOfTheDistance) {
       const Vec3d p{3 * randomNumber(i, 0), 3 * randomNumber(i, 1), 4 * randomNumber(i, 2)};
       const SurfaceGap gap = gapTo(surface, p);
       EXPECT_NEAR(norm(gap.normal), 1, kRoundOff);
-      // Where the nearest point jumps the distance has no gradient: beside it both sides say the same.
+      // Where the nearest point jumps, the distance has no gradient: nearby, both sides agree.
       const Vec3d towards = gap.normal * kStep;
       const double slope = (gapTo(surface, p + towards).distance - gapTo(surface, p - towards).distance) / (2 * kStep);
       if (std::fabs(gap.distance) > 2 * kStep) {
@@ -80,7 +80,7 @@ TEST(RigidSurface, NormalIsTheGradientOfTheDistance) {
     }
 }
 
-/// A surface that has turned by `angle` about `axis` since it stood straight.
+/// A surface rotated by `angle` about `axis` from its upright pose.
 SurfacePose posed(const Vec3d& centre, const Vec3d& axis, double angle) {
   const Vec3d n = normalized(axis) * std::sin(0.5 * angle);
   SurfacePose pose;
@@ -91,7 +91,7 @@ SurfacePose posed(const Vec3d& centre, const Vec3d& axis, double angle) {
 
 TEST(RigidSurface, NoPointsDistanceChangesByMoreThanTheTravel) {
   for (const SurfaceGeometry& surface : {kPlane, kBox, kCylinder, kTube}) {
-    double closest = 0; // share of the bound that is reached
+    double closest = 0; // share of the bound
     for (int i = 0; i < 4000; ++i) {
       const auto r = [&](int k) { return randomNumber(i, k); };
       const SurfacePose a = posed({r(0), r(1), r(2)}, {r(3), r(4), r(5) + 1.5}, 3 * r(6));
@@ -105,7 +105,7 @@ TEST(RigidSurface, NoPointsDistanceChangesByMoreThanTheTravel) {
       EXPECT_LE(change, bound + kRoundOff);
       closest = std::max(closest, change / bound);
     }
-    EXPECT_GT(closest, 0.5) << "the bound is not idle";
+    EXPECT_GT(closest, 0.5) << "the bound is tight";
   }
 }
 

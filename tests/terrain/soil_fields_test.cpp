@@ -30,7 +30,7 @@ TEST(SoilFields, TwoPressedSpheresCarryForceTimesDistance) {
   grains.refreshNeighbours();
   const SoilFields fields = fieldsOf(grains, fieldGrid({-0.02, -0.02, -0.02}, {0.03, 0.03, 0.03}, 0.01, {}));
   const Tensor6 total = totalOf(fields);
-  const double moment = -m.law.stiffness * overlap * distance; // pressed: negative
+  const double moment = -m.law.stiffness * overlap * distance; // compression is negative
   const double resolution = 1e-9 / overlap;                    // resolution of positions [overlap]
   std::size_t k = 0;
   for (int a = 0; a < 3; ++a)
@@ -38,7 +38,7 @@ TEST(SoilFields, TwoPressedSpheresCarryForceTimesDistance) {
       EXPECT_NEAR(total[k], moment * n[a] * n[b], (kFloat + resolution) * std::fabs(moment)) << a << b;
 }
 
-/// Grains in a cubic lattice, all in touch or apart.
+/// Grains in a cubic lattice, all touching or apart.
 std::vector<GrainSpec> lattice(int side, double spacing, const std::function<Vec3d(const Vec3d&)>& velocity) {
   std::vector<GrainSpec> start;
   for (int z = 0; z < side; ++z)
@@ -56,12 +56,12 @@ TEST(SoilFields, PorosityOfACubicLatticeIsOneLessSixthOfPi) {
   const double spacing = 0.0102;
   Grains grains(testExec(), m, {}, lattice(8, spacing, still));
   grains.refreshNeighbours();
-  // Planes cut spheres anywhere, and in several directions: the shares of the cut ones make up whole spheres.
+  // Planes cut spheres anywhere, and in several directions: the parts of cut spheres add up to whole spheres.
   const Vec3d low{0.3 * spacing, 0.9 * spacing, 0.5 * spacing}, size{6 * spacing, 6 * spacing, 6 * spacing};
   const SoilFields fields = fieldsOf(grains, fieldGrid(low, low + size, 2 * spacing, {}));
   ASSERT_EQ(fields.grid.count(), 27u);
   const double solid = base::kPi / 6 * std::pow(2 * m.radius / spacing, 3);
-  for (const double porosity : fields.porosity) EXPECT_NEAR(porosity, 1 - solid, 1e-6); // places in whole units
+  for (const double porosity : fields.porosity) EXPECT_NEAR(porosity, 1 - solid, 1e-6); // positions are whole units
 }
 
 TEST(SoilFields, GrainsCountOnceWhereverPlanesCutThem) {
@@ -74,7 +74,7 @@ TEST(SoilFields, GrainsCountOnceWhereverPlanesCutThem) {
   double solid = 0;
   for (const double porosity : fields.porosity) solid += (1 - porosity) * fields.grid.cellVolume();
   const double ball = 4.0 / 3 * base::kPi * std::pow(m.radius, 3);
-  EXPECT_NEAR(solid, 40 * ball, 40 * 2e-7 * ball) << "radii are single precision, volumes go as their cube";
+  EXPECT_NEAR(solid, 40 * ball, 40 * 2e-7 * ball) << "radii are single precision, volumes go as the cube";
 }
 
 TEST(SoilFields, ABallCutByAPlaneFillsASphericalSegmentOnEitherSide) {
@@ -85,11 +85,11 @@ TEST(SoilFields, ABallCutByAPlaneFillsASphericalSegmentOnEitherSide) {
   const SoilFields fields = fieldsOf(grains, fieldGrid({0, 0, 0}, {0.01, 0.01, 0.02}, 0.01, {}));
   ASSERT_EQ(fields.grid.cells, (std::array{1, 1, 2}));
   const double segment = base::kPi * h * h * (m.radius - h / 3);
-  EXPECT_NEAR((1 - fields.porosity[1]) * fields.grid.cellVolume() / segment, 1, 1e-5) << "places in whole units";
+  EXPECT_NEAR((1 - fields.porosity[1]) * fields.grid.cellVolume() / segment, 1, 1e-5) << "positions are whole units";
 }
 
 TEST(SoilFields, LinearVelocityFieldHasItsStrainRate) {
-  // A turn, which has none, and a shear with stretch on top.
+  // A rotation, which has no strain rate, plus shear and stretch.
   const Vec3d spin{3, -2, 5};
   const double gradient[3][3] = {{0.7, 1.1, 0}, {0, -0.4, 0.9}, {0.2, 0, 0.3}};
   const GrainModel m = ball(1e-6);
@@ -123,10 +123,10 @@ TEST(SoilFields, CellsWithoutGrainsHaveNoVelocityAndNoStress) {
   EXPECT_EQ(fields.stress[2], Tensor6{});
 }
 
-/// Rough grains in a face-centred lattice, a little out of place, pressed together by six smooth planes; each plane is
-/// a surface whose load is known.
+/// Rough grains in a slightly disordered face-centred lattice, pressed together by six smooth planes; each plane is
+/// a surface with known load.
 struct PressedBox {
-  static constexpr int kSites = 6; ///< along each axis, every other one of which holds a grain
+  static constexpr int kSites = 6; ///< along each axis; every other one holds a grain
   static constexpr std::int64_t kGrains = 108;
   GrainModel model;
   Vec3d low, high;
@@ -165,10 +165,10 @@ struct PressedBox {
     return k % 2 == 0 ? -f[static_cast<int>(k / 2)] : f[static_cast<int>(k / 2)];
   }
   SoilFields fields(double edge) const { return fieldsOf(*grains, fieldGrid(low - pad(), high + pad(), edge, {})); }
-  static Vec3d pad() { return {0.03, 0.03, 0.03}; } // grains reach a little into the planes
+  static Vec3d pad() { return {0.03, 0.03, 0.03}; } // grains overlap the planes slightly
 };
 
-constexpr std::int64_t kToRest = 4000; // a fifth of a second: hundreds of periods of a contact
+constexpr std::int64_t kToRest = 4000; // a fifth of a second: hundreds of contact periods
 
 TEST(SoilFields, MeanStressOfABoxAtRestIsTheLoadOfItsWalls) {
   const PressedBox box(false, 1, kToRest);
@@ -193,7 +193,7 @@ TEST(SoilFields, WeightAddsItsMomentToTheLoadsOfTheWalls) {
   const auto snapshot = box.grains->snapshot();
   for (const Vec3d& x : snapshot.position) moment += box.model.mass * box.model.gravity.z * x.z;
   moment += box.load(4) * box.low.z - box.load(5) * box.high.z;
-  EXPECT_GT(box.load(4) / box.load(5), 1.0001) << "the floor bears the weight, too";
+  EXPECT_GT(box.load(4) / box.load(5), 1.0001) << "the floor also carries the weight";
   EXPECT_NEAR(total[5] / moment, 1, 0.002);
 }
 
@@ -234,7 +234,7 @@ TEST(SoilFields, SameBitsForThreadsAndRebuilds) {
 }
 
 TEST(SoilFields, PeriodicBoundariesAreSeamless) {
-  // A lattice pressed to itself across the boundaries, which cut its grains at a third.
+  // A lattice pressed against itself across the boundaries, which cut its grains at a third.
   const GrainModel m = ball(1e-5);
   const double spacing = 0.0099, period = 6 * spacing, shift = 0.002;
   std::vector<GrainSpec> start = lattice(6, spacing, still);

@@ -11,13 +11,13 @@ namespace grouser::terrain::testing {
 
 using base::Vec3d;
 
-/// Turn by `angle` [rad] about `axis`.
+/// Rotation by `angle` [rad] about `axis`.
 inline base::Quat turn(const Vec3d& axis, double angle) {
   const Vec3d v = base::sin(0.5 * angle) * base::normalized(axis);
   return base::Quat{base::cos(0.5 * angle), v.x, v.y, v.z}.normalized();
 }
 
-/// A surface at `centre`, turned by `stands` at the start and by `turned` since, with its velocities.
+/// A surface at `centre`, initially rotated by `stands` and since then by `turned`, with its velocities.
 inline SurfacePose placed(const Vec3d& centre, const base::Quat& stands = {}, const base::Quat& turned = {},
                           const Vec3d& velocity = {}, const Vec3d& spin = {}) {
   return {{centre, (turned * stands).matrix(), centre, velocity, spin}, turned.matrix()};
@@ -27,10 +27,10 @@ inline SurfaceGeometry boxOf(const Vec3d& half) { return {SurfaceShape::box, hal
 inline SurfaceGeometry tubeOf(double radius, double half) { return {SurfaceShape::tube, {radius, 0, half}}; }
 inline SurfaceGeometry cylinderOf(double radius, double half) { return {SurfaceShape::cylinder, {radius, 0, half}}; }
 
-/// Where the surfaces are at step n.
+/// Poses of the surfaces at step n.
 using Motion = std::function<std::vector<SurfacePose>(std::int64_t step)>;
 
-/// Steps from `first` to `last`, with the surfaces placed before each.
+/// Steps from `first` to `last`, with the surfaces set before each.
 inline void advanceWith(Grains& grains, const Motion& motion, std::int64_t first, std::int64_t last) {
   for (std::int64_t n = first; n < last; ++n) {
     grains.setSurfacePoses(motion(n));
@@ -39,7 +39,7 @@ inline void advanceWith(Grains& grains, const Motion& motion, std::int64_t first
   }
 }
 
-/// A drum of radius 0.06 m that turns about y with a lifter inside, and a plate that shakes through its lower half.
+/// A drum of radius 0.06 m rotating about y with a lifter inside, and a plate shaking in its lower half.
 inline std::vector<RigidSurface> mill(const contact::ContactLaw& law) {
   const base::Quat aboutY = turn({1, 0, 0}, -base::kPi / 2); // z of the drum along y
   return {{tubeOf(0.06, 0.03), law, placed({}, aboutY)},
@@ -57,7 +57,7 @@ inline Motion millMotion(double timeStep) {
   };
 }
 
-/// Grains that fill the lower half of the mill and some that lie around it.
+/// Grains that fill the lower half of the mill, and some around it.
 inline std::vector<GrainSpec> millGrains() {
   std::vector<GrainSpec> start;
   for (int y = -2; y <= 2; ++y)

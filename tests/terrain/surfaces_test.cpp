@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Rigid surfaces, fixed and moving: nearest points, closed forms of rest, rolling and carrying, loads, and equal bits.
+// Rigid surfaces, fixed and moving: nearest points, closed forms of rest, rolling and transport, loads; identical bits.
 #include "surface_fixture.hpp"
 #include "terrain/kernel_choice.hpp"
 #include "tests/device_under_test.hpp"
@@ -49,7 +49,7 @@ TEST(SurfaceTravel, LeavesOutWhatDoesNotChangeTheSurface) {
   EXPECT_LT(travelBetween(plane, a, placed(rotate(tilted, {2, 1, 0}), tilted)).way, 1e-15);
   EXPECT_NEAR(travelBetween(plane, a, placed(rotate(tilted, {2, 1, 0.1}), tilted)).way, 0.1, 1e-15);
   EXPECT_LT(travelBetween(tubeOf(1, 1), a, placed({}, tilted, turn(rotate(tilted, {0, 0, 1}), 1))).turn, 1e-15);
-  // No bound is exceeded: a point at p comes nearer by at most way + turn |p - centre|.
+  // No bound is exceeded: a point at p approaches by at most travel + turn |p - centre|.
   const SurfaceGeometry shapes[] = {plane, boxOf({0.5, 0.3, 0.2}), cylinderOf(0.5, 0.4), tubeOf(0.5, 0.4)};
   for (const SurfaceGeometry& g : shapes)
     for (int k = 0; k < 200; ++k) {
@@ -78,7 +78,7 @@ TEST(BallOnBox, RestsOnFaceEdgeAndCornerAtItsStaticOverlap) {
                   {{centre + rotate(stands, foot + n * m.radius), {}, {}}});
     advance(grains, 5000);
     const Vec3d x = transposedTimes(stands.matrix(), grains.snapshot().position[0] - centre) - foot;
-    EXPECT_LT(norm(x - n * (m.radius - overlap)), 2e-3 * overlap) << "a float's force; on edges it begins to roll off";
+    EXPECT_LT(norm(x - n * (m.radius - overlap)), 2e-3 * overlap) << "a float's force; on edges it starts to roll off";
     const Vec3d force = grains.system().boundaries.surfaceLoads()[0].force;
     EXPECT_LT(norm(force - m.gravity * m.mass), 1e-3 * m.mass * g);
     const Vec3d torque = cross(rotate(stands, foot), m.gravity * m.mass);
@@ -101,16 +101,16 @@ TEST(BallInDrum, SwingsWithThePeriodOfRolling) {
     if (last > 0 && x <= 0) crossing = (n + 20 * last / (last - x)) * m.timeStep;
     last = x;
   }
-  EXPECT_NEAR(4 * crossing / period, 1, 2e-3) << "the springs give way for a fraction of a contact";
+  EXPECT_NEAR(4 * crossing / period, 1, 2e-3) << "the springs yield for a fraction of a contact";
 }
 
 TEST(BallInDrum, ThatTurnsWithItFeelsNoRollingResistance) {
-  // Pressed to the wall by the turn alone, spinning as the drum does: nothing slides or rolls.
+  // Pressed to the wall by rotation alone, spinning with the drum: no sliding or rolling.
   const double omega = 40, radius = 0.03;
   GrainModel m = ball(1e-5);
   m.law.friction = 0.6, m.law.tangentialStiffness = m.law.stiffness * 2 / 7;
   m.law.rollingFriction = 0.3, m.law.rollingDamping = 0.3;
-  const double arm = (radius - m.radius) / (1 - m.mass * omega * omega / m.law.stiffness); // the spring gives way
+  const double arm = (radius - m.radius) / (1 - m.mass * omega * omega / m.law.stiffness); // the spring yields
   const SurfaceGeometry drum = tubeOf(radius, 0.05);
   Grains grains(testExec(1), m, {{}, {}, {}, {{drum, m.law, placed({})}}},
                 {{{arm, 0, 0}, {0, omega * arm, 0}, {0, 0, omega}}});
@@ -121,11 +121,11 @@ TEST(BallInDrum, ThatTurnsWithItFeelsNoRollingResistance) {
   EXPECT_NEAR(static_cast<double>(grains.snapshot().spin[0].z), omega, 1e-3 * omega);
   EXPECT_LT(grains.ledger().dissipated(), 1e-4 * grains.ledger().kinetic);
   EXPECT_EQ(grains.system().boundaries.listings(), grains.system().rebuilds)
-      << "a drum that turns about its axis asks for no lists";
+      << "a drum rotating about its axis needs no rebuild";
 }
 
 TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
-  // A5 in the frame of the belt: it slides with v0, decelerated by mu g, and rolls at 5/7 of it.
+  // A5 in the frame of the belt: it slides at v0, decelerated by mu g, and then rolls at 5/7 of it.
   const double mu = 0.3, v0 = 1;
   const GrainModel m = roughBall(2e-6, mu, 0.3);
   const double overlap = m.mass * 9.81 / m.law.stiffness;
@@ -136,11 +136,11 @@ TEST(BallOnBelt, IsCarriedOffSlidingThenRolling) {
   advance(grains, static_cast<std::int64_t>(0.5 * tRoll / m.timeStep));
   EXPECT_NEAR(grains.snapshot().velocity[0].x, mu * 9.81 * 0.5 * tRoll, 1e-4) << "constant acceleration mu g";
   EXPECT_NEAR(grains.system().boundaries.surfaceLoads()[0].force.x, -mu * m.mass * 9.81, 1e-4 * m.mass * 9.81)
-      << "what the belt must pull";
+      << "the pull of the belt";
   advance(grains, static_cast<std::int64_t>(0.6 * tRoll / m.timeStep));
   EXPECT_NEAR(grains.snapshot().velocity[0].x, 2 * v0 / 7, 1e-3);
   EXPECT_EQ(grains.system().boundaries.listings(), grains.system().rebuilds)
-      << "a belt that slides along itself asks for no lists";
+      << "a belt moving along itself needs no rebuild";
 }
 
 TEST(BallOnTurntable, RollsRoundWithTwoSeventhsOfItsSpin) {
@@ -157,12 +157,12 @@ TEST(BallOnTurntable, RollsRoundWithTwoSeventhsOfItsSpin) {
   const double quarter = base::kPi / 2 / (2 * spin / 7);
   advanceWith(grains, motion, 0, std::llround(quarter / m.timeStep));
   const Vec3d x = grains.snapshot().position[0];
-  EXPECT_LT(norm(x - Vec3d{0, rho, m.radius - overlap}), 5e-3 * rho) << "springs that give way at the start";
-  EXPECT_GT(grains.system().boundaries.listings(), grains.system().rebuilds) << "the corners of the table go round";
+  EXPECT_LT(norm(x - Vec3d{0, rho, m.radius - overlap}), 5e-3 * rho) << "springs yield at the start";
+  EXPECT_GT(grains.system().boundaries.listings(), grains.system().rebuilds) << "the corners of the table move round";
 }
 
 TEST(BallOnTurntable, ThatSticksDoesNotCreepSinceItsSpringTurnsWithTheTable) {
-  // Rolling resistance holds it; a soft tangential spring of length s would creep by W s a second, were it kept in
+  // Rolling resistance holds it; a soft tangential spring of length s would creep by W s per second in
   // world axes.
   const double spin = 10, rho = 0.05;
   GrainModel m = ball(1e-5);
@@ -243,7 +243,7 @@ TEST(Mill, ResumedRunGivesTheSameBitsAndLoads) {
 }
 
 TEST(Mill, ListsLoseNoContact) {
-  // Lists made anew in every step against lists that surfaces and grains ask for.
+  // Lists rebuilt in every step against lists rebuilt on demand of surfaces and grains.
   const GrainModel m = millModel();
   Grains seldom(testExec(1), m, {{}, {}, {}, mill(m.law)}, millGrains()),
       always(testExec(1), m, {{}, {}, {}, mill(m.law)}, millGrains());
@@ -254,11 +254,11 @@ TEST(Mill, ListsLoseNoContact) {
     advanceWith(seldom, motion, n, n + 1);
   }
   EXPECT_EQ(seldom.state().words(), always.state().words());
-  EXPECT_LT(seldom.system().boundaries.listings(), 600) << "the plate shakes by 4 mm, the room is 2.5 mm";
+  EXPECT_LT(seldom.system().boundaries.listings(), 600) << "the plate moves by 4 mm, the margin is 2.5 mm";
 }
 
 TEST(Surfaces, ListsMadeBetweenRebuildsKeepWallsThatAGrainMayComeBackTo) {
-  // It rises by nearly half the skin and falls back onto the floor, while a box far away asks for list after list.
+  // It rises by nearly half the skin and falls back to the floor, while a distant box requires rebuild after rebuild.
   GrainModel m = ball(1e-5);
   m.gravity = {0, 0, -9.81};
   const double gap = 5e-4, rise = 0.95 * 0.5 * m.skin * m.radius;
@@ -285,7 +285,7 @@ TEST(Surfaces, ThatJumpAwayLeaveNoSpringBehind) {
   const SurfaceGeometry box = boxOf({0.02, 0.02, 0.01});
   Grains grains(testExec(1), m, {{}, {}, {}, {{box, m.law, placed({0, 0, -0.01})}}},
                 {{{0, 0, m.radius - 1e-5}, {0.1, 0, 0}, {}}});
-  advance(grains, 10); // of the 37 of a contact
+  advance(grains, 10); // a contact lasts 37
   EXPECT_EQ(grains.state().wallBits[0], 1u);
   grains.setSurfacePoses({placed({0, 0, -1})});
   advance(grains, 1);

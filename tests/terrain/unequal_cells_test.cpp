@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Height fields whose cells are longer one way than the other: the cubic is exact on quadratics, so all is closed form.
+// Height fields with oblong cells: the cubic is exact for quadratics, so all values are in closed form.
 #include "terrain/height_field.hpp"
 
 #include "base/math.hpp"
@@ -38,10 +38,10 @@ TEST(UnequalCells, AQuadraticHasItsOwnHeightsSlopesAndCurvatures) {
   EXPECT_NEAR(view.dx, 0.25, kEps);
   EXPECT_NEAR(view.dy, 0.05, kEps);
   for (int i = 0; i < 500; ++i) {
-    // A cell off the border, where the curve goes on along its tangent.
+    // A cell beyond the border, where the curve continues along its tangent.
     const double x = randomOf(i, 0, -1.25, 2.0), y = randomOf(i, 1, 3.05, 4.15), v = y - 3.6;
     const SurfaceJet s = view.jet(x, y);
-    // Round-off of heights up to 3 m; over a cell for a slope, over two for a curvature.
+    // Round-off of heights up to 3 m; over one cell for a slope, over two for a curvature.
     EXPECT_NEAR(s.h, bowl(x, y), 40 * kEps);
     EXPECT_EQ(view.height(x, y), s.h);
     EXPECT_NEAR(s.hx, 0.1 + 0.8 * x - 0.25 * v, 100 * kEps / 0.25);
@@ -61,10 +61,10 @@ TEST(UnequalCells, AStepAcrossIsFeltInItsOwnDirectionOnly) {
     const HeightField field(kCellsArea, kColumns, kRows, heights);
     const double x = column ? -1.5 + 6 * 0.25 : 0.3, y = column ? 3.7 : 3 + 6 * 0.05;
     EXPECT_NEAR(field.height(x, y), 0.1, 10 * kEps);
-    EXPECT_NEAR(field.height(x + (column ? 0.5 : 0), y + (column ? 0 : 0.1)), 0, 10 * kEps) << "two nodes on";
-    // Half way to the next node a Catmull-Rom cubic has 9/16 of it.
+    EXPECT_NEAR(field.height(x + (column ? 0.5 : 0), y + (column ? 0 : 0.1)), 0, 10 * kEps) << "two nodes away";
+    // Half-way to the next node a Catmull-Rom cubic has 9/16 of it.
     EXPECT_NEAR(field.height(x + (column ? 0.125 : 0), y + (column ? 0 : 0.025)), 0.1 * 9 / 16, 100 * kEps);
-    EXPECT_NEAR(field.height(x + (column ? 0 : 0.31), y + (column ? 0.17 : 0)), 0.1, 10 * kEps) << "along it";
+    EXPECT_NEAR(field.height(x + (column ? 0 : 0.31), y + (column ? 0.17 : 0)), 0.1, 10 * kEps) << "along the row";
   }
 }
 
@@ -98,8 +98,8 @@ TEST(UnequalCells, ClosestPointOnAPlaneIsExact) {
 }
 
 TEST(UnequalCells, BoundsOfAQuadraticAreItsOwn) {
-  // Along y alone, and along x alone: the net of a quadratic has its slope at the ends and its curvature throughout,
-  // but for the outermost cells, where the surface runs out into its tangent.
+  // Along y only, and along x only: the control net of a quadratic has its slope at the ends and constant curvature,
+  // except for the outermost cells, where the surface continues along its tangent.
   const Rectangle inner{-1.2, 1.9, 3.07, 4.12};
   const HeightField alongY =
       HeightField::sample(kCellsArea, kColumns, kRows, [](double, double y) { return y * y / 2; });

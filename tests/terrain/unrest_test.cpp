@@ -24,13 +24,13 @@ TEST(ForceRatio, FreeFall_IsOne) {
   const GrainModel m = dampedBall();
   Grains grains(base::cpuExec(2), m, {}, {{{0, 0, 1}, {}, {}}, {{1, 0, 1}, {1, 0, 0}, {}}, {{2, 0, 1}, {}, {}}});
   advance(grains, 3);
-  // A float of up to 1 m/s is known to 6e-8 m/s, of g dt = 9.8e-5 m/s; the sum has a quantum of 2^-24 of that.
+  // A float up to 1 m/s resolves 6e-8 m/s, relative to g dt = 9.8e-5 m/s; the sum has a quantum of 2^-24 of that.
   EXPECT_NEAR(forceRatio(grains.system()), 1.0, 1e-3);
 }
 
 TEST(ForceRatio, HalfOfTheGrainsAtRest_IsOneHalf) {
   const GrainModel m = dampedBall();
-  // One lies on the plane where spring and weight balance, the other falls.
+  // One is on the plane where spring and weight balance, the other falls.
   const double overlap = m.mass * norm(m.gravity) / m.law.stiffness;
   Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}},
                 {{{0, 0, m.radius - overlap}, {}, {}}, {{1, 0, 1}, {}, {}}});
@@ -52,8 +52,8 @@ TEST(ForceRatio, DecaysAsABallComesToRest) {
   Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, m.radius}, {}, {}}});
   advance(grains, 1);
   EXPECT_NEAR(forceRatio(grains.system()), 1.0, 1e-6);
-  advance(grains, 10000); // 0.1 s; the swing decays as exp(-gamma t / 2), by exp(-25)
-  // Where it rests the spring is right to a unit of position.
+  advance(grains, 10000); // 0.1 s; the oscillation decays as exp(-gamma t / 2), by exp(-25)
+  // At rest the spring is accurate to one unit of position.
   EXPECT_LT(forceRatio(grains.system()), m.law.stiffness * grains.scale().unit / (m.mass * norm(m.gravity)));
 }
 

@@ -34,7 +34,7 @@ AssemblyOptions leftOnly(bool fixChassis) {
   return options;
 }
 
-/// Everything relaxed: no preload anywhere, sprockets held.
+/// No preload anywhere, sprockets locked.
 multibody::Loads relaxed(const Assembly& v, const Vec3d& gravity) {
   multibody::Loads loads = multibody::makeLoads(v.model);
   vehicle::Controls controls;
@@ -98,7 +98,7 @@ TEST(Assembly, AnyPlaceAndHeading_StartsWithEveryJointClosed) {
     const auto& bodies = v.model.bodies();
     const base::Pose a = multibody::compose(bodies[joint.bodyA].pose, joint.frame_A);
     const base::Pose b = multibody::compose(bodies[joint.bodyB].pose, joint.frame_B);
-    // Round-off of places 6 m from the origin.
+    // Round-off of positions 6 m from the origin.
     EXPECT_LT(base::norm(a.position - b.position), 1e-14 * 6) << joint.name;
     const Vec3d z_A = base::rotate(a.orientation, {0, 0, 1}), z_B = base::rotate(b.orientation, {0, 0, 1});
     EXPECT_LT(base::norm(z_A - z_B), 1e-14) << joint.name;
@@ -134,7 +134,7 @@ TEST(Assembly, RelaxedFreeFall_AllBodiesFallAlikeWithoutJointForces) {
   const double dt = 5e-5;
   for (int i = 0; i < steps; ++i) solver.step(state, loads, dt);
   for (std::size_t i = 0; i < state.twist.size(); ++i) {
-    // Round-off of places 3 m from the origin, 4e-16 m over a step, some hundred times.
+    // Round-off of positions 3 m from the origin, 4e-16 m over a step, some hundred times.
     EXPECT_LT(base::norm(state.twist[i].v - Vec3d{0.5, 0, -9.81 * steps * dt}), 1e-9) << v.model.bodies()[i].name;
     EXPECT_LT(base::norm(state.twist[i].w), 1e-9) << v.model.bodies()[i].name;
   }
@@ -152,7 +152,7 @@ TEST(Assembly, PreloadsReleasedInFlight_KeepMomentum) {
   const multibody::Totals before = multibody::totals(v.model, state, loads);
   for (int i = 0; i < 200; ++i) solver.step(state, loads, 1e-4);
   const multibody::Totals after = multibody::totals(v.model, state, loads);
-  EXPECT_GT(after.kinetic, 0.1) << "tensioner and torsion bars must move something";
+  EXPECT_GT(after.kinetic, 0.1) << "tensioner and torsion bars must cause motion";
   // Round-off of internal impulses, 2e4 N over 0.02 s in 200 steps.
   EXPECT_LT(base::norm(after.linearMomentum - before.linearMomentum), 1e-7);
   EXPECT_LT(base::norm(after.angularMomentum - before.angularMomentum), 1e-6);
@@ -195,7 +195,7 @@ TEST(Assembly, HangingOnAFixedChassis_FallsAndLosesEnergyOnly) {
   const double dt = 1e-4;
   for (int i = 0; i < 1000; ++i) solver.step(state, loads, dt);
   const multibody::Totals end = multibody::totals(v.model, state, loads);
-  // Nothing holds the loop but its own stiffness-free pins: after 0.1 s it has fallen some 49 mm.
+  // Nothing supports the loop except its own pins, which have no stiffness: after 0.1 s it has fallen some 49 mm.
   EXPECT_LT(state.pose[v.tracks[0].shoes[40]].position.z,
             v.model.bodies()[v.tracks[0].shoes[40]].pose.position.z - 0.02);
   EXPECT_GT(end.kinetic, 1.0);

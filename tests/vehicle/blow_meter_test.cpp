@@ -13,7 +13,7 @@ TEST(BlowMeter, TakesMeansOverTenMilliseconds) {
   for (int i = 1; i <= 10; ++i) meter.add(0.002 * i, 1000); // at rest
   EXPECT_DOUBLE_EQ(meter.most, 1);
   EXPECT_FALSE(meter.isBlow());
-  // 25 weights for 2 ms are 5.8 in the mean of 10 ms, with the weight in the rest.
+  // 25 weights for 2 ms are 5.8 in the mean over 10 ms, including the static weight.
   double time = 0.02;
   for (const double up : {1000, 25'000, 1000, 1000, 1000}) meter.add(time += 0.002, up);
   EXPECT_NEAR(meter.most, 5.8, 1e-12);
@@ -26,7 +26,7 @@ TEST(BlowMeter, IsTheSameInOtherStepsAndRestored) {
   for (int i = 1; i <= 20; ++i) coarse.add(0.005 * i, up(0.005 * i - 0.0025));
   for (int i = 1; i <= 100; ++i) {
     fine.add(0.001 * i, up(0.001 * i - 0.0005));
-    if (i == 55) restored.restore(fine.save()); // amid a mean
+    if (i == 55) restored.restore(fine.save()); // within an averaging window
     if (i > 55) restored.add(0.001 * i, up(0.001 * i - 0.0005));
   }
   EXPECT_NEAR(coarse.most, fine.most, 0.05 * fine.most);

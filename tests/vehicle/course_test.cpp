@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The closed-loop driver on simple plants whose motion is known, and on the whole vehicle.
+// The closed-loop driver on simple plants with known motion, and on the complete vehicle.
 #include "vehicle/course.hpp"
 
 #include "base/error.hpp"
@@ -26,7 +26,7 @@ CourseOptions plain() {
   return o;
 }
 
-/// A hull that has at once the speed and the rate of turn of its tracks, less the shares that slip.
+/// A hull with the instantaneous speed and yaw rate of its tracks, minus slip and skid.
 struct Plant {
   double slip = 0, skid = 0; ///< [-]
   double x = 0, y = 0, heading = 0, speed = 0, turnRate = 0;
@@ -41,7 +41,7 @@ struct Plant {
   }
 };
 
-/// Distance of a hull from the nearest stretch of a path [m].
+/// Distance of a hull from the nearest segment of a path [m].
 double awayFrom(const CourseOptions& path, const HullMotion& m) {
   double nearest = 1e300;
   for (std::size_t i = 1; i < path.x.size(); ++i) {
@@ -83,13 +83,13 @@ TEST(Course, SpeedRisesWithTheAcceleration) {
 TEST(Course, SlipIsMadeUpForAsTheClosedFormSays) {
   Course course(plain());
   Plant plant;
-  plant.slip = 0.3, plant.speed = 0.7 * 2 / (1 + 0.7 * 0.5) * 1.5; // where it would be at once with I = 0
+  plant.slip = 0.3, plant.speed = 0.7 * 2 / (1 + 0.7 * 0.5) * 1.5; // the instantaneous speed at I = 0
   const double dt = 1e-4, rate = 0.7 * 1 / (1 + 0.7 * 0.5);
   const double first = 2 - plant.speed;
   for (int i = 0; i < 20000; ++i) plant.step(course, 10, dt);
   EXPECT_NEAR(2 - plant.speed, first * std::exp(-rate * 2), 1e-3 * first);
   for (int i = 0; i < 400000; ++i) plant.step(course, 10, dt);
-  EXPECT_NEAR(plant.speed, 2, 1e-8) << "in the end without error";
+  EXPECT_NEAR(plant.speed, 2, 1e-8) << "no steady-state error";
 }
 
 TEST(Course, CircleHasItsRadiusThoughTheTracksSkid) {
@@ -102,7 +102,7 @@ TEST(Course, CircleHasItsRadiusThoughTheTracksSkid) {
   EXPECT_NEAR(plant.speed / plant.turnRate, -8, 1e-6);
 }
 
-/// Pure pursuit of a straight line, small offsets, no slip: y'' + 2 y' / L + 2 y / L^2 = 0 over the way, hence
+/// Pure pursuit of a straight line, small offsets, no slip: y'' + 2 y' / L + 2 y / L^2 = 0 along the path, hence
 /// y = y0 exp(-x / L)(cos(x / L) + sin(x / L)).
 TEST(Course, OffsetFromALineDiesOutAsTheClosedFormSays) {
   CourseOptions o = plain();
@@ -119,7 +119,7 @@ TEST(Course, OffsetFromALineDiesOutAsTheClosedFormSays) {
   }
 }
 
-/// On a circle of corners it stays within what the corners cut off and the look-ahead cuts.
+/// On a polygonal circle the deviation is within the cut corners and the look-ahead error.
 TEST(Course, FollowsACircleOfPointsAndStopsAtItsEnd) {
   CourseOptions o = plain();
   const double R = 8;
@@ -136,14 +136,14 @@ TEST(Course, FollowsACircleOfPointsAndStopsAtItsEnd) {
     plant.step(course, 1e-4 * i, 1e-4);
     worst = std::max(worst, std::fabs(std::sqrt(plant.x * plant.x + (plant.y - R) * (plant.y - R)) - R));
   }
-  EXPECT_LT(worst, 0.1); // the skid is learnt on the first metres
+  EXPECT_LT(worst, 0.1); // the skid is estimated over the first metres
   EXPECT_NEAR(course.travelled(), course.length(), 0.02);
   EXPECT_LT(plant.speed, 0.1);
 }
 
 TEST(Course, PathThatCrossesItselfIsFollowedInItsOrder) {
   CourseOptions o = plain();
-  o.x = {0, 10, 10, 5, 5}, o.y = {0, 0, 5, 5, -8}, o.lookAhead = 1, o.speed = 1; // crosses its first stretch at (5, 0)
+  o.x = {0, 10, 10, 5, 5}, o.y = {0, 0, 5, 5, -8}, o.lookAhead = 1, o.speed = 1; // first crossing at (5, 0)
   Course course(o);
   Plant plant;
   double way = 0;
@@ -213,7 +213,7 @@ TEST(CourseOfAVehicle, HoldsTheHullsSpeedOnRigidGround) {
   double speed = 0;
   int n = 0;
   ride.until(4.5, [&] { speed += ride.motion().speed, ++n; });
-  EXPECT_NEAR(speed / n, 0.8, 0.004); // teeth ripple; mean over some of them: 0.5 %
+  EXPECT_NEAR(speed / n, 0.8, 0.004); // teeth cause a ripple; mean over some of them: 0.5 %
   EXPECT_NEAR(ride.motion().y, 0, 1e-5);
 }
 
@@ -236,6 +236,6 @@ TEST(CourseOfAVehicle, StaysBesideAPathThatSwervesByLessThanAQuarterOfALookAhead
   ride.until(9, [&] { worst = std::max(worst, awayFrom(o, ride.motion())); });
   EXPECT_GT(ride.motion().x, 7);
   EXPECT_LT(worst, 0.25 * 4 * 0.4458);
-  EXPECT_NEAR(ride.motion().y, 1, 0.1) << "in the end on the line";
+  EXPECT_NEAR(ride.motion().y, 1, 0.1) << "finally on the line";
   EXPECT_EQ(ride.observe().alarm.text, "");
 }

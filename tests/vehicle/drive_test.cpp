@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The whole vehicle on level rigid ground with analytic contact: what it must do before any sphere set is made.
+// The complete vehicle on level rigid ground with analytic contact: requirements before any sphere set exists.
 #include "base/math.hpp"
 #include "ride.hpp"
 #include "tests/vehicle/ground_shoes.hpp"
@@ -26,7 +26,7 @@ TEST(Drive, WeightlessTensionedTrack_HoldsTheIdlerByTwoStrands) {
   vehicle::AssemblyOptions options;
   options.fixChassis = true;
   options.right = false;
-  // Weight never comes: only the tensioner acts.
+  // No weight: only the tensioner acts.
   Ride ride(test::readySpec(), options, {.tensionRamp = 0.2, .weightRamp = 10, .driveStart = 20}, -10);
   ride.until(0.2);
   double tension = 0, force = 0;
@@ -40,7 +40,7 @@ TEST(Drive, WeightlessTensionedTrack_HoldsTheIdlerByTwoStrands) {
     ++samples;
   });
   tension /= samples, force /= samples;
-  // T = F / (1 + cos(front strand)). The strands still swing and the wheels share some of it: 3 %.
+  // T = F / (1 + cos(front strand)). The strands still oscillate and the wheels carry some of it: 3 %.
   const double frontStrand = ride.vehicle().wrap.kinks[2];
   EXPECT_NEAR(tension, force / (1 + base::cos(frontStrand)), 0.03 * tension);
   EXPECT_GT(force, 8000);
@@ -66,7 +66,7 @@ TEST(Drive, RigidGround_KeepsShoesLevelAndSpeedAtThePitchRadius) {
     ASSERT_EQ(o.alarm.text, "") << "at t = " << o.time;
   });
   const auto o = ride.observe();
-  // The control experiment of a shoe's height: constant within 1 mm, a grouser's height above ground less the overlap.
+  // Reference for the height of a shoe: constant within 1 mm, a grouser's height above ground minus the overlap.
   EXPECT_LT(highest - lowest, 1e-3);
   EXPECT_NEAR(0.5 * (highest + lowest), 0.015, 1e-3);
   // Mean over 1.4 s of a hull that still pitches: 0.5 %.

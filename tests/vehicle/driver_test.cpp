@@ -21,7 +21,7 @@ TEST(Driver, Stages_FollowOneAnother) {
   EXPECT_EQ(down.sprocketSpeed[0], 0);
   EXPECT_EQ(full.sprocketSpeed[0], 2);
   EXPECT_EQ(full.sprocketSpeed[1], 4);
-  // Half of a cubic ramp is one half, exactly.
+  // The middle of a cubic ramp is exactly one half.
   EXPECT_EQ(driver.at(0.125).tension, 0.5);
   EXPECT_EQ(driver.at(1.25).sprocketSpeed[1], 2);
 }
@@ -57,7 +57,7 @@ TEST(Driver, TakenOverUnderWay_PassesFromTheFormerSpeeds) {
   driver.takeOver({}, {.driven = true, .time = 2, .sprocketSpeed = {6, 2}});
   EXPECT_EQ(driver.at(2).sprocketSpeed, (std::array{6.0, 2.0})) << "no jump";
   EXPECT_EQ(driver.at(2.25).sprocketSpeed, (std::array{0.5 * (6 + 4.5), 0.5 * (2 - 4.5)}));
-  EXPECT_EQ(driver.at(3).sprocketSpeed, (std::array{6.0, -6.0})) << "times count from the begin of the drive";
+  EXPECT_EQ(driver.at(3).sprocketSpeed, (std::array{6.0, -6.0})) << "times count from the start of the drive";
   EXPECT_EQ(driver.rampEnds(0), 2.5);
   Driver resumed(options);
   resumed.restore(driver.save());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Ramps and controls with values of their own, left and right apart.
+// Ramps and controls with unique values, separately left and right.
 #include "vehicle/assembly.hpp"
 #include "vehicle/driver.hpp"
 
@@ -31,7 +31,7 @@ TEST(Controls, GoToTheTensionersBarsAndSprocketsOfTheirSide) {
     EXPECT_EQ(t.y > 0, track == 0) << "left first";
     EXPECT_EQ(loads.axisSprings[static_cast<std::size_t>(t.tensioner)].loadFactor, 0.25);
     for (const int bar : t.armSprings) EXPECT_EQ(loads.axisSprings[static_cast<std::size_t>(bar)].loadFactor, 0.5);
-    // 5 kN on the wheel at the end of an arm of 0.25 m that leans by 20 degrees; the bar holds against it.
+    // 5 kN on the wheel at the end of an arm of 0.25 m inclined by 20 degrees; the bar resists it.
     const multibody::AxisSpring& bar = v.model.axisSprings()[static_cast<std::size_t>(t.armSprings[1])];
     EXPECT_NEAR(bar.preload, -5000 * 0.25 * base::cos(base::kPi / 9), 1e-9);
     EXPECT_EQ(loads.drives[static_cast<std::size_t>(t.drive)].speed, track == 0 ? 3 : -7);

@@ -16,7 +16,7 @@ using vehicle::SprocketDrive;
 
 namespace {
 
-/// 400 N m at the shaft, 20 to 1 in the gear, of which nine tenths arrive: 7200 N m at the sprocket.
+/// 400 N m at the shaft, gear ratio 20, efficiency 0.9: 7200 N m at the sprocket.
 EngineSpec flat() {
   EngineSpec engine;
   engine.speed = {0, 300}, engine.torque = {400, 400};
@@ -45,7 +45,7 @@ TEST(Engine, GovernorGivesItsShareWithinTheDroopAndBrakesBeyond) {
   EXPECT_DOUBLE_EQ(vehicle::engineTorque(engine, 5, 9), -1000);
   EXPECT_DOUBLE_EQ(vehicle::engineTorque(engine, -5, -4.75), -3600);
   EXPECT_DOUBLE_EQ(vehicle::engineTorque(engine, -5, -9), 1000);
-  EXPECT_DOUBLE_EQ(vehicle::engineTorque(engine, 0, 0.25), -500) << "asked to stand it brakes";
+  EXPECT_DOUBLE_EQ(vehicle::engineTorque(engine, 0, 0.25), -500) << "it brakes at a set speed of 0";
   EXPECT_DOUBLE_EQ(vehicle::engineTorque(engine, 0, -0.25), 500);
   EXPECT_EQ(vehicle::engineTorque(engine, 50, 10), 0) << "governed at 200 / 20 rad/s";
 }
@@ -56,7 +56,7 @@ TEST(Engine, RollingBackItGivesWhatItsCurveHasAtStandstill) {
   EXPECT_DOUBLE_EQ(vehicle::engineTorque(engine, 5, -3), 0.9 * 20 * 100);
 }
 
-/// J w' = torque: at full throttle up to the droop, then exponentially nearer with the time constant J / slope.
+/// J w' = torque: full throttle up to the droop, then exponential with the time constant J / slope.
 TEST(Engine, FlywheelRunsUpAndComesNearAsTheClosedFormSays) {
   const EngineSpec engine = flat();
   const double J = 60, dt = 1e-5, droop = 0.5, slope = vehicle::governorSlope(engine);
@@ -79,7 +79,7 @@ TEST(Engine, UnderLoadItTurnsSlowerByItsShareOfTheDroop) {
 
 namespace {
 
-/// Pins that hardly damp: what they take goes with the speed, which differs between the two torques.
+/// Pins with little damping: its loss depends on the speed, which differs between the two torques.
 vehicle::VehicleSpec easyRunning() {
   vehicle::VehicleSpec spec = test::readySpec();
   spec.shoe.pinDamping = 0.1;
@@ -92,7 +92,7 @@ double pulled(double torque) {
   driver.driveRamp = 0.1, driver.drive = SprocketDrive::torque, driver.torques = {{0}, {torque}, {torque}};
   test::Ride ride = test::rideOnGround(easyRunning(), driver);
   ride.until(0.45);
-  EXPECT_NEAR(ride.motion().speed, 0, 0.02) << "held until the drive begins";
+  EXPECT_NEAR(ride.motion().speed, 0, 0.02) << "locked until the drive starts";
   ride.until(0.8);
   const double before = ride.motion().speed;
   EXPECT_NEAR(ride.observe().tracks[0].driveTorque, torque, 1e-9 * torque);
@@ -102,7 +102,7 @@ double pulled(double torque) {
 
 } // namespace
 
-/// Difference between two torques: resistance, which hardly depends on it, cancels. In a loop that runs about a hull
+/// Difference between two torques: resistance hardly depends on torque and cancels. In a loop running about a hull
 /// the sum of m (v + u)^2 / 2 over all directions u of size v is m v^2: its shoes count twice; wheels add I / r^2.
 TEST(Torque, AcceleratesMassAndEverythingThatTurns) {
   const vehicle::VehicleSpec s = easyRunning();
@@ -115,8 +115,8 @@ TEST(Torque, AcceleratesMassAndEverythingThatTurns) {
                            turning(s.idler.inertia.y, s.idler.radius) + turning(s.sprocket.inertia.y, R));
   const double gained = pulled(strong) - pulled(light);
   const double wanted = 2 * (strong - light) / (R * mass);
-  // What the dashpots of contacts take goes with the speed, some 700 N s/m, and the faster run is 0.9 m/s ahead in the
-  // middle: it gains less, by up to a tenth, never more.
+  // Losses in contact dashpots grow with speed, some 700 N s/m, and the faster run is ahead by 0.9 m/s in the
+  // middle: its acceleration is smaller by up to a tenth, never larger.
   EXPECT_LT(gained, wanted);
   EXPECT_GT(gained, 0.9 * wanted);
 }
@@ -124,7 +124,7 @@ TEST(Torque, AcceleratesMassAndEverythingThatTurns) {
 TEST(EngineDrive, ReachesTheSpeedItIsAskedForLessTheDroop) {
   vehicle::VehicleSpec spec = test::readySpec();
   spec.engine = flat();
-  spec.engine->brakeTorque = 7200; // teeth make the speed ripple about what is asked for: the same slope on both sides
+  spec.engine->brakeTorque = 7200; // teeth make the speed ripple about its set value: equal slopes on both sides
   vehicle::DriverOptions driver;
   driver.drive = SprocketDrive::engine, driver.speeds = {{0}, {3}, {3}};
   test::Ride ride = test::rideOnGround(spec, driver);
@@ -139,8 +139,8 @@ TEST(EngineDrive, ReachesTheSpeedItIsAskedForLessTheDroop) {
     }
   });
   speed /= n, torque /= n;
-  EXPECT_GT(torque, 0) << "it overcomes the pins";
-  // The governor is linear there: means obey it to the change of speed within a step.
+  EXPECT_GT(torque, 0) << "the torque exceeds the resistance of the pins";
+  // The governor is linear there: means are exact up to the speed change within a step.
   EXPECT_NEAR(3 - speed, 0.5 * torque / 7200, 1e-4);
   EXPECT_LT(3 - speed, 0.1);
 }

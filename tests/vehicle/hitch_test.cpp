@@ -29,7 +29,7 @@ HitchOptions of(HitchKind kind) {
 
 HitchMotion at(double x, double speed, double trackSpeed = 0) { return {{x, 0, 0.4}, {speed, 0, 0}, 1, 0, trackSpeed}; }
 
-/// A block on a level ground without friction, which the hitch alone acts on, by symplectic Euler.
+/// A block on level ground without friction, subject to the hitch only, by symplectic Euler.
 struct Block {
   double mass = 1000, x = 0, speed = 0, time = 0;
   double step(Hitch& hitch, double dt, double thrust = 0, double trackSpeed = 0) {
@@ -65,7 +65,7 @@ TEST(Hitch, AddedUnderWayTakesHoldThereAndComesOnFromThere) {
   EXPECT_EQ(resumed.step(ahead, 5, 1e-3, kHitchGravity).x, -200);
   Hitch early(o);
   early.holdFrom(0.5);
-  EXPECT_EQ(early.save(), Hitch(o).save()) << "it has not begun";
+  EXPECT_EQ(early.save(), Hitch(o).save()) << "the ramp has not started";
 }
 
 TEST(Hitch, ForceActsAgainstTheHeadingFromItsStartOnAndComesOnSmoothly) {
@@ -106,7 +106,7 @@ TEST(Hitch, SledAtConstantSpeedPullsWithItsFriction) {
   Hitch hitch(of(HitchKind::sled));
   double pull = 0;
   for (int i = 0; i < 200000; ++i) pull = hitch.step(at(0.5 * 1e-4 * i, 0.5), 1e-4 * i, 1e-4, kHitchGravity).x;
-  EXPECT_NEAR(pull, -0.6 * 400 * 9.81, 1e-6 * 0.6 * 400 * 9.81) << "what the rope's swing has left after 20 s";
+  EXPECT_NEAR(pull, -0.6 * 400 * 9.81, 1e-6 * 0.6 * 400 * 9.81) << "residual oscillation of the rope after 20 s";
   EXPECT_NEAR(hitch.towedSpeed(), 0.5, 1e-9);
   EXPECT_NEAR(hitch.way(), 10, 0.01) << "less by the stretch of the rope, mu m g / k = 2.4 mm";
 }
@@ -116,7 +116,7 @@ TEST(Hitch, SledHoldsUntilItsFrictionIsOvercome) {
   const double limit = 0.6 * 400 * 9.81; // 2354 N: a stretch of 2.354 mm
   double pull = 0;
   for (int i = 0; i < 1000; ++i) pull = hitch.step(at(0.99 * limit / 1e6, 0), 1e-4 * i, 1e-4, kHitchGravity).x;
-  // It has taken hold where it was: the way counts from there.
+  // The hitch engages at the current position: distance counts from there.
   EXPECT_EQ(pull, 0);
   for (int i = 0; i < 1000; ++i) pull = hitch.step(at(1.98 * limit / 1e6, 0), 0.1 + 1e-4 * i, 1e-4, kHitchGravity).x;
   EXPECT_NEAR(pull, -0.99 * limit, 1e-9 * limit);
@@ -131,7 +131,7 @@ TEST(Hitch, RopeOfASledDoesNotPush) {
   EXPECT_EQ(hitch.step(at(-0.5, -1), 1, 1e-4, kHitchGravity), Vec3d{});
 }
 
-/// Block and sled go as one under a constant thrust: a = (thrust - mu m g) / (M + m), T = mu m g + m a.
+/// Block and sled move together under a constant thrust: a = (thrust - mu m g) / (M + m), T = mu m g + m a.
 TEST(Hitch, SledAddsItsMass) {
   Hitch hitch(of(HitchKind::sled));
   Block block;
@@ -141,14 +141,14 @@ TEST(Hitch, SledAddsItsMass) {
     if (i >= 50000) mean += pull / 50000;
   }
   const double friction = 0.6 * 400 * 9.81, acceleration = (5000 - friction) / 1400;
-  EXPECT_NEAR(-mean, friction + 400 * acceleration, 1e-4 * friction) << "what the swing has left after 5 s";
+  EXPECT_NEAR(-mean, friction + 400 * acceleration, 1e-4 * friction) << "residual oscillation after 5 s";
 }
 
 TEST(Hitch, SledFollowsAndPullsTowardsItself) {
   Hitch hitch(of(HitchKind::sled));
-  hitch.step(at(0, 0), 0, 1e-4, kHitchGravity); // the sled stands at (-3, 0)
+  hitch.step(at(0, 0), 0, 1e-4, kHitchGravity); // the sled is at (-3, 0)
   HitchMotion aside = at(1.2, 0);
-  aside.position.y = 1.2; // to (1.2, 1.2): towards it is (-4.2, -1.2)
+  aside.position.y = 1.2; // to (1.2, 1.2): the direction to the sled is (-4.2, -1.2)
   const Vec3d force = hitch.step(aside, 1e-4, 1e-4, kHitchGravity);
   EXPECT_NEAR(force.y / force.x, 1.2 / 4.2, 1e-12);
   EXPECT_LT(force.x, 0);
@@ -163,9 +163,9 @@ TEST(Hitch, CarriageHoldsTheSpeedThatTheSlipSays) {
   double pull = 0;
   for (int i = 0; i < 30000; ++i) pull = block.step(hitch, 1e-4, 3000, 0.8);
   EXPECT_NEAR(block.speed, 0.7 * 0.8, 1e-9);
-  EXPECT_NEAR(pull, -3000, 1e-6) << "what drives it forward is its pull";
-  EXPECT_NEAR(block.x - hitch.way(), 3000 / 1e6, 1e-9) << "it gives by F / k";
-  // Against less thrust than the carriage's speed wants, it pushes.
+  EXPECT_NEAR(pull, -3000, 1e-6) << "a driving force counts as pull";
+  EXPECT_NEAR(block.x - hitch.way(), 3000 / 1e6, 1e-9) << "it yields by F / k";
+  // If the thrust is too small for the carriage's speed, the carriage pushes.
   for (int i = 0; i < 30000; ++i) pull = block.step(hitch, 1e-4, -500, 0.8);
   EXPECT_NEAR(pull, 500, 1e-6);
 }
@@ -173,16 +173,16 @@ TEST(Hitch, CarriageHoldsTheSpeedThatTheSlipSays) {
 TEST(Hitch, CarriageTakesOverAMovingHullSmoothly) {
   HitchOptions o = of(HitchKind::speed);
   o.slip = 0.5, o.ramp = 0.4;
-  o.stiffness = 1e8, o.damping = 2 * 0.7 * std::sqrt(o.stiffness * 1000); // its swing is quick beside the ramp
+  o.stiffness = 1e8, o.damping = 2 * 0.7 * std::sqrt(o.stiffness * 1000); // its period is short compared with the ramp
   Hitch hitch(o);
   Block block;
   block.speed = 1;
-  EXPECT_EQ(block.step(hitch, 1e-4, 0, 1), 0) << "as fast as the hull at first";
+  EXPECT_EQ(block.step(hitch, 1e-4, 0, 1), 0) << "at the hull's initial speed";
   double most = 0;
   for (int i = 0; i < 8000; ++i) most = std::fmax(most, -block.step(hitch, 1e-4, 0, 1));
   EXPECT_NEAR(block.speed, 0.5, 1e-6);
   // The ramp 3 s^2 - 2 s^3 is steepest in its middle, 1.5 / ramp: 1000 kg x 0.5 m/s x 1.5 / 0.4 s.
-  EXPECT_NEAR(most, 1875, 0.01 * 1875) << "1 % is what 316 rad/s follow a curve of 0.4 s by";
+  EXPECT_NEAR(most, 1875, 0.01 * 1875) << "1 % is the lag at 316 rad/s behind a ramp of 0.4 s";
 }
 
 TEST(Hitch, SavedAndRestoredItGoesOnAlike) {

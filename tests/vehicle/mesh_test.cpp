@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The meshes are made by a generator of their own: here the spec and the meshes are held together.
+// A separate generator creates the meshes: these tests compare meshes and specification.
 #include "base/math.hpp"
 #include "vehicle/spec_file.hpp"
 
@@ -15,7 +15,7 @@ using base::Vec3d;
 
 namespace {
 
-/// Meshes are cut from smooth shapes into facets with corners on the shape; coordinates are written to 0.1 mm or
+/// Meshes are facets of smooth shapes with corners on the shape; coordinates are accurate to 0.1 mm or
 /// better.
 constexpr double kFacet = 1e-4;
 
@@ -53,7 +53,7 @@ TEST(Meshes, Shoe_HasTheSpecsHeights) {
   EXPECT_NEAR(low.z, shoe.padBottom - shoe.grouserHeight, kFacet);
   EXPECT_NEAR(high.z, shoe.plateTop + shoe.hornHeight, kFacet);
   EXPECT_NEAR(low.x, -shoe.halfLength, kFacet);
-  EXPECT_GT(high.x, 0.5 * shoe.pitch) << "the bosses sit at the front pin";
+  EXPECT_GT(high.x, 0.5 * shoe.pitch) << "the bosses are at the front pin";
   EXPECT_NEAR(low.y, -high.y, kFacet);
   EXPECT_GE(high.y, shoe.padHalfWidth);
 }
@@ -74,12 +74,12 @@ TEST(Meshes, Sprocket_HasItsGapsWhereTheWrapPutsThePins) {
     const double r = radius(p), gaps = base::atan2(p.z, p.x) / tooth;
     rim = std::max(rim, r);
     const double nearest = std::floor(gaps + 0.5);
-    // Profile corners in the middle of a gap, off the hub and the axle.
+    // Profile corners in the middle of a gap, away from hub and axle.
     if (std::fabs(gaps - nearest) > 0.01 || r < 0.9 * s.sprocketPinRadius()) continue;
     const int k = (static_cast<int>(nearest) + s.sprocket.teeth) % s.sprocket.teeth;
     bottom[k] = std::min(bottom[k], r);
   }
-  // The seat arc of radius 18.5 mm about the pin; the tip 20 mm beyond it.
+  // The seat arc of radius 18.5 mm about the pin; the tip is 20 mm beyond it.
   for (const double r : bottom) EXPECT_NEAR(r, s.sprocketPinRadius() - 0.0185, kFacet);
   EXPECT_NEAR(rim, s.sprocketPinRadius() + 0.020, kFacet);
 }

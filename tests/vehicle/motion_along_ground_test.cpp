@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Angles that are counted on beyond whole turns, and forces stated in the direction of motion along the ground. The
-// expected numbers follow from the attitude and the forces that the test sets.
+// Angles counted beyond full turns, and forces in the direction of motion along the ground. The
+// expected numbers follow from the prescribed attitude and forces.
 #include "vehicle/observers.hpp"
 
 #include "base/error.hpp"
@@ -52,7 +52,7 @@ protected:
   }
 };
 
-/// 2.5 turns to the left and back in steps of 0.1 rad: every row's heading is the angle that was turned.
+/// 2.5 turns to the left and back in steps of 0.1 rad: every row's heading is the total rotation.
 TEST_F(AlongGround, HeadingCountsOnBeyondHalfATurn) {
   Observer observer(v, {.heading = 178 * kDegree});
   const auto turnTo = [&](double heading) {
@@ -83,7 +83,7 @@ TEST_F(AlongGround, ACheckpointKnowsTheTurns) {
   EXPECT_EQ(resumed.save(), observer.save());
 }
 
-/// A vehicle that rolls over to its right, and on; the nose up is between straight down and straight up.
+/// A vehicle that rolls over to its right and further; nose-up angles are between straight down and straight up.
 TEST_F(AlongGround, RollCountsOnWhereAVehicleRollsOver) {
   Observer observer(v);
   for (int k = 0; k <= 70; ++k) {
@@ -95,7 +95,7 @@ TEST_F(AlongGround, RollCountsOnWhereAVehicleRollsOver) {
   }
 }
 
-/// In reverse all turns round but what resists motion.
+/// In reverse all signs change except that of the resistance.
 TEST_F(AlongGround, InReverseForcesAreStatedBackward) {
   const Quat attitude = about(2, 0.6);
   place(attitude);
@@ -106,10 +106,10 @@ TEST_F(AlongGround, InReverseForcesAreStatedBackward) {
   EXPECT_NEAR(o.netThrust, 1000, kRound);
   EXPECT_NEAR(o.drawbarPull, 1000, kRound);
   EXPECT_NEAR(o.motionResistance, 800 / pitchRadius - 1000, kRound);
-  EXPECT_EQ(o.tracks[0].meanTorque, -300) << "of the sprocket, forward positive";
+  EXPECT_EQ(o.tracks[0].meanTorque, -300) << "sprocket torque, forward positive";
 }
 
-/// The tracks brake a vehicle that goes forward: what resists its motion is positive all the same.
+/// The tracks brake a vehicle moving forward: motion resistance is still positive.
 TEST_F(AlongGround, BrakingForcesAreNegativeAndResistanceIsNot) {
   drive(2, 2, -300, -300);
   for (multibody::Twist& twist : state.twist) twist.v = {1, 0, 0};
@@ -119,7 +119,7 @@ TEST_F(AlongGround, BrakingForcesAreNegativeAndResistanceIsNot) {
   EXPECT_NEAR(o.motionResistance, 300 / pitchRadius, kRound);
 }
 
-/// Tracks that stand: the hull's motion counts. Of tracks that run it does not: a vehicle drawn back has slip above 1.
+/// Locked tracks: the hull's motion counts. Not for running tracks: a vehicle drawn back has slip above 1.
 TEST_F(AlongGround, LockedTracksSlideWhereTheHullGoes) {
   drive(0, 0, 400, 400);
   for (multibody::Twist& twist : state.twist) twist.v = {-0.5, 0, 0};
@@ -139,10 +139,10 @@ TEST_F(AlongGround, WhereTracksRunAgainstEachOtherNothingResistsAlongTheHeading)
   EXPECT_NEAR(o.netThrust, 120, kRound);
   drive(0, 2, 0, 4500);
   EXPECT_FALSE(std::isnan(Observer(v).observe(state, loads({120, 0, weight}), nullptr).motionResistance))
-      << "about a track that stands";
+      << "about a locked track";
 }
 
-/// The direction is that of the mean since the last row, as torque and forces are, and a checkpoint keeps it.
+/// The direction is that of the mean since the last row, like torque and forces; a checkpoint stores it.
 TEST_F(AlongGround, DirectionIsOfTheMeanSinceTheLastRow) {
   Observer observer(v);
   drive(-3, -3, -300, -300), observer.update(state, 1e-3);
@@ -155,7 +155,7 @@ TEST_F(AlongGround, DirectionIsOfTheMeanSinceTheLastRow) {
   EXPECT_NEAR(observer.observe(state, {}, nullptr).grossTraction, -200 / pitchRadius, kRound);
 }
 
-/// A vehicle that stalls rocks back: forces stay stated as before, until the tracks run back for good.
+/// A stalled vehicle rocks back: the sign of the forces is kept until the tracks run back permanently.
 TEST_F(AlongGround, AStalledVehicleThatRocksKeepsItsDirection) {
   Observer observer(v);
   const GroundLoads ground = loads({5000, 0, weight});
@@ -166,7 +166,7 @@ TEST_F(AlongGround, AStalledVehicleThatRocksKeepsItsDirection) {
     watching.restartMeans();
     return thrust;
   };
-  EXPECT_NEAR(thrustAt(observer, -0.001), -5000, kRound) << "the first motion says which way";
+  EXPECT_NEAR(thrustAt(observer, -0.001), -5000, kRound) << "the first motion sets the direction";
   EXPECT_NEAR(thrustAt(observer, 0.5), 5000, kRound);
   for (const double rocks : {-0.009, 0.002, -0.002, 0.0, -0.009})
     EXPECT_NEAR(thrustAt(observer, rocks), 5000, kRound) << rocks;
@@ -174,14 +174,14 @@ TEST_F(AlongGround, AStalledVehicleThatRocksKeepsItsDirection) {
   EXPECT_NEAR(thrustAt(observer, 0.009), -5000, kRound);
   Observer resumed(v);
   resumed.restore(observer.save());
-  EXPECT_NEAR(thrustAt(resumed, 0.009), -5000, kRound) << "a checkpoint knows the direction";
+  EXPECT_NEAR(thrustAt(resumed, 0.009), -5000, kRound) << "a checkpoint stores the direction";
   EXPECT_NEAR(thrustAt(resumed, 0.011), 5000, kRound);
 }
 
 TEST_F(AlongGround, CheckpointsOfAnotherLayoutAreRefusedWithTheRemedy) {
   std::vector<double> saved = Observer(v).save();
   saved.resize(saved.size() -
-               7); // two tracks' rates and speeds, heading, roll and direction: as earlier versions had it
+               7); // two tracks' rates and speeds, heading, roll and direction: format of earlier versions
   Observer observer(v);
   try {
     observer.restore(saved);
@@ -191,7 +191,7 @@ TEST_F(AlongGround, CheckpointsOfAnotherLayoutAreRefusedWithTheRemedy) {
   }
 }
 
-/// The same climb on ground that rises and on level ground under a gravity that leans: all forces turn with the ground.
+/// The same climb on inclined ground and on level ground under an inclined gravity: all forces rotate with the ground.
 TEST_F(AlongGround, AGradeIsTheSameHoweverItIsBuilt) {
   const double heading = 0.8, c = base::cos(heading), s = base::sin(heading), rest = 949; // [N]
   for (const double grade : {10.0, -10.0, 30.0})
@@ -211,11 +211,11 @@ TEST_F(AlongGround, AGradeIsTheSameHoweverItIsBuilt) {
         EXPECT_NEAR(o.netThrust, climb, 1e-8) << grade << " " << way;
         EXPECT_NEAR(o.motionResistance, rest, 1e-8) << grade << " " << way;
       }
-      EXPECT_NEAR(ramp.groundForce.x, 0, 1e-8) << "level, along the heading: the weight has no such part";
+      EXPECT_NEAR(ramp.groundForce.x, 0, 1e-8) << "level, along the heading: the weight has no such component";
     }
 }
 
-/// Across a slope the ground does not rise along the heading, and the vehicle slides down its left side.
+/// Across a slope the ground does not rise along the heading, and the vehicle slides to its left.
 TEST_F(AlongGround, ASideSlopeHasNoClimb) {
   const Quat tilted = about(0, 20 * kDegree); // left side up
   place(tilted);
@@ -225,8 +225,8 @@ TEST_F(AlongGround, ASideSlopeHasNoClimb) {
   EXPECT_NEAR(o.netThrust, 700, 1e-9);
 }
 
-/// A vehicle with its middle on the top of a round hill, and on its flanks: the rise is the mean over the ground run,
-/// which of a parabola is that in its middle, by symmetry.
+/// A vehicle on the top of a round hill, and on its flanks: the rise is the mean over the ground contact,
+/// for a parabola equal to that in its middle, by symmetry.
 TEST_F(AlongGround, OnAHillTheGroundUnderTheVehicleCounts) {
   drive(2, 2, 500, 500);
   const double middle = v.spec.roadWheel.firstX + 0.5 * v.spec.groundRun();

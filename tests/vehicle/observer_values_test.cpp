@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every quantity of the vehicle with values that differ from each other: by track, by shoe and by axis. The expected
-// numbers follow from the vehicle's drawing and the state that the test sets, not from the observers.
+// Every quantity of the vehicle with distinct values: by track, by shoe and by axis. The expected
+// numbers follow from the vehicle's drawing and the prescribed state, not from the observers.
 #include "vehicle/observation_table.hpp"
 #include "vehicle/observers.hpp"
 
@@ -23,7 +23,7 @@ using vehicle::testing::about;
 
 namespace {
 
-/// Turned by heading, nose up, right side down, in this order.
+/// Rotated by heading, nose up, right side down, in this order.
 Quat attitude(double heading, double pitch, double roll) {
   return about(2, heading) * about(1, -pitch) * about(0, roll);
 }
@@ -34,12 +34,12 @@ protected:
       vehicle::assemble(vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
   multibody::State state = multibody::makeState(v.model);
   const vehicle::Track &left = v.tracks[0], &right = v.tracks[1];
-  /// Ten teeth of 154 mm a turn [m].
+  /// Ten teeth of 154 mm per turn [m].
   static constexpr double kPitchRadius = 10 * 0.154 / (2 * base::kPi);
   /// Round-off of a few operations on numbers up to 1e4.
   static constexpr double kRound = 1e-11;
 
-  /// Puts all bodies where they are seen from a vehicle frame that stands at `pose`.
+  /// Sets the poses of all bodies relative to a vehicle frame at `pose`.
   void place(const base::Pose& pose) {
     for (base::Pose& body : state.pose) body = multibody::compose(pose, body);
   }
@@ -70,14 +70,14 @@ TEST_F(ObserverValues, TensionIsTheForceInThePinAheadOfEachShoe) {
 TEST_F(ObserverValues, SlipComparesTheHullAtEachTrackWithItsOwnSprocket) {
   const double heading = 0.7, pitch = 0.2, roll = -0.1;
   place({{5, -3, 2}, attitude(heading, pitch, roll)});
-  // In the vehicle's own axes: 0.9 m/s ahead, a drift to the left, a rise; and turning about all three.
+  // In the vehicle's own axes: 0.9 m/s forward, a drift to the left, a rise; and rotation about all three.
   const Vec3d v_V{0.9, 0.25, -0.1}, w_V{0.05, 0.11, 0.3};
   const Quat R = attitude(heading, pitch, roll);
   state.twist[v.chassis].v = base::rotate(R, v_V), state.twist[v.chassis].w = base::rotate(R, w_V);
   state.joint[left.sprocketJoint].rate = 2.5, state.joint[right.sprocketJoint].rate = -5;
   const auto o = Observer(v).observe(state, {}, nullptr);
-  // The sprockets' axle passes through the frame's origin: at a track it moves ahead by v + w x r, r from the centre
-  // of mass to (0, +-offset, 0).
+  // The sprockets' axle passes through the frame's origin: at a track it moves forward by v + w x r, r from centre of
+  // mass to (0, +-offset, 0).
   const Vec3d c = v.spec.chassis.centre;
   const double y = v.spec.trackOffset;
   ASSERT_GT(y, 0.5);
@@ -85,7 +85,7 @@ TEST_F(ObserverValues, SlipComparesTheHullAtEachTrackWithItsOwnSprocket) {
   EXPECT_NEAR(o.tracks[0].speed, atLeft, 1e-14);
   EXPECT_NEAR(o.tracks[1].speed, atRight, 1e-14);
   EXPECT_NEAR(o.tracks[0].slip, 1 - atLeft / (2.5 * kPitchRadius), 1e-13);
-  EXPECT_NEAR(o.tracks[1].slip, 1 + atRight / (5 * kPitchRadius), 1e-13) << "it turns back, the hull goes on";
+  EXPECT_NEAR(o.tracks[1].slip, 1 + atRight / (5 * kPitchRadius), 1e-13) << "it turns backwards, the hull moves on";
   EXPECT_EQ(o.tracks[0].sprocketSpeed, 2.5);
   EXPECT_EQ(o.tracks[1].sprocketSpeed, -5);
   const Vec3d velocity = base::rotate(R, v_V);
@@ -110,7 +110,7 @@ TEST_F(ObserverValues, MotionResistanceIsTractionLessTheDrawbarPull) {
   state.joint[left.sprocketJoint].driveForce = 300, state.joint[right.sprocketJoint].driveForce = 500;
   state.joint[left.sprocketJoint].springForce = 7, state.joint[left.sprocketJoint].axisForce = 11;
   GroundLoads ground = noLoads();
-  // Ahead 1000 N by two shoes and a wheel of the right track, to the left 200 N, up 40 kN.
+  // Forward 1000 N by two shoes and a wheel of the right track, to the left 200 N, up 40 kN.
   ground.force[left.shoes[12]] = Vec3d{c, s, 0} * 700.0 + Vec3d{0, 0, 25000};
   ground.force[right.shoes[13]] = Vec3d{c, s, 0} * 400.0 + Vec3d{-s, c, 0} * 200.0 + Vec3d{0, 0, 15000};
   ground.force[right.wheels[1]] = Vec3d{c, s, 0} * -100.0;
@@ -138,7 +138,7 @@ TEST_F(ObserverValues, IdlersAreReadByTrack) {
 }
 
 TEST_F(ObserverValues, GroundPressureIsTheForceAlongThePadsNormalOverItsArea) {
-  const double pitch = 0.3; // nose up: the pad's upward normal leans back
+  const double pitch = 0.3; // nose up: the pad's upward normal points backwards
   place({{}, attitude(0, pitch, 0)});
   GroundLoads ground = noLoads();
   const int first = test::firstGroundShoe(v.wrap);
@@ -147,14 +147,14 @@ TEST_F(ObserverValues, GroundPressureIsTheForceAlongThePadsNormalOverItsArea) {
     ground.force[right.shoes[first + k]] = {-50, 0, 1000.0 * k};
   }
   const auto o = Observer(v).observe(state, ground, nullptr);
-  // Pads reach to +-68 mm along the track and +-140 mm across.
+  // Pads extend +-68 mm along the track and +-140 mm across.
   const double area = 0.136 * 0.28, s = base::sin(pitch), c = base::cos(pitch);
   for (int k = 0; k < 3; ++k) {
     EXPECT_NEAR(o.tracks[0].groundPressure[first + k], (-s * 100 * k + c * (2000.0 + 500 * k)) / area, 1e-9);
     EXPECT_NEAR(o.tracks[1].groundPressure[first + k], (s * 50 + c * 1000 * k) / area, 1e-9);
   }
   EXPECT_EQ(o.tracks[0].groundPressure[0], 0);
-  // 5 t on 24 shoes are 2 kN each, a hundredth of which counts as carrying.
+  // 5 t on 24 shoes are 2 kN each; a shoe counts as loaded above a hundredth of that.
   EXPECT_EQ(o.tracks[0].onGround[first + 2], 1);
   EXPECT_EQ(o.tracks[1].onGround[first], 0);
   EXPECT_EQ(o.tracks[1].onGround[first + 1], 1);
@@ -173,7 +173,7 @@ TEST_F(ObserverValues, ForcesOnAShoeAreInItsOwnAxes) {
   EXPECT_NEAR(o.leftForce[shoe], 40, kRound);
   EXPECT_NEAR(o.shear[shoe], std::sqrt((c * 300 + s * 2000) * (c * 300 + s * 2000) + 1600) / area, 1e-9);
   EXPECT_EQ(o.normalForce[0], 0);
-  EXPECT_TRUE(std::isnan(Observer(v).observe(state, {}, nullptr).tracks[0].shear[shoe])) << "loads are not known";
+  EXPECT_TRUE(std::isnan(Observer(v).observe(state, {}, nullptr).tracks[0].shear[shoe])) << "no loads yet";
 }
 
 TEST_F(ObserverValues, TorqueAndPowerAreMeansSinceTheyWereBegun) {
@@ -184,7 +184,7 @@ TEST_F(ObserverValues, TorqueAndPowerAreMeansSinceTheyWereBegun) {
   };
   turn(100, 3);
   const auto still = observer.observe(state, {}, nullptr);
-  EXPECT_EQ(still.tracks[0].meanTorque, 100) << "before the first step that of the state";
+  EXPECT_EQ(still.tracks[0].meanTorque, 100) << "before the first step: the torque of the state";
   EXPECT_EQ(still.tracks[0].drivePower, 300);
   observer.update(state, 0.01);
   turn(400, 2), observer.update(state, 0.01);
@@ -223,7 +223,7 @@ TEST_F(ObserverValues, CarryingLoadIsAHundredthOfTheWeightOverBothGroundRuns) {
   EXPECT_EQ(o.tracks[1].onGround[shoe], 1);
 }
 
-/// The run's gravity sets the load by its magnitude, and the carrying component of a force by its direction.
+/// The run's gravity sets the load threshold by its magnitude, and the load-bearing component by its direction.
 TEST_F(ObserverValues, CarryingIsAgainstTheGravityOfTheRun) {
   GroundLoads ground = noLoads();
   const int shoe = test::firstGroundShoe(v.wrap);
@@ -257,7 +257,7 @@ TEST_F(ObserverValues, HeightsShiftsAndLiftsBelongToTheirTrack) {
     EXPECT_NEAR(o.tracks[0].padHeight[i] - before.tracks[0].padHeight[i], 0.001 * static_cast<double>(i), 1e-14);
     EXPECT_NEAR(o.tracks[1].padHeight[i] - before.tracks[1].padHeight[i], -0.002 * static_cast<double>(i), 1e-14);
   }
-  // In the order of the wrap: the run on the ground lies lowest, 40 mm below its pins.
+  // In the order of the wrap: the ground contact is lowest, 40 mm below its pins.
   const auto ground = static_cast<std::size_t>(test::firstGroundShoe(v.wrap));
   EXPECT_NEAR(before.tracks[0].padHeight[ground], v.spec.groundPinHeight() - 0.040, 1e-14);
   EXPECT_GT(before.tracks[0].padHeight[(ground + 23) % 46], v.spec.groundPinHeight() + 0.2);
@@ -280,7 +280,7 @@ TEST_F(ObserverValues, ToothMeansSpanWholeTeethOfTheirOwnTrack) {
   double wayLeft = 0, wayRight = 0;
   for (int k = 1; k <= 200; ++k) {
     state.time = dt * k;
-    // The hull turns as it goes: the left track's place is slower than the right one's, and both get quicker.
+    // The hull turns while driving: the left track is slower than the right one, and both accelerate.
     const double v0 = 0.4 + 0.001 * k, w = 0.2;
     state.twist[v.chassis].v = {v0, 0, 0}, state.twist[v.chassis].w = {0, 0, w};
     wayLeft += (v0 - w * y) * dt, wayRight += (v0 + w * (v.spec.trackOffset + v.spec.chassis.centre.y)) * dt;
@@ -338,7 +338,7 @@ TEST_F(ObserverValues, TableWritesEachQuantityUnderItsOwnName) {
   for (const vehicle::Quantity& q : vehicle::quantities(v, true)) {
     ASSERT_EQ(q.path.rfind("vehicle/", 0), 0u) << q.path;
     const auto found = expected.find(q.path.substr(8));
-    if (found == expected.end()) { // one that this test does not know stands there in its width
+    if (found == expected.end()) { // an unknown column, with its width
       at += static_cast<std::size_t>(q.width);
       continue;
     }
@@ -346,7 +346,7 @@ TEST_F(ObserverValues, TableWritesEachQuantityUnderItsOwnName) {
     expected.erase(found);
   }
   EXPECT_EQ(at, flat.size());
-  for (const auto& [path, values] : expected) ADD_FAILURE() << path << " is no column";
+  for (const auto& [path, values] : expected) ADD_FAILURE() << path << " is not a column";
 }
 
 } // namespace

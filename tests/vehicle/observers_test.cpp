@@ -20,14 +20,14 @@ using vehicle::Observer;
 
 namespace {
 
-/// A vehicle at its start, whose state the test moves by hand.
+/// A vehicle at its start; the test sets its state.
 class Observers : public ::testing::Test {
 protected:
   Assembly v = vehicle::assemble(vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
   multibody::State state = multibody::makeState(v.model);
   const vehicle::Track& left = v.tracks[0];
 
-  /// Every shoe takes the place of the one `pitches` behind it in the wrap: the top run moves forward.
+  /// Every shoe moves to the place of the one `pitches` behind it in the wrap: the top run moves forward.
   void moveTrack(const vehicle::Track& track, int pitches) {
     const int n = static_cast<int>(track.shoes.size());
     const int from = ((-pitches) % n + n) % n;
@@ -36,7 +36,7 @@ protected:
   void turnSprocket(const vehicle::Track& track, double teeth) {
     state.joint[track.sprocketJoint].position = teeth * 2 * base::kPi / 10;
   }
-  /// The weight, spread evenly over the shoes of both ground runs.
+  /// The weight, evenly distributed over the shoes of both ground runs.
   GroundLoads standing() const {
     GroundLoads ground;
     ground.force.resize(v.model.bodies().size());
@@ -108,7 +108,7 @@ TEST_F(Observers, TrackAndSprocketTogether_SkipNothing) {
     state.time += 0.1;
     observer.update(state, 0.1);
   }
-  // One turn of the loop is 46 pitches: 60 must not alias.
+  // A full loop is 46 pitches: 60 must not alias.
   EXPECT_NEAR(observer.travel(0).pitchesPassed(), 60, 1e-12);
   EXPECT_NEAR(observer.travel(0).skipped(), 0, 1e-12);
   EXPECT_EQ(observer.travel(1).pitchesPassed(), 0);
@@ -198,7 +198,7 @@ TEST_F(Observers, WheelLiftedMoreThanAHorn_IsAThrownTrackOnlyBesideItsHornsAndSt
   EXPECT_EQ(observer.alarm(state, standing()).text, "") << "in its plane";
   for (const int shoe : left.shoes) state.pose[shoe].position.y += 0.04;
   EXPECT_NE(observer.alarm(state, standing()).text.find("left track thrown"), std::string::npos);
-  // A suspended lower run sags so far by itself.
+  // A slack lower run sags by this much.
   EXPECT_EQ(observer.alarm(state, {}).text, "");
   state.pose[left.wheels[2]].position.z += 0.2;
   EXPECT_NE(observer.alarm(state, {}).text.find("left track thrown"), std::string::npos);
@@ -217,7 +217,7 @@ TEST_F(Observers, AWheelThatRollsOverAStone_IsNoThrownTrack) {
 }
 
 TEST_F(Observers, SuspendedSag_CoversTheKnownOne) {
-  // The plane model found 77 mm; the parabola over the whole span is above it, and no more than twice.
+  // The plane model has 77 mm; the parabola over the whole span is above it, by no more than a factor of two.
   EXPECT_GT(vehicle::suspendedSag(v.spec, 9.81), 0.077);
   EXPECT_LT(vehicle::suspendedSag(v.spec, 9.81), 0.154);
 }

@@ -15,11 +15,11 @@
 namespace grouser::test {
 
 /// Analytic contact in the planes of the tracks: wheels are circles, shoes are plate segments with a boss on each pin
-/// and four points against a level ground, sprocket gaps are arcs. It drives the vehicle without meshes or sphere sets
-/// and is the yardstick for them. Spring and dashpot in parallel, friction regularised below `creep`.
+/// and four points on level ground, sprocket gaps are arcs. Drives the vehicle without meshes or sphere sets, and
+/// is the reference for them. Spring and dashpot in parallel, friction regularised below `creep`.
 struct PlaneContactOptions {
-  double stiffness = 1e7;    ///< of both planes together [N/m]
-  double dampingRatio = 0.2; ///< of a shoe on that spring [-]
+  double stiffness = 1e7;    ///< both planes together [N/m]
+  double dampingRatio = 0.2; ///< for a shoe on this spring [-]
   double frictionInside = 0.35, frictionGround = 0.8;
   double creep = 0.01;          ///< sliding speed of full friction inside [m/s]
   double tangentialRatio = 0.8; ///< on the ground [-]
@@ -30,7 +30,7 @@ class PlaneContact {
 public:
   PlaneContact(const vehicle::Assembly& vehicle, const PlaneContactOptions& options);
 
-  /// Sets the wrenches in `loads` from the state.
+  /// Computes the wrenches in `loads` from the state.
   void apply(const multibody::State& state, multibody::Loads& loads);
   const vehicle::GroundLoads& ground() const { return ground_; }
 
@@ -51,11 +51,11 @@ private:
   const vehicle::Assembly& vehicle_;
   PlaneContactOptions options_;
   double damping_;
-  double size_; ///< of shoes and teeth over those of the default vehicle [-]
+  double size_; ///< size of shoes and teeth relative to the default vehicle [-]
   const multibody::State* state_ = nullptr;
   multibody::Loads* loads_ = nullptr;
   vehicle::GroundLoads ground_;
-  std::vector<std::array<Grip, 4>> grips_; ///< one entry a body
+  std::vector<std::array<Grip, 4>> grips_; ///< one entry per body
 };
 
 inline PlaneContact::PlaneContact(const vehicle::Assembly& vehicle, const PlaneContactOptions& options)
@@ -100,7 +100,7 @@ inline void PlaneContact::circleOnPlate(int shoe, int wheel, double radius) {
     if (distance >= radius || distance == 0) continue;
     const base::Vec3d normal = base::rotate(pose.orientation, gap * (-1 / distance));
     touch(shoe, wheel, pose.toWorld(nearest), normal, radius - distance, options_.frictionInside);
-    // The horn between the two halves of the wheel.
+    // The horn between the two discs of the wheel.
     const double shift = c.y - y, beyond = std::fabs(shift) - play;
     if (beyond <= 0) continue;
     const base::Vec3d side = base::rotate(pose.orientation, {0, (shift > 0 ? 0.5 : -0.5) * kHornStiffness * beyond, 0});
@@ -160,7 +160,7 @@ inline void PlaneContact::pointsOnGround(int shoe) {
         grip.holds = false;
         continue;
       }
-      // Cundall-Strack: the tip hangs on a spring from where it last held, which is dragged along when it slides.
+      // Cundall-Strack: a spring ties the tip to its last sticking point, which follows the tip during sliding.
       const double stiffness = 0.25 * options_.tangentialRatio * options_.stiffness;
       if (!grip.holds) grip = {true, tip};
       base::Vec3d stretch{grip.anchor.x - tip.x, grip.anchor.y - tip.y, 0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicles of assets/vehicles: each closes, weighs what it should, stands, and drives on rigid ground.
+// The vehicles of assets/vehicles: each closes, has the correct mass, stands, and drives on rigid ground.
 #include "base/math.hpp"
 #include "ride.hpp"
 #include "tests/vehicle/ground_shoes.hpp"
@@ -19,7 +19,7 @@ namespace {
 struct Ready {
   const char* name;
   double mass;   ///< [kg]
-  double length; ///< of the ground run, from first to last road wheel [m]
+  double length; ///< ground contact, from first to last road wheel [m]
   test::RideNumbers numbers;
 };
 std::ostream& operator<<(std::ostream& out, const Ready& r) { return out << r.name; }
@@ -54,7 +54,7 @@ TEST_P(ReadyVehicle, StandsAndDrivesForwardsOnRigidGround) {
     for (const base::Vec3d& f : ride.ground().force) up += f.z;
     ++n;
   });
-  // The hull still nods on its bars, a tenth of a second of it: 3 %.
+  // The hull still pitches on its bars, for a tenth of a second: 3 %.
   EXPECT_NEAR(up / n, GetParam().mass * 9.81, 0.03 * GetParam().mass * 9.81);
   const auto standing = ride.observe();
   EXPECT_EQ(standing.alarm.text, "");
@@ -65,7 +65,7 @@ TEST_P(ReadyVehicle, StandsAndDrivesForwardsOnRigidGround) {
   ride.until(2.6);
   const auto o = ride.observe();
   EXPECT_EQ(o.alarm.text, "");
-  EXPECT_NEAR(ride.motion().x - from, 0.25, 0.01) << "in a second, not over whole teeth: 4 %";
+  EXPECT_NEAR(ride.motion().x - from, 0.25, 0.01) << "within one second, not over whole teeth: 4 %";
   EXPECT_NEAR(ride.motion().y, 0, 1e-4);
   for (const auto& track : o.tracks) {
     EXPECT_LT(std::fabs(track.skipped), 0.1);
@@ -74,7 +74,7 @@ TEST_P(ReadyVehicle, StandsAndDrivesForwardsOnRigidGround) {
   }
 }
 
-/// A mirror image has its pins where the original has them, front and rear exchanged, and runs the same way about.
+/// A mirror image has its pins at the original positions, front and rear exchanged, and the same sense of rotation.
 TEST(FrontSprocket, LoopIsTheMirrorImage) {
   const VehicleSpec rear = test::readySpec();
   VehicleSpec front = rear;
@@ -137,12 +137,12 @@ TEST(RigidArms, WheelsKeepTheirPlacesInTheHullUnderAnyLoad) {
     EXPECT_TRUE(t.armSprings.empty());
     for (std::size_t i = 0; i < t.wheels.size(); ++i) {
       const base::Vec3d axle = hull.toBody(ride.state.pose[static_cast<std::size_t>(t.wheels[i])].position);
-      // The solver meets positions to 1e-10 m.
+      // The solver satisfies positions to 1e-10 m.
       EXPECT_NEAR(axle.x, spec.roadWheel.firstX + static_cast<double>(i) * spec.roadWheel.spacing, 1e-9);
       EXPECT_NEAR(axle.z, spec.roadWheel.z, 1e-9);
     }
   }
-  // Wheels in plates and shoes in the ground, some 5 kN on 3e7 N/m each.
+  // Overlaps of wheels and plates and of shoes and ground, some 5 kN on 3e7 N/m each.
   EXPECT_NEAR(hull.position.z, -spec.groundHeight(), 2e-3);
   EXPECT_EQ(ride.observe().alarm.text, "");
 }

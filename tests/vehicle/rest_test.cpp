@@ -11,7 +11,7 @@ using vehicle::Driver;
 
 namespace {
 
-/// Waits from 1 s on for at most 2 s; 4 rad/s without a ramp.
+/// Waits from 1 s for at most 2 s; 4 rad/s without a ramp.
 Driver waiting() {
   return Driver({.tensionRamp = 0.25,
                  .weightRamp = 0.75,
@@ -21,7 +21,7 @@ Driver waiting() {
                  .speeds = {{0, 1}, {4, 8}, {4, 8}}});
 }
 
-/// Judges every 10 ms from `from` to before `to`; the last word.
+/// Checks every 10 ms from `from` to before `to`; returns the last result.
 std::string judged(Driver& driver, int from, int to, double speed, double load) {
   std::string word;
   for (int k = from; k < to; ++k) word = driver.judge(0.01 * k, speed, load);
@@ -50,12 +50,12 @@ TEST(Rest, Driver_WaitsWhileTheGroundDoesNotCarryTheWeight) {
 
 TEST(Rest, Driver_BeginsOnceBothHaveHeldFor50Milliseconds) {
   Driver driver = waiting();
-  judged(driver, 0, 110, 0.001, 1); // at rest all the time, but its weight is not on before 1 s
+  judged(driver, 0, 110, 0.001, 1); // always at rest, but without its full weight before 1 s
   ASSERT_TRUE(driver.driveStart().has_value());
   EXPECT_NEAR(*driver.driveStart(), 1.05, 1e-12);
   EXPECT_EQ(driver.at(1.04).sprocketSpeed[0], 0);
   EXPECT_NEAR(driver.at(1.06).sprocketSpeed[0], 4.04, 1e-12);
-  // The table's time begins with the drive.
+  // The table's time starts with the drive.
   EXPECT_NEAR(driver.at(1.55).sprocketSpeed[1], 6, 1e-12);
 }
 

@@ -17,14 +17,14 @@ inline vehicle::VehicleSpec readySpec(const std::string& name = "light_tracked")
   return vehicle::readVehicleSpec(std::string(GROUSER_SOURCE_DIR "/assets/vehicles/") + name + ".toml");
 }
 
-/// Contact stiffness [N/m] and step [s]. Stiffer than the reference 1e7 N/m, so that overlaps of 5 kN stay below the
-/// millimetre that is tested; a thirtieth of the period of a shoe on its contact spring, 2 pi sqrt(m / k) = 3.3e-3 s.
+/// Contact stiffness [N/m] and step [s]. Stiffer than the reference 1e7 N/m, so that overlaps at 5 kN are below the
+/// tolerance of 1 mm; a thirtieth of the period of a shoe on its contact spring, 2 pi sqrt(m / k) = 3.3e-3 s.
 struct RideNumbers {
   double stiffness = 3e7;
   double step = 1e-4;
 };
 
-/// A vehicle on level rigid ground, its driver, and all that is needed to step it.
+/// A vehicle on level rigid ground, its driver, and everything required to step it.
 class Ride {
 public:
   Ride(const vehicle::VehicleSpec& spec, vehicle::AssemblyOptions options, const vehicle::DriverOptions& driver,
@@ -75,7 +75,7 @@ public:
   vehicle::Observer observer;
 };
 
-/// Set down at the origin, heading along x.
+/// Placed at the origin, heading along x.
 inline Ride rideOnGround(const vehicle::VehicleSpec& spec, const vehicle::DriverOptions& driver,
                          RideNumbers numbers = {}) {
   vehicle::AssemblyOptions options;

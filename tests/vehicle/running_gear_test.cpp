@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vehicles that cannot be: one clear error each, with advice that works.
+// Invalid vehicles: one clear error each, with advice that works.
 #include "vehicle/running_gear.hpp"
 
 #include "base/error.hpp"
@@ -19,7 +19,7 @@ using test::SpecVariant;
 
 namespace {
 
-/// A vehicle file that is refused, and what its message must say.
+/// An invalid vehicle file, and the required parts of its message.
 struct Impossible {
   std::string name;
   KeyChange change;
@@ -39,7 +39,7 @@ std::string refusalOf(const std::vector<KeyChange>& changes) {
   return "";
 }
 
-/// A change as advice gives it, "set roller.z[1] = 0.09": for lists with the other values of the fault's own.
+/// A change as in the message, "set roller.z[1] = 0.09": lists keep the other values of the faulty file.
 KeyChange adviceIn(const std::string& message, const KeyChange& fault) {
   std::smatch m;
   if (!std::regex_search(message, m,
@@ -73,7 +73,7 @@ TEST_P(ImpossibleVehicle, AdviceMendsIt) {
   const std::string message = refusalOf({p.change});
   const KeyChange advice = adviceIn(message, p.change);
   if (advice.key.empty()) {
-    // Keys whose range stands in the table, and those that no single number mends, say what must hold instead.
+    // Keys with a range in the table, and those without a single valid number, state the required condition.
     EXPECT_TRUE(std::regex_search(
         message, std::regex("is outside|not finite|as many values|choose|alone resolves|not physical|at least")))
         << message;
@@ -162,8 +162,8 @@ TEST(RunningGear, ShippedVehicle_IsSound) {
   EXPECT_FALSE(vehicle::runningGearFault(spec).has_value());
 }
 
-/// Only splits of the shoes that can end at the idler are tried; trying all of them finds the same loop.
-/// All changes of "set together road_wheel.count = 6, ..., roller.x = [0.7, 1.4, 2.1]"; none where it does not say so.
+/// Tries only splits of the shoes that can end at the idler; all splits yield the same loop.
+/// All changes of "set together road_wheel.count = 6, ..., roller.x = [0.7, 1.4, 2.1]"; empty without this text.
 std::vector<KeyChange> togetherIn(const std::string& message) {
   std::vector<KeyChange> changes;
   const std::size_t from = message.find("set together ");
@@ -185,7 +185,7 @@ TEST(VehicleOfOtherNumbers, WorksAtTheFirstRetry) {
     const std::string message = refusalOf(asked);
     if (message.empty()) continue;
     std::vector<KeyChange> changes = togetherIn(message);
-    if (changes.empty()) { // one key is enough
+    if (changes.empty()) { // a single key is enough
       changes = asked;
       changes.push_back(adviceIn(message, asked.front()));
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sinkage by its definition: along the local normal, to the middle of the pad, both at the same place.
+// Sinkage by its definition: along the local normal, to the middle of the pad, both at the same position.
 #include "base/math.hpp"
 #include "tests/vehicle/attitude.hpp"
 #include "vehicle/observers.hpp"
@@ -22,12 +22,12 @@ using grouser::vehicle::testing::kDegree;
 vehicle::VehicleSpec spec() {
   return vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
 }
-/// Turn about an axis of the world.
+/// Rotation about an axis of the world.
 Quat about(const Vec3d& axis, double angle) {
   const double s = base::sin(0.5 * angle);
   return {base::cos(0.5 * angle), s * axis.x, s * axis.y, s * axis.z};
 }
-/// A shoe whose pad's middle lies `depth` under `foot`, along `normal`.
+/// A shoe with the middle of its pad at `depth` under `foot`, along `normal`.
 Pose shoeUnder(const Vec3d& foot, const Vec3d& normal, double depth, const Quat& orientation) {
   return {foot - normal * depth - base::rotate(orientation, {0, 0, spec().shoe.padBottom}), orientation};
 }
@@ -63,8 +63,8 @@ TEST(Sinkage, SeesNeitherHeadingNorPlace) {
 }
 
 TEST(Sinkage, OnACylinder_IsTheDistanceToItsAxis) {
-  // A crest and a hollow of radius 3 m across the way. The secants of the slope over one pitch are steeper than its
-  // tangents by some w^2 / R^2 = 7e-4 of it, which turns the normal by 1e-4 rad at most: of second order, 1e-9 m.
+  // A crest and a hollow of radius 3 m across the path. The secants of the slope over one pitch are steeper than its
+  // tangents by some w^2 / R^2 = 7e-4, which rotates the normal by at most 1e-4 rad: second order, 1e-9 m.
   const double radius = 3;
   for (const double side : {1.0, -1.0}) {
     const auto surface = [&](double x, double) { return side * std::sqrt(radius * radius - x * x); };
@@ -78,11 +78,11 @@ TEST(Sinkage, OnACylinder_IsTheDistanceToItsAxis) {
 }
 
 TEST(Sinkage, OnGrainsTheNormalIsThatOfTheShoesPlace) {
-  // Bumps of 4 mm every 54 mm, as of grains: they change the height of the foot, not the way that is measured.
+  // Bumps of 4 mm every 54 mm, similar to grains: they change the height of the foot, not the measured direction.
   const auto surface = [](double x, double y) { return 0.002 * base::sin(116 * x) * base::sin(116 * y); };
   for (int k = 0; k < 50; ++k) {
     const double x = 0.0173 * k, y = 0.0291 * k;
     const double found = vehicle::sinkage(spec(), shoeUnder({x, y, 0}, {0, 0, 1}, 0.05, Quat{}), surface);
-    EXPECT_NEAR(found, 0.05, 0.0025) << x << " " << y; // 2 mm of the bump, and a way slanting by 0.1 at most
+    EXPECT_NEAR(found, 0.05, 0.0025) << x << " " << y; // 2 mm of the bump, and a direction off by 0.1 at most
   }
 }

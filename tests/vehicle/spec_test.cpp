@@ -16,7 +16,7 @@ namespace {
 
 const std::string kVehicle = GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml";
 
-/// The shipped file with `from` replaced by `to`, read; the message of the refusal, or "".
+/// Reads the shipped file with `from` replaced by `to`; returns the error message, or "".
 std::string refusalAfter(const std::string& from, const std::string& to) {
   std::stringstream text;
   text << std::ifstream(kVehicle).rdbuf();
@@ -24,7 +24,7 @@ std::string refusalAfter(const std::string& from, const std::string& to) {
   const std::size_t at = content.find(from);
   if (at == std::string::npos) return "not in the file: " + from;
   content.replace(at, from.size(), to);
-  // Named by the process: tests run side by side.
+  // The process id is part of the name: tests run in parallel.
   const auto path = std::filesystem::temp_directory_path() / ("grouser_spec_" + std::to_string(getpid()) + ".toml");
   std::ofstream(path) << content;
   std::string message;
@@ -76,7 +76,7 @@ TEST(VehicleSpec, RollersOfUnequalLists_AreRefused) {
 
 namespace {
 
-/// A changed key as a scene hands it on.
+/// A modified key, as passed by a scene.
 vehicle::SpecKey changed(const std::string& section, const std::string& key, base::Node::List list) {
   return {section, key, base::Node{"scene.toml:7", std::move(list)}, ""};
 }

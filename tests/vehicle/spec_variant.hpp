@@ -16,7 +16,7 @@ struct KeyChange {
   std::string section, key, value;
 };
 
-/// The shipped vehicle's file with keys changed, with a place of its own until the object goes.
+/// The shipped vehicle's file with modified keys, in its own place for the lifetime of the object.
 class SpecVariant {
 public:
   explicit SpecVariant(const std::vector<KeyChange>& changes) {
@@ -25,7 +25,7 @@ public:
     text_ = text.str();
     change({"vehicle", "mesh_folder", "\"" GROUSER_SOURCE_DIR "/assets/meshes\""});
     for (const KeyChange& c : changes) change(c);
-    // Named by process and object: tests run side by side.
+    // Process and object are part of the name: tests run in parallel.
     static int number = 0;
     path_ = std::filesystem::temp_directory_path() /
             ("grouser_variant_" + std::to_string(getpid()) + "_" + std::to_string(number++) + ".toml");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A thrown track is seen, and named by the part, how far, and what to do.
+// Detection of a thrown track; the message contains the part, the distance, and the remedy.
 #include "vehicle/track_watch.hpp"
 
 #include "vehicle/spec_file.hpp"
@@ -37,7 +37,7 @@ TEST_F(TrackWatch, AShoeBesideItsWheelsIsNamedWithItsDistance) {
             "smaller time_step");
 }
 
-// Steps of 0.51 and 0.67 m: four wheels hung free over a strand that had lost 0.08 mm of its plane.
+// Steps of 0.51 and 0.67 m: four wheels hung free over a strand 0.08 mm off its plane.
 TEST_F(TrackWatch, ATrackThatHangsOffItsWheelsInItsPlaneIsGuided) {
   const Track& left = v.tracks[0];
   for (const int i : {1, 2, 3, 4}) move(left.wheels[static_cast<std::size_t>(i)], {0, 0, 0.062});
@@ -46,7 +46,7 @@ TEST_F(TrackWatch, ATrackThatHangsOffItsWheelsInItsPlaneIsGuided) {
   EXPECT_EQ(unguidedWheel(v, 0, state, lift).body, -1);
   EXPECT_EQ(thrownTrack(v, 0, state, lift), "");
   for (const int i : {1, 2, 3, 4}) move(left.wheels[static_cast<std::size_t>(i)], {0, 0, 0.1});
-  EXPECT_EQ(thrownTrack(v, 0, state, lift), "") << "however far";
+  EXPECT_EQ(thrownTrack(v, 0, state, lift), "") << "at any distance";
 }
 
 TEST_F(TrackWatch, HornsThatAreOutOfAWheelAndBesideItAreNamedWithBoth) {
@@ -61,9 +61,9 @@ TEST_F(TrackWatch, HornsThatAreOutOfAWheelAndBesideItAreNamedWithBoth) {
                          0),
             0u)
       << thrown;
-  EXPECT_EQ(thrownTrack(v, 0, state, 0.1), "") << "may hang so far";
+  EXPECT_EQ(thrownTrack(v, 0, state, 0.1), "") << "allowed sag";
   move(left.wheels[3], {0, 0, -0.077});
-  EXPECT_EQ(thrownTrack(v, 0, state, lift), "") << "its horns are where discs push them back";
+  EXPECT_EQ(thrownTrack(v, 0, state, lift), "") << "its horns are where the discs push them back";
 }
 
 TEST_F(TrackWatch, RollersGuideToo) {

@@ -45,7 +45,7 @@ TEST(Wrap, LightVehicle_MatchesTheKnownSolution) {
   EXPECT_EQ(wrap.counts.frontStrand, 3);
   EXPECT_EQ(wrap.counts.idler, 5);
   EXPECT_EQ(wrap.counts.top, 17);
-  // Known values are given to this many digits.
+  // Number of digits of the known values.
   EXPECT_NEAR(wrap.idlerX, 2.747351, 5e-7);
   EXPECT_NEAR(wrap.idlerFirstAngle / kDegree, -77.86, 5e-3);
   EXPECT_NEAR(wrap.kinks[3] / kDegree, 10.4, 0.05);

@@ -42,7 +42,7 @@ private:
 struct Options {
   std::string device;           ///< "auto", "cpu" or "cuda"; empty: as in the scene
   std::optional<int> threads;   ///< number of CPU threads, 0: all cores; empty: as in the scene
-  std::filesystem::path folder; ///< output folder, as of `grouser run`; empty: no output
+  std::filesystem::path folder; ///< output folder, as for `grouser run`; empty: no output
   bool overwrite = false;       ///< replace existing results in `folder`
   bool cache = true;            ///< reuse settled beds and cut meshes from earlier runs, and store new ones
   /// MPI ranks that share the scene. All must make the same calls, from the thread that created the simulation.
@@ -77,13 +77,13 @@ public:
   std::string ended() const; ///< why a [stop] condition ended the run; empty while it continues
 
   double time() const;        ///< simulation time from the end of settling [s]
-  double timeStep() const;    ///< [s]
+  double timeStep() const;    ///< length of a step [s]
   std::int64_t steps() const; ///< steps taken
   std::string device() const; ///< name of the device
 
   bool hasVehicle() const;
   Vehicle vehicle();              ///< throws InputError if the scene has none
-  std::size_t grainCount() const; ///< of all ranks
+  std::size_t grainCount() const; ///< number of grains on all ranks
   Grains grains() const;
   std::size_t ownGrainCount() const; ///< grains that this rank returns; all grains without MPI
   /// Copies the positions of grains() to the caller's buffer. Throws InputError unless its size is ownGrainCount().
@@ -103,9 +103,9 @@ public:
   /// Restores the state of a checkpoint, as resumed(), also after finish() or a failure. Not allowed with an output
   /// folder: rows would be duplicated. Means over steps are unknown until the next step().
   void restore(const std::filesystem::path& checkpoint);
-  std::string hash() const; ///< of the state, 16 hexadecimal digits; equal states have equal hashes
-  /// Ends the run: last row, checkpoint, plots and summary of the folder. No step() after it. After a failed step it
-  /// does nothing: the manifest gives the cause.
+  std::string hash() const; ///< state hash, 16 hexadecimal digits; equal states have equal hashes
+  /// Ends the run: writes the last row, checkpoint, plots and summary to the folder. No step() after it. After a failed
+  /// step it does nothing: the manifest names the cause.
   void finish();
 
 private:

@@ -16,13 +16,13 @@ struct Quaternion {
   double w = 1, x = 0, y = 0, z = 0;
 };
 
-/// A rigid body: of the vehicle ("chassis", "left shoe 0", ...) or of a mechanism.
+/// A rigid body of the vehicle ("chassis", "left shoe 0", ...) or of a mechanism.
 struct Body {
   std::string name;
   double mass = 0;        ///< [kg]
-  Vec3 position;          ///< of the centre of mass [m]
+  Vec3 position;          ///< position of the centre of mass [m]
   Quaternion orientation; ///< body to world
-  Vec3 velocity;          ///< of the centre of mass [m/s]
+  Vec3 velocity;          ///< velocity of the centre of mass [m/s]
   Vec3 spin;              ///< angular velocity, world axes [rad/s]
 };
 
@@ -38,7 +38,7 @@ struct Grains {
 ///   kinetic + potential + elastic + dissipated + integrationError = work + residual.
 struct Energies {
   double kinetic = 0, potential = 0, elastic = 0, dissipated = 0;
-  double work = 0;             ///< of drives, hitch and applied loads
+  double work = 0;             ///< work of drives, hitch and applied loads
   double integrationError = 0; ///< decreases with the time step
   double residual = 0;         ///< rounding
 };

@@ -45,7 +45,7 @@ std::string timeText(double seconds) {
 std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::path& folder) {
   std::vector<EventTime> times;
   support::Progress progress("probing");
-  double steps = 0, output = 0, preparation = 0; // of the probed run: per step and grain, per run, per grain of the bed
+  double steps = 0, output = 0, preparation = 0; // probed run [s]: per step and grain, per run, per bed grain
   for (std::size_t i = 0; i < plan.trials.size(); ++i) {
     const PlannedTrial& planned = plan.trials[i];
     const sweeps::SweepRun& run = plan.sweep.runs[planned.runs.front()];
@@ -88,8 +88,8 @@ std::string timesText(const std::vector<EventTime>& times) {
     sum.runs += t.runs, sum.here += t.here, sum.h200 += t.h200;
   }
   text += fmt::format("{:<18}{:>6}{:>12}{:>14}{:>14}\n", "all", sum.runs, "", timeText(sum.here), timeText(sum.h200));
-  text += "here: runs in sequence on all cores of this machine. H200: from the step times in docs/evidence/paper.md "
-          "and docs/evidence/speed.md;\nwithout grains the host does the work, as here.\n";
+  text += "here: runs in sequence on all cores of this machine. H200: estimated from the step times in "
+          "docs/evidence/paper.md and docs/evidence/speed.md;\nruns without grains use the CPU in both cases.\n";
   return text;
 }
 

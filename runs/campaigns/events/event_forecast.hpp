@@ -15,17 +15,17 @@ namespace grouser::events {
 struct EventTime {
   Event event{};
   int runs = 0;
-  double grains = 0; ///< of its largest bed
-  double here = 0;   ///< on this machine, with all its cores [s]
-  double h200 = 0;   ///< on one NVIDIA H200 [s]
+  double grains = 0; ///< grains of the largest bed
+  double here = 0;   ///< run time on this machine with all cores [s]
+  double h200 = 0;   ///< run time on one NVIDIA H200 [s]
 };
 
 /// Probes the first level of each event for about a second, as `grouser plan` does, and scales it to the others by
 /// steps and grains. A run is assumed to end when its course is driven at the commanded speed.
 ///
 /// For an H200: 161 us a step of vehicle and soil up to 285,000 grains (docs/evidence/paper.md), 0.43 us more for each
-/// thousand beyond that (docs/evidence/speed.md, Hertz contacts, many radii), a second of steps for the bed to settle;
-/// without grains, where the host does all the work, as here.
+/// thousand beyond that (docs/evidence/speed.md, Hertz contacts, many radii), a second of steps for the bed to settle.
+/// Without grains the host does all the work: the same time as `here`.
 std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::path& folder);
 
 /// Table of the events and their sum.

@@ -50,7 +50,7 @@ std::string vehicleFile(const std::string& word) {
   const fs::path found =
       support::findInput(isPath ? word : "vehicles/" + word + ".toml", fs::current_path() / "events.toml", tried);
   if (found.empty() || word.empty())
-    throw InputError(fmt::format("--vehicle {}: unknown vehicle; available: {}; or give the path of a vehicle file",
+    throw InputError(fmt::format("--vehicle {}: unknown vehicle; choose one of {}, or set the path of a vehicle file",
                                  word, fmt::join(readyVehicles(), ", ")));
   return fs::absolute(found).lexically_normal().string();
 }
@@ -58,12 +58,13 @@ std::string vehicleFile(const std::string& word) {
 scene::Soil soilOf(const std::string& word) {
   if (word.find('/') != std::string::npos || word.ends_with(".toml"))
     throw InputError(fmt::format(
-        "--soil {}: requires the name of a soil, not a file; put your file in ./soils/ and name it without .toml",
+        "--soil {}: requires the name of a soil, not a file; move the file to ./soils/ and use its name without .toml",
         word));
   std::vector<fs::path> tried;
   const fs::path here = fs::current_path() / "events.toml", file = scene::findSoil(word, here, tried);
   if (file.empty())
-    throw InputError(fmt::format("--soil {}: is neither {} nor a soil; {}", word, kRigid, scene::soilHint(word, here)));
+    throw InputError(
+        fmt::format("--soil {}: is neither {} nor a known soil; {}", word, kRigid, scene::soilHint(word, here)));
   return scene::readSoil(file);
 }
 
@@ -82,8 +83,9 @@ void refuseGrainOptions(const EventOptions& options, bool rigid) {
                                     {options.seeds.has_value(), "--seeds"}})
     if (given)
       throw InputError(
-          rigid ? fmt::format("{}: rigid ground has no grains; set --soil, or remove it", name)
-                : fmt::format("{}: deformable soil has no grains; remove it, or set --ground granular", name));
+          rigid
+              ? fmt::format("{}: has no effect on rigid ground; set --soil, or remove the option", name)
+              : fmt::format("{}: has no effect on deformable soil; set --ground granular, or remove the option", name));
 }
 
 /// The soil constants with the user's overrides.

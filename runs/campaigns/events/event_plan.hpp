@@ -16,7 +16,7 @@ namespace grouser::events {
 struct BedCare {
   double grainsOnPad; ///< mean diameters per pad width
   double depth;
-  double margin; ///< beside the tracks
+  double margin; ///< bed width beside the tracks
   int seeds;
 };
 inline constexpr BedCare kFullCare{10.4, 1.6, 4, 3}, kQuickCare{3, 1.1, 2, 2};
@@ -28,15 +28,15 @@ struct EventOptions {
   std::optional<scene::TerrainKind> ground; ///< empty: rigid for the soil "rigid", else granular
   std::vector<std::string> only;            ///< events; empty: all
   std::string onlyOption = "--only";        ///< command-line option of `only`, for messages
-  std::vector<double> levels;               ///< of the single event in `only`; empty: its default levels
+  std::vector<double> levels;               ///< levels of the single event in `only`; empty: its default levels
   std::vector<std::string> fixed;           ///< "key=value" for all runs
   std::optional<double> speed;              ///< commanded [m/s]; empty: 1.2 m/s of the light vehicle, others by Froude
   std::optional<double> grainRadius;        ///< mean radius [m]
-  std::optional<double> depth;              ///< of the bed [m]
+  std::optional<double> depth;              ///< bed depth [m]
   std::optional<int> seeds;                 ///< seeds of a bed; empty: default by `quick`
   int draws = 0;                            ///< samples of the soil constants, one run each; 0: nominal constants
   bool quick = false;
-  bool frames = false; ///< for films
+  bool frames = false; ///< write frames for films
   const BedCare& care() const { return quick ? kQuickCare : kFullCare; }
 };
 

@@ -69,7 +69,8 @@ Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs:
   }
   // With imposed slip, the carriage always completes the course.
   if (planned.event == Event::drawbar)
-    return {pull > 0, fmt::format("{} {:.3g} kN", pull > 0 ? "pulls" : "is pulled with", std::fabs(pull) / 1000)};
+    return {pull > 0,
+            fmt::format("{} {:.3g} kN", pull > 0 ? "drawbar pull" : "required towing force", std::fabs(pull) / 1000)};
   return judge(motion, planned.trial);
 }
 
@@ -109,7 +110,7 @@ std::string limitText(const EventLimit& limit) {
 
 std::string referenceText(const EventLimit& limit) {
   if (!limit.reference) return "";
-  return fmt::format("{}: {}", limit.reference->text, *limit.agrees ? "agrees" : "does not agree");
+  return fmt::format("{}: {}", limit.reference->text, *limit.agrees ? "agrees" : "disagrees");
 }
 
 std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps::SweepOutcome>& outcomes,
@@ -203,7 +204,7 @@ std::string eventsText(const std::vector<EventRow>& rows, const std::vector<Even
                           f.values.size() > 1 ? jobs::valueText(f.estimate) : fmt::format("{:.4g}", f.estimate.value),
                           row.doubtOf(f).empty() ? "" : "  inconclusive");
   }
-  for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}left out: {}\n", base::wordOf(event), why);
+  for (const auto& [event, why] : plan.omitted) text += fmt::format("{:<18}skipped: {}\n", base::wordOf(event), why);
   if (plan.shoesAlone()) text += fmt::format("\n{}\n", kShoesOnly);
   if (!limits.empty()) text += "\nlimits\n";
   for (const EventLimit& limit : limits)

@@ -18,7 +18,7 @@ namespace grouser::events {
 
 struct FigureOverSeeds {
   std::string name;           ///< with its unit
-  std::vector<double> values; ///< of the runs that have the figure
+  std::vector<double> values; ///< one per run that has the figure
   /// Mean with the half width of its 95 % confidence interval over seeds, or of the 95 % prediction interval of one
   /// further draw; infinite for one run.
   support::Estimate estimate;
@@ -43,7 +43,7 @@ struct EventRow {
   std::vector<RunVerdict> each;
   std::vector<FigureOverSeeds> figures;
   std::string doubt;   ///< reason why steady-part figures are inconclusive; empty if valid
-  std::string picture; ///< of the first run, relative to the folder; empty if missing
+  std::string picture; ///< picture of the first run, relative to the folder; empty if missing
 
   /// Reason why a steady-part mean is inconclusive; empty if it is valid, or no steady-part mean.
   std::string doubtOfMean(const std::string& figure) const;
@@ -56,7 +56,7 @@ struct EventRow {
 /// Bounds of the limit level of an event.
 struct EventLimit {
   Event event{};
-  std::optional<double> go;   ///< highest level that all seeds pass, as at all levels below
+  std::optional<double> go;   ///< highest level such that all seeds pass it and every lower level
   std::optional<double> noGo; ///< lowest level that some seed fails
   std::optional<Reference> reference;
   /// Whether runs agree with the reference: none passes a blocked level or fails a passable one; empty: no reference.
@@ -77,9 +77,9 @@ std::string limitText(const EventLimit& limit);
 /// Closed form, and whether the runs agree with it; empty without a closed form.
 std::string referenceText(const EventLimit& limit);
 
-/// Note on such runs, in the head and the tables.
+/// Note on runs with soil contact of the track shoes only, in the head and the tables.
 inline constexpr const char* kShoesOnly =
-    "soil contact: track shoes only, as coarse grains would jam the running gear (vehicle.soil_contact)";
+    "soil contact: track shoes only, because coarse grains would jam the running gear (vehicle.soil_contact)";
 
 /// Text of both tables.
 std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);

@@ -74,8 +74,8 @@ void checkFolder(const EventsCommand& command, const fs::path& folder, const job
   const bool goesOn = command.pieces.resume || !command.pieces.part.empty() || call.isThere();
   std::error_code unreadable;
   if (!command.force && !goesOn && fs::is_directory(folder, unreadable) && !fs::is_empty(folder, unreadable))
-    throw base::InputError(fmt::format("{}: contains other files than the runs of this command; continue with "
-                                       "--resume, name another folder with --out, or repeat all runs with --force",
+    throw base::InputError(fmt::format("{}: contains results of a different command; continue with --resume, choose "
+                                       "another folder with --out, or repeat all runs with --force",
                                        folder.string()));
   output::checkOutputFolder(folder, command.force || goesOn);
 }
@@ -90,13 +90,13 @@ void printHead(const EventsCommand& command, const std::string& what, const Even
   if (plan.course.granular())
     fmt::print("          bed depth {:.3g} m, grain diameter {:.3g} mm, {:.1f} grains per pad width; {}{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
-               base::counted(plan.seeds, "seed"), command.options.quick ? "; coarse" : "");
+               base::counted(plan.seeds, "seed"), command.options.quick ? "; coarse settings (--quick)" : "");
   if (plan.draws > 0)
     fmt::print(
-        "          {} of the soil constants: +- half width of the 95 % prediction interval of one further draw\n",
+        "          {} of the soil constants: +- is the half width of the 95 % prediction interval for one more draw\n",
         base::counted(plan.draws, "draw"));
   if (plan.shoesAlone()) fmt::print("          {}\n", kShoesOnly);
-  for (const auto& [event, why] : plan.omitted) fmt::print("          {} is left out: {}\n", base::wordOf(event), why);
+  for (const auto& [event, why] : plan.omitted) fmt::print("          {} skipped: {}\n", base::wordOf(event), why);
   fmt::print("          {}\n", base::counted(runs, "run"));
   std::fflush(stdout);
 }
@@ -129,7 +129,7 @@ std::vector<sweeps::SweepOutcome> doRuns(const EventsCommand& command, const std
   auto outcomes = sweeps::runMissing(partOf(plan, command.pieces.share()), sweep, what,
                                      [](const std::vector<sweeps::SweepOutcome>&) {});
   if (command.pieces.part.empty()) return outcomes;
-  fmt::print("part      {} of the runs; a call with --resume and without --part writes the tables\n",
+  fmt::print("part      {} of the runs; to write the tables, repeat the command with --resume and without --part\n",
              command.pieces.part);
   return {};
 }

@@ -21,9 +21,9 @@ constexpr double kEnd = 0.3;    // m, between the vehicle and the end of the ter
 constexpr double kRunUp = 3;    // m, run-up on slopes: near the limit acceleration is slow
 constexpr double kCrawl = 0.4;  // share of the commanded speed, and minimum in m/s: over steps, gaps and ditches
 constexpr double kBeyond = 0.3; // m, beyond the end of the course, or lateral drift
-constexpr double kSwerve = 0.2; // space beside a course without grains over its length, as obstacles turn vehicles
+constexpr double kSwerve = 0.2; // width beside a grain-free course over its length: obstacles turn vehicles
 constexpr double kReferenceRun = 1.7832; // m, contact length of the light vehicle; obstacles scale with it
-constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // of ditch.png, over its length
+constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // fractions of the length of ditch.png
 constexpr double kSettled = 2;                           // s, until every vehicle has settled and drives
 
 double crawl(const Course& c) { return std::max(kCrawl * c.speed, kCrawl); }
@@ -46,7 +46,7 @@ std::string set(const std::string& key, std::initializer_list<double> values) {
   return fmt::format("{}=[{}]", key, fmt::join(words, ", "));
 }
 
-/// Width of the ground beside the tracks [m]; small for a bed, as grains are expensive.
+/// Width of the ground beside the tracks [m]; small for beds: grains are expensive.
 double sideRoom(const Course& c, double distance) {
   return c.granular() ? std::max(c.margin, kEnd) : kSwerve * distance;
 }
@@ -93,12 +93,12 @@ void box(const Course& c, Trial& trial, int number, double x, double end, double
   const std::string key = fmt::format("box.{}.", number);
   trial.overrides.push_back(set(key + "position", {0.5 * (x + end), 0.0, 0.5 * (top + foot)}));
   trial.overrides.push_back(set(key + "size", {end - x, width, top - foot}));
-  // Grains touch obstacles in the bed, whose contact law must match.
+  // Obstacles in the bed touch grains and need the same contact law.
   if (c.granular()) trial.overrides.push_back(key + "material=" + c.soil);
 }
 
-/// Raises the overlap limit to that of grains below parts: a coarse grain between track and obstacle edge carries much
-/// of the vehicle weight.
+/// Raises the overlap limit to that of grains below parts: a coarse grain between track and obstacle edge carries a
+/// large part of the vehicle weight.
 void allowDeepOverlap(const Course& c, Trial& trial) {
   if (c.granular()) trial.overrides.push_back(set("run.max_overlap", 1.0));
 }
@@ -131,7 +131,7 @@ void pivot(const Course& c, Trial& trial) {
 }
 
 void circle(const Course& c, Trial& trial, double radius) {
-  // A run ends by its chord, which increases for half of the circle at most.
+  // A run ends at a chord length; the chord increases along the first half of the circle only.
   const double path = std::min(1.2 * kWay, 0.8 * base::kPi * radius), angle = (path + kBeyond) / radius;
   const double reach = c.shape.halfWidth + c.margin + 2 * kEnd, start = kEnd + c.shape.rear;
   const double ahead = radius * std::sin(std::min(angle, base::kPi / 2)), left = radius * (1 - std::cos(angle));
@@ -218,7 +218,8 @@ std::string titleOf(Event event) {
 
 std::string omission(Event event, const Course& course) {
   if (event == Event::softSoil && course.rigid()) return "rigid ground has no strength to vary; set --soil";
-  if (event == Event::gap && !course.rigid()) return "soil does not affect a gap between slabs; use --soil rigid";
+  if (event == Event::gap && !course.rigid())
+    return "a gap between slabs does not depend on the soil; use --soil rigid";
   return "";
 }
 
@@ -293,7 +294,7 @@ Trial trialOf(Event event, double level, const Course& c) {
   }
   case Event::gap: {
     const Straight s = straight(c, trial, 0, level, 0);
-    const double depth = scale; // of the gap
+    const double depth = scale; // gap depth
     box(c, trial, 0, 0, s.obstacle, s.width, depth);
     box(c, trial, 1, s.obstacle + level, s.length, s.width, depth);
     break;
@@ -312,7 +313,7 @@ Trial trialOf(Event event, double level, const Course& c) {
   }
   case Event::drawbar:
     straight(c, trial, 0, 0, 0);
-    trial.distance = 2 * c.shape.groundRun(); // the means are of the second half of it
+    trial.distance = 2 * c.shape.groundRun(); // means are over the second half
     sweeps::putOverride(trial.overrides, set("stop.distance", trial.distance));
     trial.slip = level;
     trial.overrides.push_back(set("hitch.slip", level));
@@ -360,7 +361,8 @@ std::optional<Reference> referenceOf(Event event, const Course& c) {
                         : Reference{fmt::format("tips at {:.4g}", tipping), tipping, tipping};
   case Event::step: {
     const double high = c.shape.highestStep + crawl(c) * crawl(c) / (2 * kGravity);
-    return Reference{fmt::format("none above {:.3g} m: centre of mass over the edge, arms free", high), {}, high};
+    return Reference{
+        fmt::format("none above {:.3g} m: centre of mass over the edge, suspension arms free", high), {}, high};
   }
   case Event::gap: {
     const GapBounds g = gapBounds(c.shape);

@@ -41,14 +41,14 @@ std::string titleOf(Event event);
 /// Parameters of the courses.
 struct Course {
   VehicleShape shape;
-  double speed = 0; ///< commanded [m/s]
+  double speed = 0; ///< commanded speed [m/s]
   scene::TerrainKind ground = scene::TerrainKind::rigid;
-  double depth = 0;             ///< of the bed [m]
-  double margin = 0;            ///< width of a bed beside the tracks [m]
-  double soilFriction = 0;      ///< of the soil's grains [-]
-  double rollingFriction = 0;   ///< of the soil's grains [-]
+  double depth = 0;             ///< bed depth [m]
+  double margin = 0;            ///< bed width beside the tracks [m]
+  double soilFriction = 0;      ///< friction of soil grains [-]
+  double rollingFriction = 0;   ///< rolling friction of soil grains [-]
   std::string soil;             ///< material of the bed and of obstacles in it
-  scm::SoilConstants constants; ///< of deformable soil
+  scm::SoilConstants constants; ///< constants of deformable soil
 
   bool rigid() const { return ground == scene::TerrainKind::rigid; }
   bool granular() const { return ground == scene::TerrainKind::granular; }
@@ -64,11 +64,11 @@ std::string omission(Event event, const Course& course);
 /// One level of an event: scene overrides and target motion.
 struct Trial {
   std::vector<std::string> overrides; ///< "key=value"
-  double distance = 0;                ///< to drive [m]; 0 for a turn on the spot
-  double angle = 0;                   ///< to turn [rad]
-  double rate = 0;                    ///< commanded, of the turn [rad/s]
-  double speed = 0;                   ///< commanded [m/s]
-  double slip = 0;                    ///< imposed [-]
+  double distance = 0;                ///< distance to drive [m]; 0 for a turn on the spot
+  double angle = 0;                   ///< angle to turn [rad]
+  double rate = 0;                    ///< commanded turn rate [rad/s]
+  double speed = 0;                   ///< commanded speed [m/s]
+  double slip = 0;                    ///< imposed slip [-]
 };
 Trial trialOf(Event event, double level, const Course& course);
 

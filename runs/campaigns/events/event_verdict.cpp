@@ -23,7 +23,8 @@ namespace {
 
 const std::vector<double>& columnOf(const sweeps::RunSeries& series, const std::string& name) {
   if (const std::vector<double>* values = series.of(name)) return *values;
-  throw base::InputError(fmt::format("timeseries.csv has no column {}: another version wrote it; use --force", name));
+  throw base::InputError(
+      fmt::format("timeseries.csv has no column {}: another version wrote it; repeat the runs with --force", name));
 }
 
 /// Time at which `end` is reached, and mean rate over the last `stretch` before.
@@ -76,12 +77,12 @@ Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPa
 Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   if (motion.time.empty()) return {false, "never drove"};
   const double roll = greatest(motion.roll) * 180 / base::kPi;
-  if (roll >= rule.mostRoll) return {false, fmt::format("rolls to {:.0f} degrees", roll)};
+  if (roll >= rule.mostRoll) return {false, fmt::format("roll angle reaches {:.0f} degrees", roll)};
   if (trial.angle > 0) {
     const auto turn = passage(motion.time, motion.turned, trial.angle, trial.angle);
     const double most = *std::max_element(motion.turned.begin(), motion.turned.end()) * 180 / base::kPi;
     if (!turn) return {false, fmt::format("turns only {:.0f} degrees", most)};
-    if (turn->at > rule.time) return {false, fmt::format("takes {:.1f} s to turn", turn->at)};
+    if (turn->at > rule.time) return {false, fmt::format("exceeds the time limit: {:.1f} s for the turn", turn->at)};
     const bool quick = turn->rate >= rule.share * trial.rate;
     return {quick, fmt::format("{:.0f} degrees in {:.1f} s{}", trial.angle * 180 / base::kPi, turn->at,
                                quick ? "" : ": too slow")};
@@ -89,7 +90,7 @@ Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   const auto drove = passage(motion.time, motion.way, trial.distance, rule.way);
   const double most = *std::max_element(motion.way.begin(), motion.way.end());
   if (!drove) return {false, fmt::format("covers {:.1f} of {:.1f} m", std::max(0.0, most), trial.distance)};
-  if (drove->at > rule.time) return {false, fmt::format("takes {:.1f} s", drove->at)};
+  if (drove->at > rule.time) return {false, fmt::format("exceeds the time limit: {:.1f} s", drove->at)};
   const bool quick = drove->rate >= rule.share * trial.speed;
   return {quick, fmt::format("{:.1f} m in {:.1f} s{}", trial.distance, drove->at, quick ? "" : ": too slow")};
 }

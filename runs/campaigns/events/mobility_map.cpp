@@ -92,7 +92,7 @@ EventPlan planColumn(const EventOptions& options, const std::string& key, const 
 
 void refuseKey(const std::string& axis, const std::string& key) {
   for (const auto& [other, remedy] : kOfOptions)
-    if (key == other) throw InputError(fmt::format("--axis {}: an option sets this key; {}", axis, remedy));
+    if (key == other) throw InputError(fmt::format("--axis {}: this key has its own option; {}", axis, remedy));
   if (key.starts_with("output."))
     throw InputError(fmt::format("--axis {}: keys of [output] do not affect verdicts; use --set", axis));
 }
@@ -103,9 +103,8 @@ void checkNames(const MobilityMap& map, const std::string& axis) {
   for (const MapColumn& column : map.columns)
     for (const sweeps::SweepRun& run : column.plan.sweep.runs)
       if (!names.insert(run.name).second)
-        throw InputError(fmt::format("--axis {}: duplicate run name {}; set values and levels that differ in "
-                                     "six digits",
-                                     axis, run.name));
+        throw InputError(fmt::format(
+            "--axis {}: duplicate run name {}; use values and levels that differ within six digits", axis, run.name));
 }
 
 bool sameLevels(const EventPlan& a, const EventPlan& b) {
@@ -124,7 +123,7 @@ std::vector<EventTime> timesOf(const MobilityMap& map, const fs::path& folder) {
 } // namespace
 
 MobilityMap planMap(const EventOptions& options, const std::string& axis) {
-  if (options.only.size() != 1) throw InputError("map: requires exactly one event; set --event");
+  if (options.only.size() != 1) throw InputError("map: requires exactly one event; set it with --event");
   MobilityMap map;
   map.event = eventOf(options.only[0]);
   if (levelText(map.event).empty())

@@ -75,18 +75,17 @@ EventSet readEventSet(const fs::path& folder) {
   const fs::path file = folder / "events.json";
   std::error_code error;
   if (!fs::is_regular_file(file, error))
-    throw base::InputError(fmt::format("--against {}: contains no events.json; set the result folder of a "
-                                       "`grouser events`",
-                                       folder.string()));
+    throw base::InputError(fmt::format(
+        "--against {}: contains no events.json; specify the results folder of `grouser events`", folder.string()));
   try {
     std::ifstream in(file);
     EventSet set = parsed(nlohmann::json::parse(in));
     set.folder = folder;
     return set;
   } catch (const nlohmann::json::exception& fault) {
-    throw base::InputError(fmt::format("--against {}: {} is damaged or from an earlier version ({}); repeat the call "
-                                       "that wrote it",
-                                       folder.string(), file.string(), fault.what()));
+    throw base::InputError(fmt::format(
+        "--against {}: {} is damaged or was written by another version ({}); repeat the command that wrote it",
+        folder.string(), file.string(), fault.what()));
   }
 }
 
@@ -111,14 +110,14 @@ std::vector<FigureDifference> differencesFrom(const EventSet& here, const EventS
 
 std::string differencesText(const std::vector<FigureDifference>& differences, const EventSet& here,
                             const EventSet& other, double percent) {
-  std::string text = fmt::format("{}\ncompared with {}: {}; equal: within {:g} % of the larger mean\n", nameOf(here),
-                                 other.folder.string(), nameOf(other), percent);
+  std::string text = fmt::format("{}\ncompared with {}: {}; equal means within {:g} % of the larger mean\n",
+                                 nameOf(here), other.folder.string(), nameOf(other), percent);
   for (const auto& [what, a, b] :
        {std::tuple{"vehicle", here.vehicle, other.vehicle},
         {"soil", here.soil, other.soil},
         {"commanded speed [m/s]", fmt::format("{:g}", here.speed), fmt::format("{:g}", other.speed)}})
     if (a != b) text += fmt::format("WARNING: {}: {} here, {} there\n", what, a, b);
-  if (differences.empty()) return text + "no event, level and figure in common\n";
+  if (differences.empty()) return text + "no common event, level and figure\n";
   text += fmt::format("{:<18}{:<7}{:<46}{:>22}{:>5}{:>22}{:>8}{:>22}\n", "event", "level", "figure", here.ground,
                       "runs", other.ground, "runs", "difference");
   for (const FigureDifference& d : differences)

@@ -15,7 +15,7 @@ struct LevelFigure {
   Event event{};
   double level = 0;
   std::string name;           ///< with its unit
-  std::vector<double> values; ///< of the runs that have it
+  std::vector<double> values; ///< one per run that has the figure
   int planned = 0;            ///< number of runs at the level
   bool doubtful = false;      ///< too little driving for a mean
 };
@@ -24,11 +24,11 @@ struct LevelFigure {
 struct EventSet {
   std::filesystem::path folder;
   std::string vehicle, soil, ground; ///< "light_tracked", "lete_sand", "granular"
-  double speed = 0;                  ///< commanded [m/s]
-  bool drawn = false;                ///< its runs sample the soil constants
+  double speed = 0;                  ///< commanded speed [m/s]
+  bool drawn = false;                ///< whether runs sample the soil constants
   std::vector<LevelFigure> figures;
 
-  bool seeded() const; ///< its runs are beds of different seeds
+  bool seeded() const; ///< whether runs use beds of different seeds
 };
 
 /// Results of the present call.
@@ -44,8 +44,8 @@ struct FigureDifference {
   std::string verdict;                           ///< "equal", "differs", "inconclusive"
 };
 
-/// Differences in the order of `here`. Interval of a difference: Welch's between two sets with seeds, else the root sum
-/// of squares of both half widths, where a set with one run per level has zero. `percent`: verdict "equal" within this
+/// Differences in the order of `here`. Interval of a difference: Welch's between two sets with seeds, else the root
+/// sum of squares of both half widths (zero for a set with one run per level). `percent`: verdict "equal" within this
 /// share of the larger mean.
 std::vector<FigureDifference> differencesFrom(const EventSet& here, const EventSet& other, double percent);
 

@@ -8,7 +8,7 @@
 /// Upper bound of the step height that a vehicle can climb, from its geometry.
 namespace grouser::events {
 
-inline constexpr double kGravity = 9.81; ///< of the events' scenes [m/s2]
+inline constexpr double kGravity = 9.81; ///< gravity in event scenes [m/s2]
 
 /// Point in the side view: x forward from the sprocket axle, z up [m].
 struct SidePoint {

@@ -10,15 +10,15 @@ namespace grouser::events {
 struct VehicleShape {
   double rear = 0, front = 0;           ///< distance from the sprocket axle to the rear and front ends [m]
   double diagonal = 0;                  ///< longest distance between two points of the track outline [m]
-  double halfWidth = 0;                 ///< from the middle to the outer edge of the pads [m]
+  double halfWidth = 0;                 ///< distance from the middle to the outer edge of the pads [m]
   double firstWheel = 0, lastWheel = 0; ///< x of the axles of the rearmost and the foremost road wheel [m]
-  SidePoint massCentre;                 ///< of the whole vehicle
+  SidePoint massCentre;                 ///< centre of mass of the vehicle; z above level ground
   double tread = 0;                     ///< distance between the track centre lines [m]
   double padWidth = 0;                  ///< [m]
   double pitchRadius = 0;               ///< [m]
   double mass = 0;                      ///< [kg]
-  double friction = 0;                  ///< of shoes on rigid ground [-]
-  double highestStep = 0;               ///< upper bound of the steps it climbs (highestStep() of its spec) [m]
+  double friction = 0;                  ///< shoe friction on rigid ground [-]
+  double highestStep = 0;               ///< upper bound of climbable steps (highestStep() of the spec) [m]
 
   double length() const { return rear + front; }
   double groundRun() const { return lastWheel - firstWheel; }
@@ -36,8 +36,8 @@ struct GapBounds {
 };
 GapBounds gapBounds(const VehicleShape& shape);
 
-/// Tangent of the side slope on which the vehicle tips over the outer edge of its lower track: half width over height
-/// of the centre of mass, without suspension travel [-].
+/// Tangent of the side slope on which the vehicle tips over the outer edge of its lower track, without suspension
+/// travel: half width over height of the centre of mass [-].
 double tippingSlope(const VehicleShape& shape);
 
 /// mu W L / 4: turning resistance moment on the spot for uniform pressure and longitudinal slip much smaller than

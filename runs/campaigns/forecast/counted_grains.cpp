@@ -18,12 +18,12 @@ CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64
   if (!scene.terrain || !scene.terrain->granular()) return counted;
   if (scene.terrain->tile) {
     counted.exact = false;
-    counted.doubt = "by volume, within some percent: walls cut the copies of a tile";
+    counted.doubt = "estimated from the volume to within a few percent (walls cut the copies of a tile)";
     return counted;
   }
   if (counted.grains > mostLaid) {
     counted.exact = scene.terrain->lattice();
-    if (!counted.exact) counted.doubt = "by volume, within some per mille";
+    if (!counted.exact) counted.doubt = "estimated from the volume to within a few tenths of a percent";
     return counted;
   }
   const coupling::GroundSetup whole = setup::groundSetup(scene, timeStep);

@@ -138,7 +138,7 @@ private:
   bool model() {
     double grain = typical_.grain, list = typical_.list;
     if (settles()) {
-      options_.stage("short probe of a small bed");
+      options_.stage("timing a small bed");
       try {
         settle(setup::groundSetup(pieceOf(scene_, grains_, kMostCopied), timeStep_), 2 * kShort);
       } catch (const base::InputError&) { // too small a bed for a periodic tile
@@ -175,7 +175,7 @@ private:
 
   /// Stores ratios of probed to modelled times of the scene. Ignores failures.
   void keep() {
-    options_.stage("saving the results for later plans");
+    options_.stage("storing the measurements for later plans");
     try {
       keepRatios(machineOf(scene_), measuredOverModelled());
     } catch (const std::exception&) {
@@ -202,14 +202,14 @@ private:
 
   bool isModelled(const std::string& part) const {
     static const std::set<std::string> kSteps{"grains",    "neighbour lists", "vehicle", "meshes",
-                                              "mechanism", "sphere sets",     "placing", "parts, placing"};
+                                              "mechanism", "sphere sets",     "placing", "placing parts"};
     return modelled_ || (!options_.probe && !kSteps.contains(part));
   }
 
   /// Kind of work of a part, the key of stored ratios.
   std::string workOf(const std::string& part) const {
-    static const std::set<std::string> kOfVehicle{"vehicle", "parts, placing", "sphere sets"},
-        kOfMachine{"picture", "plots", "files begun", "laying the bed", "bed, kept"};
+    static const std::set<std::string> kOfVehicle{"vehicle", "placing parts", "sphere sets"},
+        kOfMachine{"picture", "plots", "creating files", "placing the bed", "cached bed"};
     return fmt::format("{}: {}", part, kOfMachine.contains(part) ? "" : kOfVehicle.contains(part) ? vehicle_ : soil_);
   }
 
@@ -246,8 +246,8 @@ private:
   }
 
   void make(coupling::SimulationSetup setup) {
-    options_.stage(scene_.vehicle ? "building a piece of the scene: bed, sphere sets, vehicle"
-                                  : "building a piece of the scene");
+    options_.stage(scene_.vehicle ? "building a part of the scene: bed, sphere sets, vehicle"
+                                  : "building a part of the scene");
     simulation_ = std::make_unique<coupling::Simulation>(
         std::move(setup), exec_, coupling::SettleProgress([](double, double) {}), base::Comm(),
         beds_ && kept_ ? &*beds_ : nullptr, spheres_ ? &*spheres_ : nullptr);
@@ -284,7 +284,7 @@ private:
       times_ =
           timeSteps(*simulation_, exec_, options_.seconds, simulation_->steps() + static_cast<std::int64_t>(steps_));
     } catch (const base::SimulationError& error) {
-      f_.warning = fmt::format("the probe's steps failed, no run-time estimate: {}", error.what());
+      f_.warning = fmt::format("the timed steps failed, so there is no run-time estimate: {}", error.what());
       return false;
     }
     return true;
@@ -294,27 +294,28 @@ private:
     const bool spheres = scene_.vehicle || hasMeshes();
     const double cut = spheres_ ? spheres_->cutting() : 0;
     if (kept_) {
-      add(f_.preparation, "bed, kept", own_ - cut, "in the cache");
+      add(f_.preparation, "cached bed", own_ - cut, "in the cache");
     } else if (whole_) {
       add(f_.preparation, "settling the bed", own_ - cut, "the whole bed");
     } else if (hasBed(scene_)) {
       settling();
-      add(f_.preparation, "laying the bed", laying_ + grains_ * kLaid, "");
+      add(f_.preparation, "placing the bed", laying_ + grains_ * kLaid, "");
     }
     if (!kept_ && !whole_ && (spheres || !hasBed(scene_))) {
       const double settled =
           hasBed(scene_) && !modelled_ ? tile_.fallen * tile_.seconds : 0; // time to settle the copied tile again
-      add(f_.preparation, spheres ? "parts, placing" : "placing", std::max(0.0, own_ - cut - settled),
-          modelled_ ? "" : "as in the probe");
+      add(f_.preparation, spheres ? "placing parts" : "placing", std::max(0.0, own_ - cut - settled),
+          modelled_ ? "" : "as measured");
     }
     if (spheres) add(f_.preparation, "sphere sets", uncut_, spheresText(cut));
   }
 
   /// Origin of the sphere sets; `cut`: their time in the probe [s].
   std::string spheresText(double cut) const {
-    if (cut > 0) return fmt::format("cut in {:.2g} s{}", cut, spheres_->saved() > 0 ? "; cached for the run" : "");
-    if (uncut_ > 0) return spheres_ ? "cut once; cached by the first run" : "cut by the run; no cache";
-    if (simulation_ && !spheres_) return f_.cuts.empty() ? "none needed" : "cut with the parts; no cache";
+    if (cut > 0)
+      return fmt::format("generated in {:.2g} s{}", cut, spheres_->saved() > 0 ? "; cached for the run" : "");
+    if (uncut_ > 0) return spheres_ ? "generated and cached by the first run" : "generated in each run; no cache";
+    if (simulation_ && !spheres_) return f_.cuts.empty() ? "none needed" : "generated with the parts; no cache";
     return !f_.cuts.empty() || (spheres_ && spheres_->found() > 0) ? "in the cache" : "none needed";
   }
 
@@ -326,7 +327,7 @@ private:
     const double whole = scale_ * (each * tile_.falling / std::max(1e-300, tile_.resting) +
                                    lists() * tile_.rebuilds / std::max(1.0, tile_.steps));
     std::string how = fmt::format("{:.0f} steps to settle a tile of {:.0f} grains", tile_.steps, tile_.grains);
-    if (!tile_.complete) how = "not settled in the probe; estimated";
+    if (!tile_.complete) how = "not settled during the measurement; estimated";
     if (scene_.terrain->porosity) {
       const double sample = sampleGrains(scene_, timeStep_);
       add(f_.preparation, "friction for the porosity", kTrials * tile_.seconds * sample / tile_.grains,
@@ -336,7 +337,7 @@ private:
       const double cells = std::min(1.0, (*scene_.terrain->tile)[0] * (*scene_.terrain->tile)[1] /
                                              (scene_.terrain->size[0] * scene_.terrain->size[1]));
       add(f_.preparation, "settling a tile", tile_.steps * whole * cells, how);
-      add(f_.preparation, "settling its copies", kCopiesRest / timeStep_ * whole, "");
+      add(f_.preparation, "settling the copies", kCopiesRest / timeStep_ * whole, "");
       return;
     }
     add(f_.preparation, "settling the bed", tile_.steps * whole, how);
@@ -359,9 +360,9 @@ private:
     if (scene_.output.picture) add(f_.output, "picture", o.picture, "");
     if (o.plot > 0) {
       const double plots = scene_.vehicle ? 6 : hasBed(scene_) ? 2 : 1;
-      add(f_.output, "plots", o.plot * (1 + kFurtherPlot * (plots - 1)), fmt::format("{:.0f} by Python", plots));
+      add(f_.output, "plots", o.plot * (1 + kFurtherPlot * (plots - 1)), fmt::format("{:.0f} plots by Python", plots));
     }
-    add(f_.output, "files begun", o.begin, "");
+    add(f_.output, "creating files", o.begin, "");
     f_.disk = (frames * o.frameBytes + o.checkpointBytes) * std::max(1.0, scale_) + demand().rows;
     const double wrote = o.frame + o.checkpoint;
     if (wrote > 0 && options_.probe) f_.diskSpeed = (o.frameBytes + o.checkpointBytes) / wrote;
@@ -376,19 +377,20 @@ private:
   void stepsOfRun() {
     if (!hasBed(scene_)) {
       const StepCost cost = costOfRun(times_, steps_, stride_, meanLater());
-      addSteps(cost.grains, cost.lists, cost.parts, "as often as in the probe");
+      addSteps(cost.grains, cost.lists, cost.parts, "same rebuild interval as measured");
       return;
     }
     const StepTimes::Group last = times_.last();
     const double each = last.seconds / std::max(1.0, last.steps);
     double perStep = last.lists * each * scale_;
-    std::string how = "as often as in the probe";
+    std::string how = "same rebuild interval as measured";
     // No list expires in a bed at rest: the rebuild interval follows from the grain speed.
     if (const double speed = speedOf(scene_); speed > 0) {
       const double reach = 0.5 * scene_.run.skin * setup::ContactPairs(scene_).kinds.largest;
       const double between = std::max(1.0, reach / (speed * timeStep_));
       const double told = lists() * scale_ / between;
-      if (told > perStep) perStep = told, how = fmt::format("one per {:.0f} steps at {:.2g} m/s", between, speed);
+      if (told > perStep)
+        perStep = told, how = fmt::format("one rebuild per {:.0f} steps at {:.2g} m/s", between, speed);
     }
     addSteps(steps_ * each * (1 - last.lists - last.parts) * scale_, steps_ * perStep, steps_ * each * last.parts, how);
   }

@@ -31,7 +31,7 @@ struct Forecast {
   std::vector<ForecastPart> preparation, steps, output;
   std::string warning;                       ///< reason for a missing run-time estimate; else empty
   double spent = 0;                          ///< time of the probe itself [s]
-  bool probed = true;                        ///< by the long probe
+  bool probed = true;                        ///< whether the long probe ran
   double process = 0;                        ///< peak memory of the process [B]
   double device = 0;                         ///< GPU memory [B]; 0 on a CPU
   double disk = 0;                           ///< disk space of the results [B]
@@ -49,10 +49,10 @@ struct Forecast {
 };
 
 struct ForecastOptions {
-  std::filesystem::path folder;                                ///< of the results, whose disk is measured
+  std::filesystem::path folder;                                ///< results folder; the probe measures its disk
   double seconds = 1;                                          ///< wall time for the steps of the long probe [s]
   bool cache = true;                                           ///< use cached beds and sphere sets, as a run does
-  bool probe = true;                                           ///< the long probe; false: a second at most
+  bool probe = true;                                           ///< run the long probe; false: at most a second
   std::function<void(const char*)> stage = [](const char*) {}; ///< called with the name of each stage
 };
 

@@ -67,18 +67,16 @@ std::string forecastText(const Forecast& f) {
   text += partsText("steps", f.steps);
   text += partsText("output", f.output);
   if (f.warning.empty())
-    text +=
-        fmt::format("  {:<24} {}, between {} and {}\n", "total", time(f.total()), time(f.bound(-1)), time(f.bound(1)));
+    text += fmt::format("  {:<24} {} ({} to {})\n", "total", time(f.total()), time(f.bound(-1)), time(f.bound(1)));
   if (f.probed)
     text += fmt::format("  {:<24} within a factor of {:g}\n", "accuracy", f.accuracy(Source::probed));
   else
-    text +=
-        fmt::format("  {:<24} within a factor of {:g} (probed, kept) or {:g} (typical); grouser plan --probe measures "
-                    "every part; later plans reuse the results\n",
-                    "accuracy", f.accuracy(Source::kept), f.accuracy(Source::typical));
-  text += fmt::format("  {:<24} about {}\n", "memory of the process", bytes(f.process));
-  if (f.device > 0) text += fmt::format("  {:<24} about {}\n", "memory of the GPU", bytes(f.device));
-  text += fmt::format("  {:<24} about {}{}\n", "on the disk", bytes(f.disk),
+    text += fmt::format("  {:<24} within a factor of {:g} (probed, kept) or {:g} (typical); measure all parts for this "
+                        "and later plans with grouser plan --probe\n",
+                        "accuracy", f.accuracy(Source::kept), f.accuracy(Source::typical));
+  text += fmt::format("  {:<24} about {}\n", "process memory", bytes(f.process));
+  if (f.device > 0) text += fmt::format("  {:<24} about {}\n", "GPU memory", bytes(f.device));
+  text += fmt::format("  {:<24} about {}{}\n", "disk space", bytes(f.disk),
                       f.diskSpeed > 0 ? fmt::format(", written at {}/s", bytes(f.diskSpeed)) : "");
   if (!f.warning.empty()) text += fmt::format("\nWARNING: {}\n", f.warning);
   return text;

@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kGiB = 1073741824.0;
-constexpr double kProgram = 100e6, kVehicle = 250e6; // of a process without its grains [bytes]
-constexpr double kRow = 1000, kVehicleRow = 7000;    // of results.h5 and timeseries.csv [bytes]
+constexpr double kProgram = 100e6, kVehicle = 250e6; // process memory without grains [bytes]
+constexpr double kRow = 1000, kVehicleRow = 7000;    // size of a row in results.h5 and timeseries.csv [bytes]
 constexpr double kPicture = 1e6;                     // picture.png [bytes]
-constexpr double kCheckpointBytes = 250;             // per grain in a checkpoint, with its contacts
+constexpr double kCheckpointBytes = 250;             // checkpoint size per grain with its contacts [bytes]
 constexpr double kMostRemembered = 2e6;              // grains up to which a state is also kept in memory
 
 std::string size(double bytes) {
@@ -116,19 +116,20 @@ Room roomOf(const base::Exec& exec, const fs::path& folder, bool overwritten) {
 std::string misfit(const Demand& demand, const Room& room) {
   std::vector<std::string> lacks;
   if (room.process && demand.process > *room.process)
-    lacks.push_back(fmt::format("{} about {} of memory, but {} are free: use fewer or larger grains, more hosts "
-                                "(mpirun), or stop other programs",
-                                demand.grains > 0 ? fmt::format("its {:.3g} grains take", demand.grains) : "it takes",
-                                size(demand.process), size(*room.process)));
+    lacks.push_back(
+        fmt::format("{} about {} of memory, but only {} are free: use fewer or larger grains or more hosts (mpirun), "
+                    "or stop other programs",
+                    demand.grains > 0 ? fmt::format("its {:.3g} grains require", demand.grains) : "it requires",
+                    size(demand.process), size(*room.process)));
   if (room.device && demand.device > *room.device)
-    lacks.push_back(fmt::format("its grains take about {} of each GPU, but {} are free: use fewer or larger grains, "
-                                "more GPUs (mpirun), or run.device = \"cpu\"",
+    lacks.push_back(fmt::format("its grains require about {} on each GPU, but only {} are free: use fewer or larger "
+                                "grains, more GPUs (mpirun), or run.device = \"cpu\"",
                                 size(demand.device), size(*room.device)));
   if (room.disk && demand.disk() > *room.disk)
-    lacks.push_back(fmt::format("its results take about {} ({} of frames), but {} are free in {}: raise "
-                                "run.frame_interval, set output.frames = false, or name a folder on another disk "
-                                "(--out)",
-                                size(demand.disk()), size(demand.frames), size(*room.disk), room.place.string()));
+    lacks.push_back(
+        fmt::format("its results require about {} ({} of frames), but only {} are free in {}: raise "
+                    "run.frame_interval, set output.frames = false, or choose a folder on another disk (--out)",
+                    size(demand.disk()), size(demand.frames), size(*room.disk), room.place.string()));
   return fmt::format("{}", fmt::join(lacks, "; "));
 }
 
@@ -144,7 +145,8 @@ void requireFit(const scene::Scene& scene, const base::Exec& exec, const fs::pat
   Room room = roomOf(exec, folder, overwritten);
   if (!disk) room.disk.reset();
   const std::string why = misfit(demand, room);
-  if (!why.empty()) throw base::InputError(fmt::format("{}: does not fit this machine: {}", scene.file.string(), why));
+  if (!why.empty())
+    throw base::InputError(fmt::format("{}: exceeds the resources of this machine: {}", scene.file.string(), why));
 }
 
 } // namespace grouser::forecast

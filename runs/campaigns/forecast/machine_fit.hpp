@@ -15,9 +15,9 @@ namespace grouser::forecast {
 
 /// Memory and disk space that a run requires [bytes].
 struct Demand {
-  double process = 0;                          ///< memory of all its processes on this host together
-  double device = 0;                           ///< of the GPU of one rank; 0 on a CPU
-  double frames = 0, checkpoint = 0, rows = 0; ///< on the disk at the end; rows include tables and picture
+  double process = 0;                          ///< total memory of the processes on this host
+  double device = 0;                           ///< GPU memory of one rank; 0 on a CPU
+  double frames = 0, checkpoint = 0, rows = 0; ///< disk space at the end; rows include tables and picture
   double grains = 0;                           ///< [-] number of grains
   double disk() const { return frames + checkpoint + rows; }
 };
@@ -39,7 +39,7 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
                 int ranksOnHost = 1);
 
 /// Available memory of the process (system, cgroup, `ulimit -v`) and of the device of `exec`, and space on the disk of
-/// `folder`, whose files count as free if `overwritten`.
+/// `folder`; its files count as free space if `overwritten`.
 Room roomOf(const base::Exec& exec, const std::filesystem::path& folder, bool overwritten);
 
 /// Reason why the run does not fit, with remedy, in one line; empty if it fits.

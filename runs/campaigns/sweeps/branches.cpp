@@ -33,8 +33,8 @@ std::map<std::int64_t, const SweepRun*> firstOfSeeds(const SweepPlan& plan) {
 /// Throws if `run` cannot start from the state of `first` before its drive.
 void requireOneState(const SweepRun& first, const SweepRun& run) {
   const auto refuse = [&](const std::string& what) {
-    throw base::InputError(fmt::format("--from-checkpoint: {}, which affects the common initial state; vary only keys "
-                                       "of the drive and the hitch, or remove --from-checkpoint",
+    throw base::InputError(fmt::format("--from-checkpoint: {}, which changes the common initial state; vary only keys "
+                                       "of the driver and hitch, or remove --from-checkpoint",
                                        what));
   };
   const setup::Provenance was = setup::provenanceOf(first.scene), is = setup::provenanceOf(run.scene);
@@ -72,13 +72,13 @@ std::map<std::int64_t, fs::path> settledStates(const SweepPlan& plan, const Swee
   std::map<std::int64_t, fs::path> files;
   for (const auto& [seed, first] : seeds) {
     if (!first->scene.vehicle)
-      throw base::InputError("--from-checkpoint: the scene has no vehicle to settle; name the checkpoint of a run, or "
-                             "remove --from-checkpoint");
+      throw base::InputError(
+          "--from-checkpoint: the scene has no vehicle; specify the checkpoint of a run, or remove --from-checkpoint");
     SweepRun run = *first;
     run.name = seeds.size() > 1 ? fmt::format("{},seed={}", kSettled, seed) : kSettled;
     if (std::any_of(plan.runs.begin(), plan.runs.end(), [&](const SweepRun& r) { return r.name == run.name; }))
-      throw base::InputError(
-          fmt::format("--case {}: name reserved for the settling run of --from-checkpoint; rename the case", kSettled));
+      throw base::InputError(fmt::format(
+          "--case {}: this name is reserved for the settling run of --from-checkpoint; rename the case", kSettled));
     run.untilRest = true, run.expectedEnd = run.scene.driver.driveBegins();
     const fs::path folder = options.folder / run.name;
     files[seed] = folder / storage::kCheckpointName;

@@ -77,7 +77,7 @@ public:
     checkScene(scene_);
     origin_ = checkOrigin(scene_, setup::inputsOf(scene_));
     if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.mostSeeds())
-      throw base::InputError(fmt::format("run.seed = {}: too large for {} more seeds; set a smaller one",
+      throw base::InputError(fmt::format("run.seed = {}: too large, since {} more seeds follow it; set a smaller seed",
                                          scene_.run.seed, options.mostSeeds()));
     record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = originHash(origin_);
     record_.jobs = options.sweep.jobs;
@@ -106,7 +106,7 @@ private:
     return plan;
   }
 
-  /// Figures of --of, by the names that runs have.
+  /// Translates the words of --of to the figure names of the runs.
   void nameFigures(const std::vector<std::string>& columns) {
     for (const std::string& word : options_.figures)
       if (const std::string name = goalFigure(word, columns);
@@ -173,7 +173,7 @@ private:
   void printBudget(double seconds, const std::vector<std::size_t>& beyondBudget) const {
     std::string names;
     for (const std::size_t c : beyondBudget)
-      names += (names.empty() ? "; left out: " : ", ") + record_.cases.cases[c].name;
+      names += (names.empty() ? "; skipped: " : ", ") + record_.cases.cases[c].name;
     fmt::print("budget    {}: selected runs take about {}{}\n", options_.budget, support::Progress::duration(seconds),
                names);
   }
@@ -254,7 +254,7 @@ private:
       const bool failed = std::any_of(record_.outcomes.begin(), record_.outcomes.end(),
                                       [](const SweepOutcome& o) { return o.status == RunStatus::failed; });
       if (failed) work_.throwBaseFailed();
-      return fmt::print("check     the base case has no finished run yet; run the same command again to continue\n");
+      return fmt::print("check     the base case has no finished run yet; repeat the command to continue\n");
     }
     const CheckResults found = results();
     record_.costs = costsOf(record_);
@@ -271,20 +271,20 @@ private:
                           record_.folder / kCheckPlot);
     for (const char* name : {kCheckFile, kCheckSeries, kCheckCosts})
       fmt::print("{:<9} {}\n", "check", (record_.folder / name).string());
-    fmt::print("{:<9} `grouser report {}` makes one page of it\n", "report", record_.folder.string());
+    fmt::print("{:<9} for an HTML report run: grouser report {}\n", "report", record_.folder.string());
     const auto finished = std::count_if(record_.outcomes.begin(), record_.outcomes.end(),
                                         [](const SweepOutcome& o) { return output::hasEnded(o.status); });
     keepCheck(origin_, json, static_cast<int>(finished), !options_.figures.empty(), record_.folder);
     if (found.skin == SameBits::no)
       throw base::SimulationError(
-          "run.skin changes the results, which is a bug in grouser; please report it with the scene");
+          "run.skin changes the results, which is a bug in grouser; please report it together with the scene");
   }
 
   const CheckOptions& options_;
   const std::vector<std::string> fixed_;
   const scene::Scene scene_;
   std::string origin_;               ///< checkOrigin()
-  std::vector<std::string> figures_; ///< of --of
+  std::vector<std::string> figures_; ///< figures of --of
   std::vector<int> taken_;           ///< [cases] seeds of the last look
   CheckRecord record_;
   CheckWork work_;

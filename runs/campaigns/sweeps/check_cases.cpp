@@ -62,7 +62,7 @@ public:
 
 private:
   void omit(CheckAxis axis, const std::string& why) {
-    all_.omitted.push_back({axis, scene_.deformable() ? "deformable soil has neither grains nor seeds" : why});
+    all_.omitted.push_back({axis, scene_.deformable() ? "deformable soil has no grains and no seeds" : why});
   }
 
   /// Loads the scene with the overrides, and keeps the case, refused or not.
@@ -135,7 +135,7 @@ private:
     const scene::Terrain* t = bed();
     if (!t) return omit(CheckAxis::width, "no bed of grains");
     if (const std::string other = surfaceAtSides(scene_, kLarger); !other.empty())
-      return omit(CheckAxis::width, fmt::format("{} stands at a side of the bed and would not move with it", other));
+      return omit(CheckAxis::width, fmt::format("{} is at a side of the bed and would not move with it", other));
     const double width = kLarger * t->size[1];
     Overrides overrides = {fmt::format("terrain.size=[{}, {}]", t->size[0], width)};
     if (t->tile) overrides.push_back(fmt::format("terrain.tile=[{}, {}]", (*t->tile)[0], kLarger * (*t->tile)[1]));
@@ -143,8 +143,8 @@ private:
       overrides.push_back(fmt::format("run.domain_y=[{}, {}]", (*y)[0] - 0.5 * (kLarger - 1) * ((*y)[1] - (*y)[0]),
                                       (*y)[1] + 0.5 * (kLarger - 1) * ((*y)[1] - (*y)[0])));
     const bool hilly = t->heightRange[0] != t->heightRange[1];
-    add(CheckAxis::width, "wider", fmt::format("{:.4g} m wide{}", width, hilly ? ", height-map scaled with it" : ""),
-        overrides);
+    add(CheckAxis::width, "wider",
+        fmt::format("{:.4g} m wide{}", width, hilly ? ", height-map scaled accordingly" : ""), overrides);
   }
 
   void addFloor() {
@@ -203,8 +203,8 @@ private:
     if (scene_.vehicle) overrides.push_back(set("vehicle.sphere_refinement", 2 * scene_.vehicle->sphereRefinement));
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m)
       overrides.push_back(set(fmt::format("mesh.{}.sphere_refinement", m), 2 * scene_.meshes[m].sphereRefinement));
-    if (overrides.empty()) return omit(CheckAxis::spheres, "no vehicle and no mesh");
-    add(CheckAxis::spheres, "half_spheres", "spheres of parts at half their radius", overrides, kCostOfSpheres);
+    if (overrides.empty()) return omit(CheckAxis::spheres, "neither vehicle nor mesh");
+    add(CheckAxis::spheres, "half_spheres", "sphere radius of parts halved", overrides, kCostOfSpheres);
   }
 
   void addPrecision() {
@@ -218,7 +218,7 @@ private:
   void addNodes() {
     if (!scene_.deformable()) return;
     const double spacing = 0.5 * setup::scmSetup(scene_)->spacing;
-    add(CheckAxis::nodeSpacing, "half_nodes", fmt::format("nodes {:.4g} m apart", spacing),
+    add(CheckAxis::nodeSpacing, "half_nodes", fmt::format("node spacing {:.4g} m", spacing),
         {set("scm.node_spacing", spacing)}, kCostOfNodes);
   }
 
@@ -230,7 +230,7 @@ private:
           fmt::format("--draws {}: requires deformable soil; set terrain.kind = \"scm\", or remove --draws", draws));
     if (scene_.scm && scene_.scm->constantsDraw > 0)
       throw base::InputError(fmt::format(
-          "--draws {}: the scene sets scm.constants_draw = {}; remove that key to start from the nominal constants",
+          "--draws {}: the scene sets scm.constants_draw = {}; remove this key to start from the nominal constants",
           draws, scene_.scm->constantsDraw));
     Overrides first = fixed_;
     putOverride(first, drawn(1));

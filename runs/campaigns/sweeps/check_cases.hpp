@@ -46,16 +46,16 @@ struct CheckCases {
 ///
 /// step: h/2 and 2 h; h/2, h/4, h/8, 2 h, 4 h without seed dependence. Output times are the same.
 /// With run.tolerance, the tolerance is varied instead.
-/// depth, width (along y): + 50 % of a granular terrain; no width if a plane, box, cylinder or mesh stands at the sides
-/// of the bed. floor: smooth instead of rough, or vice versa. grain size: radii x 0.8 in the same soil; stiffness of
+/// depth, width (along y): + 50 % of a granular terrain; no width if a plane, box, cylinder or mesh stands beside the
+/// bed. floor: smooth instead of rough, or vice versa. grain size: radii x 0.8 in the same soil; stiffness of
 /// linear contacts and cohesion shrink with the radius, so that strains and strength stay (C. Thakur et al., 2015).
-/// spheres: those of vehicle and meshes at half their radius. skin: 1.5 times. precision: single or double.
-/// node spacing: half, of deformable soil. parameter: `draws` samples of its constants, each a case.
+/// spheres: half the radius, in vehicle and meshes. skin: 1.5 times. precision: single or double.
+/// node spacing: half, deformable soil only. parameter: `draws` samples of the soil constants, one case each.
 /// Throws InputError for draws in a scene without such constants.
 CheckCases checkCases(const std::filesystem::path& file, const std::vector<std::string>& fixed,
                       const scene::Scene& scene, int draws = 0);
 
-/// Approximate cost of a full check with so many seeds, in runs of the scene [-]; loads nothing.
+/// Approximate cost of a full check with `seeds` seeds, in runs of the scene [-]; loads nothing.
 double runsOfWholeCheck(const scene::Scene& scene, int seeds);
 /// The same for the cases that contribute to error bars; a check with --of runs them with three seeds first.
 double runsOfBarCases(const scene::Scene& scene, int seeds);

@@ -110,7 +110,7 @@ double budgetSeconds(const std::string& text) {
   constexpr double kMost = 3600.0 * 10'000;
   if (error != std::errc() || !(seconds >= 1 && seconds <= kMost))
     throw base::InputError(
-        fmt::format("--budget {}: must be a time from 1 s to 10000 h, e.g. 90s, 20min or 1.5h", text));
+        fmt::format("--budget {}: must be a time between 1 s and 10000 h, e.g. 90s, 20min or 1.5h", text));
   return seconds;
 }
 

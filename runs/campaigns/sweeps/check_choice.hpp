@@ -17,21 +17,21 @@ namespace grouser::sweeps {
 struct CheckChoice {
   std::vector<int> seeds;                ///< [cases]; 0: none
   std::vector<std::size_t> beyondBudget; ///< cases that exceed the budget
-  double seconds = 0;                    ///< estimated from the cost of one base run [s]
+  double seconds = 0;                    ///< estimated time, from the cost of one base run [s]
 
   bool operator==(const CheckChoice&) const = default;
 };
 
 /// Costs of runs, measured in one base run. The first of the runs that share a bed settles it, unless it is cached.
 struct RunCosts {
-  double run = 0;        ///< of a base run without settling [s]
-  double settling = 0;   ///< of the base bed [s]
+  double run = 0;        ///< time of a base run without settling [s]
+  double settling = 0;   ///< settling time of the base bed [s]
   std::vector<int> beds; ///< [cases] equal numbers share a bed per seed; empty: each run has its own
-  std::function<bool(int bed, int seed)> isKept; ///< by seed offset; empty: none is cached
+  std::function<bool(int bed, int seed)> isKept; ///< whether a bed is cached, by seed offset; empty: none
 };
 
-/// Without a budget every case gets `seeds` runs, or one without seed dependence. The skin has one, as bits are equal
-/// or not.
+/// Without a budget every case gets `seeds` runs, or one without seed dependence. The skin case gets one: its results
+/// are bitwise equal or not.
 ///
 /// With a budget [s]: three seeds of the base; then three of each case in order, if they fit; then one more
 /// seed for all selected cases while it fits, up to `seeds`. `costs`: with `jobs` concurrent runs.

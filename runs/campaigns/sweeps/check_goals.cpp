@@ -214,7 +214,7 @@ std::string goalFigure(const std::string& word, const std::vector<std::string>& 
     known.push_back(plainName(column));
     std::replace(known.back().begin(), known.back().end(), ' ', '_');
   }
-  throw base::InputError(fmt::format("--of {}: no such figure; choose from {}", word, fmt::join(known, ", ")));
+  throw base::InputError(fmt::format("--of {}: unknown figure; choose from {}", word, fmt::join(known, ", ")));
 }
 
 void keepGoalCases(CheckCases& cases, const std::vector<CheckAxis>& axes) {
@@ -226,7 +226,8 @@ void keepGoalCases(CheckCases& cases, const std::vector<CheckAxis>& axes) {
     if (hasPart(cases, c) || (isOther && isNamed(one.axis)))
       kept.push_back(one);
     else if (isOther)
-      cases.omitted.push_back({one.axis, "does not affect the error bars of --of; add it to --axes to run it"});
+      cases.omitted.push_back(
+          {one.axis, "has no effect on the error bars of --of; to run it anyway, add it to --axes"});
   }
   cases.cases = std::move(kept);
 }

@@ -14,14 +14,14 @@ namespace grouser::sweeps {
 /// Numbers of seeds at which a check evaluates its intervals (interim looks), and their levels.
 ///
 /// A check that stopped where a 95 % interval first becomes narrow would stop at intervals that are narrow by chance,
-/// and miss more often than they say. So intervals are evaluated at a few numbers of seeds, fixed in advance, each with
+/// and miss more often than 5 %. So intervals are evaluated at a few numbers of seeds, fixed in advance, each with
 /// an equal share of the 5 %: the probability that any of them misses is then at most 5 %, whenever the check continues
-/// or stops (repeated confidence intervals: C. Jennison and B. W. Turnbull, J. R. Statist. Soc. B 51 (1989) 305; shares
-/// by Bonferroni's inequality). The bar |change| + half width of an axis can miss on one side only, so its share is
+/// or stops (repeated confidence intervals: C. Jennison and B. W. Turnbull, J. R. Statist. Soc. B 51 (1989) 305;
+/// shares by Bonferroni's bound). The bar |change| + half width of an axis can miss on one side only, so its share is
 /// twice as large.
 struct Looks {
   std::vector<int> seeds; ///< rising
-  SeedLevels levels;      ///< at each of them
+  SeedLevels levels;      ///< levels at each look
 
   /// First number above `taken`; `taken` if none.
   int after(int taken) const;
@@ -42,7 +42,7 @@ struct BarPart {
   double bar = 0;       ///< in the unit of the figure
   double miss = 0.05;   ///< level of its half width
 
-  /// Expected bar with so many seeds. The change over few seeds includes scatter, which more seeds reduce.
+  /// Expected bar with `seeds` seeds. The change over few seeds includes scatter, which more seeds reduce.
   double expected(int seeds) const;
   /// Likely minimum: the change two standard errors closer to zero, the deviation at the low end of its interval, about
   /// 1 / (1 + 1.6 / sqrt(seeds)); 0 for fewer than three seeds.
@@ -75,7 +75,7 @@ std::string goalFigure(const std::string& word, const std::vector<std::string>& 
 /// Whether the runs of a case contribute to the bars of goals.
 bool hasPart(const CheckCases& cases, std::size_t c);
 
-/// Keeps the cases that contribute to the bars of goals, and others whose `axes` the user named.
+/// Keeps the cases that contribute to the bars of goals, and the cases of the `axes` that the user named.
 void keepGoalCases(CheckCases& cases, const std::vector<CheckAxis>& axes);
 
 using SeedsFit = std::function<bool(const std::vector<int>&)>; ///< whether these seeds of each case fit the limits
@@ -95,8 +95,8 @@ std::vector<Goal> goalsOf(const CheckCases& cases, const CheckResults& results, 
                           const Looks& looks);
 
 /// [cases] seeds of the next look: `taken` if all goals are met or unreachable. A greedy plan adds looks to the case
-/// whose bars are expected to fall most per cost, until the expected bars meet the targets; each planned case then
-/// advances by one look. The choice depends on results, costs and numbers only.
+/// with the largest expected reduction of the bars per cost, until the expected bars meet the targets; each
+/// planned case then advances by one look. The choice depends on results, costs and numbers only.
 std::vector<int> nextLook(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
                           const Looks& looks, const RunCosts& costs, const SeedsFit& fits);
 

@@ -24,7 +24,7 @@ const char* wordOf(GoalState state) {
   case GoalState::open:
     return "not met";
   case GoalState::beyond:
-    return "not met: beyond --seeds";
+    return "not met: requires more than --seeds";
   case GoalState::limited:
     return "not met: limited by axes";
   default:
@@ -69,8 +69,8 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
     runs += toReach[c] - taken[c];
     if (std::isfinite(record.costs[c].wall)) seconds += record.costs[c].wall * (toReach[c] - taken[c]) / record.jobs;
   }
-  if (runs == 0) return "even 1000 seeds are unlikely to reach it";
-  return fmt::format("about {} more {} would reach it ({}, up to {} seeds)", runs, runs == 1 ? "run" : "runs",
+  if (runs == 0) return "even 1000 seeds are unlikely to suffice";
+  return fmt::format("about {} more {} required ({}, up to {} seeds)", runs, runs == 1 ? "run" : "runs",
                      support::Progress::duration(seconds), *std::max_element(toReach.begin(), toReach.end()));
 }
 
@@ -78,10 +78,11 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
 std::string remedy(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
   const BarPart& worst = *goal.largest();
   if (goal.state == GoalState::limited)
-    return fmt::format("{} alone changes it by {:+.3g} {}, which no number of seeds reduces: change the scene",
-                       nameOf(worst), worst.change, unitOf(goal.figure));
-  if (!record.isWhole) return "run the same command again to continue";
-  if (!record.cases.seeded) return "needs a finer step than those tested";
+    return fmt::format(
+        "{} alone changes the value by {:+.3g} {}; more seeds cannot reduce this error, change the scene",
+        nameOf(worst), worst.change, unitOf(goal.figure));
+  if (!record.isWhole) return "repeat the command to continue";
+  if (!record.cases.seeded) return "requires a smaller time step than those tested";
   return moreText(record, toReach);
 }
 
@@ -128,15 +129,14 @@ nlohmann::ordered_json goalsJson(const CheckRecord& record) {
 std::string goalsText(const CheckRecord& record, double percent) {
   if (record.looks.seeds.empty()) return "";
   std::string text =
-      fmt::format("\nerror bars of --of at {:g} %, {}", percent, base::counted(record.runs.caseOf.size(), "run"));
+      fmt::format("\nerror bars of --of (target {:g} %), {}", percent, base::counted(record.runs.caseOf.size(), "run"));
   if (record.cases.seeded)
     text += fmt::format(", intervals evaluated at {} seeds", fmt::join(record.looks.seeds, ", "));
   text += "\n";
-  if (record.goals.empty())
-    text += "  some of the first runs have not finished; run the same command again to continue\n";
+  if (record.goals.empty()) text += "  some of the first runs have not finished; repeat the command to continue\n";
   for (std::size_t g = 0; g < record.goals.size(); ++g) text += lineOf(record, record.goals[g], record.toReach[g]);
   if (const std::vector<std::string> missing = missingCases(record); !missing.empty())
-    text += fmt::format("  missing from these bars: {}\n", fmt::join(missing, ", "));
+    text += fmt::format("  these bars do not include: {}\n", fmt::join(missing, ", "));
   return text;
 }
 

@@ -13,7 +13,7 @@ namespace grouser::sweeps {
 struct CheckOptions {
   std::vector<std::string> fixed;   ///< overrides "key=value" of all runs
   std::optional<int> seeds;         ///< maximum per case, starting at run.seed; default: 8, with figures 24
-  double percent = 5;               ///< of a figure's mean: bar of the verdicts and target of figures
+  double percent = 5;               ///< percentage of a figure's mean: bar of the verdicts and target of figures
   std::vector<std::string> figures; ///< figures with target bars, words of goalFigure(); empty: all cases are run
   std::vector<CheckAxis> axes;      ///< axes to vary; empty: all
   int draws = 0;                    ///< samples of the constants of deformable soil

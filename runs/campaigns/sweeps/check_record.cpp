@@ -49,7 +49,7 @@ CaseStatus statusOf(const CheckRecord& record, std::size_t aCase) {
   if (std::find(record.beyondBudget.begin(), record.beyondBudget.end(), aCase) != record.beyondBudget.end())
     return {"left out", "beyond the budget"};
   const bool has = std::find(record.runs.caseOf.begin(), record.runs.caseOf.end(), aCase) != record.runs.caseOf.end();
-  if (!has && !record.looks.seeds.empty()) return {"left out", "not needed for the bars of --of", false};
+  if (!has && !record.looks.seeds.empty()) return {"left out", "not required for the error bars of --of", false};
   std::size_t runs = 0, ended = 0, failed = 0;
   std::string failure;
   for (std::size_t r = 0; r < record.runs.caseOf.size(); ++r) {

@@ -12,13 +12,13 @@ namespace grouser::sweeps {
 
 /// Cost of a case: medians over its finished runs; NaN without any.
 struct CaseCost {
-  double wall = 0, cpu = 0; ///< [s] per run with preparation; of the steps only, all threads
+  double wall = 0, cpu = 0; ///< [s] wall time per run with preparation; CPU time of the steps, all threads
   double steps = 0;
 };
 
 /// Data of a report except the results.
 struct CheckRecord {
-  std::filesystem::path folder; ///< of the check
+  std::filesystem::path folder; ///< folder of the check
   CheckCases cases;
   CheckRuns runs;
   std::vector<SweepOutcome> outcomes;
@@ -26,13 +26,13 @@ struct CheckRecord {
   std::vector<std::size_t> beyondBudget; ///< cases that the budget left out
   std::string scene, origin;             ///< file; hash of everything that determines the results
   int jobs = 1;                          ///< concurrent runs
-  Looks looks;                           ///< of a check with --of; else empty
-  std::vector<Goal> goals;               ///< likewise
-  std::vector<std::vector<int>> toReach; ///< [goals][cases] seeds that likely reach it; empty: see seedsToReach()
+  Looks looks;                           ///< looks of a check with --of; else empty
+  std::vector<Goal> goals;               ///< goals of a check with --of; else empty
+  std::vector<std::vector<int>> toReach; ///< [goals][cases] seeds that likely reach the goal; empty: see seedsToReach()
   bool isWhole = true;                   ///< all selected runs have ended
 };
 
-/// [cases] from the manifests of the runs.
+/// Costs [cases] from the manifests of the runs.
 std::vector<CaseCost> costsOf(const CheckRecord& record);
 
 /// "finished", "incomplete", "failed" (all runs), "partly failed", "refused", "left out" or "not begun", with its

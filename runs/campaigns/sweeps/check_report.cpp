@@ -110,11 +110,11 @@ std::string shareText(const CheckFigure& f, const support::Estimate& change) {
 
 std::string remark(const CheckResults& results, const CheckFigure& f, const AxisError& e) {
   if (e.axis == CheckAxis::precision && results.seeded)
-    return std::fabs(e.change.value) <= f.value.halfWidth ? "inside the seeds' interval"
-                                                          : "OUTSIDE the seeds' interval";
+    return std::fabs(e.change.value) <= f.value.halfWidth ? "within the interval over seeds"
+                                                          : "OUTSIDE the interval over seeds";
   if (e.axis == CheckAxis::parameter) return base::counted(e.seeds, "sample");
   if (e.axis != CheckAxis::step) return "";
-  return e.order ? fmt::format("order {:.1f}", *e.order) : "no observed order";
+  return e.order ? fmt::format("order {:.1f}", *e.order) : "order not observable";
 }
 
 std::string cheapestText(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
@@ -124,7 +124,7 @@ std::string cheapestText(const CheckRecord& record, const CheckResults& results,
     const std::string seeds = results.seeded ? ", " + base::counted(c.seeds, "seed") : "";
     parts.push_back(fmt::format("{:g} %: {}", percent,
                                 c.name.empty()
-                                    ? "no tested setting"
+                                    ? "none of the tested settings"
                                     : fmt::format("{}{}, {}", c.name, seeds, support::Progress::duration(c.wall))));
   }
   return fmt::format("{}", fmt::join(parts, "; "));
@@ -149,7 +149,7 @@ std::string omittedText(const std::vector<CheckOmission>& omitted) {
       same->second += ", " + axis;
   }
   std::string text;
-  for (const auto& [why, axes] : lines) text += fmt::format("  {:<14} left out: {}\n", axes, why);
+  for (const auto& [why, axes] : lines) text += fmt::format("  {:<14} skipped: {}\n", axes, why);
   return text;
 }
 
@@ -274,7 +274,8 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
 }
 
 std::string checkText(const CheckRecord& record, const CheckResults& results) {
-  std::string text = fmt::format("\n{}: values with error bars; changes from the unchanged scene, verdicts at {:g} %\n",
+  std::string text = fmt::format("\n{}: values with error bars; changes relative to the unchanged scene, with verdicts "
+                                 "for a tolerance of {:g} %\n",
                                  record.scene, results.percent);
   int printed = 0, more = 0;
   for (const CheckFigure& f : results.figures) {

@@ -11,14 +11,14 @@ namespace grouser::sweeps {
 
 /// Cheapest time step and number of seeds that keep the error of a figure within `percent` of its value.
 struct Cheapest {
-  std::string name; ///< of the case; empty: none of the tested ones
-  double step = 0;  ///< error bar by the step [-]
+  std::string name; ///< case name; empty: no tested case suffices
+  double step = 0;  ///< relative error bar of the time step [-]
   int seeds = 0;    ///< 1 without seed dependence
-  double wall = 0;  ///< of all these runs in sequence [s]
+  double wall = 0;  ///< wall time of all these runs in sequence [s]
 };
 Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const CheckFigure& figure, double percent);
 
-/// Values, errors, verdicts and runs: the same bytes however the runs were scheduled. Figures without a number are
+/// Values, errors, verdicts and runs, bitwise independent of the run schedule. Figures without a number are
 /// null.
 std::string checkJson(const CheckRecord& record, const CheckResults& results);
 /// Costs of the runs on this machine, and the cheapest settings for 10, 5 and 1 %.
@@ -29,7 +29,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results);
 
 /// Whether a figure is known and its value or bar is above rounding, 1e-12 of its scale.
 bool isAboveRounding(const CheckFigure& figure);
-/// Main figures: those of a vehicle, forces of surfaces, else all.
+/// Main figures: vehicle figures, surface forces, else all.
 bool isHeadline(const CheckResults& results, const CheckFigure& figure);
 
 inline constexpr const char *kCheckFile = "check.json", *kCheckCosts = "costs.json", *kCheckSeries = "series.csv",

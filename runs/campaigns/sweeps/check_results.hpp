@@ -19,7 +19,7 @@ struct CheckRuns {
   SweepPlan plan;                   ///< keys: kCaseKey, kSeedKey
   std::vector<std::size_t> caseOf;  ///< [runs] index into CheckCases::cases
   std::vector<std::int64_t> seedOf; ///< [runs]
-  std::vector<RunSeries> series;    ///< [runs] of finished runs; all rows if hasPartInSeries(), else the last
+  std::vector<RunSeries> series;    ///< [runs] series of finished runs; all rows if hasPartInSeries(), else the last
 };
 
 /// The runs of each case, ordered by seed.
@@ -43,17 +43,17 @@ private:
 /// Error of a figure by one axis.
 struct AxisError {
   CheckAxis axis = CheckAxis::step;
-  support::Estimate change;    ///< from the base to the other setting, in the figure's unit; extrapolated to zero step
+  support::Estimate change;    ///< change from base to other setting, in the figure's unit; extrapolated to zero step
                                ///< with an observed order
   std::optional<double> order; ///< observed order of the step
   int seeds = 0;               ///< number of pairs of runs
   double bar = 0;              ///< error bar: |change| + half width; for the step see check_errors
-  jobs::Verdict verdict = jobs::Verdict::notShown; ///< against the bar
+  jobs::Verdict verdict = jobs::Verdict::notShown; ///< compares the change with the bar
 };
 
 struct CheckFigure {
   std::string name;        ///< with its unit: "sinkage mean [m]"
-  support::Estimate value; ///< of the base; half width over the seeds, 0 without seed dependence
+  support::Estimate value; ///< value of the base; half width over the seeds, 0 without seed dependence
   double scale = 0;        ///< largest value of all figures with its unit, for the rounding threshold
   int seeds = 0;           ///< number of runs
   std::vector<AxisError> errors;
@@ -68,10 +68,10 @@ enum class SameBits { yes, no, notRun };
 
 struct CheckResults {
   bool seeded = false;
-  double percent = 5; ///< of a figure's mean: the bar of the verdicts
-  SeedLevels levels;  ///< of all intervals
+  double percent = 5; ///< percentage of a figure's mean: the bar of the verdicts
+  SeedLevels levels;  ///< levels of all intervals
   std::vector<CheckFigure> figures;
-  std::vector<std::size_t> stepCases; ///< those of barOfStep: finished cases of the step axis and the base
+  std::vector<std::size_t> stepCases; ///< cases of barOfStep: finished ones of the step axis, and the base
   SameBits skin = SameBits::notRun;
   std::string doubt; ///< reason why all figures are inconclusive, e.g. no run passed two teeth; else empty
 };
@@ -82,7 +82,7 @@ std::string unitOf(const std::string& figure);
 /// `folder` contains the folders of the runs. Figures are those of the base runs.
 CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
                           const std::filesystem::path& folder, double percent, const SeedLevels& levels = {});
-/// One figure without its scale; `column`: one that a base run has.
+/// One figure without its scale; `column`: a column of a base run.
 CheckFigure checkFigure(const CheckCases& cases, const RunsByCase& runs, const SweepFigures& figures,
                         std::size_t column, const CheckResults& asked);
 

@@ -16,7 +16,7 @@ namespace {
 
 /// A run's series and its seed.
 struct Member {
-  int refinement; ///< of the step
+  int refinement; ///< refinement of the step
   std::int64_t seed;
   const RunSeries* series;
 };
@@ -70,7 +70,7 @@ double stepBar(const Cell& cell, bool seeded, double miss) {
 /// One column of the members that have it.
 struct Column {
   std::vector<const Member*> members;
-  std::vector<const std::vector<double>*> values; ///< of each, all rows
+  std::vector<const std::vector<double>*> values; ///< all rows, one column per member
 
   Column(const std::vector<Member>& all, const std::string& name) {
     for (const Member& m : all)

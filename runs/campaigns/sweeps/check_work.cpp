@@ -108,7 +108,7 @@ void CheckWork::read(std::size_t r) {
   } catch (const std::exception& error) {
     record_.outcomes[r] = {
         RunStatus::failed,
-        fmt::format("its results are damaged: {}; run the same command again to repeat it", error.what())};
+        fmt::format("its results are damaged: {}; repeat the command to run it again", error.what())};
     std::error_code none;
     fs::remove(folder / "manifest.json", none);
   }
@@ -124,7 +124,7 @@ void CheckWork::throwBaseFailed() const {
   std::string why;
   for (std::size_t r = 0; r < record_.outcomes.size(); ++r)
     if (record_.runs.caseOf[r] == 0) why = record_.outcomes[r].message;
-  throw base::SimulationError(fmt::format("no run of the unchanged scene finished: {}", why));
+  throw base::SimulationError(fmt::format("no run of the unchanged scene has finished: {}", why));
 }
 
 } // namespace grouser::sweeps

@@ -69,14 +69,15 @@ std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::
   const std::string choices = fmt::format("{}", fmt::join(base::wordsOf<Enum>(), ", "));
   for (const std::string& word : words) {
     const auto value = base::valueOf<Enum>(word);
-    if (!value) throw InputError(fmt::format("{} {}: is not {}; give two or more of {}", option, word, what, choices));
+    if (!value)
+      throw InputError(fmt::format("{} {}: is not {}; choose two or more of {}", option, word, what, choices));
     if (std::find(values.begin(), values.end(), *value) != values.end())
       throw InputError(fmt::format("{}: {} is listed twice; remove one", option, word));
     values.push_back(*value);
   }
   if (values.size() < 2)
     throw InputError(
-        fmt::format("{} {}: a comparison needs two or more of {}", option, fmt::join(words, ","), choices));
+        fmt::format("{} {}: a comparison requires two or more of {}", option, fmt::join(words, ","), choices));
   return values;
 }
 

@@ -107,7 +107,8 @@ std::string reasonWithoutFigures(const Comparison& all, const VariantResult& res
   if (!result.doubt.empty()) return result.doubt;
   for (std::size_t c = 0; c < all.columns.size(); ++c)
     if (isShown(all.columns[c]) && std::isfinite(result.figures[c].value)) return {};
-  return result.ended > 0 ? "its runs end before full speed; raise run.duration" : "no run has ended";
+  return result.ended > 0 ? "its runs end before the vehicle reaches full speed; raise run.duration"
+                          : "no run has finished";
 }
 
 } // namespace
@@ -150,7 +151,8 @@ Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& 
 
 std::string comparisonText(const Comparison& all, double percent) {
   const auto word = [&](std::size_t g) { return all.variants[g].variant; };
-  std::string text = "means over the steady part; +- half width of the 95 % interval over seeds, where available\n";
+  std::string text =
+      "means over the steady part; +- is the half width of the 95 % interval over seeds, where available\n";
   text += fmt::format("{:<28}", "figure");
   for (std::size_t g = 0; g < all.variants.size(); ++g) text += fmt::format("{:>22}", word(g));
   text += "\n";
@@ -176,7 +178,7 @@ std::string comparisonText(const Comparison& all, double percent) {
       text += fmt::format("WARNING: {} is inconclusive: {}\n", g.variant, why);
   for (const VariantDifference& d : all.differences) {
     if (std::all_of(d.verdicts.begin(), d.verdicts.end(), [](const std::string& v) { return v.empty(); })) continue;
-    text += fmt::format("\n{} - {}; equal: within {:g} % of the larger mean\n", word(d.to), word(d.from), percent);
+    text += fmt::format("\n{} - {}; equal means within {:g} % of the larger mean\n", word(d.to), word(d.from), percent);
     for (std::size_t c = 0; c < all.columns.size(); ++c)
       if (isShown(all.columns[c]) && !d.verdicts[c].empty())
         text += fmt::format("{:<28}{:>22}  {}\n", all.columns[c], figureText(d.changes[c]), d.verdicts[c]);

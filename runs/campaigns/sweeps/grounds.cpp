@@ -50,10 +50,10 @@ void requireKeys(const Node& root, const std::filesystem::path& scene, TerrainKi
   }
   const std::string* material = wordOf(&terrain, "material");
   if (ground != TerrainKind::scm || !material || root.find(kScm) || isSoil(root, *material, scene)) return;
-  throw InputError(fmt::format("{}: ground scm requires a soil, which terrain.material = \"{}\" is not; add --set "
-                               "terrain.material=SOIL (`grouser soils` lists them), or --set scm.n, k_c, k_phi, c, phi "
-                               "and K",
-                               scene.string(), *material));
+  throw InputError(
+      fmt::format("{}: ground scm requires a soil, but terrain.material = \"{}\" is not one; add --set "
+                  "terrain.material=SOIL (`grouser soils` lists them), or --set scm.n, k_c, k_phi, c, phi and K",
+                  scene.string(), *material));
 }
 
 /// Paths of the scene's keys that this kind of ground does not have.
@@ -136,7 +136,8 @@ std::vector<std::string> groundOverrides(const std::filesystem::path& scene, con
   for (const std::string& list : lists.sets) {
     const std::size_t equals = equalsSign(list);
     if (equals == std::string::npos) continue; // planSweep() reports it
-    if (keyOf(list) == "terrain.kind") throw InputError("--set terrain.kind: --ground sets this key; remove one");
+    if (keyOf(list) == "terrain.kind")
+      throw InputError("--set terrain.kind: mutually exclusive with --ground; remove one");
     swept.push_back(list.substr(0, equals + 1) + splitValues(std::string_view(list).substr(equals + 1)).front());
   }
   sets.insert(sets.end(), swept.begin(), swept.end());

@@ -47,22 +47,23 @@ double numberOrInfinity(const nlohmann::json& json, const char* key) {
   return at != json.end() && at->is_number() ? at->get<double>() : base::kInfinity;
 }
 
-/// Check of a scene that comes with the program, from runs/scenes/checks; not an object if there is none.
+/// Check of a scene of this origin that the user has run; not an object if there is none.
+nlohmann::json usersCheck(const std::string& origin) {
+  const auto kept = support::KeptFiles::ofUser();
+  if (!kept) return {};
+  return support::keptJson(*kept, kCheck, origin);
+}
+
+/// Check that comes with the program, from runs/scenes/checks; not an object if there is none.
 nlohmann::json shippedCheck(const std::string& origin) {
+  const std::string hash = originHash(origin);
   std::error_code error;
   for (const fs::directory_entry& file : fs::directory_iterator(support::shareFolder() / kShippedChecks, error)) {
     const nlohmann::json check = readJson(file.path());
-    if (check.is_object() && check.value("origin", "") == originHash(origin))
-      return {{"runs", 0}, {"of_some", false}, {"folder", file.path().string()}, {"check", check}};
+    if (check.is_object() && check.value("origin", "") == hash)
+      return {{"folder", file.path().string()}, {"check", check}};
   }
   return {};
-}
-
-/// Stored check of a scene of this origin, of the user or else of the program; not an object if there is none.
-nlohmann::json keptCheck(const std::string& origin) {
-  if (const auto kept = support::KeptFiles::ofUser())
-    if (nlohmann::json json = support::keptJson(*kept, kCheck, origin); json.is_object()) return json;
-  return shippedCheck(origin);
 }
 
 /// "step, depth, 8 seeds": contributions to the bar of a figure.
@@ -90,7 +91,7 @@ std::string barsText(const nlohmann::json& kept, bool listed) {
                         jobs::valueText({f.at("value").get<double>(), numberOrInfinity(f, "bar")}));
   }
   if (more > 0) text += fmt::format("  and {} more\n", more);
-  return fmt::format("checked   error bars by {}, from the last check of this scene ({}, commit {})\n{}", parts,
+  return fmt::format("checked   error bars from {}, taken from the last check of this scene ({}, commit {})\n{}", parts,
                      kept.at("folder").get<std::string>(), check.at("program").at("commit").get<std::string>(),
                      listed ? text : "");
 }
@@ -124,7 +125,7 @@ void keepCheck(const std::string& origin, const std::string& json, int runs, boo
   const auto kept = support::KeptFiles::ofUser();
   if (!kept || !kept->writable()) return;
   try {
-    const nlohmann::json check = nlohmann::json::parse(json), former = keptCheck(origin);
+    const nlohmann::json check = nlohmann::json::parse(json), former = usersCheck(origin);
     const bool wasOfSome = former.is_object() && former.value("of_some", false);
     if (former.is_object() && (ofSome != wasOfSome ? ofSome : former.value("runs", 0) > runs) &&
         former.at("check").at("program").at("commit") == check.at("program").at("commit"))
@@ -141,24 +142,25 @@ void keepCheck(const std::string& origin, const std::string& json, int runs, boo
 
 std::string checkNote(const scene::Scene& scene, const std::string& inputs, double runSeconds, bool listed) {
   try {
-    const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
+    const nlohmann::json kept = keptCheck(scene, inputs);
     if (kept.is_object()) return barsText(kept, listed);
   } catch (const nlohmann::json::exception&) {
     // damaged, or from another version
   }
   const std::string whole = support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck));
   if (scene.vehicle && seedMatters(scene))
-    return fmt::format("no error bars yet; run: {} --bar 20% --of sinkage,torque (from {} on; all figures without "
-                       "--of: about {}; --budget 20min: as much as fits)\n",
+    return fmt::format("no error bars yet; run: {} --bar 20% --of sinkage,torque (at least {}; without --of, for all "
+                       "figures: about {}; with --budget 20min: as much as fits)\n",
                        commandOf(scene), support::Progress::duration(runSeconds * runsOfBarCases(scene, kFewSeeds)),
                        whole);
-  return fmt::format("no error bars yet; run: {} (about {}; --budget 20min: as much as fits)\n", commandOf(scene),
+  return fmt::format("no error bars yet; run: {} (about {}; with --budget 20min: as much as fits)\n", commandOf(scene),
                      whole);
 }
 
-std::string keptCheckText(const scene::Scene& scene, const std::string& inputs) {
-  const nlohmann::json kept = keptCheck(checkOrigin(scene, inputs));
-  return kept.is_object() ? support::jsonText(kept) : "";
+nlohmann::json keptCheck(const scene::Scene& scene, const std::string& inputs) {
+  const std::string origin = checkOrigin(scene, inputs);
+  nlohmann::json kept = usersCheck(origin);
+  return kept.is_object() ? kept : shippedCheck(origin);
 }
 
 void checkFolderOfCheck(const fs::path& folder) {
@@ -168,12 +170,12 @@ void checkFolderOfCheck(const fs::path& folder) {
   const nlohmann::json choice = readJson(folder / kCheckChoice);
   if (fs::exists(folder / kCheckChoice, error) && !(choice.is_object() && choice.contains("asked")))
     throw base::InputError(fmt::format(
-        "{}: exists but was not written by a check; name another folder with --out, or overwrite it with --force",
+        "{}: exists but was not written by a check; choose another folder with --out, or overwrite it with --force",
         (folder / kCheckChoice).string()));
   for (const char* name : {kCheckFile, kCheckCosts, kCheckSeries, kCheckPlot})
     if (fs::exists(folder / name, error))
       throw base::InputError(fmt::format(
-          "{}: exists but was not written by a check; name another folder with --out, or overwrite it with --force",
+          "{}: exists but was not written by a check; choose another folder with --out, or overwrite it with --force",
           (folder / name).string()));
 }
 

@@ -32,9 +32,9 @@ void checkGivenOnce(const std::vector<std::string>& overrides) {
     if (fresh) continue;
     const auto value = [](const std::string& s) { return s.substr(std::min(s.size(), equalsSign(s) + 1)); };
     const bool hasOption = other->first == "run.device" || other->first == "run.threads";
-    throw base::InputError(fmt::format("--set: {} is given twice, as {} and as {}; give it once{}", other->first,
+    throw base::InputError(fmt::format("--set: {} is set twice, as {} and as {}; remove one{}", other->first,
                                        value(other->second), value(set),
-                                       hasOption ? fmt::format(" (--{} sets it, too)", other->first.substr(4)) : ""));
+                                       hasOption ? fmt::format(" (--{} also sets it)", other->first.substr(4)) : ""));
   }
 }
 

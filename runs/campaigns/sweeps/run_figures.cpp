@@ -2,17 +2,22 @@
 #include "runs/campaigns/sweeps/run_figures.hpp"
 
 #include "base/error.hpp"
+#include "base/math.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/drive_length.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "runs/support/json_text.hpp"
+#include "runs/support/hdf5_file.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
+#include <vector>
 
 namespace grouser::sweeps {
 
@@ -20,6 +25,20 @@ namespace {
 
 nlohmann::ordered_json jsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
+
+/// Minimum and maximum of the hull's speed in the steady part [m/s], for tracks at constant speeds; null otherwise.
+nlohmann::ordered_json speedRange(const scene::Scene& scene, const std::filesystem::path& results, double from) {
+  const scene::Driver& driver = scene.driver;
+  if (!setup::asksToDrive(scene) || driver.course || driver.table || driver.torqueTable) return nullptr;
+  const support::Hdf5File file = support::Hdf5File::open(results);
+  const char* const track = file.has("/vehicle/left/speed/value") ? "left" : "right";
+  const std::vector<double> times = file.numbers("/series/time"),
+                            speeds = file.numbers(fmt::format("/vehicle/{}/speed/value", track));
+  double low = base::kInfinity, high = -base::kInfinity;
+  for (std::size_t i = 0; i < times.size(); ++i)
+    if (times[i] >= from && std::isfinite(speeds[i])) low = std::min(low, speeds[i]), high = std::max(high, speeds[i]);
+  return low <= high ? nlohmann::ordered_json{low, high} : nullptr;
 }
 
 nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
@@ -39,22 +58,21 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < found.columns.size(); ++i)
     json["figures"].push_back({{"name", found.columns[i]}, {"value", jsonNumber(found.values.front()[i])}});
   json["inconclusive"] = found.doubtOf(std::size_t{0});
-  json["steady_from"] = jsonNumber(steadyFrom(scene, manifest));
-  if (const std::string check = keptCheckText(scene, manifest.text("inputs")); !check.empty())
-    json["check"] = nlohmann::ordered_json::parse(check);
+  const double from = steadyFrom(scene, manifest);
+  json["steady_from"] = jsonNumber(from), json["speed_range"] = speedRange(scene, whole / "results.h5", from);
+  json["check"] = keptCheck(scene, manifest.text("inputs"));
   return json;
 }
 
 } // namespace
 
-std::string runFiguresText(const std::filesystem::path& folder) {
+nlohmann::ordered_json runFigures(const std::filesystem::path& folder) {
   try {
-    return support::jsonText(figuresOf(folder));
+    return figuresOf(folder);
   } catch (const std::exception& error) {
-    return nlohmann::ordered_json{{"figures", nlohmann::ordered_json::array()},
-                                  {"check", nullptr},
-                                  {"note", std::string("no figures of the steady part: ") + error.what()}}
-        .dump();
+    return {{"figures", nlohmann::ordered_json::array()},
+            {"check", nullptr},
+            {"note", std::string("no means over the steady part: ") + error.what()}};
   }
 }
 

@@ -13,14 +13,14 @@ class RunManifest {
 public:
   explicit RunManifest(const std::filesystem::path& folder);
 
-  double number(const char* key) const;    ///< NaN where it is missing
-  double figure(const char* key) const;    ///< of the run's figures; NaN where it is missing
-  std::string text(const char* key) const; ///< empty where it is missing
-  std::string commit() const;              ///< of the program; empty where it is missing
-  /// All steps of the run over the timed ones: a resumed run has times since its checkpoint. Excludes steps before a
+  double number(const char* key) const;    ///< NaN if missing
+  double figure(const char* key) const;    ///< entry of the run's figures; NaN if missing
+  std::string text(const char* key) const; ///< empty if missing
+  std::string commit() const;              ///< commit of the program; empty if missing
+  /// All steps of the run over its timed ones: a resumed run is timed from its checkpoint. Excludes steps before a
   /// branch.
   double stepsOverTimed() const;
-  double wallTime() const; ///< of all steps, extrapolated for a resumed run [s]; NaN: missing
+  double wallTime() const; ///< wall time of all steps, extrapolated for a resumed run [s]; NaN if missing
 
 private:
   nlohmann::json json_;

@@ -49,8 +49,8 @@ Table readTable(const fs::path& path) {
     std::vector<double> row;
     for (const std::string& cell : cellsOf(line)) row.push_back(numberIn(cell));
     if (row.size() != table.head.size())
-      throw base::InputError(fmt::format("{}:{}: {} cells in a table of {} columns; run the scene again", path.string(),
-                                         table.rows.size() + 2, row.size(), table.head.size()));
+      throw base::InputError(fmt::format("{}:{}: row has {} cells, but the table has {} columns; run the scene again",
+                                         path.string(), table.rows.size() + 2, row.size(), table.head.size()));
     table.rows.push_back(std::move(row));
   }
   return table;

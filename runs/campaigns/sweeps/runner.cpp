@@ -62,7 +62,8 @@ void checkRunFolder(const fs::path& folder) {
   const bool isOurs = fs::exists(folder / kLog, error); // a plain `grouser run` writes none
   if (!fs::is_directory(folder, error) || (!isOurs && !fs::is_empty(folder, error)))
     throw base::InputError(fmt::format(
-        "{}: exists but is not the folder of a run; name another with --out, or use it with --force", folder.string()));
+        "{}: exists but is not the folder of a run; choose another with --out, or use it anyway with --force",
+        folder.string()));
 }
 
 /// A sweep in the folder of a run would hide its results.
@@ -70,7 +71,7 @@ void requireNoRun(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "manifest.json", error))
     throw base::InputError(
-        fmt::format("{}: contains the results of a run; name another folder with --out", folder.string()));
+        fmt::format("{}: contains the results of a run; choose another folder with --out", folder.string()));
 }
 
 base::Cause causeIn(const RunManifest& manifest) {
@@ -86,9 +87,9 @@ void awaitFormer(const fs::path& folder) {
     support::FileLock lock;
     if (lock.take(folder)) return;
     if (std::chrono::steady_clock::now() - begun > kPatience)
-      throw base::InputError(fmt::format("{}: another run is writing in this folder; wait for its end, or name another "
-                                         "folder with --out",
-                                         folder.string()));
+      throw base::InputError(fmt::format(
+          "{}: another run is writing to this folder; wait until it ends, or choose another folder with --out",
+          folder.string()));
   }
 }
 
@@ -128,14 +129,14 @@ public:
       const RunStatus former = anew ? RunStatus::pending : statusAtEnd(i);
       if (former == RunStatus::finished) {
         outcomes_[i].status = RunStatus::finished;
-        progress_.note(fmt::format("{} finished already", title(i)));
+        progress_.note(fmt::format("{} already finished", title(i)));
       } else if (former == RunStatus::incomplete) {
         outcomes_[i] = {RunStatus::incomplete, RunManifest(folder(i)).text("incomplete")};
-        progress_.note(fmt::format("{} incomplete already: {}", title(i), outcomes_[i].message));
+        progress_.note(fmt::format("{} already incomplete: {}", title(i), outcomes_[i].message));
       } else if (former == RunStatus::failed && options.keepFailures) {
         const RunManifest manifest(folder(i));
         outcomes_[i] = {RunStatus::failed, manifest.text("error"), causeIn(manifest)};
-        progress_.note(fmt::format("{} failed before: {}", title(i), outcomes_[i].message));
+        progress_.note(fmt::format("{} has failed before: {}", title(i), outcomes_[i].message));
       } else {
         waiting_.push_back(i);
         work_[i] = workOf(plan.runs[i]), due_ += work_[i];
@@ -171,8 +172,8 @@ public:
       if (progress_.due()) report();
     }
     if (todo_ > 0)
-      progress_.finish(fmt::format("{}{}", endedText(outcomes_),
-                                   next < waiting_.size() ? "; run the same command again to continue" : ""));
+      progress_.finish(
+          fmt::format("{}{}", endedText(outcomes_), next < waiting_.size() ? "; repeat the command to continue" : ""));
   }
 
 private:
@@ -205,7 +206,7 @@ private:
     std::error_code error;
     fs::create_directories(folder(i), error);
     if (error)
-      throw base::InputError(fmt::format("{}: cannot create the folder ({}); name another with --out",
+      throw base::InputError(fmt::format("{}: cannot create the folder ({}); choose another with --out",
                                          folder(i).string(), error.message()));
     awaitFormer(folder(i));
     const bool goesOn = goesOn_.contains(i);
@@ -350,11 +351,11 @@ std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& 
   fs::create_directories(options.folder, error);
   if (error || !fs::is_directory(options.folder))
     throw base::InputError(
-        fmt::format("{}: cannot create the folder; name another with --out", options.folder.string()));
+        fmt::format("{}: cannot create the folder; choose another with --out", options.folder.string()));
   support::FileLock alone; // two sweeps in one folder would remove each other's files
   if (!options.shared && !alone.take(options.folder))
     throw base::InputError(fmt::format(
-        "{}: another sweep or check is running in this folder; wait for its end, or name another with --out",
+        "{}: another sweep or check is running in this folder; wait until it ends, or choose another with --out",
         options.folder.string()));
   Runner runner(plan, options, what, changed);
   runner.run();

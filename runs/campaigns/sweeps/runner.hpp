@@ -14,7 +14,7 @@
 namespace grouser::sweeps {
 
 struct SweepOptions {
-  std::filesystem::path program; ///< of grouser
+  std::filesystem::path program; ///< grouser executable
   std::filesystem::path folder;  ///< contains the folders of the runs, summary.csv and summary.png
   int jobs = 1;                  ///< runs at the same time
   double seconds = 0;            ///< no run starts after this wall time; 0: no limit

@@ -41,8 +41,8 @@ std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOu
     if (!std::isfinite(figures.values[i][at])) ++tooShort;
   }
   if (tooShort == 0) return {};
-  return fmt::format("note      {} of {} ended before full speed and have no means over the steady part; raise "
-                     "run.duration above driver.drive_start + driver.drive_ramp\n",
+  return fmt::format("note      {} of {} ended before the vehicle reached full speed, so they have no means over the "
+                     "steady part; raise run.duration above driver.drive_start + driver.drive_ramp\n",
                      tooShort, base::counted(finished, "run"));
 }
 

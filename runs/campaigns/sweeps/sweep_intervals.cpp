@@ -145,8 +145,9 @@ std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::
 std::string intervalsText(const SeedIntervals& intervals) {
   std::size_t width = 8;
   for (const SeedGroup& group : intervals.groups) width = std::max(width, named(intervals, group).size());
-  std::string text = fmt::format("\nmeans over the steady part, +- half width of the 95 % interval over seeds{}\n",
-                                 intervals.groups.size() > 1 ? "; difference from the first line, paired by seed" : "");
+  std::string text =
+      fmt::format("\nmeans over the steady part; +- is the half width of the 95 % interval over seeds{}\n",
+                  intervals.groups.size() > 1 ? "; differences from the first line, paired by seed" : "");
   for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
     const bool isKnown = std::any_of(intervals.groups.begin(), intervals.groups.end(),
                                      [c](const SeedGroup& g) { return std::isfinite(g.figures[c].value); });

@@ -13,18 +13,18 @@ namespace grouser::sweeps {
 
 /// One combination of the swept values, over its seeds.
 struct SeedGroup {
-  std::vector<std::string> values;        ///< of the keys except the seed
+  std::vector<std::string> values;        ///< values of the keys except the seed
   int runs = 0;                           ///< finished runs whose figures count
   std::string doubt;                      ///< reason why all are inconclusive, see SweepFigures; else empty
-  std::vector<support::Estimate> figures; ///< of SweepFigures::columns; half width infinite for one seed
+  std::vector<support::Estimate> figures; ///< one per SweepFigures column; infinite half width for one seed
   std::vector<support::Estimate>
-      differences; ///< from the first group over its mean [-], paired by common seeds; NaN without such seeds
+      differences; ///< relative to the mean of the first group [-], paired by common seeds; NaN without such seeds
   std::vector<support::Estimate> changes; ///< the same differences in the figures' units
 };
 
 struct SeedIntervals {
   std::vector<std::string> keys;    ///< swept keys except the seed
-  std::vector<std::string> columns; ///< of the figures
+  std::vector<std::string> columns; ///< columns of the figures
   std::vector<SeedGroup> groups;    ///< in the order of the runs; empty if the seed is not swept
 };
 

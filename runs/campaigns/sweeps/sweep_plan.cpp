@@ -20,7 +20,7 @@ using base::InputError;
 
 namespace {
 
-constexpr std::size_t kLongestName = 120; // of folder names; the file system allows 255
+constexpr std::size_t kLongestName = 120; // length of folder names; the file system allows 255
 
 /// One value of an axis.
 struct Point {
@@ -44,7 +44,7 @@ Axis axisOf(const std::string& set) {
   const KeyValues given = keyValues(set, "--set", "driver.sprocket_speed=1,2");
   if (given.key == "output.folder")
     throw InputError(
-        fmt::format("--set {}: a sweep sets the folder of each run; set the folder of the sweep with --out", set));
+        fmt::format("--set {}: a sweep chooses the folder of each run; set the folder of the sweep with --out", set));
   Axis axis{given.key, {}};
   for (const std::string& value : given.values) axis.points.push_back({value, {axis.key + "=" + value}});
   return axis;
@@ -62,12 +62,13 @@ Point caseOf(const std::string& text) {
   const std::size_t colon = text.find(':');
   Point point{trimmed(std::string_view(text).substr(0, colon)), {}};
   if (point.label.empty() || point.label.find_first_of("=,\"") != std::string::npos)
-    throw InputError(fmt::format("--case {}: a case begins with its name; write NAME: key=value, key=value..., e.g. "
-                                 "--case 'deep: terrain.depth=0.6'",
+    throw InputError(fmt::format("--case {}: a case must start with its name; write NAME: key=value, key=value..., "
+                                 "e.g. --case 'deep: terrain.depth=0.6'",
                                  text));
   if (!isFolderName(point.label))
-    throw InputError(fmt::format("--case {}: '{}' cannot be a folder beside {}; use letters (a to z) or digits", text,
-                                 point.label, kSummaryFile));
+    throw InputError(
+        fmt::format("--case {}: '{}' cannot be used as a folder name beside {}; use letters (a to z) or digits", text,
+                    point.label, kSummaryFile));
   if (colon == std::string::npos || trimmed(std::string_view(text).substr(colon + 1)).empty()) return point;
   for (const std::string& set : splitValues(std::string_view(text).substr(colon + 1))) {
     const std::size_t equals = equalsSign(set);
@@ -106,18 +107,18 @@ void checkKeysApart(const std::vector<Axis>& axes) {
       std::set<std::string> here;
       for (const std::string& set : p.overrides)
         if (!here.insert(keyOf(set)).second)
-          throw InputError(fmt::format("--case {}: {} is given twice; give it once", p.label, keyOf(set)));
+          throw InputError(fmt::format("--case {}: {} is set twice; remove one", p.label, keyOf(set)));
       ofCases.merge(here);
     }
     if (isCase) continue;
     const std::string key = keyOf(axis.key);
     if (!before.insert(key).second)
       throw InputError(
-          fmt::format("sweep: {} is given twice; give it once, with its values separated by commas", axis.key));
+          fmt::format("sweep: {} is set twice; set it once, with its values separated by commas", axis.key));
     if (axis.points.size() > 1 && ofCases.contains(key))
       throw InputError(fmt::format(
-          "sweep: {} has {} values, and a --case sets it, too; give it one value, or remove it from the case", axis.key,
-          axis.points.size()));
+          "sweep: {} has {} values, but a --case also sets it; use a single value, or remove it from the case",
+          axis.key, axis.points.size()));
   }
 }
 
@@ -156,7 +157,7 @@ std::string faultOf(const std::filesystem::path& file, const std::vector<std::st
   }
 }
 
-/// Error message with --case NAME instead of --set, which it names for the keys of a case.
+/// Error message that names --case NAME instead of --set for the keys of a case.
 std::string namedFault(const std::string& fault, const std::string& name) {
   const std::string set = "--set";
   if (fault.rfind(set + " ", 0) == 0) return fmt::format("--case {}:{}", name, fault.substr(set.size()));
@@ -216,11 +217,11 @@ KeyValues keyValues(const std::string& set, const std::string& option, const std
   const std::size_t equals = equalsSign(set);
   if (equals == std::string::npos || equals == 0)
     throw InputError(
-        fmt::format("{} {}: no value is given; write key=value,value..., e.g. {} {}", option, set, option, example));
+        fmt::format("{} {}: value is missing; write key=value,value..., e.g. {} {}", option, set, option, example));
   KeyValues given{set.substr(0, equals), splitValues(std::string_view(set).substr(equals + 1))};
   for (std::size_t i = 0; i < given.values.size(); ++i) {
     if (given.values[i].empty())
-      throw InputError(fmt::format("{} {}: value {} of the list is empty; remove a comma", option, set, i + 1));
+      throw InputError(fmt::format("{} {}: value {} of the list is empty; remove the extra comma", option, set, i + 1));
     if (std::count(given.values.begin(), given.values.end(), given.values[i]) > 1)
       throw InputError(fmt::format("{} {}: {} is listed twice; remove one", option, set, given.values[i]));
   }

@@ -58,9 +58,9 @@ KeyValues keyValues(const std::string& set, const std::string& option, const std
 /// Replaces each run of characters that are unsafe in folder names by an underscore.
 std::string plainText(const std::string& text);
 
-/// Plans the runs of `scene` over the product of all lists; loads and checks every scene as `grouser plan` does. A key
-/// of --set with one value is fixed, unless no key has several. `fixed`: overrides for all runs. Throws InputError for
-/// the first invalid value, a duplicate key, or an empty sweep.
+/// Plans the runs of `scene` over the product of all lists; loads and checks every scene as `grouser plan` does. A
+/// --set key with one value is fixed, unless no key has several values. `fixed`: overrides for all runs. Throws
+/// InputError for the first invalid value, a duplicate key, or an empty sweep.
 SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
                     const std::vector<std::string>& fixed = {});
 

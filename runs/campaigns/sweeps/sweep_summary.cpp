@@ -46,6 +46,7 @@ public:
   Steady(const support::Hdf5File* file, double from) : file_(file) {
     if (file) times_ = file->numbers("/series/time");
     while (first_ < times_.size() && !(times_[first_] >= from)) ++first_;
+    part_ = first_, first_ = firstOfWholeTeeth();
   }
   Spread of(const std::string& path) const {
     Spread spread;
@@ -74,15 +75,11 @@ public:
         sum = std::isfinite(sum) ? sum + mean : mean;
     return sum;
   }
-  /// Teeth that pass the sprocket of each track, forward and backward alike [-].
+  /// Teeth that pass the sprocket of each track in the whole steady part, forward and backward alike [-].
   Spread teeth() const {
     Spread spread;
-    for (const std::string side : {"left", "right"}) {
-      const std::vector<double> all = rows("vehicle/" + side + "/teeth_passed");
-      double passed = 0;
-      for (std::size_t i = 1; i < all.size(); ++i) passed += std::fabs(all[i] - all[i - 1]);
-      if (!all.empty()) spread.add(passed);
-    }
+    for (const std::string side : {"left", "right"})
+      if (const std::vector<double> until = teethUntilEnd(side); part_ < until.size()) spread.add(until[part_]);
     return spread;
   }
   /// Common slip of both tracks: 1 - hull travel over sprocket travel, in the direction of each track.
@@ -130,6 +127,29 @@ private:
     const std::string dataset = "/" + path + "/value";
     return file_ && file_->has(dataset) ? file_->numbers(dataset) : std::vector<double>{};
   }
+  /// Teeth that pass the sprocket of a track between each row and the last one [-].
+  std::vector<double> teethUntilEnd(const std::string& side) const {
+    std::vector<double> teeth = numbers("vehicle/" + side + "/teeth_passed");
+    double sum = 0;
+    for (std::size_t i = teeth.size(); i-- > 0;) {
+      const double change = i > 0 ? std::fabs(teeth[i] - teeth[i - 1]) : 0;
+      teeth[i] = sum, sum += change;
+    }
+    return teeth;
+  }
+  /// First row of the whole number of teeth, or nearly so, at the end of the steady part: a mean over a part of a tooth
+  /// contains its share of the ripple. The interval of a row ends at its time.
+  std::size_t firstOfWholeTeeth() const {
+    for (const std::string side : {"left", "right"}) {
+      const std::vector<double> until = teethUntilEnd(side);
+      if (first_ == 0 || first_ >= until.size() || !(until[first_ - 1] >= 1)) continue;
+      const double whole = std::floor(until[first_ - 1]);
+      std::size_t row = first_;
+      while (row + 1 < until.size() && std::fabs(until[row] - whole) < std::fabs(until[row - 1] - whole)) ++row;
+      return row;
+    }
+    return first_;
+  }
   std::vector<double> rows(const std::string& path) const {
     std::vector<double> all = numbers(path);
     const std::size_t width = times_.empty() ? 0 : all.size() / times_.size();
@@ -139,7 +159,8 @@ private:
 
   const support::Hdf5File* file_;
   std::vector<double> times_;
-  std::size_t first_ = 0;
+  std::size_t part_ = 0;  ///< first row of the steady part
+  std::size_t first_ = 0; ///< first row of the means
 };
 
 /// Columns along the direction of motion.
@@ -211,7 +232,7 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
 std::string doubtOf(const scene::Scene& scene, const SweepOutcome& outcome, double teeth) {
   if (outcome.status == output::RunStatus::incomplete) return outcome.message;
   if (!setup::asksToDrive(scene) || !(teeth < setup::kFewestTeeth)) return {};
-  return fmt::format("{:.2g} teeth in the steady part, fewer than {:g}", teeth, setup::kFewestTeeth);
+  return fmt::format("the steady part covers {:.2g} teeth, fewer than {:g}", teeth, setup::kFewestTeeth);
 }
 
 /// Adds the figures of one run to `all`; NaN if it has not ended.
@@ -307,7 +328,7 @@ void checkSweepFiles(const fs::path& folder) {
   for (const char* name : kSweepFiles)
     if (fs::exists(folder / name, error))
       throw base::InputError(fmt::format(
-          "{}: exists but was not written by a sweep; name another folder with --out, or overwrite it with --force",
+          "{}: exists but was not written by a sweep; choose another folder with --out, or overwrite it with --force",
           (folder / name).string()));
 }
 

@@ -28,7 +28,8 @@ double steadyFrom(const scene::Scene& scene, double driveStart = std::numeric_li
 /// The same for a finished run, with start of drive and end from its manifest.
 double steadyFrom(const scene::Scene& scene, const RunManifest& manifest);
 
-/// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5.
+/// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5. With a vehicle they
+/// cover a whole number of sprocket teeth at the end of the steady part, to within a row.
 struct SweepFigures {
   std::vector<std::string> columns;        ///< name and unit; vehicle and surfaces only if a run has them
   std::vector<std::vector<double>> values; ///< [runs][columns]; NaN: none, e.g. unfinished runs

@@ -16,7 +16,7 @@ using base::Vec3f;
 struct View {
   Vec3f eye, right, up, forward;
   bool perspective = true;
-  float halfHeight = 1; ///< of the picture at depth 1 (perspective), or anywhere (parallel)
+  float halfHeight = 1; ///< half picture height at depth 1 (perspective), or at any depth (parallel)
   float near = 0.01f;   ///< near plane (perspective) [m]
   int width = 0, height = 0;
 
@@ -35,14 +35,14 @@ struct View {
   float planeY(int row) const {
     return (0.5f * static_cast<float>(height) - static_cast<float>(row) - 0.5f) / pixelsPerUnit();
   }
-  /// Point in the camera frame of a pixel at a depth.
+  /// Camera-frame point of a pixel at a depth.
   Vec3f at(int column, int row, float depth) const {
     const float s = perspective ? depth : 1.0f;
     return {planeX(column) * s, planeY(row) * s, depth};
   }
 };
 
-/// Looks from `eye` to `target`.
+/// View from `eye` to `target`.
 View viewTowards(const base::Vec3d& eye, const base::Vec3d& target, const base::Vec3d& up);
 
 /// Buffers of visible objects per pixel.
@@ -52,10 +52,10 @@ struct Surfaces {
         normal(depth.size()), object(depth.size(), -1) {}
 
   View view;
-  std::vector<float> depth;                        ///< along z of the camera; infinite for empty pixels
-  std::vector<std::array<std::int16_t, 3>> normal; ///< world, times 32767
+  std::vector<float> depth;                        ///< depth along the camera's z axis; infinite for empty pixels
+  std::vector<std::array<std::int16_t, 3>> normal; ///< normal in the world frame, times 32767
   std::vector<std::int32_t> object;                ///< sphere i, or spheres + mesh j; -1: empty
-  std::vector<Vec3f> colour;                       ///< of meshes with vertex colours; empty: none
+  std::vector<Vec3f> colour;                       ///< vertex colours of meshes; empty: none
 
   std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * view.width + column; }
   Vec3f normalAt(std::size_t i) const {
@@ -65,7 +65,7 @@ struct Surfaces {
 
 /// A triangle in the world with the normal at each corner.
 struct Facet {
-  std::array<Vec3f, 3> corner, normal, colour; ///< colours of meshes with vertex colours
+  std::array<Vec3f, 3> corner, normal, colour; ///< `colour`: vertex colours of meshes
   std::int32_t object{};
   bool oneSided{}, coloured{};
 };

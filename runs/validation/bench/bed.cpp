@@ -90,9 +90,9 @@ terrain::GrainModel modelOf(const BedBench& b) {
   const double lightest = base::sphereMass(b.density, radii.smallest);
   const double limit = contact::stableStep(std::sqrt(8 * b.stiffness / lightest), 0);
   if (b.timeStep > limit)
-    throw base::InputError(fmt::format(
-        "bench bed: a step of {:g} s exceeds the stable step {} s of grains of radius {} m; reduce --time-step",
-        b.timeStep, base::roundedDown(limit, 3), radii.smallest));
+    throw base::InputError(
+        fmt::format("bench bed: --time-step {:g} s exceeds the stable step, {} s, of grains of radius {} m; reduce it",
+                    b.timeStep, base::roundedDown(limit, 3), radii.smallest));
   return model;
 }
 

@@ -31,7 +31,7 @@ std::vector<terrain::GrainSpec> readBed(const BedBench& bench) {
   for (const scene::Grain& row : rows) {
     if (std::fabs(row.radius - bench.radius) > kSameRadius * bench.radius)
       throw base::InputError(fmt::format("bench bed: {} contains a grain of radius {:g} m, but --radius is {:g} m; set "
-                                         "--radius, and use grains of equal radius",
+                                         "--radius to the radius of the grains, which must all be equal",
                                          bench.start, row.radius, bench.radius));
     grains.push_back({row.position, row.velocity, row.spin});
   }

@@ -62,8 +62,9 @@ double advance(coupling::Simulation& simulation, const StepBenchOptions& o, doub
     if (simulation.steps() >= end) return simulation.time();
     simulation.advance(std::min(end - simulation.steps(), coupling::VehicleRig::kAlarmInterval));
     if (progress.due())
-      progress.update(from ? simulation.time() / *from : 0,
-                      fmt::format("t {:.3f} s{}", simulation.time(), from ? "" : ", waiting until the vehicle rests"));
+      progress.update(
+          from ? simulation.time() / *from : 0,
+          fmt::format("t {:.3f} s{}", simulation.time(), from ? "" : ", waiting for the vehicle to come to rest"));
   }
 }
 
@@ -71,12 +72,13 @@ double advance(coupling::Simulation& simulation, const StepBenchOptions& o, doub
 std::array<std::string, 2> phaseOf(const Drive& drive, double from, double to) {
   constexpr double kStep = 1e-9; // [s]: rounding of times
   if (!drive.start || *drive.start >= to)
-    return {"standing", "the vehicle stands; use --after drive to time the driving"};
+    return {"standing", "the vehicle is at rest; use --after drive to time driving"};
   if (*drive.start > from + kStep)
-    return {"driving off", fmt::format("the vehicle drives off at t = {:g} s, during the timing; use --after drive to "
-                                       "time only the driving",
-                                       *drive.start)};
-  const std::string since = fmt::format("the vehicle has been driving since t = {:g} s", *drive.start);
+    return {"driving off",
+            fmt::format(
+                "the vehicle starts to drive at t = {:g} s, during the timing; use --after drive to time driving only",
+                *drive.start)};
+  const std::string since = fmt::format("the vehicle drives since t = {:g} s", *drive.start);
   if (from < *drive.start + drive.ramp - kStep)
     return {"speeding up", fmt::format("{}, sprockets accelerate until {:g} s", since, *drive.start + drive.ramp)};
   return {"driving", since};
@@ -104,8 +106,8 @@ Json printParts(const coupling::StageTimer& timer) {
   const double n = static_cast<double>(timer.steps());
   double sum = 0;
   for (const coupling::StageTimer::Part& part : timer.parts()) sum += part.microseconds / n;
-  fmt::print("\ninstrumented pass of {} steps: synchronises after every part, so nothing overlaps and the "
-             "sum is larger than a step\n",
+  fmt::print("\ninstrumented pass of {} steps: it synchronises after each part, so parts do not overlap and their sum "
+             "exceeds the step time\n",
              timer.steps());
   Json json = Json::object();
   for (const coupling::StageTimer::Part& part : timer.parts()) {
@@ -249,8 +251,8 @@ Contacts instrument(coupling::StageTimer& timer, coupling::Simulation& simulatio
 }
 
 void printTimes(const BatchTimes& times, const StepBenchOptions& o, double from, int ranks) {
-  fmt::print("step      {:.2f} us (median of {} batches of {} steps without internal timers; {:.2f} to {:.2f}), "
-             "starting at t = {:g} s\n",
+  fmt::print("step      {:.2f} us (median of {} batches of {} steps without internal timers; {:.2f} to {:.2f}), from t "
+             "= {:g} s\n",
              times.median(), o.batches, o.steps, times.least(), times.most(), from);
   if (ranks > 1) fmt::print("ranks     {}: times of the first rank, including MPI wait time\n", ranks);
 }
@@ -322,7 +324,7 @@ void benchStepCommand(const BenchCommand& command) {
   json.update(describeScene(scene, *simulation, preparation));
   if (o.fromDrive && !simulation->vehicle())
     throw base::InputError(
-        fmt::format("--after drive: {} has no driving [vehicle]; give a time in seconds", scene.file.string()));
+        fmt::format("--after drive: {} has no driven [vehicle]; set a time in seconds", scene.file.string()));
   const double ramp = scene.driver.rampOfDrive(), from = advance(*simulation, o, ramp);
   const BatchTimes times = timeBatches(*simulation, o, exec);
   coupling::StageTimer timer(*simulation, exec);

@@ -18,7 +18,7 @@ namespace grouser::bench {
 
 /// Times of several equal batches of steps [us per step].
 struct BatchTimes {
-  std::int64_t steps = 0; ///< of one batch
+  std::int64_t steps = 0; ///< steps per batch
   std::vector<double> microseconds;
   double median() const, least() const, most() const;
 };
@@ -44,7 +44,7 @@ struct BedBench {
   double settleTime = 0.5;  ///< [s]
   std::int64_t steps = 0;   ///< steps per batch; 0: about one second
   int batches = 5;
-  bool ledger = false; ///< with energy accounting, as in a run
+  bool ledger = false; ///< use energy accounting, as in a run
   bool hash = false;   ///< compute the final state hash
   std::string start{}; ///< file of initial grains; empty: lattice
   std::string save{};  ///< file for the final grains; empty: none
@@ -54,17 +54,17 @@ struct BedBench {
 struct BedFigures {
   BatchTimes times;
   contact::ContactLaw law;         ///< law of grain-grain contacts, for comparison with other programs
-  double edge = 0;                 ///< of the box [m]
+  double edge = 0;                 ///< edge of the box [m]
   double contactsPerGrain = 0;     ///< contacts (each pair once) and wall contacts per grain [-]
   double listLength = 0;           ///< mean number of listed neighbours per grain, each pair twice [-]
-  std::string features;            ///< as text
+  std::string features;            ///< features as text
   double stepsBetweenRebuilds = 0; ///< [-]; infinite if there was none during the timing
-  double rebuildMicroseconds = 0;  ///< of one rebuild, median
-  double bytesPerGrain = 0;        ///< on the device, between rebuilds [B]
+  double rebuildMicroseconds = 0;  ///< median time of a rebuild [us]
+  double bytesPerGrain = 0;        ///< device memory between rebuilds [B]
   double peakBytesPerGrain = 0;    ///< maximum during rebuilds [B]
   double reservedPerGrain = 0;     ///< reserved for rebuilds [B]
   double settleSeconds = 0;        ///< wall time of settling [s]
-  double kineticPerGrain = 0;      ///< over m g radius [-]
+  double kineticPerGrain = 0;      ///< mean kinetic energy / (m g radius) [-]
   std::int64_t stepsTaken = 0;     ///< settling and all batches
   std::string stateHash;           ///< empty: not computed
   // On several ranks.

@@ -84,7 +84,7 @@ namespace grouser::bench {
 std::string bulletVersion() { return ""; }
 
 BulletFigures benchBullet(const std::vector<base::Vec3f>&, float, int) {
-  throw base::InputError("this program was built without Bullet");
+  throw base::InputError("grouser was built without Bullet");
 }
 
 } // namespace grouser::bench

@@ -12,7 +12,7 @@ namespace grouser::bench {
 namespace {
 
 constexpr std::uint64_t kPurpose = base::purpose("bench.contacts");
-constexpr std::uint64_t kBits = 21; ///< of the random place along each axis: three in one 64-bit number
+constexpr std::uint64_t kBits = 21; ///< random bits per axis: three axes in one 64-bit number
 
 struct Place {
   std::uint64_t count, step, ny, nz, seed;

@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kSpheresSeed = 1;
-constexpr double kPairsPerSphere = 3; ///< for many spheres
-constexpr double kLinearFrom = 1e6;   ///< minimum number of contacts of the growth fit
+constexpr double kPairsPerSphere = 3; ///< contacts per sphere in the limit of many spheres
+constexpr double kLinearFrom = 1e6;   ///< minimum number of contacts for the growth fit
 const std::vector<double> kOnCpu = {3e4, 1e5, 3e5, 1e6, 3e6, 1e7};
 const std::vector<double> kOnGpu = {1e6, 1e7, 1e8, 3e8, 1e9, 2e9, 4e9, 6e9};
 
@@ -41,7 +41,7 @@ struct Times {
 struct Point {
   std::int64_t spheres = 0, contacts = 0;
   Times first;  ///< including memory allocation
-  Times median; ///< of the other searches, or the first
+  Times median; ///< median of the later searches; the first if it is the only one
   int slabs = 0;
   double bytesPerSphere = 0; ///< positions, pairs and work
   std::optional<BulletFigures> bullet;
@@ -146,8 +146,7 @@ void benchContactsCommand(const ContactsBench& bench) {
   const base::Exec exec = support::chooseDevice(support::deviceChoice(bench.device), bench.threads, bench.ranks);
   if (!bench.plot.empty() && !bench.plot.ends_with(".png"))
     throw base::InputError(fmt::format("--plot {}: the file name must end in .png", bench.plot));
-  if (!bench.plot.empty() && bench.json.empty())
-    throw base::InputError("--plot requires --json, from which it is drawn");
+  if (!bench.plot.empty() && bench.json.empty()) throw base::InputError("--plot requires --json; add it");
   Json json = benchOrigin("contacts", exec);
   json["arrangement"] =
       fmt::format("cubic lattice of spacing {:g} diameters, random displacements up to {:g} diameters "
@@ -159,16 +158,16 @@ void benchContactsCommand(const ContactsBench& bench) {
   json["bullet_version"] = bulletVersion();
   fmt::print("spheres   {}\n", json["arrangement"].get<std::string>());
   fmt::print("contacts  overlapping pairs, each once, {}\n",
-             bench.countOnly ? "counted only" : "stored as two 32-bit ids");
-  fmt::print("times     search from positions, median of {} after a first one that allocates memory\n",
+             bench.countOnly ? "only counted" : "stored as two 32-bit ids");
+  fmt::print("times     search from positions, median of {} after a first search that allocates memory\n",
              std::max(1, bench.repeats - 1));
-  if (ranks > 1) fmt::print("ranks     {}: each has all positions and searches part of the slabs\n", ranks);
-  fmt::print("bullet    {}\n",
-             bulletVersion().empty()
-                 ? std::string("none: built without it (Debian: libbullet-dev)")
-                 : fmt::format("{}, one thread, up to {} spheres; cold: with set-up; warm: kept pairs, "
-                               "fixed spheres",
-                               bulletVersion(), bench.bulletSpheres));
+  if (ranks > 1) fmt::print("ranks     {}: each rank has all positions and searches a part of the slabs\n", ranks);
+  fmt::print(
+      "bullet    {}\n",
+      bulletVersion().empty()
+          ? std::string("none: built without it (Debian: libbullet-dev)")
+          : fmt::format("{}, one thread, up to {} spheres; cold: including set-up; warm: pairs kept, spheres fixed",
+                        bulletVersion(), bench.bulletSpheres));
   printHead(!bench.countOnly);
   std::vector<double> wanted = bench.contacts.empty() ? exec.onCpu() ? kOnCpu : kOnGpu : bench.contacts;
   std::sort(wanted.begin(), wanted.end());

@@ -185,8 +185,8 @@ void benchMultibodyCommand(const MultibodyBench& bench) {
   json["vehicle"] = report(benchVehicleGraph(bench));
   json["goal_microseconds"] = kGoal;
 
-  fmt::print("\ngrowth: two spinning rings of shoes, and a hull with wheels, arms and idlers; goal: at most {:g} times "
-             "the time for twice the shoes\n",
+  fmt::print("\ngrowth: two spinning rings of shoes, and a hull with wheels, arms and idlers; goal: twice the shoes in "
+             "at most {:g} times the time\n",
              kGrowth);
   fmt::print("  {:>5} {:>7} {:>15} {:>11} {:>12} {:>9} {:>9} {:>7}\n", "shoes", "bodies", "multiplications",
              "iterations", "median [us]", "min [us]", "us/body", "ratio");

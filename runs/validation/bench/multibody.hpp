@@ -26,11 +26,11 @@ struct VehicleGraphFigures {
   int bodies = 0, joints = 0;
   int rows = 0;                              ///< hard constraint rows
   int loops = 0;                             ///< constraints outside the spanning tree
-  int batches = 0;                           ///< of four bodies
+  int batches = 0;                           ///< SIMD batches of four bodies
   BatchTimes step;                           ///< complete steps
   double iterations = 0, mostIterations = 0; ///< per step: mean and maximum
   double positionError = 0;                  ///< maximum after a step [m, rad]
-  double hullSpeed = 0;                      ///< final [m/s]
+  double hullSpeed = 0;                      ///< final hull speed [m/s]
   // Parts of a step, called separately at one state.
   BatchTimes linearise; ///< rows, inertias and the factorisation
   BatchTimes solve;     ///< one solution
@@ -42,7 +42,7 @@ VehicleGraphFigures benchVehicleGraph(const MultibodyBench& bench);
 /// Two spinning rings of shoes, and a hull with wheels, arms and idlers.
 struct RingFigures {
   int shoes = 0, bodies = 0;
-  long multiplications = 0; ///< in one factorisation and one solution
+  long multiplications = 0; ///< multiplications in one factorisation and one solution
   double iterations = 0;
   BatchTimes step;
 };

@@ -155,9 +155,8 @@ std::int64_t PairSearch::Work::countPairs(const Neighbourhood& near, std::int64_
 
 base::Array<IdPair> PairSearch::Work::storePairs(const Neighbourhood& near, std::int64_t owned, std::int64_t sum) {
   if (sum > std::int64_t{0xFFFFFFFF})
-    throw base::SimulationError(
-        "more than 2^32 contacts in one slab: the spheres have collapsed into each other, or too "
-        "many are searched at a time; reduce --at-a-time");
+    throw base::SimulationError("more than 2^32 contacts in one slab: the spheres overlap too much, or the batch is "
+                                "too large; reduce --at-a-time");
   base::exclusiveScan(exec, counts.data(), counts.data(), static_cast<std::size_t>(owned));
   base::Array<IdPair> pairs(exec, static_cast<std::size_t>(sum));
   base::forEach(exec, "store touching pairs", owned, Store{near, list.data(), counts.data(), pairs.data()});
@@ -179,7 +178,7 @@ PairSearch::~PairSearch() = default;
 
 FoundPairs PairSearch::find(const Position* positions, std::size_t count, const PairSearchOptions& options) {
   if (count > static_cast<std::size_t>(kMostSpheres))
-    throw std::invalid_argument("a pair search takes 2^31 - 2 spheres at most");
+    throw std::invalid_argument("a pair search supports at most 2^31 - 2 spheres");
   FoundPairs found;
   if (count == 0) return found;
   Work& work = *work_;

@@ -18,7 +18,7 @@ struct StudyBox {
   double restitution = 0.5; ///< [-]
   double friction = 0.5;    ///< [-]
   int shaken = 0;           ///< maximum initial displacement per axis [units of length]
-  std::uint64_t seed = 0;   ///< of that displacement
+  std::uint64_t seed = 0;   ///< seed of the displacement
   terrain::Precision precision = terrain::Precision::single;
 
   static constexpr double kRadius = 0.027, kDensity = 2500, kStiffness = 1e6, kTimeStep = 5e-5;

@@ -14,7 +14,7 @@ namespace grouser::studies {
 struct Probe {
   enum Kind { kPosition, kVelocity, kDirection };
   std::string body;
-  base::Vec3d point_B; ///< in the body's frame [m]; of kDirection: the direction itself
+  base::Vec3d point_B; ///< point in the body's frame [m]; kDirection: unit vector
   int component = 0;   ///< x, y, z
   Kind kind = kPosition;
 };
@@ -25,9 +25,9 @@ struct StudyCase {
   std::string name;
   std::string scene; ///< file in runs/mechanisms/, or words for make_mechanisms.py
   std::string title;
-  std::string source; ///< of the reference
+  std::string source; ///< source of the reference
   double end = 1;     ///< simulated time [s]
-  double sample = 1;  ///< between the times compared [s]
+  double sample = 1;  ///< interval between compared times [s]
   int coarsest = 1;   ///< longest step: sample / coarsest; then a quarter of the previous one each
   std::vector<Probe> probes;
   std::function<std::vector<double>(double t)> reference; ///< the probes' values at time t

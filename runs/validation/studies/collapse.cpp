@@ -22,18 +22,18 @@ constexpr double kSpacing = 2.6;    // lattice spacing of the initial column [ra
 constexpr double kSolid = 0.59;     // expected solid fraction of the column, for its height only
 constexpr double kCalm = 1e-4;      // kinetic energy per grain over m g d at rest [-]
 constexpr double kLongest = 4;      // maximum duration over the expected one [-]
-constexpr double kLookEvery = 0.02; // of sqrt(h0 / g)
+constexpr double kLookEvery = 0.02; // sampling interval [sqrt(h0 / g)]
 
 /// The column with and without the gate, `gate` [m] from the back wall.
 std::string columnScene(const virtual_tests::SampleGrains& material, double gate, double width, double height,
-                        std::int64_t seed, const std::string& contact, bool closed) {
+                        std::int64_t seed, scene::ContactMethod contact, bool closed) {
   std::string text = fmt::format(
       "version = 1\n[run]\nduration = 1\nseed = {0}\ncontact = \"{7}\"\nperiodic = [false, true]\ndomain_y = [0, "
       "{1:.17g}]\n{2}"
       "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [{3:.17g}, {1:.17g}, {4:.17g}]\nradius = {5:.17g}\n"
       "spacing = {6}\njitter = 1.0\nmaterial = \"grain\"\n"
       "[[plane]]\nmaterial = \"grain\"\n[[plane]]\nmaterial = \"grain\"\nnormal = [1, 0, 0]\n",
-      seed, width, material.toml("grain"), gate, height, material.radius, kSpacing, contact);
+      seed, width, material.toml("grain"), gate, height, material.radius, kSpacing, base::wordOf(contact));
   if (closed)
     text += fmt::format("[[plane]]\nmaterial = \"grain\"\npoint = [{:.17g}, 0, 0]\nnormal = [-1, 0, 0]\n", gate);
   return text;
@@ -79,12 +79,12 @@ double channelRunOut(double aspect) { return aspect < 2.3 ? 1.2 * aspect : 1.9 *
 double channelHeight(double aspect) { return aspect < 1.15 ? aspect : 0.65 * std::pow(aspect, 0.4); }
 
 Collapse collapseColumn(const virtual_tests::SampleGrains& material, double length, double width, double aspect,
-                        std::int64_t seed, const std::string& contact) {
+                        std::int64_t seed, scene::ContactMethod contact) {
   const double d = material.diameter(), gate = length * d, deep = width * d;
   const double spread = kSpacing / 2;
   const double fill = aspect * gate * kSolid / (base::kPi / 6) * spread * spread * spread;
-  virtual_tests::Sample column =
-      virtual_tests::buildSample(columnScene(material, gate, deep, fill, seed, "penalty", true), base::cpuExec(1));
+  virtual_tests::Sample column = virtual_tests::buildSample(
+      columnScene(material, gate, deep, fill, seed, scene::ContactMethod::penalty, true), base::cpuExec(1));
   virtual_tests::bringToRest(column, kCalm, 2.0); // tolerates single grains rolling on top
 
   double mean = 0;
@@ -133,7 +133,7 @@ void studyCollapseCommand(const CollapseCommand& command) {
       "          spheres of 10 mm, 3e4 N/m, restitution 0.5, friction 0.5, rolling friction 0.1; column {} d long "
       "between a wall and a gate,\n          {} d between periodic boundaries; smooth floor of the same friction; {} "
       "contacts; {} seeds, +- their standard error; one thread\n",
-      length, command.width, command.contact, seeds);
+      length, command.width, base::wordOf(command.contact), seeds);
   support::Progress progress("collapsing");
   std::string csv = "aspect [-],seed,grains,run-out [-],deposit height [-],time [-],rests\n";
   std::string table = fmt::format("\n  {:>13} {:>7} {:>17} {:>8} {:>17} {:>8} {:>17} {:>8}\n", "h0/d0", "grains",
@@ -160,13 +160,13 @@ void studyCollapseCommand(const CollapseCommand& command) {
                          channelRunOut(a), both(height), channelHeight(a), both(time), kChannelTime);
   }
   progress.finish(fmt::format("{} columns", aspects.size() * static_cast<std::size_t>(seeds)));
-  fmt::print("{}\n  channel: fits to channel experiments, scatter 10 to 15 %; columns of few grains deviate\n", table);
+  fmt::print("{}\n  channel: fits to channel experiments (scatter 10 to 15 %); columns of few grains deviate\n", table);
   support::writeTextFile(folder / "collapse.csv", csv, "--out");
   jobs::writeStudyOrigin(folder, "collapse", std::chrono::duration<double>(Clock::now() - begin).count(),
                          {{"length_in_diameters", length},
                           {"width_in_diameters", command.width},
                           {"seeds", seeds},
-                          {"contact", command.contact},
+                          {"contact", base::wordOf(command.contact)},
                           {"threads", 1}});
   output::drawPicture("study_collapse.py", {folder / "collapse.csv"}, folder / "collapse.png");
   fmt::print("tables    {}\n", folder.string());

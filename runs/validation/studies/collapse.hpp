@@ -2,9 +2,9 @@
 #pragma once
 
 #include "runs/jobs/study_place.hpp"
+#include "runs/scene/choices.hpp"
 #include "runs/virtual_tests/sample.hpp"
 
-#include <string>
 #include <vector>
 
 /// Collapse of a column of grains: run-out against channel experiments (Lube et al. 2005, Lajeunesse et al. 2005).
@@ -21,9 +21,9 @@ struct Collapse {
 };
 
 /// A column `length` diameters long and about `aspect` times as high, `width` diameters between periodic boundaries.
-/// `contact`: value of run.contact during the collapse.
+/// `contact`: contact method during the collapse.
 Collapse collapseColumn(const virtual_tests::SampleGrains& material, double length, double width, double aspect,
-                        std::int64_t seed, const std::string& contact = "penalty");
+                        std::int64_t seed, scene::ContactMethod contact = scene::ContactMethod::penalty);
 
 /// Fits to channel experiments, for any material: run-out, height of the deposit / d0, time / sqrt(h0 / g).
 double channelRunOut(double aspect);
@@ -34,7 +34,7 @@ struct CollapseCommand {
   jobs::StudyPlace place;
   double length = 20, width = 5; ///< [d]
   int seeds = 4;
-  std::string contact = "penalty"; ///< value of run.contact
+  scene::ContactMethod contact = scene::ContactMethod::penalty;
   std::vector<double> aspects = {0.5, 1, 2, 3};
 };
 /// `grouser study collapse`

@@ -181,8 +181,8 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
 
 std::string driftTable(const std::vector<Drift>& drifts) {
   std::string text =
-      fmt::format("\ndrift between two runs from the same state: distance between corresponding grains\n  {:<12} "
-                  "{:<32} {:>17} {:>15} {:>14} {:>16} {:>14}\n",
+      fmt::format("\ndrift of two runs from the same state: distance between corresponding grains\n  {:<12} {:<32} "
+                  "{:>17} {:>15} {:>14} {:>16} {:>14}\n",
                   "", "", "growth [1/s]", "a collision [-]", "farthest at D", "rms at D", "rms at end [m]");
   for (const Drift& d : drifts) {
     const auto moment = [](double t) { return t < 0 ? std::string("-") : fmt::format("{:.3f} s", t); };
@@ -209,8 +209,8 @@ std::string driftCsv(const std::vector<Drift>& drifts) {
 
 std::string macroTable(const std::vector<MacroRow>& rows, int runs) {
   std::string text = fmt::format(
-      "\nsingle and double precision, macroscopic quantities: means of {0} + {0} dropped beds with "
-      "initial displacements up to {1} units of length\n  {2:<30} {3:>9} {4:>25} {5:>25} {6:>12} {7:>12} {8:>8}\n",
+      "\nsingle and double precision, macroscopic quantities: means over {0} + {0} dropped beds with initial "
+      "displacements of up to {1} units of length\n  {2:<30} {3:>9} {4:>25} {5:>25} {6:>12} {7:>12} {8:>8}\n",
       runs, kShaken, "", "time [s]", "single", "double", "bias", "std. error", "ratio");
   int beyond = 0;
   for (const MacroRow& r : rows) {

@@ -40,7 +40,7 @@ struct MacroRow {
 struct DriftStudy {
   std::int64_t grains = 2000;
   double gasTime = 1.5, bedTime = 0.5; ///< [s]
-  int runs = 8;                        ///< of each precision
+  int runs = 8;                        ///< runs per precision
   int threads = 0;                     ///< 0: all
 };
 using DriftProgress = std::function<void(double fraction, const std::string& what)>;

@@ -34,7 +34,7 @@ Means means(double k) {
 
 Jacobi jacobi(double u, double k) {
   const Means m = means(k);
-  const double period = 2 * base::kPi / m.a[kMeans]; // of sn and cn: 4 K
+  const double period = 2 * base::kPi / m.a[kMeans]; // period of sn and cn, 4 K
   u -= period * std::floor(u / period + 0.5);
   double phi = std::ldexp(m.a[kMeans] * u, kMeans);
   for (std::size_t n = kMeans; n > 0; --n) phi = 0.5 * (phi + std::asin(m.c[n] / m.a[n] * std::sin(phi)));

@@ -7,7 +7,7 @@ namespace grouser::studies {
 struct Jacobi {
   double sn, cn, dn;
 };
-/// By the arithmetic-geometric mean (Abramowitz and Stegun 1964, 16.4); absolute error about 1e-15 (1 + |u|).
+/// Arithmetic-geometric mean (Abramowitz and Stegun 1964, 16.4); absolute error about 1e-15 (1 + |u|).
 Jacobi jacobi(double u, double k);
 /// Complete elliptic integral of the first kind K(k), by the same mean (17.6).
 double quarterPeriod(double k);

@@ -19,7 +19,7 @@ struct FeaturesCommand {
   jobs::PieceOptions pieces;
   std::vector<std::string> features; ///< names; empty: all
   int grains = 20000;                ///< approximate number
-  int pairs = 10;                    ///< of measurements without and with the feature
+  int pairs = 10;                    ///< pairs of measurements without and with the feature
   double turn = 0.2;                 ///< duration of a measurement [s]
 };
 /// `grouser study features`. Throws InputError for an unknown feature.
@@ -32,7 +32,7 @@ struct Feature {
   std::string without, with; ///< keys of [run], [material] or [terrain] of both: lines "section: key = value"
   bool ownBeds = false;      ///< each settles its own bed; else both start from the bed of the base scene
   bool neutral = false;      ///< `with` only repeats defaults: state and memory must be the same
-  std::function<void(coupling::GroundSetup&)> change = {}; ///< change of the second one that has no key; may be empty
+  std::function<void(coupling::GroundSetup&)> change = {}; ///< change of the second scene without a key; may be empty
 };
 /// All features; the last ones are neutral.
 const std::vector<Feature>& features();

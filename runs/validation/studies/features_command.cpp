@@ -40,7 +40,7 @@ std::vector<std::string> allNames() {
 }
 
 std::string whatOf(const std::string& name) {
-  if (name == kVehicle) return "driving [vehicle]; time per step and total memory, not per grain";
+  if (name == kVehicle) return "driven [vehicle]; time per step and total memory instead of per grain";
   if (name == kOutput) return "a row and a frame every 100 steps";
   if (name == kRanksName) return "two ranks with one thread each, against one rank with two threads";
   return std::find_if(features().begin(), features().end(), [&](const Feature& f) { return f.name == name; })->what;
@@ -114,7 +114,7 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
   for (const std::string& name : wanted)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw base::InputError(
-          fmt::format("study features: --features {}: unknown; features are {}", name, fmt::join(known, ", ")));
+          fmt::format("study features: --features {}: unknown; choose from {}", name, fmt::join(known, ", ")));
   jobs::Pieces pieces("features", c.place, c.pieces, recipeOf(c));
   const support::StopSignals signals;
   const support::Stopwatch begin;
@@ -141,7 +141,7 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
     if (!pieces.has(name)) continue;
     const FeatureCost cost = costOf(pieces.read(name));
     const bool neutral = name.rfind("off_", 0) == 0;
-    const std::string verdict = !neutral ? "" : cost.isNothing() ? "nothing" : "NOT NOTHING";
+    const std::string verdict = !neutral ? "" : cost.isNothing() ? "nothing" : "UNEXPECTED COST";
     fmt::print("  {:<14} {:>10.1f} {:>10.1f} {:>18} {:>16} {:>9.0f} {:>9.0f}  {}{}\n", name, cost.without, cost.with,
                jobs::plusMinus(cost.difference, 1), jobs::percent(cost.relative), cost.bytesWithout, cost.bytesWith,
                whatOf(name), verdict.empty() ? "" : ": " + verdict);
@@ -150,7 +150,7 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
                        cost.difference.halfWidth, cost.relative.value, cost.relative.halfWidth, cost.bytesWithout,
                        cost.bytesWith, verdict);
   }
-  if (pieces.left() > 0) fmt::print("{} features missing: run again with --resume\n", pieces.left());
+  if (pieces.left() > 0) fmt::print("{} features missing; repeat the command with --resume\n", pieces.left());
   support::writeTextFile(pieces.folder() / "features.csv", csv, "--out");
   jobs::writeStudyOrigin(pieces.folder(), "features", begin.seconds(), recipeOf(c));
   output::drawPicture("study_features.py", {pieces.folder() / "features.csv"}, pieces.folder() / "features.png");

@@ -60,7 +60,7 @@ BedTimes timesOf(const FeaturesCommand& c, bool ranks, const std::filesystem::pa
   const support::CallOutcome outcome = support::callProgram(words, environment);
   if (ranks && !outcome.started)
     throw base::InputError(fmt::format(
-        "study features: ranks: {}; install openmpi-bin, or select other features with --features", outcome.output));
+        "study features: ranks: {}; install openmpi-bin, or omit this feature from --features", outcome.output));
   std::ifstream in(file);
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   if (outcome.status != 0 || !json.is_object())

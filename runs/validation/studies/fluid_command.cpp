@@ -89,7 +89,7 @@ void studyFluidCommand(const FluidCommand& command) {
     for (std::size_t q = 0; q < cases[i].quantities.size(); ++q) beyond += verdictOf(result, q).starts_with("beyond");
     results.push_back(std::move(result));
   }
-  progress.finish(fmt::format("{} cases, {} errors beyond the tolerance", cases.size(), beyond));
+  progress.finish(fmt::format("{} cases, {} errors above the tolerance", cases.size(), beyond));
   support::writeTextFile(folder / "fluid.csv", fluidCsv(results), "--out");
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   jobs::writeStudyOrigin(folder, "fluid", seconds,

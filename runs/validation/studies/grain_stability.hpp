@@ -16,12 +16,12 @@ namespace grouser::studies {
 /// a sphere's own weight is 1e-3 radii at any stiffness.
 struct RestingGrains {
   std::string name;  ///< "contact", "column", "bed", "bed with friction"
-  std::string title; ///< in tables
+  std::string title; ///< title in tables
   double friction = 0;
   bool box = false;          ///< four walls
-  double halfWidth = 0;      ///< of the box [m]
+  double halfWidth = 0;      ///< half width of the box [m]
   bool vertical = false;     ///< disturbed along z only (a column would fall over)
-  terrain::GrainState state; ///< at rest
+  terrain::GrainState state; ///< state at rest
   ContactNetwork network;
   double frequency = 0;  ///< highest natural frequency [sqrt(k / m)]
   double gershgorin = 0; ///< its Gershgorin bound [sqrt(k / m)]
@@ -41,8 +41,8 @@ struct GrainStabilityCell {
   double ofLimit = 0;   ///< timeStep / predicted limit [-]
   bool calm = false;    ///< within calmLimit()
   bool stable = false;  ///< observed
-  double growth = 0;    ///< maximum kinetic energy / that of the disturbance [-]; of stopped runs until the stop
-  bool stopped = false; ///< by a guard
+  double growth = 0;    ///< maximum kinetic energy / that of the disturbance [-]; stopped runs: until the stop
+  bool stopped = false; ///< stopped by a guard
   bool predicted() const { return ofLimit < 1; }
   bool agrees() const { return stable == predicted(); }
 };

@@ -68,9 +68,9 @@ std::string grainStabilityTable(const GrainStabilityMap& map) {
     text += fmt::format("  {:>6g} {:>16.4f} {:>16.4f} {:>16.4f} {:>13.4f} ({:.2f})\n", zeta, found.highestStable,
                         found.lowestUnstable, limit, calm, calm / limit);
   }
-  text += fmt::format("  steps in 1 / sqrt(k/m); in brackets: step / predicted limit\n"
-                      "  as predicted: {} cells; at 0.95 of the limit {}, at 1.05 {}\n"
-                      "  bound of calm: excludes {} stable cells, includes {} unstable cells; guards stopped {} runs\n",
+  text += fmt::format("  steps in 1 / sqrt(k/m); in brackets: step / predicted limit\n  as predicted: {} cells; at "
+                      "0.95 of the limit {}, at 1.05 {}\n  conservative bound: excludes {} stable cells, includes {} "
+                      "unstable cells; guards stopped {} runs\n",
                       counted(map, [](const GrainStabilityCell&) { return true; }),
                       counted(map, [](const GrainStabilityCell& c) { return at(c, 0.95); }),
                       counted(map, [](const GrainStabilityCell& c) { return at(c, 1.05); }), beyondStable,

@@ -67,11 +67,10 @@ void studyImpactCommand(const ImpactCommand& command) {
   const bool quick = command.place.quick;
   const std::vector<double> steps = stepCounts(quick);
   const std::vector<ImpactCase> cases = impactCases(quick);
-  fmt::print(
-      "          radius 5 mm, 2600 kg/m3; linear 1e5 N/m, Hertz E_eff 1 GPa; 1 m/s; one thread; steps per undamped "
-      "contact; {} phases of first contact, {} of separation\n          CPU time: {} simultaneous collisions, "
-      "median of {}\n",
-      command.phases.touching, command.phases.leaving, command.collisions, command.repeats);
+  fmt::print("          radius 5 mm, 2600 kg/m3; linear 1e5 N/m, Hertz E_eff 1 GPa; 1 m/s; one thread; steps per "
+             "undamped contact; {} phases of first contact, {} phases of separation\n          CPU time: {} "
+             "simultaneous collisions, median of {}\n",
+             command.phases.touching, command.phases.leaving, command.collisions, command.repeats);
   support::Progress progress("studying");
   std::vector<ImpactSeries> all;
   for (std::size_t i = 0; i < cases.size(); ++i) {

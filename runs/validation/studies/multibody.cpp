@@ -26,7 +26,7 @@ namespace {
 
 constexpr double kThreshold = 1e-3; ///< y_thr of the error's definition
 constexpr double kShortRun = 0.2;   ///< CPU time below which a run is repeated [s]
-constexpr int kRepeats = 3;         ///< of a short run; the minimum time counts
+constexpr int kRepeats = 3;         ///< repeats of a short run; the minimum time counts
 constexpr double kHopeless = 1e3;   ///< error above which a run counts as failed [-]
 
 double cpuSeconds() {

@@ -8,9 +8,9 @@
 namespace grouser::studies {
 
 void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick) {
-  app.add_flag("--quick", place.quick, quick);
-  support::addOut(app, place.folder, "folder for tables and plot; default: out/study_" + name);
-  app.add_flag("--force", place.force, "overwrite the contents of that folder");
+  app.add_flag("--quick", place.quick, "quick run: " + quick);
+  support::addOut(app, place.folder, "output folder for tables and plot; default: out/study_" + name);
+  app.add_flag("--force", place.force, "overwrite the contents of the output folder");
 }
 
 CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
@@ -23,12 +23,6 @@ void checkCaseNames(const std::vector<std::string>& names, const std::vector<std
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw base::InputError(fmt::format("--cases {}: unknown case; did you mean {}? (cases: {})", name,
                                          base::nearestWord(name, known), fmt::join(known, ", ")));
-}
-
-void addContact(CLI::App& app, std::string& contact, const std::string& help) {
-  app.add_option("--contact", contact, "contact method " + help)
-      ->check(CLI::IsMember({"penalty", "complementarity"}))
-      ->capture_default_str();
 }
 
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help) {

@@ -26,7 +26,7 @@ public:
       text = fmt::format("{}", quick);
     else
       text = fmt::format("{}", fmt::join(quick, ", "));
-    option->description(option->get_description() + "; with --quick " + text);
+    option->description(option->get_description() + "; " + text + " with --quick");
     values_.push_back([option, &value, quick] {
       if (option->count() == 0) value = quick;
     });
@@ -39,7 +39,7 @@ private:
   std::vector<std::function<void()>> values_;
 };
 
-/// --quick, --out and --force; `quick`: help of --quick; `name`: of the study.
+/// --quick, --out and --force; `quick`: settings of --quick for its help; `name`: of the study.
 void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick);
 /// A number in [low, high].
 CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
@@ -56,8 +56,6 @@ template <class Case> std::vector<Case> chosenCases(std::vector<Case> all, const
   });
   return all;
 }
-/// --contact: value of run.contact.
-void addContact(CLI::App& app, std::string& contact, const std::string& help);
 /// --seeds
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help);
 /// Runs the study with `command` as the callback of `app`.

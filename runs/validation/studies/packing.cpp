@@ -144,7 +144,7 @@ void studyPackingCommand(const PackingCommand& command) {
       "  friction 0.58 to 0.62; loosest packings about 0.55, and 4 contacts for infinite friction\n",
       table);
   if (restless > 0)
-    fmt::print("  {} of {} samples not at rest after {} s (negative time of rest in the file)\n", restless, done,
+    fmt::print("  {} of {} samples not at rest after {} s (negative time of rest in the table)\n", restless, done,
                kPatience);
   support::writeTextFile(folder / "packing.csv", csv, "--out");
   jobs::writeStudyOrigin(folder, "packing", std::chrono::duration<double>(Clock::now() - begin).count(),

@@ -48,9 +48,9 @@ private:
   void checkWidth() const {
     const double least = kNarrowest * largest_;
     if (bin_ < least)
-      fail(names_.bin, test_.bin / wider_, "breadths",
-           fmt::format("the boundaries are {:g} d apart, but the largest grains need {:.3g} d; use at least "
-                       "{:.3g}, or a larger {} than {:g} d",
+      fail(names_.bin, test_.bin / wider_, "plate widths",
+           fmt::format("the boundaries are {:g} d apart, but the largest grains need {:.3g} d; use at least {:.3g}, or "
+                       "increase {} from {:g} d",
                        bin_, least, least / test_.breadth / wider_, names_.breadth, test_.breadth));
     const bool isStrip = test_.shape == virtual_tests::PlateShape::strip;
     if (isStrip && test_.thickness < least)
@@ -60,21 +60,20 @@ private:
 
   void checkFineDepth() const {
     if (test_.coarsening > 0 && test_.fineDepth >= test_.depth)
-      fail("--fine-depth", test_.fineDepth, "breadths",
-           fmt::format("no part of the bed would be coarser; use less than its depth, {} = {:g} breadths", names_.depth,
-                       test_.depth));
+      fail("--fine-depth", test_.fineDepth, "plate widths",
+           fmt::format("no part of the bed would be coarser; use less than the bed depth, {} = {:g} plate widths",
+                       names_.depth, test_.depth));
   }
 
   /// Porosity is measured away from floor and surface.
   void checkDepth() const {
     const double least = 1 + virtual_tests::PlateTest::kOffEnds * (1 + coarsest_);
     if (!test_.lattice && height_ < least)
-      fail(names_.depth, test_.depth / deeper_, "breadths",
-           fmt::format(
-               "the bed is {:g} d deep, too thin to measure its porosity {:g} grains away from floor and surface; "
-               "use at least {:.3g}, or a larger {} than {:g} d",
-               height_, virtual_tests::PlateTest::kOffEnds, least / test_.breadth / deeper_, names_.breadth,
-               test_.breadth));
+      fail(names_.depth, test_.depth / deeper_, "plate widths",
+           fmt::format("the bed is {:g} d deep, too thin to measure its porosity {:g} grains away from floor and "
+                       "surface; use at least {:.3g}, or increase {} from {:g} d",
+                       height_, virtual_tests::PlateTest::kOffEnds, least / test_.breadth / deeper_, names_.breadth,
+                       test_.breadth));
   }
 
   /// The plate must stay above the floor.
@@ -83,8 +82,8 @@ private:
     if (test_.sinkage <= most) return;
     const std::string remedy =
         test_.lattice ? fmt::format("a smaller {} than {:g} d", names_.breadth, test_.breadth)
-                      : fmt::format("a deeper bed than {} = {:g} breadths", names_.depth, test_.depth / deeper_);
-    fail("--sinkage", test_.sinkage, "breadths",
+                      : fmt::format("a bed deeper than {} = {:g} plate widths", names_.depth, test_.depth / deeper_);
+    fail("--sinkage", test_.sinkage, "plate widths",
          fmt::format("the plate would reach the floor or come within a grain of it; use at most {:.3g}, or {}", most,
                      remedy));
   }

@@ -104,10 +104,8 @@ std::vector<PlateCase> plateCases(const PlatesCommand& c) {
   for (const std::string& name : c.cases) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const PlateCase& p) { return p.name == name; });
     if (found == all.end())
-      throw base::InputError(
-          fmt::format("--cases: unknown case {}; cases are base, rough, deep, wide, old, circular, fine, "
-                      "graded",
-                      name));
+      throw base::InputError(fmt::format(
+          "--cases: unknown case {}; choose from base, rough, deep, wide, old, circular, fine, graded", name));
     chosen.push_back(*found);
   }
   return chosen;
@@ -145,7 +143,7 @@ void studyPlatesCommand(const PlatesCommand& command) {
   fmt::print("{}", bearingTable(command, soil, all, slices, bearing));
   fmt::print("{}", costTable(all, costs));
   if (pieces.left() > 0)
-    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing; repeat the command with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "plates.csv", pressures, "--out");
   support::writeTextFile(pieces.folder() / "differences.csv", differences, "--out");
   support::writeTextFile(pieces.folder() / "bearing.csv", bearing, "--out");

@@ -121,7 +121,7 @@ void studyPreparationCommand(const PreparationCommand& c) {
   }
   fmt::print("  friction: during settling only; afterwards the grains have their own\n");
   if (pieces.left() > 0)
-    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing; repeat the command with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "preparation.csv", csv, "--out");
   nlohmann::ordered_json more = recipeOf(c);
   more["seeds"] = c.seeds;

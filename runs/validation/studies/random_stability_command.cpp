@@ -51,13 +51,13 @@ std::vector<std::string> formerLines(const fs::path& file, std::int64_t seed) {
   std::string line;
   if (!in || !std::getline(in, line)) return lines;
   if (line != kColumns)
-    throw base::InputError(file.string() + ": was written by another version; run without --resume");
+    throw base::InputError(file.string() + ": was written by another version; repeat the command without --resume");
   while (std::getline(in, line)) {
     const std::vector<std::string> row = cells(line);
     if (row.size() < 2 || row[1] != std::to_string(seed))
-      throw base::InputError(
-          fmt::format("{}: contains scenes of seed {}; use --seed with this value, or run without --resume",
-                      file.string(), row.size() < 2 ? "?" : row[1]));
+      throw base::InputError(fmt::format(
+          "{}: contains scenes of seed {}; set --seed to this value, or repeat the command without --resume",
+          file.string(), row.size() < 2 ? "?" : row[1]));
     lines.push_back(line);
   }
   return lines;

@@ -28,10 +28,10 @@ struct RandomVehicle {
 
 /// Vehicle `number` of `seed`, derived from one of the ready files: up to two shoes fewer or four more with the idler
 /// adjusted, a road wheel more or fewer, half to twice the mass of hull and shoes, centre of mass moved, a tenth to ten
-/// times the tension, arms three times as soft or as stiff or rigid, other damping, stiffness, friction and tread. On
-/// rigid ground with slopes up to 0.3, one track on a bump in a fifth of cases, or on a bed of three layers; a quarter
-/// of cases has 0 to 3 g. Drives: straight, turn, pivot, reversal, torque, up to 10 rad/s of the light vehicle. Time
-/// step: automatic in half of cases, else up to 1.1 of the longest step of the program.
+/// times the tension, arms three times as soft or as stiff or rigid, other damping, stiffness, friction and tread. The
+/// ground is rigid with slopes up to 0.3, with one track on a bump in 20 % of cases, or a bed of three layers. Gravity
+/// is 0 to 3 g in 25 % of cases. Drives: straight, turn, pivot, reversal, torque, up to 10 rad/s of the light vehicle.
+/// Time step: automatic in half of the cases, else up to 1.1 times the longest step of the program.
 /// Throws base::InputError if the installation lacks the vehicle file.
 RandomVehicle randomVehicle(std::uint64_t seed, int number);
 

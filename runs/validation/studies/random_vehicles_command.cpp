@@ -82,7 +82,7 @@ void studyRandomVehicles(const RandomVehicles& c) {
   }
   fmt::print("{}\n", told);
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v) fmt::print("  {:<16}{:>5}\n", kVerdictWords[v], counts[v]);
-  if (pieces.left() > 0) fmt::print("{} vehicles missing: run again with --resume\n", pieces.left());
+  if (pieces.left() > 0) fmt::print("{} vehicles missing; repeat the command with --resume\n", pieces.left());
   nlohmann::ordered_json verdicts;
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v) verdicts[kVerdictWords[v]] = counts[v];
   support::replaceTextFile(pieces.folder() / "random_vehicles.csv", csv);
@@ -95,7 +95,7 @@ void studyRandomVehicles(const RandomVehicles& c) {
                     counts[static_cast<std::size_t>(MapVerdict::silentlyWrong)];
   if (wrong > 0)
     throw base::SimulationError(
-        fmt::format("{} vehicles are silently wrong, or stopped for a wrong cause (listed above)", wrong));
+        fmt::format("{} vehicles are silently wrong or stopped with a wrong cause (listed above)", wrong));
 }
 
 } // namespace grouser::studies

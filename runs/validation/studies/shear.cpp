@@ -58,13 +58,13 @@ std::string shearScene(const virtual_tests::SampleGrains& material, const ShearB
   const double largest = material.radius * (1 + box.spread), cell = kLatticeSpacing * largest;
   const double loose = depth * kSampleSolid * cell * cell * cell / (base::kPi / 6 * d * d * d);
   const double top = loose - 0.5 * depth + d;
-  std::string text =
-      fmt::format("version = 1\n[run]\nduration = {:.17g}\nseed = {}\ncontact = \"{}\"\nperiodic = [false, "
-                  "true]\ndomain_y = [0, {:.17g}]\n{}"
-                  "[[grains]]\nform = \"lattice\"\nlow = [{:.17g}, 0, {:.17g}]\nhigh = [{:.17g}, {:.17g}, {:.17g}]\n"
-                  "radius = {:.17g}\nradius_to = {:.17g}\nspacing = {}\njitter = 1.0\nmaterial = \"grain\"\n",
-                  kRest + box.travel * l / box.speed, seed, box.contact, w, material.toml("grain"), -0.5 * l,
-                  -0.5 * depth, 0.5 * l, w, top - d, material.radius * (1 - box.spread), largest, kLatticeSpacing);
+  std::string text = fmt::format(
+      "version = 1\n[run]\nduration = {:.17g}\nseed = {}\ncontact = \"{}\"\nperiodic = [false, "
+      "true]\ndomain_y = [0, {:.17g}]\n{}"
+      "[[grains]]\nform = \"lattice\"\nlow = [{:.17g}, 0, {:.17g}]\nhigh = [{:.17g}, {:.17g}, {:.17g}]\n"
+      "radius = {:.17g}\nradius_to = {:.17g}\nspacing = {}\njitter = 1.0\nmaterial = \"grain\"\n",
+      kRest + box.travel * l / box.speed, seed, base::wordOf(box.contact), w, material.toml("grain"), -0.5 * l,
+      -0.5 * depth, 0.5 * l, w, top - d, material.radius * (1 - box.spread), largest, kLatticeSpacing);
   const auto put = [&](Side side, double x, double z, double sizeX, double sizeZ, const std::string& more) {
     text += fmt::format("[[box]]\nname = \"{}\"\nmaterial = \"grain\"\nposition = [{:.17g}, {:.17g}, {:.17g}]\n"
                         "size = [{:.17g}, {:.17g}, {:.17g}]\n{}",
@@ -141,7 +141,7 @@ void studyShearCommand(const ShearCommand& command) {
       "long, {} d between\n          periodic boundaries, {} d deep; sheared at {} m/s over {} of its length; {} "
       "contacts; {} seeds, +- standard error; one thread\n",
       100 * box.spread, material.friction, material.rollingFriction, box.length, box.width, box.depth, box.speed,
-      box.travel, box.contact, seeds);
+      box.travel, base::wordOf(box.contact), seeds);
   support::Progress progress("shearing");
   std::string csv = "stress [Pa],seed,displacement [m],shear force [N],normal force [N],lid [m]\n";
   std::string table = fmt::format("\n  {:>10} {:>18} {:>18} {:>22} {:>20}\n", "load [Pa]", "peak T/N", "residual T/N",
@@ -196,7 +196,7 @@ void studyShearCommand(const ShearCommand& command) {
                           {"seeds", seeds},
                           {"length_in_diameters", box.length},
                           {"speed_m_s", box.speed},
-                          {"contact", box.contact},
+                          {"contact", base::wordOf(box.contact)},
                           {"threads", 1}});
   output::drawPicture("study_shear.py", {folder / "shear.csv"}, folder / "shear.png");
   fmt::print("tables    {}\n", folder.string());

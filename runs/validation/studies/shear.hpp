@@ -2,9 +2,9 @@
 #pragma once
 
 #include "runs/jobs/study_place.hpp"
+#include "runs/scene/choices.hpp"
 #include "runs/virtual_tests/sample.hpp"
 
-#include <string>
 #include <vector>
 
 /// Direct shear box: friction angle of a bed of grains.
@@ -12,18 +12,18 @@ namespace grouser::studies {
 
 /// One row of a test.
 struct ShearRow {
-  double displacement = 0; ///< of the upper half [m]
+  double displacement = 0; ///< displacement of the upper half [m]
   double shear = 0;        ///< shear force on the upper half [N]
   double normal = 0;       ///< normal force between the halves [N]
   double lid = 0;          ///< height of the lid above the shear plane [m]
 };
 
 struct ShearBox {
-  double length = 16, width = 6, depth = 10; ///< [d] inside, between periodic boundaries, of the settled sample
-  double travel = 0.12;                      ///< [-] of the length
+  double length = 16, width = 6, depth = 10; ///< inside, between periodic boundaries, settled depth [grain diameters]
+  double travel = 0.12;                      ///< travel / length [-]
   double speed = 0.02;                       ///< [m/s]
-  double spread = 0.12;            ///< [-] radii uniform within +- this fraction of the mean, to prevent order
-  std::string contact = "penalty"; ///< value of run.contact
+  double spread = 0.12; ///< radii uniform within +- this fraction of the mean, to prevent order [-]
+  scene::ContactMethod contact = scene::ContactMethod::penalty;
 };
 
 /// Fills the box, loads the lid with `stress` [Pa], then shears.

@@ -177,7 +177,7 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
       "of the stress in the shear plane,\n  from contacts more than two grains away from the plates: the "
       "Mohr-Coulomb angle for bearing theories\n");
   if (pieces.left() > 0)
-    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing; repeat the command with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "shear_angle.csv", csv, "--out");
   support::writeTextFile(pieces.folder() / "angles.csv", angles, "--out");
   nlohmann::ordered_json more = recipeOf(s);

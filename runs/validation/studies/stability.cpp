@@ -217,10 +217,9 @@ std::vector<StabilityPoint> studyStability() {
 }
 
 std::string stabilityTable(const std::vector<StabilityPoint>& points) {
-  std::string text =
-      fmt::format("\nstability over {} steps: trial steps [s]; s stable, u unstable, r rejected with the limit; "
-                  "! contradicts the prediction\n  {:<16} {:<26} {:>10}  steps\n",
-                  kSteps, "", "", "limit [s]");
+  std::string text = fmt::format("\nstability over {} steps: trial steps [s]; s: stable, u: unstable, r: rejected, "
+                                 "reporting the limit; !: contradicts the prediction\n  {:<16} {:<26} {:>10}  steps\n",
+                                 kSteps, "", "", "limit [s]");
   std::string former;
   int wrong = 0;
   for (const StabilityPoint& p : points) {

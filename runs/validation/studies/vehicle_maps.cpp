@@ -26,7 +26,7 @@ constexpr double kDriveStart = 0.2; // [s]
 constexpr double kHardStart = 0.05; // [s]
 constexpr int kLinePoints = 25;     // points of a predicted line
 constexpr const char* kStepAxis = "step [s]";
-constexpr const char* kLongestLine = "longest step allowed by the program";
+constexpr const char* kLongestLine = "longest step accepted by grouser";
 
 struct Drive {
   double speed = 2;   ///< sprocket speed [rad/s]
@@ -345,7 +345,7 @@ VehicleMap vehicleMap(const std::string& name, bool quick, const fs::path& folde
   for (const auto& [known, make] : makers())
     if (known == name) return make(quick, folder);
   throw base::InputError(
-      fmt::format("--maps: unknown map \"{}\"; maps are {}", name, fmt::join(vehicleMapNames(), ", ")));
+      fmt::format("--maps: unknown map \"{}\"; choose from {}", name, fmt::join(vehicleMapNames(), ", ")));
 }
 
 } // namespace grouser::studies

@@ -23,15 +23,15 @@ struct PredictedLine {
 };
 
 struct StabilityAxis {
-  std::string label; ///< with its unit
+  std::string label; ///< axis label with unit
   bool logarithmic = true;
 };
 
 struct VehicleMap {
-  std::string name; ///< of --maps
+  std::string name; ///< name for --maps
   std::string title;
   StabilityAxis x, y;
-  bool onBed = false; ///< on grains: only means are compared
+  bool onBed = false; ///< bed of grains: only means are compared
   std::vector<MapPoint> points{};
   std::vector<PredictedLine> lines{};
 };

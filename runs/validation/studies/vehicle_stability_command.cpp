@@ -125,12 +125,12 @@ void studyVehicleStability(const VehicleStability& command, const jobs::StudyPla
   if (!pieces.whole()) return;
   const std::vector<JudgedPoint> points = judged(maps, pieces);
   if (points.empty()) {
-    fmt::print("no point finished yet: run again with --resume\n");
+    fmt::print("no point has finished yet; repeat the command with --resume\n");
     return;
   }
   fmt::print("{}{}{}", vehicleMapsTable(points), seedScatterTable(points), neighboursTable(points));
   if (pieces.left() > 0)
-    fmt::print("{} missing: run again with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
+    fmt::print("{} missing; repeat the command with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   nlohmann::ordered_json counts;
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v)
     counts[kVerdictWords[v]] = pointsOf(points, "", static_cast<MapVerdict>(v));
@@ -143,7 +143,7 @@ void studyVehicleStability(const VehicleStability& command, const jobs::StudyPla
   if (const int wrong = pointsOf(points, "", MapVerdict::silentlyWrong) + pointsOf(points, "", MapVerdict::wrongCause);
       wrong > 0)
     throw base::SimulationError(
-        fmt::format("{} points are silently wrong, or stopped for a wrong cause (listed above)", wrong));
+        fmt::format("{} points are silently wrong or stopped with a wrong cause (listed above)", wrong));
 }
 
 } // namespace grouser::studies

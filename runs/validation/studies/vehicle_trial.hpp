@@ -30,15 +30,15 @@ struct VehicleCase {
 
 /// Means over the window unless stated otherwise; until the stop for stopped runs.
 struct MapFigures {
-  double speed = NAN;            ///< of the hull along x [m/s]
-  double height = NAN;           ///< of the hull's centre of mass [m]
+  double speed = NAN;            ///< hull speed along x [m/s]
+  double height = NAN;           ///< height of the hull's centre of mass [m]
   double lowest = NAN;           ///< minimum of this height since the start [m]
-  double pitch = NAN;            ///< nose up [rad]
-  double power = NAN;            ///< of the drives [W]
+  double pitch = NAN;            ///< hull pitch, nose up [rad]
+  double power = NAN;            ///< power of the drives [W]
   double tension = NAN;          ///< track tension, over all steps [N]
-  double sinkage = NAN;          ///< of the shoes that carry load [m]
-  double dissipated = NAN;       ///< in the whole run [J]
-  double integrationError = NAN; ///< of the whole run [J]
+  double sinkage = NAN;          ///< sinkage of the loaded shoes [m]
+  double dissipated = NAN;       ///< energy dissipated in the whole run [J]
+  double integrationError = NAN; ///< integration error of the whole run [J]
   double turnover = NAN;         ///< absolute work of the whole run [J]
   double energyResidual = NAN;   ///< energy residual of the whole run / turnover [-]: rounding
   double speedMagnitude = NAN;   ///< mean of |speed| [m/s]
@@ -53,14 +53,14 @@ struct VehicleTrial {
   TrialEnd end = TrialEnd::sound;
   std::string cause;    ///< error message; empty for sound runs
   base::Cause blamed{}; ///< cause of the error
-  double reached = 0;   ///< [s]
+  double reached = 0;   ///< simulated time reached [s]
   double wallSeconds = 0;
   MapFigures figures;
 };
 
 /// Folders and caches of trials.
 struct TrialPlace {
-  std::filesystem::path folder; ///< for the vehicle file
+  std::filesystem::path folder; ///< folder of the vehicle file
   storage::BedCache* beds = nullptr;
   storage::SphereCache* spheres = nullptr;
   base::Exec exec = base::cpuExec(1);

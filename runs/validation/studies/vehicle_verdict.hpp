@@ -73,8 +73,8 @@ inline constexpr double kFisher95 = 6.388;
 /// and the run warns about impacts (vehicle::BlowMeter).
 Judgement judge(const std::vector<TrialPair>& pairs, bool onBed);
 
-/// One line per figure: mean and standard deviation at the neighbouring steps, the same at their quarters, difference
-/// of the means with its interval, allowed difference.
+/// One line per figure: mean and standard deviation at the neighbouring steps and at their quarters, difference between
+/// the means with its interval, allowed difference.
 std::string scatterTable(const std::vector<TrialPair>& pairs, bool onBed);
 
 } // namespace grouser::studies

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What users get wrong, as they would: a file is cut, a path is misspelt, a disk is full. Each ends with 2, or with 3
-// where a simulation failed, and one line that names cause and remedy, and leaves nothing half written.
-// Wrong keys and values inside a scene stand in scene_test.cpp.
+// Common input mistakes: a truncated file, a misspelt path, a full disk. Each ends with exit code 2, or with 3
+// if a simulation failed, and prints one line with cause and remedy, and leaves no incomplete output.
+// scene_test.cpp covers wrong keys and values inside a scene.
 #include "tests/runs/commands/mistake_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using namespace test; // fixtures
 
 namespace {
 
-/// Scene files as such.
+/// Damaged scene files.
 std::vector<Mistake> sceneFiles() {
   return {
       {"SceneMissing", nothing, "run nosuch.toml", {"nosuch.toml", "cannot be read", "check the path"}},
@@ -40,7 +40,7 @@ std::vector<Mistake> sceneFiles() {
                {"scene.toml:6: run.domain_y", "farther than 256 m from the origin"}),
       badScene("GrainOutsidePeriodicBoundaries", "time_step = 1e-5",
                "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [-0.05, 0.08]",
-               {"grain.1", "outside the periodic boundaries", "run.domain_x"}),
+               {"grain.1", "beyond the periodic boundaries", "run.domain_x"}),
       badScene("TileTooSmall", "layers = 1", "layers = 1\ntile = [0.1, 0.5]", {"tile", "own images", "at least"}, kBed),
       badScene("SceneEmpty", kGrains, "", {"scene.toml", "version"}),
       {"SceneIsBinary",
@@ -107,7 +107,7 @@ std::vector<Mistake> vehicles() {
   };
 }
 
-/// Grains and surfaces where they cannot be, or as they cannot be.
+/// Invalid grains and surfaces, or invalid positions of them.
 std::vector<Mistake> grainsAndSurfaces() {
   return {
       badScene("GrainOfNoSize", "position = [0, 0, 0.5]\nradius = 0.01", "position = [0, 0, 0]\nradius = 2e-320",
@@ -126,11 +126,11 @@ std::vector<Mistake> grainsAndSurfaces() {
                {"scene.toml:8", "box.0.size", "is outside"}),
       badScene("CylinderAlongNothing", "[[plane]]",
                "[[cylinder]]\nposition = [0, 0, 0]\naxis = [0, 0, 0]\nradius = 0.1\nlength = 1",
-               {"cylinder.0.axis", "is zero", "give the direction"}),
+               {"cylinder.0.axis", "has zero length", "set the direction"}),
       badScene("LidBothPushedAndMoved", "[[plane]]",
                "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nfree = \"z\"\nmass = 1\nload = -5\nvelocity = [0, "
                "0, 1]",
-               {"box.0.velocity", "the axis of free", "remove free"}),
+               {"box.0.velocity", "the free axis", "remove free"}),
       badScene("LidWithoutMass", "[[plane]]", "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nfree = \"z\"",
                {"box.0", "mass [kg] is missing", "add it"}),
       badScene("GrainOutsideTheDomain", "position = [0.1, 0, 0.5]", "position = [1e9, 0, 0.5]",
@@ -142,7 +142,7 @@ std::vector<Mistake> grainsAndSurfaces() {
   };
 }
 
-/// What is too quick, too much or too large for the step, the memory or the range of places.
+/// Values too large for the step, the memory or the position range.
 std::vector<Mistake> stepsAndSizes() {
   return {
       badScene("MoreBoundariesThanBits", "[[plane]]", manyPlanes(32) + "[[plane]]",
@@ -162,7 +162,7 @@ std::vector<Mistake> stepsAndSizes() {
           "PlaneAcrossPeriodicBoundaries", "time_step = 1e-5\n[material.glass]\n[[plane]]",
           "time_step = 1e-5\nperiodic = [true, false]\ndomain_x = [-1, 1]\n[material.glass]\n[[plane]]\nnormal = [1, "
           "0, 1]",
-          {"scene.toml:9: plane.0.normal", "inclined along x", "set that entry to 0"}),
+          {"scene.toml:9: plane.0.normal", "inclined along x", "set this entry to 0"}),
       badScene(
           "LawsThatDoNotMeet", "[material.glass]",
           "[material.stone]\nlaw = \"hertz\"\nyoung = 1e7\n[material.glass]\n[[plane]]\nmaterial = \"stone\"",
@@ -186,7 +186,7 @@ std::vector<Mistake> stepsAndSizes() {
       badScene("MoreGrainsThanIds", "[output]",
                "[[grains]]\nlow = [0, 0, 1]\nhigh = [100, 100, 100]\nradius = 0.01\nmaterial = \"glass\"\n[output]",
                {"scene.toml:19: grains.0.radius", "larger grains or a smaller box"}),
-      // Four thousand million at 1.5 kB: more than any one machine has.
+      // Four billion grains at 1.5 kB: more than the memory of any machine.
       badScene("MoreGrainsThanMemory", "[output]",
                manyPlanes(30) +
                    "[[grains]]\nlow = [0, 0, 1]\nhigh = [33, 33, 34]\nradius = 0.01\nmaterial = \"glass\"\n[output]",
@@ -203,11 +203,11 @@ std::vector<Mistake> stepsAndSizes() {
   };
 }
 
-/// Sources that set grains where something is.
+/// Sources at occupied places.
 std::vector<Mistake> sources() {
   return {
       badScene("SourceAfterTheEnd", "[output]", source("[0.4, 0, 0.3]", "start = 2e-3"),
-               {"scene.toml:23: source.0.start = 0.002 [s] is after the end of the run, run.duration = 0.001 s",
+               {"scene.toml:23: source.0.start = 0.002 [s] is after the end of the run (run.duration = 0.001 s)",
                 "raise run.duration"}),
       badScene("SourceInPlane", "[output]", source("[0.4, 0, -0.3]"),
                {"scene.toml:17: source.0.low", "overlaps plane 0", "move low and high"}),
@@ -235,7 +235,7 @@ std::vector<Mistake> sources() {
   };
 }
 
-/// Names that results bear.
+/// Names of results.
 std::vector<Mistake> names() {
   return {
       badScene("NameWithControlCharacter", "[[plane]]", "[[plane]]\nname = \"a\\u0001b\"",
@@ -262,7 +262,7 @@ std::vector<Mistake> meshes() {
   };
 }
 
-/// Where results go.
+/// Output folders.
 std::vector<Mistake> folders() {
   return {
       {"OutIsFile",
@@ -298,10 +298,10 @@ std::vector<Mistake> checkpoints() {
   return {
       badCheckpoint("CheckpointMissing", [](const fs::path& c) { fs::remove(c); }, {"checkpoint.h5", "no such file"}),
       badCheckpoint("CheckpointCut", [](const fs::path& c) { fs::resize_file(c, fs::file_size(c) / 2); },
-                    {"damaged", "start anew"}),
+                    {"damaged", "start a new run"}),
       badCheckpoint("CheckpointEmpty", [](const fs::path& c) { fs::resize_file(c, 0); }, {"not a checkpoint"}),
       badCheckpoint("CheckpointOfAnotherFormat", [](const fs::path& c) { put(c, picture()); }, {"not a checkpoint"}),
-      badCheckpoint("CheckpointOfAnotherScene", nothing, {"run.seed", "set it back"},
+      badCheckpoint("CheckpointOfAnotherScene", nothing, {"run.seed", "restore it"},
                     "run scene.toml --resume --out a --set run.seed=9"),
       badCheckpoint("CheckpointBeyondTheEnd", nothing, {"raise run.duration"},
                     "run scene.toml --resume --out a --steps 10"),
@@ -321,7 +321,7 @@ std::vector<Mistake> mistakes() {
 
 class BadInput : public ProgramTest, public testing::WithParamInterface<Mistake> {
 protected:
-  /// Every file below the working folder with its bytes.
+  /// Every file below the working folder with its contents.
   std::map<std::string, std::string> files() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder_))
@@ -341,7 +341,7 @@ TEST_P(BadInput, EndsWithOneLineAndTouchesNothing) {
   EXPECT_EQ(errors.rfind("grouser: error: ", 0), 0u) << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
   for (const std::string& part : m.says) EXPECT_NE(errors.find(part), std::string::npos) << part << "\n" << errors;
-  EXPECT_EQ(files() == before, true) << "something was written, changed or removed";
+  EXPECT_EQ(files() == before, true) << "a file was written, changed or removed";
 }
 
 INSTANTIATE_TEST_SUITE_P(Mistakes, BadInput, ::testing::ValuesIn(mistakes()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run says of its grains, and of a bed that is too small for its vehicle.
+// Messages of a run on its grains, and on a bed that is too small for its vehicle.
 #include "runs/commands/bed_text.hpp"
 #include "runs/commands/bed_warnings.hpp"
 #include "runs/commands/plan.hpp"
@@ -37,9 +37,9 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
     return notes.size() == 1 && notes.front().find(word) != std::string::npos;
   };
   EXPECT_TRUE(only([](TrackOnBed& t) { t.thickness = 0.44; }, "terrain.depth >= 0.45 m"));
-  TrackOnBed coarse = good; // asked for 0.45 m
+  TrackOnBed coarse = good; // 0.45 m requested
   coarse.meanDiameter = coarse.pressedDiameter = 0.08, coarse.thickness = 0.43;
-  EXPECT_EQ(bedNotes(coarse).size(), 1u) << "of its grains alone";
+  EXPECT_EQ(bedNotes(coarse).size(), 1u) << "only on its grains";
   EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "terrain.size >= 4.6 m"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.pressedDiameter = 0.015; }, "terrain.grain_radius <= 0.007 m"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.roughFloor = false; }, "terrain.floor_grains"));
@@ -63,7 +63,7 @@ TEST(BedNotes, ArePlannedBeforeTheBedIsLaid) {
   const std::string vehicle = "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\n";
   const std::vector<std::string> coarse = notes("grain_radius = 0.027\ndepth = 0.46\n" + vehicle);
   ASSERT_EQ(coarse.size(), 1u);
-  EXPECT_EQ(coarse.front().find("a pad is 5.2 mean grain diameters wide"), 0u) << coarse.front();
+  EXPECT_EQ(coarse.front().find("track pads are only 5.2 mean grain diameters wide"), 0u) << coarse.front();
   EXPECT_NE(planText(sceneOf("grain_radius = 0.027\ndepth = 0.46\n" + vehicle)).find("note: " + coarse.front()),
             std::string::npos);
   EXPECT_TRUE(notes("grain_radius = 0.007\ndepth = 0.46\n" + vehicle).empty());
@@ -78,9 +78,10 @@ TEST(BedNotes, CountTheGrainsAtTheSurfaceOfABedThatIsCoarserBelow) {
                            "[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nsphere_radius = 0.03\n";
   const coupling::Simulation simulation(setup::simulationSetup(setup::parseScene(text, "scene.toml")), base::cpuExec(2),
                                         [](double, double) {});
-  ASSERT_GT(simulation.ground().structure->meanDiameter, 0.085) << "of all";
+  ASSERT_GT(simulation.ground().structure->meanDiameter, 0.085) << "mean over all grains";
   bool told = false;
-  for (const std::string& note : bedNotes(simulation)) told |= note.find("a pad is 3.5 mean grain diameters wide") == 0;
+  for (const std::string& note : bedNotes(simulation))
+    told |= note.find("track pads are only 3.5 mean grain diameters wide") == 0;
   EXPECT_TRUE(told) << "0.28 m over 0.08 m";
 }
 
@@ -90,18 +91,18 @@ TEST(PorosityWarning, NamesLeaningGravityWhereTheBedHasMovedAfterItsPreparation)
   const std::string leaning = porosityWarning(0.40, bed, {5.627, 0, -8.036}),
                     level = porosityWarning(0.40, bed, {0, 0, -9.81});
   for (const char* part :
-       {"porosity of 0.427", "terrain.porosity = 0.4:", "vertical gravity", "tilted by 35.0 degrees"})
+       {"porosity of 0.427", "terrain.porosity = 0.4:", "vertical gravity", "tilted run.gravity (35.0 degrees)"})
     EXPECT_NE(leaning.find(part), std::string::npos) << leaning;
   EXPECT_NE(level.find("enlarge terrain.size or depth"), std::string::npos) << level;
   EXPECT_EQ(leanOf({0, 0, -9.81}), 0);
   EXPECT_EQ(leanOf({}), 0);
   bed.porosity = 0.409;
-  EXPECT_EQ(porosityWarning(0.40, bed, {5.627, 0, -8.036}), "") << "as near as beds come";
+  EXPECT_EQ(porosityWarning(0.40, bed, {5.627, 0, -8.036}), "") << "as close as beds get";
   bed.porosity = 0.427, bed.porosityError = 0.01;
-  EXPECT_EQ(porosityWarning(0.40, bed, {0, 0, -9.81}), "") << "measured in too few grains to say";
+  EXPECT_EQ(porosityWarning(0.40, bed, {0, 0, -9.81}), "") << "too few grains for a reliable measurement";
 }
 
-/// Kept with the other warnings of a bed, for the manifest and the report.
+/// Stored with the other warnings of a bed, for the manifest and the report.
 TEST(PorosityWarning, IsOneOfTheWarningsOfARunsBed) {
   const scene::Scene scene = setup::parseScene(
       "version = 1\n[run]\nduration = 0.01\ngravity = [5.627, 0, -8.036]\n[material.m]\nstiffness = 2e3\n"
@@ -123,9 +124,9 @@ TEST(Plan, SaysThatAPorosityIsPreparedStraightDown) {
                                           "material = \"soil\"\ngrain_radius = 0.03\ndepth = 0.25\nporosity = 0.4\n",
                                       "scene.toml"));
   };
-  const std::string note = "under vertical gravity; run.gravity is tilted by 35.0 degrees";
+  const std::string note = "under vertical gravity; the tilted run.gravity (35.0 degrees)";
   EXPECT_NE(plan("[5.627, 0, -8.036]").find(note), std::string::npos);
-  EXPECT_EQ(plan("[0, 0, -9.81]").find("is tilted by"), std::string::npos);
+  EXPECT_EQ(plan("[0, 0, -9.81]").find("gravity; the tilted"), std::string::npos);
 }
 
 TEST(BedWarnings, NameBedsThatAreNone) {
@@ -175,14 +176,14 @@ TEST(BedWarnings, TellOfAThinBedBeforeItIsLaid) {
   EXPECT_TRUE(warnings("0.2").empty());
   ASSERT_EQ(warnings("0.04").size(), 1u);
   EXPECT_NE(warnings("0.04").front().find("are fixed on its floor"), std::string::npos);
-  // On a smooth floor: 2.5 diameters apart, one layer covers an eighth of it.
+  // On a smooth floor: at 2.5 diameters apart, one layer covers an eighth of it.
   const auto sparse = [&](const std::string& layers) {
     return plannedBedWarnings(setup::parseScene(text.substr(0, text.find("depth")) + "layers = " + layers +
                                                     "\narrangement = \"lattice\"\nspacing = 5\nfloor_grains = false\n",
                                                 "scene.toml"));
   };
   ASSERT_EQ(sparse("1").size(), 1u);
-  EXPECT_NE(sparse("1").front().find("% of its floor, less than one layer"), std::string::npos);
+  EXPECT_NE(sparse("1").front().find("% of its floor (less than one layer)"), std::string::npos);
   EXPECT_TRUE(sparse("5").empty());
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Branches: runs with another driver or hitch that begin with the state of a run.
+// Branches: runs with another driver or hitch that start from the state of a run.
 #include "runs/commands/run_scene.hpp"
 
 #include "base/error.hpp"
@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-/// A coarse vehicle on rigid ground, which is down after 40 ms and drives from 50 ms on.
+/// A coarse vehicle on rigid ground, settled after 40 ms and driving from 50 ms.
 constexpr const char* kVehicle = R"(version = 1
 [run]
 duration = 0.12
@@ -89,7 +89,7 @@ protected:
   }
   fs::path checkpoint(const std::string& name) const { return folder_ / name / storage::kCheckpointName; }
 
-  /// Last of a series; `back` rows before the end.
+  /// Last value of a series; `back` rows before the end.
   double last(const std::string& name, const std::string& path, std::size_t back = 0) const {
     const auto all = series(name, path);
     return all.at(all.size() - 1 - back);
@@ -100,7 +100,7 @@ protected:
   }
   std::string manifest(const std::string& name) const { return contents(folder_ / name / "manifest.json"); }
 
-  /// The residual is rounding alone at all rows of a run.
+  /// The residual is at rounding level in all rows of a run.
   void expectBalanced(const std::string& name) const {
     const std::vector<double> residual = series(name, "ledger/residual"), turnover = series(name, "ledger/turnover");
     for (std::size_t i = 0; i < residual.size(); ++i)
@@ -115,19 +115,19 @@ const std::string kCourse = "[driver.course]\nspeed = 0.5\nacceleration = 5\nx =
 TEST_F(Branch, WithTheSameKeysEndsAsTheRunStraightThrough) {
   const std::string hash = run("straight", scene()).stateHash;
   const output::Summary rest = run("rest", scene(), true);
-  EXPECT_EQ(rest.steps, 500) << "the drive's first step is the next";
+  EXPECT_EQ(rest.steps, 500) << "the next step is the first of the drive";
   EXPECT_NE(manifest("rest").find("\"ended_by\": \"--until rest\""), std::string::npos);
-  EXPECT_NE(manifest("rest").find("\"status\": \"finished\""), std::string::npos) << "it was not to drive";
+  EXPECT_NE(manifest("rest").find("\"status\": \"finished\""), std::string::npos) << "no drive was requested";
   const std::string before = contents(checkpoint("rest"));
   EXPECT_EQ(branch("again", "rest", scene()).stateHash, hash);
-  EXPECT_EQ(contents(checkpoint("rest")), before) << "it stays as it was";
+  EXPECT_EQ(contents(checkpoint("rest")), before) << "the checkpoint is unchanged";
   EXPECT_NE(manifest("again").find(fmt::format("\"branched_from\": \"{}, step 500, state hash {}\"",
                                                checkpoint("rest").string(), rest.stateHash)),
             std::string::npos)
       << manifest("again");
   const Csv whole(folder_ / "straight/timeseries.csv"), part(folder_ / "again/timeseries.csv");
   ASSERT_EQ(whole.rows.size(), 13u);
-  EXPECT_EQ(part.rows, decltype(part.rows)(whole.rows.begin() + 6, whole.rows.end())) << "rows from the branch on";
+  EXPECT_EQ(part.rows, decltype(part.rows)(whole.rows.begin() + 6, whole.rows.end())) << "rows from the branch onwards";
 }
 
 TEST_F(Branch, AtRestIsTheRunThatHadTheseKeysFromTheStart) {
@@ -175,7 +175,7 @@ TEST_F(Branch, OfASteeredRunDrivesAsItsOwnSceneSays) {
   state.state.inputs = inputs.save();
   storage::writeCheckpoint(checkpoint("steered"), state);
   branch("alike", "steered", scene());
-  EXPECT_NEAR(last("alike", "vehicle/left/sprocket_speed"), 3, 1e-9) << "with the same keys it goes on as it was";
+  EXPECT_NEAR(last("alike", "vehicle/left/sprocket_speed"), 3, 1e-9) << "with the same keys it continues unchanged";
   branch("slow", "steered", scene("sprocket_speed = 1"));
   EXPECT_NEAR(last("slow", "vehicle/left/sprocket_speed"), 1, 1e-9);
   EXPECT_EQ(support::Hdf5File::open(folder_ / "slow/results.h5").numbers("/inputs/series").size(),
@@ -192,11 +192,11 @@ TEST_F(Branch, UnderWayPassesFromTheFormerSpeedIntoTheNewOne) {
   ASSERT_EQ(speed.size(), 30u);
   for (std::size_t ms = 1; ms <= 20; ++ms) {
     const double s = static_cast<double>(ms) / 20;
-    EXPECT_NEAR(speed[ms - 1], 2 - s * s * (3 - 2 * s), 0.01) << "a step behind"; // 1.5 / 20 ms * 0.1 ms
+    EXPECT_NEAR(speed[ms - 1], 2 - s * s * (3 - 2 * s), 0.01) << "one step behind"; // 1.5 / 20 ms * 0.1 ms
   }
   EXPECT_NEAR(speed.back(), 1, 1e-9);
   expectBalanced("slow");
-  // Stopped within the ramp it goes on, and knows where it has come from.
+  // A run stopped within the ramp resumes and keeps the ramp's initial speed.
   branch("stopped", "fast", slow(), 1000);
   EXPECT_EQ(resume("stopped", slow()).stateHash, branch("once", "fast", slow()).stateHash);
   EXPECT_NE(manifest("stopped").find("\"branched_from\": \"" + checkpoint("fast").string() + ", step 900"),
@@ -209,7 +209,7 @@ TEST_F(Branch, ACourseUnderWayTakesUpItsSpeedFromTheHulls) {
   const std::vector<double> speed = series("course", "vehicle/left/sprocket_speed");
   double before = last("fast", "vehicle/left/sprocket_speed");
   for (const double now : speed) {
-    EXPECT_LT(std::fabs(now - before), 0.5) << "no jump, as that to a course from standstill";
+    EXPECT_LT(std::fabs(now - before), 0.5) << "no jump, unlike a course from standstill";
     before = now;
   }
   expectBalanced("course");
@@ -219,7 +219,7 @@ TEST_F(Branch, AHitchAddedUnderWayTakesHoldThereAndKeepsTheBooks) {
   run("free", scene(), false, 700);
   branch("towing", "free", scene("sprocket_speed = 2", kForce));
   expectBalanced("towing");
-  EXPECT_LT(std::fabs(first("towing", "hitch/pull")), 0.8 * 10e3) << "comes on over its ramp";
+  EXPECT_LT(std::fabs(first("towing", "hitch/pull")), 0.8 * 10e3) << "it rises over its ramp";
   EXPECT_NEAR(last("towing", "hitch/pull"), 10e3, 1);
   EXPECT_LT(std::fabs(first("towing", "hitch/work")), std::fabs(last("towing", "hitch/work")));
 }
@@ -234,9 +234,9 @@ TEST_F(Branch, AHitchThatIsRemovedLeavesItsWorkInTheLedger) {
     expectBalanced(name);
     EXPECT_LT(std::fabs(last(name, "ledger/integration_error") - last("towing", "ledger/integration_error")),
               0.3 * std::fabs(work))
-        << "without that work it would be the whole of it";
+        << "without that work the residual would be as large";
   }
-  EXPECT_LT(std::fabs(last("carriage", "hitch/work")), 0.5 * std::fabs(work)) << "books of its own";
+  EXPECT_LT(std::fabs(last("carriage", "hitch/work")), 0.5 * std::fabs(work)) << "separate ledger";
 }
 
 TEST_F(Branch, KeysThatHaveShapedTheStateAreRefusedByName) {
@@ -251,7 +251,7 @@ TEST_F(Branch, KeysThatHaveShapedTheStateAreRefusedByName) {
       const std::string what = error.what();
       EXPECT_NE(what.find(name + " = "), std::string::npos) << what;
       EXPECT_NE(what.find(" was "), std::string::npos) << what;
-      EXPECT_NE(what.find("set it back"), std::string::npos) << what;
+      EXPECT_NE(what.find("restore it"), std::string::npos) << what;
     }
   }
   try {
@@ -293,17 +293,17 @@ TEST_F(Branch, OfTheProgramGoesToAFolderOfItsOwn) {
   const Outcome named =
       call("run v.toml --resume out/v/checkpoint.h5 --out named --set driver.sprocket_speed=1 --hash");
   EXPECT_EQ(named.hash(), slow.hash());
-  // Nothing is written over: neither the run that it branches from, even by force, nor a branch.
+  // No overwriting: neither of the parent run, even with --force, nor of a branch.
   for (const char* words :
        {"run v.toml --resume --out out/v --force --set driver.sprocket_speed=1",
         "run v.toml --resume out/v/checkpoint.h5 --out out/v --force --set driver.sprocket_speed=1"}) {
     const Outcome over = call(words);
     EXPECT_EQ(over.code, 2);
-    EXPECT_NE(over.error().find("out/v: holds the original run"), std::string::npos) << over.errors;
+    EXPECT_NE(over.error().find("out/v: contains the original run"), std::string::npos) << over.errors;
   }
   EXPECT_NE(call("run v.toml --resume --set driver.sprocket_speed=3").error().find("not empty"), std::string::npos);
   EXPECT_EQ(contents(folder_ / "out/v/timeseries.csv"), rows);
-  // Without other keys it goes on in place.
+  // Without other keys the run continues in place.
   const Outcome on = call("run v.toml --resume --hash");
   EXPECT_NE(on.out.find("resumed   at step 500"), std::string::npos) << on.out;
   EXPECT_EQ(contents(folder_ / "out/v/timeseries.csv").rfind(rows, 0), 0u) << "rows are kept";
@@ -314,7 +314,7 @@ TEST_F(Branch, UntilRestNeedsAVehicle) {
                              "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n");
   const Outcome none = call("run fall.toml --until rest");
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.error().find("--until rest waits for a vehicle"), std::string::npos) << none.errors;
+  EXPECT_NE(none.error().find("--until rest requires a vehicle"), std::string::npos) << none.errors;
   EXPECT_EQ(call("run fall.toml --until dawn").code, 2);
 }
 

@@ -7,7 +7,7 @@
 
 namespace grouser::test {
 
-/// Ten links of 1 kg, straight below a pin, with a weight at the end. `lean`: of gravity along x [m/s2].
+/// Ten links of 1 kg, straight below a pin, with a weight at the end. `lean`: gravity along x [m/s2].
 inline std::string chainScene(double weight, double lean = 0) {
   std::string text =
       fmt::format("version = 1\n[run]\nduration = 0.2\noutput_interval = 0.01\ngravity = [{}, 0, -9.81]\n", lean);
@@ -23,7 +23,7 @@ inline std::string chainScene(double weight, double lean = 0) {
   return text;
 }
 
-/// A winch on a rail that pulls the chain's weight; `pull`: its law.
+/// A winch on a rail that pulls the chain's weight; `pull`: its force law.
 inline std::string winch(const std::string& pull) {
   return R"([[body]]
 name = "block"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The program as a user calls it: exit codes, one clear line of error, nothing lost.
+// The program on the command line: exit codes, one clear error line, no lost results.
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
@@ -108,7 +108,7 @@ TEST_F(CommandLine, SpheresAreNotWrittenOverAFileUnlessForced) {
 }
 
 TEST_F(CommandLine, AnInternalErrorAsksToBeReported) {
-  // A script of the program's own that fails for no cause it knows.
+  // An internal script fails with an unexpected error.
   fs::create_directories(folder_ / "share/runs/report");
   std::ofstream(folder_ / "share/runs/report/report.py") << "raise SystemExit('a fault of the script')\n";
   fs::create_directory(folder_ / "results");
@@ -122,7 +122,7 @@ TEST_F(CommandLine, AnInternalErrorAsksToBeReported) {
 
 TEST_F(CommandLine, FullDiskIsSaidAndLeavesNoPart) {
   writeCube();
-  // Files of at most 512 bytes: the write fails in the middle, as on a full disk.
+  // Files of at most 512 bytes: the write fails halfway, as on a full disk.
   const Outcome o = call("spheres cube.obj --radius 0.01 --csv s.csv", "ulimit -f 1; ");
   EXPECT_EQ(o.code, 3);
   EXPECT_NE(o.errors.find("s.csv: could not be written completely; is the disk full?"), std::string::npos) << o.errors;
@@ -133,16 +133,16 @@ TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
   writeGrain();
   int begun = 0, complete = 0;
   for (const int blocks :
-       {0, 1, 4, 8, 16, 32, 64, 128, 192, 256, 320, 384, 448, 1024}) { // files of at most so many times 512 bytes
+       {0, 1, 4, 8, 16, 32, 64, 128, 192, 256, 320, 384, 448, 1024}) { // file size limit in units of 512 bytes
     const std::string folder = "full" + std::to_string(blocks);
     const Outcome o = call("run grain.toml --out " + folder, "ulimit -f " + std::to_string(blocks) + "; ");
     if (o.code == 0) {
       ++complete;
       continue;
     }
-    // Without a single block the place is refused before any work.
+    // Without a single block the folder is rejected before any work.
     EXPECT_EQ(o.code, blocks > 0 ? 3 : 2) << blocks << "\n" << o.errors;
-    if (blocks > 0) { // of the messages too
+    if (blocks > 0) { // messages, too
       EXPECT_EQ(o.errors.rfind("grouser: error: ", 0), 0u) << blocks << "\n" << o.errors;
       EXPECT_NE(o.errors.find("is the disk full"), std::string::npos) << blocks << "\n" << o.errors;
     }
@@ -151,7 +151,7 @@ TEST_F(CommandLine, FullDiskAtAnyTimeOfARunIsSaidOnceAndInTheManifest) {
     const std::string manifest = contents(folder_ / folder / "manifest.json");
     EXPECT_EQ(manifest.find("\"finished\""), std::string::npos) << blocks;
   }
-  EXPECT_GT(begun, 0) << "no limit struck in the middle of a run";
+  EXPECT_GT(begun, 0) << "no limit took effect during a run";
   EXPECT_GT(complete, 0);
 }
 
@@ -176,7 +176,7 @@ TEST_F(CommandLine, RunLeavesItsFilesAndPrintsTheHashLast) {
   EXPECT_NE(o.out.find(" step 100\n", last), std::string::npos) << o.out;
   const std::string manifest = contents(folder_ / "out/grain/manifest.json");
   EXPECT_NE(manifest.find("picture.png"), std::string::npos);
-  // Where Python and its packages are there, the plots are drawn and listed; where not, a warning says so.
+  // If Python and its packages are installed, the plots are drawn and listed; otherwise a warning appears.
   const bool isWarned = o.errors.find("WARNING: no plots") != std::string::npos;
   EXPECT_NE(manifest.find("ledger.png") != std::string::npos, isWarned) << o.errors;
 }
@@ -197,12 +197,12 @@ TEST_F(CommandLine, SmallScenesLeaveEveryGrainAsText) {
     rows.emplace_back();
     for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(std::stod(cell));
   }
-  ASSERT_EQ(rows.size(), 10u) << "steps 0, 30, 60, 90 and the last, 100";
+  ASSERT_EQ(rows.size(), 10u) << "steps 0, 30, 60, 90 and 100, the last";
   for (const auto& row : rows) ASSERT_EQ(row.size(), 13u);
   EXPECT_EQ(rows[9][0], 100);
   EXPECT_EQ(rows[9][2], 1);
-  EXPECT_NEAR(rows[9][3], 0.1 + 0.25e-3, 1e-9); // the quantum of positions: 1e-8 of a diameter
-  EXPECT_NEAR(rows[9][8], -9.81e-3, 1e-9);      // of a float at 0.01 m/s
+  EXPECT_NEAR(rows[9][3], 0.1 + 0.25e-3, 1e-9); // the position quantum: 1e-8 of a diameter
+  EXPECT_NEAR(rows[9][8], -9.81e-3, 1e-9);      // the resolution of a float at 0.01 m/s
   EXPECT_EQ(rows[9][12], 0.01);
 
   ASSERT_EQ(call("run two.toml --out cut --steps 70").code, 0);
@@ -212,7 +212,7 @@ TEST_F(CommandLine, SmallScenesLeaveEveryGrainAsText) {
   ASSERT_EQ(call("run two.toml --out none --set output.grains_csv=false").code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "none/grains.csv"));
   ASSERT_EQ(call("run two.toml --out many --set run.output_interval=1e-5 --set run.duration=6 --steps 2").code, 0);
-  EXPECT_FALSE(fs::exists(folder_ / "many/grains.csv")) << "1.2e6 lines unless asked for";
+  EXPECT_FALSE(fs::exists(folder_ / "many/grains.csv")) << "1.2e6 lines unless requested";
 }
 
 TEST_F(CommandLine, GrainsAsTextGoOnFromBetweenTwoRowsWhereTheFirstRowsHadNone) {
@@ -319,10 +319,10 @@ TEST_F(CommandLine, ClosedOrFullStandardStreamsHarmNoRun) {
     EXPECT_EQ(o.code, 0) << streams << o.errors;
     EXPECT_EQ(o.hash(), hash) << streams;
   }
-  // Where there is nobody to print to the results must not land in files of the run.
+  // With standard output closed, printed results must not end up in files of the run.
   const Outcome o = call("run grain.toml --hash --force --out closed >&-");
   EXPECT_EQ(o.code, 3) << o.errors;
-  EXPECT_NE(o.error().find("the standard output could not be written"), std::string::npos) << o.errors;
+  EXPECT_NE(o.error().find("cannot write to standard output"), std::string::npos) << o.errors;
   EXPECT_EQ(call("run grain.toml --resume --hash --out closed").hash(), hash);
 }
 

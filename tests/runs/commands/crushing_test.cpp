@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the user sees of squeezed and crushed grains, and of soil that meets the shoes alone; on several ranks the same.
+// Output on squeezed and crushed grains, and with soil_contact = "shoes"; identical on several ranks.
 #include "runs/support/hdf5_file.hpp"
 #include "tests/runs/ranks_fixture.hpp"
 #include "tests/system/guard_scenes.hpp"
@@ -50,7 +50,7 @@ TEST_F(SqueezedGrains, CrushedOnesAreTakenOutAlikeOnRanksAndInResumedRuns) {
   }
   const Outcome begun = OnRanks::run(1, words + "two --steps 2203");
   ASSERT_EQ(begun.code, 0) << begun.errors;
-  EXPECT_NE(lines(begun, "crushed"), "") << "some before the stop: " << begun.out;
+  EXPECT_NE(lines(begun, "crushed"), "") << "some grains before the stop: " << begun.out;
   const Outcome rest = OnRanks::run(2, words + "two --resume");
   EXPECT_EQ(rest.hash(), one.hash()) << rest.errors;
   EXPECT_EQ(lines(rest, "crush"), lines(one, "crush"));
@@ -62,7 +62,7 @@ TEST_F(SqueezedGrains, CrushedOnesAreTakenOutAlikeOnRanksAndInResumedRuns) {
   EXPECT_EQ(first.size(), 60u);
   EXPECT_LT(last.size(), 60u);
   EXPECT_TRUE(std::is_sorted(last.begin(), last.end()));
-  EXPECT_GT(last.back() + 1, static_cast<double>(last.size())) << "those that were taken out have left gaps";
+  EXPECT_GT(last.back() + 1, static_cast<double>(last.size())) << "removed grains leave gaps";
 }
 
 TEST_F(SqueezedGrains, AreCountedInTheSeriesAndNamedInTheSummary) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A device that fails in the middle of a run: here a CPU whose memory is used up for a moment, as fail_allocation.cpp
-// has it. The message says when, and where to go on.
+// A device failure during a run: here a CPU that briefly runs out of memory, caused by fail_allocation.cpp.
+// The message contains the time and the command to resume.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Grains that slide down: their lists are made again and again. No checkpoint is asked for.
+/// Grains that slide down with frequent rebuilds. No checkpoint is requested.
 constexpr const char* kScene = R"(version = 1
 [run]
 duration = 0.1
@@ -46,10 +46,10 @@ protected:
   void SetUp() override {
     ProgramTest::SetUp();
     library_ = programUnderTest().parent_path() / "fail_allocation.so";
-    if (!fs::exists(library_)) GTEST_SKIP() << "not built: sanitizers have an allocator of their own";
+    if (!fs::exists(library_)) GTEST_SKIP() << "not built: sanitizers have their own allocator";
     put(folder_ / "bed.toml", kScene);
   }
-  /// `fails`: the allocation that fails; 0: none.
+  /// `fails`: number of the failing allocation; 0: none.
   Outcome run(const std::string& words, long fails) const {
     return call("run bed.toml --device cpu --threads 1 --hash " + words,
                 fmt::format("FAIL_ALLOCATION={} LD_PRELOAD='{}' ", fails, library_.string()));
@@ -63,7 +63,7 @@ TEST_F(DeviceFailure, LeavesTheLastGoodStateToGoOnFrom) {
   ASSERT_EQ(free.code, 0) << free.errors;
   std::smatch all;
   ASSERT_TRUE(std::regex_search(free.errors, all, std::regex("allocations ([0-9]+)"))) << free.errors;
-  // Near the end of a run whose lists are made anew many times.
+  // Near the end of a run with many rebuilds.
   const Outcome o = run("--out out", std::stol(all[1]) * 4 / 5);
   ASSERT_EQ(o.code, 4) << o.errors;
   std::smatch said;
@@ -73,7 +73,7 @@ TEST_F(DeviceFailure, LeavesTheLastGoodStateToGoOnFrom) {
       std::regex("step ([0-9]+), time 0\\.0[0-9]* s: out of host memory.* \\(last checkpoint: out/checkpoint\\.h5, "
                  "step ([0-9]+)\\)")))
       << o.errors;
-  EXPECT_GT(std::stol(said[2]), 100) << "not the first state";
+  EXPECT_GT(std::stol(said[2]), 100) << "not the initial state";
   EXPECT_LE(std::stol(said[2]), std::stol(said[1]));
   const std::string manifest = contents(folder_ / "out" / "manifest.json");
   EXPECT_NE(manifest.find("\"status\": \"failed\""), std::string::npos) << manifest;

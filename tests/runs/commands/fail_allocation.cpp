@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Loaded before the program (LD_PRELOAD): aligned_alloc, with which the arrays of a CPU are made, finds no memory once,
-// at the call of the number in FAIL_ALLOCATION. How many there were is told at the end.
+// Loaded before the program (LD_PRELOAD): aligned_alloc, which allocates the arrays on a CPU, fails once,
+// at the call number FAIL_ALLOCATION. Prints the number of calls at the end.
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run leaves that the physics has stopped: enough to see why.
+// Output of a run that ended with a simulation error: enough to find the cause.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Grains in three loose layers, so soft that those which fall farthest press into the floor by more than is allowed.
+/// Grains in three loose layers, so soft that the highest ones overlap the floor by more than max_overlap.
 constexpr const char* kBed = R"(version = 1
 [run]
 duration = 0.05
@@ -35,7 +35,7 @@ floor_grains = false
 wall_friction = 0.5
 )";
 
-/// A ball that falls 0.1 m and does the same, after 0.14 s.
+/// A ball that falls 0.1 m and also overlaps too far, after 0.14 s.
 constexpr const char* kBall = R"(version = 1
 [run]
 duration = 1
@@ -57,7 +57,7 @@ class FailedRun : public ProgramTest {
 protected:
   std::string manifest() const { return contents(folder_ / "o/manifest.json"); }
   bool has(const char* name) const { return fs::exists(folder_ / "o" / name) && fs::file_size(folder_ / "o" / name); }
-  /// The manifest says why, in the words that the user has read, and names what there is.
+  /// The manifest contains the reason, in the words of the message, and lists the output files.
   void expectExplained(const Outcome& o, std::initializer_list<const char*> files) {
     EXPECT_EQ(o.code, 3) << o.errors;
     ASSERT_NE(o.error(), "") << o.errors;
@@ -94,9 +94,9 @@ TEST_F(FailedRun, FaultOfARunLeavesLastFrameAndTheStateBeforeIt) {
   expectExplained(o, {"frames.h5", "frames.xdmf", "picture.png", "checkpoint.h5", "results.h5"});
   EXPECT_NE(manifest().find("\"cause\": \"pressed grain\""), std::string::npos) << manifest();
   EXPECT_NE(o.errors.find("(last checkpoint: o/checkpoint.h5, step "), std::string::npos) << o.errors;
-  // Eight frames up to 0.14 s, and the one in which it is too deep.
+  // Eight frames up to 0.14 s, and the one in which the overlap is too deep.
   EXPECT_NE(contents(folder_ / "o/frames.xdmf").find("/000008/grains/position"), std::string::npos);
-  // The state before the fault is sound: it goes on to the same fault, and beyond it where more is allowed.
+  // The state before the fault is valid: a resumed run fails alike, and continues if max_overlap is larger.
   const auto messageOf = [](const Outcome& outcome) {
     const std::size_t at = outcome.errors.find("step ");
     return outcome.errors.substr(at, outcome.errors.find("(last") - at);
@@ -112,7 +112,7 @@ TEST_F(FailedRun, FaultOfARunLeavesLastFrameAndTheStateBeforeIt) {
 }
 
 TEST_F(FailedRun, RowsSoFarAreDrawn) {
-  if (shell("/usr/bin/python3 -c 'import h5py, matplotlib'").code != 0) GTEST_SKIP() << "no packages for plots";
+  if (shell("/usr/bin/python3 -c 'import h5py, matplotlib'").code != 0) GTEST_SKIP() << "no Python packages for plots";
   put(folder_ / "ball.toml", kBall);
   expectExplained(call("run ball.toml --out o --threads 1"), {"ledger.png"});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the documents say of scenes is what the program says and takes.
+// The documents agree with the program's keys and scenes.
 #include "runs/commands/fields.hpp"
 #include "tests/runs/program_fixture.hpp"
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path kDocuments = fs::path(GROUSER_SOURCE_DIR) / "docs";
 
-/// The indented blocks of a document that begin with `version = 1`, without the indent.
+/// The indented blocks of a document that begin with `version = 1`, without indentation.
 std::vector<std::string> scenesIn(const fs::path& document) {
   std::istringstream lines(contents(document));
   std::vector<std::string> scenes;
@@ -38,12 +38,12 @@ using Documents = ProgramTest;
 
 TEST_F(Documents, KeysAreThoseOfTheProgram) {
   EXPECT_EQ(contents(kDocuments / "keys.md"), keysDocument())
-      << "build/bin/grouser fields --markdown > docs/keys.md makes it anew";
+      << "update it: build/bin/grouser fields --markdown > docs/keys.md";
 }
 
 TEST_F(Documents, FilesOfResultsAreThoseOfTheProgram) {
   EXPECT_EQ(contents(kDocuments / "files.md"), filesDocument())
-      << "build/bin/grouser fields --files > docs/files.md makes it anew";
+      << "update it: build/bin/grouser fields --files > docs/files.md";
   EXPECT_EQ(call("fields --files").out, filesDocument());
   EXPECT_EQ(call("fields --files --soil").code, 2);
 }
@@ -69,7 +69,7 @@ TEST_F(Documents, EveryRowOfTheKeysHasFiveCells) {
 
 TEST_F(Documents, ScenesCanBePlanned) {
   const std::vector<std::string> scenes = scenesIn(kDocuments / "scenes.md");
-  ASSERT_EQ(scenes.size(), 2u) << "one of grains, one of a vehicle";
+  ASSERT_EQ(scenes.size(), 2u) << "one with grains, one with a vehicle";
   for (const std::string& scene : scenes) {
     put(folder_ / "scene.toml", scene);
     const Outcome o = call("plan scene.toml --no-probe");

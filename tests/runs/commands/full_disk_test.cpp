@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A disk that is full, or a limit to the size of files, at any time of a run: one message, a manifest that says so, and
-// a checkpoint to go on from.
+// A full disk, or a limit on file sizes, at any time of a run: one message, a manifest with the cause, and
+// a checkpoint to resume from.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ protected:
     return call("run bed.toml --threads 1 " + words, before);
   }
 
-  /// The run that met the limit: what it says, and that nothing that was good before is lost. Returns the file that
+  /// The run that met the limit: prints one message and keeps all earlier good files. Returns the file that
   /// could not be written.
   std::string expectFailedSoundly(const Outcome& o, const std::string& out, const std::string& more,
                                   const std::string& hash) {
@@ -79,7 +79,7 @@ protected:
 
 TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
   std::set<std::string> met;
-  // What grows fastest meets the limit first: leaving that away, another does. Many grains have a large checkpoint.
+  // The fastest-growing file meets the limit first; without it, another does. Many grains have a large checkpoint.
   const std::string csv = " --set output.grains_csv=false",
                     frames = csv + " --set output.frames=false --set output.picture_width=2400",
                     picture = frames + " --set output.picture=false", many = picture + " --set 'terrain.size=[3, 3]'";
@@ -123,7 +123,7 @@ TEST_F(FullDisk, AFolderThatIsGoneOrClosedIsSaidToBe) {
   const Outcome gone = shell(begin + "mv out moved; wait $pid");
   EXPECT_EQ(gone.code, 3) << gone.errors;
   EXPECT_NE(gone.error().find("its folder is gone"), std::string::npos) << gone.errors;
-  if (geteuid() == 0) return; // may write anywhere
+  if (geteuid() == 0) return; // root may write anywhere
   const Outcome closed = shell(begin + "chmod u-w out; wait $pid");
   EXPECT_EQ(closed.code, 3) << closed.errors;
   EXPECT_NE(closed.error().find("no write permission"), std::string::npos) << closed.errors;
@@ -132,9 +132,9 @@ TEST_F(FullDisk, AFolderThatIsGoneOrClosedIsSaidToBe) {
 TEST_F(FullDisk, SmallDiskLosesNothing) {
   const std::string disk = folder_.string() + "/disk";
   fs::create_directory(disk);
-  // A name space of its own: what is mounted is gone with the process.
+  // A separate mount namespace: the mount ends with the process.
   if (shell("unshare -m -r mount -t tmpfs -o size=1m none " + disk).code != 0)
-    GTEST_SKIP() << "this machine does not let us mount a small disk";
+    GTEST_SKIP() << "mounting a small disk is not permitted on this machine";
   const std::string more = " --set output.picture=false --set output.grains_csv=false";
   const Outcome free = run("--hash --out free" + more);
   ASSERT_EQ(free.code, 0) << free.errors;
@@ -146,8 +146,9 @@ TEST_F(FullDisk, SmallDiskLosesNothing) {
                             "\"$grouser\" run bed.toml --threads 1 --out disk/run" +
                             more + "; code=$?; test -d disk/run && cp -r disk/run $out; exit $code'");
     if (o.code == 0) continue;
-    if (o.code == 2) { // what surely does not fit is not begun
-      EXPECT_NE(o.error().find("does not fit this machine: its results take"), std::string::npos) << o.errors;
+    if (o.code == 2) { // a run that cannot fit does not start
+      EXPECT_NE(o.error().find("exceeds the resources of this machine: its results require"), std::string::npos)
+          << o.errors;
       EXPECT_FALSE(fs::exists(folder_ / out));
       continue;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The guard's verdict is that of one rank: what it lets pass, when it stops, and which cause it names.
+// The guard's verdict is the same as on one rank: accepted runs, time of the stop, and cause.
 #include "tests/runs/ranks_fixture.hpp"
 #include "tests/system/guard_scenes.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 class GuardOnRanks : public OnRanks {
 protected:
-  /// What the program says of a scene in which it stops, but for where it left a checkpoint.
+  /// Message of the program when it stops, without the place of the checkpoint.
   std::string verdict(int ranks, const std::string& scene) const {
     put(folder_ / "scene.toml", scene);
     const Outcome o = OnRanks::run(ranks, "run scene.toml --out out --force --threads 1 --set output.plots=false --set "

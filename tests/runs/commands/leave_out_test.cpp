@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a scene does not have is not allocated, not built and not run; and `grouser plan` says so beforehand.
+// Absent features of a scene are not allocated, built or run; `grouser plan` lists them in advance.
 #include "coupling/simulation.hpp"
 #include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
@@ -12,7 +12,7 @@
 namespace grouser::coupling {
 namespace {
 
-/// A layer of grains on a rough floor, and a plane far away.
+/// A layer of grains on a rough floor, and a distant plane.
 scene::Scene bed(const std::vector<std::string>& overrides = {}) {
   return setup::parseScene("version = 1\n[run]\nduration = 0.1\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e5\n"
                            "friction = 0.5\n[terrain]\nheightmap = \"heightmaps/hills.png\"\nsize = [0.6, 0.6]\n"
@@ -41,7 +41,7 @@ std::unique_ptr<Simulation> made(const scene::Scene& scene, int steps = 3) {
   return s;
 }
 
-/// The line of the plan that speaks of `what`.
+/// The line of the plan that contains `what`.
 std::string planLine(const scene::Scene& scene, const std::string& what) {
   const std::string text = commands::planText(scene);
   const std::size_t at = text.find(what);
@@ -61,7 +61,7 @@ TEST(LeaveOut, FrictionlessSceneHasNoHistory) {
   EXPECT_TRUE(b.system().neighbours.toHost().history.empty());
   EXPECT_TRUE(b.state().contactShear.empty());
   EXPECT_TRUE(b.state().wallShear.empty());
-  // Three floats for each place of the list, and for each wall.
+  // Three floats for each slot of the list, and for each wall.
   const std::size_t places = a.system().neighbours.toHost().slot.size();
   EXPECT_GE(a.system().deviceBytes(), b.system().deviceBytes() + 12 * places);
   EXPECT_TRUE(isOn(rough, "friction history"));
@@ -123,7 +123,7 @@ TEST(LeaveOut, PlannedMemoryIsWhatIsTaken) {
     const double taken = static_cast<double>(grains.system().deviceBytes()) / static_cast<double>(grains.count());
     const std::string line = planLine(scene, "memory for grains");
     const double planned = std::stod(line.substr(line.find("MiB, ") + 5));
-    // A settled bed is counted on; a thin one has fewer neighbours.
+    // A settled bed is assumed; a thin one has fewer neighbours.
     EXPECT_NEAR(planned, taken, 0.15 * taken) << friction;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The manual and the completion say what --help says.
+// Manual and shell completion agree with --help.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>

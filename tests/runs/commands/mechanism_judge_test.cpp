@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mechanism whose motion becomes too quick for its step ends with the true cause, at a step that depends on the
-// motion alone.
+// A mechanism that becomes too fast for its step ends with the true cause, at a step that depends on the
+// motion only.
 #include "tests/runs/commands/chain_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
@@ -50,7 +50,7 @@ value = 10
 
 TEST_F(MechanismJudge, RotorThatIsSpunUpEndsTheRunWhereATurnHasTooFewSteps) {
   write("rotor.toml", kRotor);
-  // 1e-4 rad a step more in each step: 2 pi / 20 = 0.31416 is passed in step 3142, looked at in 3150.
+  // Each step adds 1e-4 rad per step: 2 pi / 20 = 0.31416 is exceeded in step 3142, and checked in step 3150.
   const std::string expected = "step 3150, time 3.15 s: body \"rotor\" rotates by 0.315 rad a step (spun up from 0 rad "
                                "a step at the start), more than 0.3142 rad (run.steps_per_period = 20 steps a turn)";
   for (const char* interval : {"0.1", "0.013", "3.9"}) {
@@ -83,11 +83,11 @@ TEST_F(MechanismJudge, PullThatStaysAboveWhatTheStepBearsEndsTheRunEvenWhereNoth
 }
 
 TEST_F(MechanismJudge, PullThatPassesSoonIsNoError) {
-  // 5e-4 s bear some 2.3e5 N; a peak of 2.6e5 N is above that for three steps.
+  // 5e-4 s are stable up to some 2.3e5 N; a peak of 2.6e5 N exceeds that for three steps.
   write("pulse.toml", chainScene(1) + winch("time = [0, 0.05, 0.06, 0.07]\nvalues = [0, 0, -2.6e5, 0]"));
   const Outcome o = call("run pulse.toml --out r --set run.time_step=5e-4" + kBare);
   EXPECT_EQ(o.code, 0) << o.errors;
-  // The same pull for good.
+  // The same force permanently.
   write("pull.toml", chainScene(1) + winch("time = [0, 0.05, 0.06, 0.07]\nvalues = [0, 0, -2.6e5, -2.6e5]"));
   const Outcome stays = call("run pull.toml --out s --set run.time_step=5e-4" + kBare);
   EXPECT_EQ(stays.code, 3) << stays.errors;
@@ -106,7 +106,7 @@ TEST_F(MechanismJudge, PlanAndRunNameTheSpringThatAsksForMillionsOfSteps) {
   EXPECT_NE(run.errors.find(note), std::string::npos) << run.errors;
 }
 
-/// A door that is blown against a damped stop.
+/// A door driven by wind against a damped stop.
 std::string doorUnder(const std::string& tolerance) {
   return std::string("run ") + GROUSER_SOURCE_DIR + "/runs/mechanisms/door.toml --set run.time_step=auto --set " +
          "run.tolerance=" + tolerance +
@@ -117,7 +117,7 @@ std::string doorUnder(const std::string& tolerance) {
 TEST_F(MechanismJudge, StepsThatFollowAnErrorAreTheSameResumedAndAreCounted) {
   const Outcome straight = call(doorUnder("1e-5") + " --out straight --set run.duration=2");
   ASSERT_EQ(straight.code, 0) << straight.errors;
-  // Rows, hash and counts of the end: a stop between two rows, at 1.15 s.
+  // Rows, hash and counts at the end: a stop between two rows, at 1.15 s.
   ASSERT_EQ(call(doorUnder("1e-5") + " --out parts --set run.duration=1.15").code, 0);
   const Outcome resumed = call(doorUnder("1e-5") + " --out parts --set run.duration=2 --resume");
   ASSERT_EQ(resumed.code, 0) << resumed.errors;

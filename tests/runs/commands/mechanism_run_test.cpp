@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A mechanism as a user runs it: results, hash, resume, plan, sweep.
+// A mechanism on the command line: results, hash, resume, plan, sweep.
 #include "base/math.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "tests/runs/commands/chain_fixture.hpp"
@@ -47,8 +47,8 @@ TEST_F(MechanismRun, WritesPosesReactionsDrivesAndLedger) {
   // The crank turns at 50 rad/s, so the motor's power is 50 times its torque.
   const std::vector<double> torque = series("r", "drives/motor/torque"), power = series("r", "drives/motor/power");
   for (std::size_t i = 1; i < torque.size(); ++i)
-    EXPECT_NEAR(power[i], 50 * torque[i], 1e-9 * std::fabs(power[i]) + 1e-12); // the rate is met to round-off
-  // Closed form of the piston; second order at 1e-4 s, where a step turns the crank by 5 mrad, of 0.1 m: 1e-6 m.
+    EXPECT_NEAR(power[i], 50 * torque[i], 1e-9 * std::fabs(power[i]) + 1e-12); // the rate is exact to round-off
+  // Closed form of the piston; second order at 1e-4 s, where a step turns the crank (0.1 m) by 5 mrad: 1e-6 m.
   const std::vector<double> place = series("r", "bodies/piston/position");
   const double t = 0.1, s = std::sin(50 * t);
   EXPECT_NEAR(place[place.size() - 3], 0.1 * std::cos(50 * t) + std::sqrt(0.09 - 0.01 * s * s), 1e-6);
@@ -69,7 +69,7 @@ TEST_F(MechanismRun, ForcesBeforeTheFirstStepAreMissingNotZero) {
 }
 
 TEST_F(MechanismRun, ResumedRunHasTheBitsOfOneStraightThrough) {
-  // A checkpoint between two rows: 0.0125 s, rows each 0.005 s.
+  // A checkpoint between two rows: 0.0125 s, rows every 0.005 s.
   const std::string scene = kMechanisms + "slider_crank.toml" + kNoPictures +
                             " --set run.checkpoint_interval=0 --set run.output_interval=0.005 --hash";
   const Outcome straight = call("run " + scene + " --out straight --set run.duration=0.05");
@@ -101,8 +101,8 @@ TEST_F(MechanismRun, PlanNamesFreedomsAndRedundantRows) {
 }
 
 TEST_F(MechanismRun, AutomaticStepIsAHundredthOfASwing) {
-  // sqrt(200 / 0.5) = 20 rad/s: a period of 0.314 s allows 3 ms, but no step is above 1 ms; with 1e4 times the
-  // stiffness it is 31.4 us, and 0.01 s of a row is 319 of that, rounded up.
+  // sqrt(200 / 0.5) = 20 rad/s: a period of 0.314 s allows 3 ms, but steps are at most 1 ms; with 1e4 times the
+  // stiffness the limit is 31.4 us, and a row of 0.01 s has 319 such steps, rounded up.
   const std::string scene = "plan " + kMechanisms + "spring_torsion.toml --set run.time_step=auto";
   EXPECT_NE(call(scene).out.find("time step                0.001 s"), std::string::npos) << call(scene).out;
   const Outcome stiff = call(scene + " --set spring.0.stiffness=2e6");
@@ -112,8 +112,8 @@ TEST_F(MechanismRun, AutomaticStepIsAHundredthOfASwing) {
 constexpr double kLean = 9.81e-3; ///< a thousandth of gravity
 
 TEST_F(MechanismRun, AutomaticStepBearsWhatHangsOnTheJoints) {
-  // 2 / omega of the fastest swing in closed form, as `study multibody --stability` has it; a twentieth of the swing is
-  // pi / 10 of that, of which rows of 0.01 s take a whole share. Light chains are left with 1 ms.
+  // 2 / omega of the fastest mode in closed form, as in `study multibody --stability`; a twentieth of the period is
+  // pi / 10 of that, reduced to an integer fraction of rows of 0.01 s. Light chains keep 1 ms.
   for (const auto& [weight, stable] : {std::pair{1.0, 0.02801}, {1e2, 0.00744}, {1e4, 7.627e-4}, {1e6, 7.629e-5}}) {
     std::ofstream(folder_ / "chain.toml") << chainScene(weight, kLean);
     const Outcome o = call("run chain.toml --force --out r --set run.integrator=symplectic_euler" + kNoPictures);
@@ -135,7 +135,7 @@ TEST_F(MechanismRun, StepThatTautJointsCannotBearIsNamedWithTheLongestThatTheyCa
 }
 
 TEST_F(MechanismRun, PullThatGrowsSlowlyBeyondWhatAStepBearsIsNamedToo) {
-  // A winch on a rail pulls the chain's end by 1e6 N/s. A run is at its end a few swings after the step's limit.
+  // A winch on a rail pulls the chain's end at 1e6 N/s. A run ends a few periods after the step limit.
   std::ofstream(folder_ / "winch.toml") << chainScene(1, kLean) << winch("polynomial = [0, -1e6]");
   for (const auto& [step, limit] : {std::pair{"5e-4", 0.0005}, {"2.5e-4", 0.00025}}) {
     const Outcome o = call(
@@ -143,19 +143,18 @@ TEST_F(MechanismRun, PullThatGrowsSlowlyBeyondWhatAStepBearsIsNamedToo) {
     EXPECT_EQ(o.code, 3) << step;
     std::smatch named;
     ASSERT_TRUE(std::regex_search(o.errors, named, std::regex("limits stable steps to ([0-9.e-]+) s"))) << o.errors;
-    // The pull is looked at when it has grown by a twentieth, and the root of that goes into the step; two digits. A
-    // peak of the links' own swing may be the first to pass the limit.
+    // The pull is checked after each growth by a twentieth, and the step depends on its root; two digits. A
+    // peak of the links' own oscillation may exceed the limit first.
     EXPECT_LE(std::stod(named[1]), limit * 1.01) << step;
     EXPECT_GE(std::stod(named[1]), limit * 0.8) << step;
   }
 }
 
 TEST_F(MechanismRun, StepAboveWhatTautJointsBearAtTheStartIsWarnedOf) {
-  // Straight and at rest, the chain would hang still at any step: until the first push.
+  // Straight and at rest, the chain would hang still at any step until the first disturbance.
   std::ofstream(folder_ / "chain.toml") << chainScene(1e6, kLean);
   const std::string still = " chain.toml --set run.gravity=[0,0,-9.81] --set run.time_step=",
-                    warning = "at the start the load on joint 'pin 5' limits stable steps to "
-                              "7.6e-05 s";
+                    warning = "the initial load on joint 'pin 5' limits stable steps to 7.6e-05 s";
   const Outcome plan = call("plan" + still + "2e-4"),
                 run = call("run" + still + "2e-4 --steps 10 --out r" + kNoPictures);
   EXPECT_EQ(plan.code, 0) << plan.errors;

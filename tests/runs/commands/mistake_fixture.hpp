@@ -13,14 +13,14 @@
 #include <string>
 #include <vector>
 
-/// Mistakes of users, and how to make them: scenes that are right but for one line.
+/// Common input mistakes as scenes that are valid except for one line.
 namespace grouser::test {
 
 namespace fs = std::filesystem;
 
 inline fs::path asset(const std::string& name) { return fs::path(sourceFolder()) / "assets" / name; }
 
-/// A picture of the project with bytes changed: 16 to 19 width, 20 to 23 height, 24 bits, 25 colour type, 28 interlace.
+/// A project picture with modified bytes: 16 to 19 width, 20 to 23 height, 24 bits, 25 colour type, 28 interlace.
 inline std::string picture(std::size_t at = 0, const std::string& bytes = "") {
   std::string png = contents(asset("heightmaps/flat.png"));
   return png.replace(at, bytes.size(), bytes);
@@ -82,11 +82,11 @@ chassis = "fixed"
 
 struct Mistake {
   std::string name;
-  std::function<void(const fs::path& folder)> make; ///< puts scene.toml and what belongs to it there
+  std::function<void(const fs::path& folder)> make; ///< writes scene.toml and its files to the folder
   std::string words = "run scene.toml";
-  std::vector<std::string> says; ///< parts of the message: cause and remedy
+  std::vector<std::string> says; ///< required parts of the message: cause and remedy
   int code = 2;
-  std::string before{}; ///< for the shell
+  std::string before{}; ///< shell commands before the call
 };
 
 inline std::ostream& operator<<(std::ostream& out, const Mistake& m) { return out << m.name; }
@@ -110,7 +110,7 @@ inline Mistake badScene(const std::string& name, const std::string& from, const 
           "run scene.toml", says, code};
 }
 
-/// A run stopped at step 40, whose checkpoint is then spoilt; `words` go on with it.
+/// A run stopped at step 40 whose checkpoint is then damaged; `words` resume it.
 inline Mistake badCheckpoint(const std::string& name, const std::function<void(const fs::path& checkpoint)>& spoil,
                              const std::vector<std::string>& says,
                              const std::string& words = "run scene.toml --resume --out a") {
@@ -123,7 +123,7 @@ inline Mistake badCheckpoint(const std::string& name, const std::function<void(c
           words, says};
 }
 
-/// A source at one place beside the glass grains, before [output].
+/// A source at a single position beside the glass grains, before [output].
 inline std::string source(const std::string& place, const std::string& more = "", const std::string& material = "glass",
                           const std::string& radius = "0.01") {
   return "[[source]]\nlow = " + place + "\nhigh = " + place + "\nradius = " + radius + "\nmaterial = \"" + material +

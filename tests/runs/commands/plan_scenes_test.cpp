@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What `grouser plan` says of a scene: what is on and off, which pairs of materials meet, what may go wrong.
+// Output of `grouser plan` for a scene: active features, material pairs, warnings.
 #include "runs/commands/plan.hpp"
 
 #include "coupling/simulation.hpp"

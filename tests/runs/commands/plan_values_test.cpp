@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers that `grouser plan` promises, against the scene's own.
+// Numbers printed by `grouser plan` compared with those of the scene.
 #include "runs/commands/plan.hpp"
 
 #include "base/math.hpp"
@@ -17,7 +17,7 @@
 namespace grouser::commands {
 namespace {
 
-/// What stands behind `what` in its line: the last one, because active features come first.
+/// Text after `what` in its line: the last one, because active features come first.
 std::string after(const std::string& text, const std::string& what) {
   const std::size_t at = text.rfind("  " + what + " ");
   if (at == std::string::npos) return "no such line";
@@ -56,12 +56,12 @@ TEST(PlanValues, StableStepsOfAVehicleAreSorted) {
   EXPECT_NE(line.find(limit.what), std::string::npos) << line;
   EXPECT_NEAR(std::stod(line.substr(line.find_last_of(' ', line.size() - 3))), limit.step, 1e-2 * limit.step);
   for (const char* contact :
-       {"idler that turns on ", "road wheel of ", "roller of ", "joints, torsion bars, tensioner"})
+       {"idler in contact with ", "road wheel of ", "roller of ", "joints, torsion bars, tensioner"})
     EXPECT_NE(plan.find(contact, at), std::string::npos) << contact;
 }
 
 TEST(PlanValues, DepthOfTheBedIsToldByAnElasticLayerUnderTheTracks) {
-  // Of the light vehicle's file: five road wheels 0.4458 m apart, pads 0.28 m wide, tracks 1.9 m apart.
+  // The light vehicle: five road wheels 0.4458 m apart, pads 0.28 m wide, tracks 1.9 m apart.
   const std::vector<forecast::LoadedRectangle> two = {{0, 0.95, 0.8916, 0.14}, {0, -0.95, 0.8916, 0.14}};
   const std::string scene = std::string(GROUSER_SOURCE_DIR) + "/runs/scenes/soil_coarse.toml";
   const auto share = [](const std::vector<forecast::LoadedRectangle>& tracks, double depth) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What users of `mpirun` do wrong, and what their machines do to them: an end within a minute, with one message.
+// Mistakes with `mpirun` and failures of the machine: the run ends within a minute, with one message.
 #include "tests/runs/ranks_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A launcher that is still there after a minute has hung: its code is 124 then.
+/// A launcher that runs for a minute has hung: its code is then 124.
 constexpr const char* kLaunch = "timeout 60 mpirun -np 1 ";
 
 TEST_F(OnRanks, RanksStartedInDifferentFoldersAreRefusedAndLeaveNothing) {
@@ -23,7 +23,7 @@ TEST_F(OnRanks, RanksStartedInDifferentFoldersAreRefusedAndLeaveNothing) {
   const Outcome o = shell(kLaunch + std::string("-wdir \"$PWD/a\" \"$grouser\" run bed.toml --steps 10 --out o : "
                                                 "-np 1 -wdir \"$PWD/b\" \"$grouser\" run bed.toml --steps 10 --out o"));
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("rank 0: o: rank 1 does not see this folder of rank 0"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("rank 0: o: rank 1 cannot access this folder of rank 0"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "a/o"));
   EXPECT_FALSE(fs::exists(folder_ / "b/o"));
 }
@@ -66,7 +66,7 @@ TEST_F(OnRanks, SweepsAndStudiesAreRefused) {
                 study = run(2, "study impact --quick --out study");
   for (const Outcome* o : {&sweep, &study}) {
     EXPECT_EQ(o->code, 2);
-    EXPECT_NE(o->errors.find("does not support MPI (2 ranks): start it without mpirun"), std::string::npos)
+    EXPECT_NE(o->errors.find("does not support MPI (2 ranks); start it without mpirun"), std::string::npos)
         << o->errors;
   }
   EXPECT_FALSE(fs::exists(folder_ / "sweep"));
@@ -80,7 +80,7 @@ TEST_F(OnRanks, CutsThatMakeNoLatticeAreNamedWithTheirLine) {
   EXPECT_NE(o.errors.find("cut.toml:25: parallel.cuts_x = [0.3, 0.6] [m] makes 3 subdomains along x"),
             std::string::npos)
       << o.errors;
-  EXPECT_NE(run(1, "plan cut.toml --ranks 6").out.find("3 x 2 x 1"), std::string::npos) << "planned as it would run";
+  EXPECT_NE(run(1, "plan cut.toml --ranks 6").out.find("3 x 2 x 1"), std::string::npos) << "the plan matches the run";
   EXPECT_EQ(run(1, "plan cut.toml --ranks 4").code, 2);
 }
 
@@ -99,7 +99,7 @@ assert (y > 10).all() and (y < 1e6).all(), y
 TEST_F(OnRanks, MoreRanksThanALatticeHoldsSayHowMany) {
   const Outcome o = run(1, "plan bed.toml --ranks 67");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("67 ranks do not form a lattice with at most 64 subdomains along each axis"),
+  EXPECT_NE(o.errors.find("67 ranks cannot be arranged in a lattice with at most 64 subdomains along each axis"),
             std::string::npos)
       << o.errors;
 }
@@ -113,21 +113,21 @@ for i in $(seq 600); do [ -e o/checkpoint.h5 ] && break; sleep 0.05; done
 "$grouser" run bed.toml --out o --force --steps 1; echo "code $code $?"
 kill $first; wait $first)");
   EXPECT_NE(o.out.find("code 2 2\n"), std::string::npos) << o.out << o.errors;
-  EXPECT_NE(o.errors.find("o: another run is writing in this folder"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("o: another run is writing to this folder"), std::string::npos) << o.errors;
   EXPECT_EQ(run(1, "hash o/checkpoint.h5").code, 0);
   EXPECT_EQ(run(1, "run bed.toml --out nowhere --resume").code, 2);
-  EXPECT_FALSE(fs::exists(folder_ / "nowhere")) << "made by asking for its lock";
+  EXPECT_FALSE(fs::exists(folder_ / "nowhere")) << "the lock must not create the folder";
 }
 
 TEST_F(OnRanks, WithoutMemoryTheRunIsRefusedAndSaysWhatToDo) {
 #if defined(__SANITIZE_ADDRESS__)
-  GTEST_SKIP() << "the sanitizer needs all addresses";
+  GTEST_SKIP() << "the sanitizer reserves all addresses";
 #endif
-  // 1.3 million grains need 460 MB, and as much again while they are laid.
+  // 1.3 million grains need 460 MB, and as much again during initial placement.
   const Outcome o = shell("ulimit -v 500000; \"$grouser\" run bed.toml --out o --threads 1 --steps 1 "
                           "--set terrain.grain_radius=0.002 --set terrain.layers=24 --set 'run.time_step=\"auto\"'");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("does not fit this machine"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("exceeds the resources of this machine"), std::string::npos) << o.errors;
   EXPECT_NE(o.errors.find("use fewer or larger grains"), std::string::npos) << o.errors;
   EXPECT_FALSE(fs::exists(folder_ / "o"));
 }

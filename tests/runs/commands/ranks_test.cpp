@@ -48,7 +48,7 @@ TEST_F(OnRanks, PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRa
 }
 
 TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
-  // Settled once, by one rank; the vehicle is down on the bed, which sticks to it, from 0.07 s on.
+  // One rank settles the bed once; from 0.07 s the vehicle is down on the bed, which adheres to it.
   const auto drive = [this](int ranks, const std::string& words) {
     return shell("export GROUSER_CACHE=\"$PWD/beds\"; " +
                  (ranks > 1 ? "mpirun -np " + std::to_string(ranks) + " " : std::string()) + "\"$grouser\" run '" +
@@ -62,7 +62,7 @@ TEST_F(OnRanks, VehicleDrivesAcrossBordersWithTheBitsOfOneRank) {
   const std::string expected = one.hash();
   EXPECT_EQ(expected.substr(0, 11), "state-hash ");
   EXPECT_NE(one.out.find("spheres   5 meshes converted to spheres in "), std::string::npos) << one.out;
-  // Two ranks find no sets, share the cutting, and leave them to three.
+  // Two ranks find no sets, share the conversion, and leave the sets for three ranks.
   EXPECT_EQ(shell("rm beds/spheres-*.bin").code, 0);
   const Outcome two = drive(2, "--out two --set 'parallel.subdomains=[2,1,1]'");
   EXPECT_EQ(two.hash(), expected);
@@ -174,7 +174,7 @@ TEST_F(OnRanks, CheckpointOfTwoRanksResumesOnThreeAndOnOne) {
   fs::copy(folder_ / "stopped", folder_ / "again");
   EXPECT_EQ(run(3, "run bed.toml --hash --resume --out stopped").hash(), straight.hash());
   EXPECT_EQ(run(1, "run bed.toml --hash --resume --out again").hash(), straight.hash());
-  // What is in the files does not tell the number of ranks.
+  // File contents do not depend on the number of ranks.
   EXPECT_EQ(run(1, "hash stopped/checkpoint.h5").hash(), run(1, "hash straight/checkpoint.h5").hash());
   for (const char* file : {"timeseries.csv", "frames.xdmf"})
     EXPECT_EQ(contents(folder_ / "stopped" / file), contents(folder_ / "straight" / file)) << file;
@@ -196,7 +196,7 @@ assert list(a['vertices']) == list(b['vertices']) and len(a['vertices']) == 1
 }
 
 TEST_F(OnRanks, FramesOfAResumedRunAreAllThatTheStraightOneHasAndNoMore) {
-  // Grains enter between the frames: the last frame of the run that is stopped is of a number that no other frame has.
+  // Grains enter between the frames: the last frame of the stopped run has a unique number of grains.
   put(folder_ / "drip.toml", R"(version = 1
 [run]
 duration = 0.09
@@ -251,7 +251,7 @@ TEST_F(OnRanks, PlanForetellsLatticeAndGhosts) {
       std::regex_search(done.out, found, std::regex("subdomains ([0-9]+ x [0-9]+ x [0-9]+),.* ([0-9.]+) % ghosts")))
       << done.out;
   EXPECT_EQ(planned[1], found[1]);
-  // The plan spreads the grains evenly: a layer more or less within range of two cuts through 25 of them.
+  // The plan distributes grains evenly: plus or minus one layer near two cuts through 25 layers.
   EXPECT_NEAR(std::stod(planned[2]), std::stod(found[2]), 2 * 100.0 * 2 / 25);
 }
 
@@ -262,11 +262,11 @@ TEST_F(OnRanks, BenchOfAStepIsSharedAndWrittenOnce) {
   const std::size_t at = o.errors.find(title);
   ASSERT_NE(at, std::string::npos) << o.errors;
   EXPECT_EQ(o.errors.find(title, at + 1), std::string::npos) << o.errors;
-  EXPECT_NE(o.errors.find("\"ranks\": 2"), std::string::npos) << "each rank has made the whole scene:\n" << o.errors;
+  EXPECT_NE(o.errors.find("\"ranks\": 2"), std::string::npos) << "each rank created the whole scene:\n" << o.errors;
 }
 
 TEST_F(OnRanks, WaitingIsAShareOfTheDriveAlone) {
-  // One rank draws the picture while the other waits; that takes longer than these steps.
+  // One rank draws the picture while the other waits; drawing takes longer than these steps.
   const Outcome o =
       run(2, "run bed.toml --out o --verbose --steps 20 --set output.picture=true --set output.picture_width=4000");
   std::smatch waited;
@@ -289,7 +289,8 @@ TEST_F(OnRanks, AWrongSceneIsRefusedOnceWithCodeTwo) {
 TEST_F(OnRanks, AnImpossibleLatticeIsRefused) {
   const Outcome o = run(2, "run bed.toml --out wrong --set 'parallel.subdomains=[3,1,1]'");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("parallel.subdomains = [3, 1, 1] does not give 2 subdomains"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("parallel.subdomains = [3, 1, 1] does not result in 2 subdomains"), std::string::npos)
+      << o.errors;
 }
 
 TEST_F(OnRanks, RanksWithOtherScenesAreRefusedByName) {
@@ -315,7 +316,7 @@ TEST_F(OnRanks, RanksThatAreToldOtherCommandsAreRefusedByName) {
 }
 
 TEST_F(OnRanks, AKilledRankEndsAllAndLeavesTheLastCheckpointWhole) {
-  // A run far longer than the test: one rank is killed as soon as there is a checkpoint.
+  // A run far longer than the test: one rank is killed once a checkpoint exists.
   const Outcome o = shell(R"(
 mpirun -np 2 "$grouser" run bed.toml --out killed --set run.duration=1000 --set run.checkpoint_interval=0.02 &
 launcher=$!
@@ -325,9 +326,9 @@ wait $launcher)");
   EXPECT_NE(o.code, 0);
   EXPECT_LT(o.seconds, 60);
   EXPECT_EQ(run(1, "hash killed/checkpoint.h5").code, 0);
-  // It can be gone on with, on another number of ranks.
+  // The run can be resumed on another number of ranks.
   const Outcome on = run(3, "run bed.toml --resume --out killed --set run.duration=1e-3");
-  EXPECT_EQ(on.code, 2) << "the checkpoint is past this end, which only a checkpoint that was read can tell";
+  EXPECT_EQ(on.code, 2) << "the checkpoint is past this end: the program has read it";
   EXPECT_NE(on.errors.find("this run ends at step 10"), std::string::npos) << on.errors;
 }
 

@@ -30,7 +30,7 @@ std::string messageOf(const std::function<void()>& call) {
   return "nothing was thrown";
 }
 
-/// Six frames, 0.1 s apart, of a row of grains along x and a cube that moves 1 m a frame.
+/// Six frames, 0.1 s apart, of a row of grains along x and a cube moving 1 m per frame.
 class RenderFrames : public FolderTest {
 protected:
   static constexpr std::size_t kFrames = 6;
@@ -108,8 +108,7 @@ TEST_F(RenderFrames, DamagedFileIsNamedNotDrawn) {
   const fs::path other = folder_ / "other.h5";
   std::ofstream(other, std::ios::binary) << "no HDF5";
   EXPECT_NE(messageOf([&] { output::FramesReader again(other); }).find("is not an HDF5 file"), std::string::npos);
-  EXPECT_NE(messageOf([&] { output::FramesReader none(folder_ / "none.h5"); }).find("there is no such file"),
-            std::string::npos);
+  EXPECT_NE(messageOf([&] { output::FramesReader none(folder_ / "none.h5"); }).find("no such file"), std::string::npos);
 }
 
 TEST_F(RenderFrames, PicturesAreTheSameByOneProcessAndByThree) {
@@ -166,7 +165,7 @@ TEST_F(RenderFrames, WrongWordsAreNamedAndNothingIsWritten) {
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.size = "100x9999999"; }), "WIDTHxHEIGHT");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.range = {2, 1}; }), "lower end first");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.frame = {6}; }), "frames 0 to 5");
-  EXPECT_PRED2(says, message([](RenderCommand& c) { c.from = 7; }), "no frame between");
+  EXPECT_PRED2(says, message([](RenderCommand& c) { c.from = 7; }), "no frames between");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.borders = {"x=a"}; }), "is not a number");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.lookAt = "1,2"; }), "a point X,Y,Z");
   EXPECT_PRED2(says, message([](RenderCommand& c) { c.film = "film.gif"; }), ".mp4");
@@ -177,7 +176,7 @@ TEST_F(RenderFrames, CameraMovesWithTheVehicle) {
   const output::FramesReader reader(folder_ / "frames.h5");
   render::PaintOptions o;
   o.view.width = 96, o.view.height = 54, o.labels = false;
-  // Each frame's cube alone: grains far below stay out of the comparison.
+  // The cube of each frame: grains far below are excluded.
   const auto cubeColumns = [&](render::LookAt lookAt, std::size_t frame) {
     o.view.lookAt = lookAt, o.view.azimuth = -90, o.view.elevation = 0;
     const render::Image image = render::FramePainter(reader, o).paint(frame);
@@ -196,14 +195,14 @@ TEST_F(RenderFrames, CameraMovesWithTheVehicle) {
 
 TEST_F(RenderFrames, FilmHoldsAllPicturesOrIsNotThere) {
   RenderCommand c = command();
-  c.film = (folder_ / "film.mp4").string(), c.size = "97x55"; // odd sizes are filled up
+  c.film = (folder_ / "film.mp4").string(), c.size = "97x55"; // odd sizes are padded
   if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
     EXPECT_NE(messageOf([&] { renderCommand(c); }).find("install the package ffmpeg"), std::string::npos);
     EXPECT_FALSE(fs::exists(c.folder));
     return;
   }
   renderCommand(c);
-  EXPECT_EQ(contents(c.film).substr(4, 4), "ftyp"); // how MP4 files begin
+  EXPECT_EQ(contents(c.film).substr(4, 4), "ftyp"); // header of MP4 files
   EXPECT_FALSE(fs::exists(folder_ / ".film.part.mp4"));
   EXPECT_FALSE(fs::exists(folder_ / ".film.log"));
   std::ofstream(folder_ / "bad.png") << "no picture";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser run --resume`: the folder of a resumed run is that of one straight through.
+// `grouser run --resume`: the folder of a resumed run equals that of an uninterrupted one.
 #include "runs/commands/run_scene.hpp"
 #include "runs/setup/load_scene.hpp"
 
@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every file of a folder with what is in it.
+/// Every file of a folder with its contents.
 std::map<std::string, std::string> snapshot(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
@@ -95,10 +95,10 @@ protected:
     options.resume = resumed_ / storage::kCheckpointName;
     return runScene(scene, setup::provenanceOf(scene), options);
   }
-  /// Hash of the run straight through, in folder "straight".
+  /// Hash of the uninterrupted run, in folder "straight".
   std::string straight() { return run(folder_ / "straight", bed()).stateHash; }
 
-  /// All that the two runs left is the same: rows, frames, state.
+  /// All results of the two runs are equal: rows, frames, state.
   void expectSameFolders() {
     const fs::path whole = folder_ / "straight";
     EXPECT_EQ(contents(resumed_ / "timeseries.csv"), contents(whole / "timeseries.csv"));
@@ -126,7 +126,7 @@ protected:
     EXPECT_EQ(c.state.grains->books, d.state.grains->books);
   }
 
-  fs::path resumed_; ///< the folder of the run that is resumed
+  fs::path resumed_; ///< the folder of the resumed run
 };
 
 TEST_F(ResumedRun, BedStoppedBetweenRowsEndsAsIfItHadNotBeenStopped) {
@@ -141,7 +141,7 @@ TEST_F(ResumedRun, RowsAndFramesAfterTheCheckpointAreCut) {
   run(resumed_, bed(), 850);
   fs::copy(resumed_ / storage::kCheckpointName, folder_ / "earlier.h5");
   resume(bed(), 1710);
-  // As after a kill at step 1710 or later whose last checkpoint was of step 850.
+  // As after a kill at step 1710 or later with the last checkpoint at step 850.
   fs::rename(folder_ / "earlier.h5", resumed_ / storage::kCheckpointName);
   EXPECT_EQ(resume(bed()).stateHash, hash);
   expectSameFolders();
@@ -154,7 +154,7 @@ TEST_F(ResumedRun, LastRowAndFrameOfAShorterRunAreCut) {
       << "a row for its own end";
   EXPECT_EQ(resume(bed()).stateHash, hash);
   expectSameFolders();
-  EXPECT_EQ(resume(bed()).stateHash, hash) << "nothing left to do";
+  EXPECT_EQ(resume(bed()).stateHash, hash) << "nothing to do";
   expectSameFolders();
 }
 
@@ -162,7 +162,7 @@ TEST_F(ResumedRun, KilledRunGoesOnFromItsLastCheckpoint) {
   const std::string hash = straight();
   const pid_t child = fork();
   if (child == 0) {
-    // A step of this bed takes well under a millisecond: the run is cut at an arbitrary place.
+    // A step of this bed takes well under a millisecond: the kill time is arbitrary.
     std::thread([this] {
       while (!fs::exists(resumed_ / storage::kCheckpointName)) usleep(200);
       usleep(30'000);
@@ -187,7 +187,7 @@ TEST_F(ResumedRun, SignalStopsWithACheckpointAndGoesOn) {
   });
   try {
     run(resumed_, bed({"run.checkpoint_interval=0"}));
-    ADD_FAILURE() << "the run went on to its end";
+    ADD_FAILURE() << "the run completed";
   } catch (const support::Stopped& stopped) {
     EXPECT_EQ(stopped.signal(), SIGINT);
     EXPECT_NE(std::string(stopped.what()).find("checkpoint.h5"), std::string::npos) << stopped.what();
@@ -211,7 +211,7 @@ TEST_F(ResumedRun, NothingLeftToDoKeepsTheForcesOfTheLastFrame) {
   resume(scene());
   EXPECT_EQ(bits(forces()), bits(before));
   EXPECT_EQ(contents(resumed_ / "timeseries.csv"), rows);
-  // A longer run has no frame there.
+  // A longer run has no frame at this step.
   resume(bed());
   EXPECT_EQ(support::Hdf5File::open(resumed_ / "frames.h5").number("/000004", "step"), 1200);
 }
@@ -274,7 +274,7 @@ TEST_F(ResumedRun, WithoutItsRowsItGoesOnByForce) {
   EXPECT_EQ(support::Hdf5File::open(resumed_ / "results.h5").numbers("/series/step").front(), 1000);
 }
 
-/// A grain that falls for 45 ms and hits the plane harder than is allowed.
+/// A grain that falls for 45 ms and then exceeds max_overlap on the plane.
 scene::Scene unsound(const std::string& checkpointInterval) {
   return setup::parseScene(
       "version = 1\n[run]\nduration = 0.1\ntime_step = 1e-5\nmax_overlap = 1e-4\ncheckpoint_interval = " +
@@ -287,7 +287,7 @@ scene::Scene unsound(const std::string& checkpointInterval) {
 TEST_F(ResumedRun, UnsoundRunKeepsItsLastSoundCheckpoint) {
   try {
     run(resumed_, unsound("0.01"));
-    ADD_FAILURE() << "the grain has not hit the plane";
+    ADD_FAILURE() << "the grain has not reached the plane";
   } catch (const base::SimulationError& error) {
     EXPECT_NE(std::string(error.what()).find("checkpoint.h5, step 4000"), std::string::npos) << error.what();
   }
@@ -299,7 +299,7 @@ TEST_F(ResumedRun, NewRunByForceTakesTheFormerCheckpointAway) {
   EXPECT_THROW(run(resumed_, unsound("0"), {}, true), base::SimulationError);
   const auto left = storage::readCheckpoint(resumed_ / storage::kCheckpointName).state.grains;
   ASSERT_TRUE(left);
-  EXPECT_EQ(left->total, 1) << "it would be of the bed that was run before";
+  EXPECT_EQ(left->total, 1) << "it would belong to the bed of the previous run";
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a run of grains and surfaces writes, against closed forms: rows, frames, grains.csv and manifest.
+// Output of a run of grains and surfaces against closed forms: rows, frames, grains.csv and manifest.
 #include "base/math.hpp"
 #include "base/sphere.hpp"
 #include "base/vec.hpp"
@@ -27,7 +27,7 @@ const std::string kBare = "[output]\nplots = false\npicture = false\n";
 
 class RowValues : public ProgramTest {
 protected:
-  /// Runs `scene`, whose results then lie in r.
+  /// Runs `scene`; its results are in r.
   void run(const std::string& scene, const std::string& words = "") const {
     put(folder_ / "scene.toml", "version = 1\n" + scene);
     const Outcome o = call("run scene.toml --out r" + words);
@@ -77,7 +77,7 @@ TEST_F(RowValues, GrainsCsvHasEachGrainWhereItFlies) {
     const Vec3d p = placeOf(t, n), v = velocityOf(t, n);
     for (int a = 0; a < 3; ++a) {
       const std::string axis(1, "xyz"[a]);
-      // Positions are whole units of 1e-8 of a diameter or so, with remainders; velocities and spins floats.
+      // Positions are whole units of 1e-8 of a diameter or so, with remainders; velocities and spins are floats.
       EXPECT_NEAR(csv.number(r, "position." + axis + " [m]"), p[a], 2e-8);
       EXPECT_NEAR(csv.number(r, "velocity." + axis + " [m/s]"), v[a], 4e-7);
       EXPECT_NEAR(csv.number(r, "spin." + axis + " [rad/s]"), t.spin[a], 1e-6);
@@ -105,8 +105,8 @@ TEST_F(RowValues, FramesHaveEachGrainWhereItFlies) {
         EXPECT_NEAR(position[3 * i + static_cast<std::size_t>(a)], p[a], 2e-7);
         EXPECT_NEAR(velocity[3 * i + static_cast<std::size_t>(a)], v[a], 4e-7);
         if (f > 0) {
-          // Found from the change of a float's speed over a step of 1e-4 s; the weights are 0.1 to 2.8 N.
-          EXPECT_NEAR(force[3 * i + static_cast<std::size_t>(a)], 0, 1e-3) << "weight is no contact";
+          // Computed from the change of a float's speed over a step of 1e-4 s; the weights are 0.1 to 2.8 N.
+          EXPECT_NEAR(force[3 * i + static_cast<std::size_t>(a)], 0, 1e-3) << "weight is not a contact force";
         }
       }
     }
@@ -129,7 +129,7 @@ TEST_F(RowValues, FastestGrainIsThatOfTheRow) {
   EXPECT_EQ(series("terrain/contacts"), std::vector<double>(6, 0));
 }
 
-/// Three balls in line, of which the middle one presses into both neighbours, and a pair beside them; no gravity.
+/// Three balls in line, the middle one overlaps both neighbours, and a pair beside them; no gravity.
 const std::string kPressed = "[run]\nduration = 1e-6\ntime_step = 1e-6\noutput_interval = 1e-6\ngravity = [0, 0, 0]\n"
                              "[material.glass]\nstiffness = 1e4\n"
                              "[[grain]]\nposition = [0, 0, 0]\nradius = 0.01\nmaterial = \"glass\"\n"
@@ -145,7 +145,7 @@ TEST_F(RowValues, OverlapIsThatOfTheDeepestContactInRadiiOfTheLargestGrain) {
   // 0.1 mm, 0.2 mm and 0.05 mm; a step of 1 us moves a grain of 10 g by 1e-10 m. Positions are whole units of 4e-10 m.
   EXPECT_NEAR(overlap.back(), 0.0002 / 0.02, 1e-6);
   EXPECT_EQ(contacts.back(), 3);
-  // F = k overlap, dashpots at rest; the middle one feels both.
+  // F = k overlap, dashpots at rest; the middle one has both contacts.
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "r" / "frames.h5");
   const std::vector<double> force = file.numbers("/000001/grains/contact_force");
   const double tolerance = 2e-4;
@@ -156,7 +156,7 @@ TEST_F(RowValues, OverlapIsThatOfTheDeepestContactInRadiiOfTheLargestGrain) {
   EXPECT_NEAR(force[13], 0.5, tolerance);
 }
 
-/// Two smooth boxes, each under a grain of its own: one rises steadily, one is shaken.
+/// Two smooth boxes, each under its own grain: one rises steadily, one is shaken.
 const std::string kLifts = R"([run]
 duration = 0.3
 time_step = 2e-5
@@ -200,11 +200,11 @@ TEST_F(RowValues, ForceAndTorqueOnASurfaceAreMeansSinceTheLastRow) {
     const Vec3d arm = which == 0 ? Vec3d{0.03, -0.02, 0} : Vec3d{0.01, 0.04, 0};
     double least = 0, most = 0;
     for (std::size_t r = 1; r < time.size(); ++r) {
-      // What the grain received is its change of momentum less that of gravity; the surface feels the opposite.
+      // The impulse on the grain is its change of momentum less that of gravity; the surface receives the opposite.
       const double v0 = grains.number(2 * (r - 1) + which, "velocity.z [m/s]"),
                    v1 = grains.number(2 * r + which, "velocity.z [m/s]"), span = time[r] - time[r - 1];
       const double mean = -mass * ((v1 - v0) / span + 9.81);
-      // Velocities are floats, of which a row's difference over 13 ms is right to 1e-5 m/s2.
+      // Velocities are floats: a row's difference over 13 ms is accurate to 1e-5 m/s2.
       EXPECT_NEAR(force[3 * r + 2], mean, 1e-4 * mass * 9.81) << group << r;
       EXPECT_NEAR(force[3 * r], 0, 1e-9);
       EXPECT_NEAR(torque[3 * r], arm.y * force[3 * r + 2], 1e-9) << group << r;
@@ -226,12 +226,12 @@ TEST_F(RowValues, PowerIsOfWhatMovesASurfaceAndPositionOfItsCentre) {
                             shaken = series("surfaces/shaker/position");
   double lifted = 0;
   for (std::size_t r = 1; r < time.size(); ++r) {
-    EXPECT_NEAR(power[r], -0.2 * force[3 * r + 2], 1e-9) << "it lifts what presses it down";
+    EXPECT_NEAR(power[r], -0.2 * force[3 * r + 2], 1e-9) << "it lifts the load";
     lifted += power[r] * (time[r] - time[r - 1]);
     EXPECT_NEAR(place[3 * r], 0, 1e-15);
     EXPECT_NEAR(place[3 * r + 2], -0.01 + 0.2 * time[r], 1e-12);
     EXPECT_NEAR(shaken[3 * r], 1, 1e-15);
-    // Its place at the start is where the sine of the phase has it: -0.01.
+    // Its initial position follows from the phase of the sine: -0.01.
     EXPECT_NEAR(shaken[3 * r + 2], -0.01 + 1e-3 * (1 - base::cos(20 * base::kPi * time[r])), 1e-9);
   }
   const double mass = base::sphereMass(2500, 0.01);
@@ -239,7 +239,7 @@ TEST_F(RowValues, PowerIsOfWhatMovesASurfaceAndPositionOfItsCentre) {
 }
 
 TEST_F(RowValues, ATurningSurfaceIsGivenTorqueTimesSpin) {
-  // A wheel that turns below a grain that a smooth stop holds: until the grain rolls, after 15 ms, friction brakes it.
+  // A rotating wheel below a grain held by a smooth stop: friction brakes the wheel until the grain rolls, after 15 ms.
   run(R"([run]
 duration = 0.01
 time_step = 1e-5
@@ -275,13 +275,13 @@ material = "glass"
   const std::vector<double> force = series("surfaces/wheel/force"), torque = series("surfaces/wheel/torque"),
                             power = series("surfaces/wheel/power"), stop = series("surfaces/stop/force");
   const std::size_t r = power.size() - 1;
-  // The wheel's top goes ahead (+x) and is held back there, 50 mm over its axle.
+  // The wheel's top moves forward (+x) and is braked there, 50 mm above its axle.
   EXPECT_NEAR(force[3 * r], 0.4 * force[3 * r + 2], 1e-2 * std::fabs(force[3 * r]));
   ASSERT_LT(force[3 * r], -0.03);
   EXPECT_NEAR(torque[3 * r + 1], 0.05 * force[3 * r], 2e-3 * 0.05 * std::fabs(force[3 * r])) << "z x F = y";
   EXPECT_NEAR(power[r], -3 * torque[3 * r + 1], 1e-12) << "3 rad/s about y";
   EXPECT_GT(power[r], 0);
-  EXPECT_GT(stop[3 * r], 0) << "the stop is pushed ahead";
+  EXPECT_GT(stop[3 * r], 0) << "the stop is pushed forward";
 }
 
 TEST_F(RowValues, ResultsOfAVehicleHaveItsConstantsAndWhereItStands) {
@@ -302,7 +302,7 @@ TEST_F(RowValues, ResultsOfAVehicleHaveItsConstantsAndWhereItStands) {
 }
 
 TEST_F(RowValues, ManifestHasTheRunsOwnFigures) {
-  run(thrownScene(), " --hash --steps 300 --set run.seed=3"); // of 500
+  run(thrownScene(), " --hash --steps 300 --set run.seed=3"); // out of 500
   const nlohmann::json json = nlohmann::json::parse(contents(folder_ / "r" / "manifest.json"));
   EXPECT_EQ(json["status"], "finished");
   EXPECT_EQ(json["steps"], 300);

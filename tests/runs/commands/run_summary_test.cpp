@@ -24,7 +24,7 @@ protected:
         "sphere_radius = 0.04\n[driver]\nsprocket_speed = 20\ntension_ramp = 0\nweight_ramp = 0\ndrive_start = 0.01\n"
         "drive_ramp = 0.05\n[output]\nframes = false\nplots = false\npicture = false\n");
   }
-  /// What stands behind a label at the beginning of a line; empty if there is none.
+  /// Text after a label at the beginning of a line; empty if there is none.
   static std::string line(const std::string& out, const std::string& label) {
     const std::size_t at = ("\n" + out).find("\n" + label + " ");
     return at == std::string::npos ? "" : out.substr(at, out.find('\n', at) - at);
@@ -57,9 +57,10 @@ TEST_F(RunSummary, EndsInFiguresEnergyAndResultsInThisOrder) {
 }
 
 TEST_F(RunSummary, WarnsFirstIfFiguresAreInconclusive) {
-  const Outcome run = call("run scene.toml --out a --set driver.sprocket_speed=3", withSharedCache());
+  // Three teeth in all, fewer than two in the steady part: the run is complete, its results are inconclusive.
+  const Outcome run = call("run scene.toml --out a --set driver.sprocket_speed=10", withSharedCache());
   ASSERT_EQ(run.code, 0) << run.errors;
-  const std::size_t warning = run.out.find("WARNING: ");
+  const std::size_t warning = run.out.find("WARNING: the figures are inconclusive: ");
   ASSERT_NE(warning, std::string::npos) << run.out;
   EXPECT_LT(warning, run.out.find(line(run.out, "speed"))) << run.out;
 }

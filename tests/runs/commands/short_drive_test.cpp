@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Runs of vehicles that never drive, or hardly: said first, before the run and behind it, and not taken for sound ones.
+// Runs of vehicles that never drive, or hardly: warned before and after the run, and not counted as valid.
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/shared_cache.hpp"
@@ -47,7 +47,7 @@ TEST_F(ShortDrive, IsSaidFirstByPlanAndAtTheEndAndMakesTheRunIncomplete) {
   for (const char* later : {"blows ", "ledger ", "wall "}) EXPECT_GT(run.out.find(later), at) << run.out;
   EXPECT_EQ(manifest("never")["status"], "incomplete");
   EXPECT_EQ(manifest("never")["incomplete"], words);
-  EXPECT_EQ(manifest("never")["steps"], 200) << "its figures are there as of any other run";
+  EXPECT_EQ(manifest("never")["steps"], 200) << "its results are complete";
 }
 
 TEST_F(ShortDrive, OfLessThanTwoTeethHasInconclusiveFigures) {
@@ -59,7 +59,7 @@ TEST_F(ShortDrive, OfLessThanTwoTeethHasInconclusiveFigures) {
             std::string::npos)
       << run.out;
   EXPECT_EQ(manifest("some")["status"], "incomplete");
-  // A part of a run counts for the whole.
+  // Part of a run counts for the whole.
   ASSERT_EQ(call("run scene.toml --out parts --steps 100" + some, withSharedCache()).code, 0);
   EXPECT_EQ(manifest("parts")["status"], "incomplete");
   ASSERT_EQ(call("run scene.toml --out parts --resume" + some, withSharedCache()).code, 0);
@@ -87,7 +87,7 @@ TEST_F(ShortDrive, IsMarkedInASweepAndNotRunAgain) {
   EXPECT_NE(csv.at(1, "message").find("never drove"), std::string::npos) << csv.at(1, "message");
   EXPECT_GT(csv.number(1, "steps"), 0);
   const Outcome second = call(words, withSharedCache());
-  EXPECT_NE((second.out + second.errors).find("incomplete already"), std::string::npos) << second.out << second.errors;
+  EXPECT_NE((second.out + second.errors).find("already incomplete"), std::string::npos) << second.out << second.errors;
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Slips of the keyboard and of the shell: each is named for what it is.
+// Typing errors and shell mistakes: the message names each.
 #include "tests/runs/commands/mistake_fixture.hpp"
 
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ protected:
     ProgramTest::SetUp();
     put(folder_ / "grains.toml", kGrains);
   }
-  /// Refused with code 2 within seconds, and these words.
+  /// Exit code 2 within seconds, and a message with these words.
   void expectRefused(const std::string& words, const std::vector<std::string>& parts) {
     const Outcome o = shell("timeout 20 \"$grouser\" " + words);
     EXPECT_EQ(o.code, 2) << words << "\n" << o.errors;
@@ -43,7 +43,7 @@ TEST_F(SmallMistakes, FaultsOfACaseNameTheCase) {
   for (const auto& [set, message] : mistakes)
     expectRefused(fmt::format("sweep grains.toml --out o --case a --case 'b: {}' --set run.skin=0.3,0.4", set),
                   {message});
-  // What is wrong without the case, too, is no fault of it.
+  // Mistakes that also occur without the case do not count.
   expectRefused("sweep grains.toml --out o --case 'a: run.duration=1' --set run.skin=0.3,-4",
                 {"error: --set: run.skin"});
 }
@@ -51,10 +51,10 @@ TEST_F(SmallMistakes, FaultsOfACaseNameTheCase) {
 TEST_F(SmallMistakes, AKeyIsSetOnce) {
   for (const char* command : {"run grains.toml --out o", "plan grains.toml", "bench step grains.toml --steps 1"})
     expectRefused(command + std::string(" --set run.duration=1 --set run.skin=0.3 --set run.duration=2"),
-                  {"--set: run.duration is given twice, as 1 and as 2; give it once\n"});
+                  {"--set: run.duration is set twice, as 1 and as 2; remove one\n"});
   expectRefused("run grains.toml --out o --set 'contact.\"glass|glass\".friction=0.1' --set "
                 "contact.'glass|glass'.friction=0.2",
-                {"given twice, as 0.1 and as 0.2"});
+                {"set twice, as 0.1 and as 0.2"});
   expectRefused("run grains.toml --out o --device cpu --set run.device=cuda", {"as cuda and as cpu", "--device sets"});
 }
 
@@ -62,10 +62,10 @@ TEST_F(SmallMistakes, AnOptionIsNoValueOfTheOneBefore) {
   for (const char* words : {"study preparation --porosities --quick --out o",
                             "study shear-angle --stresses --quick --out o", "run grains.toml --steps --force --out o",
                             "sweep grains.toml --seeds 2 --out --force", "run grains.toml --out --steps=3"})
-    expectRefused(words, {"has no value: the option --"});
+    expectRefused(words, {"requires a value, but is followed by the option --"});
   EXPECT_FALSE(fs::exists(folder_ / "--force"));
   expectRefused("study preparation --porosities --quick --out o",
-                {"--porosities: has no value: the option --quick follows it; give a value"});
+                {"--porosities: requires a value, but is followed by the option --quick; add a value"});
   EXPECT_EQ(call("plan grains.toml --set run.gravity=[0,0,-1]").code, 0);
 }
 
@@ -91,13 +91,13 @@ TEST_F(SmallMistakes, FaultsOfRadiiNameTheKeyThatGivesThem) {
   expectRefused("plan sieved.toml --set terrain.sieve_size=[2e-6,3e-6,5e-6]",
                 {"for grains of the sieves of terrain.sieve_size, to 5e-06 m; use larger"});
   expectRefused("run sieved.toml --out o --set terrain.size=[0.9,0.9] --set terrain.sieve_size=[2e-5,3e-5,5e-5]",
-                {"--set: terrain.sieve_size = [2e-05, 3e-05, 5e-05] [m] makes about"});
+                {"--set: terrain.sieve_size = [2e-05, 3e-05, 5e-05] [m] results in about"});
   expectRefused("plan sieved.toml --set terrain.sieve_size=[0.1,0.2,0.5]",
                 {"radius 0.1165 m, the median of sieve_size; set at least 0.233\n"});
   const std::string bed = replaced(replaced(kSieved, "radius_distribution = \"sieve\"\n", "grain_radius = 1e-6\n"),
                                    "sieve_size = [0.02, 0.03, 0.05]\nsieve_passing = [0, 0.4, 1]\n", "");
   put(folder_ / "fine.toml", bed);
-  expectRefused("plan fine.toml", {"for grains of terrain.grain_radius = 1e-06 m"}); // the mean, as it was given
+  expectRefused("plan fine.toml", {"for grains of terrain.grain_radius = 1e-06 m"}); // the mean, as in the scene file
 }
 
 TEST_F(SmallMistakes, ABedThatDoesNotSettleIsSaidToFall) {
@@ -105,9 +105,9 @@ TEST_F(SmallMistakes, ABedThatDoesNotSettleIsSaidToFall) {
   put(folder_ / "map.png", picture());
   const Outcome o = call("plan loose.toml --no-probe");
   EXPECT_EQ(o.code, 0) << o.errors;
-  EXPECT_NE(
-      o.errors.find("WARNING: terrain.settle_time_limit = 0: the bed does not settle and falls as a loose column"),
-      std::string::npos)
+  EXPECT_NE(o.errors.find(
+                "WARNING: terrain.settle_time_limit = 0: the bed is not settled, so the grains fall as a loose column"),
+            std::string::npos)
       << o.errors;
   EXPECT_NE(o.errors.find("without terrain.porosity = 0.42"), std::string::npos) << o.errors;
   EXPECT_EQ(call("plan loose.toml --no-probe --set terrain.settle_time_limit=3").errors, "");
@@ -118,9 +118,8 @@ TEST_F(SmallMistakes, OutputThatCannotBePrintedIsAnError) {
        {"plan grains.toml", "fields", "--help", "run --help", "--version", "run grains.toml --out o"}) {
     const Outcome o = shell("\"$grouser\" " + std::string(words) + " >/dev/full");
     EXPECT_EQ(o.code, 3) << words;
-    EXPECT_NE(o.errors.find("grouser: error: the standard output could not be written"), std::string::npos)
-        << words << "\n"
-        << o.errors;
+    EXPECT_NE(o.errors.find("grouser: error: cannot write to standard output"), std::string::npos) << words << "\n"
+                                                                                                   << o.errors;
   }
 }
 
@@ -140,7 +139,7 @@ TEST_F(SmallMistakes, SectionWithALetterLeftOutIsThatSection) {
 TEST_F(SmallMistakes, MissingCheckpointIsNamed) {
   for (const char* out : {"", " --out elsewhere"})
     expectRefused(std::string("run grains.toml --resume nosuch/checkpoint.h5") + out,
-                  {"--resume nosuch/checkpoint.h5: there is no such file"});
+                  {"--resume nosuch/checkpoint.h5: no such file"});
 }
 
 TEST_F(SmallMistakes, MoreRanksThanGrainsAreNoPlan) {

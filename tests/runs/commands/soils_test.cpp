@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Soils on the command line, and in what runs leave.
+// Soils on the command line, and in result files.
 #include "runs/commands/soils.hpp"
 #include "tests/runs/program_fixture.hpp"
 
@@ -41,7 +41,7 @@ TEST_F(SoilsOfUser, AreListedBesideTheOthers) {
   EXPECT_NE(list.out.find("\nmine "), std::string::npos) << list.out;
   EXPECT_NE(list.out.find("\nlete_sand "), std::string::npos) << list.out;
   const Outcome table = call("soils --markdown");
-  EXPECT_EQ(table.out, soilsTable()) << "those of assets/soils alone";
+  EXPECT_EQ(table.out, soilsTable()) << "only those of assets/soils";
   EXPECT_EQ(table.out.find("mine"), std::string::npos);
 }
 
@@ -51,7 +51,7 @@ TEST_F(SoilsOfUser, OneIsToldWithItsSources) {
   EXPECT_NE(one.out.find("LETE sand, calibrated"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("Wong 2008"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("measured with its contact parameters"), std::string::npos) << one.out;
-  EXPECT_NE(call("soils dry_sand").out.find("nothing measured yet"), std::string::npos);
+  EXPECT_NE(call("soils dry_sand").out.find("no measurements yet"), std::string::npos);
   const Outcome none = call("soils lete_snad");
   EXPECT_EQ(none.code, 2);
   EXPECT_NE(none.error().find("did you mean \"lete_sand\"?"), std::string::npos) << none.errors;
@@ -87,7 +87,7 @@ TEST_F(SoilsOfUser, HaveIntervalsOfTheirConstantsMarkedWhereAssumed) {
   const Outcome plan = call("plan drive.toml --no-probe --set scm.constants_draw=1");
   EXPECT_NE(plan.out.find("lete_sand (published): sample 1"), std::string::npos) << plan.out;
   EXPECT_NE(plan.out.find("0.73116     0.793 +- 0.078 - (assumed)"), std::string::npos) << plan.out;
-  EXPECT_NE(plan.out.find("500 Pa (given in the scene)"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("500 Pa (set in the scene)"), std::string::npos) << plan.out;
 }
 
 TEST_F(SoilsOfUser, StandInThePlan) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Calls that are stopped: the last line is the command that goes on, and it does; half-done runs go on from their
-// checkpoints, to the same bits.
+// Interrupted calls: the last line is the command to continue, and it works; partial runs resume from their
+// checkpoints, bitwise identical.
 #include "runs/support/file_lock.hpp"
 #include "tests/runs/program_fixture.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A grain that falls and bounces, 5e5 steps: more than a second, so that a signal comes before its end on a busy
+/// A grain that falls and bounces, 5e5 steps: more than a second, so that a signal arrives before its end on a busy
 /// machine too.
 constexpr const char* kFall =
     "version = 1\n[run]\nduration = 0.5\ntime_step = 1e-6\noutput_interval = 1e-3\nthreads = 1\n[material.glass]\n"
@@ -33,8 +33,8 @@ protected:
     ProgramTest::SetUp();
     put(folder_ / "fall.toml", kFall);
   }
-  /// Sends a signal once a shell's condition holds: INT to the program and all that it has started, as Ctrl-C on a
-  /// terminal does (a shell without one has it ignored in the background), others to the program alone.
+  /// Sends a signal once a shell condition holds: INT to the program and all its children, as Ctrl-C in a
+  /// terminal does (shells without a terminal ignore it in the background), others only to the program.
   Outcome stop(const std::string& words, const std::string& signal, const std::string& until) const {
     const std::string start =
         "/usr/bin/python3 -c \"import os, signal, sys; signal.signal(signal.SIGINT, signal.SIG_DFL); os.setpgrp(); "
@@ -44,7 +44,7 @@ protected:
     return shell(start + words + " & pid=$!\nfor i in $(seq 3000); do " + until + " && break; sleep 0.01; done\n" +
                  send + "\nwait $pid\nexit $?");
   }
-  /// Behind "with: "; empty where a stopped call does not tell.
+  /// Text after "with: "; empty if an interrupted call prints none.
   static std::string nextOf(const Outcome& o) {
     const std::string before = " with: ";
     const std::size_t at = o.errors.rfind(before);
@@ -79,7 +79,7 @@ TEST_F(StoppedCall, OfASweepGoesOnFromTheCheckpointsOfItsRuns) {
   const Outcome on = shell(nextOf(stopped));
   ASSERT_EQ(on.code, 0) << on.errors << on.out;
   for (const char* run : {"s/seed=1", "s/seed=2"})
-    EXPECT_NE(contents(folder_ / run / "log.txt").find("resumed "), std::string::npos) << "begun anew";
+    EXPECT_NE(contents(folder_ / run / "log.txt").find("resumed "), std::string::npos) << "the run was restarted";
   const Outcome whole = call("sweep fall.toml --set run.seed=1,2 --out whole");
   ASSERT_EQ(whole.code, 0) << whole.errors;
   EXPECT_EQ(manifest("s/seed=2")["state_hash"], manifest("whole/seed=2")["state_hash"]);
@@ -90,7 +90,7 @@ TEST_F(StoppedCall, OfASweepThatWasKilledGoesOnByTheSameCommand) {
   const std::string words = "sweep fall.toml --set run.seed=1,2 --out s";
   const Outcome killed = stop(words, "KILL", "[ -s s/seed=1/timeseries.csv ]");
   ASSERT_EQ(killed.code, 137) << killed.errors;
-  const Outcome on = call(words); // its run gets a SIGTERM, and writes a checkpoint
+  const Outcome on = call(words); // its run gets a SIGTERM and writes a checkpoint
   ASSERT_EQ(on.code, 0) << on.errors << on.out;
   EXPECT_NE(on.out.find("resumes from its checkpoint"), std::string::npos) << on.out;
 }
@@ -104,7 +104,7 @@ TEST_F(StoppedCall, SweepWaitsForTheCheckpointOfARunThatIsStillEnding) {
   running["status"] = "running";
   fs::rename(checkpoint, aside);
   put(run / "manifest.json", running.dump());
-  support::FileLock lock; // as the run itself holds until it has ended
+  support::FileLock lock; // as held by the run until its end
   ASSERT_TRUE(lock.take(run));
   std::future<Outcome> on = std::async(std::launch::async, [&] { return call(words); });
   EXPECT_EQ(on.wait_for(std::chrono::seconds(1)), std::future_status::timeout);
@@ -142,7 +142,7 @@ TEST_F(StoppedCall, OfForcedSweepDoesNotRunAllAgain) {
   EXPECT_EQ(nextOf(stopped).find("--force"), std::string::npos) << stopped.errors;
   const Outcome on = shell(nextOf(stopped));
   ASSERT_EQ(on.code, 0) << on.errors;
-  EXPECT_NE(on.out.find("seed=1                       finished already"), std::string::npos) << on.out;
+  EXPECT_NE(on.out.find("seed=1                       already finished"), std::string::npos) << on.out;
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Unsound scenes stop, before the run or in it, and the message names the true cause.
+// Unstable scenes are rejected or stopped, and the message names the true cause.
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 #include "tests/system/guard_scenes.hpp"
@@ -16,9 +16,9 @@ namespace {
 
 struct Unsound {
   const char* name;
-  int code;                       ///< 2: refused; 3: stopped in the run
+  int code;                       ///< 2: rejected; 3: stopped during the run
   std::string text;               ///< the scene
-  std::vector<std::string> words; ///< that the message has
+  std::vector<std::string> words; ///< required words of the message
   std::vector<std::string> never = {};
 };
 std::ostream& operator<<(std::ostream& out, const Unsound& u) { return out << u.name; }
@@ -40,7 +40,7 @@ TEST_P(UnsoundScenes, StopWithTheTrueCause) {
 const auto kName = [](const auto& tested) { return std::string(tested.param.name); };
 const std::string kStiffSpeed = "time_step = 5e-5\n";
 
-/// The shipped vehicle on rigid, level ground, in the middle of 20 m; `driver` has its ramps.
+/// The shipped vehicle on rigid, level ground, in the middle of 20 m; `driver` contains its ramps.
 std::string vehicle(const std::string& driver, const std::string& more = "", const std::string& mount = "") {
   return run(0.4, "time_step = 1e-4\n" + more) + soil(0.5, 0.5, "", "1e7") +
          "[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [20, 20]\nheight_range = [0, 0]\nkind = \"rigid\"\n"
@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
         Unsound{"DashpotAboveTheStep",
                 2,
                 heap(0.3, "[material.soil]\nstiffness = 2e4\ndamping = 4e4\n", {}, kStiffSpeed),
-                {"run.time_step", "becomes unstable; set 1.41e-05 s or less"}},
+                {"run.time_step", "the stability limit of the stiffest contact in the scene"}},
         Unsound{"AliasedShaker",
                 2,
                 run(0.3, kStiffSpeed) + soil(0.5, 0.5) + floor("amplitude = [0, 0, 1e-5]\nfrequency = 19990\n") +
@@ -83,11 +83,11 @@ INSTANTIATE_TEST_SUITE_P(
         Unsound{"DriveTooQuick",
                 2,
                 run(1, "time_step = 1e-3\n") + rotor("value = 500\n"),
-                {"rotates body \"rotor\" by 0.5 rad per step at the start"}},
+                {"is too long for body \"rotor\", which initially rotates by 0.5 rad per step"}},
         Unsound{"StartsTooFast",
                 2,
                 run(0.3, kStiffSpeed) + soil(0.5, 0.5) + floor() + grain("[0, 0, 0.5]", "velocity = [0, 0, -400]\n"),
-                {"grain.0.velocity", "half the neighbour list's skin"}},
+                {"grain.0.velocity", "half the skin distance"}},
         Unsound{"StartsPressed",
                 2,
                 run(0.3, kStiffSpeed) + soil(0.5, 0.5) + floor() + grain("[0, 0, 0.5]") + grain("[0, 0, 0.507]"),
@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(
         Unsound{"SoftUnderItsWeight",
                 2,
                 run(0.3) + soil(0.5, 0.5, "", "0.5") + floor() + grain("[0, 0, 0.5]", "", "0.02"),
-                {"material.soil.stiffness", "under its own weight", "raise it to 208"}},
+                {"material.soil.stiffness", "the weight of a grain", "raise it to 208"}},
         Unsound{"LightLid",
                 2,
                 heap(0.3, soil(0.5, 0.5), {}, "time_step = 8e-5\n") +

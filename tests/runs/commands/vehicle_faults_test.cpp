@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Vehicles that cannot be, told by the program before it runs; vehicles that can, which run; sinkage from frames.
+// Invalid vehicles, rejected before the run; valid vehicles, which run; sinkage from frames.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/render/image.hpp"
@@ -23,7 +23,7 @@ using test::SpecVariant;
 
 class VehicleFaults : public test::ProgramTest {};
 
-/// The whole scene of a vehicle on rigid, level ground; `more` are lines of [run].
+/// The complete scene of a vehicle on rigid, level ground; `more`: lines of [run].
 std::string rigidScene(const std::string& spec, const std::string& more = "duration = 0.02\n") {
   return "version = 1\n[run]\ntime_step = 1e-4\n" + more +
          "[material.ground]\nstiffness = 1e7\n[terrain]\nheightmap = \"heightmaps/flat.png\"\nsize = [6, 2.6]\n"
@@ -38,7 +38,7 @@ struct Refused {
   std::vector<std::string> words;
 };
 
-/// Faults of the running gear and of meshes that other lengths do not fit, at the command line.
+/// Faults of the running gear, and meshes that do not fit modified lengths, on the command line.
 TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
   const Refused all[] = {
       {{"road_wheel", "spacing", "0.30"},
@@ -97,7 +97,7 @@ TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
 TEST_F(VehicleFaults, PlanSaysWhichMaterialsDoNothing) {
   test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
   EXPECT_NE(call("plan scene.toml --no-probe")
-                .out.find("note: material.ground has no effect in this scene: the vehicle file has all contact "
+                .out.find("note: material.ground has no effect in this scene: the vehicle file defines all contact "
                           "parameters between vehicle and rigid ground"),
             std::string::npos);
 }
@@ -110,8 +110,8 @@ std::ostream& operator<<(std::ostream& out, const Sound& s) { return out << s.na
 
 class SoundVehicle : public ::testing::TestWithParam<Sound> {};
 
-/// No check is so narrow that it refuses what runs: no blow of a part that overlaps in the first 200 steps. While only
-/// the track is tightened (0.15 s) nothing moves faster than slack is taken up.
+/// No check rejects a valid vehicle: no impact of an overlapping part in the first 200 steps. During track tensioning
+/// (0.15 s) speeds stay within the take-up of slack.
 TEST_P(SoundVehicle, RunsWithoutABlow) {
   const SpecVariant variant(GetParam().changes);
   coupling::Simulation simulation(
@@ -161,11 +161,11 @@ TEST_F(VehicleFaults, SinkageOnASideSlopeIsThatOfTheFrames) {
   test::put(folder_ / "scene.toml", slopeScene("slope.png"));
   const test::Outcome run = call("run scene.toml --out out", withSharedCache());
   ASSERT_EQ(run.code, 0) << run.errors;
-  // Poses are written in double precision, so all that differs is rounding: 1e-9 m of the iteration.
+  // Poses are written in double precision: differences are rounding, 1e-9 m of the iteration.
   const test::Outcome check = shell("/usr/bin/python3 '" GROUSER_SOURCE_DIR "/runs/plots/check_sinkage.py' out 1e-8");
   if (check.errors.find("No module named") != std::string::npos) GTEST_SKIP() << check.errors;
   EXPECT_EQ(check.code, 0) << check.out << check.errors;
-  // Rigid ground carries the grousers: every pad hangs their 15 mm above it, less the overlap that carries.
+  // Rigid ground carries the grousers: every pad is 15 mm above it, less the contact overlap.
   double deepest = -1;
   ASSERT_EQ(
       std::sscanf(check.out.c_str(), "%*d values compared, largest difference %*f m, maximum sinkage %lf m", &deepest),

@@ -81,11 +81,11 @@ TEST_F(SharedWork, FailureOfOneKeepsItsKind) {
 TEST_F(SharedWork, FailureOfOneEndsAllWithItsMessage) {
   const auto failing = [](std::size_t i) {
     if (i == 1) throw base::InputError("piece 1 is bad");
-    if (i != 0) usleep(20'000'000); // far beyond the test's time: it must be ended
+    if (i != 0) usleep(20'000'000); // far beyond the test's duration: the process must be ended
   };
   const auto start = std::chrono::steady_clock::now();
   for (int k = 0; k < 20; ++k) EXPECT_EQ(test::messageOf([&] { shareWork(3, 3, failing, [] {}); }), "piece 1 is bad");
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)); // nobody was waited for
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(15)); // no process was waited for
   EXPECT_THROW(shareWork(
                    2, 2,
                    [](std::size_t i) {
@@ -109,7 +109,7 @@ TEST_F(SharedWork, ProcessesTakeTheGpusInTurn) {
     for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename());
     return names;
   };
-  // Each piece waits for the others, so that each process does one.
+  // Each piece waits for the others, so that each process computes one.
   const auto work = [&](std::size_t) {
     std::ofstream(folder_ / std::getenv(support::kFirstGpu)) << "\n";
     for (int look = 0; look < 1000 && found().size() < 3; ++look)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Each column reads the number that its name says.
+// Each column contains the quantity that its name states.
 #include "runs/output/channels.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every column of a mechanism's rows against its closed form, or against the law of the part with the places and
-// velocities of the same row.
+// Every column of a mechanism's rows against its closed form, or against the law of the part at the positions
+// and velocities of the same row.
 #include "runs/output/mechanism_output.hpp"
 
 #include "base/math.hpp"
@@ -80,7 +80,7 @@ TEST(MechanismColumns, ReactionsAreThoseOnTheSecondBodyAboutTheJoint) {
              "base torque");
 }
 
-/// A sled of 2 kg on a slope, with all that an axis may have.
+/// A sled of 2 kg on a slope, with all options of an axis.
 const std::string kSled =
     "gravity = [0, -9.81, 0]\nsprings = \"explicit\"\n" +
     body("sled", 2, "[1, 1, 1]", "[1, 2, 3]", "velocity = [0.18, 0, 0.24]\n") +
@@ -105,7 +105,7 @@ TEST(MechanismColumns, AnAxisHasPositionRateAndTheForcesAlongIt) {
   EXPECT_NEAR(rows("drives/pull/value"), 5 + 2 * t, 1e-12);
   EXPECT_NEAR(rows("drives/pull/torque"), 5 + 2 * t, 1e-12);
   EXPECT_NEAR(rows("drives/pull/power"), (5 + 2 * t) * v, 1e-9);
-  // A step of 1 ms changes what dampers take by less than 4.5 N s/m x 6 m/s2 x 1e-3 s.
+  // A step of 1 ms changes the damping loss by less than 4.5 N s/m x 6 m/s2 x 1e-3 s.
   EXPECT_NEAR(along, 4 - 50 * (q - 0.1) - 4.5 * v + 5 + 2 * t, 0.03);
   rows.advance(1);
   EXPECT_NEAR((rows("joints/rail/rate") - rateBefore) / 2e-3, along / 2, 0.02) << "half a step's change of 2 m/s2";
@@ -139,7 +139,7 @@ TEST(MechanismColumns, ADriveOfPositionSaysWhatItImposesTakesAndGives) {
   EXPECT_NEAR(rows("drives/motor/torque"), torque, 2e-3 * torque);
   EXPECT_NEAR(rows("drives/motor/power"), rows("drives/motor/torque") * rate, 1e-8);
   EXPECT_NEAR(rows("joints/axle/force_along"), inertia * 1.4, 2e-3 * torque) << "drive less damping";
-  // What holds the rotor on its circle, and pushes it round: m (alpha d, omega^2 d).
+  // Forces that hold the rotor on its circle and accelerate it: m (alpha d, omega^2 d).
   const double phi = 0.3 * t + 0.7 * t * t;
   const Vec3d radial{base::cos(phi), base::sin(phi), 0}, ahead{-base::sin(phi), base::cos(phi), 0};
   expectNear(rows.vector("joints/axle/force"), ahead * (3 * 1.4 * 0.4) - radial * (3 * rate * rate * 0.4), 5e-3,
@@ -174,17 +174,17 @@ TEST(MechanismColumns, APointSpringPushesApartByItsOwnLaw) {
   const Vec3d v = rows.vector("bodies/b/velocity") - rows.vector("bodies/a/velocity");
   const double length = norm(apart);
   EXPECT_NEAR(rows("springs/coil/length"), length, 1e-12);
-  // The damper's share is of the middle of a step: 2 N s/m x 30 m/s2 x 1e-3 s.
+  // The damper's contribution refers to the middle of a step: 2 N s/m x 30 m/s2 x 1e-3 s.
   EXPECT_NEAR(rows("springs/coil/force"), 7 - 40 * (length - 0.9) - 2 * dot(v, apart) / length, 0.06);
   ASSERT_GT(std::fabs(dot(v, apart)), 0.1);
-  // Momentum of both, which no spring changes, and that about the origin: of the two alone, for neither turns.
+  // Momentum of both, which no spring changes, and angular momentum about the origin: neither body rotates.
   expectNear(rows.vector("momentum/linear"), {0.2 - 1.2, 0.1 + 0.9, 1.5}, 1e-12, "momentum");
   expectNear(rows.vector("momentum/angular"), cross(Vec3d{1, 0.5, 0.2}, Vec3d{-1.2, 0.9, 1.5}), 1e-12, "about origin");
 }
 
 TEST(MechanismColumns, ABushingIsReadInTheAxesOfItsFirstBody) {
   const double turning = 2;
-  // The first body turns steadily, for it is heavy; the second one has been pushed.
+  // The first body is heavy and turns steadily; the second one has been pushed.
   Rows rows("gravity = [0, 0, 0]\nsprings = \"explicit\"\n" +
             body("heavy", 1e9, "[1e9, 1e9, 1e9]", "[1, 0, 0]", "spin = [0, 0, 2]\n") +
             body("light", 2, "[0.5, 0.6, 0.7]", "[1, 0, 0]", "velocity = [0.3, -0.2, 0.5]\nspin = [0, 0, 3.5]\n") +
@@ -199,7 +199,7 @@ TEST(MechanismColumns, ABushingIsReadInTheAxesOfItsFirstBody) {
   ASSERT_GT(std::fabs(d.y), 0.005);
   expectNear(rows.vector("bushings/rubber/translation"), d, 1e-9, "translation");
   expectNear(rows.vector("bushings/rubber/force"), {c * f.x - s * f.y, s * f.x + c * f.y, f.z}, 1e-6, "force");
-  // Both turn about z, where the bearing twists by the difference.
+  // Both turn about z; the bearing twists by the difference.
   const std::vector<double>& q = rows.all("bodies/light/orientation");
   const double twist = 2 * base::atan2(q[3], q[0]) - phi;
   ASSERT_GT(twist, 0.05);
@@ -219,7 +219,7 @@ TEST(MechanismColumns, ABushingIsAtRestWhereItsBodiesStandAtTheStart) {
   expectNear(rows.vector("bushings/rubber/rotation"), {}, 1e-12, "rotation");
   expectNear(rows.vector("bushings/rubber/force"), {}, 1e-9, "force");
   EXPECT_NEAR(rows("springs/coil/length"), 0.5, 1e-12);
-  EXPECT_NEAR(rows("springs/coil/force"), 0, 1e-9) << "without free_position it is at rest as it stands";
+  EXPECT_NEAR(rows("springs/coil/force"), 0, 1e-9) << "without free_position the spring is relaxed at the start";
 }
 
 TEST(MechanismColumns, ACouplingsForceIsWhatTurnsTheSecondAxis) {
@@ -248,13 +248,13 @@ TEST(MechanismColumns, ACylindricalsAngleAndSlideAreTwoAxes) {
             "[[joint]]\nname = \"hole\"\ntype = \"cylindrical\"\nbodies = [\"world\", \"bolt\"]\npoint = [0, 0, 0]\n"
             "axis = [0, 0, 1]\ndamping = 0.6\nslide_damping = 1.6\n");
   rows.advance(200);
-  // Each slows down by itself: exp(-c t / I) and exp(-c t / m), of order 2 in 1e-3 s.
+  // Each decays independently: exp(-c t / I) and exp(-c t / m), of order 2 in 1e-3 s.
   const double turn = -4 * base::exp(-0.6 * 0.2 / 0.3), slide = 0.5 * base::exp(-1.6 * 0.2 / 2);
   EXPECT_NEAR(rows("joints/hole/angle_rate"), turn, 1e-5);
   EXPECT_NEAR(rows("joints/hole/slide_rate"), slide, 1e-6);
   EXPECT_NEAR(rows("joints/hole/angle_position"), (turn + 4) * -0.3 / 0.6, 1e-5);
   EXPECT_NEAR(rows("joints/hole/slide_position"), (0.5 - slide) * 2 / 1.6, 1e-6);
-  // Of the middle of the last step: half of 1e-3 s times c / I or c / m.
+  // Values refer to the middle of the last step: half of 1e-3 s times c / I or c / m.
   EXPECT_NEAR(rows("joints/hole/angle_force_along"), -0.6 * turn, 2e-3 * 1.7);
   EXPECT_NEAR(rows("joints/hole/slide_force_along"), -1.6 * slide, 1e-3 * 0.7);
   EXPECT_NEAR(rows.all("joints/hole/torque")[2], -0.6 * turn, 2e-3 * 1.7);
@@ -262,7 +262,7 @@ TEST(MechanismColumns, ACylindricalsAngleAndSlideAreTwoAxes) {
 }
 
 TEST(MechanismColumns, MomentaTurnTheInertiaWithTheBody) {
-  // The second one's x axis points along the world's y: its largest moment too.
+  // The second one's x axis points along the world's y: the axis of its largest moment, too.
   Rows rows("gravity = [0, 0, 0]\n" + body("a", 2, "[3, 4, 5]", "[1, 0, 0]", "velocity = [0, 3, 0]\n") +
             body("b", 4, "[9, 2, 8]", "[0, 2, 1]",
                  "velocity = [1, 0, -1]\nspin = [0, 0.5, 0]\naxis = [0, 0, 1]\nangle = 90\n"));
@@ -300,7 +300,7 @@ TEST(MechanismColumns, VelocityErrorIsHowFastJointsOpenNow) {
 }
 
 TEST(MechanismColumns, IterationsAreTheMostOfAnyStepSinceTheLastRow) {
-  // A bar that a brake stops: the first steps turn by 0.2 rad and need more than the last.
+  // A bar stopped by a brake: the first steps turn by 0.2 rad and need more iterations than the last.
   const std::string scene = "gravity = [0, 0, 0]\n" +
                             body("bar", 1, "[1, 1, 1]", "[1, 0, 0]", "velocity = [0, 200, 0]\nspin = [0, 0, 200]\n") +
                             "[[joint]]\nname = \"pin\"\nbodies = [\"world\", \"bar\"]\npoint = [0, 0, 0]\n"

@@ -40,7 +40,7 @@ std::vector<double> cells(const std::string& line) {
   return all;
 }
 
-/// Of a run into a folder that is not there yet.
+/// A run into a new folder.
 class Output : public FolderTest {
 protected:
   void SetUp() override {
@@ -57,7 +57,7 @@ protected:
             {"ledger/residual", "J", "residual", 1, {}}};
   }
 
-  /// Ten rows whose numbers say where they belong.
+  /// Ten rows whose numbers identify their place.
   static Row numbered(int r) {
     RowBuilder row(channels());
     row.begin(100 * r, 0.1 * r);
@@ -108,7 +108,7 @@ TEST_F(Output, RowsReadBackFromHdf5ToTheSameBits) {
     EXPECT_EQ(time[i], 0.1 * r);
     EXPECT_EQ(step[i], 100.0 * r);
   }
-  // What a row does not set is NaN, never a stale number.
+  // Unset values of a row are NaN, never stale numbers.
   EXPECT_TRUE(std::isnan(file.numbers("/vehicle/right/sinkage/value")[0]));
 }
 
@@ -130,7 +130,7 @@ TEST_F(Output, FramesHoldVelocitiesAndContactForcesAsVectors) {
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(static_cast<float>(velocity[3 * i + 1]), 0.6f);
     EXPECT_EQ(static_cast<float>(velocity[3 * i + 2]), -0.8f);
-    EXPECT_NEAR(speed[i], 1, 1e-7); // of the two rounded to float
+    EXPECT_NEAR(speed[i], 1, 1e-7); // rounding to float
     EXPECT_EQ(force[3 * i + 1], static_cast<double>(i));
     EXPECT_EQ(force[3 * i + 2], 1);
   }
@@ -169,7 +169,7 @@ TEST_F(Output, CsvHasTheNarrowChannelsToTheSameBits) {
 TEST_F(Output, UnfinishedRunLeavesReadableRows) {
   RunWriter writer(folder_, setup::provenanceOf(scene()), channels(), {});
   for (int r = 0; r < 5; ++r) writer.row(numbered(r));
-  // A copy of the files as they are on disk now is what a killed program leaves.
+  // A copy of the files on disk now is the result of a killed program.
   fs::copy_file(folder_ / "results.h5", folder_ / "killed.h5");
   const support::Hdf5File file = support::Hdf5File::open(folder_ / "killed.h5");
   EXPECT_EQ(file.numbers("/ledger/residual/value").size(), 5u);
@@ -248,7 +248,7 @@ TEST_F(Output, EveryXdmfReferenceExistsWithItsDimensions) {
     EXPECT_EQ(file.shape(dataset), wanted) << dataset;
   }
   EXPECT_EQ(references, 3 * (7 + 4 + 2)); // grains, parts, ground
-  // Parts stand where their poses put them.
+  // Parts are at their poses.
   const std::vector<double> parts = file.numbers("/000002/parts/position");
   EXPECT_EQ(parts[2], 2.0);
   EXPECT_EQ(parts[9], 5.0);
@@ -300,7 +300,7 @@ TEST_F(Output, SinkageCsvOfSingleShoesHasThoseAlone) {
   ASSERT_EQ(text.size(), 3u);
   EXPECT_EQ(text[0], "time [s],left 2 [m],left 1 [m],right 2 [m],right 1 [m]");
   EXPECT_EQ(cells(text[2])[2], 1.2);
-  EXPECT_THROW(writeSinkageCsv(folder_ / "results.h5", folder_, {0, 3}), base::InputError) << "there are three";
+  EXPECT_THROW(writeSinkageCsv(folder_ / "results.h5", folder_, {0, 3}), base::InputError) << "there are only three";
   EXPECT_THROW(requireShoes(folder_ / "results.h5", {3}), base::InputError);
   requireShoes(folder_ / "results.h5", {0, 2});
 }
@@ -330,7 +330,7 @@ TEST_F(Output, TablesHaveNoRoundingOfTheProductOfAStep) {
   EXPECT_TRUE(lines(contents(folder_ / "timeseries.csv"))[1].starts_with("5900,0.59,"));
   EXPECT_TRUE(lines(contents(writeSinkageCsv(folder_ / "results.h5", folder_)))[1].starts_with("0.59,"));
   EXPECT_NE(contents(folder_ / "manifest.json").find("\"simulated_time_s\": 0.59,"), std::string::npos);
-  EXPECT_EQ(support::Hdf5File::open(folder_ / "results.h5").numbers("/series/time")[0], 5900 * 1e-4) << "as it was";
+  EXPECT_EQ(support::Hdf5File::open(folder_ / "results.h5").numbers("/series/time")[0], 5900 * 1e-4) << "unchanged";
 }
 
 TEST(ShoesNamed, AreNumbersAndRanges) {

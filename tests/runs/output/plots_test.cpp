@@ -40,8 +40,8 @@ sum = true
 y_label = "sum"
 )";
 
-/// A track that walks past: shoe s is on the ground run until row 10 + 5 s, sinks there, and then rises. The last shoe
-/// comes down at row 60 only.
+/// A passing track: shoe s has ground contact until row 10 + 5 s, sinks during it, and then rises. The last shoe
+/// touches down only at row 60.
 class Plots : public FolderTest {
 protected:
   void SetUp() override {
@@ -99,7 +99,7 @@ TEST_F(Plots, AreDrawnOrSayWhatToInstall) {
     EXPECT_NE(warning.find("install python3"), std::string::npos) << warning;
     GTEST_SKIP() << warning;
   }
-  ASSERT_EQ(drawn.size(), kAllPlots.size() - 1) << "all but that of mechanisms, of which these results hold none";
+  ASSERT_EQ(drawn.size(), kAllPlots.size() - 1) << "all except that of mechanisms, which these results lack";
   for (const fs::path& plot : drawn) EXPECT_GT(fs::file_size(plot), 10000u) << plot;
 }
 
@@ -145,7 +145,7 @@ TEST_F(Plots, OfADamagedFileAreAWarning) {
   EXPECT_NE(warning.find("no plots"), std::string::npos);
 }
 
-/// The four shoes of the source paper's figure: neighbours, longest on the ground run, then picked up within the run.
+/// The four shoes of the source paper's figure: neighbours, longest in ground contact, then picked up during the run.
 TEST_F(Plots, FourShoesAreConsecutiveAndPickedUp) {
   const std::string script = "import sys; sys.path.insert(0, '" + std::string(GROUSER_SOURCE_DIR) +
                              "/runs/plots'); import h5py, series, shoes; run = series.Run(h5py.File('" +

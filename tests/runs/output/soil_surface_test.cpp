@@ -53,7 +53,7 @@ TEST(SoilSurface, CoversTheTerrainOnceAndWithoutGaps) {
   const terrain::HeightField ground = level(0.5);
   const SoilSurface s = soilSurface(rut(), ground);
   EXPECT_NEAR(areaOf(s), ground.area().width() * ground.area().length(), 1e-9);
-  // Each edge that is not on the border belongs to two triangles: no vertex lies on the edge of a neighbour.
+  // Each edge inside the border belongs to two triangles: no vertex lies on the edge of a neighbour.
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (std::size_t t = 0; t < s.mesh.indices.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(s.mesh.indices[t + k], s.mesh.indices[t + (k + 1) % 3])];
@@ -80,7 +80,7 @@ TEST(SoilSurface, HasTheRutAtNodeSpacingAndFewTrianglesElsewhere) {
   EXPECT_EQ(deep, 51 * 11);
   EXPECT_EQ(loaded, 16 * 11);
   const double cell = 7.04 * 4.03 / (kSpacing * kSpacing);
-  EXPECT_LT(static_cast<double>(s.mesh.vertices.size()), 0.2 * cell) << "a part of the nodes of the whole terrain";
+  EXPECT_LT(static_cast<double>(s.mesh.vertices.size()), 0.2 * cell) << "a fraction of the nodes of the terrain";
 }
 
 using SoilFrames = test::FolderTest;
@@ -117,7 +117,7 @@ TEST_F(SoilFrames, AreReadBackAndTakeThePlaceOfTheGroundInParaView) {
   }
   const std::size_t first = xml.find("/ground/triangles"),
                     second = xml.find("Grid Name=\"step", xml.find("/000000/soil"));
-  EXPECT_GT(first, second) << "the undisturbed ground is drawn in the second frame alone";
+  EXPECT_GT(first, second) << "only the second frame shows undisturbed ground";
 }
 
 TEST_F(SoilFrames, DamagedDataAreAnInputError) {

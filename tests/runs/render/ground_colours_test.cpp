@@ -61,7 +61,7 @@ TEST(GroundColours, ColoursOfVerticesAppearInThePicture) {
   const std::uint8_t *left = image.at(kWidth / 2 - 20, kHeight / 2), *right = image.at(kWidth / 2 + 32, kHeight / 2);
   EXPECT_GT(right[1], right[2] + 60) << "yellow at the maximum";
   EXPECT_LT(left[1], left[2] + 60) << "soil on the left";
-  // The colour of a mesh without colours at its vertices does not change.
+  // The colour of a mesh without vertex colours does not change.
   scene.meshes.push_back({{{{-1, -1, 0.1}, {0, -1, 0.1}, {0, 1, 0.1}}, {0, 1, 2}}, {}, {0, 0, 0.8f}, false, {}});
   const Image both = render(scene, above, kWidth, kHeight);
   const std::uint8_t* blue = both.at(kWidth / 2 - 10, kHeight / 2);
@@ -84,7 +84,7 @@ TEST_F(GroundColoursOfFrames, AreSeenThroughTheVehicle) {
   };
   EXPECT_THROW(painted(GroundQuantity::Pressure), base::InputError) << "no deformable soil";
   frame.soil = square().soil;
-  const auto greenest = [](const Image& image) { // how much yellow and green soil is seen
+  const auto greenest = [](const Image& image) { // amount of yellow and green soil visible
     int most = 0;
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x) most = std::max(most, image.at(x, y)[1] - image.at(x, y)[2]);

@@ -45,7 +45,7 @@ TEST(Render, SphereCoversTheDiscThatPerspectiveGives) {
   EXPECT_TRUE(isRed(image.at(kWidth / 2 + int(radius) - 2, kHeight / 2)));
   EXPECT_FALSE(isRed(image.at(kWidth / 2 + int(radius) + 2, kHeight / 2)));
   EXPECT_FALSE(isRed(image.at(2, 2)));
-  // The outline's pixels are mixed with the background: one pixel's uncertainty all round.
+  // The outline's pixels are mixed with the background: an uncertainty of one pixel all round.
   EXPECT_NEAR(count(image, isRed), M_PI * radius * radius, 2 * M_PI * radius);
 }
 
@@ -79,7 +79,7 @@ TEST(Render, SquareCoversItsProjection) {
 }
 
 TEST(Render, WhatCrossesTheEyeIsClippedNotSmeared) {
-  // A long strip from far ahead to behind the camera: only its lower half of the picture may be covered.
+  // A long strip from far ahead to behind the camera: it may cover only the lower half of the picture.
   const RenderMesh floor{{{{-1, -9, -1}, {1, -9, -1}, {1, 9, -1}, {-1, 9, -1}}, {0, 1, 2, 0, 2, 3}}, {}, {0, 0, 0.8f}};
   const Image image = render({{}, {floor}}, front(), kWidth, kHeight);
   EXPECT_TRUE(isBlue(image.at(kWidth / 2, kHeight - 1)));
@@ -87,7 +87,7 @@ TEST(Render, WhatCrossesTheEyeIsClippedNotSmeared) {
 }
 
 TEST(Render, ShadowFallsBelowASphere) {
-  // A pale floor seen from above; the sphere's shadow lies away from the sun, towards +y.
+  // A pale floor seen from above; the sphere's shadow points away from the sun, towards +y.
   const RenderMesh floor{
       {{{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}}, {0, 1, 2, 0, 2, 3}}, {}, {0.5f, 0.5f, 0.5f}};
   Camera above;
@@ -132,7 +132,7 @@ TEST(Picture, LabelsStandOnWidePicturesAlone) {
   const int narrow = kNarrowestLabelled - 1, wide = 960;
   EXPECT_EQ(drawFrame(frame, {}, {}, narrow).rgb, drawFrame(frame, {}, {}, narrow, false).rgb);
   const Image plain = drawFrame(frame, {}, {}, wide, false), labelled = drawFrame(frame, {}, {}, wide);
-  // Of the pixels that differ: time in the upper left corner, colours in the upper right one, the bar below on the
+  // Pixels that differ: time in the upper left corner, colours in the upper right one, scale bar at the bottom
   // left.
   int upperLeft = 0, upperRight = 0, lowerLeft = 0, elsewhere = 0;
   for (int y = 0; y < plain.height; ++y)
@@ -221,7 +221,7 @@ TEST(Picture, FewGrainsOfAnySizeAreSeenWhole) {
             frame.radii.push_back(radius);
       const Subject s = subjectOf(drawFrame(frame, {}, {}, 320), empty);
       EXPECT_FALSE(s.isCut) << count << " grains of radius " << radius;
-      // A row of 30 is 22 times as long as its grains are wide: no more than a strip of the picture.
+      // A row of 30 is 22 times as long as a grain: it covers only a strip of the picture.
       EXPECT_GT(s.pixels, count < 30 ? 3000 : 500) << count << " grains of radius " << radius;
     }
 }
@@ -276,8 +276,8 @@ TEST(Picture, FloorWithoutAnEndShrinksNoGrains) {
   const int alone = darkPixels(drawFrame(frame, {}, {}, 320));
   const Image onFloor = drawFrame(frame, {}, level(60, -0.05f), 320);
   EXPECT_GT(alone, 1000);
-  EXPECT_NEAR(darkPixels(onFloor), alone, 0.1 * alone) << "but for shadows";
-  EXPECT_TRUE(subjectOf(onFloor, empty).isCut) << "it goes on beyond the picture";
+  EXPECT_NEAR(darkPixels(onFloor), alone, 0.1 * alone) << "except for shadows";
+  EXPECT_TRUE(subjectOf(onFloor, empty).isCut) << "it continues beyond the picture";
 }
 
 } // namespace

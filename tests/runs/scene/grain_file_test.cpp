@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Files of grains: what is a grain's line is read to the last digit, and what is none is one error with its place.
+// Files of grains: valid lines are read to the last digit, and an invalid one causes one error with its place.
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 #include "tests/runs/folder_fixture.hpp"
@@ -53,16 +53,16 @@ TEST_F(GrainFile, EverySeparatorAndLineEndGivesTheSameGrain) {
 }
 
 TEST_F(GrainFile, AllLinesHaveOneWidth) {
-  EXPECT_EQ(read("0,0,0,0.1\r1,0,0,0.1\r\n").at(1).velocity, (base::Vec3d{0, 0, -1})) << "that of the scene";
+  EXPECT_EQ(read("0,0,0,0.1\r1,0,0,0.1\r\n").at(1).velocity, (base::Vec3d{0, 0, -1})) << "the scene's velocity";
   EXPECT_EQ(read("0,0,0,0.1,4,5,6\n1 0 0 0.1 1 2 3\n").at(1).velocity, (base::Vec3d{1, 2, 3}));
   EXPECT_EQ(read("2 0 0 0.1 1 2 3 4 5 6\n").at(0).spin, (base::Vec3d{4, 5, 6}));
-  // A line that was cut short by three numbers would take the scene's velocity.
+  // A line truncated by three numbers would get the scene's velocity.
   for (const char* text : {"0,0,0,0.1\n1,0,0,0.1,1,2,3\n", "0,0,0,0.1,1,2,3\n1,0,0,0.1\n"})
     EXPECT_NE(refusal(text).find("use the same number in all lines"), std::string::npos) << refusal(text);
 }
 
 TEST_F(GrainFile, EmptyFieldIsAnErrorAtItsColumnAndShiftsNothing) {
-  // Skipped, the first made a grain of seven numbers, another a radius of what stands behind it.
+  // If skipped, the first would make a grain of seven numbers, and another a radius from the following text.
   const std::pair<const char*, const char*> empty[] = {{"0.1,0.2,0.3,0.01,,,,1,2,3", ":1:18: column 5 is empty"},
                                                        {"0.1,0.2,,0.3,0.02", ":1:9: column 3 is empty"},
                                                        {",0.1,0.2,0.3,0.01", ":1:1: column 1 is empty"},
@@ -90,8 +90,8 @@ TEST_F(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
       {"0,0,0,0.1,2e4,0,0", ":1:11: column 5, vx = 2e4 [m/s] is outside [-10000, 10000]"},
       {"0,0,0,0.1,0,0,0,0,0,-2e6", "column 10, wz = -2e6 [rad/s] is outside [-1e+06, 1e+06]"},
       {"0,1 0,2 0,3 0,01", ":1:3: column 2, y = 1 0 [m] is not a number; write decimals with a point"},
-      {"1,5;2;3", ":1:4: line mixes commas and semicolons"},
-      {"1;2,5;3", ":1:4: line mixes commas and semicolons"},
+      {"1,5;2;3", ":1:4: line contains both commas and semicolons"},
+      {"1;2,5;3", ":1:4: line contains both commas and semicolons"},
       {"0.1 0.2, 0.3, 0.01", ":1:1: column 1, x = 0.1 0.2 [m] is not a number"},
       {"1d-3 0 0 0.1", "x = 1d-3 [m] is not a number"},
       {"0x10,0,0,0.1", "x = 0x10 [m] is not a number"},
@@ -100,9 +100,9 @@ TEST_F(GrainFile, WhatIsNoNumberIsAnErrorAtItsPlace) {
       {"0,0,0,0.1 m", "r = 0.1 m [m] is not a number"},
       {"0,0,0,\"0.1\"", "r = \"0.1\" [m] is in quotes; remove them"},
       {"\"0\",\"0\",\"0\",\"0.1\"", ":1:1: column 1, x = \"0\" [m] is in quotes; remove them"},
-      {"0,0,0", ":1:1: 3 numbers; expected x, y, z, r [m]"},
-      {"0,0,0,0.1,1", ":1:1: 5 numbers"},
-      {"0,0,0,0.1,1,2,3,4,5,6,7", ":1:1: 11 numbers"},
+      {"0,0,0", ":1:1: line has 3 numbers; expected x, y, z, r [m]"},
+      {"0,0,0,0.1,1", ":1:1: line has 5 numbers"},
+      {"0,0,0,0.1,1,2,3,4,5,6,7", ":1:1: line has 11 numbers"},
       {"# only a comment\n\n", ": contains no grains"},
       {"", ": contains no grains"}};
   for (const auto& [text, place] : wrong) EXPECT_NE(refusal(text).find(place), std::string::npos) << refusal(text);
@@ -117,7 +117,7 @@ TEST_F(GrainFile, HeaderIsCheckedForNamesUnitsAndItsNumberOfColumns) {
       {"x [cm] y z r\n0 0 0 1\n", "column 1 of the header has unit [cm]"},
       {"x,y,z\n0,0,0,1\n", ":1:1: the header has 3 columns"},
       {"x,y,z,r,vx,vy,vz,wx,wy,wz,id\n", "column 11 of the header is \"id\""},
-      {"x,y,z,r,vx,vy,vz\n0,0,0,0.1\n", ":2:1: 4 numbers, but the header has 7 columns"},
+      {"x,y,z,r,vx,vy,vz\n0,0,0,0.1\n", ":2:1: line has 4 numbers, but the header has 7 columns"},
       {"x,y,z,r\nx,y,z,r\n0,0,0,0.1\n", ":2:1: column 1, x = x [m] is not a number"},
       {"0,0,0,0.1\nx,y,z,r\n", ":2:1: column 1, x = x [m] is not a number"},
       {"x,y,z,r\n", ": contains no grains"}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A key in the wrong section, or in none, is found in the one that has it.
+// A key in the wrong section, or without a section, is found in the right one.
 #include "base/error.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/locations.hpp"
@@ -37,7 +37,7 @@ TEST(NearestKey, StandsInTheSectionThatHasIt) {
   };
   meant("sprocket_speed=3", "driver.sprocket_speed");
   meant("run.sprocket_speed=3", "driver.sprocket_speed");
-  meant("drive.sprocket_speed=3", "driver.sprocket_speed"); // a list of mechanisms has that name
+  meant("drive.sprocket_speed=3", "driver.sprocket_speed"); // a list of mechanisms has this key
   meant("vehicle.sprocket_speeds=3", "driver.sprocket_speed");
   meant("sproket_speed=3", "driver.sprocket_speed");
   meant("output.frame_interval=1", "run.frame_interval");
@@ -47,8 +47,8 @@ TEST(NearestKey, StandsInTheSectionThatHasIt) {
   meant("vehicle.grain_radii=0.01", "material.grain_radius or terrain.grain_radius");
   meant("shoe.count=48", "spec.shoe.count");
   meant("spec.road_wheel.cuont=5", "count");
-  meant("terain.depth=0.2", "terrain");              // the section alone is wrong
-  meant("driver.sproket_speed=2", "sprocket_speed"); // the key alone is
+  meant("terain.depth=0.2", "terrain");              // only the section is wrong
+  meant("driver.sproket_speed=2", "sprocket_speed"); // only the key is wrong
   const std::string inFile = complaint("", "[driver]\nduration = 3\n");
   EXPECT_NE(inFile.find("scene.toml:14: unknown key driver.duration; did you mean run.duration?"), std::string::npos)
       << inFile;

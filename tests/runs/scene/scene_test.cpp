@@ -86,7 +86,7 @@ TEST(Scene, PathsAreFoundBesideTheSceneFirst) {
 TEST(Scene, PlacesLookedAtAreNamedOnce) {
   std::vector<std::filesystem::path> tried;
   EXPECT_TRUE(support::findInput("nosuch.png", "scene.toml", tried).empty());
-  EXPECT_EQ(tried.size(), 2u); // the scene's folder is the current one; the other is assets/
+  EXPECT_EQ(tried.size(), 2u); // current folder (the scene's) and assets/
   EXPECT_TRUE(support::findInput("/nosuch.png", "scene.toml", tried).empty());
   EXPECT_EQ(tried, std::vector<std::filesystem::path>{"/nosuch.png"});
 }
@@ -99,19 +99,19 @@ TEST(Scene, DriverFormsGiveTheSameSpeeds) {
   EXPECT_EQ(sides.right, std::vector<double>{-1});
   EXPECT_DOUBLE_EQ(parse(goodScene()).driver.driveBegins(), 0.45);
   EXPECT_EQ(parse(goodScene(), {"driver.drive_start=2"}).driver.driveBegins(), 2);
-  // 0.1 + 0.2 is above 0.3 in binary.
+  // In binary 0.1 + 0.2 exceeds 0.3.
   EXPECT_EQ(parse(goodScene(), {"driver.drive_start=0.3", "driver.tension_ramp=0.1", "driver.weight_ramp=0.2"})
                 .driver.driveBegins(),
             0.3);
 }
 
-/// One mistake in a good scene, and what the message must hold: the place or key, and the remedy.
+/// One mistake in a valid scene, and the required parts of the message: place or key, and remedy.
 struct Broken {
   const char* name;
   const char* from;
   const char* to;
   std::vector<const char*> says;
-  // NOLINTNEXTLINE(readability-identifier-naming): GoogleTest calls it by this name.
+  // NOLINTNEXTLINE(readability-identifier-naming): name required by GoogleTest.
   friend void PrintTo(const Broken& b, std::ostream* out) { *out << b.name; }
 };
 
@@ -119,10 +119,10 @@ class BrokenScene : public ::testing::TestWithParam<Broken> {};
 
 TEST_P(BrokenScene, GivesOneErrorWithKeyAndRemedy) {
   const std::string text = replaced(goodScene(), GetParam().from, GetParam().to);
-  ASSERT_NE(text, "") << "the good scene has no such line";
+  ASSERT_NE(text, "") << "the valid scene has no such line";
   try {
     parse(text);
-    FAIL() << "the scene was taken";
+    FAIL() << "the scene was accepted";
   } catch (const base::InputError& e) {
     for (const char* part : GetParam().says)
       EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what() << "\nlacks: " << part;
@@ -193,7 +193,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"BlockWithoutRoom",
                "[terrain]",
                "[[grains]]\nlow = [0, 0, 0]\nhigh = [1, 1, 0.1]\nradius = 0.1\nmaterial = \"soil\"\n[terrain]",
-               {"grains.0.high", "leaves no room for a grain of radius 0.1 m", "enlarge the box"}},
+               {"grains.0.high", "makes the box too small for a grain of radius 0.1 m", "enlarge the box"}},
         Broken{"RandomWithoutNumber",
                "[terrain]",
                "[[grains]]\nform = \"random\"\nlow = [0, 0, 0]\nhigh = [1, 1, 1]\nradius = 0.1\nmaterial = "
@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
                "\"soil|stel\"",
                {"scene.toml:11", "contact.\"soil|stel\"", "did you mean \"steel\"?"}},
         Broken{"ContactOfOne", "\"soil|steel\"", "soil", {"contact.soil", "must have the form [contact.\"a|b\"]"}},
-        Broken{"ContactTwice", "[terrain]", "[contact.\"steel|soil\"]\n[terrain]", {"given twice", "remove one"}},
+        Broken{"ContactTwice", "[terrain]", "[contact.\"steel|soil\"]\n[terrain]", {"defined twice", "remove one"}},
         Broken{"NoHeightmap",
                "hills.png",
                "hill.png",
@@ -221,8 +221,7 @@ INSTANTIATE_TEST_SUITE_P(
                "layers = 2",
                "layers = 2\ndepth = 0.3",
                {"terrain.depth = 0.3", "mutually exclusive with layers", "remove one"}},
-        Broken{
-            "NeitherLayersNorDepth", "layers = 2\n", "", {"terrain.layers is missing; give layers [-] or depth [m]"}},
+        Broken{"NeitherLayersNorDepth", "layers = 2\n", "", {"terrain.layers is missing; set layers [-] or depth [m]"}},
         Broken{
             "NoGrainRadius", "grain_radius = 0.05\n", "", {"terrain.grain_radius [m] is missing", "kind = \"rigid\""}},
         Broken{"LayersOnRigid",
@@ -249,12 +248,12 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"EmptyHeightmap",
                "\"heightmaps/hills.png\"",
                "\"\"",
-               {"scene.toml:14: terrain.heightmap = \"\" is empty; give the path of a file"}},
+               {"scene.toml:14: terrain.heightmap = \"\" is empty; set the path of a file"}},
         Broken{"FolderAsHeightmap", "heightmaps/hills.png", "heightmaps", {"terrain.heightmap", "is a folder, "}},
         Broken{"EmptySpec",
                "\"vehicles/light_tracked.toml\"",
                "\"\"",
-               {"scene.toml:25: vehicle.spec = \"\" is empty; give the path of a file"}},
+               {"scene.toml:25: vehicle.spec = \"\" is empty; set the path of a file"}},
         Broken{"NoSpec", "light_tracked.toml", "lite.toml", {"vehicle.spec", "does not exist", "correct the path"}},
         Broken{"OffTheTerrain",
                "position = [1.5, 0]",
@@ -265,19 +264,19 @@ INSTANTIATE_TEST_SUITE_P(
                "sprocket_speed = 1\ndrive_start = 0.3",
                {"scene.toml:30: driver.drive_start = 0.3 [s]", "is before the end of the ramps",
                 "driver.weight_ramp = 0.45 s", "set it to 0.45 or more"}},
-        Broken{"OneSide", "sprocket_speed = 1", "left = 1", {"driver.left = 1", "requires right", "give both"}},
+        Broken{"OneSide", "sprocket_speed = 1", "left = 1", {"driver.left = 1", "requires right", "set both"}},
         Broken{"SpeedsTwice",
                "sprocket_speed = 1",
                "sprocket_speed = 1\nleft = 1\nright = 1",
-               {"driver.sprocket_speed", "one of several", "keep one"}},
+               {"driver.sprocket_speed", "conflicts with another", "keep only one"}},
         Broken{"TableLengths",
                "sprocket_speed = 1",
                "[driver.table]\ntime = [0, 1]\nleft = [1]\nright = [1, 1]",
-               {"driver.table.left", "must have as many entries as time, 2", "correct the lists"}},
+               {"driver.table.left", "must have as many entries as time (2)", "correct the lists"}},
         Broken{"TableOrder",
                "sprocket_speed = 1",
                "[driver.table]\ntime = [1, 0]\nleft = [1, 1]\nright = [1, 1]",
-               {"driver.table.time", "does not increase", "sort it"}},
+               {"driver.table.time", "must increase", "sort it"}},
         Broken{"OutputBelowStep",
                "time_step = 1e-4",
                "time_step = 1e-4\noutput_interval = 1e-5",
@@ -307,7 +306,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"PlaneWithoutNormal",
                "[terrain]",
                "[[plane]]\nnormal = [0, 0, 0]\nmaterial = \"soil\"\n[terrain]",
-               {"plane.0.normal", "is zero", "give the direction"}},
+               {"plane.0.normal", "has zero length", "set the direction"}},
         Broken{"SingleBracketGrain",
                "[terrain]",
                "[grain]\nradius = 1\n[terrain]",

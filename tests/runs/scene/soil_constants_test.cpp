@@ -64,9 +64,9 @@ TEST(SoilConstants, PublishedOnesWithoutASpanHaveAssumedIntervals) {
 TEST(SoilConstants, ASpanOfSourcesAndAMeasuredHalfWidthAreTheirIntervals) {
   const Constants dry = contactConstants(soil("dry_sand"), SoilConstantsFrom::published);
   EXPECT_FALSE(of(dry, Q::shearModulus).isAssumed);
-  EXPECT_NEAR(of(dry, Q::shearModulus).halfWidth(), 0.005, 1e-12); // 20 to 25 mm, of which 25 is the value
+  EXPECT_NEAR(of(dry, Q::shearModulus).halfWidth(), 0.005, 1e-12); // 20 to 25 mm; the value is 25
   const Constants gravel = contactConstants(soil("gravel"), SoilConstantsFrom::published);
-  EXPECT_NEAR(of(gravel, Q::frictionAngle).halfWidth(), 5, 0.05); // 30 to 39, of which 34 is the value; tangents bend
+  EXPECT_NEAR(of(gravel, Q::frictionAngle).halfWidth(), 5, 0.05); // 30 to 39, the value is 34; the tangent is nonlinear
   const Constants lete = contactConstants(soil("lete_sand"), SoilConstantsFrom::measured);
   for (const ContactConstant& c : lete) EXPECT_FALSE(c.isAssumed);
   EXPECT_NEAR(of(lete, Q::cohesion).halfWidth(), 187.5, 1e-9);
@@ -76,8 +76,8 @@ TEST(SoilConstants, ASpanOfSourcesAndAMeasuredHalfWidthAreTheirIntervals) {
 TEST(SoilConstants, MeasuredOnesAreOfOneSizeOfGrains) {
   const Constants loam = contactConstants(soil("grenville_loam"), SoilConstantsFrom::measured);
   ASSERT_EQ(loam.size(), kContactQuantities.size());
-  EXPECT_EQ(of(loam, Q::exponent).value, 1.005) << "measured with grains of 14 mm radius alone";
-  EXPECT_EQ(of(loam, Q::cohesion).value, 2480) << "of the same grains, not those of 7 mm";
+  EXPECT_EQ(of(loam, Q::exponent).value, 1.005) << "measured with grains of 14 mm radius only";
+  EXPECT_EQ(of(loam, Q::cohesion).value, 2480) << "from the same grains, not those of 7 mm";
   EXPECT_EQ(of(loam, Q::shearModulus).value, 0.01);
 }
 
@@ -88,13 +88,13 @@ TEST(SoilConstants, ASampleIsTheSameOnEveryMachine) {
     EXPECT_EQ(one[i].value, again[i].value);
     EXPECT_NE(one[i].value, other[i].value);
   }
-  // Computed apart from the program, by the functions of another mathematical library.
+  // Computed independently of the program, with another mathematical library.
   EXPECT_DOUBLE_EQ(of(one, Q::exponent).value, 0.731155288641434);
   EXPECT_DOUBLE_EQ(of(one, Q::frictionalModulus).value, 3289636.270124886);
   EXPECT_DOUBLE_EQ(of(one, Q::frictionAngle).value, 32.38363415893085);
 }
 
-/// Tolerances: 4 standard errors of 4000 samples, and what limits at 3 deviations take off a deviation, 1.4 %.
+/// Tolerances: 4 standard errors of 4000 samples, and the effect of limits at 3 deviations on the deviation, 1.4 %.
 TEST(SoilConstants, SamplesHaveTheDeviationsAndCorrelationsStated) {
   const Constants nominal = contactConstants(soil("lete_sand"), SoilConstantsFrom::published);
   const double z = std::pow(kReferencePressure / modulus(nominal), 1 / of(nominal, Q::exponent).value);
@@ -137,7 +137,7 @@ TEST(SoilConstants, AGivenConstantIsNotDrawn) {
     EXPECT_EQ(of(constants, Q::cohesion).value, 1300);
     squares += std::pow((of(constants, Q::exponent).value - 0.793) * sinkage, 2);
   }
-  EXPECT_NEAR(std::sqrt(squares / kSamples), kPressureDeviation, 0.015) << "n alone carries the pressure's deviation";
+  EXPECT_NEAR(std::sqrt(squares / kSamples), kPressureDeviation, 0.015) << "n alone scatters the pressure";
 }
 
 } // namespace

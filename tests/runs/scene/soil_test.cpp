@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Soils by name: what a scene takes from a soil's file, and how it is scaled to the scene's grains.
+// Soils by name: values of the soil file in a scene, and their scaling to the scene's grains.
 #include "runs/scene/soil.hpp"
 #include "runs/scene/soil_calibration.hpp"
 
@@ -24,14 +24,14 @@ protected:
   Scene parse(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     return readSceneText(text, folder_ / "scene.toml", overrides);
   }
-  /// The error that a scene ends with.
+  /// The error of a scene.
   std::string errorOf(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     try {
       parse(text, overrides);
     } catch (const base::InputError& error) {
       return error.what();
     }
-    ADD_FAILURE() << "the scene was taken:\n" << text;
+    ADD_FAILURE() << "the scene was accepted:\n" << text;
     return "";
   }
   void expectError(const std::string& text, const std::vector<std::string>& parts) const {
@@ -39,7 +39,7 @@ protected:
     for (const std::string& part : parts) EXPECT_NE(error.find(part), std::string::npos) << error << "\nlacks " << part;
     EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   }
-  /// The error of a soil's file that is right but for one line.
+  /// The error of a soil file that is valid except for one line.
   void expectFileError(const std::string& from, const std::string& to, const std::vector<std::string>& parts) const {
     const std::string text = replaced(kLoam, from, to);
     ASSERT_NE(text, "") << from;
@@ -59,7 +59,7 @@ TEST_F(Soils, ANameTakesThePresetWhereverAMaterialStands) {
     EXPECT_EQ(m.stiffness, 2e5) << section;
     EXPECT_EQ(m.density, 2600);
     EXPECT_EQ(m.soil, fs::canonical(folder_ / "soils/loam.toml").string());
-    EXPECT_EQ(m.tangentialStiffnessRatio, 2.0 / 7) << "what the soil leaves out has its default";
+    EXPECT_EQ(m.tangentialStiffnessRatio, 2.0 / 7) << "missing keys have their defaults";
   }
 }
 
@@ -68,7 +68,7 @@ TEST_F(Soils, StiffnessAndCohesionGoWithTheRadius) {
   const Material& m = s.material("loam");
   EXPECT_DOUBLE_EQ(*m.stiffness, 4e5);
   EXPECT_DOUBLE_EQ(m.cohesion, 6);
-  EXPECT_DOUBLE_EQ(*m.damping, 25) << "as sqrt(k / m)";
+  EXPECT_DOUBLE_EQ(*m.damping, 25) << "scales as sqrt(k / m)";
   EXPECT_EQ(m.friction, 0.45);
   EXPECT_EQ(m.rollingFriction, 0.1);
   EXPECT_EQ(m.density, 2600);
@@ -97,7 +97,7 @@ TEST_F(Soils, KeysOfTheSceneOverrideAndAreNotScaled) {
 TEST_F(Soils, OverridesOfTheCommandLineWorkOnAPreset) {
   const Scene s = parse(bedOf("loam", "depth = 0.3\n"), {"material.loam.friction=0.6", "terrain.grain_radius=0.015"});
   EXPECT_EQ(s.material("loam").friction, 0.6);
-  EXPECT_DOUBLE_EQ(*s.material("loam").stiffness, 3e5) << "scaled to the radius that the override says";
+  EXPECT_DOUBLE_EQ(*s.material("loam").stiffness, 3e5) << "scaled to the radius of the override";
   const Scene named = parse(bedOf("clay", "depth = 0.3\n"), {"terrain.material=loam", "material.loam.cohesion=1"});
   EXPECT_EQ(named.material("loam").cohesion, 1);
   EXPECT_NE(errorOf(bedOf("loam", "depth = 0.3\n"), {"material.loan.friction=0.6"}).find("did you mean loam?"),
@@ -120,7 +120,7 @@ TEST_F(Soils, AMaterialOfTheSceneGoesBeforeASoilOfThatName) {
   EXPECT_TRUE(s.material("loam").soil.empty());
   EXPECT_EQ(s.material("loam").friction, Material{}.friction);
   ASSERT_EQ(soilNotes(s).size(), 1u);
-  EXPECT_NE(soilNotes(s)[0].find("defined by the scene"), std::string::npos) << soilNotes(s)[0];
+  EXPECT_NE(soilNotes(s)[0].find("defined in the scene"), std::string::npos) << soilNotes(s)[0];
 }
 
 TEST_F(Soils, TheRadiusIsTheBedsThenThatOfTheGrains) {
@@ -147,10 +147,10 @@ TEST_F(Soils, GrainRadiusNeedsASoil) {
 }
 
 TEST_F(Soils, UnknownNamesAreAnsweredWithTheNearestAndAll) {
-  expectError(grainOf("lete_snad", 0.01), {"scene.toml:7: grain.0.material", "names no material of this scene",
+  expectError(grainOf("lete_snad", 0.01), {"scene.toml:7: grain.0.material", "is not a material of this scene",
                                            "did you mean \"lete_sand\"?", "gravel", "loam"});
   expectError(grainOf("a", 0.01, "[material.a]\nsoil = \"laom\"\n"),
-              {"scene.toml:5", "material.a.soil = \"laom\" names no soil", "did you mean \"loam\"?", "searched"});
+              {"scene.toml:5", "material.a.soil = \"laom\" is not a known soil", "did you mean \"loam\"?", "searched"});
   expectError(grainOf("soils/loam.toml", 0.01), {"grain.0.material", "soil = \"soils/loam.toml\""});
   expectError(grainOf("a", 0.01, "[material.a]\nsoil = \"\"\n"), {"material.a.soil"});
   expectError(grainOf("a", 0.01, "[material.a]\nsoil = 3\n"), {"material.a.soil = 3 has the wrong type"});
@@ -170,7 +170,7 @@ TEST_F(Soils, MistakesInASoilsFileNameItsLine) {
   expectFileError("[0.008, 0.02]", "[0.02, 0.008]", {"loam.toml:18", "must be [min, max]"});
   expectFileError("[0.008, 0.02]", "[0.015, 0.02]", {"does not include grain_radius = 0.01"});
   expectFileError("unit = \"deg\"", "unit = \"rad\"", {"loam.toml:22", "unit = \"rad\"", "unit = \"deg\""});
-  expectFileError("low = 29", "low = 31", {"published.0.low", "above value"});
+  expectFileError("low = 29", "low = 31", {"published.0.low", "exceeds value"});
   expectFileError("quantity = \"phi\"", "quantity = \"ph\"", {"none of n, k_c", "did you mean \"phi\"?"});
   expectFileError("title = \"loam\"\n", "", {"[soil] lacks the required key title"});
   expectFileError("density = 2600", "soil = \"loam\"", {"loam.toml:7: material.soil", "is a key of scene files only"});
@@ -187,7 +187,7 @@ TEST_F(Soils, TheBedLiesAsTheSoilDoesUnlessTheSceneSaysOtherwise) {
   EXPECT_EQ(given.terrain->porosity, 0.38);
   EXPECT_EQ(given.terrain->radiusSpread, 0.1);
   const Scene shallow = parse(bedOf("loam", "depth = 0.1\n"));
-  EXPECT_FALSE(shallow.terrain->porosity) << "not measured in beds of less than three diameters";
+  EXPECT_FALSE(shallow.terrain->porosity) << "not measured in beds shallower than three diameters";
   ASSERT_EQ(soilNotes(shallow).size(), 1u);
   EXPECT_NE(soilNotes(shallow)[0].find("too shallow"), std::string::npos);
   EXPECT_FALSE(parse(bedOf("loam", "arrangement = \"lattice\"\nlayers = 3\n")).terrain->porosity);
@@ -207,7 +207,7 @@ TEST_F(Soils, ResolvedSceneSaysWhereItsValuesComeFromAndLoadsToTheSame) {
   EXPECT_EQ(second.materials, first.materials) << "not scaled twice";
   EXPECT_EQ(second.terrain, first.terrain);
   EXPECT_EQ(resolvedToml(second), resolved);
-  // A soil that has changed since is told, and changes nothing.
+  // A later change of the soil causes a message, and no change of values.
   put(folder_ / "soils/loam.toml", replaced(kLoam, "stiffness = 2e5", "stiffness = 3e5"));
   const Scene later = readSceneText(resolved, folder_ / "out/scene.toml");
   EXPECT_EQ(later.material("loam").stiffness, 4e5);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which keys of a scene are part of the key of its kept bed: every key of every section, one after the other, against
-// a list that was gone through by hand. A key that cannot move a grain while the bed settles must not make another bed;
-// one that can must.
+// Which scene keys are part of the cache key of a settled bed: all keys of all sections against
+// a manually checked list. A key without effect on settling must keep the bed;
+// any other key must change it.
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/ground_setup.hpp"
@@ -23,7 +23,7 @@
 namespace grouser::setup {
 namespace {
 
-/// A bed with a vehicle, and what can stand in it, beside it and fall on it later.
+/// A bed with a vehicle, and all objects that can be inside, beside or above it.
 std::string sceneText(const std::string& more) {
   return R"(version = 1
 [run]
@@ -73,7 +73,7 @@ sprocket_speed = 2
 )" + more;
 }
 
-/// Bed key of the scene with these keys; "-TEXT" removes the lines that begin so.
+/// Bed key of the scene with these keys; "-TEXT" removes the lines that start with TEXT.
 std::string keyOf(const std::string& more, const std::vector<std::string>& changes) {
   std::string text;
   std::vector<std::string> overrides;
@@ -90,10 +90,10 @@ std::string keyOf(const std::string& more, const std::vector<std::string>& chang
 
 struct Change {
   std::string key;                    ///< "section.key", as in docs/keys.md
-  bool moves;                         ///< the bed
+  bool moves;                         ///< whether the key changes the bed
   std::vector<std::string> overrides; ///< overrides that change it
-  std::vector<std::string> before{};  ///< overrides that both scenes have
-  std::string more{};                 ///< sections that both have
+  std::vector<std::string> before{};  ///< overrides of both scenes
+  std::string more{};                 ///< additional sections of both scenes
 };
 
 const std::string
@@ -121,7 +121,7 @@ const std::string kSolved = "run.contact=complementarity";
 
 std::vector<Change> ofRun() {
   return {{"run.duration", false, {"run.duration=7"}},
-          {"run.time_step", false, {"run.time_step=2e-4"}},               // bedOrigin() is given the step itself
+          {"run.time_step", false, {"run.time_step=2e-4"}},               // the step itself is an input of bedOrigin()
           {"run.steps_per_contact", false, {"run.steps_per_contact=30"}}, // changes the step only
           {"run.steps_per_period", false, {"run.steps_per_period=30"}},
           {"run.gravity", true, {"run.gravity=[0,0,-9]"}},
@@ -140,12 +140,12 @@ std::vector<Change> ofRun() {
           {"complementarity.strict", false, {kSolved, "complementarity.strict=true"}, {kSolved}},
           {"run.impact_speed", false, {"run.impact_speed=2"}}, // changes the step only
           {"run.threads", false, {"run.threads=2"}},
-          {"run.integrator", false, {"run.integrator=symplectic_euler"}}, // mechanisms only, as the next three
+          {"run.integrator", false, {"run.integrator=symplectic_euler"}}, // mechanisms only, as are the next three
           {"run.integrator_order", false, {"run.integrator_order=4"}},
           {"run.springs", false, {"run.springs=explicit"}},
           {"run.constraint_tolerance", false, {"run.constraint_tolerance=1e-9"}},
           {"run.skin", false, {"run.skin=0.5"}},
-          {"run.max_overlap", true, {"run.max_overlap=0.4"}}, // may refuse it
+          {"run.max_overlap", true, {"run.max_overlap=0.4"}}, // settling may fail
           {"run.periodic", true, with(kNoVehicle, "run.periodic=[true,false]"), kNoVehicle}};
 }
 
@@ -194,7 +194,7 @@ std::vector<Change> ofMaterials() {
        {"material.soil.law=eepa_linear"}},
       {"material.crushing_strength",
        false,
-       {"material.soil.crushing_strength=1e7"}}, // acts between grains and parts only
+       {"material.soil.crushing_strength=1e7"}}, // applies between grains and parts only
       {"contact.stiffness", true, {"contact.\"soil|steel\".stiffness=6e5"}},
       {"contact.restitution", true, {"contact.\"soil|steel\".restitution=0.4"}},
       {"contact.damping", true, {"contact.\"soil|steel\".damping=300"}},
@@ -241,13 +241,13 @@ std::vector<Change> ofTerrain() {
                           {"terrain.floor_grains", true, {"terrain.floor_grains=false"}},
                           {"terrain.walls", true, {"terrain.walls=false"}},
                           {"terrain.wall_friction", true, {"terrain.wall_friction=0.3"}},
-                          {"terrain.settle_time_limit", true, {"terrain.settle_time_limit=4"}}, // may refuse it
+                          {"terrain.settle_time_limit", true, {"terrain.settle_time_limit=4"}}, // settling may fail
                           {"terrain.settle_kinetic_energy", true, {"terrain.settle_kinetic_energy=1e-3"}},
                           {"terrain.settle_force_ratio", true, {"terrain.settle_force_ratio=0.1"}},
                           {"terrain.cache", false, {"terrain.cache=false"}}};
   for (const char* key : {"spacing=2.3", "jitter=0.5", "packing=0.55", "layers=3"}) {
     const std::string name = key;
-    // No random bed: depth is not of a lattice.
+    // Not a random bed: its depth is no lattice depth.
     all.push_back({"terrain." + name.substr(0, name.find('=')), true, with(lattice, "terrain." + name), lattice});
   }
   all.push_back({"terrain.sieve_size", true, with(sieve, "terrain.sieve_size=[0.05,0.07,0.09]"), sieve});
@@ -255,7 +255,7 @@ std::vector<Change> ofTerrain() {
   return all;
 }
 
-/// A surface in the bed from the start counts with its place and material, not with its later motion.
+/// A surface in the bed from the start counts with its position and material, not with its later motion.
 std::vector<Change> ofSurfaces() {
   std::vector<Change> all;
   const auto moving = [&](const std::string& list, const std::string& first) {
@@ -284,7 +284,7 @@ std::vector<Change> ofSurfaces() {
   moving("plane", "velocity=[0.1,0,0]"), moving("box", "velocity=[0.1,0,0]"), moving("cylinder", "velocity=[0.1,0,0]");
   const std::vector<Change> own{{"plane.point", true, {"plane.0.point=[0,0,-0.9]"}},
                                 {"plane.normal", true, {"plane.0.normal=[0,0.1,1]"}},
-                                {"plane.name", true, {"plane.0.name=belt"}}, // a surface, and no wall of the bed
+                                {"plane.name", true, {"plane.0.name=belt"}}, // a surface, not a wall of the bed
                                 {"box.position", true, {"box.0.position=[2,0.5,0.1]"}},
                                 {"box.size", true, {"box.0.size=[0.2,0.2,0.2]"}},
                                 {"box.axis", true, {"box.0.axis=[0,1,1]", "box.0.angle=10"}},
@@ -299,15 +299,15 @@ std::vector<Change> ofSurfaces() {
   return all;
 }
 
-/// Things put on the bed later do not count at all.
+/// Objects placed on the bed later have no effect.
 std::vector<Change> ofWhatComesLater() {
   std::vector<Change> all{
       {"source.low", false, {"source.0.low=[1.1,0,1]"}},
       {"source.high", false, {"source.0.high=[2.1,0.5,1.2]"}},
       {"source.velocity", false, {"source.0.velocity=[0,0,-1]"}},
       {"source.spin", false, {"source.0.spin=[0,0,1]"}},
-      {"source.radius", true, {"source.0.radius=0.06"}},       // the layout is that of all grains of the run
-      {"source.material", true, {"source.0.material=rubber"}}, // as of radii
+      {"source.radius", true, {"source.0.radius=0.06"}},       // the layout depends on all grains of the run
+      {"source.material", true, {"source.0.material=rubber"}}, // see radii
       {"source.number", false, {"source.0.number=2"}},
       {"source.every", false, {"source.0.every=2"}},
       {"source.start", false, {"source.0.start=0.1"}},
@@ -400,18 +400,18 @@ TEST(BedKey, HasWhatMovesTheBedAndNothingElse) {
 }
 
 TEST(BedKey, WasDecidedForEveryKeyOfAScene) {
-  // Left out: drivers' tables and courses, removed with the vehicle; soils, whose values count; contents of files of
-  // grains; records and steps of mechanisms; domains, which no bed has; the kind of a terrain (a rigid one has no bed),
+  // Exceptions: drivers' tables and courses, removed with the vehicle; soils, which count by value; contents of grain
+  // files; records and steps of mechanisms; domains, which beds lack; the kind of a terrain (a rigid one has no bed),
   // and its packing.
   std::set<std::string> decided{"driver.drive", "driver.left", "driver.right", "driver.torque", "driver.left_torque",
                                 "driver.right_torque", "material.soil", "material.soil_hash", "material.grain_radius",
                                 "grains.file", "output.record", "run.tolerance", "run.domain_x", "run.domain_y",
                                 "terrain.kind", "terrain.arrangement",
-                                // Bodies come after the bed has settled.
+                                // Bodies are added after settling.
                                 "material.foundation_modulus", "mechanism.above_bed",
-                                // Results alone.
+                                // Output only.
                                 "output.fields_cell", "output.fields_low", "output.fields_high"};
-  // A motion that meshes have like the other surfaces.
+  // Motions of meshes equal those of other surfaces.
   for (const char* key : {"pivot", "amplitude", "frequency", "phase", "free", "mass", "load", "load_ramp"})
     decided.insert(std::string("mesh.") + key);
   for (const Change& c : reviewed()) decided.insert(c.key);
@@ -431,7 +431,7 @@ TEST(BedKey, WasDecidedForEveryKeyOfAScene) {
     const std::string key = section + "." + line.substr(3, line.find('`', 3) - 3);
     if (!decided.contains(key)) missing += key + " ";
   }
-  EXPECT_EQ(missing, "") << "add each to the list above: whether it moves a bed that settles";
+  EXPECT_EQ(missing, "") << "add each to the list above, with its effect on settling";
 }
 
 TEST(BedKey, KnowsNoCourseAndNoTable) {
@@ -446,8 +446,8 @@ TEST(BedKey, KnowsNoCourseAndNoTable) {
 }
 
 TEST(PutBesideAVehicle, ThePieceOfTheBedHasNoHitchAndNoStop) {
-  // On a bed with something put on it, or of copied tiles, or prepared to a porosity, a scene without the vehicle is
-  // made: with the vehicle goes all that needs one.
+  // On a bed with objects on it, of copied tiles, or prepared to a porosity, a scene without the vehicle is
+  // created: all sections that require a vehicle go, too.
   const std::string tiled = "terrain.tile=[1,1]", flat = "terrain.floor=flat", porous = "terrain.porosity=0.42",
                     deep = "terrain.depth=0.4";
   for (const std::string& hitch : {kForce, kRamp, kSled, kCarriage})

@@ -33,12 +33,12 @@ TEST(BedValues, SideWallsAreSmoothUnlessTheirFrictionIsGiven) {
 
 TEST(BedValues, TheFloorOfAGradedBedIsOfItsCoarsestGrains) {
   EXPECT_EQ(bedOptions(bed("")).floorGrains->scale, 1);
-  // 0.2 m below the fine grains the radius is larger by 0.02 of that.
+  // 0.2 m below the fine grains the radius is larger by 0.02 of that depth.
   const terrain::BedOptions graded = bedOptions(bed("fine_depth = 0.1\ncoarsening = 0.02\ncoarsest_radius = 0.05\n"));
   EXPECT_NEAR(graded.floorGrains->scale, 1 + 0.02 * 0.2 / 0.025, 1e-12);
 }
 
-/// With almost no friction, one end of the bisection for a porosity, random spins of grains never decay.
+/// With almost no friction, one end of the porosity bisection, random spins of grains never decay.
 TEST(BedValues, GrainsAtRandomRestThoughTheySpin) {
   const auto restsBySpins = [](const std::string& more) {
     return groundSetup(bed(more), 1e-5).grains->bed->settle.spins;
@@ -59,7 +59,7 @@ TEST(BedValues, HoldTheLargestGrainAndWhereAPorosityIsAskedForAnInterior) {
     return false;
   };
   const std::string wide = "radius_distribution = \"lognormal\"\nradius_spread = 0.9\n"; // up to 25 mm e^1.8
-  EXPECT_TRUE(refused(wide, "0.15", "the radius of the largest grain; set at least 0.1512"));
+  EXPECT_TRUE(refused(wide, "0.15", "the largest grain radius; set at least 0.1512"));
   EXPECT_FALSE(refused(wide, "0.152", ""));
   EXPECT_TRUE(refused("porosity = 0.4\n", "0.149", "terrain.porosity"));
   EXPECT_FALSE(refused("porosity = 0.4\n", "0.15", ""));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scenes with complementarity contacts: the step they take, and what they refuse.
+// Scenes with complementarity contacts: their time step, and rejected keys.
 #include "base/error.hpp"
 #include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -81,13 +81,13 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
       {run() + "[material.sand]\nlaw = \"luding\"\nstiffness = 1e6\n" + kGrains, "is elastic-plastic, which"},
       {run() + "[material.sand]\nlaw = \"eepa\"\nyoung = 1e8\n" + kGrains, "is elastic-plastic, which"},
       {run() + kSand + kGrains + "[output]\nfields_cell = 0.1\nfields_low = [-1, -1, 0]\nfields_high = [1, 1, 1]\n",
-       "requires penalty contacts, whose springs give the stresses"},
+       "requires penalty contacts, since stresses are computed from contact springs"},
       {run() + "[complementarity]\ncompliance = \"rigid\"\n" + kSand + "cohesion = 0.1\n" + kGrains,
-       "requires overlap, which rigid contacts do not have"},
+       "requires contact overlap, which rigid contacts do not have"},
       {run() + "[complementarity]\ncompliance = \"rigid\"\n" + kSand + kGrains +
            "[contact.\"sand|sand\"]\ncohesion = 0.1\n",
-       "has cohesion, which requires overlap"},
-      {run("gravity = [0, 0, 0]\n") + kSand + kGrains, "has no \"auto\" value with run.gravity = 0"},
+       "has cohesion, which requires contact overlap"},
+      {run("gravity = [0, 0, 0]\n") + kSand + kGrains, "cannot be \"auto\" with run.gravity = 0"},
       {run("residual = 0\n") + kSand + kGrains, "residual"},
       {run("residual = -1\n") + kSand + kGrains, "residual"},
       {run("residual = 11\n") + kSand + kGrains, "residual"},
@@ -108,7 +108,7 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
       {run("time_step = 0.01\n") + kSand + kGrains +
            "[[grain]]\nposition = [0, 1, 0.02]\nvelocity = [2, 0, 0]\n"
            "radius = 0.01\nmaterial = \"sand\"\n",
-       "is more than 0.4 of the smallest radius in a step"},
+       "moves a grain by more than 0.4 of the smallest radius per step"},
   };
   for (const auto& [text, said] : all) {
     try {

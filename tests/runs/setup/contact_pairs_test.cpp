@@ -32,7 +32,7 @@ TEST(ContactPairs, ListEachPartnerOnceInTheOrderOfTheFile) {
   const ContactPairs pairs(scene);
   const auto planes = std::count_if(pairs.partners.begin(), pairs.partners.end(),
                                     [&](const ContactPartner& p) { return pairs.isPlane(p); });
-  EXPECT_EQ(planes, 3) << "the belt too";
+  EXPECT_EQ(planes, 3) << "including the belt";
   EXPECT_EQ(pairs.partners[0].share(), 0.5);
   EXPECT_EQ(pairs.partners[2].share(), 1);
 }

@@ -15,7 +15,7 @@
 namespace grouser::setup {
 namespace {
 
-/// Tension and weight are on at 0.45 s; then the drive comes on over 0.3 s. Ten teeth a turn.
+/// Tension and weight are complete at 0.45 s; then the drive ramps up over 0.3 s. Ten teeth per turn.
 scene::Scene driven(const std::string& driver, double duration) {
   return parseScene(fmt::format("version = 1\n[run]\nduration = {}\n[material.steel]\nstiffness = 1e6\n[terrain]\n"
                                 "kind = \"rigid\"\nheightmap = \"heightmaps/flat.png\"\nsize = [20, 3]\n"
@@ -24,10 +24,10 @@ scene::Scene driven(const std::string& driver, double duration) {
                                 duration, driver),
                     GROUSER_SOURCE_DIR "/tests/scenes/rigid.toml");
 }
-/// Teeth of so many radians.
+/// Number of teeth for an angle in radians.
 double teeth(double radians) { return radians * 10 / (2 * base::kPi); }
 
-/// The middle of 2000 parts of a smooth ramp and of straight lines: to 1e-5.
+/// Midpoints of 2000 parts of a smooth ramp and of straight lines: to 1e-5.
 TEST(DriveLength, TeethAreThoseOfTheSpeedsBehindTheRamps) {
   const std::string plain = "[driver]\nsprocket_speed = 2\n";
   EXPECT_NEAR(teethAsked(driven(plain, 1)), teeth(2 * (0.55 - 0.15)), 1e-5);
@@ -36,10 +36,10 @@ TEST(DriveLength, TeethAreThoseOfTheSpeedsBehindTheRamps) {
   EXPECT_NEAR(teethAsked(driven("[driver]\nsprocket_speed = 2\ndrive_start = 0.9\n", 1.45)), teeth(2 * 0.4), 1e-5);
   EXPECT_NEAR(teethAsked(driven("[driver.table]\ntime = [0, 1, 2]\nleft = [0, 2, -2]\nright = [0, 2, -2]\n", 2.45)),
               teeth(2), 1e-5)
-      << "there and back";
+      << "back and forth";
   EXPECT_NEAR(teethAsked(driven("[driver.course]\nspeed = 1\nacceleration = 2\n", 1.45)),
               teeth(0.75 / (10 * 0.154 / (2 * base::kPi))), 1e-5);
-  // On a circle of 2 m the outer track, 0.9 m beside the middle or so, goes farther by that share.
+  // On a circle of 2 m the outer track, about 0.9 m from the middle, travels farther by that share.
   const scene::Scene circle = driven("[driver.course]\nspeed = 1\nacceleration = 2\nradius = -2\n", 1.45);
   const double offset = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml").trackOffset;
   ASSERT_GT(offset, 0.5);
@@ -53,22 +53,21 @@ TEST(DriveLength, AShortDriveIsSaidBefore) {
   EXPECT_EQ(never, "the vehicle never drives (its sprockets start at 0.45 s at the earliest, the run ends at 0.4 s); "
                    "raise run.duration");
   const std::string half = shortDriveWarning(driven("[driver]\nsprocket_speed = 2\ndrive_start = 0.5\n", 1));
-  EXPECT_EQ(half,
-            "the vehicle drives at most 1.1 teeth (its sprockets start at 0.5 s, the run ends at 1 s), and figures "
-            "from fewer than 2 teeth are inconclusive; raise run.duration");
+  EXPECT_EQ(half, "the vehicle drives at most 1.1 teeth (its sprockets start at 0.5 s, the run ends at 1 s), and "
+                  "results from fewer than 2 teeth are inconclusive; raise run.duration");
   EXPECT_EQ(shortDriveWarning(driven("[driver]\nsprocket_speed = 2\n", 3)), "");
-  // A ramp that has hardly begun is no drive.
+  // A ramp that has hardly started counts as no drive.
   EXPECT_EQ(shortDriveWarning(driven("[driver]\nsprocket_speed = 2\ndrive_start = 0.5\n", 0.51)).find("never drives"),
             std::string("the vehicle ").size());
 }
 
-/// A ramp of 3 s to 2 rad/s passes 4.8 teeth, and the run ends as it does.
+/// A ramp of 3 s to 2 rad/s passes 4.8 teeth at the end of the run.
 TEST(DriveLength, WarnsOfADriveWithoutSteadyMotion) {
   const std::string slow = "[driver]\nsprocket_speed = 2\ndrive_start = 0.5\ndrive_ramp = 3\n";
   EXPECT_EQ(teethAsked(driven(slow, 3.5), true), 0);
   EXPECT_NEAR(teethAsked(driven(slow, 4.5), true), teeth(2), 0.01) << "to one of 2000 parts of the time";
   EXPECT_EQ(shortDriveWarning(driven(slow, 3.6)),
-            "steady driving covers less than one sprocket tooth (the ramp ends at 3.5 s, the run ends at "
+            "the steady part of the drive covers less than one sprocket tooth (the ramp ends at 3.5 s, the run ends at "
             "3.6 s), so means over steady motion are inconclusive; raise run.duration");
   EXPECT_EQ(shortDriveWarning(driven(slow, 4.5)), "");
   const std::string course = "[driver.course]\nspeed = 1\nacceleration = 0.25\n";
@@ -84,7 +83,7 @@ TEST(DriveLength, TheRemedyOfATableThatStopsIsTheTable) {
   EXPECT_TRUE(endsWith(longerDriveRemedy(driven("[driver]\nsprocket_speed = 2\n", 2.6)), "raise run.duration"));
 }
 
-/// A vehicle that only stands, or is drawn by its hitch, is complete without a tooth.
+/// A vehicle that only stands, or is pulled by its hitch, is complete without any tooth.
 TEST(DriveLength, WhoIsNotAskedToDriveNeedNot) {
   for (const char* driver : {"[driver]\nsprocket_speed = 0\n", "[driver]\nleft = 0\nright = 0\n",
                              "[driver]\ndrive = \"torque\"\ntorque = 0\n",

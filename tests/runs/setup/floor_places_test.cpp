@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Floors with hollows tighter than the grains: what they count to the limit of boundaries, and the memory they need.
+// Floors with hollows tighter than the grains: their count towards the limit of boundaries, and their memory.
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_memory.hpp"
@@ -22,7 +22,7 @@ using test::messageOf;
 
 class FloorPlaces : public ::testing::Test {
 protected:
-  /// A V of 45 degrees along y, whose pixels lie 10 mm apart.
+  /// A V of 45 degrees along y, with pixels 10 mm apart.
   void SetUp() override {
     std::vector<int> pixels;
     for (int row = 0; row < 41; ++row)
@@ -54,7 +54,7 @@ TEST_F(FloorPlaces, ManyContactsWithTheFloorCountToTheLimitOfBoundaries) {
   for (const char* part :
        {"scene.toml:", "box.24", "is one of 33 or more", "the floor counts as 8", "at most 32", "remove some"})
     EXPECT_NE(message.find(part), std::string::npos) << part << " in " << message;
-  // Gentle hollows have one contact.
+  // Shallow hollows have one contact.
   EXPECT_EQ(messageOf([&] { groundSetup(valley(0.001, 25), 1e-5); }), "");
 }
 
@@ -72,7 +72,7 @@ TEST_F(FloorPlaces, PlannedMemoryHasTheSpringsOfTheRun) {
   const scene::Scene hollow = valley(kHeight, 2), gentle = valley(0.001, 2);
   ASSERT_EQ(springs(hollow), 10u * 3 + 8 * 3); // springs of 8 places and 2 boxes, normals of 8 places
   ASSERT_EQ(springs(gentle), 3u * 3);
-  // A single grain may lie anywhere: all of it counts.
+  // A single grain may be anywhere: the whole floor counts.
   EXPECT_EQ(grainMemory(hollow).boundaries - grainMemory(gentle).boundaries, sizeof(float) * (54 - 9));
 }
 

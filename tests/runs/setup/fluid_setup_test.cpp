@@ -67,7 +67,7 @@ TEST(FluidSetup, WallsAreThreeLayersThick) {
   EXPECT_EQ(made(head() + fluid("level = 0.5\nlid = true\n")).fluid.markers.size(), count(true));
 }
 
-/// A box in the tank takes the place of fluid and has markers; so has a plane.
+/// A box in the tank replaces fluid and has markers; so does a plane.
 TEST(FluidSetup, SurfacesOfTheSceneAreWalls) {
   const std::string box = std::string(kWall) +
                           "[[box]]\nposition = [0.5, 0.4, 0.15]\nsize = [0.2, 0.2, 0.3]\nmaterial = "
@@ -88,7 +88,7 @@ TEST(FluidSetup, SoundSpeedAndStepFollowFromTheDepth) {
               1e-9);
 }
 
-/// Each marker of a sphere, cylinder or box stands for a cube of the spacing: as many as fit into the shape's layers.
+/// Each marker of a sphere, cylinder or box represents a cube of the spacing: as many as fit into the shape's layers.
 TEST(FluidBodies, MarkersFillTheLayersOfAShape) {
   coupling::BodyShape s;
   const double dx = 0.02, depth = 3 * dx, r = 0.2;
@@ -103,7 +103,7 @@ TEST(FluidBodies, MarkersFillTheLayersOfAShape) {
   for (const Vec3d& p : shapeMarkers(s, dx, depth)) EXPECT_LT(distanceFrom(s, p), -0.4 * dx);
 }
 
-/// Particles beside a turned box are as many as the space holds, and none is nearer than half a spacing.
+/// The number of particles beside a rotated box follows from the volume; none is nearer than half a spacing.
 TEST(FluidBodies, ParticlesKeepOffTurnedBodies) {
   const std::string text =
       head() + kWall + fluid("level = 0.9\n", "tank_high = [2.0, 2.0, 1.0]\n") +
@@ -121,7 +121,7 @@ const std::string kBench = "[vehicle]\nspec = \"" GROUSER_SOURCE_DIR
 const std::string kBenchTank = "[fluid]\nspacing = 0.06\ntank_low = [-0.9, -1.5, -0.3]\ntank_high = [3.6, 1.5, 0.9]\n"
                                "level = 0.3\n";
 
-/// Hull, 46 shoes, sprocket, wheels, rollers and idler have markers; no particle starts in them or where they repel it.
+/// Hull, 46 shoes, sprocket, wheels, rollers and idler have markers; no particle starts inside or in repulsion range.
 TEST(FluidBodies, WaterStandsAroundAVehicle) {
   const scene::Scene scene = parseScene(head() + kBench + kBenchTank, "fluid.toml");
   const auto setup = *fluidSetup(scene, 1e-4);
@@ -152,7 +152,7 @@ TEST(FluidSetup, SoundSpeedFollowsFromTheDriver) {
   EXPECT_NEAR(model("[driver]\nsprocket_speed = 10\ndrive_start = 0.5\n").soundSpeed, 10 * 2 * 10 * 0.2451, 0.01);
 }
 
-/// A vehicle's contacts bear shorter steps than the fluid, which then moves once in several.
+/// A vehicle's contacts require shorter steps than the fluid, which then takes one step per several.
 TEST(FluidSetup, TheFluidStepsOnceInSeveral) {
   const auto steps = [](double timeStep) {
     return *fluidSetup(parseScene(head() + kBench + kBenchTank, "fluid.toml"), timeStep);
@@ -176,11 +176,11 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
                            "0.8]\n";
   const std::string probe = "[[fluid.probe]]\nposition = [0, 0, 0]\nname = ";
   const std::vector<std::pair<std::string, std::string>> all = {
-      {fluid(""), "fluid.level is missing, and there is no [[fluid.box]]"},
+      {fluid(""), "fluid.level is missing and there is no [[fluid.box]]"},
       {"[fluid]\nlevel = 1\n", "lacks the required key spacing"},
-      {"[fluid]\nspacing = 0.1\nlevel = 1\n", "has no tank; give tank_low and tank_high"},
+      {"[fluid]\nspacing = 0.1\nlevel = 1\n", "has no tank; set tank_low and tank_high"},
       {"[fluid]\nspacing = 0.1\nlevel = 1\ntank_low = [0, 0, 0]\n", "requires tank_high"},
-      {fluid("level = 0.5\n", "tank_high = [1, 0.3, 1]\n"), "above the lower corner along y, less than 0.4 m"},
+      {fluid("level = 0.5\n", "tank_high = [1, 0.3, 1]\n"), "above the lower corner along y (minimum 0.4 m)"},
       {fluid("level = 1.5\n"), "is outside the tank, z in [0, 1] m"},
       {fluid("level = 0.5\nspacing = 0\n"), "spacing"},
       {fluid("level = 0.5\ndensity = -1\n"), "density"},
@@ -188,11 +188,11 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
       {fluid("level = 0.5\ndimensions = 1\n"), "dimensions"},
       {fluid("level = 0.5\nsmoothing = 0.9\n"), "smoothing"},
       {fluid("level = 0.5\ndiffusion = 2\n"), "diffusion"},
-      {fluid("level = 0.5\nsound_speed = 3\n"), "too low for this depth and speed; use at least"},
+      {fluid("level = 0.5\nsound_speed = 3\n"), "too low for this depth and flow speed; use at least"},
       {fluid("level = 0.5\nsound_speed = 30\nexpected_speed = 2\n"), "has no effect with sound_speed"},
       {fluid("level = 0.5\nsalt = 3\n"), "salt"},
       {fluid("level = \"high\"\n"), "level"},
-      {fluid("") + box + "[0.5, 0.8, 0.05]\n", "is 0.05 m above the lower corner along z"},
+      {fluid("") + box + "[0.5, 0.8, 0.05]\n", "is only 0.05 m above the lower corner along z"},
       {fluid("") + box + "[0.5, 0.9, 0.5]\n", "is outside the tank along y, [0, 0.8] m"},
       {fluid() + probe + "\"a/b\"\n", "use only letters, digits, _ and -"},
       {fluid() + probe + "\"p\"\n" + probe + "\"p\"\n", "is the name of another probe"},
@@ -200,14 +200,14 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
       {fluid() + body, "no body has a shape"},
       {fluid() + body + "[[body.shape]]\nkind = \"sphere\"\nradius = 0.03\n", "less than fluid.spacing = 0.1 m"},
       {fluid("level = 0.5\ndimensions = 2\n") + body + "[[body.shape]]\nkind = \"sphere\"\nradius = 0.1\n",
-       "must be a box with faces parallel to the plane"},
+       "must be a box aligned with the x-z plane"},
       {fluid() + kWall +
            "[[box]]\nposition = [0.5, 0.4, 0.2]\nsize = [0.2, 0.2, 0.2]\nmaterial = \"wall\"\nvelocity = [1, "
            "0, 0]\n",
        "use a [[body]] with a [[drive]]"},
       {fluid() + "[material.sand]\nstiffness = 1e4\nrestitution = 0.5\n[[grain]]\nposition = [0.5, 0.4, 0.9]\nradius = "
                  "0.01\nmaterial = \"sand\"\n",
-       "is incompatible with grains, whose drag and buoyancy"},
+       "is incompatible with grains, since their drag and buoyancy"},
       {fluid("level = 0.5\ndimensions = 2\n") + kBench, "= 2 is incompatible with vehicle; use 3"},
       {"[fluid]\nspacing = 0.3\nlevel = 0.3\ntank_low = [-3, -3, -3]\ntank_high = [6, 3, 3]\n" + kBench,
        "so it contains no markers"},
@@ -222,9 +222,7 @@ TEST(FluidSetup, RefusesWhatIsNoFluid) {
     EXPECT_NE(message.find(says), std::string::npos) << text << "\n-> " << message;
     EXPECT_EQ(message.rfind("fluid.toml:", 0), 0U) << message;
   }
-  EXPECT_NE(messageOf(head("time_step = 0.01\n") + fluid())
-                .find("where the fluid becomes unstable because of its sound speed"),
-            std::string::npos);
+  EXPECT_NE(messageOf(head("time_step = 0.01\n") + fluid()).find("is above the stability limit"), std::string::npos);
 }
 
 } // namespace

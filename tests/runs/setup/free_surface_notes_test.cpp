@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Light free surfaces lower the restitution: the note says by how much, and from which mass on it is right.
+// Light free surfaces lower the restitution: the note states the amount, and the minimum mass.
 #include "runs/setup/free_surface_notes.hpp"
 
 #include "base/rounded.hpp"
@@ -31,8 +31,8 @@ std::vector<std::string> notesOf(double mass, const std::string& material) {
   return freeSurfaceNotes(plateOf(mass, material));
 }
 
-/// Rebound over impact speed of a grain and a free surface of masses 1 and `surface`, with the dashpot that gives 0.5
-/// against a wall; steps of 1e-5 contact times.
+/// Rebound over impact speed of a grain and a free surface of masses 1 and `surface`, with the dashpot for 0.5
+/// on a wall; steps of 1e-5 contact times.
 double reboundFrom(double surface) {
   const double zeta = contact::dampingRatioFor(0.5, false), inverseMass = 1 + 1 / surface, step = 3e-5;
   double overlap = 0, speed = 1, force = 0;

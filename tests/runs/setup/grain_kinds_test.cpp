@@ -67,7 +67,7 @@ TEST(PairLaw, HertzMixesModuliAndTakesTheSmallerOfTheRest) {
   EXPECT_NEAR(law.tangentialStiffness, 8 * shear, 1e-9 * shear);
   EXPECT_EQ(law.friction, 0.4);
   EXPECT_EQ(law.rollingFriction, 0.02);
-  EXPECT_EQ(law.pullPerRadius, 0) << "geometric mean with no cohesion";
+  EXPECT_EQ(law.pullPerRadius, 0) << "geometric mean with one material without cohesion";
   EXPECT_NEAR(pairLaw(s, "clay", "clay", std::nullopt).pullPerRadius, 2 * base::kPi * 0.2, 1e-12);
   const scene::Scene over =
       parse(std::string(kMixed) + "[contact.\"clay|glass\"]\nrolling_friction = 0.3\ncohesion = 1\n");
@@ -159,7 +159,7 @@ TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
   std::vector<scene::Grain> all;
   for (const char* line : {"0, 0, 1, 0.1\n", "1, 0, 1, 0.1, 0.5, +0.25, 0\n", "2, 0, 1, 0.1, 1e-1, 0, 0, 7, 8, -9\n"})
     all.push_back(placedGrains(read(line)).front());
-  EXPECT_EQ(all[0].velocity, (base::Vec3d{0, 0, -1})) << "the section's";
+  EXPECT_EQ(all[0].velocity, (base::Vec3d{0, 0, -1})) << "the section's value";
   EXPECT_EQ(all[1].velocity, (base::Vec3d{0.5, 0.25, 0}));
   EXPECT_EQ(all[1].spin, (base::Vec3d{0, 2, 0}));
   EXPECT_EQ(all[2].velocity, (base::Vec3d{0.1, 0, 0}));
@@ -169,15 +169,15 @@ TEST(Blocks, FileMayGiveVelocitiesAndSpinsAndNamesTheLineThatIsNone) {
         "1 0 1 0.1 1 2 -", "1 0 1 0.1 nan 0 0", "1 0 1 0.1 2e4 0 0", "1 0 1 -0.1 0 0 0"}) {
     try {
       read(std::string("0 0 1 0.1 0 0 0\n") + bad + "\n");
-      ADD_FAILURE() << bad << " was taken";
+      ADD_FAILURE() << bad << " was accepted";
     } catch (const base::InputError& e) {
       EXPECT_NE(std::string(e.what()).find("moving.txt:2:"), std::string::npos) << e.what();
     }
   }
   const std::string inputs = inputsOf(read("0 0 1 0.1\n"));
-  EXPECT_NE(inputs, inputsOf(read("0 0 1 0.2\n"))) << "a file that changed is another scene";
+  EXPECT_NE(inputs, inputsOf(read("0 0 1 0.2\n"))) << "a modified file changes the scene";
   const scene::Scene quick = read("0 0 1 0.1 100 0 0\n");
-  EXPECT_THROW(checkSpeeds(quick, ContactPairs(quick), 1e-3), base::InputError) << "farther than the skin in a step";
+  EXPECT_THROW(checkSpeeds(quick, ContactPairs(quick), 1e-3), base::InputError) << "beyond the skin in one step";
   EXPECT_NO_THROW(checkSpeeds(quick, ContactPairs(quick), 1e-5));
 }
 

@@ -31,13 +31,13 @@ scene::Scene parsed(const std::string& text, const std::vector<std::string>& ove
   return parseScene("version = 1\n" + text, "scene.toml", overrides);
 }
 
-/// The first number behind `words` in it.
+/// The first number after `words`.
 std::string numberBehind(const std::string& message, const std::string& words) {
   std::smatch match;
   return std::regex_search(message, match, std::regex(words + "([-+.e0-9]*[0-9])")) ? match.str(1) : "";
 }
 
-/// A ball on a plane; stiffness over 6 decades, radius and density over 2.
+/// A ball on a plane; stiffness over 6 decades, radius and density over 2 each.
 struct RandomScene {
   double stiffness, radius, density, restitution, friction, rolling;
   explicit RandomScene(std::uint64_t i) {
@@ -70,14 +70,14 @@ TEST(PrintedLimits, StepThatAnErrorAdvisesIsAccepted) {
     }
     closeCalls += std::stod(fmt::format("{:.3g}", limit)) > limit;
   }
-  EXPECT_GT(closeCalls, 100) << "the nearest numbers would have done too: this shows nothing";
+  EXPECT_GT(closeCalls, 100) << "the nearest numbers would also pass: the test shows nothing";
 }
 
 TEST(PrintedLimits, StiffnessThatAnErrorAdvisesIsAccepted) {
   int refused = 0;
   for (std::uint64_t i = 0; i < 300; ++i) {
     RandomScene random(i);
-    random.stiffness *= 1e-3; // most sink in
+    random.stiffness *= 1e-3; // most overlap too far
     const auto choose = [&] { chooseTimeStep(parsed(random.text(""))); };
     const std::string message = messageOf(choose);
     if (message.empty()) continue;
@@ -114,7 +114,7 @@ TEST(PrintedLimits, SpeedThatAnErrorAdvisesIsAccepted) {
   EXPECT_GT(closeCalls, 50);
 }
 
-/// A ball that comes at 0.5 m/s, without gravity.
+/// A ball that approaches at 0.5 m/s, without gravity.
 const char* const kBall = R"([run]
 duration = 0.1
 gravity = [0, 0, 0]
@@ -135,13 +135,13 @@ TEST(Restitution, ZeroWithAttractionIsCriticalDamping) {
   EXPECT_EQ(contact::dampingRatioFor(0, true), 1);
   EXPECT_EQ(contact::restitutionOf(contact::dampingRatioFor(0, true), true), 0);
   EXPECT_EQ(contact::hertzRestitutionOf(contact::hertzDampingRatioFor(0, true), true), 0);
-  // The least that does: a little less and the ball comes back.
+  // The smallest sufficient value: slightly below it the ball rebounds.
   EXPECT_GT(contact::restitutionOf(0.9, true), 0);
   EXPECT_GT(contact::hertzRestitutionOf(0.99 * contact::hertzDampingRatioFor(0, true), true), 0);
 }
 
 TEST(Restitution, BallThatIsCriticallyDampedFollowsTheClosedForm) {
-  // overlap = v t exp(-omega t), and t from the instant of touch; symplectic Euler is of first order in the step.
+  // overlap = v t exp(-omega t), t from first touch; symplectic Euler is of first order in the step.
   const double mass = base::sphereMass(2500, 0.02), omega = std::sqrt(1e5 / mass), v = 0.5;
   double errors[2];
   for (int k = 0; k < 2; ++k) {
@@ -158,7 +158,7 @@ TEST(Restitution, BallThatIsCriticallyDampedFollowsTheClosedForm) {
       const double overlap = 0.02 - ball.ground().grains->snapshot().position[0].z;
       worst = std::max(worst, std::fabs(overlap - v * t * std::exp(-omega * t)));
     }
-    errors[k] = worst / (v / omega * std::exp(-1)); // over the deepest
+    errors[k] = worst / (v / omega * std::exp(-1)); // relative to the deepest
   }
   EXPECT_LT(errors[0], 3 * omega * 1e-5); // a few steps over the contact's own time
   EXPECT_NEAR(errors[0] / errors[1], 2, 0.5);
@@ -181,14 +181,14 @@ TEST(Restitution, ZeroWithoutAttractionIsRefusedWithTheLeastAndItsStep) {
     return messageOf([&] { simulationSetup(parsed(kBall, overrides)); });
   };
   const std::string message = refusal({"material.soil.restitution=0"});
-  for (const char* part : {"material.soil.restitution", "without attraction", "minimum without attraction, 1e-06",
+  for (const char* part : {"material.soil.restitution", "is below 1e-06", "the minimum without attraction",
                            "attraction = true", "run.contact = \"complementarity\""})
     EXPECT_NE(message.find(part), std::string::npos) << message;
-  // The advised step is accepted as printed, and no longer one.
-  const std::string step = numberBehind(message, "requires steps of ");
+  // The suggested step is accepted as printed, and no larger one.
+  const std::string step = numberBehind(message, "require time steps of ");
   EXPECT_EQ(refusal({"material.soil.restitution=1e-06", "run.time_step=" + step}), "");
   EXPECT_NE(refusal({"material.soil.restitution=1e-06", fmt::format("run.time_step={}", 1.02 * std::stod(step))}), "");
-  // One of two materials with attraction is not enough; the pair is named where it says so.
+  // Attraction of one material is not enough; the pair is named in the scene.
   EXPECT_NE(refusal({"material.soil.restitution=1e-7"}), "");
   const std::string pair =
       "[material.hard]\nstiffness = 1e5\nattraction = true\n[contact.\"soil|hard\"]\nrestitution = 0\n" +
@@ -260,7 +260,7 @@ TEST(MeetingPairs, HaveTheValuesThatAct) {
   EXPECT_NEAR(plane.restitution, 0.4, 1e-12);
   EXPECT_DOUBLE_EQ(plane.law.friction, 0.6);
   EXPECT_EQ(plane.law.rollingFriction, 0);
-  // The larger damping acts: that of the restitution 0.4 of the soil, not the 50 /s of the ball.
+  // The larger damping applies: the soil's restitution of 0.4, not the ball's 50 /s.
   EXPECT_EQ(lid.what.rfind("grain on ", 0), 0u);
   EXPECT_DOUBLE_EQ(lid.stiffness, 2 * 1e5 * 2e5 / 3e5);
   EXPECT_NEAR(lid.restitution, 0.4, 1e-12);
@@ -268,7 +268,7 @@ TEST(MeetingPairs, HaveTheValuesThatAct) {
 }
 
 TEST(MeetingPairs, OfTwoGrainsHaveThePairsMass) {
-  // damping = 500 /s acts on the pair's mass, m / 2, and on a wall on m.
+  // damping = 500 /s refers to the pair's mass, m / 2, or to m on a wall.
   const std::vector<MeetingPair> pairs = meetingPairs(parsed(
       "[run]\nduration = 1\n[material.ball]\nstiffness = 2e5\ndamping = 500\nattraction = true\n"
       "[[plane]]\nmaterial = \"ball\"\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\nmaterial = \"ball\"\n"));
@@ -287,7 +287,7 @@ TEST(MeetingPairs, OfHertzGrainsHaveTheirEffectiveModulus) {
                           "poisson = 0.25\nrestitution = 0.6\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\n"
                           "material = \"glass\"\n"));
   ASSERT_EQ(pairs.size(), 1u);
-  EXPECT_NEAR(pairs[0].stiffness, 6e7 / (2 * (1 - 0.0625)), 1) << "E / (2 (1 - nu^2)) of two alike";
+  EXPECT_NEAR(pairs[0].stiffness, 6e7 / (2 * (1 - 0.0625)), 1) << "E / (2 (1 - nu^2)) of two equal materials";
   EXPECT_NEAR(pairs[0].restitution, 0.6, 1e-6);
 }
 
@@ -297,14 +297,14 @@ TEST(MeetingPairs, OfTheVehicleHaveTheFrictionOfItsFile) {
       const double given =
           vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml").contact.frictionGround;
       EXPECT_EQ(pair.law.friction, given);
-      EXPECT_NE(given, 0.5) << "that of the soil";
+      EXPECT_NE(given, 0.5) << "the soil's value";
       return;
     }
-  FAIL() << "grains meet the vehicle";
+  FAIL() << "no contact of grains and vehicle";
 }
 
-/// J/m2 that grains of a cohesive soil have with the parts of a vehicle, as `grouser plan` tells and as contacts take
-/// it: w = pull / (2 pi R), R being a grain's own radius on a part.
+/// Adhesion of cohesive grains to vehicle parts [J/m2], in `grouser plan` and in the
+/// contacts: w = pull / (2 pi R) with a grain's own radius R on a part.
 std::pair<double, double> stickingOf(const std::vector<std::string>& overrides) {
   std::vector<std::string> all{"material.soil.cohesion=8"};
   all.insert(all.end(), overrides.begin(), overrides.end());
@@ -317,11 +317,11 @@ std::pair<double, double> stickingOf(const std::vector<std::string>& overrides) 
 }
 
 TEST(MeetingPairs, SoilSticksToAVehicleByTheShareThatIsGiven) {
-  EXPECT_EQ(stickingOf({}), std::pair(0.0, 0.0)) << "unless that is asked for, it falls off";
+  EXPECT_EQ(stickingOf({}), std::pair(0.0, 0.0)) << "no adhesion unless requested";
   const auto [told, taken] = stickingOf({"vehicle.adhesion=0.25"});
   EXPECT_NEAR(told, 2, 1e-12);
   EXPECT_NEAR(taken, 2, 1e-12);
-  // Grains of 19 mm hold each other with 8 J/m2: R_eff is 9.5 mm. That of those of 38 mm on a plane is 38 mm.
+  // Grains of 19 mm have a mutual adhesion of 8 J/m2: R_eff is 9.5 mm. R of 38 mm grains on a plane is 38 mm.
   const auto [toldOfLarge, takenOfLarge] = stickingOf({"vehicle.adhesion=0.25", "material.soil.adhesion_radius=0.019"});
   EXPECT_NEAR(toldOfLarge, 8, 1e-12);
   EXPECT_NEAR(takenOfLarge, 8, 1e-12);

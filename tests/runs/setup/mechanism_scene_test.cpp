@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mechanisms in scene files: what is read, and one clear error for each mistake.
+// Mechanisms in scene files: parsing, and one clear error per mistake.
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_model.hpp"
@@ -76,9 +76,9 @@ TEST(MechanismScene, HoldsWhatTheFileSays) {
   const multibody::Model model = buildModel(scene.mechanism);
   ASSERT_EQ(model.bodies().size(), 2u);
   EXPECT_EQ(model.bodies()[0].inertia_B.m[1][1], 0.2);
-  EXPECT_DOUBLE_EQ(model.bodies()[1].inertia_B.m[0][0], 1.0 / 12 * (0.01 + 0.01)) << "of the box";
+  EXPECT_DOUBLE_EQ(model.bodies()[1].inertia_B.m[0][0], 1.0 / 12 * (0.01 + 0.01)) << "inertia of the box";
   EXPECT_EQ(model.joints()[1].bodyA, 0);
-  // Springs come after joints, each joint's stops with it.
+  // Springs follow joints, and each joint's stops follow the joint.
   ASSERT_EQ(model.axisSprings().size(), 2u);
   EXPECT_EQ(model.axisSprings()[0].upperLimit, 1);
   EXPECT_EQ(model.axisSprings()[1].stiffness, 10);
@@ -116,7 +116,7 @@ TEST(MechanismScene, QuaternionAndAxisWithAngleMeanTheSameTurn) {
 }
 
 struct Mistake {
-  const char *from, *to; ///< of the scene
+  const char *from, *to; ///< replacement in the scene
   const char* message;   ///< a part of the error
 };
 
@@ -144,56 +144,57 @@ constexpr Mistake kMistakes[] = {
     {"[0.1, 0.2, 0.15]", "[0.1, 0.2, 0.5]", "body.0.inertia = [0.1, 0.2, 0.5] [kg m2] breaks the triangle inequality"},
     {"[0.1, 0.2, 0.15]", "[0.1, 0.2]", "body.0.inertia = [0.1, 0.2] [kg m2] must have 3 entries"},
     {"inertia = [0.1, 0.2, 0.15]\n", "",
-     "scene.toml:4: body.0.inertia [kg m2] is missing; add it, or the edges of a box"},
+     "scene.toml:4: body.0.inertia [kg m2] is missing; add it, or box (edge lengths)"},
     {"angle = 90\n", "", "body.1.axis = [0, 1, 0] [-] requires angle"},
     {"axis = [0, 1, 0]\nangle = 90", "angle = 90", "body.1.angle = 90 [deg] requires axis"},
     {"axis = [0, 1, 0]\nangle = 90", "orientation = [1, 1, 0, 0]",
-     "body.1.orientation = [1, 1, 0, 0] [-] has the length 1.41421; give a unit quaternion"},
+     "body.1.orientation = [1, 1, 0, 0] [-] has length 1.41421; set a unit quaternion"},
     {"angle = 90", "angle = 90\norientation = [1, 0, 0, 0]", "is mutually exclusive with axis and angle"},
     // joints
     {"[\"world\", \"upper\"]", "[\"world\", \"uper\"]",
-     "scene.toml:18: joint.0.bodies = [\"world\", \"uper\"] names no body \"uper\"; did you mean \"upper\"?"},
+     "scene.toml:18: joint.0.bodies = [\"world\", \"uper\"] refers to an unknown body \"uper\"; did you mean "
+     "\"upper\"?"},
     {"[\"world\", \"upper\"]", "[\"upper\"]", "joint.0.bodies = [\"upper\"] must name two bodies"},
     {"[\"world\", \"upper\"]", "[\"upper\", \"upper\"]", "joins 'upper' to itself"},
     {"name = \"elbow\"", "name = \"hinge\"", "joint.1.name = \"hinge\" is also the name of another joint"},
     {"axis = [0, 1, 0]\nlimits", "limits", "scene.toml:16: joint.0.axis [-] is missing"},
-    {"axis = [0, 1, 0]\nlimits", "axis = [0, 0, 0]\nlimits", "joint.0.axis = [0, 0, 0] [-] is zero"},
+    {"axis = [0, 1, 0]\nlimits", "axis = [0, 0, 0]\nlimits", "joint.0.axis = [0, 0, 0] [-] has zero length"},
     {"point = [0, 0, 0]\n", "", "joint.0.point [m] is missing"},
     {"point_b = [-0.5, 0, 0]", "point_b = [-0.4, 0, 0]",
-     "scene.toml:27: joint.1.point_b = [-0.4, 0, 0] [m] is at (1, 0, -0.1) in the world at the start, 0.1 m from "
-     "point_a at (1, 0, 0)"},
-    {"axis_b = [0, 1, 0]", "axis_b = [0, 1, 0.1]", "scene.toml:29: joint.1.axis_b = [0, 1, 0.1] [-] points along"},
-    {"axis_b = [0, 1, 0]", "axis_b = [0, -1, 0]", "joint.1.axis_b = [0, -1, 0] [-] points along"},
+     "scene.toml:27: joint.1.point_b = [-0.4, 0, 0] [m] is initially at (1, 0, -0.1) in the world, 0.1 m from point_a "
+     "at (1, 0, 0)"},
+    {"axis_b = [0, 1, 0]", "axis_b = [0, 1, 0.1]",
+     "scene.toml:29: joint.1.axis_b = [0, 1, 0.1] [-] initially points along"},
+    {"axis_b = [0, 1, 0]", "axis_b = [0, -1, 0]", "joint.1.axis_b = [0, -1, 0] [-] initially points along"},
     {"axis_b = [0, 1, 0]", "axis_b = [0, 1, 0]\nsecond_axis = [1, 0, 0]", "applies to universal joints only"},
     {"axis = [0, 1, 0]\nlimits", "axis = [0, 1, 0]\ntype = \"universal\"\nlimits", "second_axis [-] is missing"},
     {"axis = [0, 1, 0]\nlimits", "axis = [0, 1, 0]\nsecond_axis = [1, 1, 0]\ntype = \"universal\"\nlimits",
-     "rad from perpendicular to axis; make them perpendicular"},
+     "must be perpendicular to axis at the start"},
     {"limits = [-1, 1]", "limits = [1, -1]", "joint.0.limits = [1, -1] [rad or m] must be [min, max]"},
-    {"stop_stiffness = 1e4\n", "", "stop_stiffness [N m/rad or N/m] must be above 0 with limits"},
+    {"stop_stiffness = 1e4\n", "", "stop_stiffness [N m/rad or N/m] must be above 0 if limits is set"},
     {"axis = [0, 1, 0]\nlimits", "axis = [0, 1, 0]\ntype = \"revolut\"\nlimits", "did you mean \"revolute\"?"},
     // velocities
     {"position = [0.5, 0, 0]", "position = [0.5, 0, 0]\nvelocity = [0, 0, 1]",
-     "(\"hinge\") connects \"world\" and \"upper\" at (0, 0, 0) m, where their initial velocities are (0, 0, 0) "
-     "and (0, "
-     "0, 1) m/s"},
+     "(\"hinge\") connects \"world\" and \"upper\" at (0, 0, 0) m, but their initial velocities there, (0, 0, 0) and "
+     "(0, 0, 1) m/s"},
     {"position = [0.5, 0, 0]", "position = [0.5, 0, 0]\nspin = [1, 0, 0]",
-     "(\"hinge\") connects \"world\" and \"upper\", whose initial spins are (0, 0, 0) and (1, 0, 0) rad/s"},
+     "(\"hinge\") connects \"world\" and \"upper\", but their initial spins, (0, 0, 0) and (1, 0, 0) rad/s"},
     // springs
     {"joint = \"elbow\"", "joint = \"elbo\"",
-     "spring.0.joint = \"elbo\" names no joint \"elbo\"; did you mean \"elbow\"?"},
+     "spring.0.joint = \"elbo\" refers to an unknown joint \"elbo\"; did you mean \"elbow\"?"},
     {"joint = \"elbow\"\n", "", "spring.0 has neither bodies nor joint"},
     {"joint = \"elbow\"", "joint = \"elbow\"\nacts_on = \"slide\"",
      "spring.0.acts_on = \"slide\" is not free in joint"},
     {"point_a = [3, 0, 0]", "point_a = [1, 0, -0.5]", "coincides with point_a at the start"},
     {"stiffness = 100", "stiffness = -1", "spring.1.stiffness = -1 [N/m or N m/rad] is outside [0"},
     // drives
-    {"values = [0, 5]", "values = [0]", "drive.0.values = [0] must have as many entries as time, 2"},
-    {"time = [0, 1]", "time = [1, 0]", "drive.0.time = [1, 0] [s] does not increase at entry 1"},
-    {"time = [0, 1]\nvalues = [0, 5]\n", "", "drive.0 has no value; give value, polynomial, amplitude or time"},
+    {"values = [0, 5]", "values = [0]", "drive.0.values = [0] must have as many entries as time (2)"},
+    {"time = [0, 1]", "time = [1, 0]", "drive.0.time = [1, 0] [s] must increase, but does not at entry 1"},
+    {"time = [0, 1]\nvalues = [0, 5]\n", "", "drive.0 has no value; set value, polynomial, amplitude, or time"},
     {"values = [0, 5]\n",
      "values = [0, 5]\n[[drive]]\nname = \"a\"\njoint = \"elbow\"\nvalue = 1\n[[drive]]\nname = \"b\"\njoint = "
      "\"elbow\"\nimposes = \"position\"\nvalue = 1\n",
-     "drive.2.joint = \"elbow\" is already driven by \"a\", and two drives conflict"},
+     "drive.2.joint = \"elbow\" is already driven by \"a\""},
     // couplings
     {"values = [0, 5]\n", "values = [0, 5]\n[[coupling]]\nname = \"g\"\njoints = [\"hinge\", \"elbow\"]\nratio = 0\n",
      "coupling.0.ratio = 0 must not be 0"},
@@ -235,7 +236,7 @@ TEST(MechanismScene, OverridesTakeTheNameOfAPart) {
 
 TEST(MechanismScene, PartsWithoutBodiesAreRefused) {
   EXPECT_NE(refusal("version = 1\n[run]\nduration = 1\n[[joint]]\nname = \"a\"\nbodies = [\"world\", \"b\"]\n")
-                .find("names no body \"b\""),
+                .find("refers to an unknown body \"b\""),
             std::string::npos);
 }
 

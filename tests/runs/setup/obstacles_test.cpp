@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which surfaces a vehicle meets, with which friction, and how high they stand.
+// Surfaces in contact with a vehicle, their friction, and their heights.
 #include "runs/setup/obstacles.hpp"
 
 #include "base/error.hpp"
@@ -16,7 +16,7 @@
 namespace grouser::setup {
 namespace {
 
-/// On level rigid ground at height 0; `vehicle`: more of that section.
+/// On level rigid ground at height 0; `vehicle`: more keys of that section.
 scene::Scene sceneWith(const std::string& more, const std::string& vehicle = {}) {
   return parseScene(
       "version = 1\n[run]\nduration = 1\ntime_step = 1e-4\n[material.steel]\nstiffness = 1e6\ndensity = 7800\n"
@@ -37,7 +37,8 @@ TEST(Obstacles, WhatMovesWhereThereAreNoGrainsIsRefused) {
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
     const std::string said = error.what();
-    for (const char* word : {"box.0", "moves, but vehicle and bodies touch surfaces at rest only", "remove its motion"})
+    for (const char* word :
+         {"box.0", "moves, but vehicle and bodies have contact with fixed surfaces only", "remove the motion"})
       EXPECT_NE(said.find(word), std::string::npos) << word << " in: " << said;
   }
 }
@@ -48,10 +49,10 @@ TEST(Obstacles, AreWhatRests) {
                             "[[grain]]\nposition = [9, 0, 3]\nradius = 0.1\nmaterial = \"steel\"\n[[cylinder]]\n"
                             "position = [9, 9, 0]\nradius = 1\nlength = 1\nmaterial = \"steel\"\n"
                             "velocity = [0, 0, 1]\n"));
-  ASSERT_EQ(all.size(), 2u) << "but for the cylinder";
+  ASSERT_EQ(all.size(), 2u) << "all except the cylinder";
   EXPECT_EQ(all[0].surface.name, "box0");
   ASSERT_TRUE(all[0].amongSurfaces);
-  EXPECT_EQ(all[1].surface.name, "plane0") << "to grains a wall";
+  EXPECT_EQ(all[1].surface.name, "plane0") << "a wall for grains";
   EXPECT_FALSE(all[1].amongSurfaces);
   EXPECT_NEAR(all[1].surface.start.toWorld({0, 0, 1}).y, 2, 1e-12) << "its z axis is its normal";
 }
@@ -59,7 +60,7 @@ TEST(Obstacles, AreWhatRests) {
 TEST(Obstacles, FrictionIsTheVehiclesFileOrThePairOfMaterials) {
   EXPECT_EQ(obstaclesOf(sceneWith(box())).front().friction, 0.8) << "friction_ground";
   EXPECT_EQ(obstaclesOf(sceneWith(box() + "[spec.contact]\nfriction_ground = 0.4\n")).front().friction, 0.4)
-      << "as the scene says otherwise";
+      << "the scene overrides it";
   EXPECT_EQ(obstaclesOf(sceneWith(box(), "material = \"steel\"\n")).front().friction, 0.05) << "the smaller";
   EXPECT_EQ(obstaclesOf(sceneWith(box() + "[contact.\"ice|steel\"]\nfriction = 0.3\n", "material = \"steel\"\n"))
                 .front()
@@ -80,7 +81,7 @@ TEST(TopOf, ABoxThatIsTurned) {
       only("[[box]]\nposition = [5, 0, 0]\nsize = [4, 2, 1]\naxis = [0, 1, 0]\nangle = -30\nmaterial = \"ice\"\n");
   const double slope = std::tan(std::acos(-1.0) / 6), up = 0.5 / std::cos(std::acos(-1.0) / 6);
   for (const double x : {-1.0, 0.0, 0.7}) EXPECT_NEAR(coupling::topOf(ramp, 5 + x, 0.3), up + slope * x, 1e-12);
-  EXPECT_EQ(coupling::topOf(ramp, 5, 1.01), -INFINITY) << "beside it";
+  EXPECT_EQ(coupling::topOf(ramp, 5, 1.01), -INFINITY) << "beside the ramp";
   EXPECT_EQ(coupling::topOf(ramp, 7.1, 0), -INFINITY) << "beyond its end";
 }
 
@@ -98,7 +99,7 @@ TEST(TopOf, ALogAndAPost) {
                                  "material = \"ice\"\n"),
                             5, 0),
             -INFINITY)
-      << "an arena is no ground";
+      << "an arena is not ground";
 }
 
 TEST(TopOf, PlanesThatLookUp) {
@@ -118,7 +119,7 @@ TEST(TopOf, AMeshIsItsTriangles) {
   const coupling::SurfaceSetup hull =
       only("[[mesh]]\nfile = \"meshes/chassis.obj\"\nposition = [5, 0, 1]\naxis = [0, 0, 1]\nangle = 90\n"
            "material = \"ice\"\nsphere_radius = 0.05\n");
-  EXPECT_NEAR(coupling::topOf(hull, 5, 1), 1.75, 1e-12) << "its deck";
+  EXPECT_NEAR(coupling::topOf(hull, 5, 1), 1.75, 1e-12) << "deck height";
   EXPECT_NEAR(coupling::topOf(hull, 5 + 0.3, 2.8), 1 + 0.3 + 0.1 * 0.2, 1e-6)
       << "on the glacis, 0.05 m before its lower edge";
   EXPECT_EQ(coupling::topOf(hull, 6.3, 1), -INFINITY);

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 /// Scenes without a specialised kernel, by name, with the reason. A kernel costs compile time.
 const std::map<std::string, std::string> kExceptions = {};
 
-/// Names of what takes a general kernel, or no SIMD on a CPU; behind each the choice in words.
+/// Names of cases with a general kernel, or no SIMD on a CPU; followed by the kernel in words.
 using Slow = std::map<std::string, std::string>;
 
 void addSlow(Slow& slow, const std::string& name, const scene::Scene& scene) {

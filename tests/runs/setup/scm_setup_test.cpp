@@ -35,10 +35,10 @@ TEST(ScmSetup, TakesConstantsFromTheSoilOrTheScene) {
   EXPECT_EQ(published.soil.cohesion, 1300);
   EXPECT_NEAR(published.soil.friction, std::tan(31.1 * base::kPi / 180), 1e-12);
   EXPECT_EQ(published.soil.shearDisplacement, 0.012);
-  EXPECT_NEAR(published.spacing, 0.034, 1e-12) << "a quarter of a shoe's length";
+  EXPECT_NEAR(published.spacing, 0.034, 1e-12) << "a quarter of the shoe length";
   const coupling::ScmSetup measured = read(kScene + "[scm]\nconstants = \"measured\"\nc = 500\nnode_spacing = 0.02\n");
   EXPECT_NE(measured.soil.exponent, published.soil.exponent);
-  EXPECT_EQ(measured.soil.cohesion, 500) << "what is given goes before";
+  EXPECT_EQ(measured.soil.cohesion, 500) << "explicit values take precedence";
   EXPECT_EQ(measured.spacing, 0.02);
   EXPECT_FALSE(scmSetup(scene::readSceneText("version = 1\n[run]\nduration = 1\n[material.m]\nstiffness = 1e5\n"
                                              "[[grain]]\nmaterial = \"m\"\nradius = 0.1\nposition = [0, 0, 0]\n",
@@ -60,7 +60,7 @@ TEST(ScmSetup, DrawsTheConstantsThatTheSceneOmits) {
   EXPECT_EQ(read(kScene + "[scm]\nconstants_draw = 0\n").soil.kphi, nominal.soil.kphi);
 }
 
-/// Soils whose grains have been measured by plates and by shear.
+/// Soils with measured plate and shear tests of their grains.
 TEST(ScmSetup, EverySoilWithMeasuredConstantsCanBeUsed) {
   int soils = 0;
   for (const auto& [name, file] : scene::knownSoils(GROUSER_SOURCE_DIR "/assets/scene.toml")) {
@@ -122,10 +122,10 @@ TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
       {kScene + "[scm]\nconstants_draw = 3\nn = 1\nk_c = 0\nk_phi = 5e6\nc = 1e3\nphi = 30\nK = 0.01\n",
        "constants_draw = 3 has no effect, since"},
       {other, "requires scm.n [-]: the soil gravel has no published n; add it to [scm]"},
-      {noSoil, "there is no soil file m; add it to [scm]"},
+      {noSoil, "the soil file m does not exist; add it to [scm]"},
       {noVehicle, "has no effect without a [vehicle] or a [[body]]"},
       {kScene + "[scm]\nk_c = -5e6\n", "has no bearing capacity"},
-      {kScene + "[scm]\nnode_spacing = 0.2\n", "is more than the length of a shoe, 0.136 m"},
+      {kScene + "[scm]\nnode_spacing = 0.2\n", "exceeds the shoe length, 0.136 m"},
       {kScene + "[scm]\nn = 0\n", "n = 0"},
       {kScene + "[scm]\nelastic_ratio = 0.5\n", "elastic_ratio = 0.5"},
       {kScene + "[scm]\nphi = 90\n", "phi = 90"},

@@ -23,7 +23,7 @@ vehicle::VehicleSpec spec() {
   return vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
 }
 
-/// A scene on level, rigid ground, or on a bed; `more` follows.
+/// A scene on level, rigid ground, or on a bed; `more` adds keys.
 scene::Scene setDownScene(const std::string& more, bool bed = false) {
   return parseScene(
       "version = 1\n[run]\nduration = 4\ntime_step = 1e-4\n[material.soil]\nstiffness = 1e6\n[terrain]\n"
@@ -35,7 +35,7 @@ scene::Scene setDownScene(const std::string& more, bool bed = false) {
       GROUSER_SOURCE_DIR "/tests/scenes/set_down.toml");
 }
 
-/// Least distance of the lowest grousers' plane from the ground, square to it, over a fine grid under both tracks.
+/// Smallest normal distance of the lowest grousers' plane from the ground, over a fine grid under both tracks.
 double clearanceOver(const base::Pose& pose, const std::function<double(double, double)>& ground) {
   const vehicle::VehicleSpec s = spec();
   const Vec3d up = rotate(pose.orientation, {0, 0, 1});
@@ -86,7 +86,7 @@ TEST(SetDown, OnAMereSideSlope_LiesAlongIt) {
 }
 
 TEST(SetDown, OverARidge_IsClearOfItsTop) {
-  // A ridge across the way and a side slope: the plane is the mean one, the clearance that of the ridge.
+  // A ridge across the path and a side slope: the attitude follows the mean plane, the clearance the ridge.
   const auto ground = [](double x, double y) {
     const double d = (x - 3.2) / 0.3;
     return 0.05 * y + (d * d < 1 ? 0.06 * (1 - d * d) : 0.0);
@@ -94,7 +94,7 @@ TEST(SetDown, OverARidge_IsClearOfItsTop) {
   const base::Pose pose = coupling::setDown(spec(), {2, 0, 0}, 0.002, ground);
   const double clear = clearanceOver(pose, ground);
   EXPECT_LT(clear, 0.0022);
-  EXPECT_GT(clear, 0.0015); // its grid is 55 mm wide: the top lies between two points, 0.06 (0.027 / 0.3)^2 = 0.5 mm
+  EXPECT_GT(clear, 0.0015); // the grid spacing is 55 mm: the crest is between two points, 0.06 (0.027 / 0.3)^2 = 0.5 mm
 }
 
 TEST(DriveStart, ATableIsFollowedAsGiven) {
@@ -102,7 +102,7 @@ TEST(DriveStart, ATableIsFollowedAsGiven) {
   const vehicle::Driver driver(vehicleSetup(setDownScene("[driver]\ndrive_start = 0.5\n" + table)).driver);
   EXPECT_NEAR(driver.at(0.6).sprocketSpeed[0], 1, 1e-12);
   EXPECT_NEAR(driver.at(0.65).sprocketSpeed[1], 0.75, 1e-12);
-  // A ramp that was asked for applies to a table too.
+  // A requested ramp applies to a table, too.
   const vehicle::Driver ramped(
       vehicleSetup(setDownScene("[driver]\ndrive_start = 0.5\ndrive_ramp = 0.2\n" + table)).driver);
   EXPECT_NEAR(ramped.at(0.6).sprocketSpeed[0], 0.5, 1e-12);
@@ -125,7 +125,7 @@ TEST(DriveStart, WaitsForRestUnlessItIsGivenOrTheHullIsHeld) {
   EXPECT_EQ(rest->timeLimit, 3);
 }
 
-/// The refusal of what stands about the vehicle, which covers x from -0.4 to 3.1 m about its place, or "".
+/// Error for an obstacle near the vehicle, which extends in x from -0.4 to 3.1 m about its position, or "".
 std::string refusalWith(const std::string& more) {
   try {
     checkVehicleSurroundings(setDownScene("position = [2, 0]\n" + more, true));
@@ -159,12 +159,12 @@ TEST(Surroundings, WhatMovesWhereTheVehicleIsSetDown_IsRefused) {
 
 TEST(Surroundings, WhatMovesInItsWay_IsRefused) {
   const std::string message = refusalWith(box(6, -0.9, kMoves)); // it drives 1.7 m
-  EXPECT_NE(message.find("in the path of the vehicle, which can drive 1.7 m"), std::string::npos) << message;
+  EXPECT_NE(message.find("in the path of the vehicle, which can travel 1.7 m"), std::string::npos) << message;
   EXPECT_NE(message.find("shorten run.duration"), std::string::npos);
 }
 
 TEST(Surroundings, WhatItCannotReach_IsNot) {
-  EXPECT_EQ(refusalWith(box(9, 0, kMoves)), "") << "beyond its way";
+  EXPECT_EQ(refusalWith(box(9, 0, kMoves)), "") << "beyond its path";
   EXPECT_EQ(refusalWith(box(6, 2, kMoves)), "") << "beside it";
   EXPECT_EQ(refusalWith(box(0.7, 0, kMoves)), "") << "behind it";
 }
@@ -178,8 +178,8 @@ TEST(Surroundings, WhatMovesIsSaid) {
   const auto warned = [](const std::string& more) {
     return vehicleWarnings(setDownScene("position = [2, 0]\n" + more, true)).size();
   };
-  EXPECT_EQ(warned(box(6, 1.9)), 0u) << "it rests";
-  EXPECT_EQ(warned(box(6, 1.9, kMoves)), 1u) << "it may come into the vehicle's way";
+  EXPECT_EQ(warned(box(6, 1.9)), 0u) << "it does not move";
+  EXPECT_EQ(warned(box(6, 1.9, kMoves)), 1u) << "it may enter the vehicle's path";
 }
 
 TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
@@ -195,11 +195,11 @@ TEST(Surroundings, TheEndOfTheTerrainIsSaidAhead) {
     EXPECT_NE(ahead.find(word), std::string::npos) << word << " in: " << ahead;
   EXPECT_NE(said("position = [2, 0]\n[driver]\nsprocket_speed = -4\n").find("m behind the vehicle"), std::string::npos);
   EXPECT_NE(said("position = [3, -1.5]\nheading = 90\n[driver]\nsprocket_speed = 4\n"), "") << "across";
-  EXPECT_EQ(said("position = [6, 0]\n[driver]\nleft = 3\nright = 8\n"), "") << "where it turns nobody knows";
+  EXPECT_EQ(said("position = [6, 0]\n[driver]\nleft = 3\nright = 8\n"), "") << "the end of a turn is not predicted";
   EXPECT_EQ(said("position = [6, 0]\n[driver.table]\ntime = [0, 1, 2, 3]\nleft = [0, 5, -5, 0]\n"
                  "right = [0, 5, -5, 0]\n"),
             "")
-      << "there and back";
+      << "back and forth";
 }
 
 TEST(Surroundings, ATableThatBeginsWithAJump_IsSaid) {

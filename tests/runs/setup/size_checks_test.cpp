@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains beyond the memory of the machine are an error at their key, before any is laid.
+// Grains beyond the memory of the machine cause an error at their key, before initial placement.
 #include "runs/setup/size_checks.hpp"
 
 #include "base/error.hpp"
@@ -19,7 +19,7 @@ using test::messageOf;
 
 scene::Scene sceneOf(const std::string& text) { return parseScene("version = 1\n" + text, "scene.toml"); }
 
-/// Grains in a cube of this edge [m], some 1.5 kB each for all the planes that they might touch.
+/// Grains in a cube of this edge [m], some 1.5 kB each with all planes within their reach.
 scene::Scene fill(const std::string& edge) {
   std::string planes;
   for (int k = 0; k < 30; ++k) planes += "[[plane]]\npoint = [0, 0, -100]\nmaterial = \"glass\"\n";
@@ -40,7 +40,7 @@ TEST(SizeChecks, AMechanismHasNoFillsToCount) {
 
 TEST(SizeChecks, AFillBeyondAllMemoryNamesItsKey) {
   EXPECT_EQ(messageOf([] { checkFillSizes(fill("1")); }), "");
-  // Four thousand million: more than any one machine has.
+  // Four billion: more than the memory of any machine.
   const std::string message = messageOf([] { checkFillSizes(fill("33")); });
   EXPECT_NE(message.find("scene.toml:11: grains.0.radius"), std::string::npos) << message;
   EXPECT_NE(message.find("use fewer or larger grains"), std::string::npos) << message;

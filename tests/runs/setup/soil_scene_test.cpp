@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Effects of a scene's soil: the time step, the name of its settled bed, the size of the ready scenes.
+// Effects of a scene's soil: the time step, the name of its settled bed, the size of the shipped scenes.
 #include "runs/scene/scene.hpp"
 #include "runs/setup/grain_count.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -25,7 +25,7 @@ protected:
 };
 
 TEST_F(SoilOfAScene, TheTimeStepGoesWithTheRadius) {
-  // Linear, without damping of its own: sqrt(m / k) with m as r^3 and k as r.
+  // Linear, without its own damping: sqrt(m / k) with m as r^3 and k as r.
   put(folder_ / "soils/loam.toml", replaced(kLoam, "damping = 50", "restitution = 0.4"));
   const std::string plane = "[[plane]]\nmaterial = \"loam\"\n";
   const double fine = chooseTimeStep(parse(grainOf("loam", 0.01) + plane)),
@@ -50,8 +50,8 @@ TEST(SoilScenes, AreLoadedAndOfTheSizeTheySay) {
   EXPECT_GE(*full.terrain->depth, 0.5);
   EXPECT_LE(*full.terrain->grainRadius, 0.007);
   EXPECT_LT(plannedGrains(full), 3'000'000);
-  EXPECT_EQ(full.terrain->porosity, 0.445) << "the soil's";
-  EXPECT_EQ(full.material("grenville_loam").young, 2.68e8) << "the soil's, at its own radius";
+  EXPECT_EQ(full.terrain->porosity, 0.445) << "the soil's value";
+  EXPECT_EQ(full.material("grenville_loam").young, 2.68e8) << "the soil's value, at its own radius";
   const scene::Scene coarse = loadScene(scenes / "soil_coarse.toml");
   EXPECT_GT(coarse.material("lete_sand").young, 1e9);
   EXPECT_LT(plannedGrains(coarse), 20'000);

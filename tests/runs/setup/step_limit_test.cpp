@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The longest stable step of each mode that contacts make, against its closed form; and what it is blamed on.
+// The longest stable step of each contact mode against its closed form; and the reported cause.
 #include "runs/setup/step_limit.hpp"
 
 #include "base/error.hpp"
@@ -20,7 +20,7 @@
 namespace grouser::setup {
 namespace {
 
-/// Steps the mode x'' + c x' + k x = 0 from x = v = 1 and tells how far it comes, or how fast.
+/// Steps the mode x'' + c x' + k x = 0 from x = v = 1 and returns the largest displacement, or speed.
 double farthest(double k, double c, double dt) {
   double x = 1, v = 1, most = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -50,7 +50,7 @@ TEST(StepOfAMode, IsWhereTheRecurrenceBeginsToGrow) {
 constexpr double kGrainRadius = 0.02, kStiffness = 3e5;
 const double kMass = 2000 * 4.0 / 3 * base::kPi * kGrainRadius * kGrainRadius * kGrainRadius;
 
-/// Two grains of 'soil', and a plane of 'hard' where it is asked for.
+/// Two grains of 'soil', and optionally a plane of 'hard'.
 struct Bed {
   std::string soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0\n", hard, pair, more;
   bool plane = false, alone = false;
@@ -82,12 +82,12 @@ TEST(StepLimit, OfAGrainAmongTwelveIsEightSpringsOnItsMass) {
 TEST(StepLimit, OfDashpotsThatOnlyPushIsFourAndAHalfOfThem) {
   Bed bed;
   bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 9000\nfriction = 0\n";
-  // c = gamma m / 2 of a pair; the motions of a bed at rest have eight of them on m.
+  // c = gamma m / 2 of a pair; modes of a bed at rest have eight of them on m.
   EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 4.5 * 9000.0 / 2), 1, 1e-9);
   EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 8 * 9000.0 / 2), 1, 1e-9);
   bed.soil += "attraction = true\n";
-  EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 6.5 * 9000.0 / 2), 1, 1e-9) << "of random beds";
-  EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 8 * 9000.0 / 2), 1, 1e-9) << "and of crystals";
+  EXPECT_NEAR(bed.limit().step / damped(8 * kStiffness / kMass, 6.5 * 9000.0 / 2), 1, 1e-9) << "random beds";
+  EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 8 * 9000.0 / 2), 1, 1e-9) << "crystals";
 }
 
 TEST(StepLimit, OfAGrainOnAPlaneIsHalfOfItsImpacts) {
@@ -97,7 +97,7 @@ TEST(StepLimit, OfAGrainOnAPlaneIsHalfOfItsImpacts) {
   EXPECT_NEAR(limit.step / (0.5 * undamped(6e6 / kMass)), 1, 1e-9);
   EXPECT_NEAR(limit.calm / undamped(2 * 6e6 / kMass), 1, 1e-9) << "between two planes";
   EXPECT_EQ(limit.what, "grain on a plane of 'hard'");
-  bed.pair += "damping = 9000\n"; // of the whole mass now
+  bed.pair += "damping = 9000\n"; // refers to the whole mass now
   EXPECT_NEAR(bed.limit().step / (0.5 * damped(6e6 / kMass, 9000)), 1, 1e-9);
   EXPECT_NEAR(bed.limit().calm / damped(2 * 6e6 / kMass, 2 * 9000.0), 1, 1e-9);
 }
@@ -130,7 +130,7 @@ TEST(StepLimit, CalmsWhereGrainsThatStickAndTurnAlikeDo) {
   const double turning = 8 * 10.0 / 3;
   EXPECT_NEAR(bed.limit().calm / damped(turning * 0.9 * kStiffness / kMass, turning * 0.8 * 4000.0 / 2), 1, 1e-9);
   bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 4000\nfriction = 0\ntangential_stiffness_ratio = 0.9\n";
-  EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 4 * 4000.0), 1, 1e-9) << "without friction none of it";
+  EXPECT_NEAR(bed.limit().calm / damped(8 * kStiffness / kMass, 4 * 4000.0), 1, 1e-9) << "no effect without friction";
   bed.plane = true;
   bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0.5\ntangential_stiffness_ratio = 0.8\n";
   bed.pair = "[contact.\"soil|hard\"]\nstiffness = 6e6\n";
@@ -141,14 +141,14 @@ TEST(StepLimit, OfRollingIsTheSpringOfAnglesOnTheMomentOfInertia) {
   Bed bed;
   bed.soil = "density = 2000\nstiffness = 3e5\nrestitution = 1\nfriction = 0.5\nrolling_friction = 2\n"
              "tangential_stiffness_ratio = 0.1\nrolling_damping_ratio = 0\n";
-  // k_r = 2.25 k (mu_r R / 2)^2; at rest eight of them on 0.4 m R^2, in an impact two.
+  // k_r = 2.25 k (mu_r R / 2)^2; at rest eight of them on 0.4 m R^2, two in an impact.
   const double inertia = 0.4 * kMass * kGrainRadius * kGrainRadius, arm = 2 * kGrainRadius / 2;
   const double spring = 2.25 * kStiffness * arm * arm;
   ASSERT_GT(2 * spring / inertia, 8 * kStiffness / kMass);
   EXPECT_NEAR(bed.limit().step / undamped(2 * spring / inertia), 1, 1e-9);
   EXPECT_NEAR(bed.limit().calm / undamped(8 * spring / inertia), 1, 1e-9);
   bed.soil.replace(bed.soil.find("ratio = 0\n"), 10, "ratio = 0.3\n");
-  // Critical damping of the pair: 2 sqrt(I_r k_r), I_r = 1.4 (m / 2) R^2; elastic grains have nothing to bound it by.
+  // Critical damping of the pair: 2 sqrt(I_r k_r), I_r = 1.4 (m / 2) R^2; elastic grains impose no bound.
   const double dashpot = 2 * 0.3 * std::sqrt(1.4 * kMass / 2 * kGrainRadius * kGrainRadius * spring);
   EXPECT_NEAR(bed.limit().calm / damped(8 * spring / inertia, 8 * dashpot / inertia), 1, 1e-9);
   bed.soil = "density = 2000\nstiffness = 3e5\ndamping = 4000\nfriction = 0\nrolling_friction = 0.5\n"
@@ -166,7 +166,7 @@ TEST(StepLimit, OfHertzGrainsIsThatOfAnImpactAtTheGivenSpeed) {
   EXPECT_NEAR(bed.limit().step / undamped(8 * 2 * modulus * a / kMass), 1, 1e-9);
   EXPECT_NEAR(bed.limit().calm / bed.limit().step, 1, 1e-9);
   bed.soil.replace(bed.soil.find("friction = 0"), 12, "friction = 0.5");
-  // G = E / (2 (1 + nu)), 1 / G_eff = 2 (2 - nu) / G, k_t = 8 G_eff a; four contacts at once turn it.
+  // G = E / (2 (1 + nu)), 1 / G_eff = 2 (2 - nu) / G, k_t = 8 G_eff a; four simultaneous contacts rotate the grain.
   const double shear = 5e7 / 2.5, tangential = 8 * shear / (2 * 1.75) * a;
   EXPECT_NEAR(bed.limit().step / undamped(25 * tangential / kMass), 1, 1e-9);
   EXPECT_NEAR(bed.limit().calm /
@@ -184,9 +184,9 @@ TEST(StepLimit, OfADampedHertzImpactIsTakenAtItsOwnDepth) {
   double x = 0, v = 1.5;
   for (const double h = 1e-8; v > 0; x += h * v) v -= h * (K * x * std::sqrt(x) + C * std::pow(x, 0.25) * v) / m;
   const double k = 1.5 * K * std::sqrt(x), c = C * std::pow(x, 0.25);
-  // Small steps of order one: 1e-8 of 1e-3 s, and the depth counts with its root.
+  // Small steps of order one: 1e-8 of 1e-3 s; the overlap enters by its root.
   EXPECT_NEAR(bed.limit().step / damped(8 * k / kMass, 4.5 * c / kMass), 1, 1e-4);
-  // Slow, it is the weight of a heap as high as wide that counts: of eight grains twice two of them.
+  // At low speed the weight of a heap as high as wide counts: for eight grains twice two of them.
   scene::Scene scene = bed.scene();
   scene.run.impactSpeed = 1e-9;
   for (int i = 0; i < 6; ++i) scene.grains.push_back(scene.grains.back());
@@ -250,10 +250,10 @@ TEST(StepLimit, OfAFreeSurfaceCountsTheGrainsThatMayLieOnIt) {
   bed.more.replace(bed.more.find("[[box]]"), std::string::npos,
                    "[[box]]\nname = \"lid\"\nposition = [0, 0, 5]\nsize = [0.01, 0.02, 0.01]\nfree = \"z\"\n"
                    "mass = 1e-4\nmaterial = \"soil\"\n");
-  EXPECT_NEAR(bed.limit().step / undamped(kStiffness * (1 / kMass + 1 / 1e-4)), 1, 1e-9) << "one at least";
+  EXPECT_NEAR(bed.limit().step / undamped(kStiffness * (1 / kMass + 1 / 1e-4)), 1, 1e-9) << "at least one";
 }
 
-/// The vehicle that hangs, or stands on rigid ground.
+/// The vehicle on a stand or on rigid ground.
 scene::Scene standing(const std::string& change = "run.duration=1") {
   return loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml", {change});
 }
@@ -274,23 +274,23 @@ TEST(StepLimit, OfAShoeUnderAWheelIsBothSpringsOnItsMassAndItsEnd) {
     const double springs = pad + modulus * 0.28 * 2 * std::sqrt(0.38 * low) * arm;
     EXPECT_NEAR(limit.step / damped(springs, springs * tau), 1, 1e-6) << g;
     EXPECT_EQ(limit.what, "shoe on rigid ground under a road wheel");
-    EXPECT_NEAR(limit.calm / damped(pad, pad * tau), 1, 1e-9) << "what the automatic step keeps to";
+    EXPECT_NEAR(limit.calm / damped(pad, pad * tau), 1, 1e-9) << "the criterion of the automatic step";
   }
-  EXPECT_GT(stepLimit(standing("run.gravity=[0,0,-9.81]")).step, 1e-4) << "that of the shipped scenes";
-  EXPECT_NEAR(stepLimit(standing("run.gravity=[0,0,0]")).step / damped(pad, pad * tau), 1, 1e-9) << "its pad alone";
+  EXPECT_GT(stepLimit(standing("run.gravity=[0,0,-9.81]")).step, 1e-4) << "the step of the shipped scenes";
+  EXPECT_NEAR(stepLimit(standing("run.gravity=[0,0,0]")).step / damped(pad, pad * tau), 1, 1e-9) << "the pad alone";
 }
 
 TEST(StepLimit, OfAShoeThatTurnsMoreEasilyThanItShiftsIsShorter) {
   const test::SpecVariant light({{"shoe", "inertia", "[0.0064, 0.0020, 0.0080]"}});
   const StepLimit limit = stepLimit(standing("vehicle.spec=" + light.path()));
-  // A tenth of the moments: about y 136 x 280 mm of pad turn 0.0020 kg m2, about x 0.0064 kg m2, the quicker.
+  // A tenth of the moments: about y 136 x 280 mm of pad rotate 0.0020 kg m2, about x 0.0064 kg m2, the faster mode.
   const double turns = 1e10 * 0.136 * 0.28 * 0.14 * 0.14 / 3 / 0.0064;
   EXPECT_LT(limit.step, damped(turns, turns * 2e-4));
   EXPECT_GT(limit.step, 0.5 * damped(turns, turns * 2e-4));
 }
 
 TEST(StepLimit, OfAnIdlerCountsAllShoesThatRubOnIt) {
-  // Heavy shoes are slow on the ground and under wheels; the idler that they hold is as light as ever.
+  // Heavy shoes are slow on the ground and under wheels; the idler that they hold is still light.
   const std::vector<test::KeyChange> heavy = {{"shoe", "mass", "57"}, {"shoe", "inertia", "[0.429, 0.134, 0.537]"}};
   const auto limit = [&](const std::string& key, const std::string& value) {
     std::vector<test::KeyChange> changes = heavy;
@@ -298,7 +298,7 @@ TEST(StepLimit, OfAnIdlerCountsAllShoesThatRubOnIt) {
     const test::SpecVariant variant(changes);
     return stepLimit(standing("vehicle.spec=" + variant.path()));
   };
-  // Pins on a circle with chords of 0.154 m, where plates of 20 mm lie on a radius of 0.217 m.
+  // Pins on a circle with chords of 0.154 m; plates of 20 mm lie on a radius of 0.217 m.
   const double around = std::hypot(0.077, 0.237);
   EXPECT_EQ(std::ceil(base::kPi * around / 0.154), 6);
   const auto expected = [&](double preload) {
@@ -313,9 +313,9 @@ TEST(StepLimit, OfAnIdlerCountsAllShoesThatRubOnIt) {
     return damped(rate, rate * 2e-4);
   };
   EXPECT_NEAR(limit("", "").step / expected(9200), 1, 1e-6);
-  EXPECT_EQ(limit("", "").what, "idler that turns on 6 shoes");
+  EXPECT_EQ(limit("", "").what, "idler in contact with 6 shoes");
   EXPECT_NEAR(limit("preload", "20000").step / expected(20000), 1, 1e-6);
-  EXPECT_GT(limit("friction_inside", "0").step, 1.1 * expected(9200)) << "nothing holds it";
+  EXPECT_GT(limit("friction_inside", "0").step, 1.1 * expected(9200)) << "friction does not hold it";
 }
 
 TEST(StepLimit, IsThatOfTheSmallestGrainOfAMaterial) {

@@ -41,7 +41,7 @@ protected:
     std::ofstream(file, std::ios::binary) << bytes;
     return file;
   }
-  /// A level picture of 61 x 61 pixels, some 13 mm apart in bed(), with one white pixel that `height` [m] makes higher.
+  /// A level picture of 61 x 61 pixels, some 13 mm apart in bed(), with one white pixel raised by `height` [m].
   scene::Scene spike(double height, const std::string& more) {
     std::vector<int> pixels(61 * 61);
     pixels[30 * 61 + 20] = 255;
@@ -64,7 +64,7 @@ TEST_F(TerrainNotes, SinglePixelsAreWarnedOfBySlopeAtTheirSides) {
   const double spacing = 0.8 / 60;
   for (const double slope : {1.9, 2.1, 2.5, 2.8, 4.0})
     for (const bool cubic : {true, false}) {
-      // A cubic is 3/2 as steep midway between two pixels as the line; bilinear cells slope both ways at the top.
+      // Midway between two pixels a cubic is 3/2 as steep as the line; bilinear cells slope both ways at the top.
       const double height = slope * spacing / (cubic ? 1.5 : std::sqrt(2.0));
       const TerrainRemarks remarks = terrainRemarks(spike(height, cubic ? "" : "interpolation = \"bilinear\"\n"));
       ASSERT_EQ(remarks.warnings.size(), slope > 2 ? 1u : 0u) << slope;
@@ -75,7 +75,7 @@ TEST_F(TerrainNotes, SinglePixelsAreWarnedOfBySlopeAtTheirSides) {
 }
 
 TEST_F(TerrainNotes, EdgesOfASmallPartOfARadiusAreNotWarnedOf) {
-  // Pixels as near as makes the spike's slope 3, whatever its height.
+  // Pixel spacing for a spike's slope of 3, at any height.
   const auto warnings = [&](double height) {
     scene::Scene scene = spike(height, "");
     scene.terrain->size = {0.8 * height / 0.0267, 0.8 * height / 0.0267};
@@ -97,7 +97,7 @@ TEST_F(TerrainNotes, ColourIsNoted) {
 
 TEST_F(TerrainNotes, InterpolationIsMonotoneUnlessTheSceneSaysOtherwise) {
   const auto highest = [](const std::string& more) { return readSurface(bed(more)).bounds().highest; };
-  // The picture's step is less than its format's range.
+  // The picture's step is smaller than the range of its format.
   EXPECT_EQ(highest(""), highest("interpolation = \"bilinear\"\n"));
   EXPECT_GT(highest("interpolation = \"smooth\"\n"), highest("") + 4e-4);
   EXPECT_THROW(bed("interpolation = \"cubic\"\n"), base::InputError);

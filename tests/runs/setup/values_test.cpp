@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Laws of two unlike materials, and where a vehicle stands, in numbers of their own.
+// Laws of two different materials, and the position of a vehicle, with unique values.
 #include "runs/setup/laws.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/placement.hpp"
@@ -60,7 +60,7 @@ TEST(PairLawValues, AreThoseOfTheSamePropertiesWithoutAScene) {
     EXPECT_EQ(law.tangentialDamping, plain.tangentialDamping);
     EXPECT_EQ(law.friction, plain.friction);
     EXPECT_EQ(law.rollingFriction, plain.rollingFriction);
-    EXPECT_EQ(law.rollingDamping, plain.rollingDamping) << "a default";
+    EXPECT_EQ(law.rollingDamping, plain.rollingDamping) << "a default value";
     EXPECT_EQ(law.pullPerRadius, plain.pullPerRadius);
     EXPECT_EQ(law.fixedShare, plain.fixedShare);
   }
@@ -79,14 +79,13 @@ TEST(PairLawValues, ErrorsStandAtTheKeyInTheScene) {
     }
     return std::string();
   };
-  EXPECT_EQ(
-      messageOf("", "law = \"hertz\"\nyoung = 1e8\n"),
-      "pair.toml:6: material.b.law = \"hertz\" is incompatible with law = \"linear\" of material.a, which it touches; "
-      "use hertz or eepa for both, or linear, eepa_linear or luding for both (eepa_linear and luding are "
-      "incompatible)");
+  EXPECT_EQ(messageOf("", "law = \"hertz\"\nyoung = 1e8\n"),
+            "pair.toml:6: material.b.law = \"hertz\" is incompatible with law = \"linear\" of material.a, a contact "
+            "partner; use hertz or eepa for both, or linear, eepa_linear or luding for both (eepa_linear and luding "
+            "are incompatible)");
   EXPECT_EQ(messageOf("damping = 300\n", "restitution = 0.5\n"),
-            "pair.toml:5: material.a.damping = 300 [1/s] cannot be mixed with the restitution of material.b for "
-            "grains of different masses; give both materials the same key, or set [contact.\"a|b\"]");
+            "pair.toml:5: material.a.damping = 300 [1/s] cannot be combined with the restitution of material.b for "
+            "grains of different masses; use damping or restitution in both materials, or set [contact.\"a|b\"]");
 }
 
 TEST(PairLawValues, OfAPairAreThoseOfItsSection) {
@@ -98,7 +97,7 @@ TEST(PairLawValues, OfAPairAreThoseOfItsSection) {
   EXPECT_EQ(law.damping, 50);
   EXPECT_EQ(law.friction, 0.1);
   EXPECT_EQ(law.rollingFriction, 0.3);
-  EXPECT_EQ(pairLaw(scene, "soft", "soft", 0.1).friction, 0.3) << "of the pair alone";
+  EXPECT_EQ(pairLaw(scene, "soft", "soft", 0.1).friction, 0.3) << "the value of the pair";
 }
 
 TEST(PairLawValues, EnergiesOfAdhesionGrowWithTheRadiusWhereAMaterialSaysSo) {
@@ -114,8 +113,8 @@ TEST(PairLawValues, EnergiesOfAdhesionGrowWithTheRadiusWhereAMaterialSaysSo) {
   const scene::Scene one = of("adhesion_radius = 0.01\n", "");
   const contact::ContactLaw constant = pairLaw(one, "coarse", "coarse", {}), grown = pairLaw(one, "fine", "fine", {});
   EXPECT_NEAR(constant.pull(0.01), 2 * base::kPi * 0.9 * 0.01, 1e-14);
-  EXPECT_NEAR(grown.pull(0.005), 2 * base::kPi * 0.4 * 0.005, 1e-14) << "two grains of that radius";
-  EXPECT_NEAR(grown.pull(0.010), 4 * 2 * base::kPi * 0.4 * 0.005, 1e-14) << "as the square";
+  EXPECT_NEAR(grown.pull(0.005), 2 * base::kPi * 0.4 * 0.005, 1e-14) << "two grains with this radius";
+  EXPECT_NEAR(grown.pull(0.010), 4 * 2 * base::kPi * 0.4 * 0.005, 1e-14) << "proportional to the square";
   EXPECT_EQ(grown.plastic.pull, 0);
   EXPECT_NEAR(4 * 0.005 * grown.plastic.pullGrowth, constant.plastic.pull, 1e-12) << "3 J/m2 there, a quarter of 12";
   const contact::ContactLaw mixed = pairLaw(one, "fine", "coarse", {});
@@ -123,7 +122,7 @@ TEST(PairLawValues, EnergiesOfAdhesionGrowWithTheRadiusWhereAMaterialSaysSo) {
   EXPECT_NEAR(mixed.pull(0.01), 4 * 2 * base::kPi * 0.6 * 0.005, 1e-14);
   const contact::ContactLaw both =
       pairLaw(of("adhesion_radius = 0.01\n", "adhesion_radius = 0.04\n"), "fine", "coarse", {});
-  EXPECT_NEAR(both.pull(0.01), 2 * base::kPi * 0.6 * 0.01, 1e-14) << "of equal grains of 20 mm, the geometric mean";
+  EXPECT_NEAR(both.pull(0.01), 2 * base::kPi * 0.6 * 0.01, 1e-14) << "equal grains of 20 mm, the geometric mean";
   EXPECT_NEAR(both.pull(0.02), 8 * base::kPi * 0.6 * 0.01, 1e-14);
 }
 

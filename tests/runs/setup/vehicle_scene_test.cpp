@@ -20,7 +20,7 @@ std::string withDriver(const std::string& driver, const std::string& behind = ""
   return replaced(goodScene(), "sprocket_speed = 1\n", driver + "\n") + behind;
 }
 
-/// The message with which a scene, or its vehicle, is refused.
+/// The error message of a scene or its vehicle.
 std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     vehicleSetup(parseScene(text, "scene.toml", overrides));
@@ -83,7 +83,7 @@ TEST(ReadyVehicles, FitTheirMeshes) {
   }
   const scene::Scene wide =
       parseScene(goodScene(), "scene.toml", {"vehicle.spec=vehicles/m113_like.toml", "spec.shoe.pad_half_width=0.18"});
-  EXPECT_THROW(checkParts(wide), base::InputError) << "the mesh does not follow";
+  EXPECT_THROW(checkParts(wide), base::InputError) << "the mesh keeps its width";
 }
 
 TEST(DriverByTorque, TablesAndConstantsReachTheDriver) {
@@ -95,7 +95,7 @@ TEST(DriverByTorque, TablesAndConstantsReachTheDriver) {
   const auto table =
       driver(withDriver("drive = \"torque\"", "[driver.torques]\ntime = [0, 1]\nleft = [0, 10]\nright = [0, 20]\n"));
   EXPECT_EQ(table.torques.right, (std::vector<double>{0, 20}));
-  EXPECT_EQ(table.driveRamp, 0) << "a table is followed as it is given";
+  EXPECT_EQ(table.driveRamp, 0) << "a table is followed without a ramp";
 }
 
 TEST(DriverByTorque, MixedUpWithSpeedsIsRefused) {
@@ -103,9 +103,9 @@ TEST(DriverByTorque, MixedUpWithSpeedsIsRefused) {
   expectRefused(withDriver("drive = \"torque\"\nsprocket_speed = 1"), {"driver.sprocket_speed", "left_torque"});
   expectRefused(withDriver("drive = \"torque\"\nleft_torque = 1"), {"left_torque", "requires right_torque"});
   expectRefused(withDriver("drive = \"torque\"\ntorque = 1\nleft_torque = 1\nright_torque = 1"),
-                {"one of several given torques"});
+                {"conflicts with another torque setting"});
   expectRefused(withDriver("drive = \"torque\"", "[driver.torques]\ntime = [0, 1]\nleft = [0]\nright = [0, 1]\n"),
-                {"driver.torques.left", "[N m]", "as many entries as time, 2"});
+                {"driver.torques.left", "[N m]", "as many entries as time (2)"});
   expectRefused(withDriver("drive = \"steam\""), {"driver.drive", "speed, torque, engine"});
 }
 
@@ -140,7 +140,7 @@ TEST(DriverOfACourse, MistakesAreRefused) {
   expectRefused(course("speed = 1\nradius = 3\nx = [0, 1]\ny = [0, 1]"), {"radius", "remove one"});
   expectRefused(course("speed = 1\nx = [0, 1]\ny = [0]"), {"driver.course.y", "1 entries"});
   expectRefused(course("speed = 1\nx = [0]\ny = [0]"), {"only one corner"});
-  expectRefused(course("speed = 1\nx = [0, 0]\ny = [1, 1]"), {"repeat a corner at entries 0 and 1"});
+  expectRefused(course("speed = 1\nx = [0, 0]\ny = [1, 1]"), {"contain the same corner at entries 0 and 1"});
   expectRefused(course("speed = -1\nx = [0, 1]\ny = [1, 1]"), {"driver.course.speed = -1", "above 0 on a path"});
   expectRefused(withDriver("sprocket_speed = 1", "[driver.course]\nspeed = 1\n"), {"sprocket_speed", "remove one"});
   expectRefused(withDriver("drive = \"torque\"", "[driver.course]\nspeed = 1\n"), {"driver.drive", "course"});

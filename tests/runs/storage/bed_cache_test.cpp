@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Settled beds kept from run to run: the same bits as a bed settled anew, and never a reason for a run to end.
+// Settled beds in the cache: bitwise identical to newly settled beds, and never a cause of failed runs.
 #include "runs/setup/load_scene.hpp"
 #include "runs/storage/bed_cache.hpp"
 
@@ -32,10 +32,10 @@ class KeptBed : public FolderTest {
 protected:
   void SetUp() override {
     FolderTest::SetUp();
-    fs::remove(folder_); // the first bed makes it
+    fs::remove(folder_); // the first bed creates it
   }
 
-  /// 180 grains that come to rest, and one that falls onto them.
+  /// 180 settling grains, and one that falls onto them.
   static scene::Scene scene(const std::vector<std::string>& overrides = {}, const std::string& more = "") {
     return setup::parseScene(
         "version = 1\n[run]\nduration = 0.1\ntime_step = 2e-4\n[material.soil]\nstiffness = 1e5\n"
@@ -48,7 +48,7 @@ protected:
         "bed.toml", overrides);
   }
 
-  /// Steps taken to settle: none where the bed was taken from the folder.
+  /// Number of settling steps: zero for a cached bed.
   struct Outcome {
     std::string hash, summary;
     bool settled = false;
@@ -103,7 +103,7 @@ TEST_F(KeptBed, OfCopiedTilesIsTakenBeforeItsTileSettles) {
   const Outcome alone = run(nullptr, tiled), first = runIn(folder_, tiled);
   EXPECT_TRUE(first.settled);
   EXPECT_EQ(first.hash, alone.hash);
-  // A tile that cannot come to rest shows whether it is asked to.
+  // A tile that cannot come to rest shows whether it is settled.
   coupling::SimulationSetup setup = setup::simulationSetup(scene(tiled));
   auto restless = std::make_shared<coupling::GroundSetup>(*setup.ground.grains->bed->tile->ground);
   restless->grains->bed->settle.timeLimit = 1e-9;
@@ -114,7 +114,7 @@ TEST_F(KeptBed, OfCopiedTilesIsTakenBeforeItsTileSettles) {
   coupling::Simulation kept(setup, base::cpuExec(1), quiet, {}, &beds);
   while (kept.steps() < 300) kept.step();
   EXPECT_EQ(kept.stateHash(), alone.hash);
-  // Nor does a run that goes on need it.
+  // A resumed run does not need it, either.
   coupling::Simulation resumed(setup, base::cpuExec(1), kept.save());
   while (resumed.steps() < 320) kept.step(), resumed.step();
   EXPECT_EQ(resumed.stateHash(), kept.stateHash());
@@ -192,7 +192,7 @@ TEST_F(KeptBed, DamagedOrForeignIsToldAndSettledAnew) {
     EXPECT_NE(told.find(file.string()), std::string::npos) << told;
     EXPECT_TRUE(again.settled);
     EXPECT_EQ(again.hash, first.hash);
-    EXPECT_FALSE(runIn(folder_).settled) << "the damaged one is replaced";
+    EXPECT_FALSE(runIn(folder_).settled) << "a new bed replaces the damaged one";
   }
 }
 
@@ -214,7 +214,7 @@ TEST_F(KeptBed, UnusableFolderIsAWarning) {
   std::ofstream(folder_) << "a file where the folder should be";
   ::testing::internal::CaptureStderr();
   const Outcome o = runIn(folder_ / "below");
-  EXPECT_NE(::testing::internal::GetCapturedStderr().find("cannot be cached"), std::string::npos);
+  EXPECT_NE(::testing::internal::GetCapturedStderr().find("cannot cache settled beds"), std::string::npos);
   EXPECT_EQ(o.hash, run(nullptr).hash);
   EXPECT_NE(o.summary.find("not cached"), std::string::npos);
 }

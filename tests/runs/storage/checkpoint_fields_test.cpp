@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Every member of the saved state, with a value of its own, through the file; and which of them the hash takes. Members
-// are found by the compiler: one that is added and not stored is seen here.
+// Every member of the saved state, with unique values, through the file; and the members of the state hash. The
+// compiler lists the members: this detects a new member that is not stored.
 #include "coupling/simulation.hpp"
 #include "multibody/state.hpp"
 #include "runs/scene/scene.hpp"
@@ -21,7 +21,7 @@ using namespace test; // fixtures
 
 namespace {
 
-/// Three grains, three contacts of theirs, and three of all else; no number is a default, and none is like another.
+/// Three grains, three contacts, and three of all other items; no number is a default, and all differ.
 coupling::SimulationState filled() {
   coupling::SimulationState s;
   int next = 1;
@@ -32,7 +32,7 @@ coupling::SimulationState filled() {
   terrain::GrainState& g = *s.grains;
   g.total = 3, g.id = {0, 1, 2}, g.contacts = {1, 0, 2};
   g.layout = {1, 1, 1, 1, 1, 1, 1, 1}, g.wallBits = {1, 1, 1};
-  // Behind what moves the bodies stand as many books, which no hash takes.
+  // Ledger members follow those of the motion; the hash excludes them.
   for (std::vector<double>* bodies : {&s.vehicle->bodies, &s.mechanism->bodies})
     for (std::size_t k = 0; k < multibody::State::kBooks; ++k) bodies->push_back(++next);
   return s;
@@ -52,7 +52,7 @@ TEST_F(CheckpointFields, AreAllReadBackAsTheyWereWritten) {
   c.state = filled();
   const auto written = numbersOf(c.state);
   ASSERT_GT(written.size(), 200u);
-  for (const auto& [place, bits] : written) // but of contacts and ids, whose counts the file's shapes need
+  for (const auto& [place, bits] : written) // except counts of contacts and ids, which set array shapes
     EXPECT_TRUE(bits != 0 || place.rfind(".6", 0) == 0) << place;
   writeCheckpoint(path(), c);
   const Checkpoint read = readCheckpoint(path());
@@ -90,7 +90,7 @@ struct NamedChange {
   Change change;
 };
 
-/// On what the next step depends.
+/// Members that affect the next step.
 const NamedChange kHashed[] = {
     {"position", [](coupling::SimulationState& s) { s.grains->position[1].y ^= 1; }},
     {"velocity", [](coupling::SimulationState& s) { s.grains->velocity[2].z += 1; }},
@@ -128,7 +128,7 @@ const NamedChange kHashed[] = {
     {"patch on a body", [](coupling::SimulationState& s) { s.mechanism->touching->contacts.bed.memories[1] ^= 1; }},
 };
 
-/// Sums for rows and alarms: they say nothing of the next step.
+/// Sums for rows and alarms: without effect on the next step.
 const NamedChange kUnhashed[] = {
     {"travel since the list", [](coupling::SimulationState& s) { s.grains->travelled[1].x ^= 1; }},
     {"books", [](coupling::SimulationState& s) { s.grains->books[1] += 1; }},
@@ -182,7 +182,7 @@ void expectSame(const coupling::SimulationState& is, const coupling::SimulationS
   }
 }
 
-/// Runs a scene, restores another simulation from what the first has saved, and saves that again.
+/// Runs a scene, restores its saved state in another simulation, and saves that again.
 void expectRestored(const scene::Scene& scene, std::int64_t steps) {
   coupling::Simulation straight(
       setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, nullptr, sharedSpheres());
@@ -198,7 +198,7 @@ TEST(RestoredSimulation, OfAVehicleOnRigidGroundSavesWhatItWasGiven) {
   expectRestored(setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
                                   {"vehicle.sphere_radius=0.04", "vehicle.clearance=1e-6", "driver.tension_ramp=0.002",
                                    "driver.weight_ramp=0.002", "driver.drive_ramp=0.002"}),
-                 95); // the track has been judged, and blows of the ground measured
+                 95); // the track has been checked, and ground impacts measured
 }
 
 TEST(RestoredSimulation, SumsOfTheRowAndOfTheAlarmAreKeptApart) {
@@ -210,7 +210,7 @@ TEST(RestoredSimulation, SumsOfTheRowAndOfTheAlarmAreKeptApart) {
       setup::simulationSetup(scene), base::cpuExec(1), [](double, double) {}, {}, nullptr, sharedSpheres());
   while (simulation.steps() < 20) simulation.step();
   const coupling::VehicleState first = *simulation.save().vehicle;
-  simulation.restartMeans(); // a row is written; the track is judged each 50 steps
+  simulation.restartMeans(); // a row is written; the track is checked every 50 steps
   while (simulation.steps() < 45) simulation.step();
   const coupling::VehicleState then = *simulation.save().vehicle;
   EXPECT_EQ(first.meanSteps, 20);
@@ -222,7 +222,7 @@ TEST(RestoredSimulation, SumsOfTheRowAndOfTheAlarmAreKeptApart) {
     EXPECT_EQ(then.alarmForces[c], first.groundForces[c] + then.groundForces[c]) << c;
     any = any || !(first.groundForces[c] == base::Vec3l{});
   }
-  EXPECT_TRUE(any) << "the ground has pushed before the row";
+  EXPECT_TRUE(any) << "the ground has exerted forces before the row";
 }
 
 TEST(RestoredSimulation, OfBodiesAmongGrainsSavesWhatItWasGiven) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Checkpoints: straight = resumed, bit for bit; and a file that is whole or refused.
+// Checkpoints: a resumed run equals an uninterrupted one, bit for bit; a file is complete or rejected.
 #include "runs/setup/load_scene.hpp"
 #include "runs/storage/checkpoint.hpp"
 #include "runs/storage/scene_changes.hpp"
@@ -38,7 +38,7 @@ namespace fs = std::filesystem;
 
 void quiet(double, double) {}
 
-/// What a row is made of: equal numbers mean equal bits, NaN and NaN as well.
+/// Contents of a row: equal numbers mean equal bits, and NaN equals NaN.
 std::vector<std::uint64_t> rowOf(coupling::Simulation& simulation) {
   const coupling::Ledger l = simulation.ledger();
   std::vector<double> row{l.driveWork, l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.residual};
@@ -67,7 +67,7 @@ protected:
         "grains.toml", overrides);
   }
 
-  /// A checkpoint of two grains in touch, after `steps`.
+  /// A checkpoint of two touching grains, after `steps`.
   static Checkpoint small(std::int64_t steps = 5) {
     coupling::Simulation simulation(setup::simulationSetup(grains()), base::cpuExec(1), quiet);
     while (simulation.steps() < steps) simulation.step();
@@ -91,7 +91,7 @@ protected:
   fs::path path_;
 };
 
-/// Runs a scene with short ramps to `stop`, goes on from there through a file with `overrides` on `exec`, and compares
+/// Runs a scene with short ramps to `stop`, resumes it from a file with `overrides` on `exec`, and compares
 /// the two at `end`.
 void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector<std::string> overrides,
                      const base::Exec& exec, std::int64_t stop, std::int64_t end) {
@@ -102,10 +102,10 @@ void expectOneAnswer(const fs::path& path, const std::string& scene, std::vector
   coupling::Simulation straight(setup::simulationSetup(setup::loadScene(file, ramps)), base::cpuExec(1), quiet, {},
                                 sharedBeds(), sharedSpheres());
   while (straight.steps() < stop - 37) straight.step();
-  straight.restartMeans(); // a row was written: its means go on from here
+  straight.restartMeans(); // a row was written: means restart here
   while (straight.steps() < stop) straight.step();
   const coupling::Ledger touching = straight.ledger();
-  ASSERT_GT(touching.partContacts + touching.patches, 20) << "there must be history to carry over";
+  ASSERT_GT(touching.partContacts + touching.patches, 20) << "history is required for the test";
   const scene::Scene again = setup::loadScene(file, overrides);
   Checkpoint c;
   c.scene = scene::resolvedToml(setup::loadScene(file, ramps)), c.inputs = setup::inputsOf(again),
@@ -184,7 +184,7 @@ TEST_F(CheckpointFile, CutForeignAndOtherVersionsAreRefusedByName) {
   const std::size_t version = other.find("\nversion ") + 9;
   other[version] = static_cast<char>(other[version] + 1);
   const std::string number = other.substr(version, other.find('\n', version) - version);
-  EXPECT_NE(refusal(other).find("version " + number + ", this program reads version"), std::string::npos)
+  EXPECT_NE(refusal(other).find("version " + number + ", but this program reads version"), std::string::npos)
       << refusal(other);
   fs::remove(path_);
   EXPECT_THROW(readCheckpoint(path_), base::InputError);
@@ -230,7 +230,7 @@ TEST_F(CheckpointFile, FilesOfTheSceneAreComparedByWhatIsInThem) {
 }
 
 TEST_F(CheckpointFile, EveryByteOfAFileOfTheSceneCounts) {
-  // Files are read a mebibyte at a time; what is hashed are their bytes, one after the other.
+  // Files are read in blocks of 1 MiB; the hash covers their bytes in order.
   for (const std::size_t size :
        {std::size_t{1}, (std::size_t{1} << 20) - 1, std::size_t{1} << 20, std::size_t{2500000}}) {
     std::string bytes(size, 'a');
@@ -279,7 +279,7 @@ TEST_F(CheckpointFile, KilledAtAnyTimeItIsWhole) {
     const std::int64_t steps = readCheckpoint(path_).state.steps;
     EXPECT_TRUE(steps == 5 || steps == 40) << steps;
   }
-  EXPECT_GT(cutShort, 0) << "no kill came in the middle of a write";
+  EXPECT_GT(cutShort, 0) << "no kill interrupted a write";
 }
 
 class SoilOfACheckpoint : public SoilTest {};

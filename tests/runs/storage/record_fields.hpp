@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-/// Goes through all members of plain structs without their names, so that a member that is added later is seen too.
+/// Visits all members of plain structs without their names, so that it includes members added later.
 namespace grouser::test {
 
 namespace detail {
@@ -27,7 +27,7 @@ template <class T, std::size_t... kIndex> constexpr bool takes(std::index_sequen
 
 inline constexpr std::size_t kMostMembers = 28;
 
-/// Members of an aggregate without arrays: with how many initialisers it can be made, at most.
+/// Members of an aggregate without arrays: its largest number of initialisers.
 template <class T, std::size_t kMost = kMostMembers> constexpr std::size_t memberCount() {
   if constexpr (takes<T>(std::make_index_sequence<kMost>{}))
     return kMost;
@@ -80,8 +80,8 @@ template <class T> struct IsOptional<std::optional<T>> : std::true_type {};
 
 } // namespace detail
 
-/// Calls f(path, number) for every number in `s`; `path` counts the members: "7.2[1].0". Optionals that are empty are
-/// filled and vectors get three entries, where `make` says so.
+/// Calls f(path, number) for every number in `s`; `path` counts the members: "7.2[1].0". With `make`, empty optionals
+/// are filled and vectors get three entries.
 template <class T, class F> void forEachNumber(T& s, const F& f, bool make = false, const std::string& path = "") {
   using U = std::remove_const_t<T>;
   if constexpr (std::is_arithmetic_v<U>) {
@@ -108,7 +108,7 @@ template <class T, class F> void forEachNumber(T& s, const F& f, bool make = fal
   }
 }
 
-/// All numbers with their places, as bits: equal lists mean equal records, NaN and NaN as well.
+/// All numbers with their paths, as bits: equal lists mean equal records, and NaN equals NaN.
 template <class T> std::vector<std::pair<std::string, std::uint64_t>> numbersOf(const T& s) {
   std::vector<std::pair<std::string, std::uint64_t>> numbers;
   forEachNumber(s, [&](const std::string& path, const auto& number) {

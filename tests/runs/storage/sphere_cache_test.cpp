@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sphere sets kept from run to run: those that would be cut, bit for bit, and never a reason for a run to end.
+// Sphere sets in the cache: bitwise equal to a new conversion, and never a cause of failed runs.
 #include "runs/storage/sphere_cache.hpp"
 
 #include "base/error.hpp"
@@ -35,13 +35,13 @@ class KeptSpheres : public FolderTest {
 protected:
   void SetUp() override {
     FolderTest::SetUp();
-    fs::remove(folder_); // the first set makes it
+    fs::remove(folder_); // the first set creates it
   }
 
   SphereCache cache(std::uint64_t limit = support::KeptFiles::kDefaultLimit) const {
     return SphereCache(support::KeptFiles(folder_, limit));
   }
-  /// A new cache's set and what it says of it.
+  /// A new cache's set and its message.
   std::pair<base::SphereSet, std::string> cut(const coupling::PartCut& part) const {
     SphereCache c = cache();
     base::SphereSet set = c.cut(part);
@@ -132,10 +132,10 @@ TEST_F(KeptSpheres, DamagedOrForeignFileIsToldAndCutAnew) {
     const auto [set, says] = cut(part());
     const std::string told = ::testing::internal::GetCapturedStderr();
     EXPECT_EQ(told.rfind("WARNING: " + file.string(), 0), 0u) << told;
-    EXPECT_EQ(told.find("WARNING", 1), std::string::npos) << "told once: " << told;
+    EXPECT_EQ(told.find("WARNING", 1), std::string::npos) << "one message: " << told;
     EXPECT_TRUE(wasCut(says)) << says;
     expectSame(set, alone);
-    EXPECT_FALSE(wasCut(cut(part()).second)) << "the damaged one is replaced";
+    EXPECT_FALSE(wasCut(cut(part()).second)) << "a new set replaces the damaged one";
   }
 }
 
@@ -168,7 +168,7 @@ TEST_F(KeptSpheres, ShareTheirLimitWithBedsAndTheOldestGo) {
   std::uintmax_t two = 0;
   for (const fs::path& file : files())
     two += fs::file_size(file), fs::last_write_time(file, now - std::chrono::hours(file == first ? 3 : 2));
-  cut(part(0.012)); // the oldest is used again
+  cut(part(0.012)); // now the oldest is the most recently used
   put(folder_ / "bed-0123456789abcdef.h5", std::string(1000, 'b'));
   fs::last_write_time(folder_ / "bed-0123456789abcdef.h5", now - std::chrono::hours(1));
   put(folder_ / "mine.bin", "not of this program: stays");
@@ -178,14 +178,14 @@ TEST_F(KeptSpheres, ShareTheirLimitWithBedsAndTheOldestGo) {
   room.cut(part(0.0122));
   EXPECT_FALSE(wasCut(cut(part(0.012)).second));
   EXPECT_FALSE(wasCut(cut(part(0.0122)).second));
-  EXPECT_TRUE(fs::exists(folder_ / "bed-0123456789abcdef.h5")) << "younger than the set that went";
+  EXPECT_TRUE(fs::exists(folder_ / "bed-0123456789abcdef.h5")) << "newer than the removed set";
   EXPECT_TRUE(fs::exists(folder_ / "mine.bin"));
   EXPECT_FALSE(fs::exists(folder_ / "spheres-0.bin.host.1.part"));
-  EXPECT_TRUE(wasCut(cut(part(0.0121)).second)) << "the one used longest ago has gone, and is cut again";
+  EXPECT_TRUE(wasCut(cut(part(0.0121)).second)) << "the least recently used set is removed, and converted again";
 
   cache(1).cut(part(0.0123));
-  EXPECT_TRUE(wasCut(cut(part(0.0123)).second)) << "larger than the limit";
-  cache(two * 3 / 4).cut(part(0.0124)); // room for one alone
+  EXPECT_TRUE(wasCut(cut(part(0.0123)).second)) << "exceeds the limit";
+  cache(two * 3 / 4).cut(part(0.0124)); // space for one set
   EXPECT_FALSE(fs::exists(folder_ / "bed-0123456789abcdef.h5")) << "a set displaces an older bed";
 }
 
@@ -235,10 +235,10 @@ TEST_F(KeptSpheres, RunsHaveTheStatesOfRunsWithoutCache) {
       SphereCache c = cache();
       EXPECT_EQ(hashOf(scene, &c), without);
       EXPECT_EQ(wasCut(c.summary()), time == 0) << c.summary();
-      EXPECT_NE(c.summary().find("read from"), std::string::npos) << "the resumed one needs no cut: " << c.summary();
+      EXPECT_NE(c.summary().find("read from"), std::string::npos) << "a resumed run has its sets: " << c.summary();
     }
   }
-  EXPECT_EQ(files().size(), 7u) << "five parts and a hull that touch by samples, and the mesh";
+  EXPECT_EQ(files().size(), 7u) << "five parts and a hull with sampled contacts, and the mesh";
   fs::remove(folder_.string() + ".obj");
 }
 

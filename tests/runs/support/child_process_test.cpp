@@ -27,7 +27,7 @@ protected:
     while (child.read(text)) continue;
     return text;
   }
-  /// The process number that a program prints in its first line.
+  /// The process id in the first line of a program's output.
   static pid_t processOf(ChildProcess& child) {
     std::string text;
     while (text.find('\n') == std::string::npos && child.read(text)) continue;
@@ -42,7 +42,7 @@ protected:
     }
     return "";
   }
-  /// The text of the file once it has this line; what it has after 10 s where it never gets it.
+  /// The text of the file once it has this line, or after 10 s.
   static std::string awaited(const fs::path& file, const std::string& line) {
     for (int look = 0; look < 1000 && contents(file).find(line + "\n") == std::string::npos; ++look)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -81,13 +81,13 @@ TEST_F(ChildProcesses, OutputGoesIntoAFileOrAPipe) {
 }
 
 TEST_F(ChildProcesses, InputComesThroughAPipe) {
-  const std::string much(300'000, 'x'); // beyond what a pipe holds
+  const std::string much(300'000, 'x'); // more than a pipe's capacity
   ChildProcess reader({.words = {"cat"}, .log = folder_ / "log.txt", .input = true});
   EXPECT_TRUE(reader.write("first ") && reader.write(much));
   EXPECT_EQ(reader.wait().status, 0);
   EXPECT_EQ(contents(folder_ / "log.txt"), "first " + much);
   ChildProcess deaf({.words = {"true"}, .log = folder_ / "log.txt", .input = true});
-  EXPECT_FALSE(deaf.write(much)) << "and this process was not ended by SIGPIPE";
+  EXPECT_FALSE(deaf.write(much)) << "and SIGPIPE did not end this process";
   EXPECT_EQ(deaf.wait().status, 0);
 }
 
@@ -97,7 +97,7 @@ TEST_F(ChildProcesses, InheritNoPipesOfOthersAndLeaveNoneOpen) {
     ChildProcess reader({.words = {"cat"}, .log = folder_ / "log.txt", .input = true});
     const ChildProcess other(shell("exec sleep 20"));
     EXPECT_EQ(reader.wait().status, 0);
-    EXPECT_LT(seconds(), 10) << "its input ends, though the other one is there";
+    EXPECT_LT(seconds(), 10) << "its input ends although the other process exists";
     EXPECT_NE(errorOf({.words = {"/no/such/program"}, .input = true}), "");
   }
   EXPECT_EQ(openFiles(), before);
@@ -124,7 +124,7 @@ TEST_F(ChildProcesses, EndWithAStatusOrASignal) {
   ChildProcess waits({.words = {"cat"}, .log = folder_ / "log.txt", .input = true});
   EXPECT_FALSE(waits.ended());
   EXPECT_EQ(waits.wait().status, 0);
-  EXPECT_EQ(waits.ended()->status, 0) << "it stays known";
+  EXPECT_EQ(waits.ended()->status, 0) << "it remains available";
 }
 
 TEST_F(ChildProcesses, HaveTheDefaultOfBrokenPipes) {
@@ -164,7 +164,7 @@ TEST_F(ChildProcesses, EndWithTheirParent) {
     report.write("both run");
     std::raise(SIGKILL);
   });
-  // The function has the report open too: it ends when both have.
+  // The function also has the report open: it ends when both have closed it.
   EXPECT_EQ(outputOf(parent), "both run");
   EXPECT_LT(seconds(), 10);
   EXPECT_EQ(parent.wait().signal, SIGKILL);
@@ -181,7 +181,7 @@ TEST_F(ChildProcesses, AreAskedToEndOnlyOnce) {
     child.terminate();
     awaited(log, "asked");
     child.terminate();
-  } // waits for it, and asks no more
+  } // waits for it; no further input
   EXPECT_EQ(contents(log), "ready\nasked\nover\n");
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Which GPU of a machine a process takes: without one, by its number alone.
+// Selection of a machine's GPU by a process: without one, by its number alone.
 #include "runs/support/device_choice.hpp"
 
 #include "base/error.hpp"
@@ -31,7 +31,7 @@ TEST_F(FirstGpu, RanksTakeThemInTurnFromTheFirstOn) {
   setenv(kFirstGpu, "3", 1);
   EXPECT_EQ(gpuOf(0, 4), 3);
   EXPECT_EQ(gpuOf(1, 4), 0);
-  EXPECT_EQ(gpuOf(0, 1), 0) << "a machine that has one";
+  EXPECT_EQ(gpuOf(0, 1), 0) << "a machine with one GPU";
   setenv(kFirstGpu, "1048575", 1);
   EXPECT_EQ(gpuOf(3, 2), 0);
   setenv(kFirstGpu, "", 1);
@@ -56,7 +56,7 @@ TEST_F(FirstGpu, ProcessesOfOneCallGoOnFromItsOwn) {
   EXPECT_EQ(firstGpuOf(5), "5");
   setenv(kFirstGpu, "1", 1);
   EXPECT_EQ(firstGpuOf(2), "3");
-  EXPECT_STREQ(std::getenv(kFirstGpu), "1") << "this process stays where it is";
+  EXPECT_STREQ(std::getenv(kFirstGpu), "1") << "this process is unchanged";
 }
 
 } // namespace

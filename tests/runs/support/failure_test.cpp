@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the program makes of an exception: its exit code and its words.
+// Exit code and message of the program for an exception.
 #include "runs/support/failure.hpp"
 
 #include "base/error.hpp"
@@ -24,7 +24,7 @@ TEST(Failure, HasTheExitCodeOfItsKind) {
   EXPECT_EQ(exitCode(of(base::DeviceError("a")).kind), 4);
   EXPECT_EQ(exitCode(of(std::bad_alloc()).kind), 4);
   const Failure input = of(base::InputError("scene.toml:3: run.x is unknown"));
-  EXPECT_EQ(textOf(input, "grouser run"), "scene.toml:3: run.x is unknown") << "as it is";
+  EXPECT_EQ(textOf(input, "grouser run"), "scene.toml:3: run.x is unknown") << "unchanged";
 }
 
 TEST(Failure, OfAStrayExceptionIsAnInternalErrorToReport) {

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using test::contents;
 
-/// With a program in place of NVIDIA's, which writes down how it is called.
+/// Uses a program in place of NVIDIA's, which records its calls.
 class GpuSharingTest : public test::FolderTest {
 protected:
   void SetUp() override {
@@ -36,7 +36,7 @@ protected:
                            << "read -r word; echo \"$word\" >> " << calls() << '\n';
     fs::permissions(program, fs::perms::owner_all);
   }
-  /// Comes up, and waits until it is ended.
+  /// Starts, and waits until it is ended.
   void install() { install("touch \"$CUDA_MPS_PIPE_DIRECTORY/control\"; exec sleep 60"); }
 
 private:
@@ -64,11 +64,11 @@ TEST_F(GpuSharingTest, NothingStartsWithoutNeed) {
   install();
   EXPECT_FALSE(GpuSharing(false).runs());
   unsetenv("GROUSER_MPS");
-  EXPECT_FALSE(GpuSharing(true).runs()) << "nobody has asked for it";
+  EXPECT_FALSE(GpuSharing(true).runs()) << "not requested";
   setenv("GROUSER_MPS", "1", 1), setenv("CUDA_MPS_PIPE_DIRECTORY", "/tmp/of_the_user", 1);
   EXPECT_FALSE(GpuSharing(true).runs()) << "the user's own service is used";
   setenv("CUDA_MPS_PIPE_DIRECTORY", "", 1), setenv("CUDA_VISIBLE_DEVICES", "2,3", 1);
-  EXPECT_FALSE(GpuSharing(true).runs()) << "the service would count these GPUs anew";
+  EXPECT_FALSE(GpuSharing(true).runs()) << "the service would renumber these GPUs";
   EXPECT_FALSE(fs::exists(calls()));
   setenv("CUDA_VISIBLE_DEVICES", "GPU-1234", 1);
   EXPECT_TRUE(GpuSharing(true).runs());

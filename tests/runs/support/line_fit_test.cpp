@@ -23,7 +23,7 @@ TEST(LineFit, IsThatOfAPower) {
 }
 
 TEST(LineFit, CovarianceByHand) {
-  // Mean 3 and 3, sum of squares of x 10: slope 8 / 10, residual squares 3.6; t(3) = 3.182.
+  // Mean 3 and 3, sum of squares of x 10: slope 8 / 10, sum of squared residuals 3.6; t(3) = 3.182.
   const LineFit fit = fitLine(std::vector{1.0, 2.0, 3.0, 4.0, 5.0}, std::vector{2.0, 1.0, 3.0, 5.0, 4.0});
   EXPECT_NEAR(fit.slope, 0.8, 1e-12);
   EXPECT_NEAR(fit.intercept, 0.6, 1e-12);
@@ -32,13 +32,13 @@ TEST(LineFit, CovarianceByHand) {
   EXPECT_NEAR(fit.covariance, -1.2 * 3 / 10, 1e-12);
   EXPECT_NEAR(fit.slopeEstimate().halfWidth, 3.182 * std::sqrt(0.12), 1e-12);
   EXPECT_NEAR(fit.interceptEstimate().halfWidth, 3.182 * std::sqrt(1.32), 1e-12);
-  EXPECT_NEAR(fit.at(3).halfWidth, 3.182 * std::sqrt(1.2 / 5), 1e-12) << "least at the mean";
+  EXPECT_NEAR(fit.at(3).halfWidth, 3.182 * std::sqrt(1.2 / 5), 1e-12) << "smallest at the mean";
   EXPECT_NEAR(fit.at(3).value, 3, 1e-12);
   EXPECT_EQ(fit.slopeText(), "0.80 +- 1.10");
 }
 
 TEST(LineFit, FarFromTheOriginItLosesNoDigits) {
-  // The normal equations would: (1e7)^2 leaves nothing of 1.
+  // The normal equations would fail: (1e7)^2 leaves nothing of 1.
   const LineFit fit = fitLine(std::vector{1e7, 1e7 + 1, 1e7 + 2}, std::vector{4.0, 6.0, 8.0});
   EXPECT_NEAR(fit.slope, 2, 1e-7);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Places where results cannot be written are known before the work, and why is said.
+// Unwritable output folders are detected before the work, with the reason.
 #include "runs/support/output_place.hpp"
 
 #include "base/error.hpp"
@@ -66,7 +66,7 @@ TEST_F(OutputPlace, AFileInTheWayIsNamed) {
 TEST_F(OutputPlace, NamesThatAreTooLongAreSaidSo) {
   const std::string name(300, 'n');
   EXPECT_NE(ofFolder(folder_ / name), "");
-  EXPECT_NE(ofFolder(folder_ / "new" / name).find("a name in it has 300 bytes"), std::string::npos)
+  EXPECT_NE(ofFolder(folder_ / "new" / name).find("a name in the path has 300 bytes"), std::string::npos)
       << ofFolder(folder_ / "new" / name);
   fs::path deep = folder_;
   for (int k = 0; k < 30; ++k) deep /= std::string(200, 'd');
@@ -76,7 +76,7 @@ TEST_F(OutputPlace, NamesThatAreTooLongAreSaidSo) {
 }
 
 TEST_F(OutputPlace, FoldersThatNobodyMayWriteInAreNamed) {
-  // Where even root makes no folders.
+  // Folders that even root cannot create.
   EXPECT_NE(ofFolder("/proc/results").find("cannot be created: cannot write in /proc"), std::string::npos)
       << ofFolder("/proc/results");
   EXPECT_NE(ofFolder("/proc/self").find("cannot write in this folder"), std::string::npos);
@@ -90,7 +90,7 @@ TEST_F(OutputPlace, FoldersThatNobodyMayWriteInAreNamed) {
 }
 
 TEST_F(OutputPlace, AFullDiskIsMetBefore) {
-  // Every byte written to it fails as on a full disk; it stands for one where the machine has no small file system.
+  // Every write fails as on a full disk; a substitute if the machine has no small file system.
   EXPECT_NE(ofFolder("/dev/full"), "");
 }
 

@@ -26,13 +26,13 @@ TEST(Progress, NothingIsDueAtOnce) {
   EXPECT_FALSE(progress.due());
 }
 
-/// Work of one unit, at `fast` a second until `busy` [s], at `slow` from then on; looked at every `look` seconds.
+/// Work of one unit, at rate `fast` [1/s] until `busy` [s], then at `slow`; checked every `look` seconds.
 struct Machine {
   double fast, busy, slow, look;
   double done(double t) const { return t < busy ? fast * t : fast * busy + slow * (t - busy); }
 };
 
-// Each bound is exact but for the window, a fifth of the time spent, and the last look before it.
+// Each bound is exact except for the window, a fifth of the elapsed time, and the last check before it.
 TEST(TimeLeft, IsThatOfAnEvenRate) {
   TimeLeft left;
   for (int k = 1; k < 100; ++k) {
@@ -42,13 +42,13 @@ TEST(TimeLeft, IsThatOfAnEvenRate) {
 }
 
 TEST(TimeLeft, CountsDownUnderALoadThatStays) {
-  const Machine m{0.01, 40, 0.002, 5}; // 40 % in 40 s, then 300 s more: five times as slow
+  const Machine m{0.01, 40, 0.002, 5}; // 40 % in 40 s, then another 300 s: five times slower
   TimeLeft left;
   double before = 1e300;
   for (double t = m.look; m.done(t) < 1; t += m.look) {
     left.add(t, m.done(t));
     const double now = left.at(t).value();
-    if (t > m.busy + 20 + m.look) { // the mean rate since the start would count up until 80 s, and be off until the end
+    if (t > m.busy + 20 + m.look) { // a mean rate since the start would grow until 80 s, and be wrong until the end
       EXPECT_LT(now, before) << t;
       EXPECT_NEAR(now, 340 - t, 1e-6) << t;
     }
@@ -61,7 +61,7 @@ TEST(TimeLeft, CountsDownWhileNothingIsReportedAndThenIsUnknown) {
   left.add(100, 0.25); // one of four pieces
   EXPECT_NEAR(left.at(100).value(), 300, 1e-9);
   EXPECT_NEAR(left.at(180).value(), 220, 1e-9);
-  EXPECT_FALSE(left.at(201)); // twice as long as the first piece took: nothing is known of it
+  EXPECT_FALSE(left.at(201)); // twice the time of the first piece: no estimate
   TimeLeft none;
   none.add(10, 0);
   EXPECT_FALSE(none.at(10));

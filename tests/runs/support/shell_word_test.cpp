@@ -20,7 +20,7 @@ TEST(ShellWord, PlainWordsStayAsTheyAre) {
 
 class ShellLine : public test::FolderTest {};
 
-/// The shell itself is asked.
+/// Compares with the shell itself.
 TEST_F(ShellLine, AShellTakesEachWordForOne) {
   const std::vector<std::string> words{"two words", "it's", "a=[1, 2]", "$HOME", "`x`",
                                        "",          "a;b",  "~",        "#",     "h\xc3\xbcgel"};

@@ -21,7 +21,7 @@ TEST(CalibrationSearch, EndsAtTheEndOfTheRangeWhereNothingReaches) {
   const auto angle = [](double way) { return 20 + 5 * way; };
   std::vector<Trial> trials{{0, angle(0)}};
   while (const auto next = nextTrial(trials, 40, 0.2, -1, 2, 12)) trials.push_back({*next, angle(*next)});
-  EXPECT_NEAR(nearestTrial(trials, 40).x, 2, 0.01) << "the nearest that can be";
+  EXPECT_NEAR(nearestTrial(trials, 40).x, 2, 0.01) << "the nearest possible value";
   EXPECT_LE(trials.size(), 8u);
 }
 
@@ -36,7 +36,7 @@ TEST(CalibrationSearch, DoesNotGoOnForEverWithScatter) {
   }
 }
 
-/// A soil whose pull also adds to its angle, as that of sticky grains does.
+/// A soil with a pull that also increases its angle, as in cohesive grains.
 struct Sticky {
   double wayToPhi = 9, pullToPhi = 0.012, pullToC = 0.005, most = 1e9;
   bool tell(StrengthSearch& search) const {
@@ -56,7 +56,7 @@ TEST(CalibrationSearch, FindsAngleAndCohesionThatDependOnBothNumbers) {
   EXPECT_NEAR(0.3 + 0.005 * found.pull, 3.7, 0.5);
 }
 
-/// Tests are reused from a trial of an identical soil only: the last digit counts.
+/// Tests are reused only from a trial of an identical soil: the last digit counts.
 TEST(CalibrationSearch, TheNearestIsWhatWasTriedToTheBit) {
   const double tolerance = 0.7, slope = 0.75e-3 / 0.007 * std::tan(31.1 * 3.141592653589793 / 180);
   for (double pull = 1; pull < 100; ++pull) {
@@ -83,11 +83,11 @@ TEST(CalibrationSearch, MayLeaveOneOfBothAlone) {
   while (onlyAngle.tried(22 + 10 * onlyAngle.at().way, 1)) EXPECT_EQ(onlyAngle.at().pull, 50);
   EXPECT_NEAR(onlyAngle.nearest().way, 0.6, 0.02);
   EXPECT_EQ(onlyAngle.nearest().pull, 50);
-  StrengthSearch onlyC({}, {{3.7, 0.5, 0.054}}, {0.4, 10}); // soil that needs much more pull than expected
+  StrengthSearch onlyC({}, {{3.7, 0.5, 0.054}}, {0.4, 10}); // the soil needs a far larger pull than expected
   int trials = 1;
   while (onlyC.tried(30, 0.3 + 0.016 * onlyC.at().pull)) EXPECT_EQ(onlyC.at().way, 0.4), ++trials;
   EXPECT_NEAR(0.3 + 0.016 * onlyC.nearest().pull, 3.7, 0.5);
-  EXPECT_LE(trials, 4) << "the second trial shows the slope";
+  EXPECT_LE(trials, 4) << "the second trial yields the slope";
 }
 
 TEST(CalibrationSearch, StaysInRangeAndEndsWhereNothingReaches) {
@@ -101,7 +101,7 @@ TEST(CalibrationSearch, StaysInRangeAndEndsWhereNothingReaches) {
     EXPECT_GE(search.at().pull, 0);
   }
   EXPECT_LE(trials, 8);
-  EXPECT_NEAR(search.nearest().way, 2, 0.01) << "the nearest that can be";
+  EXPECT_NEAR(search.nearest().way, 2, 0.01) << "the nearest possible value";
 }
 
 TEST(CalibrationSearch, WhatDoesNotAnswerIsGivenUpSoon) {

@@ -28,10 +28,10 @@ TEST(ConstantDoubts, NameWhatNoSoilHas) {
 
 TEST(ConstantDoubts, LeaveBothSignsToTheCohesionModulusAndScatterToCohesion) {
   EXPECT_EQ(doubtOf(Quantity::cohesionModulus, {-202, 50}), "") << "GRC-1's";
-  EXPECT_EQ(doubtOf(Quantity::cohesion, {0.02, 0.3}), "") << "of dry sand";
+  EXPECT_EQ(doubtOf(Quantity::cohesion, {0.02, 0.3}), "") << "dry sand";
   EXPECT_EQ(doubtOf(Quantity::cohesion, {-0.1, 0.3}), "");
   EXPECT_NE(doubtOf(Quantity::cohesion, {-0.5, 0.3}), "");
-  EXPECT_NE(doubtOf(Quantity::cohesionModulus, {100, kUnknown}), "") << "of one seed";
+  EXPECT_NE(doubtOf(Quantity::cohesionModulus, {100, kUnknown}), "") << "one seed only";
 }
 
 TEST(ConstantDoubts, AreOneLineWithTheRemedy) {

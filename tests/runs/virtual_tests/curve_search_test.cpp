@@ -13,7 +13,7 @@ namespace {
 const std::vector<SearchRange> kRanges{
     {"young", 1e7, 1e9, true}, {"friction", 0.2, 1.0, false}, {"porosity", 0.4, 0.5, false}};
 
-/// Residuals of pressures that grow as powers of the parameters, as those of plates do, about known values.
+/// Residuals of pressures that are powers of the parameters, as for plates, about known values.
 std::vector<double> powers(const std::vector<double>& x, double scatter = 0) {
   std::vector<double> residuals;
   for (int k = 0; k < 8; ++k) {
@@ -48,14 +48,14 @@ TEST(CurveSearch, ComesAsNearAsScatterAllows) {
   CurveSearch s(kRanges, {3e7, 0.4, 0.44}, 20);
   search(s, 0.05);
   const CurveSearch::Trial& found = s.trials()[s.nearest()];
-  EXPECT_LT(found.misfit(), 1.5) << "the scatter alone gives 0.7";
+  EXPECT_LT(found.misfit(), 1.5) << "the scatter alone yields 0.7";
   EXPECT_NEAR(found.values[1], 0.6, 0.08);
   EXPECT_NEAR(found.values[2], 0.46, 0.006);
 }
 
 TEST(CurveSearch, StaysInItsRangesAndEndsAtTheNearestBound) {
   const auto away = [](const std::vector<double>& x) {
-    return std::vector<double>{20 * (x[0] - 3), 10 * (x[1] - 0.5)}; // the first wants more than its range has
+    return std::vector<double>{20 * (x[0] - 3), 10 * (x[1] - 0.5)}; // the minimum for the first is outside its range
   };
   CurveSearch s({{"friction", 0, 1, false}, {"rolling_friction", 0, 1, false}}, {0.2, 0.2}, 20);
   bool goesOn = true;
@@ -65,7 +65,7 @@ TEST(CurveSearch, StaysInItsRangesAndEndsAtTheNearestBound) {
   }
   const CurveSearch::Trial& found = s.trials()[s.nearest()];
   EXPECT_NEAR(found.values[0], 1, 1e-3);
-  EXPECT_NEAR(found.values[1], 0.5, 0.16) << "the search stops where a step saves too little";
+  EXPECT_NEAR(found.values[1], 0.5, 0.16) << "the search stops when a step saves too little";
   EXPECT_LT(s.trials().size(), 12u);
 }
 

@@ -14,17 +14,17 @@
 namespace grouser::virtual_tests {
 namespace {
 
-/// About normal, mean 0 and deviation 1: twelve uniform numbers.
+/// Approximately normal, mean 0 and deviation 1: twelve uniform numbers.
 double normal(std::uint64_t seed, std::uint64_t id) {
   double sum = -6;
   for (std::uint64_t k = 0; k < 12; ++k) sum += base::uniform(seed, base::purpose("test.bevameter"), id, k);
   return sum;
 }
 
-// LETE sand's numbers in SI units, and a plate of each breadth.
+// LETE sand's constants in SI units, and a plate of each width.
 constexpr double kN = 0.793, kKc = 102e3, kKphi = 5301e3, kB1 = 0.1, kB2 = 0.3;
 
-/// Points of p = k z^n to 100 kPa; of the whole curve and of each point a share at random.
+/// Points of p = k z^n to 100 kPa, with random errors of the whole curve and of each point.
 SinkageCurve sinkageCurve(double breadth, std::uint64_t seed, double ofCurve, double ofPoint) {
   SinkageCurve curve;
   const double k = (kKc / breadth + kKphi) * (1 + ofCurve * normal(seed, 0)), deepest = std::pow(100e3 / k, 1 / kN);
@@ -58,7 +58,7 @@ TEST(BekkerForm, ConstantsComeBackWithoutNoise) {
 }
 
 TEST(BekkerForm, CohesionModulusKeepsItsSign) {
-  // GRC-1's: k_c is negative, k of the larger plate the larger.
+  // GRC-1: k_c is negative, so that the larger plate has the larger k.
   std::array<PlateTests, 2> both{PlateTests{kB1, {}}, PlateTests{kB2, {}}};
   for (PlateTests& plate : both) {
     SinkageCurve curve;
@@ -74,9 +74,9 @@ TEST(BekkerForm, CohesionModulusKeepsItsSign) {
 }
 
 TEST(BekkerForm, WeightsAreThePressureSquared) {
-  // Two points on one law and a faint third far off it: of weight 1e-4 of the others, it hardly moves the exponent.
+  // Two points on one law and a third one far off it with weight 1e-4: it hardly changes the exponent.
   PlateTests plate{0.1, {{{0.01, 0.02, 0.001}, {10e3, 20e3, 1e2}}}};
-  EXPECT_NEAR(fitOnePlate(plate).n, 1, 0.01) << "unweighted it would be 1.7";
+  EXPECT_NEAR(fitOnePlate(plate).n, 1, 0.01) << "without weights it would be 1.7";
 }
 
 TEST(BekkerForm, AGivenExponentIsKept) {
@@ -84,14 +84,14 @@ TEST(BekkerForm, AGivenExponentIsKept) {
   EXPECT_NEAR(fitBekker(both, {}, kN).kphi, kKphi, 1e-8 * kKphi);
   const BekkerFit other = fitBekker(both, {}, 1.0);
   EXPECT_EQ(other.n, 1);
-  EXPECT_GT(other.kphi, 1.2 * kKphi) << "of other units, and more of them where sinkages are parts of a metre";
+  EXPECT_GT(other.kphi, 1.2 * kKphi) << "other units: larger where sinkages are fractions of a metre";
   const BekkerFit alone = fitOnePlate(both[0], {}, 1.0);
   EXPECT_EQ(alone.n, 1);
   EXPECT_EQ(alone.k[0], other.k[0]);
   EXPECT_EQ(alone.ownN[0], other.ownN[0]);
 }
 
-// A plate that beds into a rough surface over the first 5 mm, and then meets 12 MN/m3.
+// A plate that beds into a rough surface over the first 5 mm, followed by 12 MN/m3.
 SinkageCurve bedding(double firstContact) {
   SinkageCurve curve;
   for (int i = 0; i <= 150; ++i) {
@@ -110,29 +110,29 @@ TEST(Bedding, AStiffeningCurveHasItsExponentFromTheFirstContact) {
     curve.sinkage.push_back(-3e-3 + z), curve.pressure.push_back(100e3 * std::pow(z / 0.02, 1.5));
   }
   const BeddedCurve bedded = correctedForBedding(curve, 1);
-  EXPECT_NEAR(bedded.begins, 0.6, 1e-9) << "as late as may be";
+  EXPECT_NEAR(bedded.begins, 0.6, 1e-9) << "at the latest allowed point";
   EXPECT_NEAR(fitOnePlate(PlateTests{0.28, {bedded.curve}}).n, 1, 0.1);
   const double n = fitOnePlate(PlateTests{0.28, {fromFirstContact(curve)}}).n;
-  EXPECT_NEAR(n, 1.29, 0.01) << "less than its own: what is sunk before 2 % of the pressure is left out";
+  EXPECT_NEAR(n, 1.29, 0.01) << "less than its own: sinkage before 2 % of the pressure is excluded";
   EXPECT_EQ(fromFirstContact(curve).sinkage.front(), 0);
 }
 
 TEST(Bedding, OriginIsWhereTheSteepestLineComesToNoPressure) {
   const BeddedCurve bedded = correctedForBedding(bedding(-3e-3), 0.014);
   EXPECT_NEAR(bedded.origin, -0.5e-3, 1e-9);
-  EXPECT_GE(bedded.begins, 0.2 - 0.02) << "the straight part begins at 5 mm, with 30 of 150 kPa";
+  EXPECT_GE(bedded.begins, 0.2 - 0.02) << "the straight part starts at 5 mm, at 30 of 150 kPa";
   PlateTests plate{0.28, {bedded.curve}};
   EXPECT_NEAR(fitOnePlate(plate).n, 1, 1e-6);
   EXPECT_NEAR(fitOnePlate(plate).k[0], 12e6, 100);
-  // From seed to seed only the height of the first grain differs: without effect.
+  // Seeds differ only in the height of the first grain: no effect.
   plate.curves.push_back(correctedForBedding(bedding(4e-3), 0.014).curve);
   EXPECT_NEAR(fitOnePlate(plate).k[0], 12e6, 100);
   plate.curves.back() = bedding(4e-3);
-  EXPECT_GT(std::fabs(fitOnePlate(plate).k[0] - 12e6), 1e6) << "with it, were sinkage to count from the mean surface";
+  EXPECT_GT(std::fabs(fitOnePlate(plate).k[0] - 12e6), 1e6) << "it would, with sinkage from the mean surface";
 }
 
 TEST(Bedding, IsLookedForWithinItsRoomOnly) {
-  // 1.27 is convex throughout: a soil property, of which only the first part may count as bedding.
+  // 1.27 is convex throughout: a soil property; only the first part may count as bedding.
   SinkageCurve curve;
   for (int i = 1; i <= 200; ++i) curve.sinkage.push_back(4e-4 * i), curve.pressure.push_back(std::pow(4e-4 * i, 1.27));
   const auto n = [&](double room) { return fitOnePlate(PlateTests{0.28, {correctedForBedding(curve, room).curve}}).n; };
@@ -143,7 +143,7 @@ TEST(Bedding, IsLookedForWithinItsRoomOnly) {
 }
 
 TEST(BekkerForm, UnitsGoWithTheirPowers) {
-  // The same plates in millimetres and kilopascals: k_phi changes by 1e-3 / 1e-3^n, k_c by 1e3 of that.
+  // The same plates in millimetres and kilopascals: k_phi changes by 1e-3 / 1e-3^n, k_c by 1e3 times that.
   std::array<PlateTests, 2> both = plates(2, 2, 3, 0.05, 0.02);
   const BekkerFit si = fitBekker(both);
   for (PlateTests& plate : both) {
@@ -161,7 +161,7 @@ TEST(BekkerForm, UnitsGoWithTheirPowers) {
 }
 
 TEST(BekkerForm, FirmAndWeakTestsDoNotFlattenTheExponent) {
-  // All end at 100 kPa, so firm tests lie at smaller sinkages: one line through all points would give less.
+  // All end at 100 kPa, so firm tests have smaller sinkages: one line through all points would yield less.
   const BekkerFit fit = fitBekker(plates(8, 8, 2, 0.1, 0));
   EXPECT_NEAR(fit.n, kN, 1e-10);
 }
@@ -198,7 +198,7 @@ std::vector<ShearCurve> shearTest(std::uint64_t seed, double ofTest, double ofPo
 
 TEST(ShearForm, ConstantsComeBackWithoutNoise) {
   const ShearFit fit = fitShear({shearTest(1, 0, 0), shearTest(2, 0, 0)});
-  // The mean of 1 - exp(-j / K) over the second half, from 5 K on, falls short of 1 by 0.0014.
+  // The mean of 1 - exp(-j / K) over the second half, from 5 K, is below 1 by 0.0014.
   EXPECT_NEAR(fit.angle, kPhi, 0.05);
   EXPECT_NEAR(fit.cohesion, kC, 0.002 * kC);
   EXPECT_NEAR(fit.shearModulus, kK, 0.01 * kK);
@@ -209,7 +209,7 @@ TEST(ShearForm, ConstantsComeBackWithoutNoise) {
 TEST(ShearForm, AHumpIsToldAndStaysOutOfTheResidualStrength) {
   std::vector<ShearCurve> test = shearTest(1, 0, 0);
   for (ShearCurve& curve : test)
-    for (std::size_t i = 0; i < curve.shear.size(); ++i) // as high as 1.3 at 20 mm, gone at half of the way
+    for (std::size_t i = 0; i < curve.shear.size(); ++i) // up to 1.3 at 20 mm, back to 1 at half of the travel
       curve.shear[i] *= 1 + 0.3 * std::max(0.0, 1 - std::fabs(curve.displacement[i] - 0.02) / 0.02);
   const ShearFit fit = fitShear({test}), plain = fitShear({shearTest(1, 0, 0)});
   EXPECT_NEAR(fit.angle, plain.angle, 1e-9);
@@ -230,7 +230,7 @@ TEST(ShearForm, OneLoadGoesThroughTheOrigin) {
   EXPECT_NEAR(fit.shearModulus, 0.010, 2e-4);
 }
 
-/// Share of trials whose interval holds `truth`: statistic `which` of what `trial` gives.
+/// Share of trials whose interval contains `truth`: statistic `which` of `trial`.
 template <class Trial> double coverage(int trials, double truth, const Trial& trial) {
   int held = 0;
   for (int t = 1; t <= trials; ++t) {
@@ -251,16 +251,16 @@ TEST(TestIntervals, OfAMeanAreStudents) {
   double squares = 0;
   for (const double v : values) squares += (v - 3.0) * (v - 3.0);
   EXPECT_NEAR(e.value, 3.0, 1e-12);
-  // 4000 resamples know a deviation to 1.1 %: three of these.
+  // 4000 resamples determine a deviation to 1.1 %: three of these.
   EXPECT_NEAR(e.halfWidth, 2.365 * std::sqrt(squares / 7 / 8), 0.034 * e.halfWidth);
-  EXPECT_EQ(e.halfWidth, intervalsOfTests({8}, mean, 1, 4000).front().halfWidth) << "the same tests, the same interval";
+  EXPECT_EQ(e.halfWidth, intervalsOfTests({8}, mean, 1, 4000).front().halfWidth) << "same tests, same interval";
   EXPECT_TRUE(
       std::isinf(intervalsOfTests({1}, [](const TestCounts&) { return std::vector<double>{1.0}; })[0].halfWidth))
-      << "one test tells nothing";
+      << "a single test has no interval";
 }
 
 TEST(TestIntervals, HoldBekkersConstantsAsOftenAsTheySay) {
-  // 5 % scatter of k from test to test; 400 trials know 0.95 to 0.011, and the bar is three of these below.
+  // k scatters by 5 % between tests; 400 trials determine 0.95 to 0.011; the limit is three of these below.
   for (const int large : {8, 3}) {
     std::array<int, 3> held{};
     for (std::uint64_t t = 1; t <= 400; ++t) {
@@ -284,7 +284,7 @@ TEST(TestIntervals, HoldBekkersConstantsAsOftenAsTheySay) {
 }
 
 TEST(TestIntervals, HoldMohrCoulombsConstantsAsOftenAsTheySay) {
-  // The angle that the noise-free curves give: their residual strength falls short of the limit by a known share.
+  // The angle of the noise-free curves: their residual strength is below the limit by a known share.
   const ShearFit truth = fitShear({shearTest(1, 0, 0)});
   for (const int seeds : {8, 3}) {
     const double held = coverage(300, truth.angle, [seeds](std::uint64_t t) {
@@ -292,7 +292,7 @@ TEST(TestIntervals, HoldMohrCoulombsConstantsAsOftenAsTheySay) {
       for (int k = 0; k < seeds; ++k)
         tests.push_back(shearTest(1000 * t + static_cast<std::uint64_t>(k) + 1, 0.03, 0.01));
       const auto angle = [&](const TestCounts& counts) {
-        // The line alone; K takes a search.
+        // Only the line is in closed form; K requires a search.
         double n = 0, x = 0, y = 0, xx = 0, xy = 0;
         for (std::size_t k = 0; k < tests.size(); ++k)
           for (const ShearCurve& curve : tests[k]) {

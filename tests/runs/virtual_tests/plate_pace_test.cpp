@@ -27,7 +27,7 @@ TEST(PlatePace, WavesAddThePressureThatTheyMay) {
     EXPECT_NEAR(p.wavesBack(modulus), 2 * 0.56 / wave, 1e-12);
   }
   EXPECT_EQ(p.first(), p.speedAt(16e6));
-  EXPECT_EQ(p.speedAt(1e3), 0.1) << "no faster in soft soil than its inertial number allows";
+  EXPECT_EQ(p.speedAt(1e3), 0.1) << "in soft soil the inertial number limits the speed";
   EXPECT_EQ(p.speedAt(0), 0.1);
   EXPECT_TRUE(std::isfinite(p.wavesBack(0)));
 }
@@ -36,7 +36,7 @@ TEST(PlatePace, SlowsDownAtOnceAndSpeedsUpByHalf) {
   const PlatePace p = pace();
   const double v = p.speedAt(4e6);
   EXPECT_EQ(p.next(v, 4e6), v);
-  EXPECT_EQ(p.next(v, 4e6 * 1.3), v) << "about right";
+  EXPECT_EQ(p.next(v, 4e6 * 1.3), v) << "no change within the tolerance";
   EXPECT_EQ(p.next(v, 64e6), p.speedAt(64e6));
   EXPECT_NEAR(p.next(0.01, 1e6) / 0.01, 1.5, 1e-12);
 }
@@ -46,11 +46,11 @@ TEST(ShownModulus, IsTheSteeperOfTheWholeWayAndItsEnd) {
   for (int i = 0; i < 64; ++i) z.push_back(1e-4 * i), p.push_back(5e6 * z.back());
   EXPECT_NEAR(apparentModulus(z, p, 0.28, 32), 1.4e6, 1e-3);
   for (int i = 64; i < 96; ++i) z.push_back(1e-4 * i), p.push_back(p.back() + 2e3);
-  EXPECT_NEAR(apparentModulus(z, p, 0.28, 32), 0.28 * 2e7, 1e-3) << "the end is steeper";
+  EXPECT_NEAR(apparentModulus(z, p, 0.28, 32), 0.28 * 2e7, 1e-3) << "the curve is steeper at its end";
   for (int i = 96; i < 160; ++i) z.push_back(1e-4 * i), p.push_back(p.back());
-  EXPECT_GT(apparentModulus(z, p, 0.28, 32), 1e6) << "a bed that has yielded still has what lies below";
+  EXPECT_GT(apparentModulus(z, p, 0.28, 32), 1e6) << "a yielded bed still has the layers below";
   std::vector<double> up(z.rbegin(), z.rend()), falling(p.rbegin(), p.rend());
-  EXPECT_GT(apparentModulus(up, falling, 0.28, 32), 1e6) << "on the way up too";
+  EXPECT_GT(apparentModulus(up, falling, 0.28, 32), 1e6) << "also for an upward plate";
   EXPECT_EQ(apparentModulus(std::vector<double>{1e-3}, std::vector<double>{5}, 0.28, 32), 0);
 }
 
@@ -73,10 +73,10 @@ TEST(AddedByMotion, IsWhatIsGoneWhenThePlateIsHeld) {
   run.names = kSinkageColumns;
   const auto row = [&](double phase, double p) { run.rows.push_back({phase, 0, p, 0.4, 1, 1, 1, 1, 1}); };
   for (int i = 0; i < 20; ++i) row(0, 100e3);
-  EXPECT_TRUE(std::isnan(addedByMotion(run))) << "of an older run";
+  EXPECT_TRUE(std::isnan(addedByMotion(run))) << "from an older run";
   for (int i = 0; i < 12; ++i) row(3, 80e3);
   for (int i = 0; i < 4; ++i) row(3, 95e3);
-  EXPECT_NEAR(addedByMotion(run), 0.05, 1e-12) << "when the waves are gone";
+  EXPECT_NEAR(addedByMotion(run), 0.05, 1e-12) << "after the waves have decayed";
 }
 
 } // namespace

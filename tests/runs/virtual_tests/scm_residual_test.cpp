@@ -12,7 +12,7 @@
 namespace grouser::virtual_tests {
 namespace {
 
-/// k z^0.8 to 100 kPa, measured with a deviation that depends on the way over the whole way.
+/// k z^0.8 to 100 kPa, measured with a deviation that depends on the position along the curve.
 FittedCurve curve(const std::function<double(double)>& deviation, int points = 200) {
   FittedCurve c{"a test", {}, {}, {}};
   for (int i = 1; i <= points; ++i) {
@@ -30,7 +30,7 @@ TEST(ScmResidual, ACurveOfTheModelHasNone) {
 }
 
 TEST(ScmResidual, SmallStressesDoNotCount) {
-  // A tenth of 90 kPa is reached at 0.05 of the way.
+  // A tenth of 90 kPa is reached at 0.05 of the travel.
   const TestResidual r = residualOf(curve([](double s) { return s < 0.05 ? -0.9 : s > 0.5 ? -0.1 : 0.02; }));
   EXPECT_NEAR(r.largest, -0.1, 1e-12);
   EXPECT_NEAR(r.largestAt, 0.0101, 1e-9);
@@ -53,7 +53,7 @@ TEST(ScmResidual, ABendThatAllTestsShareIsModelError) {
   for (const double shift : {-0.06, 0.0, 0.06})
     tests.push_back(curve([shift](double s) { return shift + (s > 0.5 ? 0.1 : -0.1); }));
   const GroupResidual r = residualOf(tests);
-  // The mean curve deviates by 0.1 everywhere; of its square the scatter's third is taken off.
+  // The mean curve deviates by 0.1 everywhere; a third of the variance is subtracted from its square.
   EXPECT_NEAR(r.model, std::sqrt(0.01 - 0.0036 / 3), 1e-3);
   EXPECT_NEAR(r.scatter, 0.06, 1e-3);
 }
@@ -73,7 +73,7 @@ TEST(ElasticRatio, IsTheUnloadingSlopeOverTheSecant) {
   };
   for (int i = 1; i <= 60; ++i) add(0, 0.001 + 1e-4 * i, 60e3 * i / 60.0);
   for (int i = 0; i <= 30; ++i) add(1, 0.007 - 1e-5 * i, 60e3 - 2e3 * i);
-  const double from = unloadingOf(run).from; // a mean of the last rows
+  const double from = unloadingOf(run).from; // mean of the last rows
   EXPECT_NEAR(elasticRatioOf(run, 0.001, 0.8), 200e6 * 0.006 / from, 1e-3);
   EXPECT_NEAR(elasticRatioOf(run, 0.001, 1.25), 200e6 * 0.006 / from / 1.25, 1e-3);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser soil` from the command line: tables, files, slices, and errors that leave no files.
+// `grouser soil` from the command line: tables, files, slices, and errors without output files.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -61,7 +61,7 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
       files += entry.path().filename().string().rfind("poured_", 0) == 0;
     return files;
   };
-  EXPECT_GE(poured(), 1) << "a sample that was sheared, for its other load";
+  EXPECT_GE(poured(), 1) << "a sheared sample is reused for its other load";
   const Outcome o = call(words + " --resume --jobs 2");
   ASSERT_EQ(o.code, 0) << o.errors;
   EXPECT_EQ(poured(), 0);
@@ -84,12 +84,12 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   for (const std::string& same : {words + " --resume", words}) {
     const Outcome again = call(same);
     ASSERT_EQ(again.code, 0) << again.errors;
-    EXPECT_EQ(contents(folder_ / "results" / "constants.csv"), before) << "the same tests, the same numbers";
+    EXPECT_EQ(contents(folder_ / "results" / "constants.csv"), before) << "the same tests yield the same numbers";
   }
   // The soil contact model, fitted to the same tests.
   const Outcome fit = call(words + " --resume --fit-scm");
   ASSERT_EQ(fit.code, 0) << fit.errors;
-  EXPECT_NE(fit.out.find("model error for any constants"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("model error with the best constants"), std::string::npos) << fit.out;
   for (const char* group : {"plate 0.1 m", "plate 0.15 m", "shear 5 kPa", "shear 10 kPa"})
     EXPECT_NE(contents(folder_ / "results" / "scm_residuals.csv").find(group), std::string::npos) << group;
   const std::string scm = contents(folder_ / "results" / "scm_fit.toml");
@@ -103,14 +103,14 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
           scm);
   const Outcome plan = call("plan drive.toml --no-probe");
   EXPECT_EQ(plan.code, 0) << plan.errors;
-  EXPECT_NE(plan.out.find("(given in the scene)"), std::string::npos) << plan.out;
+  EXPECT_NE(plan.out.find("(set in the scene)"), std::string::npos) << plan.out;
   EXPECT_TRUE(fs::exists(folder_ / "results" / "scm_fit.png"));
-  // Results of the small plate without the large one.
+  // Results of the small plate only.
   for (const int seed : {1, 2}) fs::remove(folder_ / "results" / "runs" / fmt::format("coarse_large_seed{}.csv", seed));
   const Outcome alone = call(words + " --resume --seconds 1e-6 --fit-scm");
   ASSERT_EQ(alone.code, 0) << alone.errors;
   EXPECT_NE(alone.out.find("fit       skipped"), std::string::npos) << alone.out;
-  EXPECT_NE(alone.out.find("n alone"), std::string::npos) << alone.out;
+  EXPECT_NE(alone.out.find("n of this plate"), std::string::npos) << alone.out;
   EXPECT_NE(alone.out.find("with n = 1;"), std::string::npos) << alone.out;
   const auto small = nlohmann::json::parse(contents(folder_ / "results" / "soil.json"));
   EXPECT_EQ(small.at("missing_tests"), 2);
@@ -123,7 +123,7 @@ TEST_F(SoilCommandTest, MeasuresInSlicesAndWritesItsTables) {
   EXPECT_TRUE(small.at("plates").at(1).at("k_u").at("value").is_null());
   const Outcome other = call(words + " --resume --grain-radius 0.012");
   EXPECT_EQ(other.code, 2);
-  EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
+  EXPECT_NE(other.errors.find("different options"), std::string::npos) << other.errors;
 }
 
 /// Measured plates as targets: trials, tables, the soil file, and reuse of finished tests.
@@ -151,7 +151,7 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   };
   EXPECT_GT(pressure(1), pressure(0)) << "stiffer";
   EXPECT_EQ(trials.at(2).at("parameters"), trials.at(0).at("parameters"));
-  EXPECT_NE(pressure(2), pressure(0)) << "the depth of the bed differs";
+  EXPECT_NE(pressure(2), pressure(0)) << "the depths of the beds differ";
   const std::string points = contents(folder_ / "found" / "final" / "points.csv");
   EXPECT_EQ(std::count(points.begin(), points.end(), '\n'), 5) << "two tests, two sinkages\n" << points;
   EXPECT_NE(contents(folder_ / "found" / "calibration.txt").find("plate of 100 mm at 5 mm"), std::string::npos);
@@ -169,7 +169,7 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   EXPECT_FALSE(contents(folder_ / "found" / "final" / seed).empty());
   const Outcome page = call("report found");
   EXPECT_EQ(page.code, 0) << page.errors;
-  // From contact, which is above the mean surface, the same plates bear less at a sinkage.
+  // Counted from first contact, above the mean surface, the same plates carry less at a given sinkage.
   std::string targets = contents(folder_ / "sand.toml");
   put(folder_ / "sand.toml", targets.insert(targets.find("bin"), "contact_pressure = 100\n"));
   const Outcome zeroed = call(words + " --force");
@@ -177,8 +177,8 @@ TEST_F(SoilCommandTest, CalibratesOnMeasuredPlates) {
   EXPECT_NE(zeroed.out.find("zero sinkage at"), std::string::npos) << zeroed.out;
   const auto lower = nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")).at("trials").at(0);
   EXPECT_LT(lower.at("measured").at("100 mm at 10 mm").at("value").get<double>(), pressure(0));
-  // Its curves begin at the mean sinkage at which the tests bear 100 Pa; the height of their zero follows from the
-  // runs' own sinkage, which counts from the mean surface.
+  // Its curves start at the mean sinkage at which the tests carry 100 Pa; their zero follows from the
+  // runs' own sinkage, measured from the mean surface.
   const double contact = 0.5 * (20 * 0.1 / 20 + 20 * 0.1 / 24); // [mm]
   const std::string shifted = contents(folder_ / "found" / "final" / "curves.csv");
   ASSERT_EQ(std::sscanf(shifted.c_str() + shifted.find('\n') + 1, "coarse,0.1,1,%lf,%lf", &sinkage, &pressed), 2);
@@ -207,7 +207,7 @@ TEST_F(SoilCommandTest, TiltsFourBedsForAnAngleOfReposeEvenWithOneSeed) {
       << o.code << o.out << o.errors;
 }
 
-/// calibration.json has each trial as soon as it is complete, and a resumed call records the same trials.
+/// calibration.json contains each completed trial, and a resumed call records the same trials.
 TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
   put(folder_ / "targets.toml",
       "version = 1\n[targets]\nphi = 24\nK = 12\nn = 1\nk = 1700\nb = 0.1\n[tolerances]\nphi = 40\nk = 1\n[start]\n"
@@ -217,10 +217,10 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
       std::string("soil --calibrate targets.toml --out found --seeds 1 --large-seeds 1") + kSmallest + kLongSteps;
   words.replace(words.find("20000"), 5, "30000"); // half of the target, within the tolerance
   const auto record = [&] { return nlohmann::json::parse(contents(folder_ / "found" / "calibration.json")); };
-  // Within so short a time no test begins, on any machine.
+  // In so short a time no test starts, on any machine.
   ASSERT_EQ(call(words + " --seconds 1e-9").code, 0);
   EXPECT_EQ(record().at("status"), "unfinished");
-  ASSERT_EQ(call(words + " --seconds 1e-9").code, 0) << "the same call goes on";
+  ASSERT_EQ(call(words + " --seconds 1e-9").code, 0) << "the same call continues";
   EXPECT_EQ(record().at("missing").at("trial"), "shear_1");
   const Outcome o = call(words + " --resume --jobs 2");
   ASSERT_EQ(o.code, 0) << o.errors;
@@ -228,18 +228,18 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
   EXPECT_EQ(whole.at("status"), "finished");
   EXPECT_FALSE(whole.contains("missing"));
   EXPECT_NE(whole.at("command").get<std::string>().find("--resume"), std::string::npos);
-  ASSERT_EQ(whole.at("trials").size(), 2u) << "of which the first is near enough";
+  ASSERT_EQ(whole.at("trials").size(), 2u) << "the first is close enough";
   const auto& shear = whole.at("trials").at(0);
   EXPECT_EQ(shear.at("name"), "shear_1");
   EXPECT_EQ(shear.at("parameters").at("friction"), 0.5);
   EXPECT_GT(shear.at("measured").at("phi").at("value").get<double>(), 5);
-  EXPECT_TRUE(shear.at("measured").at("phi").at("half_width").is_null()) << "of one seed";
+  EXPECT_TRUE(shear.at("measured").at("phi").at("half_width").is_null()) << "a single seed";
   const auto& plate = whole.at("trials").back();
   EXPECT_EQ(plate.at("kind"), "plate");
   EXPECT_EQ(plate.at("parameters"), shear.at("parameters"));
   EXPECT_NEAR(plate.at("measured").at("sinkage").at("value").get<double>(), 1e3 * 47.5 / 1700, 1e-9);
   const auto soil = nlohmann::json::parse(contents(folder_ / "found" / "final" / "soil.json"));
-  EXPECT_EQ(whole.at("outcomes").at(0).at("verdict"), "not sought") << "n follows";
+  EXPECT_EQ(whole.at("outcomes").at(0).at("verdict"), "not sought") << "n is a result, not a target";
   const auto& phi = whole.at("outcomes").at(1);
   EXPECT_EQ(phi.at("what"), "phi");
   EXPECT_EQ(phi.at("reached").at("value"), soil.at("constants").at("phi").at("value"));
@@ -248,7 +248,7 @@ TEST_F(SoilCommandTest, ACalibrationKeepsItsTrials) {
   ASSERT_EQ(call(words + " --resume").code, 0);
   EXPECT_EQ(record().at("trials"), whole.at("trials"));
   EXPECT_EQ(record().at("outcomes"), whole.at("outcomes"));
-  // Its wall time is unchanged: it was not repeated.
+  // Its wall time is unchanged: it did not run again.
   const std::string name = "runs/coarse_small_seed1.csv";
   EXPECT_EQ(contents(folder_ / "found" / "final" / name), contents(folder_ / "found" / "plate_1" / name));
 }
@@ -278,8 +278,8 @@ TEST_F(SoilCommandTest, PartsMayBeginTogether) {
   const fs::path runs = folder_ / "results" / "runs";
   EXPECT_TRUE(fs::exists(runs / "coarse_preparation.csv"));
   for (const auto& entry : fs::directory_iterator(runs))
-    if (entry.path().filename().string().rfind("poured_", 0) == 0) fs::remove(entry.path()); // of the test of shear
-  EXPECT_EQ(std::distance(fs::directory_iterator(runs), {}), 3) << "one preparation, two tests, and nothing else";
+    if (entry.path().filename().string().rfind("poured_", 0) == 0) fs::remove(entry.path()); // deletes the shear test
+  EXPECT_EQ(std::distance(fs::directory_iterator(runs), {}), 3) << "one preparation and two tests only";
 }
 
 TEST_F(SoilCommandTest, WrongWordsEndWithTwoAndWriteNothing) {
@@ -309,8 +309,8 @@ TEST_F(SoilCommandTest, TargetsThatCannotBeAreNamed) {
   EXPECT_NE(error("k = 3000\n").find("targets.toml:3"), std::string::npos);
   EXPECT_NE(error("k_c = 10\nn = 1\n").find("k_phi"), std::string::npos);
   EXPECT_NE(error("k_c = 10\nk_phi = 1000\n").find("targets.n"), std::string::npos);
-  EXPECT_NE(error("phy = 30\n").find("phi"), std::string::npos) << "the nearest";
-  EXPECT_NE(error("K = 12\n").find("targets"), std::string::npos) << "nothing to seek";
+  EXPECT_NE(error("phy = 30\n").find("phi"), std::string::npos) << "nearest name";
+  EXPECT_NE(error("K = 12\n").find("targets"), std::string::npos) << "no targets";
   EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 

@@ -43,7 +43,7 @@ constexpr const char* kSoil = "version = 1\n"
 
 class SoilFile : public FolderTest {
 protected:
-  /// The message for a file that is `text` with one piece replaced.
+  /// The error of a file that is `text` with one piece replaced.
   std::string errorWith(const std::string& what, const std::string& by) const {
     std::string text = kSoil;
     text.replace(text.find(what), what.size(), by);
@@ -64,8 +64,8 @@ TEST_F(SoilFile, IsGradedWhereStiffnessAndPullKnowTheRadius) {
     put(folder_ / "soil.toml", text);
     return planOf(readTestedSoil(folder_ / "soil.toml", 0), {}).large.strip.coarsening > 0;
   };
-  EXPECT_FALSE(graded(kSoil)) << "one stiffness at all sizes";
-  EXPECT_FALSE(graded(hertz)) << "one energy of adhesion at all sizes";
+  EXPECT_FALSE(graded(kSoil)) << "equal stiffness at all sizes";
+  EXPECT_FALSE(graded(hertz)) << "equal adhesion energy at all sizes";
   std::string grows = hertz, dry = hertz;
   grows.replace(grows.find("cohesion = 0.5"), 14, "cohesion = 0.5\nadhesion_radius = 0.007");
   dry.replace(dry.find("cohesion = 0.5"), 14, "cohesion = 0");
@@ -91,7 +91,7 @@ TEST_F(SoilFile, StiffnessAndCohesionGrowWithTheGrains) {
   EXPECT_NE(twice.law.find("stiffness = 400000"), std::string::npos) << twice.law;
   EXPECT_NE(twice.law.find("cohesion = 1.0"), std::string::npos) << twice.law;
   EXPECT_NE(twice.law.find("rolling_friction = 0.15"), std::string::npos) << twice.law;
-  EXPECT_EQ(as.law.find("friction = 0.6"), std::string::npos) << "it is the tests' to change";
+  EXPECT_EQ(as.law.find("friction = 0.6"), std::string::npos) << "the tests may vary it";
   EXPECT_TRUE(as.isCalibrated());
   EXPECT_FALSE(twice.isCalibrated());
   ASSERT_EQ(as.published.size(), 1u);
@@ -119,7 +119,7 @@ TEST_F(SoilFile, WhatIsWrongIsNamedWithFileLineAndKey) {
 TEST_F(SoilFile, ANameThatIsNoneIsToldWithTheNearest) {
   try {
     readTestedSoil("no_such_soil", 0);
-    FAIL() << "there is no such soil";
+    FAIL() << "no such soil";
   } catch (const base::InputError& e) {
     const std::string message = e.what();
     EXPECT_NE(message.find("no_such_soil"), std::string::npos) << message;
@@ -158,7 +158,7 @@ TEST(SoilPlan, FullCareIsWhatASoilNeeds) {
   EXPECT_EQ(plan.care(), "full");
   EXPECT_EQ(planOf(sand(true), coarsePlan()).care(), "coarse");
   EXPECT_EQ(planOf(sand(true), coarsePlan()).tests.front().name, "coarse_small_seed1");
-  // Both breadths lie on beds that are rained in lifts of one thickness.
+  // Beds of both widths are poured in lifts of equal thickness.
   EXPECT_EQ(plan.large.preparation(plan.grains).lift, plan.small.preparation(plan.grains).lift);
 }
 
@@ -179,7 +179,7 @@ TEST(SoilPlan, OnlyLawsThatKnowTheRadiusAreGraded) {
   EXPECT_GT(planOf(sand(true), {}).large.strip.coarsening, 0);
   EXPECT_EQ(planOf(sand(false), {}).large.strip.coarsening, 0);
   EXPECT_EQ(planOf(sand(true), {}).small.strip.coarsening, 0);
-  EXPECT_GT(planOf(sand(true), {}).grains.impactSpeed, 0) << "Hertz' contacts are the stiffer the more they carry";
+  EXPECT_GT(planOf(sand(true), {}).grains.impactSpeed, 0) << "the stiffness of Hertz contacts grows with the load";
   EXPECT_THROW(
       {
         PlanOptions thin;
@@ -197,7 +197,7 @@ TEST(SoilPlan, LayersAreOfOneHeightWhereGrainsAreFine) {
 }
 
 TEST(SoilPreparation, FrictionsAreTriedUntilThePorosityIsThere) {
-  // Porosity as beds of spheres have it, about even in the logarithm of the friction.
+  // Porosities typical of sphere beds, about evenly distributed in the logarithm of the friction.
   const auto porosity = [](double tried) { return 0.40 + 0.012 * std::log(tried / 0.3); };
   std::vector<std::vector<double>> trials;
   double friction = 0;
@@ -206,10 +206,10 @@ TEST(SoilPreparation, FrictionsAreTriedUntilThePorosityIsThere) {
   EXPECT_LE(trials.size(), 5u);
   trials.clear();
   while ((friction = nextFriction(trials, 0.5, 0.002)) > 0) trials.push_back({friction, porosity(friction)});
-  EXPECT_EQ(nearestTrial(trials, 0.5)[0], kMostSettlingFriction) << "out of reach: the loosest";
+  EXPECT_EQ(nearestTrial(trials, 0.5)[0], kMostSettlingFriction) << "out of reach: the loosest bed";
   trials.clear();
   while ((friction = nextFriction(trials, 0.2, 0.002)) > 0) trials.push_back({friction, porosity(friction)});
-  EXPECT_EQ(nearestTrial(trials, 0.2)[0], kLeastSettlingFriction) << "out of reach: the densest";
+  EXPECT_EQ(nearestTrial(trials, 0.2)[0], kLeastSettlingFriction) << "out of reach: the densest bed";
 }
 
 PublishedValue published(Quantity quantity, double value) { return {quantity, value, {}, {}, "a source"}; }
@@ -242,14 +242,14 @@ TEST(PublishedModulus, IsThatOfAPlateOfItsBreadthFromASourceThatHasAllThree) {
   EXPECT_NEAR(span.high, 1.4 * 5500, 1e-9);
   EXPECT_TRUE(span.isTolerance);
   soil.published.back().source = "another source";
-  EXPECT_FALSE(publishedModulus(soil, 0.28)) << "numbers of two sources do not belong together";
+  EXPECT_FALSE(publishedModulus(soil, 0.28)) << "values from two sources do not form a set";
   soil.published.back() = published(Quantity::cohesionModulus, -202);
-  EXPECT_FALSE(publishedModulus(soil, 0.03)) << "a form that is negative says nothing of so small a plate";
+  EXPECT_FALSE(publishedModulus(soil, 0.03)) << "a negative value is invalid for so small a plate";
 }
 
 TEST(PublishedModulus, IsKnownOfEverySoilWhoseThreeNumbersArePublished) {
   for (const char* name : {"dry_sand", "grenville_loam", "lete_sand", "sandy_loam"})
-    EXPECT_TRUE(publishedModulus(readTestedSoil(name, 0), 0.28)) << name << ": of one source, by its very words";
+    EXPECT_TRUE(publishedModulus(readTestedSoil(name, 0), 0.28)) << name << ": a single source";
 }
 
 TEST(SoilVerdict, AWideIntervalIsNotInside) {
@@ -285,7 +285,7 @@ TEST(Repose, IsTheTiltAtWhichAFlowEnds) {
   EXPECT_EQ(angles.starts, 26);
   EXPECT_EQ(angles.repose, 24.5);
   run.rows.resize(2);
-  EXPECT_TRUE(std::isnan(reposeAngles(run, test).repose)) << "it never flowed";
+  EXPECT_TRUE(std::isnan(reposeAngles(run, test).repose)) << "no flow occurred";
 }
 
 } // namespace

@@ -38,7 +38,7 @@ TEST(MobilityMap, HasARunForEachLevelAndValue) {
   for (const MapColumn& column : map.columns) {
     ASSERT_EQ(column.plan.trials.size(), 2u);
     EXPECT_EQ(column.plan.trials[0].level, 0.2) << "from the easiest";
-    EXPECT_DOUBLE_EQ(column.plan.course.constants.cohesion, std::stod(column.value)) << "the closed form's too";
+    EXPECT_DOUBLE_EQ(column.plan.course.constants.cohesion, std::stod(column.value)) << "in the closed form, too";
   }
   const sweeps::SweepRun& last = map.columns[2].plan.sweep.runs[1];
   EXPECT_EQ(last.name, "scm.c=4e3,grade=0.6");
@@ -49,12 +49,12 @@ TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   EventOptions options = slopesOfSand();
   EXPECT_EQ(faultOf(options, "scm.c=5"), "--axis scm.c=5: needs at least two values; use --set for a single one");
   EXPECT_EQ(faultOf(options, "scm.c"),
-            "--axis scm.c: no value is given; write key=value,value..., e.g. --axis scm.c=0,1000,2000");
+            "--axis scm.c: value is missing; write key=value,value..., e.g. --axis scm.c=0,1000,2000");
   EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 is listed twice; remove one");
   EXPECT_EQ(faultOf(options, "scm.colour=1,2").find("--axis scm.colour=1: unknown key scm.colour"), 0u)
       << faultOf(options, "scm.colour=1,2");
   EXPECT_NE(faultOf(options, "scm.c=0,0").find("is listed twice"), std::string::npos);
-  EXPECT_NE(faultOf(options, "terrain.material=dry_sand,lete_sand").find("an option sets this key; use --soil"),
+  EXPECT_NE(faultOf(options, "terrain.material=dry_sand,lete_sand").find("this key has its own option; use --soil"),
             std::string::npos);
   options.levels = {0.3, 0.3000000001};
   EXPECT_NE(faultOf(options, "scm.c=5,6").find("duplicate run name scm.c=5,grade=0.3"), std::string::npos);
@@ -67,7 +67,7 @@ TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   options.levels = {}, options.only = {"pivot_turn"};
   EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--event pivot_turn: has no levels to map; use e.g. grade");
   options.only = {"gap"};
-  EXPECT_EQ(faultOf(options, "scm.c=5,6").find("--event gap: soil does not affect a gap"), 0u)
+  EXPECT_EQ(faultOf(options, "scm.c=5,6").find("--event gap: a gap between slabs does not depend on the soil"), 0u)
       << faultOf(options, "scm.c=5,6");
 }
 
@@ -105,14 +105,14 @@ TEST_F(MapProgram, WritesItsTablesAndGoesOn) {
   ASSERT_EQ(json["columns"].size(), 2u);
   EXPECT_EQ(json["columns"][1]["value"], "0.8");
   ASSERT_EQ(json["columns"][1]["rows"].size(), 2u);
-  EXPECT_EQ(json["columns"][1]["rows"][0]["verdict"], "no-go") << "it has no time for 5 m";
+  EXPECT_EQ(json["columns"][1]["rows"][0]["verdict"], "no-go") << "too little time for 5 m";
   EXPECT_EQ(json["columns"][1]["limits"][0]["blocks"], 0.8) << "the friction of this value";
   EXPECT_NE(contents(folder_ / "out" / "map.csv").find("0.4,grade,0.1,"), std::string::npos);
   EXPECT_TRUE(std::filesystem::exists(folder_ / "out" / "map.png"));
   const Outcome again = call(words);
   EXPECT_EQ(again.code, 0) << again.errors;
-  EXPECT_NE(again.out.find("finished already"), std::string::npos) << again.out;
-  EXPECT_EQ(call(words + " --quick").code, 2) << "the folder holds runs of another call";
+  EXPECT_NE(again.out.find("already finished"), std::string::npos) << again.out;
+  EXPECT_EQ(call(words + " --quick").code, 2) << "the folder contains runs of another call";
 }
 
 } // namespace

@@ -47,17 +47,17 @@ EventSet deformable() {
 TEST_F(EventSetFile, GivesDifferencesWithVerdicts) {
   const EventSet other = granular(folder_);
   const std::vector<FigureDifference> all = differencesFrom(deformable(), other, 5);
-  ASSERT_EQ(all.size(), 5u) << "no pull at 40 % slip in the other";
+  ASSERT_EQ(all.size(), 5u) << "no pull at 40 % slip in the other set";
   EXPECT_EQ(all[0].difference.value, 6000);
   EXPECT_NEAR(all[0].difference.halfWidth, 4.3027 * 1000 / std::sqrt(3), 1) << "Student's interval of three seeds";
   EXPECT_EQ(all[0].verdict, "differs");
   EXPECT_EQ(all[1].verdict, "equal");
-  EXPECT_EQ(all[2].verdict, "inconclusive") << "too little driven";
+  EXPECT_EQ(all[2].verdict, "inconclusive") << "too little driving";
   EXPECT_EQ(all[3].verdict, "inconclusive") << "one seed has no interval";
-  EXPECT_EQ(all[4].verdict, "inconclusive") << "the interval crosses the bar";
-  EXPECT_EQ(differencesFrom(deformable(), other, 60)[0].verdict, "equal") << "the bar";
+  EXPECT_EQ(all[4].verdict, "inconclusive") << "the interval includes the limit";
+  EXPECT_EQ(differencesFrom(deformable(), other, 60)[0].verdict, "equal") << "the limit";
   const std::string text = differencesText(all, deformable(), other, 5);
-  EXPECT_NE(text.find("1 of 3"), std::string::npos) << "the resistance has one run: " << text;
+  EXPECT_NE(text.find("1 of 3"), std::string::npos) << "the resistance is from one run: " << text;
   EXPECT_EQ(text.find("WARNING"), std::string::npos) << text;
   EXPECT_NE(differencesCsv(all, other, true).find("drawbar,0.2,drawbar pull [N],24000,0,1,18000,"), std::string::npos)
       << differencesCsv(all, other, true);
@@ -96,7 +96,7 @@ TEST_F(EventSetFile, RefusesFoldersWithoutResults) {
       return error.what();
     }
   };
-  EXPECT_NE(fault().find("contains no events.json; set the result folder"), std::string::npos) << fault();
+  EXPECT_NE(fault().find("contains no events.json; specify the results folder"), std::string::npos) << fault();
   std::ofstream(folder_ / "events.json") << R"({"vehicle": 3)";
   EXPECT_NE(fault().find("is damaged"), std::string::npos) << fault();
   const Outcome o = call("events --only acceleration --against nowhere --out out");

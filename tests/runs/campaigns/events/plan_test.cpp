@@ -23,7 +23,7 @@ namespace grouser::events {
 
 namespace {
 
-/// A box of 2 x 0.5 m, its centre of mass `ahead` of its middle and `height` high.
+/// A box of 2 x 0.5 m with its centre of mass at `ahead` from its middle and at `height`.
 VehicleShape boxShape(double ahead, double height) {
   VehicleShape s;
   s.rear = s.front = 1, s.diagonal = 2.06, s.firstWheel = -0.8, s.lastWheel = 0.8;
@@ -34,13 +34,13 @@ VehicleShape boxShape(double ahead, double height) {
 TEST(StepBound, LoopsAreAsLongAsBeltsInClosedForm) {
   const double r = 0.2, apart = 3;
   const std::vector<SideDisc> two{{{0, 0.1}, r}, {{apart, 0.1}, r}};
-  // Polygons of 96 corners: shorter by pi^2 / (6 96^2) = 1.8e-4 of the arcs, 2.2e-4 of those that turn by less.
+  // Polygons of 96 corners: shorter than the arcs by pi^2 / (6 96^2) = 1.8e-4, or 2.2e-4 for smaller arcs.
   const double belt = 2 * apart + 2 * base::kPi * r;
   EXPECT_LE(shortestLoop(two), belt);
   EXPECT_NEAR(shortestLoop(two), belt, 2e-4 * 2 * base::kPi * r);
-  EXPECT_EQ(shortestLoop(two, {1, -0.3}), shortestLoop(two)) << "below the loop nothing presses it in";
-  // From a point as high as the middles tangents of sqrt(a^2 - r^2) lead to rims acos(r / a) below the line of middles;
-  // from there the arcs go round to the top.
+  EXPECT_EQ(shortestLoop(two, {1, -0.3}), shortestLoop(two)) << "below the loop the point has no effect";
+  // From a point at the height of the centres, tangents of sqrt(a^2 - r^2) lead to rims acos(r / a) below the line of
+  // centres; from there the arcs continue to the top.
   const double a = 1.2, b = apart - a;
   const double arcs = r * (3 * base::kPi - std::acos(r / a) - std::acos(r / b));
   const double notched = apart + std::sqrt(a * a - r * r) + std::sqrt(b * b - r * r) + arcs;
@@ -56,7 +56,7 @@ TEST(StepBound, IsAboveWhatIsClimbedAndDoesNotForgetTheArms) {
     return planEvents(options).course.shape.highestStep;
   };
   const double free = boundOf({});
-  EXPECT_GT(free, 0.67) << "the light vehicle has climbed that";
+  EXPECT_GT(free, 0.67) << "the light vehicle has climbed this step";
   EXPECT_LT(free, 1.0);
   std::printf("highest step: %.3f m\n", free);
   EXPECT_LT(boundOf({"spec.arm.suspension=rigid"}), free - 0.05);
@@ -88,7 +88,7 @@ TEST(EventPlan, EveryEventTakesEveryReadyVehicle) {
     EXPECT_EQ(plan.trials.size(), 26u) << vehicle;
     EXPECT_GT(plan.course.shape.diagonal, plan.course.shape.length());
     EXPECT_TRUE(plan.omitted.contains(Event::softSoil));
-    // The shipped scene with only the vehicle changed.
+    // The shipped scene with another vehicle.
     for (const Event event : allEvents())
       EXPECT_NO_THROW(sweeps::checkScene(
           setup::loadScene(sceneOf(event), {std::string("vehicle.spec=vehicles/") + vehicle + ".toml"})))
@@ -103,15 +103,15 @@ TEST(EventPlan, OnASoilHasSeedsAndItsGrains) {
   EXPECT_EQ(plan.seeds, 2);
   EXPECT_EQ(plan.sweep.runs.size(), 2u * (2 + 1 + 2));
   EXPECT_EQ(plan.sweep.runs[0].name, "grade=0.2,seed=1");
-  EXPECT_EQ(plan.sweep.runs[4].scene.boxes.at(0).material, "lete_sand"); // of the step, in a bed of Hertz' law
+  EXPECT_EQ(plan.sweep.runs[4].scene.boxes.at(0).material, "lete_sand"); // material of the step, in a Hertz bed
   const scene::Scene& weak = plan.sweep.runs[6].scene;
   EXPECT_EQ(plan.sweep.runs[6].name, "soft_soil=0.4,seed=1");
   const auto bed = std::find_if(weak.materials.begin(), weak.materials.end(),
                                 [](const scene::Material& m) { return m.name == "lete_sand"; });
   ASSERT_NE(bed, weak.materials.end());
-  EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // of assets/soils/lete_sand.toml
-  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 6, 1e-5); // of a pad's width, in four digits
-  EXPECT_EQ(weak.terrain->porosity, 0.42) << "deep enough for its grains to be prepared to the soil's";
+  EXPECT_DOUBLE_EQ(bed->friction, 0.4 * 0.5);              // from assets/soils/lete_sand.toml
+  EXPECT_NEAR(*weak.terrain->grainRadius, 0.28 / 6, 1e-5); // a sixth of a pad's width, in four digits
+  EXPECT_EQ(weak.terrain->porosity, 0.42) << "deep enough for grains prepared to the soil's porosity";
   EXPECT_TRUE(weak.terrain->granular());
 }
 
@@ -121,7 +121,7 @@ TEST(EventPlan, OnDeformableSoilHasOneRunALevelAndNoGrains) {
   options.only = {"grade", "soft_soil", "gap"}, options.quick = true;
   const EventPlan plan = planEvents(options);
   EXPECT_EQ(plan.seeds, 1);
-  EXPECT_EQ(plan.sweep.runs.size(), 2u + 2) << "levels of soils";
+  EXPECT_EQ(plan.sweep.runs.size(), 2u + 2) << "two levels of soils";
   EXPECT_TRUE(plan.omitted.contains(Event::gap));
   EXPECT_FALSE(plan.shoesAlone());
   EXPECT_EQ(plan.groundText(), "lete_sand (deformable soil)");
@@ -150,7 +150,7 @@ TEST(EventPlan, HasARunForEachDrawOfTheConstants) {
   EXPECT_EQ(plan.sweep.runs[4].scene.scm->constantsDraw, 2);
   EXPECT_TRUE(plan.random());
   options.fixed = {"scm.constants_draw=1"};
-  EXPECT_THROW(planEvents(options), base::InputError) << "three runs of one draw";
+  EXPECT_THROW(planEvents(options), base::InputError) << "three runs of one sample";
   options.fixed = {}, options.ground = scene::TerrainKind::granular;
   EXPECT_THROW(planEvents(options), base::InputError);
 }
@@ -172,12 +172,11 @@ TEST(EventPlan, ObstaclesReachIntoDeformableSoil) {
 TEST(EventPlan, GrainsTooCoarseForTheRunningGearMeetTheShoesAlone) {
   EventOptions options;
   options.soil = "lete_sand", options.quick = true, options.only = {"pivot_turn"};
-  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::shoes) << "four on a pad";
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::shoes) << "four per pad";
   options.grainRadius = 0.0135;
-  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::all) << "ten on a pad";
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::all) << "ten per pad";
   options.grainRadius.reset(), options.fixed = {"vehicle.soil_contact=all"};
-  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::all)
-      << "as the user says";
+  EXPECT_EQ(planEvents(options).sweep.runs[0].scene.vehicle->soilContact, scene::SoilContact::all) << "set by the user";
   EXPECT_FALSE(planEvents(options).shoesAlone());
   options.fixed.clear();
   EXPECT_TRUE(planEvents(options).shoesAlone());
@@ -187,7 +186,7 @@ TEST(EventPlan, ExpectsRunsToEndBehindTheirCourse) {
   EventOptions options;
   options.only = {"grade"}, options.levels = {0.4};
   const EventPlan grade = planEvents(options);
-  // 8 m at 1.2 m/s, a fifth more, and 1.2 s before it drives; its limit is 22 s.
+  // 8 m at 1.2 m/s, plus a fifth, plus 1.2 s before the drive; the time limit is 22 s.
   EXPECT_DOUBLE_EQ(grade.sweep.runs[0].expectedEnd, 1.2 + 1.2 * 8 / 1.2);
   EXPECT_EQ(grade.sweep.runs[0].scene.run.duration, 22);
   options.only = {"drawbar"}, options.levels = {0.6, 0.2}; // sorted from the easiest
@@ -233,17 +232,17 @@ TEST(EventPlan, RefusesWhatIsNone) {
   options.only = {"jump"};
   EXPECT_NE(fault(options).find("--only jump: unknown event; events: acceleration, grade"), std::string::npos);
   options = {}, options.vehicle = "tank";
-  EXPECT_NE(fault(options).find("--vehicle tank: unknown vehicle; available: light_tracked, m113_like, robot"),
+  EXPECT_NE(fault(options).find("--vehicle tank: unknown vehicle; choose one of light_tracked, m113_like, robot"),
             std::string::npos);
   options = {}, options.soil = "cheese";
-  EXPECT_NE(fault(options).find("--soil cheese: is neither rigid nor a soil"), std::string::npos);
+  EXPECT_NE(fault(options).find("--soil cheese: is neither rigid nor a known soil"), std::string::npos);
   options = {}, options.soil = "my/sand.toml";
   EXPECT_NE(fault(options).find("--soil my/sand.toml: requires the name of a soil"), std::string::npos);
   options = {}, options.levels = {0.5};
   EXPECT_NE(fault(options).find("--levels: requires a single event"), std::string::npos);
   options.only = {"step"}, options.levels = {INFINITY};
   EXPECT_NE(fault(options).find("--levels: must be distinct"), std::string::npos);
-  // Errors name the option that set the value, or --set.
+  // Errors name the option of the value, or --set.
   options = {}, options.only = {"drawbar"}, options.levels = {100};
   EXPECT_EQ(fault(options).find("--levels 100: hitch.slip = 100"), 0u) << fault(options);
   options = {}, options.only = {"step"}, options.speed = 1e9;
@@ -255,16 +254,16 @@ TEST(EventPlan, RefusesWhatIsNone) {
   options = {}, options.only = {"step"}, options.fixed = {"driver.sprocket_speed=1e9"}, options.speed = 1;
   EXPECT_EQ(fault(options).find("--set: driver.sprocket_speed"), 0u) << fault(options);
   options = {}, options.seeds = 3;
-  EXPECT_NE(fault(options).find("--seeds: rigid ground has no grains"), std::string::npos);
+  EXPECT_NE(fault(options).find("--seeds: has no effect on rigid ground"), std::string::npos);
   options.soil = "lete_sand", options.ground = scene::TerrainKind::scm;
-  EXPECT_NE(fault(options).find("--seeds: deformable soil has no grains"), std::string::npos);
+  EXPECT_NE(fault(options).find("--seeds: has no effect on deformable soil"), std::string::npos);
   options = {}, options.ground = scene::TerrainKind::scm;
   EXPECT_EQ(fault(options).find("--ground scm: requires a soil; set --soil"), 0u) << fault(options);
   options = {}, options.only = {"soft_soil"};
   EXPECT_NE(fault(options).find("--only soft_soil: rigid ground has no strength to vary"), std::string::npos);
 }
 
-/// The light vehicle of shared closed forms: W 49.21 kN, L 1.85 m, b 0.28 m; constants of LETE sand as published.
+/// The light vehicle of the common closed forms: W 49.21 kN, L 1.85 m, b 0.28 m; published constants of LETE sand.
 Course lightOnSand() {
   Course c;
   c.shape = boxShape(0, 0.4);
@@ -281,11 +280,11 @@ TEST(SoilLimits, AreThoseOfARigidTrack) {
   EXPECT_NEAR(std::atan(holdingSlope(c.shape, c.constants)) * 180 / base::kPi, 32.44, 0.005);
   for (const auto& [slip, force] : {std::pair{0.02, 21429.0}, {0.05, 27008.0}, {0.1, 29019.0}, {0.2, 30026.0}})
     EXPECT_NEAR(trackThrust(c.shape, c.constants, slip), force, 5) << slip;
-  EXPECT_NEAR(compactionResistance(c.shape, c.constants), 2 * 0.5 * 35.705, 0.02) << "that of both tracks";
+  EXPECT_NEAR(compactionResistance(c.shape, c.constants), 2 * 0.5 * 35.705, 0.02) << "for both tracks";
   Course sticky = c;
   sticky.constants.cohesion = 1e6;
   EXPECT_TRUE(std::isinf(holdingSlope(sticky.shape, sticky.constants)));
-  EXPECT_FALSE(referenceOf(Event::grade, sticky)) << "it holds on any slope";
+  EXPECT_FALSE(referenceOf(Event::grade, sticky)) << "it stays on any slope";
 }
 
 TEST(SoilLimits, BlockSlopesAboveTheHoldingOne) {
@@ -318,7 +317,7 @@ TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {
   EXPECT_EQ(eventLimits(rows, course)[0].agrees, false); // friction 0.8 blocks 0.816
   EXPECT_FALSE(eventLimits(rows, course)[0].noGo);
   rows[0].gos = 0;
-  EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go does not count
+  EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go has no effect
 }
 
 TEST(EventRow, TellsWhyOfTheRunThatDecides) {
@@ -329,13 +328,13 @@ TEST(EventRow, TellsWhyOfTheRunThatDecides) {
   row.each.push_back({"step=1,seed=3", "go", "5.0 m in 6 s"});
   EXPECT_EQ(row.why(), "5.0 m in 6 s");
   row.each.push_back({"step=1,seed=4", "no-go", "throws a track"});
-  EXPECT_EQ(row.why(), "throws a track") << "one no-go makes the level none to rely on";
+  EXPECT_EQ(row.why(), "throws a track") << "one no-go invalidates the level";
   row.event = Event::drawbar, row.runs = row.gos = 2;
-  row.each = {{"a", "go", "pulls 19 kN"}, {"b", "go", "pulls 23 kN"}};
+  row.each = {{"a", "go", "drawbar pull 19 kN"}, {"b", "go", "drawbar pull 23 kN"}};
   row.figures = {{"drawbar pull [N]", {}, {21e3, 25e3}}};
   EXPECT_EQ(row.why(), "mean pull 21 kN");
-  row.gos = 1, row.each[1] = {"b", "no-go", "is pulled with 2 kN"};
-  EXPECT_EQ(row.why(), "is pulled with 2 kN");
+  row.gos = 1, row.each[1] = {"b", "no-go", "required towing force 2 kN"};
+  EXPECT_EQ(row.why(), "required towing force 2 kN");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Verdicts and figures of synthetic motions.
+// Verdicts and results of synthetic motions.
 #include "runs/campaigns/events/event_figures.hpp"
 #include "runs/campaigns/events/event_report.hpp"
 #include "runs/campaigns/events/event_verdict.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kRow = 0.02; // s
 
-/// A motion along x with the speed of each stretch: {seconds, m/s}.
+/// A motion along x with the speed of each segment: {seconds, m/s}.
 Motion straightOn(const std::vector<std::pair<double, double>>& stretches) {
   Motion m;
   double time = 0, way = 0;
@@ -56,7 +56,7 @@ TEST(EventReport, CountsRunsInWordsThatFit) {
 }
 
 TEST(EventVerdict, LooksAtTheLastFiveMetresAlone) {
-  // 3 m in 6 s, then 5 m at 0.8 m/s: of the whole way the mean would be 0.65.
+  // 3 m in 6 s, then 5 m at 0.8 m/s: the mean over the whole path would be 0.65.
   EXPECT_TRUE(judge(straightOn({{6, 0.5}, {8, 0.8}}), course(8, 1.5)).go);
   EXPECT_FALSE(judge(straightOn({{3.75, 0.8}, {10, 0.55}}), course(8, 1.5)).go);
 }
@@ -64,7 +64,7 @@ TEST(EventVerdict, LooksAtTheLastFiveMetresAlone) {
 TEST(EventVerdict, AsksForTwentySecondsAndTheWholeWay) {
   const Verdict late = judge(straightOn({{16, 0}, {6, 1}}), course(5, 1));
   EXPECT_FALSE(late.go);
-  EXPECT_NE(late.why.find("takes"), std::string::npos) << late.why;
+  EXPECT_NE(late.why.find("exceeds the time limit"), std::string::npos) << late.why;
   const Verdict stuck = judge(straightOn({{4, 1}, {10, 0}}), course(5, 1));
   EXPECT_FALSE(stuck.go);
   EXPECT_EQ(stuck.why, "covers 4.0 of 5.0 m");
@@ -116,7 +116,7 @@ TEST(EventMotion, BeginsWithTheDriveAndUnwindsTheHeading) {
   EXPECT_DOUBLE_EQ(straight.way[2], 3);
   EXPECT_DOUBLE_EQ(path.way[2], 3 + 4);
   EXPECT_DOUBLE_EQ(straight.left[2], 4);
-  // From 3.0 over pi to -3.0 = 3.283, then half a radian more.
+  // From 3.0 via pi to -3.0 = 3.283, then half a radian further.
   EXPECT_NEAR(straight.turned[1], 2 * base::kPi - 6, 1e-12); // round-off of numbers about 6
   EXPECT_NEAR(straight.turned[2], 2 * base::kPi - 5.5, 1e-12);
 }

@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// 90 grains on a rough floor; `more` ends the file.
+/// 90 grains on a rough floor; `more` adds keys.
 std::string bedScene(const std::string& terrain = "", const std::string& more = "") {
   const std::string maps = std::string(GROUSER_SOURCE_DIR) + "/assets/heightmaps/";
   return "version = 1\n[run]\nduration = 0.02\nframe_interval = 0.01\n[material.sand]\nstiffness = 1e4\n"
@@ -84,10 +84,10 @@ StepTimes::Group group(double steps, double seconds, double lists = 0, double pa
 TEST(ProbedSteps, RestTakesWhatTheLastThirdTook) {
   StepTimes times;
   for (int k = 0; k < 6; ++k) times.groups.push_back(group(10, k < 3 ? 1.0 : 2.0));
-  // A third of 9 s is reached by the last two groups: 0.2 s a step.
+  // The last two groups reach a third of 9 s: 0.2 s per step.
   EXPECT_DOUBLE_EQ(times.last().seconds / times.last().steps, 0.2);
   EXPECT_NEAR(costOfRun(times, 100, 1, 0).whole(), 9 + 40 * 0.2, 1e-12);
-  // A run that ends within the probe takes what its steps took.
+  // A run that ends within the probe takes the measured time of its steps.
   EXPECT_NEAR(costOfRun(times, 25, 1, 0).whole(), 2.5, 1e-12);
   EXPECT_EQ(costOfRun({}, 40, 1, 0).whole(), 0);
 }
@@ -106,7 +106,7 @@ TEST(ProbedSteps, GrainsThatEnterLaterMakeThemDearerAlongTheLine) {
   for (int k = 1; k <= 6; ++k) times.groups.push_back(group(100, 100 * (1e-6 + 2e-8 * k), 0, 0, k));
   double probe = 0;
   for (const StepTimes::Group& g : times.groups) probe += g.seconds;
-  // Exactly on a line of 1 us and 20 ns a grain.
+  // Exactly on a line of 1 us and 20 ns per grain.
   EXPECT_NEAR(costOfRun(times, 1600, 1, 50).whole(), probe + 1000 * (1e-6 + 2e-8 * 50), 1e-12);
 }
 
@@ -145,21 +145,21 @@ TEST(ForecastFigures, AccuracyFollowsFromTheSourceOfEachPart) {
   EXPECT_DOUBLE_EQ(f.bound(1), 3 * 2.0 + 10 * 2.0 + 6 * 3.0);
   const std::string text = forecastText(f);
   for (const char* part : {"(short probe, ", "3.0 s       probed", "10 s        kept", "6.0 s       typical",
-                           "19 s, between 8.5 s and 44 s", "within a factor of 2 (probed, kept) or 3 (typical)"})
+                           "19 s (8.5 s to 44 s)", "within a factor of 2 (probed, kept) or 3 (typical)"})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
   const auto json = nlohmann::json::parse(forecastJson(f));
   EXPECT_EQ(json["sources"], nlohmann::json({{"settling the bed", "probed"}, {"grains", "kept"}, {"rows", "typical"}}));
   EXPECT_DOUBLE_EQ(json["least_s"].get<double>(), f.bound(-1));
   EXPECT_DOUBLE_EQ(json["most_s"].get<double>(), f.bound(1));
   f.probed = true;
-  EXPECT_DOUBLE_EQ(f.accuracy(Source::probed), 1.5) << "the long probe is closer";
+  EXPECT_DOUBLE_EQ(f.accuracy(Source::probed), 1.5) << "the long probe is more accurate";
 }
 
 TEST(ForecastFigures, ProbeThatFailedTellsNoTotal) {
   Forecast f = someForecast();
-  f.warning = "the probe's steps failed";
+  f.warning = "the timed steps failed";
   EXPECT_EQ(forecastText(f).find("  total"), std::string::npos);
-  EXPECT_NE(forecastText(f).find("WARNING: the probe's steps failed"), std::string::npos);
+  EXPECT_NE(forecastText(f).find("WARNING: the timed steps failed"), std::string::npos);
 }
 
 TEST(MachineFit, SaysWhatLacksAndWhatHelps) {
@@ -167,14 +167,14 @@ TEST(MachineFit, SaysWhatLacksAndWhatHelps) {
   demand.process = 3e9, demand.device = 2e9, demand.frames = 5e9;
   const Room ample{4e9, 3e9, 6e9, "/data"};
   EXPECT_EQ(misfit(demand, ample), "");
-  EXPECT_EQ(misfit(demand, {}), "") << "what cannot be known does not refuse";
+  EXPECT_EQ(misfit(demand, {}), "") << "unknown limits do not reject a run";
   const auto with = [&](auto change) {
     Room room = ample;
     change(room);
     return misfit(demand, room);
   };
   EXPECT_NE(with([](Room& r) { r.process = 1e9; }).find("fewer or larger grains"), std::string::npos);
-  EXPECT_NE(with([](Room& r) { r.device = 1e9; }).find("of each GPU"), std::string::npos);
+  EXPECT_NE(with([](Room& r) { r.device = 1e9; }).find("on each GPU"), std::string::npos);
   const std::string disk = with([](Room& r) { r.disk = 1e9; });
   EXPECT_NE(disk.find("/data"), std::string::npos);
   EXPECT_NE(disk.find("frame_interval"), std::string::npos);
@@ -226,7 +226,7 @@ TEST_F(KeptTimes, AreOfOneMachineAndTheLastOfEachKindOfWork) {
 
 TEST_F(KeptTimes, DamagedFilesAreIgnored) {
   keepRatios("here", {{"grains", 0.5}, {"rows", 1e4}, {"frames", 1e-3}});
-  EXPECT_EQ(keptRatios("here"), (Ratios{{"grains", 0.5}})) << "beyond a factor of 100";
+  EXPECT_EQ(keptRatios("here"), (Ratios{{"grains", 0.5}})) << "off by more than a factor of 100";
   fs::path path;
   for (const auto& file : fs::directory_iterator(folder_))
     if (file.path().extension() == ".json") path = file.path();
@@ -238,7 +238,7 @@ TEST_F(KeptTimes, DamagedFilesAreIgnored) {
   EXPECT_EQ(keptRatios("here"), (Ratios{{"rows", 3}}));
   fs::remove(path);
   fs::create_directory(path);
-  EXPECT_TRUE(keptRatios("here").empty()) << "a folder";
+  EXPECT_TRUE(keptRatios("here").empty()) << "the path is a folder";
   keepRatios("here", {{"grains", 0.5}});
   for (const auto& file : fs::directory_iterator(folder_))
     EXPECT_TRUE(file.path() == path || file.path().extension() == ".lock") << file.path();
@@ -261,7 +261,7 @@ TEST(TypicalTimes, SmallerGrainsBelowTracksMakeTheVehicleDearer) {
   EXPECT_NEAR(typicalTimes(scene, 90, 1e5, base::cpuExec(1)).parts - parts, 3 * 170e-9 * pairs, 1e-9);
 }
 
-/// The program itself.
+/// Tests of the program itself.
 class PlanProgram : public ProgramTest {
 protected:
   void write(const std::string& text) const { std::ofstream(folder_ / "bed.toml") << text; }
@@ -272,18 +272,19 @@ TEST_F(PlanProgram, TellsTimeMemoryAndDiskByTheirPartsAndLeavesNothing) {
   const Outcome o = call("plan bed.toml --json plan.json --threads 1");
   ASSERT_EQ(o.code, 0) << o.errors;
   for (const char* part : {"settling the bed", "neighbour lists", "rows", "frames", "picture", "\n  total  ",
-                           "prediction on", "memory of the process", "on the disk"})
+                           "prediction on", "process memory", "disk space"})
     EXPECT_NE(o.out.find(part), std::string::npos) << part << "\n" << o.out;
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
   const bool rested = json["sources"]["settling the bed"] == "probed"; // not on a busy machine
-  EXPECT_NE(o.out.find(rested ? "steps to settle a tile of" : "not settled in the probe; estimated"), std::string::npos)
+  EXPECT_NE(o.out.find(rested ? "steps to settle a tile of" : "not settled during the measurement; estimated"),
+            std::string::npos)
       << o.out;
   double sum = 0;
   for (const char* group : {"preparation", "steps", "output"}) sum += json[group]["total_s"].get<double>();
   EXPECT_NEAR(json["total_s"].get<double>(), sum, 1e-9 * sum);
   EXPECT_GT(json["preparation"]["settling the bed"].get<double>(), 0);
   EXPECT_FALSE(json["output"].contains("plots"));
-  EXPECT_EQ(o.out.find("H200"), std::string::npos) << "of other machines it knows nothing:\n" << o.out;
+  EXPECT_EQ(o.out.find("H200"), std::string::npos) << "no figures of other machines:\n" << o.out;
   int left = 0;
   for (const auto& entry : fs::directory_iterator(folder_)) {
     ++left;
@@ -297,7 +298,7 @@ TEST_F(PlanProgram, KeptBedIsFoundAndNotSettledAgain) {
   const std::string keep = "export GROUSER_CACHE=\"$PWD/kept\"; ";
   ASSERT_EQ(call("run bed.toml --out first", keep).code, 0);
   const Outcome kept = call("plan bed.toml", keep);
-  EXPECT_NE(kept.out.find("bed, kept"), std::string::npos) << kept.out;
+  EXPECT_NE(kept.out.find("cached bed"), std::string::npos) << kept.out;
   EXPECT_EQ(kept.out.find("settling the bed"), std::string::npos) << kept.out;
   const Outcome anew = call("plan bed.toml --no-cache", keep);
   EXPECT_NE(anew.out.find("settling the bed"), std::string::npos) << anew.out;
@@ -312,7 +313,7 @@ TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
     EXPECT_NE(o.errors.find("plan: " + stage), std::string::npos) << "progress:\n" << o.errors;
     return nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
   };
-  const auto first = sources("", "short probe of a small bed");
+  const auto first = sources("", "timing a small bed");
   EXPECT_EQ(first["sources"]["grains"], "probed");
   EXPECT_EQ(first["sources"]["picture"], "typical");
   EXPECT_FALSE(first["long_probe"].get<bool>());
@@ -320,13 +321,13 @@ TEST_F(PlanProgram, ShortProbeNamesItsSourcesAndTheLongOneIsKeptForIt) {
   const auto probed = sources(" --probe", "timing steps");
   for (const auto& [part, source] : probed["sources"].items())
     EXPECT_TRUE(source == "probed" || part == "settling the bed") << part; // which may not rest on a busy machine
-  const auto again = sources("", "short probe of a small bed");
+  const auto again = sources("", "timing a small bed");
   EXPECT_EQ(again["sources"]["picture"], "kept");
   EXPECT_EQ(again["sources"]["grains"], "kept");
   EXPECT_EQ(call("plan bed.toml --threads 1 --no-cache --json plan.json", keep).code, 0);
   const auto uncached = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
-  EXPECT_EQ(uncached["sources"]["picture"], "typical") << "no kept ratios without the cache";
-  // Typical time times kept ratio: the probed time itself.
+  EXPECT_EQ(uncached["sources"]["picture"], "typical") << "without the cache no stored ratios";
+  // Typical time times stored ratio: the probed time itself.
   EXPECT_NEAR(again["output"]["picture"].get<double>() / probed["output"]["picture"].get<double>(), 1, 1e-6);
 }
 
@@ -335,7 +336,7 @@ TEST_F(PlanProgram, BedOfTilesIsPreparedBeforeItIsCopied) {
   const Outcome o = call("plan bed.toml --set terrain.depth=0.08 --json plan.json");
   ASSERT_EQ(o.code, 0) << o.errors;
   const auto json = nlohmann::json::parse(std::ifstream(folder_ / "plan.json"));
-  for (const char* part : {"friction for the porosity", "settling a tile", "settling its copies"})
+  for (const char* part : {"friction for the porosity", "settling a tile", "settling the copies"})
     EXPECT_GT(json["preparation"].value(part, 0.0), 0) << part << "\n" << o.out;
 }
 
@@ -383,14 +384,15 @@ TEST_F(PlanProgram, WithoutProbeRunsNothing) {
 }
 
 TEST_F(PlanProgram, WhatDoesNotFitIsRefusedByPlanAndRun) {
-  // A million frames of 86 thousand grains: 4 TB of frames a million steps.
+  // A million frames of 86 thousand grains: 4 TB.
   write(
       "version = 1\n[run]\nduration = 100\ntime_step = 1e-6\nframe_interval = 1e-6\n[material.sand]\nstiffness = 1e4\n"
       "[[grains]]\nform = \"lattice\"\nlow = [0, 0, 0]\nhigh = [1, 1, 0.9]\nradius = 0.01\nmaterial = \"sand\"\n");
   for (const char* words : {"plan bed.toml", "run bed.toml"}) {
     const Outcome o = call(words, "ulimit -f 4000; "); // were it begun, it would end soon
     EXPECT_EQ(o.code, 2) << words;
-    EXPECT_NE(o.error().find("bed.toml: does not fit this machine: its results take"), std::string::npos) << o.errors;
+    EXPECT_NE(o.error().find("bed.toml: exceeds the resources of this machine: its results require"), std::string::npos)
+        << o.errors;
     EXPECT_NE(o.error().find("run.frame_interval"), std::string::npos) << o.errors;
   }
   EXPECT_FALSE(fs::exists(folder_ / "out"));

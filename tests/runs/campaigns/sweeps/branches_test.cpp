@@ -47,7 +47,7 @@ plots = false
 picture = false
 )");
   }
-  /// With the parts' spheres kept in the folder.
+  /// With the sphere sets of the folder.
   Outcome sweep(const std::string& words) const {
     return call("sweep v.toml " + words, "export GROUSER_CACHE=cache\n");
   }
@@ -87,7 +87,7 @@ TEST_F(BranchedSweep, LowersTheVehicleOnceAndEndsAsPlainRunsDo) {
   EXPECT_EQ(ended("settled"), settled);
   EXPECT_EQ(ended("sprocket_speed=1"), first);
   EXPECT_TRUE(fs::exists(folder_ / "branched/sprocket_speed=0.5/results.h5"));
-  // Without the option runs have rows from their start.
+  // Without the option runs include rows from their start.
   EXPECT_EQ(sweep("--set driver.sprocket_speed=1,2 --out branched").code, 0);
   EXPECT_EQ(contents(folder_ / "branched/sprocket_speed=1/manifest.json").find("branched_from"), std::string::npos);
 }

@@ -12,7 +12,7 @@
 namespace grouser::sweeps {
 namespace {
 
-/// Base, half step (2 runs of the base), skin, depth (1.5), and one that is refused.
+/// Base, half step (2 runs of the base), skin, depth (1.5), and one rejected case.
 CheckCases someCases(bool seeded) {
   CheckCases all;
   all.seeded = seeded;
@@ -50,14 +50,14 @@ TEST(CheckChoice, WithoutABudgetEveryCaseHasAllSeeds) {
 }
 
 TEST(CheckChoice, ABudgetTakesCasesInOrderThenSeeds) {
-  // Three seeds of the base, three of the half step, the skin: 3 + 6 + 1 runs; the depth's 4.5 do not fit into 12.
+  // Three seeds of the base, three of the half step, the skin: 3 + 6 + 1 runs; the depth's 4.5 exceed 12.
   const CheckChoice few = chooseRuns(someCases(true), 8, 120, byStepsAlone(), 1);
   EXPECT_EQ(few.seeds, (Counts{3, 3, 1, 0, 0}));
   EXPECT_EQ(few.beyondBudget, std::vector<std::size_t>{3});
   EXPECT_DOUBLE_EQ(few.seconds, 100);
-  // A case that is too long is left out; a later, shorter one may still fit.
+  // A case that is too long is skipped; a later, shorter one may still fit.
   EXPECT_EQ(chooseRuns(someCases(true), 8, 85, byStepsAlone(), 1).seeds, (Counts{3, 0, 1, 3, 0}));
-  // All cases with three seeds take 14.5, each more seed 4.5: with 24 there are five.
+  // All cases with three seeds take 14.5, each further seed 4.5: 24 allows five.
   EXPECT_EQ(chooseRuns(someCases(true), 8, 240, byStepsAlone(), 1).seeds, (Counts{5, 5, 1, 5, 0}));
   EXPECT_EQ(chooseRuns(someCases(true), 4, 2400, byStepsAlone(), 1).seeds, (Counts{4, 4, 1, 4, 0}));
 }
@@ -72,11 +72,11 @@ TEST(CheckChoice, EveryRunSettlesItsBedUnlessThatIsThereAlready) {
   // Two seeds: base and half step 2 x (10 + 90) and 2 x (20 + 90) s, the skin 10 s on the base's bed, depth 2 x (15 +
   // 90).
   EXPECT_DOUBLE_EQ(chooseRuns(someCases(true), 2, std::nullopt, withBeds(), 1).seconds, 200 + 220 + 10 + 210);
-  // Where each settles its own the skin does too.
+  // If each settles its own bed, so does the skin.
   RunCosts alone = withBeds();
   alone.beds.clear();
   EXPECT_DOUBLE_EQ(chooseRuns(someCases(true), 2, std::nullopt, alone, 1).seconds, 200 + 220 + 100 + 210);
-  // Cached: both beds of the base, the second of the half step. The settling of the others counts.
+  // Cached: both beds of the base, the second of the half step. Other settling times count.
   RunCosts kept = withBeds();
   kept.isKept = [](int bed, int seed) { return bed == 0 || (bed == 1 && seed == 1); };
   EXPECT_DOUBLE_EQ(chooseRuns(someCases(true), 2, std::nullopt, kept, 1).seconds, 20 + 130 + 10 + 210);
@@ -87,7 +87,7 @@ TEST(CheckChoice, EveryRunSettlesItsBedUnlessThatIsThereAlready) {
 }
 
 TEST(CheckChoice, MoreSeedsSettleMoreBeds) {
-  // Three seeds of base and skin take 3 x 100 + 10 s, one more 100 s; the others are refused.
+  // Three seeds of base and skin take 3 x 100 + 10 s, one more 100 s; the other cases are rejected.
   CheckCases cases = someCases(true);
   cases.cases[1].refused = cases.cases[3].refused = "no";
   EXPECT_EQ(chooseRuns(cases, 8, 411, withBeds(), 1).seeds, (Counts{4, 0, 1, 0, 0}));

@@ -34,7 +34,7 @@ TEST(CheckErrors, NoOrderIsAssumed) {
   EXPECT_FALSE(e.order);
   EXPECT_GE(e.bar, 0.2);
   EXPECT_LE(e.bar, 0.35);
-  // Two or three values have no observed order, but a bar; for two it is twice the change.
+  // Two or three values have no observed order, but a bar; for two values it is twice the change.
   EXPECT_FALSE(stepError(converging(3, 0.2, 1, 3)).order);
   EXPECT_NEAR(stepError(converging(3, 0.2, 1, 2)).bar, 0.2, 1e-12);
   EXPECT_TRUE(std::isinf(stepError(std::vector<double>{3.0}).bar));
@@ -75,7 +75,7 @@ TEST(CheckErrors, OfSeedsAnOrderIsSeenOnlyWhereBothIntervalsLeaveOutZero) {
 }
 
 TEST(CheckErrors, TheBarOfScatteredRunsHoldsAnErrorOfFirstOrder) {
-  // Eight seeds, each run with noise of its own; the error at h is C = 1, so the changes are -1/2 and -1 in the mean.
+  // Eight seeds, each run with its own noise; the error at h is C = 1, so the mean changes are -1/2 and -1.
   std::mt19937 dice(1);
   for (const double noise : {0.05, 0.1, 0.2, 0.5, 2.0})
     for (const bool withCoarse : {true, false}) {
@@ -109,7 +109,7 @@ TEST(CheckErrors, TheBarIsTheRootOfTheSumOfSquares) {
 }
 
 TEST(CheckErrors, SeedsForABarFollowStudentsDistribution) {
-  // Deviation 1 of 4 seeds: half width 3.182 / 2. Of n seeds it is t(n - 1) / sqrt(n): 0.754 at 9, 0.715 at 10.
+  // Deviation 1 of 4 seeds: half width 3.182 / 2. For n seeds it is t(n - 1) / sqrt(n): 0.754 at 9, 0.715 at 10.
   const double half = 3.1824463 / 2;
   EXPECT_EQ(seedsFor(0.76, half, 4), 10);
   EXPECT_EQ(seedsFor(0.77, half, 4), 9);

@@ -24,7 +24,7 @@ protected:
            "[material.glass]\n[[grain]]\nposition = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n"
         << kQuiet;
   }
-  /// Some grains at random places that fall onto a plane.
+  /// Some grains at random positions that fall onto a plane.
   void writeHeap() const {
     std::ofstream(folder_ / "heap.toml")
         << "version = 1\n[run]\nduration = 0.05\ntime_step = 2e-4\noutput_interval = 0.01\nthreads = 1\n"

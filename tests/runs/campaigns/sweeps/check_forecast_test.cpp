@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Note of a run on checks of its scene.
+// Note of a run about checks of its scene.
 #include "runs/campaigns/sweeps/check_beds.hpp"
 #include "runs/campaigns/sweeps/check_goals.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
@@ -27,7 +27,7 @@ TEST(CheckForecast, AFirstLookTakesAboutTheRunsOfItsCases) {
   double runs = 0;
   for (const CheckCase& c : cases.cases)
     if (c.refused.empty()) runs += c.cost;
-  // The forecast loads no scene: grains are counted by volume, and cut parts cost about as much more.
+  // The forecast loads no scene: it counts grains by volume; converted parts cost about as much more.
   EXPECT_NEAR(runsOfBarCases(scene, 3), 3 * runs, 0.15 * 3 * runs);
   EXPECT_LT(runsOfBarCases(scene, 3), 0.4 * runsOfWholeCheck(scene, 8));
 }
@@ -36,7 +36,7 @@ TEST(CheckForecast, WhereAVehicleDrivesOnGrainsTheCheaperCheckIsNamedFirst) {
   const scene::Scene scene = setup::loadScene(kQuickStart, {"run.gravity=[0, 0, -9.8]"}); // never checked
   const double runs = runsOfBarCases(scene, 3);
   const std::string note = checkNote(scene, "", 3600 / runs);
-  EXPECT_NE(note.find(" --bar 20% --of sinkage,torque (from 1 h 00 min on; "), std::string::npos) << note;
+  EXPECT_NE(note.find(" --bar 20% --of sinkage,torque (at least 1 h 00 min; "), std::string::npos) << note;
 }
 
 TEST(CheckBeds, SkinAndSpheresOfThePartsSettleOnTheBedOfTheBase) {
@@ -60,9 +60,10 @@ TEST(ShippedChecks, AreOfTheScenesAsTheyStand) {
   for (const auto& file : std::filesystem::directory_iterator(scenes / "checks")) {
     const scene::Scene scene = setup::loadScene(scenes / file.path().stem().concat(".toml"), {});
     const std::string inputs = setup::inputsOf(scene), note = checkNote(scene, inputs, 1, true);
-    EXPECT_NE(note.find("checked   error bars by "), std::string::npos) << "run grouser check again: " << file << note;
+    EXPECT_NE(note.find("checked   error bars from "), std::string::npos)
+        << "run grouser check again: " << file << note;
     EXPECT_NE(note.find("speed [m/s]"), std::string::npos) << note;
-    // Another speed is another scene.
+    // Another speed makes another scene.
     const scene::Scene other = setup::loadScene(scene.file, {"driver.sprocket_speed=3.5"});
     EXPECT_EQ(checkNote(other, setup::inputsOf(other), 1).find("checked "), std::string::npos);
     ++found;

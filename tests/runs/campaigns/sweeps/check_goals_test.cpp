@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Error bars of --of: levels of the looks, coverage for known truths, and selected runs.
+// Error bars of --of: levels of the interim checks, coverage for known true values, and selected runs.
 #include "runs/campaigns/sweeps/check_goals.hpp"
 
 #include "base/error.hpp"
@@ -24,11 +24,11 @@ RunCosts unitCosts() {
   return costs;
 }
 
-/// A figure with a known truth: the value of a seed is mean + scatter, and of each case that plus its own change and
+/// A figure with a known true value: a seed yields mean + scatter, and each case adds its own change and
 /// scatter.
 struct Truth {
   double mean = 1, deviation = 0.1;
-  std::vector<double> changes = {}, changeDeviations = {}; ///< of the axes depth, width...
+  std::vector<double> changes = {}, changeDeviations = {}; ///< per axis: depth, width...
   bool skewed = false;                                     ///< exponential scatter, else normal
 };
 
@@ -98,7 +98,7 @@ private:
   CheckFigure figure_;
 };
 
-/// Reads 95 % intervals at every seed, and stops at the first that is narrow: the rule that undercovers.
+/// Checks 95 % intervals at every seed, and stops at the first narrow one: this rule undercovers.
 Looks naiveLooks(int most) {
   Looks looks{std::vector<int>(static_cast<std::size_t>(most - kFewSeeds + 1)), {}};
   std::iota(looks.seeds.begin(), looks.seeds.end(), kFewSeeds);
@@ -108,7 +108,7 @@ Looks naiveLooks(int most) {
 constexpr int kTrials = 2000;
 constexpr double kSpread = 0.0146; // three standard deviations of a share of 0.95 among so many
 
-/// Share of checks that hold the truth, as `holds` judges each.
+/// Share of checks that contain the true value, as judged by `holds`.
 template <class Holds>
 double coverage(const Truth& truth, const Looks& looks, double percent, unsigned seed, const Holds& holds) {
   std::mt19937 dice(seed);
@@ -121,12 +121,12 @@ double coverage(const Truth& truth, const Looks& looks, double percent, unsigned
   return static_cast<double>(held) / kTrials;
 }
 
-/// The mean by the interval of the value.
+/// The mean lies within the interval of the value.
 double valueCoverage(const Truth& truth, const Looks& looks, double percent) {
   return coverage(truth, looks, percent, 7, [](const SyntheticCheck& check) { return check.valueHolds(); });
 }
 
-/// The true change by the bar of the first axis.
+/// The true change lies within the error bar of the first axis.
 double axisCoverage(const Truth& truth, const Looks& looks, double percent) {
   return coverage(truth, looks, percent, 11, [](const SyntheticCheck& check) { return check.axisHolds(0); });
 }
@@ -135,10 +135,10 @@ TEST(CheckGoals, LooksDoubleAndShareTheFivePercent) {
   const Looks looks = looksUpTo(24, true);
   EXPECT_EQ(looks.seeds, (std::vector{3, 6, 12, 24}));
   EXPECT_DOUBLE_EQ(looks.levels.value, 0.05 / 4);
-  EXPECT_DOUBLE_EQ(looks.levels.change, 0.1 / 4); // one side alone is missed
+  EXPECT_DOUBLE_EQ(looks.levels.change, 0.1 / 4); // only one side is counted
   EXPECT_EQ(looksUpTo(8, true).seeds, (std::vector{3, 6, 8}));
   EXPECT_EQ(looksUpTo(9, true).seeds, (std::vector{3, 6, 9}));
-  EXPECT_EQ(looksUpTo(25, true).seeds, (std::vector{3, 6, 12, 25})) << "a look at 24 would only cost level";
+  EXPECT_EQ(looksUpTo(25, true).seeds, (std::vector{3, 6, 12, 25})) << "a check at 24 would only cost level";
   EXPECT_EQ(looksUpTo(2, true).seeds, (std::vector{2}));
   EXPECT_EQ(looksUpTo(8, false).seeds, (std::vector{1}));
   EXPECT_EQ(looks.after(0), 3);
@@ -161,7 +161,7 @@ TEST(CheckGoals, StoppingAtTheFirstNarrowIntervalUndercovers) {
 }
 
 TEST(CheckGoals, SkewedValuesAreHeldAboutAsOftenAsInAPlainCheck) {
-  // Student's interval of three to twelve exponential values misses in more than 5 %, with looks or without.
+  // Student's interval of three to twelve exponential values misses in more than 5 %, with or without interim checks.
   for (const double deviation : {0.1, 0.2, 0.3}) {
     const double held = valueCoverage({1, deviation, {}, {}, true}, looksUpTo(24, true), 20);
     std::mt19937 dice(7);
@@ -177,7 +177,7 @@ TEST(CheckGoals, SkewedValuesAreHeldAboutAsOftenAsInAPlainCheck) {
 }
 
 TEST(CheckGoals, TheBarOfAnAxisHoldsItsTrueChangeWhereverTheCheckStops) {
-  // The hardest truths lie just above the target: the check continues until the change appears small enough.
+  // The hardest case lies just above the target: the check continues until the change appears small enough.
   for (const double change : {0.1, 0.17, 0.2, 0.22})
     for (const double deviation : {0.05, 0.2}) {
       const double held = axisCoverage({1, 0.02, {change}, {deviation}}, looksUpTo(24, true), 20);
@@ -201,7 +201,7 @@ TEST(CheckGoals, SeedsGoWhereTheyNarrowTheBar) {
   EXPECT_LE(goal.bar, 0.1 * goal.value);
   EXPECT_EQ(check.taken()[1], 3);
   EXPECT_GE(check.taken()[2], 12);
-  EXPECT_GE(check.taken()[0], check.taken()[2]) << "pairs want the base";
+  EXPECT_GE(check.taken()[0], check.taken()[2]) << "pairs require base runs";
 }
 
 TEST(CheckGoals, WhereTheFirstLookIsEnoughNothingMoreIsRun) {
@@ -230,13 +230,13 @@ TEST(CheckGoals, WhatTheMostSeedsDoNotReachIsNotBegun) {
   EXPECT_EQ(check.taken(), (std::vector{3}));
   CheckCases cases;
   cases.seeded = true, cases.cases.resize(1);
-  // Deviation s needs about (1.96 s / 0.05)^2 seeds, more for the levels of the looks.
+  // Deviation s needs about (1.96 s / 0.05)^2 seeds, more for the levels of the interim checks.
   Goal known = goal;
   known.parts[0].deviation = 0.09, known.wanted = 0.05;
   const std::vector<int> seeds = seedsToReach(cases, known, {3}, looks);
   ASSERT_EQ(seeds.size(), 1u);
   EXPECT_EQ(seeds[0], 24);
-  // Student's quantile at 24 seeds is 2.40 at the level of two looks, which would do, and 2.71 at that of four.
+  // Student's quantile at 24 seeds is 2.40 at the level of two checks, which would suffice, and 2.71 at that of four.
   known.parts[0].deviation = 0.1;
   EXPECT_EQ(seedsToReach(cases, known, {3}, looks), (std::vector{48}));
   known.parts[0].deviation = 10;
@@ -260,14 +260,14 @@ TEST(CheckGoals, ABudgetHoldsWhatItIsGiven) {
   const Looks looks = looksUpTo(24, true);
   const SeedsFit ten = [&](const std::vector<int>& s) { return secondsOf(cases, unitCosts(), s) <= 10; };
   const std::vector<int> first = firstLook(cases, looks, ten);
-  EXPECT_EQ(first, (std::vector{3, 0, 3})) << "the dear case comes later";
+  EXPECT_EQ(first, (std::vector{3, 0, 3})) << "the expensive case comes later";
   EXPECT_EQ(firstLook(cases, looks, [](const std::vector<int>&) { return false; }), (std::vector{3, 0, 0}));
   Goal open;
   open.state = GoalState::open;
   EXPECT_EQ(secondLook(cases, {open}, first, looks, ten), first);
   EXPECT_EQ(secondLook(cases, {open}, first, looks, kAnyFit), (std::vector{3, 3, 3}));
   open.state = GoalState::limited;
-  EXPECT_EQ(secondLook(cases, {open}, first, looks, kAnyFit), first) << "an axis has shown that no run helps";
+  EXPECT_EQ(secondLook(cases, {open}, first, looks, kAnyFit), first) << "one axis shows that no run helps";
 }
 
 TEST(CheckGoals, TheCheaperOfTwoEqualCasesComesFirst) {
@@ -278,7 +278,7 @@ TEST(CheckGoals, TheCheaperOfTwoEqualCasesComesFirst) {
   const Looks looks = looksUpTo(24, true);
   Goal goal;
   goal.state = GoalState::open, goal.value = 1, goal.wanted = 0.21;
-  // Three seeds of each axis leave 0.18 of both: one of them at six seeds is enough.
+  // Three seeds of each axis leave 0.18 for both: one of them at six seeds is enough.
   for (std::size_t c = 0; c < 3; ++c) {
     BarPart& part = goal.parts.emplace_back();
     part.ofCase = c, part.axis = cases.cases[c].axis, part.seeds = 3, part.miss = looks.levels.change;
@@ -292,7 +292,7 @@ TEST(CheckGoals, CasesWithoutAPartInTheBarsAreRunWhereTheyAreNamed) {
   CheckCases cases;
   cases.seeded = true, cases.cases.resize(4);
   cases.cases[1].axis = CheckAxis::skin, cases.cases[2].axis = CheckAxis::precision;
-  cases.cases[3].axis = CheckAxis::step, cases.cases[3].refinement = -1; // 2 h leaves the bar as it is
+  cases.cases[3].axis = CheckAxis::step, cases.cases[3].refinement = -1; // 2 h does not change the error bar
   CheckCases named = cases;
   keepGoalCases(cases, {});
   EXPECT_EQ(cases.cases.size(), 1u);
@@ -312,7 +312,7 @@ TEST(CheckGoals, WhereRunsRepeatAllFinerStepsAreRun) {
   const Looks looks = looksUpTo(24, false);
   const std::vector<int> first = firstLook(cases, looks, kAnyFit), all = {1, 1, 1, 1};
   EXPECT_EQ(first, (std::vector{1, 0, 0, 0}));
-  for (const GoalState state : {GoalState::open, GoalState::met}) { // a bar of two steps may be narrow by chance
+  for (const GoalState state : {GoalState::open, GoalState::met}) { // a bar from two steps may be narrow by chance
     Goal goal;
     goal.state = state;
     EXPECT_EQ(secondLook(cases, {goal}, first, looks, kAnyFit), all);
@@ -331,8 +331,9 @@ TEST(CheckGoals, FiguresHaveShortNames) {
     goalFigure("tension", columns);
     FAIL();
   } catch (const base::InputError& error) {
-    EXPECT_STREQ(error.what(), "--of tension: no such figure; choose from sinkage, torque, speed, sinkage_mean, "
-                               "sinkage_max, drive_torque");
+    EXPECT_STREQ(
+        error.what(),
+        "--of tension: unknown figure; choose from sinkage, torque, speed, sinkage_mean, sinkage_max, drive_torque");
   }
 }
 

@@ -38,7 +38,7 @@ TEST_F(CheckOf, TheCheckStopsWhereTheBarIsMet) {
   EXPECT_EQ(goal.at("state"), "met");
   EXPECT_LE(goal.at("bar").get<double>(), 0.45 * std::fabs(f.at("value").get<double>()));
   EXPECT_EQ(goal.at("bar"), f.at("bar"));
-  // The heap scatters far more than the step changes it: seeds of the base come first.
+  // The scatter of the heap far exceeds the effect of the step: seeds of the base come first.
   EXPECT_GT(runsOf(check, "base"), runsOf(check, "step_over_2"));
   EXPECT_EQ(runsOf(check, "step_over_2"), 3u);
   EXPECT_EQ(runsOf(check, "skin"), 0u);
@@ -65,7 +65,7 @@ TEST_F(CheckOf, TheFilesAreTheSameForOneJobTwoJobsAndACheckThatGoesOn) {
 TEST_F(CheckOf, AKilledCheckGoesOnWithTheSameLooks) {
   writeHeap();
   const std::string words = std::string(kWords) + "--budget 60s --set run.time_step=1e-5 --out c";
-  // Killed once it has chosen its first runs.
+  // Killed after selecting its first runs.
   ASSERT_EQ(shell("\"$grouser\" " + words +
                   " & until test -e c/choice.json || ! kill -0 $!; do sleep 0.01; done; kill -KILL $!; wait $!")
                 .code,
@@ -88,7 +88,7 @@ TEST_F(CheckOf, ABarBeyondTheMostSeedsIsNamedWithWhatWouldDo) {
   const Outcome o = call("check heap.toml --bar 1% --of ground_force_z --seeds 3 --out c");
   ASSERT_EQ(o.code, 0) << o.errors;
   const Json goal = json("c/check.json").at("of").at(0);
-  EXPECT_EQ(goal.at("state"), "not met: beyond --seeds");
+  EXPECT_EQ(goal.at("state"), "not met: requires more than --seeds");
   EXPECT_NE(o.out.find("; largest contribution: seeds "), std::string::npos) << o.out;
   EXPECT_FALSE(goal.at("met").get<bool>());
 }
@@ -108,14 +108,14 @@ TEST_F(CheckOf, WhereRunsRepeatAllFinerStepsAreRun) {
 
 TEST_F(CheckOf, WrongWordsAreRefused) {
   writeHeap();
-  for (const auto& [words, named] : {std::pair{"--of colour", "--of colour: no such figure; choose from "},
+  for (const auto& [words, named] : {std::pair{"--of colour", "--of colour: unknown figure; choose from "},
                                      {"--bar 0% --of ground_force_z", "--bar"},
                                      {"--bar x% --of ground_force_z", "--bar"}}) {
     const Outcome o = call(std::string("check heap.toml --out c ") + words);
     EXPECT_EQ(o.code, 2) << words;
     EXPECT_EQ(o.error().find(named), 0u) << o.errors;
   }
-  // Figures of a vehicle are known before anything is run.
+  // Figures of a vehicle are known before any run.
   const Outcome o = call("check '" + std::string(GROUSER_SOURCE_DIR) + "/runs/scenes/ball_pit.toml' --of sinkag");
   EXPECT_EQ(o.code, 2);
   EXPECT_NE(o.error().find("choose from sinkage, torque, tension, "), std::string::npos) << o.errors;

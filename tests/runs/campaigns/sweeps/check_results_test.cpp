@@ -26,7 +26,7 @@ constexpr double kStudent = 4.303;
 
 class CheckResults : public FolderTest {
 protected:
-  /// A case with one run a value: seeds 1, 2... A value of NaN is a run that failed.
+  /// A case with one run per value: seeds 1, 2... NaN is a failed run.
   void add(CheckAxis axis, const std::string& name, int refinement, const std::vector<double>& values,
            const std::string& hash = "00") {
     CheckCase c;
@@ -85,7 +85,7 @@ TEST_F(CheckResults, DifferencesAreTakenSeedBySeed) {
   EXPECT_NEAR(f.value.halfWidth, kStudent / std::sqrt(3.0), 1e-6);
   const AxisError e = errorBy(f, CheckAxis::depth);
   EXPECT_NEAR(e.change.value, 2, 1e-12);
-  EXPECT_NEAR(e.change.halfWidth, kStudent * 0.1 / std::sqrt(3.0), 1e-6); // not of the scatter of the values
+  EXPECT_NEAR(e.change.halfWidth, kStudent * 0.1 / std::sqrt(3.0), 1e-6); // not from the scatter of the values
   EXPECT_EQ(e.verdict, jobs::Verdict::differs);
   EXPECT_NEAR(f.bar, std::hypot(f.value.halfWidth, 2 + e.change.halfWidth), 1e-9);
 }
@@ -123,7 +123,7 @@ TEST_F(CheckResults, TheStepsOrderIsOfBothSides) {
   const AxisError e = errorBy(depth(), CheckAxis::step);
   ASSERT_TRUE(e.order);
   EXPECT_NEAR(*e.order, 1, 1e-9);
-  EXPECT_NEAR(e.change.value, -0.2, 1e-9); // to no step at all
+  EXPECT_NEAR(e.change.value, -0.2, 1e-9); // extrapolated to zero step
 }
 
 TEST_F(CheckResults, PrecisionIsNoPartOfABarOverSeeds) {
@@ -143,7 +143,7 @@ TEST_F(CheckResults, WhereSeedsMakeNoDifferenceTheStepsTellTheError) {
   const CheckFigure f = depth();
   EXPECT_EQ(f.value.halfWidth, 0);
   const AxisError e = errorBy(f, CheckAxis::step);
-  EXPECT_NEAR(e.change.value, -0.8, 1e-9); // 3 at no step
+  EXPECT_NEAR(e.change.value, -0.8, 1e-9); // 3 at zero step
   EXPECT_NEAR(f.bar, 1.25 * 0.8, 1e-9);
   // Also for other steps: two values remain for the quarter, none for the eighth.
   const std::vector<double> bars = f.barOfStep;
@@ -177,7 +177,7 @@ TEST_F(CheckResults, SeedsArePairedInWhateverOrderTheirRunsAre) {
 }
 
 TEST_F(CheckResults, OfManySeedsPairsAreFoundInTime) {
-  constexpr int kSeeds = 100'000; // squared it would take a minute
+  constexpr int kSeeds = 100'000; // a quadratic algorithm would take a minute
   CheckRuns runs;
   for (std::size_t c = 0; c < 2; ++c)
     for (int s = 0; s < kSeeds; ++s) runs.caseOf.push_back(c), runs.seedOf.push_back(kSeeds - s);
@@ -193,7 +193,7 @@ TEST_F(CheckResults, RoundingIsToldByTheLargestFigureOfItsUnit) {
   add(CheckAxis::step, "half", 1, {3.4});
   EXPECT_TRUE(isAboveRounding(depth()));
   EXPECT_FALSE(isAboveRounding(figure("left over [m] at the end")));
-  // The same beside nothing larger than a nanometre is a length.
+  // Beside lengths below a nanometre it is significant.
   record_ = {}, record_.folder = folder_;
   std::filesystem::remove_all(folder_ / "base0"), std::filesystem::remove_all(folder_ / "half0");
   add(CheckAxis::base, "base", 0, {3.8e-9});
@@ -224,7 +224,7 @@ TEST_F(CheckResults, TheCheapestSettingHoldsStepAndSeedsTogether) {
   EXPECT_EQ(ten.name, "base");
   EXPECT_EQ(ten.seeds, 2); // t of one degree of freedom times 0.0816 / sqrt(2) is below 0.99
   EXPECT_DOUBLE_EQ(ten.wall, 20);
-  EXPECT_EQ(tenth.name, ""); // the step alone is beyond
+  EXPECT_EQ(tenth.name, ""); // only the step exceeds the bar
 }
 
 TEST_F(CheckResults, SeriesHaveAValueAndABarAtEveryTime) {
@@ -232,7 +232,7 @@ TEST_F(CheckResults, SeriesHaveAValueAndABarAtEveryTime) {
   add(CheckAxis::step, "half", 1, {9.9, 10.9, 11.9});
   const CheckSeries s = checkSeries(record_.cases, record_.runs, record_.outcomes);
   EXPECT_EQ(s.time, (std::vector<double>{0, 0.5, 1}));
-  ASSERT_EQ(s.series.size(), 2U); // rebuilds are none of the ground's
+  ASSERT_EQ(s.series.size(), 2U); // the ground has no rebuilds
   EXPECT_EQ(s.series[0].name, "depth [m]");
   EXPECT_EQ(s.series[0].value, (std::vector<double>{1, 22, 11}));
   EXPECT_NEAR(s.series[0].step[1], 2 * 0.2, 1e-9);
@@ -250,7 +250,7 @@ TEST_F(CheckResults, TheParameterErrorIsTheIntervalOfOneMoreSample) {
   const AxisError e = errorBy(f, CheckAxis::parameter);
   EXPECT_EQ(e.seeds, 3);
   EXPECT_NEAR(e.change.value, 0.5, 1e-12);
-  // Samples deviate by -1, 0 and 2.5: s = 1.803; one more lies within t s sqrt(1 + 1/3) of their mean.
+  // Samples deviate by -1, 0 and 2.5: s = 1.803; a further one lies within t s sqrt(1 + 1/3) of their mean.
   const double halfWidth = kStudent * std::sqrt(3.25) * std::sqrt(4.0 / 3);
   EXPECT_NEAR(e.change.halfWidth, halfWidth, 1e-3);
   EXPECT_NEAR(e.bar, 0.5 + halfWidth, 1e-3);

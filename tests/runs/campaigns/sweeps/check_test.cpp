@@ -32,7 +32,7 @@ TEST_F(Check, AFallsErrorByTheStepIsFoundWithItsOrder) {
   EXPECT_NEAR(f.at("value").get<double>(), 1 - 0.5 * g * duration * (duration + step), 1e-8);
   const Json e = errorBy(f, "step");
   EXPECT_NEAR(e.at("order").get<double>(), 1, 0.01);
-  EXPECT_NEAR(e.at("change").get<double>(), 0.5 * g * duration * step, 1e-7); // the true error
+  EXPECT_NEAR(e.at("change").get<double>(), 0.5 * g * duration * step, 1e-7); // the exact error
   EXPECT_NEAR(f.at("bar").get<double>(), 1.25 * 0.5 * g * duration * step, 1e-6);
 }
 
@@ -55,7 +55,7 @@ TEST_F(Check, TheFilesAreTheSameForOneJobTwoJobsAndSeveralCalls) {
   writeHeap();
   ASSERT_EQ(call("check heap.toml --seeds 3 --out one").code, 0);
   ASSERT_EQ(call("check heap.toml --seeds 3 --jobs 2 --out two").code, 0);
-  // A call with a short time limit, one after a run was lost, and one that finishes the check.
+  // A call with a short time limit, one after the loss of a run, and one that completes the check.
   call("check heap.toml --seeds 3 --out some --seconds 0.05");
   fs::remove(folder_ / "some/base,seed=1/manifest.json");
   ASSERT_EQ(call("check heap.toml --seeds 3 --out some").code, 0);
@@ -76,7 +76,7 @@ TEST_F(Check, TheFilesAreTheSameForOneJobTwoJobsAndSeveralCalls) {
 
 TEST_F(Check, WhatCannotRunIsShownAndTheOthersGoOn) {
   writeHeap();
-  // Twice the step of the scene is above what its contacts bear.
+  // Twice the scene's step exceeds the limit of its contacts.
   const Outcome o = call("check heap.toml --seeds 2 --axes step --set run.time_step=4e-4 --out c");
   ASSERT_EQ(o.code, 0) << o.errors;
   bool refused = false;
@@ -100,18 +100,18 @@ TEST_F(Check, ABudgetNamesWhatItLeavesOut) {
   };
   const Outcome o = call(words);
   ASSERT_EQ(o.code, 0) << o.errors;
-  EXPECT_NE(choice(o.out).find("left out: "), std::string::npos) << o.out;
+  EXPECT_NE(choice(o.out).find("skipped: "), std::string::npos) << o.out;
   bool named = false;
   const Json check = json("c/check.json");
   for (const Json& c : check.at("cases")) named = named || c.at("status") == "left out";
   EXPECT_TRUE(named);
-  // A second call selects the same runs, whatever the cost of the first.
+  // A second call selects the same runs, regardless of the cost of the first.
   const Outcome again = call(words);
   ASSERT_EQ(again.code, 0) << again.errors;
   EXPECT_EQ(choice(again.out), choice(o.out));
 }
 
-/// A bed of 90 grains that is settled before each run; `more` ends the file.
+/// A bed of 90 grains that settles before each run; `more` adds keys.
 std::string bedScene(const std::string& more = "") {
   return "version = 1\n[run]\nduration = 0.01\noutput_interval = 0.005\nthreads = 1\n[material.sand]\nstiffness = "
          "1e4\n[terrain]\nheightmap = \"" +
@@ -137,12 +137,12 @@ TEST_F(Check, TheFirstRunOfABudgetSettlesItsBedAlthoughThatOfAnotherSeedIsKept) 
   ASSERT_EQ(call("run bed.toml --out r", keep).code, 0);
   EXPECT_GT(settling("r"), 0);
   ASSERT_EQ(call("run bed.toml --out again", keep).code, 0);
-  EXPECT_EQ(settling("again"), 0) << "its bed was kept";
+  EXPECT_EQ(settling("again"), 0) << "its bed was cached";
   const Outcome o = call("check bed.toml --axes skin --seeds 2 --budget 60s --out c", keep);
   ASSERT_EQ(o.code, 0) << o.errors;
-  EXPECT_NE(o.out.find("run 1 of 1  base,seed=2"), std::string::npos) << o.out; // the run's own was kept
+  EXPECT_NE(o.out.find("run 1 of 1  base,seed=2"), std::string::npos) << o.out; // the run's own was cached
   EXPECT_GT(json("c/choice.json").at("settling_s").get<double>(), 0);
-  // Where all beds are kept their steps tell what settling takes.
+  // If all beds are cached, their steps determine the settling time.
   ASSERT_EQ(call("check bed.toml --axes skin --seeds 2 --budget 60s --out d", keep).code, 0);
   EXPECT_GT(json("d/choice.json").at("settling_s").get<double>(), 0);
 }
@@ -180,11 +180,11 @@ TEST_F(Check, WhatBoundsABedAtItsSidesLeavesTheWidthOut) {
   };
   EXPECT_EQ(width(""), "run");
   EXPECT_EQ(width(plane("[0, 0.06, 0]", "[0, -1, 0]")),
-            "plane 0 (side) stands at a side of the bed and would not move with it");
-  EXPECT_EQ(width(plane("[0, 0, -0.1]", "[0, 0, 1]")), "run") << "a level plane is the same beside the bed";
-  EXPECT_EQ(width(box("[0.1, 0, 0]", "[0.04, 0.04, 0.3]")), "run") << "a post within it";
+            "plane 0 (side) is at a side of the bed and would not move with it");
+  EXPECT_EQ(width(plane("[0, 0, -0.1]", "[0, 0, 1]")), "run") << "a level plane looks the same beside the bed";
+  EXPECT_EQ(width(box("[0.1, 0, 0]", "[0.04, 0.04, 0.3]")), "run") << "a post inside it";
   EXPECT_EQ(width(box("[0.1, -0.07, 0]", "[0.3, 0.02, 0.2]")).substr(0, 14), "box 0 stands a");
-  EXPECT_EQ(width(box("[0.1, -0.2, 0]", "[0.3, 0.02, 0.2]")), "run") << "farther than the wider bed";
+  EXPECT_EQ(width(box("[0.1, -0.2, 0]", "[0.3, 0.02, 0.2]")), "run") << "beyond the wider bed";
 }
 
 TEST_F(Check, ARunSaysWhetherItsSceneHasBeenChecked) {
@@ -198,10 +198,10 @@ TEST_F(Check, ARunSaysWhetherItsSceneHasBeenChecked) {
   EXPECT_EQ(after.out.find("grouser check fall"), std::string::npos) << after.out;
   EXPECT_NE(after.out.find("grain.0.position.z [m] at the end"), std::string::npos) << after.out;
   EXPECT_NE(after.out.find(" +- "), std::string::npos);
-  // A lesser check does not take the place of a better one.
+  // An inferior check does not replace a better one.
   ASSERT_EQ(call("check fall.toml --axes precision --out less", keep).code, 0);
   const Outcome still = call("run fall.toml --out r --force", keep);
-  EXPECT_NE(still.out.find("error bars by step"), std::string::npos) << still.out;
+  EXPECT_NE(still.out.find("error bars from step"), std::string::npos) << still.out;
   // They do not apply to another scene.
   const Outcome other = call("run fall.toml --out r --force --set run.time_step=5e-4", keep);
   EXPECT_NE(other.out.find("grouser check "), std::string::npos) << other.out;
@@ -221,7 +221,7 @@ TEST_F(Check, BarsOfSomeFiguresDoNotTakeThePlaceOfThoseOfAll) {
   ASSERT_EQ(call("check fall.toml --bar 5%" + of, keep).code, 0);
   EXPECT_EQ(keptFolder(), "some");
   ASSERT_EQ(call("check fall.toml --axes precision --out all", keep).code, 0);
-  EXPECT_EQ(keptFolder(), "all") << "made of fewer runs, but for all figures";
+  EXPECT_EQ(keptFolder(), "all") << "fewer runs, but all figures";
   ASSERT_EQ(call("check fall.toml --bar 5% --force" + of, keep).code, 0);
   EXPECT_EQ(keptFolder(), "all");
 }
@@ -243,11 +243,11 @@ TEST_F(Check, AFileOfTheSceneThatHasChangedIsNoticed) {
       << kQuiet;
   ASSERT_EQ(call("check mesh.toml --axes step --out c").code, 0);
   const Outcome again = call("check mesh.toml --axes step --out c");
-  EXPECT_NE(again.out.find("base                         finished already"), std::string::npos) << again.out;
+  EXPECT_NE(again.out.find("base                         already finished"), std::string::npos) << again.out;
   std::ofstream(folder_ / "ball.off") << "OFF\n4 4 0\n0 0 0\n2 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
   const Outcome changed = call("check mesh.toml --axes step --out c");
   EXPECT_EQ(changed.code, 0) << changed.errors;
-  EXPECT_EQ(changed.out.find("finished already"), std::string::npos) << changed.out;
+  EXPECT_EQ(changed.out.find("already finished"), std::string::npos) << changed.out;
 }
 
 TEST_F(Check, WrongWordsAreRefusedBeforeAnythingIsWritten) {
@@ -278,7 +278,7 @@ TEST_F(Check, TheBarsOfScenesWithAKnownTruthHoldIt) {
   const Outcome held = shell(script + "bounce,pendulum,column --out held --program \"$grouser\"");
   EXPECT_EQ(held.code, 0) << held.out << held.errors;
   EXPECT_NE(held.out.find("all        3 of 3 covered"), std::string::npos) << held.out;
-  // Detects a program whose bars are 1000 times too small.
+  // Detects a program with error bars 1000 times too small.
   std::ofstream(folder_ / "boast")
       << "#!/bin/sh\n'" << programUnderTest().string()
       << "' \"$@\" && sed -i 's/\"bar\": \\([0-9.]*\\)/\"bar\": 0.00\\1/' \"$4/check.json\"\n";
@@ -289,7 +289,7 @@ TEST_F(Check, TheBarsOfScenesWithAKnownTruthHoldIt) {
 
 TEST_F(Check, WhereNothingEndsItSaysWhy) {
   writeFall();
-  // Through a plane at 100 m/s.
+  // Passes through a plane at 100 m/s.
   const Outcome o = call("check fall.toml --axes step --out c --set grain.0.velocity='[0, 0, -9000]'");
   EXPECT_NE(o.code, 0);
   EXPECT_NE(o.errors.find("error"), std::string::npos);

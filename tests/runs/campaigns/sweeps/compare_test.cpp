@@ -48,7 +48,7 @@ TEST(Grounds, ABedLosesItsGrains) {
   for (const Words& words : {rigid, scm}) {
     EXPECT_TRUE(has(words, "~terrain.depth"));
     EXPECT_TRUE(has(words, "~terrain.grain_radius"));
-    EXPECT_FALSE(has(words, "terrain.depth=0.3")) << "only a bed has it";
+    EXPECT_FALSE(has(words, "terrain.depth=0.3")) << "only a bed has this key";
     EXPECT_TRUE(has(words, "run.duration=1"));
   }
   EXPECT_FALSE(has(rigid, "scm.c=0"));
@@ -76,18 +76,20 @@ TEST(Grounds, DeformableSoilBecomesABed) {
 }
 
 TEST(Grounds, NameWhatIsMissing) {
-  EXPECT_NE(fault(shipped("rigid_control.toml"), {}, TerrainKind::scm).find("is not; add --set terrain.material=SOIL"),
-            std::string::npos);
+  EXPECT_NE(
+      fault(shipped("rigid_control.toml"), {}, TerrainKind::scm).find("is not one; add --set terrain.material=SOIL"),
+      std::string::npos);
   EXPECT_EQ(fault(shipped("rigid_control.toml"), {"terrain.material=dry_sand"}, TerrainKind::scm), "");
-  EXPECT_EQ(fault(shipped("rigid_control.toml"), {"scm.n=1"}, TerrainKind::scm), "") << "the loader names the others";
+  EXPECT_EQ(fault(shipped("rigid_control.toml"), {"scm.n=1"}, TerrainKind::scm), "") << "the loader lists the others";
   EXPECT_NE(fault(shipped("drum.toml"), {}, TerrainKind::scm).find("[terrain] is missing"), std::string::npos);
 }
 
 TEST(Grounds, EverySceneOfAVehicleIsConverted) {
   int scenes = 0;
   for (const auto& entry : fs::directory_iterator(shipped(""))) {
+    if (entry.path().extension() != ".toml") continue;
     const scene::Scene own = setup::loadScene(entry.path());
-    if (!own.terrain || !own.vehicle || own.fluid) continue; // fluid stands beside rigid ground alone
+    if (!own.terrain || !own.vehicle || own.fluid) continue; // fluid requires rigid ground
     ++scenes;
     for (const TerrainKind ground : {TerrainKind::rigid, TerrainKind::scm, TerrainKind::granular}) {
       Words sets = {"terrain.material=lete_sand"};
@@ -166,7 +168,8 @@ TEST(Compare, TablesHaveEveryPairOfGrounds) {
   EXPECT_EQ(json["rows"][0]["means"][2]["values"].size(), 3u);
   all.variants[0].figures[0] = {NAN, NAN}, all.differences[0].verdicts[0] = all.differences[1].verdicts[0] = "";
   const std::string none = comparisonText(all, 5);
-  EXPECT_NE(none.find("rigid is inconclusive: its runs end before full speed"), std::string::npos) << none;
+  EXPECT_NE(none.find("rigid is inconclusive: its runs end before the vehicle reaches full speed"), std::string::npos)
+      << none;
   EXPECT_EQ(none.find("scm - rigid"), std::string::npos) << none;
 }
 

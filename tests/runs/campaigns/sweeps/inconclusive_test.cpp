@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Figures of runs that drove in reverse, turned on the spot, on one track, or hardly drove at all.
+// Results of runs in reverse, with pivot turns, on one track, or with hardly any driving.
 #include "runs/campaigns/sweeps/check_report.hpp"
 #include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
@@ -26,7 +26,7 @@ using namespace test; // fixtures
 
 namespace {
 
-/// One track: sprocket [rad/s], hull there [m/s], torque [N m], teeth a second.
+/// One track: sprocket [rad/s], hull there [m/s], torque [N m], teeth per second.
 struct Driven {
   double turns, speed, torque, teeth;
 };
@@ -35,7 +35,7 @@ class Inconclusive : public FolderTest {
 protected:
   SweepPlan plan_;
 
-  /// Runs of 3 s, steady from 2 s on.
+  /// Runs of 3 s, steady from 2 s.
   Inconclusive() {
     plan_.keys = {"run.seed"};
     for (const std::string seed : {"1", "2"}) {
@@ -45,7 +45,7 @@ protected:
       scene.run.duration = 3, scene.driver.driveStart = 0.7, scene.driver.driveRamp = 0.3;
     }
   }
-  /// `turned`: in every second row the vehicle goes backward. `resumed`: at this step, of 3000.
+  /// `turned`: in every second row the vehicle moves backwards. `resumed`: at this step, of 3000.
   void write(std::size_t run, const Driven& left, const std::optional<Driven>& right, bool turned = false,
              double resumed = 0) {
     std::vector<output::Channel> channels;
@@ -81,11 +81,11 @@ protected:
   }
 };
 
-/// Nine digits are written.
+/// The file has nine digits.
 constexpr double kNine = 2e-9;
 
 TEST_F(Inconclusive, SlipIsThatOfEachTrackWhereItRunsTo) {
-  // Slip 0.4 each: in reverse, on the spot, and on the spot the other way round.
+  // Slip 0.4 each: in reverse, in a pivot turn, and in the opposite pivot turn.
   for (const double way : {-1.0, 1.0})
     for (const double other : {-1.0, 1.0}) {
       write(0, {way * 2, way * 0.3, 500, way * 4}, Driven{other * 2, other * 0.3, 500, other * 4});
@@ -94,12 +94,12 @@ TEST_F(Inconclusive, SlipIsThatOfEachTrackWhereItRunsTo) {
       EXPECT_NEAR(csv.number(0, "teeth passed [-]"), 4, 4 * kNine) << way << " " << other;
       EXPECT_EQ(csv.at(0, "inconclusive"), "");
     }
-  // Braked: the hull goes faster than its tracks.
+  // Braked: the hull is faster than its tracks.
   write(0, {2, 0.6, -500, 4}, Driven{2, 0.6, -500, 4});
   EXPECT_NEAR(written().number(0, "slip [-]"), -0.2, kNine);
 }
 
-/// A locked sprocket turns by the rounding of its lock.
+/// A locked sprocket rotates by rounding errors.
 TEST_F(Inconclusive, ALockedTrackHasNoPartInTheSlip) {
   for (const double rounding : {7.6e-48, -7.6e-48, 0.0}) {
     write(0, {rounding, 0.25, 0, 0}, Driven{2, 0.3, 500, 4});
@@ -126,12 +126,12 @@ TEST_F(Inconclusive, MeansAlongADirectionThatChangesAreMarkedAndCountInNoMean) {
   EXPECT_NEAR(valueOf("speed [m/s]"), 0.3, 1e-12);
 }
 
-/// Half of the steps were made before the run was resumed.
+/// Half of the steps precede the resume.
 TEST_F(Inconclusive, WallTimeIsThatOfAllStepsOfAResumedRun) {
   write(0, {2, 0.3, 500, 4}, Driven{2, 0.3, 500, 4}, false, 1500);
   EXPECT_NEAR(written().number(0, "wall time [s]"), 20, 20 * kNine);
   write(0, {2, 0.3, 500, 4}, Driven{2, 0.3, 500, 4}, false, 3000);
-  EXPECT_NEAR(written().number(0, "wall time [s]"), 10, 10 * kNine) << "it went on at its end";
+  EXPECT_NEAR(written().number(0, "wall time [s]"), 10, 10 * kNine) << "it resumed from its end";
 }
 
 TEST_F(Inconclusive, OneTrackHasFiguresOfItsOwn) {
@@ -143,7 +143,7 @@ TEST_F(Inconclusive, OneTrackHasFiguresOfItsOwn) {
 }
 
 TEST_F(Inconclusive, FewerThanTwoTeethAreMarkedAndCountInNoMeanBesideSoundRuns) {
-  const std::string few = "1.9 teeth in the steady part, fewer than 2";
+  const std::string few = "the steady part covers 1.9 teeth, fewer than 2";
   const auto ofSeeds = [&] {
     return seedIntervals(
         plan_, sweepFigures(plan_, {{output::RunStatus::finished, ""}, {output::RunStatus::finished, ""}}, folder_));
@@ -154,19 +154,19 @@ TEST_F(Inconclusive, FewerThanTwoTeethAreMarkedAndCountInNoMeanBesideSoundRuns) 
     return std::nan("");
   };
   write(0, {2, 0.3, 500, 1.4}, Driven{2, 0.3, 500, 1.9});
-  EXPECT_EQ(written().at(0, "inconclusive"), few) << "of the track that passed more";
+  EXPECT_EQ(written().at(0, "inconclusive"), few) << "for the track with more teeth";
   write(1, {2, 0.3, 700, 2.1}, Driven{2, 0.3, 700, 1});
   EXPECT_EQ(ofSeeds().groups[0].runs, 1);
   EXPECT_EQ(ofSeeds().groups[0].doubt, "");
   EXPECT_NEAR(torqueOf(ofSeeds()), 1400, 1e-9);
-  // None is sound: their mean is marked.
+  // None is conclusive: their mean is marked.
   write(1, {2, 0.3, 700, 1.9}, Driven{2, 0.3, 700, 1});
   EXPECT_EQ(ofSeeds().groups[0].runs, 2);
   EXPECT_EQ(ofSeeds().groups[0].doubt, few);
   EXPECT_NEAR(torqueOf(ofSeeds()), 1200, 1e-9);
   EXPECT_NE(intervalsText(ofSeeds()).find("2 seeds  inconclusive"), std::string::npos) << intervalsText(ofSeeds());
   EXPECT_EQ(Csv(writeIntervals(ofSeeds(), folder_)).at(0, "inconclusive"), few);
-  // A scene that keeps the vehicle at rest requests means over no tooth.
+  // A scene that keeps the vehicle at rest requests means over zero teeth.
   plan_.runs[0].scene.driver.sprocketSpeed = 0;
   plan_.runs[0].scene.driver.left.reset(), plan_.runs[0].scene.driver.right.reset();
   EXPECT_EQ(written().at(0, "inconclusive"), "");
@@ -181,10 +181,10 @@ TEST_F(Inconclusive, AnIncompleteRunSaysWhy) {
   EXPECT_EQ(csv.number(0, "steps"), 3000);
 }
 
-/// Where the runs of a check hardly drove, only figures that are 0 in all of them are conclusive.
+/// If the runs of a check hardly drove, only values that are 0 in all of them are conclusive.
 TEST_F(Inconclusive, WhatIs0InAllRunsOfACheckIsSure) {
   CheckResults results;
-  results.doubt = "1.9 teeth in the steady part, fewer than 2";
+  results.doubt = "the steady part covers 1.9 teeth, fewer than 2";
   for (const double value : {0.0, 500.0}) {
     CheckFigure& figure = results.figures.emplace_back();
     figure.name = "drive torque [N m]", figure.value = {value, 0}, figure.bar = 0;
@@ -194,7 +194,7 @@ TEST_F(Inconclusive, WhatIs0InAllRunsOfACheckIsSure) {
   EXPECT_EQ(json["figures"][1]["inconclusive"], true);
 }
 
-/// -47 +- 12155: not even the sign is known.
+/// -47 +- 12155: even the sign is unknown.
 TEST_F(Inconclusive, IntervalsBeyondTheirOwnSizeAreMarked) {
   SweepFigures figures;
   figures.columns = {"drive torque [N m]", "speed [m/s]"};

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Scenes of a grain that flies 100 s: as a limit, which [stop] would not reach. None is run.
+/// Scenes of a grain that flies for up to 100 s, ended earlier by [stop]. None is run.
 class SweepOrder : public ProgramTest {
 protected:
   void SetUp() override {
@@ -29,7 +29,7 @@ protected:
                               "position = [0, 0, 1]\nradius = 0.01\nmaterial = \"glass\"\n";
   }
   fs::path scene() const { return folder_ / "fall.toml"; }
-  /// Runs are a shell script that finds its folder in $2.
+  /// Runs are a shell script with its folder in $2.
   SweepOptions options(const std::string& script) const {
     SweepOptions o;
     o.folder = folder_ / "out", o.program = folder_ / "program", o.plot = false;
@@ -64,7 +64,7 @@ TEST_F(SweepOrder, RunsWithTheMostWorkAreBegunFirstWhereSeveralGoAtATime) {
         if (line == plan.runs[i].name) names += std::to_string(i);
     return names;
   };
-  // Two at a time: of those begun together either may be the first to write.
+  // Two at a time: either of a pair may write first.
   const auto inPairs = [&](double seconds) {
     std::string names = order(2, seconds);
     EXPECT_EQ(names.size(), 4U);
@@ -73,7 +73,7 @@ TEST_F(SweepOrder, RunsWithTheMostWorkAreBegunFirstWhereSeveralGoAtATime) {
     return names;
   };
   EXPECT_EQ(order(1, 0), "0123");
-  EXPECT_EQ(inPairs(1000), "0123") << "the end may come before the last";
+  EXPECT_EQ(inPairs(1000), "0123") << "the last may end early";
   EXPECT_EQ(inPairs(0), "1302");
 }
 
@@ -93,9 +93,9 @@ TEST_F(SweepOrder, ShareDoneIsOfTheTimeAtWhichRunsAreExpectedToEnd) {
   plan.runs[0].expectedEnd = 8, plan.runs[1].expectedEnd = 2;
   EXPECT_EQ(expectedEnd(plan.runs[0]), 8);
   plan.runs[1].expectedEnd = 200;
-  EXPECT_EQ(expectedEnd(plan.runs[1]), 100) << "its duration ends it";
+  EXPECT_EQ(expectedEnd(plan.runs[1]), 100) << "it runs for its full duration";
   plan.runs[1].expectedEnd = 2;
-  // A program that has simulated 5 s at once and then takes until after the first line of progress.
+  // A program that simulates 5 s at once and then waits until after the first progress line.
   SweepOptions o = options("printf 'step,time [s]\\n100,2\\n250,5\\n260,5.2' > \"$2/timeseries.csv\"\nsleep 5.3\n");
   o.jobs = 2;
   ::testing::internal::CaptureStderr();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grain-size case of `grouser check` for a soil: values of the soil file scale once.
+// Grain-size case of `grouser check` for a soil: values of the soil file are scaled once.
 #include "runs/campaigns/sweeps/check_cases.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 class SoilCases : public FolderTest {
 protected:
-  /// The material of the case in which the bed of this scene has finer grains.
+  /// The material in the case with finer grains in this scene's bed.
   scene::Material finer(const std::string& material) const {
     const auto file = folder_ / "scene.toml";
     put(file, "version = 1\n[run]\nduration = 1\n" + material +
@@ -28,7 +28,7 @@ protected:
         EXPECT_EQ(c.refused, "");
         return setup::loadScene(file, c.overrides).material("reference_spheres");
       }
-    ADD_FAILURE() << "no case of finer grains";
+    ADD_FAILURE() << "no case with finer grains";
     return {};
   }
 };

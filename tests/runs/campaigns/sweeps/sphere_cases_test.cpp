@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sphere case of `grouser check`, for every origin of the sphere radius.
+// Sphere case of `grouser check`, for every source of the sphere radius.
 #include "runs/campaigns/sweeps/check_cases.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"

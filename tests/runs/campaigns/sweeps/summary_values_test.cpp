@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// summary.csv of runs whose quantities all change over the steady part, each in its own way.
+// summary.csv of runs in which all quantities change over the steady part, each in its own way.
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 
 #include "runs/output/channels.hpp"
@@ -35,7 +35,7 @@ protected:
   }
 };
 
-/// Nine digits are written.
+/// The file has nine digits.
 void expectNine(double is, double wanted, const char* what) {
   EXPECT_NEAR(is, wanted, 2e-9 * std::fabs(wanted)) << what;
 }
@@ -58,7 +58,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
   writer.constant(output::kPitchRadius, 0.25);
   RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
-    // Before 2 s all is far off; then u goes from -1 to 1 in 11 rows.
+    // Before 2 s all values are far off; then u goes from -1 to 1 in 11 rows.
     const double u = r < 20 ? 50 : (r - 25) / 5.0;
     row.begin(100 * r, 0.1 * r);
     row.set("vehicle/left/sprocket_speed", 3 + u), row.set("vehicle/right/sprocket_speed", 2 - 0.5 * u);
@@ -66,7 +66,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
     row.set("vehicle/left/drive_power", 1240 + 700 * u), row.set("vehicle/right/drive_power", 588 - 30 * u);
     row.set("vehicle/left/speed", 0.5 + 0.2 * u), row.set("vehicle/right/speed", 0.3 - 0.1 * u);
     row.set("vehicle/left/teeth_passed", 10 + 5 * u), row.set("vehicle/right/teeth_passed", 20 + 3 * u);
-    // One shoe sinks, one comes up, one carries in one row only.
+    // One shoe sinks, one rises, one carries load in one row only.
     for (const std::string side : {"left", "right"}) {
       const double of = side == "left" ? 1 : 2;
       row.set("vehicle/" + side + "/sinkage",

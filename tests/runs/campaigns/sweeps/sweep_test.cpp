@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sweeps: product of values, names, skipped runs of a second call, and a failed run that does not stop others.
+// Sweeps: product of values, names, skipped runs of a second call, and other runs after a failed run.
 #include "runs/campaigns/sweeps/sweep.hpp"
 #include "runs/setup/load_scene.hpp"
 
@@ -34,8 +34,8 @@ protected:
     writeScene("1e-3");
   }
 
-  /// A falling grain above a plane, which at 100 m/s it would meet v sqrt(m / k) = 1e-2 m deep, five times what is
-  /// allowed: then a run fails.
+  /// A grain that falls onto a plane; at 100 m/s its overlap would be v sqrt(m / k) = 1e-2 m, five times
+  /// max_overlap: the run then fails.
   void writeScene(const std::string& duration) const {
     std::ofstream(scene()) << "version = 1\n[run]\nduration = " << duration
                            << "\ntime_step = 1e-5\noutput_interval = 1e-4\nthreads = 1\n[material.glass]\n[[grain]]\n"
@@ -56,7 +56,7 @@ protected:
     o.jobs = jobs, o.force = force;
     return runSweep(planSweep(scene(), {sets}), o);
   }
-  /// When a run last wrote its manifest; what was left out keeps it.
+  /// Time of a run's last manifest; skipped runs keep it.
   fs::file_time_type ended(const std::string& run) const { return fs::last_write_time(out() / run / "manifest.json"); }
 };
 
@@ -74,7 +74,7 @@ TEST_F(Sweep, IsTheProductOfAllListsNamedByTheirValues) {
   Words names;
   for (const SweepRun& run : plan.runs) {
     names.push_back(run.name);
-    EXPECT_EQ(run.scene.run.skin, 0.5) << "one value is for all";
+    EXPECT_EQ(run.scene.run.skin, 0.5) << "a single value applies to all";
   }
   EXPECT_EQ(names, (Words{"seed=1,velocity=0_0_1", "seed=1,velocity=1_0_0", "seed=2,velocity=0_0_1",
                           "seed=2,velocity=1_0_0"}));
@@ -134,7 +134,7 @@ TEST_F(Sweep, ACaseMaySetWhatOneValueSetsForTheOthers) {
   lists.cases = {"base", "long: run.duration=2e-3"};
   lists.sets = {"run.duration=1e-4"};
   SweepOptions o = options();
-  o.jobs = 2; // the threads are shared among them, whatever --threads says
+  o.jobs = 2; // the runs share the threads, regardless of --threads
   const SweepPlan plan = planSweep(scene(), lists, {"run.threads=0", "run.device=cpu"});
   EXPECT_EQ(plan.runs[0].scene.run.duration, 1e-4);
   EXPECT_EQ(plan.runs[1].scene.run.duration, 2e-3);
@@ -175,7 +175,7 @@ TEST_F(Sweep, LeavesAFolderARunAndASummary) {
   EXPECT_EQ(csv.at(1, "status"), "finished");
   EXPECT_EQ(csv.at(1, "steps"), "100");
   EXPECT_EQ(csv.at(1, "state hash").size(), 16u);
-  EXPECT_EQ(csv.at(0, "state hash"), csv.at(1, "state hash")) << "a single grain knows no seed";
+  EXPECT_EQ(csv.at(0, "state hash"), csv.at(1, "state hash")) << "a single grain does not depend on the seed";
   EXPECT_EQ(csv.at(0, "speed [m/s]"), "no such cell") << "no vehicle, no speed";
   EXPECT_GE(std::stod(csv.at(0, "wall time [s]")), 0);
 }
@@ -187,14 +187,15 @@ TEST_F(Sweep, RunsThatEndBeforeTheyAreUpToSpeedAreNamed) {
   const Outcome brief = call(words + "--set run.duration=0.02 --set vehicle.sphere_radius=0.03 --seeds 2 --out brief",
                              "export GROUSER_CACHE=cache\n");
   EXPECT_EQ(brief.code, 0) << brief.errors;
-  EXPECT_NE(brief.out.find("note      2 of 2 runs ended before full speed and have no means"), std::string::npos)
+  EXPECT_NE(brief.out.find("note      2 of 2 runs ended before the vehicle reached full speed, so they have no means"),
+            std::string::npos)
       << brief.out;
-  EXPECT_EQ(brief.out.find("slip [-]"), std::string::npos) << "a heading of nothing";
+  EXPECT_EQ(brief.out.find("slip [-]"), std::string::npos) << "a heading without values";
   EXPECT_EQ(call("sweep fall.toml --set run.seed=1,2").out.find("note"), std::string::npos) << "no vehicle, no drive";
 }
 
 TEST_F(Sweep, TheSummaryHasTheLoadsOnSurfaces) {
-  // The grain lies on it from the start.
+  // The grain touches it from the start.
   std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"belt\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"
                                            "material = \"glass\"\nvelocity = [0.1, 0, 0]\n";
   ASSERT_EQ(sweep({"run.duration=0.05", "run.output_interval=1e-3", "box.0.velocity.0=0.1,0.2"}), 0);
@@ -204,17 +205,17 @@ TEST_F(Sweep, TheSummaryHasTheLoadsOnSurfaces) {
     const auto number = [&](const char* column) { return std::stod(csv.at(row, column)); };
     EXPECT_EQ(csv.at(row, "run"), row == 0 ? "box.0.velocity.0=0.1" : "box.0.velocity.0=0.2");
     EXPECT_EQ(number("steady from [s]"), 0.025);
-    EXPECT_NEAR(number("belt force z [N]"), -weight, 0.05 * weight) << "at rest but for what is left of its sinking in";
+    EXPECT_NEAR(number("belt force z [N]"), -weight, 0.05 * weight) << "at rest except for residual settling motion";
     EXPECT_NEAR(number("belt position x at the end [m]"), row == 0 ? 0.005 : 0.01, 1e-12);
     EXPECT_EQ(number("belt force y [N]"), 0);
-    EXPECT_NEAR(number("belt torque z [N m]"), 0, 1e-9) << "grain and centre lie in one plane";
+    EXPECT_NEAR(number("belt torque z [N m]"), 0, 1e-9) << "grain and centre are in one plane";
   }
 }
 
 TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
   ASSERT_EQ(sweep({"run.seed=1,2"}), 0);
   const auto one = ended("seed=1"), two = ended("seed=2");
-  // One value more, and a run that was killed in between.
+  // One more value, and a run killed halfway.
   std::string manifest = contents(out() / "seed=2/manifest.json");
   manifest.replace(manifest.find("finished"), 8, "running");
   std::ofstream(out() / "seed=2/manifest.json") << manifest;
@@ -222,7 +223,7 @@ TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
   EXPECT_EQ(ended("seed=1"), one);
   EXPECT_NE(ended("seed=2"), two);
   EXPECT_EQ(Csv(out() / "summary.csv").at(2, "status"), "finished");
-  // Threads are no other scene; a longer duration is.
+  // Threads do not change the scene; a longer duration does.
   SweepOptions o = options();
   ASSERT_EQ(runSweep(planSweep(scene(), {{"run.seed=1,2,3"}}, {"run.threads=2"}), o), 0);
   EXPECT_EQ(ended("seed=1"), one);
@@ -233,8 +234,8 @@ TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
 }
 
 TEST_F(Sweep, SeedsGiveIntervalsAndDifferences) {
-  // A named box at a height that the seed has no part in: each case's interval has no width, and the force of a box
-  // that bears two grains is twice that of one.
+  // A named box at a height independent of the seed: each case's interval has zero width, and the force on a box
+  // with two grains is twice that with one.
   std::ofstream(scene(), std::ios::app) << "[[box]]\nname = \"pan\"\nposition = [0, 0, 0.49]\nsize = [1, 1, 1]\n"
                                            "material = \"glass\"\n";
   SweepLists lists;
@@ -250,7 +251,7 @@ TEST_F(Sweep, SeedsGiveIntervalsAndDifferences) {
     EXPECT_EQ(csv.at(row, "seeds"), "3");
     EXPECT_EQ(csv.number(row, "half width"), 0);
     EXPECT_NEAR(csv.number(row, "difference to the first [-]"), seen == 1 ? 0 : 1, 0.1);
-    EXPECT_NEAR(csv.number(row, "half width of the difference [-]"), 0, 1e-14) << "but for rounding of the mean";
+    EXPECT_NEAR(csv.number(row, "half width of the difference [-]"), 0, 1e-14) << "except for rounding of the mean";
   }
   EXPECT_EQ(seen, 2);
   EXPECT_EQ(csv.at(0, "run.seed"), "no such cell");
@@ -281,7 +282,7 @@ TEST_F(Sweep, AFailedRunStopsNoOther) {
   EXPECT_NE(csv.at(1, "message").find("pass through"), std::string::npos) << csv.at(1, "message");
   EXPECT_EQ(csv.at(1, "state hash"), "");
   EXPECT_EQ(csv.at(2, "status"), "finished");
-  EXPECT_EQ(csv.rows[1].size(), csv.header.size()) << "a message with commas is one cell";
+  EXPECT_EQ(csv.rows[1].size(), csv.header.size()) << "a message with commas occupies one cell";
 }
 
 TEST_F(Sweep, ARunThatIsKilledIsAFailedRun) {
@@ -327,7 +328,7 @@ TEST_F(Sweep, TablesOfAnEarlierOneDoNotStay) {
   ASSERT_EQ(call("sweep fall.toml --set material.glass.restitution=0.3,0.9 --seeds 2 --out s").code, 0);
   ASSERT_TRUE(fs::exists(folder_ / "s/intervals.csv"));
   ASSERT_EQ(call("sweep fall.toml --set material.glass.restitution=0.5,0.6 --out s").code, 0);
-  EXPECT_FALSE(fs::exists(folder_ / "s/intervals.csv")) << "of other values";
+  EXPECT_FALSE(fs::exists(folder_ / "s/intervals.csv")) << "other values";
 }
 
 TEST_F(Sweep, TheFolderOfARunIsNone) {
@@ -348,7 +349,7 @@ TEST_F(Sweep, WhoeverStartedItMayIgnoreEndsOfProcesses) {
 
 TEST_F(Sweep, RunsAtTheSameTimeTakeTheGpusInTurn) {
   unsetenv("GROUSER_GPU");
-  // A program that only prints its GPU; it is slow on the first.
+  // A program that only prints its GPU; slow on the first.
   const fs::path program = folder_ / "says.sh";
   std::ofstream(program) << "#!/bin/sh\necho gpu $GROUSER_GPU\n[ $GROUSER_GPU = 1 ] || sleep 2\n";
   fs::permissions(program, fs::perms::owner_all);
@@ -358,7 +359,7 @@ TEST_F(Sweep, RunsAtTheSameTimeTakeTheGpusInTurn) {
   runMissing(plan, o, "gpus", [](const std::vector<SweepOutcome>&) {});
   std::vector<std::string> given;
   for (const SweepRun& run : plan.runs) given.push_back(contents(out() / run.name / "log.txt"));
-  // Each that begins takes the place of one that has ended.
+  // Each new run takes the place of a finished one.
   EXPECT_EQ(given, (std::vector<std::string>{"gpu 0\n", "gpu 1\n", "gpu 1\n", "gpu 1\n"}));
 }
 
@@ -376,7 +377,7 @@ TEST_F(Sweep, FoldersOfOtherOriginAreKept) {
   fs::create_directories(out() / "seed=2");
   std::ofstream(out() / "seed=2/thesis.txt") << "precious";
   EXPECT_THROW(sweep({"run.seed=1,2"}), base::InputError);
-  EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
+  EXPECT_FALSE(fs::exists(out() / "seed=1")) << "error before any run";
   EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
   EXPECT_EQ(contents(out() / "seed=2/thesis.txt"), "precious");
 }
@@ -389,13 +390,13 @@ TEST_F(Sweep, TablesOfOtherOriginAreKept) {
     EXPECT_EQ(o.code, 2) << name;
     EXPECT_NE(o.error().find(std::string("out/") + name + ": exists but was not written by a sweep"), std::string::npos)
         << o.errors;
-    EXPECT_FALSE(fs::exists(out() / "seed=1")) << "found before anything runs";
+    EXPECT_FALSE(fs::exists(out() / "seed=1")) << "error before any run";
     EXPECT_EQ(contents(out() / name), "run,marks,status\nthesis,1,good\n");
     fs::remove(out() / name);
   }
   put(out() / "summary.csv", "");
   EXPECT_EQ(sweep({"run.seed=1,2"}, 1, true), 0);
-  EXPECT_EQ(sweep({"run.seed=1,2"}), 0) << "its own";
+  EXPECT_EQ(sweep({"run.seed=1,2"}), 0) << "its own folder";
 }
 
 TEST_F(Sweep, ExitCodesAreZeroTwoAndThree) {
@@ -422,33 +423,33 @@ TEST_F(Sweep, StoppedOneEndsItsRunsAndSaysWhatIsReady) {
   EXPECT_NE(contents(folder_ / "s/duration=50/manifest.json").find("\"stopped\""), std::string::npos);
 }
 
-/// By hand: of 2, 4, 6 the mean is 4 and half the interval t(2) 2 / sqrt 3, t(2) = 4.3027; the differences to 1, 2, 3
-/// are 1, 2, 3 with mean 2 and half width t(2) / sqrt 3, over the first's mean of 2.
+/// By hand: 2, 4, 6 have mean 4 and half width t(2) 2 / sqrt 3, t(2) = 4.3027; the differences to 1, 2, 3
+/// are 1, 2, 3 with mean 2 and half width t(2) / sqrt 3, divided by the first's mean of 2.
 TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
   SweepPlan plan;
   plan.keys = {kCaseKey, kSeedKey};
   for (const char* name : {"base", "other"})
     for (const char* seed : {"1", "2", "3"}) plan.runs.push_back({"", {name, seed}, {}, {}});
-  plan.runs.push_back({"", {"other", "4"}, {}, {}}); // has no like among the first
+  plan.runs.push_back({"", {"other", "4"}, {}, {}}); // has no match among the first
   SweepFigures figures;
   figures.columns = {"speed [m/s]", "slip [-]"};
   for (const double v : {1.0, 2.0, 3.0, 2.0, 4.0, 6.0}) figures.values.push_back({v, std::nan("")});
-  figures.values.push_back({std::nan(""), std::nan("")}); // has failed
+  figures.values.push_back({std::nan(""), std::nan("")}); // a failed run
   const SeedIntervals all = seedIntervals(plan, figures);
   ASSERT_EQ(all.groups.size(), 2u);
   EXPECT_EQ(all.keys, Words{kCaseKey});
   EXPECT_EQ(all.groups[1].values, Words{"other"});
   EXPECT_EQ(all.groups[1].runs, 3);
-  const double t = 4.30265 / std::sqrt(3.0); // the program has the quantile to three digits after the point
+  const double t = 4.30265 / std::sqrt(3.0); // the program's quantile has three decimals
   EXPECT_NEAR(all.groups[1].figures[0].value, 4, 1e-12);
   EXPECT_NEAR(all.groups[1].figures[0].halfWidth, 2 * t, 1e-3);
   EXPECT_NEAR(all.groups[1].differences[0].value, 1, 1e-12);
   EXPECT_NEAR(all.groups[1].differences[0].halfWidth, t / 2, 1e-3);
   EXPECT_EQ(all.groups[0].differences[0].value, 0);
-  EXPECT_TRUE(std::isnan(all.groups[1].figures[1].value)) << "no run has it";
+  EXPECT_TRUE(std::isnan(all.groups[1].figures[1].value)) << "no run has this figure";
   EXPECT_NEAR(all.groups[1].changes[0].value, 2, 1e-12);
   EXPECT_NEAR(all.groups[1].changes[0].halfWidth, t, 1e-3);
-  // 2 +- 2.48 may as well be zero: no shares of it.
+  // 2 +- 2.48 includes zero: no relative values.
   EXPECT_NE(intervalsText(all).find("+2.0 +- 2.5\n"), std::string::npos) << intervalsText(all);
   for (std::vector<double>& row : figures.values) row[0] += 10;
   EXPECT_NE(intervalsText(seedIntervals(plan, figures)).find("+16.7 +- "), std::string::npos);
@@ -458,7 +459,7 @@ TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
 
 TEST_F(Sweep, AFailureThatStaysIsNotRunAgain) {
   SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0,0,-145]"}});
-  // Each run names its scene: of the plan's nothing is taken.
+  // Each run contains its scene: the plan's is not used.
   plan.scene = folder_ / "none.toml";
   for (SweepRun& run : plan.runs) run.file = scene();
   SweepOptions o = options();

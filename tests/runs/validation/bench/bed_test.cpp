@@ -26,7 +26,7 @@ BedBench tinyBed() {
   return b;
 }
 
-/// The coupled scene, unsettled and coarse, for comparison of bits.
+/// The coupled scene, unsettled and coarse, for bitwise comparison.
 scene::Scene shortScene() {
   return setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/coupled.toml",
                           {"terrain.settle_time_limit=0", "vehicle.sphere_radius=0.03", "run.skin=0.03",
@@ -44,7 +44,7 @@ TEST(StageTimer, ComputesTheSameBitsAsTheLoop) {
   EXPECT_EQ(timed.steps(), plain.steps());
   EXPECT_EQ(timer.steps(), 150);
   EXPECT_EQ(timed.ground().grains->system().rebuilds, plain.ground().grains->system().rebuilds);
-  EXPECT_GE(timer.rebuilds(), 1) << "the pass must hold a rebuild";
+  EXPECT_GE(timer.rebuilds(), 1) << "the pass must contain a rebuild";
   for (const coupling::StageTimer::Part& part : timer.parts()) EXPECT_GT(part.microseconds, 0) << part.name;
   EXPECT_GT(timer.part(coupling::Stage::grainStep).microseconds,
             timer.part(coupling::Stage::grainStepEnded).microseconds);
@@ -71,7 +71,7 @@ TEST(BenchBed, SettlesAndCountsWhatItSays) {
   EXPECT_LE(f.times.least(), f.times.median());
   EXPECT_LE(f.times.median(), f.times.most());
   EXPECT_EQ(f.stepsTaken, 2000 + 25 + 3 * 20) << "settling, warm-up, batches";
-  // 8 x 8 places a layer: each grain that has come down rests on one at least.
+  // 8 x 8 sites per layer: each settled grain has at least one contact.
   EXPECT_GT(f.contactsPerGrain, 0.5);
   EXPECT_LT(f.contactsPerGrain, 6);
   EXPECT_GT(f.listLength, f.contactsPerGrain);
@@ -150,18 +150,18 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   for (const auto& [name, microseconds] : s["instrumented_microseconds_a_step"].items())
     if (name != "sum") sum += microseconds.get<double>();
   EXPECT_NEAR(sum, s["instrumented_microseconds_a_step"]["sum"].get<double>(), 1e-9 * sum);
-  EXPECT_GT(s["contacts_a_step"]["grain_boundary"].get<double>(), 0) << "the bottom layer lies on the floor";
+  EXPECT_GT(s["contacts_a_step"]["grain_boundary"].get<double>(), 0) << "the bottom layer is on the floor";
   EXPECT_GT(s["host_peak_bytes"].get<double>(), 1e6);
 
   EXPECT_EQ(s["timed"], "standing");
   EXPECT_TRUE(s["drive_start_s"].is_null() || s["drive_start_s"].get<double>() > 0.03);
-  EXPECT_NE(step.out.find("timed     the vehicle stands"), std::string::npos) << step.out;
+  EXPECT_NE(step.out.find("timed     the vehicle is at rest"), std::string::npos) << step.out;
 
   EXPECT_EQ(call("bench bed --grains 0").code, 2);
   EXPECT_EQ(call("bench step nosuch.toml").code, 2);
 }
 
-/// `grouser bench step` of a vehicle whose ramps end at 0.02 s; batch and instrumented pass: ten steps of 1e-4 s.
+/// `grouser bench step` of a vehicle with ramps up to 0.02 s; batch and instrumented pass: ten steps of 1e-4 s.
 class BenchStep : public BenchCommands {
 protected:
   nlohmann::json timed(const std::string& words) const {
@@ -184,7 +184,7 @@ protected:
 TEST_F(BenchStep, TimesADrivingVehicleUnlessATimeIsGiven) { expect("", "driving", 0.07); }
 
 TEST_F(BenchStep, WaitsForAStartThatOnlyTheRunKnows) {
-  // At a look at the vehicle (every 50 steps): 0.05 s at rest after the ramps.
+  // At a check of the vehicle (every 50 steps): 0.05 s at rest after the ramps.
   const nlohmann::json waited = timed("--set driver.rest_speed=10 --set driver.rest_load=0.5 --after drive");
   EXPECT_EQ(waited["timed"], "speeding up");
   EXPECT_GE(waited["drive_start_s"].get<double>(), 0.09 - 1e-9);
@@ -199,8 +199,9 @@ TEST_F(BenchStep, SaysHowTheVehicleMovesAtEachTime) {
 TEST_F(BenchStep, RefusesATimeThatIsNone) {
   const Outcome wrong = call("bench step x.toml --after driven");
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_NE(wrong.errors.find("driven is not a time in seconds of at least 0, drive, or drive+TIME, e.g. drive+0.5"),
-            std::string::npos)
+  EXPECT_NE(
+      wrong.errors.find("driven is neither a time in seconds (0 or more) nor drive or drive+TIME, e.g. drive+0.5"),
+      std::string::npos)
       << wrong.errors;
 }
 

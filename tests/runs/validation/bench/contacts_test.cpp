@@ -56,7 +56,7 @@ TEST(ContactSpheres, InsideTheBlockASphereTouchesSixOthers) {
   for (const auto& part : found.pairs)
     for (const IdPair& p : part.toHost()) contacts += inside[p.first] + inside[p.second];
   const double count = static_cast<double>(std::count(inside.begin(), inside.end(), true));
-  // About 90,000 spheres whose number of contacts has a standard deviation of 1.2: 0.02 is five errors of the mean.
+  // About 90,000 spheres whose contact numbers have a standard deviation of 1.2: 0.02 is five errors of the mean.
   EXPECT_NEAR(contacts / count, 6.0, 0.02);
 }
 
@@ -84,7 +84,7 @@ TEST(BenchContacts, FiguresHoldContactsTimesAndBullet) {
 
 TEST(BenchBullet, FindsThePairsThatOverlapAndNoOthers) {
   if (bulletVersion().empty()) GTEST_SKIP() << "built without Bullet";
-  // A row: the first two overlap, the third only nearly touches, the fourth is alone.
+  // A row: the first two overlap, the third almost touches, the fourth is isolated.
   const BulletFigures f = benchBullet({{0, 0, 0}, {0.9f, 0, 0}, {1.905f, 0, 0}, {5, 0, 0}}, 1.0f, 2);
   EXPECT_EQ(f.contacts, 1);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The multibody benchmark runs the models it prints, and its figures are complete.
+// The multibody benchmark runs the printed models, and its results are complete.
 #include "runs/validation/bench/multibody.hpp"
 
 #include "tests/runs/program_fixture.hpp"
@@ -29,7 +29,7 @@ TEST(BenchMultibody, DrivesTheVehiclesGraph) {
   // 88 + 30 revolutes and two slides of five rows, two universals of four, two sphericals of three.
   EXPECT_EQ(f.rows, 5 * (88 + 30 + 2) + 4 * 2 + 3 * 2);
   EXPECT_EQ(f.loops, 2);
-  // A track of pitch radius 0.3 m at 3 rad/s, a tenth of a second after the drive is up: it moves, if with slip.
+  // A track of pitch radius 0.3 m at 3 rad/s, a tenth of a second after the ramp: it moves, with slip.
   EXPECT_GT(f.hullSpeed, 0.2);
   EXPECT_LT(f.hullSpeed, 2);
   EXPECT_GE(f.iterations, 1);

@@ -16,7 +16,7 @@ using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
 constexpr std::int64_t kDiameter = 150'000'001;
 
-/// Uniform random spheres in a box with these edges [diameters] around a centre.
+/// Uniform random spheres in a box with these edges [diameters] about a centre.
 std::vector<Position> randomSpheres(std::uint64_t seed, int count, const base::Vec3d& box,
                                     const base::Vec3d& middle = {}) {
   std::vector<Position> spheres;
@@ -38,7 +38,7 @@ Pairs bruteForce(const std::vector<Position>& spheres) {
     for (std::uint32_t j = i + 1; j < spheres.size(); ++j) {
       const base::Vec3d d = (base::toUnits(spheres[j]) - base::toUnits(spheres[i])).as<double>();
       const auto apart = base::toUnits(spheres[j]) - base::toUnits(spheres[i]);
-      if (norm(d) < 2.0 * double(kDiameter) && // the exact square below needs small differences
+      if (norm(d) < 2.0 * double(kDiameter) && // the exact square below requires small differences
           apart.x * apart.x + apart.y * apart.y + apart.z * apart.z < kDiameter * kDiameter)
         pairs.emplace_back(i, j);
     }
@@ -74,9 +74,9 @@ TEST(PairSearch, FindsWhatBruteForceFindsEachPairOnce) {
   } beds[] = {{1500, {9, 9, 9}, {}},                  // dense: up to dozens of neighbours
               {1500, {14, 14, 14}, {-300, 20, 7000}}, // about six
               {2000, {200, 3, 1}, {}},                // a rod
-              {2000, {1, 1, 300}, {5, -5, 0}},        // and one across the slabs' direction
-              {800, {0.5, 0.5, 0.5}, {}},             // all in a heap
-              {500, {500, 500, 500}, {}},             // hardly any
+              {2000, {1, 1, 300}, {5, -5, 0}},        // a rod across the direction of the slabs
+              {800, {0.5, 0.5, 0.5}, {}},             // all in one heap
+              {500, {500, 500, 500}, {}},             // hardly any neighbours
               {2, {0.5, 0.5, 0.5}, {}},
               {1, {1, 1, 1}, {}}};
   for (const auto& bed : beds) {
@@ -115,7 +115,7 @@ TEST(PairSearch, SharesTogetherFindEveryPairOnce) {
       PairSearchOptions options;
       options.share = share, options.of = of;
       const Search s = search(spheres, options);
-      // Layers of cells are not cut: of 16, half are 8, a third 5 or 6, but an eighth may be 1 to 3.
+      // Cell layers are not split: of 16 layers, half are 8, a third 5 or 6, but an eighth may be 1 to 3.
       EXPECT_NEAR(double(s.pairs.size()) * of / double(all.size()), 1, of < 8 ? 0.3 : 0.6)
           << "share " << share << " of " << of;
       together.insert(together.end(), s.pairs.begin(), s.pairs.end());
@@ -147,7 +147,7 @@ TEST(PairSearch, FarStraysCostNoMemoryAndHideNoPair) {
   spheres.push_back(base::fromUnits({kFar, kFar, kFar}));
   spheres.push_back(base::fromUnits({-kFar, -kFar, kFar}));
   spheres.push_back(base::fromUnits({kFar, kFar - 5, kFar}));
-  // These differ by 0 in their low words, and share the wide cells that the strays make.
+  // Their low words are equal, and they share the wide cells caused by the distant spheres.
   spheres.push_back(base::fromUnits({12345, 0, 0}));
   spheres.push_back(base::fromUnits({12345 + (std::int64_t{1} << 32), 0, 0}));
   EXPECT_EQ(sorted(search(spheres).pairs), bruteForce(spheres));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The script that compares the speed of grouser, LIGGGHTS and LAMMPS on one core, with a stand-in for the latter two,
+// The script that compares the speed of grouser, LIGGGHTS and LAMMPS on one core, with a substitute for the latter two,
 // and the bed files it exchanges.
 #include "runs/validation/bench/bench.hpp"
 
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 class Peers : public ProgramTest {
 protected:
   bool missing() const { return shell("/usr/bin/python3 -c 'import numpy, h5py'").code != 0; }
-  /// A program that checks its input, works for as long as it has steps, and ends where grouser did, raised by `higher`
+  /// A program that checks its input, works for as many steps, and returns grouser's final state, raised by `higher`
   /// [m].
   void putStandIn(const std::string& higher) const {
     put(folder_ / "stand-in",
@@ -50,11 +50,11 @@ TEST_F(Peers, ScriptHandsOneStateAndOneLawToAllAndTimesThem) {
   const Outcome all = script();
   ASSERT_EQ(all.code, 0) << all.out << all.errors;
   const std::string table = contents(folder_ / "results" / "peers.csv");
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * 4) << "two turns of four\n" << table;
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * 4) << "two passes of four\n" << table;
   EXPECT_NE(all.out.find("LAMMPS a stand-in"), std::string::npos) << all.out;
 
-  // gamma = 2 zeta sqrt(k / m_eff) of the bed's restitution of 0.5, and its root of a half against walls, to float's
-  // digits; 2/7 and 1/2 of them along the tangent.
+  // gamma = 2 zeta sqrt(k / m_eff) of the bed's restitution of 0.5, and its root of one half for walls, to float
+  // precision; 2/7 and 1/2 of them tangentially.
   const std::string lammps = contents(folder_ / "results" / "lammps" / "in.bed"),
                     liggghts = contents(folder_ / "results" / "liggghts" / "in.bed");
   const auto numbersAfter = [](const std::string& text, const std::string& word, int count) {
@@ -96,8 +96,8 @@ TEST_F(Peers, BedFileHoldsTheStateThatABenchBeginsWith) {
   const std::string bench = "\"$grouser\" bench bed --grains 320 --threads 1 --batches 1 --steps 1 ";
   ASSERT_EQ(shell(bench + "--settle 0.05 --save bed.txt").code, 0);
   const std::string bed = contents(folder_ / "bed.txt");
-  EXPECT_EQ(std::count(bed.begin(), bed.end(), '\n'), 321) << "a line a grain, and one of names";
-  // It moves on from there: 26 steps later no grain is further than its speed can take it.
+  EXPECT_EQ(std::count(bed.begin(), bed.end(), '\n'), 321) << "one line per grain, and a header";
+  // The motion continues from there: 26 steps later the displacement of grains is within their speed.
   ASSERT_EQ(shell(bench + "--settle 0 --start bed.txt --save later.txt").code, 0);
   const std::string later = contents(folder_ / "later.txt");
   EXPECT_NE(later, bed);
@@ -107,7 +107,7 @@ TEST_F(Peers, BedFileHoldsTheStateThatABenchBeginsWith) {
     double a[10], b[10];
     for (double& value : a) before >> value;
     for (double& value : b) after >> value;
-    // Speeds change by at most 1 m/s in this time: none falls by more than from its lattice, sqrt(2 g 0.05 m).
+    // Speeds change by at most 1 m/s in this time: the fall is at most from the lattice, sqrt(2 g 0.05 m).
     for (int k = 0; k < 3; ++k) EXPECT_LT(std::fabs(b[k] - a[k]), (std::fabs(a[4 + k]) + 1) * seconds) << "grain " << g;
   }
   const Outcome fewer = shell("\"$grouser\" bench bed --grains 300 --threads 1 --start bed.txt");

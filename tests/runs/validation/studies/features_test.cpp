@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Cost of features: nothing when they are off. No test depends on times.
+// Cost of features: zero if they are off. No test depends on times.
 #include "runs/validation/studies/features.hpp"
 #include "tests/runs/program_fixture.hpp"
 
@@ -45,7 +45,7 @@ TEST(FeatureCosts, WhatIsOnTakesMemoryAndChangesTheState) {
     EXPECT_GT(c.bytesWith, c.bytesWithout) << name;
   }
   EXPECT_GT(cost("radii").bytesWith, cost("radii").bytesWithout);
-  EXPECT_TRUE(cost("no_ledger").sameState) << "energy accounting changes no motion";
+  EXPECT_TRUE(cost("no_ledger").sameState) << "energy accounting does not change the motion";
 }
 
 jobs::Table pairs(const std::vector<std::vector<double>>& times, double bytesWith, double same) {
@@ -55,11 +55,11 @@ jobs::Table pairs(const std::vector<std::vector<double>>& times, double bytesWit
 }
 
 TEST(FeatureCosts, DifferenceIsThatOfThePairs) {
-  // Both drift alike; the pairs differ by 10 +- little.
+  // Both drift alike; the pair differences are about 10.
   const FeatureCost c = costOf(pairs({{100, 110}, {200, 211}, {300, 309}}, 120, 0));
   EXPECT_DOUBLE_EQ(c.without, 200);
   EXPECT_NEAR(c.difference.value, 10, 1e-12);
-  // Student's 4.303 of two degrees of freedom, deviation 1, three pairs.
+  // Student's 4.303 for two degrees of freedom, deviation 1, three pairs.
   EXPECT_NEAR(c.difference.halfWidth, 4.3027 / std::sqrt(3.0), 1e-3);
   EXPECT_NEAR(c.relative.value, 0.05, 1e-12);
   EXPECT_EQ(c.bytesWith - c.bytesWithout, 20);
@@ -86,7 +86,7 @@ TEST_F(FeaturesStudy, GoesOnWithWhatIsThereAndKnowsItsFeatures) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "results/runs/off_rolling.csv"));
   const Outcome none = call(words + "colour --force");
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.error().find("--features colour: unknown; features are friction, rolling"), std::string::npos)
+  EXPECT_NE(none.error().find("--features colour: unknown; choose from friction, rolling"), std::string::npos)
       << none.errors;
 }
 

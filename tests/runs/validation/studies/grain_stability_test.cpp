@@ -25,7 +25,7 @@ ContactNetwork closePacked(int cells, double tangentialRatio) {
         for (int k = 0; k < 27; ++k) {
           const int a = k / 9 - 1, b = k / 3 % 3 - 1, c = k % 3 - 1;
           if (a * a + b * b + c * c != 2) continue;
-          // Around the corner: a crystal without surface.
+          // Neighbours beyond the edge: a crystal without surface.
           const std::uint32_t i = id(x, y, z),
                               j = id((x + a + cells) % cells, (y + b + cells) % cells, (z + c + cells) % cells);
           const double h = std::sqrt(0.5);
@@ -53,7 +53,7 @@ TEST(ContactModes, ClosePackedSpheresReachGershgorinsBound) {
 }
 
 TEST(ContactModes, ClosePackedSpheresThatStickTurnAlikeFastest) {
-  // All turn with w: each of 12 contacts slips 2 w R; two thirds of it lie across the contact in the mean. So
+  // All rotate with w: each of 12 contacts slips at 2 w R; on average two thirds of it is across the contact. So
   // 12 (2/3) 2 k_t R^2 / (2/5 m R^2) = 40 k_t / m.
   for (const double ratio : {2.0 / 7, 0.8}) {
     const double frequency = highestFrequency(closePacked(6, ratio));

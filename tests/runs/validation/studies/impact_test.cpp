@@ -52,12 +52,12 @@ TEST(StudyImpact, StepMeetsTheWholeTableOfClosedForms) {
       if (!clamped && row.zeta == 0.9) continue; // 2.3 contact times for a restitution of 0.0015
       const ImpactCase c{clamped ? ImpactLaw::linearClamped : ImpactLaw::linearFree, false, row.zeta, 1};
       const ImpactPoint p = measureImpact(c, Precision::single, kSteps, {5, 1});
-      // First order: half a step of the dashpot's force at first touch is missed or too much, zeta pi / steps of the
-      // speed, of which the restitution keeps its share; durations and overlaps as many times as much.
+      // First order: at first touch half a step of the dashpot's force is missing or in excess, zeta pi / steps of the
+      // speed, times the restitution; errors of durations and overlaps scale alike.
       const double missed = base::kPi / kSteps * (0.05 + row.zeta);
       EXPECT_LT(p.error[kRestitution].worst, missed) << c.name();
       EXPECT_LT(p.error[kOverlap].worst, 2 * missed) << c.name();
-      EXPECT_LT(p.error[kDuration].worst, 4 * missed + 1 / kSteps) << c.name(); // zero where there is none
+      EXPECT_LT(p.error[kDuration].worst, 4 * missed + 1 / kSteps) << c.name(); // zero if there is no contact
     }
 }
 
@@ -88,7 +88,7 @@ TEST(StudyImpact, OrderIsOneWithDampingAndTwoWithout) {
           if (!reference.value[static_cast<std::size_t>(q)]) continue;
           const support::LineFit order = measuredOrder(series, q);
           ASSERT_TRUE(order.hasError()) << c.name();
-          // Four points whose phases differ: 0.25, and more where Hertz' soft beginning is kinder than theory demands.
+          // Four points with different phases: 0.25, and more if the soft start of a Hertz contact reduces the error.
           const bool soft = !c.isLinear() && c.damping == 0 && q == kRestitution;
           EXPECT_GT(order.slope, expectedOrder(c, q) - 0.25) << c.name() << ", " << impactQuantityName(q);
           EXPECT_LT(order.slope, expectedOrder(c, q) + (soft ? 3 : 0.25)) << c.name() << ", " << impactQuantityName(q);
@@ -101,7 +101,7 @@ TEST(StudyImpact, RestitutionDoesNotDependOnTheSpeed) {
     for (const Precision precision : {Precision::single, Precision::double_}) {
       const double atOne = measureImpact({law, false, 0.2, 1}, precision, 49.35, {5, 1}).measured[kRestitution];
       for (const double speed : {1e-3, 1e-2, 0.1, 10.0})
-        // At 1 mm/s the overlap is 2000 units of length: a unit more or less when the contact begins and ends.
+        // At 1 mm/s the overlap is 2000 units of length: plus or minus one unit at the start and end of contact.
         EXPECT_NEAR(measureImpact({law, false, 0.2, speed}, precision, 49.35, {5, 1}).measured[kRestitution], atOne,
                     speed < 0.01 ? 5e-4 : 5e-5)
             << ImpactCase{law, false, 0.2, speed}.name() << " at " << speed;
@@ -117,7 +117,7 @@ TEST(StudyImpact, CheapestStepIsTheCoarsestThatAllFinerOnesConfirm) {
     series.points.push_back(p);
   }
   ASSERT_NE(cheapestImpact(series, kRestitution, 0.01), nullptr);
-  EXPECT_EQ(cheapestImpact(series, kRestitution, 0.01)->steps, 40) << "not the lucky one at 20";
+  EXPECT_EQ(cheapestImpact(series, kRestitution, 0.01)->steps, 40) << "not the accidental agreement at 20";
   EXPECT_EQ(cheapestImpact(series, kRestitution, 0.1)->steps, 20);
   EXPECT_EQ(cheapestImpact(series, kRestitution, 0.001), nullptr);
 }

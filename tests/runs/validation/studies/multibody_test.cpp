@@ -68,7 +68,7 @@ TEST_P(StudyAccuracy, ErrorFallsWithTheSquareOfTheStep) {
   ASSERT_TRUE(points[2].error) << points[2].failure;
   EXPECT_NEAR(points[2].order, 2, 0.1);
   EXPECT_LT(*points[2].error, 0.02);
-  // Joints are closed to the tolerance of 1e-13, and to round-off in velocity.
+  // Joints close to the tolerance of 1e-13, and to round-off in velocity.
   EXPECT_LE(points[2].positionDrift, 1e-13);
   EXPECT_LT(points[2].velocityDrift, 1e-9);
 }
@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(All, StudyAccuracy,
                                            "top_free", "ring46"),
                          [](const auto& claim) { return std::string(claim.param); });
 
-/// Imposed motions and constant accelerations: only round-off remains.
+/// Imposed motions and constant accelerations: round-off only.
 TEST(StudyAccuracy, RattleIsExactWhereTheMotionIsImposedOrAParabola) {
   const auto cases = studyCases();
   for (const char* name : {"universal", "slidercrank", "cylindrical", "gears"}) {
@@ -98,7 +98,7 @@ TEST(StudyAccuracy, ReactionsAreThoseOfTheClosedForm) {
   for (const ReactionCase& r : reactionCases()) {
     const ReactionResult result = measureReaction(r, studyIntegrators()[1]);
     ASSERT_TRUE(result.mean) << r.name << ": " << result.failure;
-    // Of the strand eight digits are given; the ring's step turns it by 0.01 rad: (0.01)^2 / 12 of the force.
+    // The strand's reference has eight digits; the ring's step turns it by 0.01 rad: (0.01)^2 / 12 of the force.
     EXPECT_NEAR(*result.mean / r.exact, 1, 2e-5) << r.name << ": " << r.title;
   }
 }

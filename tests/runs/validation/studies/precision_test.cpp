@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Contact decisions in several arithmetics, and drift between runs of both precisions.
+// Contact detection in several arithmetics, and divergence between runs of both precisions.
 #include "runs/validation/studies/drift.hpp"
 #include "runs/validation/studies/touch.hpp"
 
@@ -35,8 +35,8 @@ TEST(TouchArithmetic, ClearCasesAreDecidedAlikeByAll) {
 }
 
 TEST(TouchArithmetic, FloatFromTheOriginCannotTellAPairWithinANanometre) {
-  // At 7 m a float is known to 2.4e-7 m: pairs 1e-9 m apart and 1e-9 m in each other are rounded alike, so that one of
-  // the two is decided wrongly, wherever they stand. Double holds both exactly.
+  // At 7 m a float has a resolution of 2.4e-7 m: pairs with gaps of 1e-9 m and overlaps of 1e-9 m are rounded alike, so
+  // that one of them is misclassified at any position. Double represents both exactly.
   TouchCounts counts;
   constexpr int kPlaces = 50;
   for (int k = 0; k < kPlaces; ++k)
@@ -46,7 +46,7 @@ TEST(TouchArithmetic, FloatFromTheOriginCannotTellAPairWithinANanometre) {
     }
   EXPECT_EQ(counts.pairs, 2 * kPlaces);
   EXPECT_EQ(counts.touching, kPlaces);
-  EXPECT_GE(counts.wrong[kFloatFromOrigin].count(), kPlaces - 2) << "but for a border of rounding between the two";
+  EXPECT_GE(counts.wrong[kFloatFromOrigin].count(), kPlaces - 2) << "except at a rounding border between the two";
   EXPECT_EQ(counts.wrong[kDoubleMetres].count(), 0);
   EXPECT_NEAR(counts.wrong[kFloatFromOrigin].widest, 1e-9, 0.3e-9) << "positions are whole units of 4.7e-10 m";
   EXPECT_NEAR(counts.nearest, 1e-9, 0.3e-9);
@@ -61,9 +61,9 @@ TEST(TouchArithmetic, ErrorsAreAsWideAsTheRoundingOfPositions) {
       const auto agrees = [&](TouchArithmetic arithmetic) {
         return touchesIn(arithmetic, pair.a, pair.b, studyBoxScale(), studyBoxDiameter()) == exact;
       };
-      // A float of 0.054 to 0.11 m is known to 3.7e-9 m, two of them and the diameter to three times that: 24 units.
+      // A float of 0.054 to 0.11 m has a resolution of 3.7e-9 m; two and the diameter have three times that: 24 units
       EXPECT_TRUE(std::abs(gap) <= 24 || agrees(kFloatFromCell)) << gap;
-      // The square of a difference of up to 2^27 units in float: half an ulp each of it and of the diameter's, 2^-24.
+      // The square of a difference up to 2^27 units in float: half an ulp of it and of the diameter's, 2^-24.
       EXPECT_TRUE(std::abs(gap) <= 16 || agrees(kFloatDifference)) << gap;
       EXPECT_TRUE(agrees(kDoubleMetres)) << gap;
     }
@@ -77,14 +77,14 @@ TEST(StudyTouch, StepsOfBothPrecisionsFindTheSameContacts) {
   ASSERT_EQ(done, 6);
   std::int64_t touching = 0;
   for (const TouchConfiguration& c : all) {
-    EXPECT_EQ(c.grainListsDiffer, 0) << "the step decides with integers";
-    EXPECT_EQ(c.wallListsDiffer, 0) << "walls are decided in double, from a radius that is a float in single";
+    EXPECT_EQ(c.grainListsDiffer, 0) << "the step compares integers";
+    EXPECT_EQ(c.wallListsDiffer, 0) << "walls are compared in double, with a radius that is a float in single";
     EXPECT_GT(c.counts.pairs, c.counts.touching);
     EXPECT_EQ(c.counts.wrong[kDoubleMetres].count(), 0);
     touching += c.counts.touching;
   }
-  EXPECT_GT(touching, 1000) << "there are contacts to decide about";
-  EXPECT_GT(all[3].changed, 0.05) << "and others at the next configuration";
+  EXPECT_GT(touching, 1000) << "there are contacts to detect";
+  EXPECT_GT(all[3].changed, 0.05) << "and others in the next configuration";
 }
 
 TEST(StudyDrift, NeighbouringRunsOfAGasPartAtTheRateOfItsCollisions) {
@@ -92,11 +92,11 @@ TEST(StudyDrift, NeighbouringRunsOfAGasPartAtTheRateOfItsCollisions) {
   study.grains = 125, study.gasTime = 0.6, study.bedTime = 0.02, study.threads = 1;
   const std::vector<Drift> drifts = studyDrift(study, [](double, const std::string&) {});
   ASSERT_EQ(drifts.size(), 4u);
-  for (std::size_t k = 0; k < 2; ++k) { // single against double, double against double moved by a unit
+  for (std::size_t k = 0; k < 2; ++k) { // single against double, double against double displaced by a unit
     const Drift& d = drifts[k];
     EXPECT_LT(d.samples.front().rms, 1e-9) << "one unit is 4.7e-10 m";
-    EXPECT_GT(d.samples.back().rms, 1e3 * d.samples.front().rms) << "spheres scatter what they are given";
-    // A collision multiplies a distance by about the free path over the radius: some times, not once, not a hundred
+    EXPECT_GT(d.samples.back().rms, 1e3 * d.samples.front().rms) << "collisions of spheres amplify perturbations";
+    // A collision multiplies a distance by about the free path over the radius: several times, not once, not a hundred
     // times.
     const double factor = std::exp(d.growth.slope * d.collisionTime);
     EXPECT_GT(factor, 1.5) << d.pair;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random scenes: valid, with the documented ranges, sound at automatic steps and step limits; trials distinguish sound
-// from unsound steps.
+// Random scenes: valid, within the documented ranges, stable at automatic steps and step limits; trials distinguish
+// stable from unstable steps.
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
@@ -52,7 +52,7 @@ TEST(RandomScenes, AreSoundAtTheirAutomaticStepAndBoundedAtTheirLimit) {
     const setup::StepLimit limit = setup::stepLimit(scene);
     const StepTrial automatic = tryStep(random, scene, setup::chooseTimeStep(scene), 0.1);
     EXPECT_FALSE(automatic.alarmed) << k << " " << automatic.why;
-    EXPECT_LE(automatic.growth, 0.02) << k << ": what an elastic impact makes of its phase at 20 steps and sums of it";
+    EXPECT_LE(automatic.growth, 0.02) << k << ": phase error of an elastic impact at 20 steps";
     const StepTrial longest = tryStep(random, scene, limit.step, 0.3);
     EXPECT_FALSE(longest.blewUp) << k << " " << longest.why;
     const StepTrial calm = tryStep(random, scene, std::min(limit.calm, limit.step), 0.3);
@@ -67,11 +67,11 @@ TEST(RandomScenes, BlowUpFarBeyondTheirLimit) {
     const scene::Scene scene = parsed(random);
     bounded += !tryStep(random, scene, 12 * setup::stepLimit(scene).step, 0.5).blewUp;
   }
-  EXPECT_LE(bounded, 2) << "of 40: grains that hardly meet";
+  EXPECT_LE(bounded, 2) << "out of 40: grains that hardly touch";
 }
 
 TEST(StepMargins, FindTheLimitOfOneElasticContact) {
-  // A ball on a plane: bounces are exact at whole phases and gain beyond 0.5 to 0.85 of 2 / omega.
+  // A ball on a plane: rebounds are exact at whole phases and gain energy beyond 0.5 to 0.85 of 2 / omega.
   RandomScene random;
   random.toml = "version = 1\n[run]\nduration = 1\ngravity = [0, 0, -10]\nprecision = \"double\"\nthreads = 1\n"
                 "[material.m]\nstiffness = 1e5\nrestitution = 1\nfriction = 0\n[[plane]]\nmaterial = \"m\"\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random vehicles: reproducible from the seed, of all kinds, mostly valid; a few are run.
+// Random vehicles: reproducible from the seed, of all kinds, mostly valid; a few run.
 #include "base/error.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/storage/sphere_cache.hpp"
@@ -36,7 +36,7 @@ TEST_F(RandomVehiclesDrawn, AreRepeatableAndOfAllKinds) {
   EXPECT_NE(randomVehicle(2, 0).what.scene, randomVehicle(1, 0).what.scene);
   EXPECT_EQ(bases.size(), kRandomBases.size());
   EXPECT_EQ(drives.size(), kRandomDrives.size());
-  // Shares of 0.3, 0.4 (a fifth and all robots), 0.14 and 0.5, four standard deviations of 100 draws.
+  // Shares of 0.3, 0.4 (a fifth plus all robots), 0.14 and 0.5; four standard deviations of 100 draws.
   EXPECT_NEAR(beds, 30, 18);
   EXPECT_NEAR(rigid, 40, 20);
   EXPECT_NEAR(bumps, 14, 14);
@@ -47,7 +47,7 @@ TEST_F(RandomVehiclesDrawn, AreMostlyValid) {
   int refused = 0;
   for (int k = 0; k < 40; ++k) {
     try {
-      // Whether its track closes is asked where it is put together, for its longest step.
+      // Assembly checks whether its track closes, for its largest step.
       setup::chooseTimeStep(sceneOf(randomVehicle(1, k).what, 0, folder_));
     } catch (const base::InputError& error) {
       ++refused;
@@ -60,12 +60,12 @@ TEST_F(RandomVehiclesDrawn, AreMostlyValid) {
 
 TEST_F(RandomVehiclesDrawn, EndSoundOrWithACause) {
   int ran = 0;
-  storage::SphereCache spheres{support::KeptFiles(folder_ / "kept")}; // each vehicle is cut once
-  // One over a bump, at a quarter of its step too, and one on a bed.
+  storage::SphereCache spheres{support::KeptFiles(folder_ / "kept")}; // each vehicle is converted once
+  // One over a bump, also at a quarter of its step, and one on a bed.
   ASSERT_TRUE(randomVehicle(7, 0).bump && randomVehicle(7, 2).onBed);
   for (const int k : {0, 2}) {
     RandomVehicle v = randomVehicle(7, k);
-    v.what.from = 0.14, v.what.until = 0.2; // it drives since 0.12 s
+    v.what.from = 0.14, v.what.until = 0.2; // it drives from 0.12 s
     TrialPlace place;
     place.folder = folder_, place.spheres = &spheres;
     const RandomOutcome outcome = tryRandomVehicle(v, place);
@@ -99,7 +99,7 @@ TEST(RandomVehicle, OfABedIsJudgedByItsBooksAndItsCause) {
 class RandomVehicleStudy : public ProgramTest {};
 
 TEST_F(RandomVehicleStudy, LeavesTheSceneOfEachToBeRunAgain) {
-  // Number 29 of seed 1 is refused: a roller stands in a shoe.
+  // Number 29 of seed 1 is invalid: a roller overlaps a shoe.
   ASSERT_EQ(call("study random-vehicles --part 30/100 --out results").code, 0);
   const std::string cause = contents(folder_ / "results/runs/vehicle_29.txt");
   const Outcome again = call("plan results/runs/vehicle_29.toml --no-probe");
@@ -126,7 +126,7 @@ TEST_F(RandomVehicleStudy, SaysWhatIsWrongOfRunsThatAreThere) {
   const Outcome sound = call(words + " --resume");
   ASSERT_EQ(sound.code, 0) << sound.errors;
   EXPECT_NE(contents(folder_ / "results" / "random_vehicles.csv").find(",sound,"), std::string::npos);
-  // Speeds of 0.5 and 0.9 m/s, which scatter or which all neighbouring steps repeat.
+  // Speeds of 0.5 and 0.9 m/s, with scatter or repeated by all neighbouring steps.
   const auto apart = [&numbers](const std::array<double, 12>& speeds, double blow = 1.2) {
     std::string text = numbers;
     for (const double speed : speeds)

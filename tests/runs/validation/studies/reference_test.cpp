@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The script that pushes a plate in grouser and in LIGGGHTS, with a stand-in for the latter.
+// The script that pushes a plate in grouser and in LIGGGHTS, with a substitute for the latter.
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -34,23 +34,23 @@ TEST_F(PlateReference, ComparesWhatBothProgramsHaveMeasured) {
   EXPECT_GT(bed.size(), 1000u);
   EXPECT_FALSE(fs::exists(first / "liggghts.csv"));
 
-  // A stand-in that reads its script and returns forces a tenth higher than grouser's.
+  // A substitute that reads its script and returns forces larger than grouser's by a tenth.
   put(folder_ / "stand-in", "#!/bin/sh\nset -e\ngrep -q 'hooke/stiffness' in.plate\ngrep -q '^facet' plate.stl\n"
                             "grep -q 'atoms' bed.data\n"
                             "awk -F, '!/#/ { print NR, $1, 1.1 * $2 }' grouser.csv > liggghts.txt\n");
   fs::permissions(folder_ / "stand-in", fs::perms::owner_all);
   const Outcome both = script("--liggghts \"$PWD/stand-in\"");
   ASSERT_EQ(both.code, 0) << both.out << both.errors;
-  // Ours are kept.
+  // Results of grouser are kept.
   EXPECT_EQ(contents(first / "bed.txt"), bed);
   EXPECT_EQ(contents(first / "grouser.csv"), pushed);
   EXPECT_NE(both.out.find("LIGGGHTS over grouser 1.1000"), std::string::npos) << both.out;
   EXPECT_TRUE(fs::exists(folder_ / "results" / "plate_reference.csv"));
-  // A tenth in the mean of two seeds that scatter about it as their forces do: no agreement.
+  // A mean difference of a tenth over two seeds with equal scatter: no agreement.
   EXPECT_EQ(both.out.find("equal"), std::string::npos) << both.out;
 
   const Outcome none = script("--liggghts no_such_program --seeds 3 --only grouser");
-  EXPECT_EQ(none.code, 0) << "it is not needed for our part\n" << none.errors;
+  EXPECT_EQ(none.code, 0) << "grouser's part does not require it\n" << none.errors;
 }
 
 } // namespace

@@ -31,7 +31,7 @@ namespace {
 double radians(double degrees) { return degrees * base::kPi / 180; }
 
 TEST(Bearing, FactorsAreThoseOfVesicsTable) {
-  // Vesic 1973, table 1: angle [deg], N_c, N_q, N_gamma, given to two digits after the point.
+  // Vesic 1973, table 1: angle [deg], N_c, N_q, N_gamma, to two decimals.
   const std::array<std::array<double, 4>, 5> published{{{0, 5.14, 1.00, 0.00},
                                                         {20, 14.83, 6.40, 5.39},
                                                         {25, 20.72, 10.66, 10.88},
@@ -63,7 +63,7 @@ TEST(Bearing, PressureIsTerzaghisSumAndItsAngleIsFoundAgain) {
 }
 
 TEST(StudyBed, RestIsThatOfThreeLooksOrTheTimeIsUp) {
-  // A grain that falls by 20 mm onto a plane, and bounces for ever or hardly once.
+  // A grain falls 20 mm onto a plane, and bounces for ever or hardly once.
   const auto restOf = [](double restitution, double limit) {
     const std::string text =
         fmt::format("version = 1\n[run]\nduration = 9\ntime_step = 5e-5\n[material.ball]\ndensity = 2500\n"
@@ -80,13 +80,13 @@ TEST(StudyBed, RestIsThatOfThreeLooksOrTheTimeIsUp) {
   EXPECT_LT(calm, 1);
   EXPECT_LT(until, 1);
   const auto [restless, end] = restOf(1, 0.5);
-  EXPECT_GT(restless, 1e3) << "of 2 m g r, at one of three looks";
+  EXPECT_GT(restless, 1e3) << "in units of 2 m g r, at one of three checks";
   EXPECT_NEAR(end, 0.5, 0.03);
-  EXPECT_GT(restOf(0.1, 0.03).first, 1) << "two looks are not enough";
+  EXPECT_GT(restOf(0.1, 0.03).first, 1) << "two checks are not enough";
   try {
     virtual_tests::failRestless(7, 6.3, 2e-3);
     FAIL();
-  } catch (const base::SimulationError& e) { // the test alone is left out: exit code 3
+  } catch (const base::SimulationError& e) { // only this test is left out: exit code 3
     EXPECT_NE(std::string(e.what()).find("seed 7 did not come to rest within 6.3 s: the mean kinetic energy per "
                                          "grain is still 0.002"),
               std::string::npos)
@@ -104,7 +104,7 @@ TEST(StudyEstimate, IntervalsAreStudents) {
   const support::Estimate difference = jobs::relativeDifference(five, more);
   EXPECT_NEAR(difference.value, 1.0 / 3, 1e-12);
   EXPECT_NEAR(difference.halfWidth, 2.306 * std::sqrt(1.0) / 3, 1e-12);
-  // One of them without scatter: the freedom is the other's, 4.
+  // One without scatter: the degrees of freedom are the other's, 4.
   const std::vector<double> same{3, 3, 3, 3, 3};
   EXPECT_NEAR(jobs::relativeDifference(same, five).halfWidth, 2.776 * std::sqrt(0.5) / 3, 1e-12);
 }
@@ -115,7 +115,7 @@ TEST(StudyEstimate, AWideIntervalIsNeverAgreement) {
   EXPECT_EQ(jobs::judge({0.04, 0.02}, 0.05), jobs::Verdict::notShown);
   EXPECT_EQ(jobs::judge({-0.10, 0.04}, 0.05), jobs::Verdict::differs);
   EXPECT_EQ(jobs::judge(jobs::interval95(std::vector<double>{0.0}), 0.05), jobs::Verdict::notShown)
-      << "one seed tells nothing";
+      << "one seed has no interval";
 }
 
 TEST(ShearAngleFit, LineThroughTheStressesOfEachSeed) {
@@ -153,13 +153,13 @@ TEST(ShearAngleFit, PeakAndResidualOfARun) {
   }
   const virtual_tests::ShearStrength s = virtual_tests::shearStrength(run);
   EXPECT_NEAR(s.residual, 0.3, 1e-12);
-  EXPECT_NEAR(s.peak, 0.45, 1e-12) << "a mean over a twentieth of the strain";
+  EXPECT_NEAR(s.peak, 0.45, 1e-12) << "mean over a twentieth of the strain";
   EXPECT_NEAR(s.mohrCoulomb, std::asin(std::hypot(0.1, 0.3) / 1.1), 1e-12);
 }
 
 class SoilSample : public FolderTest {};
 
-/// Soft, so that steps are long.
+/// Soft grains allow long steps.
 virtual_tests::Soil softSoil() {
   virtual_tests::Soil soil;
   soil.grains.stiffness = 1e4, soil.grains.restitution = 0.3;
@@ -176,8 +176,8 @@ TEST_F(SoilSample, StressFromContactsIsThatOnThePlates) {
     return std::accumulate(all.end() - 5, all.end(), 0.0) / 5;
   };
   const double plates = mean("normal stress [Pa]");
-  EXPECT_NEAR(plates, 1000, 30) << "the load, within what shaking adds";
-  // A tenth: shaking and dashpots, which the contacts' springs do not know of, and 6 layers of grains.
+  EXPECT_NEAR(plates, 1000, 30) << "the load, within the effect of vibration";
+  // Tolerance of a tenth: vibration and dashpots, which the contact springs exclude, and 6 layers of grains.
   EXPECT_NEAR(mean("core zz [Pa]"), plates, 0.1 * plates);
   EXPECT_NEAR(mean("core xz [Pa]"), mean("shear stress [Pa]"), 0.1 * plates);
   const virtual_tests::ShearStrength s = virtual_tests::shearStrength(run);
@@ -199,28 +199,28 @@ TEST_F(SoilSample, WhatIsPouredIsKeptForOtherLoads) {
   const auto poured = [&] {
     return std::distance(std::filesystem::directory_iterator(kept), std::filesystem::directory_iterator());
   };
-  run(one, 16000, kept); // the larger the load, the sooner it has come on
+  run(one, 16000, kept); // a larger load is reached sooner
   EXPECT_EQ(poured(), 1);
   const std::filesystem::path file = std::filesystem::directory_iterator(kept)->path();
   const auto written = std::filesystem::last_write_time(file);
   const auto second = run(one, 32000, kept);
   EXPECT_EQ(poured(), 1);
   EXPECT_EQ(std::filesystem::last_write_time(file), written);
-  EXPECT_EQ(second, run(other, 32000, other)) << "poured anew";
+  EXPECT_EQ(second, run(other, 32000, other)) << "poured again";
   cell.tooth = 0.9;
   run(one, 32000, kept);
-  EXPECT_EQ(poured(), 2) << "upon other teeth";
+  EXPECT_EQ(poured(), 2) << "with other teeth";
   cell.tooth = virtual_tests::ShearCell().tooth;
   for (const char* damage : {"0.1 0.1 nowhere 0.01\n", "0.1 0.1 0.1 0.01\n"}) {
     put(file, damage);
-    EXPECT_EQ(run(one, 32000, kept), second) << "poured anew";
+    EXPECT_EQ(run(one, 32000, kept), second) << "poured again";
   }
   virtual_tests::removePoured(kept);
   EXPECT_EQ(poured(), 0);
 }
 
-/// Grains of 10 mm that pull with 0.47 N: a strength of 0.75 w / r = 4.5 kPa (Rumpf 1962) beside the load of 1 kPa.
-/// Sheared between teeth that are pressed in, or stand upon it: means over `seeds` samples.
+/// Grains of 10 mm with an adhesion of 0.47 N: strength 0.75 w / r = 4.5 kPa (Rumpf 1962) beside the load of 1 kPa.
+/// Sheared between teeth pressed in, or placed on top: means over `seeds` samples.
 virtual_tests::ShearStrength stickingLayer(bool pressesIn, int seeds, const std::filesystem::path& folder) {
   virtual_tests::ShearCell cell;
   cell.length = 6, cell.width = 5, cell.depth = 7, cell.inertialNumber = 2e-2, cell.strain = 0.12, cell.rows = 20;
@@ -248,9 +248,9 @@ TEST_F(SoilSample, OneThatSticksIsShearedMoreWhereTeethArePressedIn) {
 
 TEST_F(SoilSample, ALayerThatSticksIsShearedItself) {
   const virtual_tests::ShearStrength in = stickingLayer(true, 3, folder_), upon = stickingLayer(false, 3, folder_);
-  EXPECT_GT(in.sheared, 0.5) << "of the way";
+  EXPECT_GT(in.sheared, 0.5) << "share of the travel";
   EXPECT_LT(upon.sheared, 0.35) << "it slides along the teeth";
-  EXPECT_GT(in.residual, 1.5 * upon.residual) << "what was measured there is the teeth's strength";
+  EXPECT_GT(in.residual, 1.5 * upon.residual) << "the measured value is the strength at the teeth";
 }
 
 TEST_F(SoilSample, LessPreparationFrictionMakesADenserBed) {
@@ -262,7 +262,7 @@ TEST_F(SoilSample, LessPreparationFrictionMakesADenserBed) {
     const virtual_tests::BedGrains bed = virtual_tests::pourBed(soil, size, floor, 1, folder_, base::cpuExec(1));
     return virtual_tests::solidFraction(bed, size, 0.02, virtual_tests::surfaceHeight(bed, size, 0.01) - 0.02);
   };
-  // Poured spheres of these radii: 0.58 to 0.61 with a friction of 0.5, 0.64 without.
+  // Poured spheres of these radii: porosity for a friction of 0.5, and 0.64 solid without.
   EXPECT_NEAR(solid(rough), 0.595, 0.025);
   EXPECT_GT(solid(smooth), solid(rough) + 0.02);
 }
@@ -279,12 +279,12 @@ TEST_F(SoilSample, PlateFeelsTheBedOnlyOnceItTouches) {
       });
   EXPECT_DOUBLE_EQ(done, 1);
   ASSERT_EQ(run.rows.size(), 40u);
-  EXPECT_GT(run.values("bed's steps").back(), 1000) << "two lifts fall, and come to rest";
+  EXPECT_GT(run.values("bed's steps").back(), 1000) << "two lifts fall and come to rest";
   const double b = 0.04;
   EXPECT_NEAR(run.values("sinkage [m]").back(), test.sinkage * b, 0.03 * test.sinkage * b);
   const double area = test.area(softSoil());
   EXPECT_NEAR(area, 0.04 * 0.06, 1e-12);
-  // So small a plate on so soft grains meets now few, now many: the mean over most of its way tells.
+  // A small plate on soft grains has few or many contacts by chance: compares means over most of its travel.
   const double first = run.values("force [N]").front() / area,
                mean = virtual_tests::meanPressure(run, area, 0.05 * b, 0.25 * b);
   EXPECT_GT(mean, 3 * first);
@@ -295,7 +295,7 @@ TEST_F(SoilSample, PlateFeelsTheBedOnlyOnceItTouches) {
 
 const auto kSilent = [](const std::string&) {};
 
-/// Coarser with depth: 9 cm deep, spheres of 10 mm above and 16 mm below.
+/// Coarser with depth: 9 cm deep, spheres of 10 mm at the top and 16 mm at the bottom.
 virtual_tests::BedPreparation gradedBed() {
   virtual_tests::BedPreparation bed;
   bed.size = {0.07, 0.07, 0.09}, bed.lift = 0.045;
@@ -308,14 +308,14 @@ TEST_F(SoilSample, GradedBedIsFineAboveAndCoarseBelow) {
   const virtual_tests::BedPreparation bed = gradedBed();
   const virtual_tests::PreparedBed made = virtual_tests::prepareBed(soil, bed, 1, folder_, base::cpuExec(1), kSilent);
   EXPECT_NEAR(virtual_tests::surfaceHeight(made.grains, bed.size, 0.01), 0.09, 0.01)
-      << "within a grain of what was asked for";
+      << "within a grain of the requested depth";
   double above = 0, below = 0;
   int countAbove = 0, countBelow = 0;
   for (const virtual_tests::BedGrain& g : made.grains) {
     if (g.position.z > 0.07) above += g.radius, ++countAbove;
     if (g.position.z < 0.03) below += g.radius, ++countBelow;
   }
-  // 5 mm, and what they grow to at most. Rain mixes what lies some grains apart, and few grains scatter.
+  // 5 mm, and their maximum growth. Pouring mixes neighbouring depths, and few grains scatter.
   EXPECT_NEAR(above / countAbove, 0.005, 0.001);
   EXPECT_NEAR(below / countBelow, 0.008, 0.001);
 }
@@ -346,7 +346,7 @@ TEST(Lifts, AreAsThickInADeeperBed) {
   EXPECT_EQ(virtual_tests::liftTops(bed), (std::vector<double>{0.48}));
 }
 
-/// Grains small enough to fall through the fixed ones, which would never come to rest.
+/// Grains small enough to fall through the fixed ones, without ever coming to rest.
 TEST(PlateBed, WhatFindsAHoleInTheFloorIsCaught) {
   virtual_tests::Soil soil;
   virtual_tests::BedPreparation bed;
@@ -364,7 +364,7 @@ TEST(PlateBed, WhatFindsAHoleInTheFloorIsCaught) {
   double lowest = 0;
   for (const virtual_tests::BedGrain& g : virtual_tests::grainsOf(simulation, bed.size))
     lowest = std::min(lowest, g.position.z);
-  EXPECT_LT(lowest, -1.2 * soil.grains.diameter()) << "none has found a hole";
+  EXPECT_LT(lowest, -1.2 * soil.grains.diameter()) << "no grain fell through a hole";
   EXPECT_GT(lowest, -1.5 * soil.grains.diameter());
 }
 
@@ -402,13 +402,13 @@ TEST(PlateCases, GradedBedHasAFifthOfTheGrains) {
   const virtual_tests::BedPreparation p = graded.preparation(soil);
   EXPECT_EQ(virtual_tests::liftTops(p), virtual_tests::liftTops(fine.preparation(soil)));
   EXPECT_LE(2 * p.coarsest(soil) * soil.grains.radius * (1 + soil.spread), p.size.width / 3.5 * (1 + 1e-12));
-  // Ten grains in a breadth as deep as the strip moves the bed.
+  // Ten grains across, with the bed moving as deep as the strip.
   const double breadth = graded.breadth * soil.grains.diameter();
   EXPECT_LE(10 * p.grading.scaleAt(1.35 * breadth, soil.grains.radius) * soil.grains.diameter(), breadth);
-  EXPECT_GT(graded.young, 0) << "with linear springs of one stiffness coarse ground would be softer";
+  EXPECT_GT(graded.young, 0) << "with linear springs of equal stiffness coarse ground would be softer";
 }
 
-/// Four seeds of a case, with forces that do not change with the sinkage.
+/// Four seeds of a case, with forces independent of the sinkage.
 CaseRuns madeUp(const PlateCase& plate, double force, double grains, double seconds) {
   CaseRuns runs{&plate, 1, 1, {}};
   for (const double scatter : {-0.002, 0.002, -0.002, 0.002}) {
@@ -442,7 +442,7 @@ TEST(PlateReport, GradedAgainstFine) {
   EXPECT_NE(csv.find(",equal\n"), std::string::npos) << csv;
   differenceTable({madeUp(cases[6], 100, 1000, 30), madeUp(cases[7], 108, 190, 10)}, slices, csv);
   EXPECT_NE(csv.find(",differs\n"), std::string::npos) << csv;
-  EXPECT_EQ(differenceTable({madeUp(cases[7], 108, 190, 10)}, slices, csv), "") << "nothing to compare with";
+  EXPECT_EQ(differenceTable({madeUp(cases[7], 108, 190, 10)}, slices, csv), "") << "no case to compare with";
 
   const std::string costs = costTable({madeUp(cases[6], 100, 1000, 30), madeUp(cases[7], 103, 190, 10)}, csv);
   EXPECT_NE(costs.find("5.26 times fewer grains than fine, 3.00 times faster"), std::string::npos) << costs;
@@ -454,21 +454,21 @@ TEST_F(SoilSample, NoRunIsBegunThatWouldNotEndInTime) {
   options.seconds = 60;
   jobs::Pieces pieces("test", {(folder_ / "pieces").string()}, options, {{"study", "test"}});
   const jobs::Table table{{"a"}, {{1}}};
-  EXPECT_TRUE(pieces.due("long_seed1")) << "whatever it takes";
+  EXPECT_TRUE(pieces.due("long_seed1")) << "regardless of its duration";
   std::this_thread::sleep_for(std::chrono::milliseconds(30));
   pieces.keep("long_seed1", table);
-  EXPECT_TRUE(pieces.due("long_seed2")) << "30 ms are left";
+  EXPECT_TRUE(pieces.due("long_seed2")) << "30 ms remain";
 
   options.seconds = 0.5, options.resume = true;
   jobs::Pieces hurried("test", {(folder_ / "pieces").string()}, options, {{"study", "test"}});
-  EXPECT_FALSE(hurried.due("long_seed1")) << "it is there";
+  EXPECT_FALSE(hurried.due("long_seed1")) << "it exists already";
   EXPECT_TRUE(hurried.due("short_seed1"));
   hurried.keep("short_seed1", table);
   EXPECT_TRUE(hurried.due("long_seed2"));
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   hurried.keep("long_seed2", table);
-  EXPECT_FALSE(hurried.due("long_seed3")) << "the last took 0.3 s, 0.2 s are left";
-  EXPECT_FALSE(hurried.due("new_seed1")) << "of a kind that is new the longest counts";
+  EXPECT_FALSE(hurried.due("long_seed3")) << "the last took 0.3 s, 0.2 s remain";
+  EXPECT_FALSE(hurried.due("new_seed1")) << "for a new kind, the longest duration counts";
   EXPECT_TRUE(hurried.due("short_seed2"));
   EXPECT_EQ(hurried.left(), 2);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Stability maps of the vehicle: verdicts are correct, steps above the predicted limit are rejected, and without that
+// Stability maps of the vehicle: verdicts are correct, steps above the predicted limit are rejected; without that
 // check a guard stops the run and names the step.
 #include "coupling/simulation.hpp"
 #include "runs/setup/simulation_setup.hpp"
@@ -44,7 +44,7 @@ TEST(VehicleVerdict, RunsThatAgreeAreSound) {
   EXPECT_EQ(judge(soundTrial(), near, false).verdict, MapVerdict::sound);
 }
 
-/// It turns back within the window, and brakes and drives: 0.08 m/s of 2 m/s, 80 W of 2 kW.
+/// It reverses within the window, brakes and drives: 0.08 m/s of 2 m/s, 80 W of 2 kW.
 TEST(VehicleVerdict, AMeanOfBothSignsIsComparedWithItsMagnitude) {
   VehicleTrial run = soundTrial(), finer = run;
   run.figures.speed = 0.1, finer.figures.speed = 0.18;
@@ -54,7 +54,7 @@ TEST(VehicleVerdict, AMeanOfBothSignsIsComparedWithItsMagnitude) {
   EXPECT_EQ(judge(run, finer, false).verdict, MapVerdict::sound);
   std::vector<TrialPair> pairs(6, {run, finer});
   for (TrialPair& p : pairs) p.run.figures.speedMagnitude = p.finer.figures.speedMagnitude = 0.2;
-  EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong) << "that slow a motion is off by its half";
+  EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::silentlyWrong) << "half of so slow a motion is error";
 }
 
 TEST(VehicleVerdict, EveryComparedFigureThatDiffersMakesARunSilentlyWrong) {
@@ -94,16 +94,16 @@ TEST(VehicleVerdict, AStopIsTrueWhereTheFinerRunConfirmsItsCause) {
   };
   EXPECT_EQ(verdict(stoppedTrial(kUnstable), soundTrial()), MapVerdict::stopped);
   EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kUnstable)), MapVerdict::wrongCause)
-      << "a shorter step helps";
-  EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kThrown)), MapVerdict::wrongCause) << "no later";
+      << "a shorter step removes the fault";
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), stoppedTrial(kThrown)), MapVerdict::wrongCause) << "not later";
   VehicleTrial later = stoppedTrial(kThrown);
   later.reached = 0.5;
-  EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::stopped) << "it went on beyond that";
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::stopped) << "it ran beyond that time";
   later.blamed = kUnstable;
-  EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::wrongCause) << "a shorter step helps no more";
+  EXPECT_EQ(verdict(stoppedTrial(kUnstable), later), MapVerdict::wrongCause) << "a shorter step no longer helps";
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kThrown)), MapVerdict::stopped);
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kSkips)), MapVerdict::stopped) << "one event seen in two ways";
-  EXPECT_EQ(verdict(stoppedTrial(kThrown), soundTrial()), MapVerdict::wrongCause) << "the step has done it";
+  EXPECT_EQ(verdict(stoppedTrial(kThrown), soundTrial()), MapVerdict::wrongCause) << "the step is the cause";
   EXPECT_EQ(verdict(stoppedTrial(kThrown), stoppedTrial(kPressed)), MapVerdict::wrongCause);
   EXPECT_EQ(verdict(stoppedTrial(base::Cause::unknown), soundTrial()), MapVerdict::wrongCause);
   EXPECT_EQ(verdict(soundTrial(), stoppedTrial(kThrown)), MapVerdict::silentlyWrong);
@@ -111,10 +111,10 @@ TEST(VehicleVerdict, AStopIsTrueWhereTheFinerRunConfirmsItsCause) {
   refused.end = TrialEnd::refused, refused.cause = "scene.toml:4: time_step";
   EXPECT_EQ(verdict(refused, VehicleTrial{}), MapVerdict::refused);
   EXPECT_EQ(judge(refused, VehicleTrial{}, true).why, refused.cause);
-  EXPECT_EQ(verdict(soundTrial(), refused), MapVerdict::silentlyWrong) << "nothing has confirmed it";
+  EXPECT_EQ(verdict(soundTrial(), refused), MapVerdict::silentlyWrong) << "no confirmation";
 }
 
-/// A pair and five neighbours with these tensions [N], which may differ by 5 % and 50 N.
+/// A pair and five neighbours with these tensions [N]; the tolerance is 5 % and 50 N.
 std::vector<TrialPair> neighbours(const std::array<double, 6>& atSteps, const std::array<double, 6>& atQuarters) {
   std::vector<TrialPair> pairs;
   for (std::size_t i = 0; i < atSteps.size(); ++i) {
@@ -129,11 +129,11 @@ TEST(VehicleNeighbours, WhatTheyScatterByIsNoErrorOfTheStep) {
   const std::vector<TrialPair> pairs =
       neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 4900, 5400, 5100, 5600, 5000});
   ASSERT_TRUE(figuresDisagree(pairs[0].run, pairs[0].finer, false));
-  EXPECT_EQ(judge({pairs[0]}, false).verdict, MapVerdict::silentlyWrong) << "a pair alone cannot tell";
+  EXPECT_EQ(judge({pairs[0]}, false).verdict, MapVerdict::silentlyWrong) << "a single pair is not conclusive";
   const Judgement judgement = judge(pairs, false);
   EXPECT_EQ(judgement.verdict, MapVerdict::scatters);
   EXPECT_EQ(judgement.why.find("tension is 5000 N, at a quarter of the step 5700 N"), 0u) << judgement.why;
-  // Means 420 N apart, more than the 337 that they may be, and less than the 580 of Welch's interval.
+  // The means differ by 420 N: above the tolerance of 337 N, below Welch's interval of 580 N.
   EXPECT_EQ(
       judge(neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 6000, 5500, 5700, 5900, 5600}), false).verdict,
       MapVerdict::scatters);
@@ -145,7 +145,7 @@ TEST(VehicleNeighbours, ADifferenceBeyondTheirScatterIsSilentlyWrong) {
       judge(neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {7700, 6900, 7400, 7100, 7600, 7000}), false);
   EXPECT_EQ(judgement.verdict, MapVerdict::silentlyWrong);
   EXPECT_EQ(judgement.why.find("tension is 5320 N in the mean of 5 steps"), 0u) << judgement.why;
-  // The run warns of what the ground has struck it with.
+  // The run warns of the ground impact.
   std::vector<TrialPair> struck =
       neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {7700, 6900, 7400, 7100, 7600, 7000});
   struck[0].run.figures.blow = 3.9;
@@ -153,8 +153,8 @@ TEST(VehicleNeighbours, ADifferenceBeyondTheirScatterIsSilentlyWrong) {
   struck[0].run.figures.blow = 4.1;
   EXPECT_EQ(judge(struck, false).verdict, MapVerdict::warned);
   struck[2].finer.figures.energyResidual = 1e-6;
-  EXPECT_EQ(judge(struck, false).verdict, MapVerdict::silentlyWrong) << "impacts do not open the energy balance";
-  // The same of a figure in which the pair itself agrees.
+  EXPECT_EQ(judge(struck, false).verdict, MapVerdict::silentlyWrong) << "an impact does not break the energy balance";
+  // The same for a figure in which the pair itself agrees.
   std::vector<TrialPair> pairs = neighbours({5000, 5600, 4700, 5900, 5100, 5300}, {5700, 4900, 5400, 5100, 5600, 5000});
   for (std::size_t i = 1; i < pairs.size(); ++i) pairs[i].finer.figures.power = 3000;
   pairs[0].finer.figures.power = 2100;
@@ -162,14 +162,14 @@ TEST(VehicleNeighbours, ADifferenceBeyondTheirScatterIsSilentlyWrong) {
 }
 
 TEST(VehicleNeighbours, ADifferenceThatMayBeIsNone) {
-  // 100 N apart without scatter: less than a twentieth.
+  // A difference of 100 N without scatter: less than a twentieth.
   EXPECT_EQ(
       judge(neighbours({5000, 5000, 5000, 5000, 5000, 5000}, {5400, 5010, 5010, 5010, 5010, 5010}), false).verdict,
       MapVerdict::scatters);
 }
 
 TEST(VehicleNeighbours, ScatterThatTheStepMakesIsSilentlyWrong) {
-  // The quarters all say 5000: where the steps lie is their own doing, though Welch's interval reaches from here to
+  // All quarters yield 5000: the difference is due to the steps, though Welch's interval extends from here to
   // 5000.
   const Judgement judgement =
       judge(neighbours({5700, 4400, 7000, 4900, 5600, 5200}, {5000, 5020, 4990, 5010, 5000, 4980}), false);
@@ -178,7 +178,7 @@ TEST(VehicleNeighbours, ScatterThatTheStepMakesIsSilentlyWrong) {
   EXPECT_EQ(
       judge(neighbours({5700, 5000, 5020, 4990, 5010, 4980}, {5000, 5900, 4400, 5010, 5600, 4800}), false).verdict,
       MapVerdict::scatters)
-      << "the quarters scatter as well";
+      << "the quarters scatter, too";
 }
 
 TEST(VehicleNeighbours, OneThatIsNotSoundMakesThePointWrong) {
@@ -206,7 +206,7 @@ TEST(VehicleNeighbours, AreAskedForFiguresAlone) {
   EXPECT_FALSE(figuresDisagree(stoppedTrial(kThrown), apart, false));
   apart.figures.energyResidual = 1e-6;
   EXPECT_FALSE(figuresDisagree(soundTrial(), apart, false));
-  // Nor do neighbours change another verdict.
+  // Neighbours do not change other verdicts, either.
   std::vector<TrialPair> pairs = neighbours({5000, 9000, 1000, 5000, 4000, 7000}, {5000, 9000, 1000, 5000, 4000, 7000});
   EXPECT_EQ(judge(pairs, false).verdict, MapVerdict::sound);
   pairs[0].finer = stoppedTrial(kThrown);
@@ -230,7 +230,7 @@ TEST(VehicleSeeds, ScatterIsThatOfSoundPointsOfOneMap) {
             std::string::npos)
       << text;
   points.erase(points.begin());
-  EXPECT_EQ(seedScatterTable(points), "") << "of one nothing is known";
+  EXPECT_EQ(seedScatterTable(points), "") << "a single seed shows no scatter";
 }
 
 class VehicleMaps : public FolderTest {
@@ -259,18 +259,18 @@ TEST_F(VehicleMaps, StepsBeyondTheLineAreRefusedAndThoseBelowAreNot) {
         EXPECT_NO_THROW(sceneOf(p.what, p.step, folder_)) << name << " " << p.x << " " << p.y;
       }
     }
-    // Steps are an axis of such a map; the last of them is beyond.
+    // Steps are one axis of such a map; the last step exceeds the limit.
     EXPECT_EQ(refused * mapShares(false).size(), stepped > 0 && !map.onBed ? map.points.size() : 0) << name;
   }
   EXPECT_THROW(vehicleMap("none", true, folder_), base::InputError);
 }
 
-/// A blow of rigid links lasts a step: samples between which there are others miss it, or count it for all of them.
+/// An impact of rigid links lasts one step: sparse samples miss it, or count it for all skipped samples.
 TEST_F(VehicleMaps, TensionIsTheMeanOverAllStepsOfTheWindow) {
   VehicleCase what = vehicleMap("stiffness", true, folder_).points.front().what;
   what.from = 0.04, what.until = 0.07;
   constexpr double kStep = 1e-4;
-  constexpr int kBegin = 400, kEnd = 700; // a hundred samples: every third step
+  constexpr int kBegin = 400, kEnd = 700; // one hundred samples: every third step
   const VehicleTrial trial = tryVehicle(what, kStep, place());
   ASSERT_EQ(trial.end, TrialEnd::sound) << trial.cause;
   coupling::Simulation run(
@@ -321,7 +321,7 @@ TEST_F(VehicleMaps, AnIdlerThatTremblesOnHeavyShoesIsRefusedAndCaught) {
   const double step = 3.7e-4;
   const VehicleTrial refused = tryVehicle(point->what, step, place());
   EXPECT_EQ(refused.end, TrialEnd::refused);
-  EXPECT_NE(refused.cause.find("idler that turns on 6 shoes"), std::string::npos) << refused.cause;
+  EXPECT_NE(refused.cause.find("idler in contact with 6 shoes"), std::string::npos) << refused.cause;
   const VehicleTrial trial = tryVehicle(point->what, 1.5 * step, place(), StepCheck::none);
   ASSERT_EQ(trial.end, TrialEnd::stopped);
   EXPECT_TRUE(blamesStep(trial.blamed)) << trial.cause;
@@ -332,7 +332,7 @@ class VehicleStudy : public ProgramTest {};
 TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
   const std::string words = "study stability --scene vehicle --quick --maps gravity,mass --out results";
   const fs::path runs = folder_ / "results" / "runs";
-  // Of each two points the second is beyond the limit: refused, and so done at once.
+  // The second of each two points exceeds the limit: it is rejected and needs no run.
   const Outcome part = call(words + " --part 2/2");
   ASSERT_EQ(part.code, 0) << part.errors;
   EXPECT_TRUE(fs::exists(runs / "gravity_1.csv") && fs::exists(runs / "mass_1.csv"));
@@ -363,7 +363,7 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
   put(runs / "gravity_0.csv", withSpeeds(0.5, 0.9));
   const Outcome open = call(words + " --resume --seconds 1e-9");
   EXPECT_EQ(open.code, 0) << open.errors;
-  EXPECT_EQ(open.out.find("silently wrong: gravity"), std::string::npos) << "its neighbours have not been run";
+  EXPECT_EQ(open.out.find("silently wrong: gravity"), std::string::npos) << "its neighbours have not run";
   const auto beside = [&](const std::array<double, 5>& run, const std::array<double, 5>& finer) {
     for (std::size_t k = 0; k < run.size(); ++k) {
       put(runs / fmt::format("gravity_0_beside_{}.csv", k), withSpeeds(run[k], finer[k]));
@@ -384,7 +384,7 @@ TEST_F(VehicleStudy, GoesOnWithWhatIsThereAndDrawsEveryVerdict) {
 
   const Outcome other = call("study stability --scene vehicle --quick --maps drop --out results --resume");
   EXPECT_EQ(other.code, 2);
-  EXPECT_NE(other.errors.find("other options"), std::string::npos) << other.errors;
+  EXPECT_NE(other.errors.find("different options"), std::string::npos) << other.errors;
 }
 
 TEST_F(VehicleStudy, RefusesWordsOfOtherMaps) {
@@ -395,7 +395,7 @@ TEST_F(VehicleStudy, RefusesWordsOfOtherMaps) {
     const Outcome o = call(std::string("study stability --quick --out results ") + words);
     EXPECT_EQ(o.code, 2) << words << "\n" << o.out;
   }
-  EXPECT_FALSE(fs::exists(folder_ / "results")) << "nothing is begun";
+  EXPECT_FALSE(fs::exists(folder_ / "results")) << "no run has started";
   EXPECT_NE(call("study stability --help").out.find("--maps"), std::string::npos);
 }
 
