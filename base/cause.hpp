@@ -12,7 +12,7 @@ enum class Cause {
   unknown,
   unsettledBed,     ///< the bed did not come to rest or did not reach the requested porosity
   unstableContacts, ///< the time integration creates or loses energy in contacts
-  pressedGrain,     ///< an overlap is too large although energy is conserved
+  pressedGrain,     ///< an overlap is too large although the energy balance closes
   fastGrain,        ///< a grain moves farther than the skin of its neighbour list within a step
   lostGrain,        ///< a grain leaves the representable range of positions
   noNumber,         ///< a value is not a number (NaN)

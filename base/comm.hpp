@@ -9,13 +9,13 @@
 #include <vector>
 
 /// MPI ranks that run one scene together. This is the only place that calls MPI, except for HDF5 output that all ranks
-/// write to one file. A program started without an MPI launcher never calls MPI.
+/// write to one file. A program started as a single process never calls MPI.
 namespace grouser::base {
 
 using Bytes = std::vector<std::byte>;
 
-/// Communicator of a run; cheap to copy. The default has a single rank, for which every call returns at once. Results
-/// are in rank order. All ranks make collective calls in the same order. MPI errors abort all ranks.
+/// Communicator of a run; cheap to copy. The default has a single rank, for which every call returns at once without
+/// MPI. Results are in rank order. All ranks make their calls in the same order. MPI errors abort all ranks.
 class Comm {
 public:
   Comm() = default;
@@ -111,10 +111,10 @@ private:
 };
 
 /// Initialises and finalises MPI; one instance for the life of the program. Has no effect if the program was started
-/// without an MPI launcher.
+/// as a single process.
 class Ranks {
 public:
-  /// Initialises MPI if an MPI launcher has started this program.
+  /// Initialises MPI if an MPI launcher has started several processes.
   Ranks(int& argc, char**& argv);
   ~Ranks();
   Ranks(const Ranks&) = delete;

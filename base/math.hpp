@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-/// Elementary functions with bitwise identical results on every processor: built from + - * / and sqrt in a fixed
+/// Elementary functions with bitwise identical results on every processor: built only from + - * / and sqrt in a fixed
 /// order. C library versions differ between processors (they choose fused multiply-add paths at run time). Accuracy: a
 /// few units in the last place over the stated ranges; measured in tests/base/arithmetic_test.cu.
 namespace grouser::base {

@@ -24,7 +24,7 @@ struct SetSphere {
   double offset{}; ///< [m]: the plane of that face is normal . x = offset; normal . centre + radius <= offset, with
                    ///< equality except for spheres pushed deeper by an edge or a concave corner
   double flat{};   ///< [m] >= 0, radius of the disc; 0 next to a convex edge, where the sphere itself rounds the edge
-  double area{};   ///< [m2] outer mesh area represented by this sphere; sums over a set to the mesh's area; may be 0
+  double area{};   ///< [m2] outer mesh area represented by this sphere; a set's sum is the mesh's outer area; may be 0
   bool surface() const { return norm2(normal) > 0; }
 };
 

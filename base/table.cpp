@@ -291,7 +291,7 @@ std::vector<Section> Section::list(const std::string& key) const {
   if (!node) return sections;
   const std::string full = path_.empty() ? key : path_ + "." + key;
   const auto* list = std::get_if<Node::List>(&node->value);
-  // For --set only: the section does not exist; another one may have been meant.
+  // Only --set keys: the file has no such section; another one may have been meant.
   if (const auto* map = std::get_if<Node::Map>(&node->value); map && node->origin == "--set" && !map->empty())
     throw UnknownKey({node->origin, full, map->front().key, {}, {}}, "");
   if (!list || !std::all_of(list->begin(), list->end(), [](const Node& n) { return n.isMap(); }))

@@ -10,7 +10,7 @@
 namespace grouser::contact {
 
 /// Dense grid over the occupied cells; z runs fastest, so the three cells of a column are adjacent in memory. Along
-/// periodic axes the cells divide the period exactly, each at least `edge` wide, and wrap around.
+/// periodic axes the cells fill the period, none narrower than `edge`, and wrap around.
 struct CellGrid {
   using Cell = base::Vec3<std::uint32_t>;
   base::Period period;

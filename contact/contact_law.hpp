@@ -36,8 +36,8 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
 /// 29:47):
 ///
 ///   F_n = elastic + c_n v_n                     v_n: approach speed;  never attractive unless `attraction`
-///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; on slip the spring is shortened:
-///                                               linear: to the total force; Hertz: at most to the limit
+///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; on slip a spring whose own force
+///                                               exceeds the limit is shortened to it
 ///
 /// Linear:  elastic = k overlap,  k_t constant,  c_n = gamma m_eff.  For grains of many masses with a given
 /// restitution, c_n = 2 zeta sqrt(k m_eff), so that the restitution is the same for all masses.
@@ -50,10 +50,10 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
 ///   233:30). So F_t^2 / (2 k_t) never increases as k_t changes: no closed path of loading and shear gains energy.
 ///
 /// Cohesion (DMT, Derjaguin et al. 1975): a constant attraction of 2 pi w R_eff while the spheres overlap; w is the
-/// energy of adhesion. It vanishes at zero overlap: the work of separation equals the work gained on approach. Friction
-/// and rolling resistance are limited by the compressive part, F_n without the attraction.
+/// energy of adhesion. It drops to zero at zero overlap: separation needs this force, and its work is that gained on
+/// approach. Friction and rolling resistance are limited by the compressive part, F_n without the attraction.
 ///
-/// Elastic-plastic contacts (plastic_law.hpp) use that law's force as `elastic`. In tension the dashpot adds nothing,
+/// Elastic-plastic contacts (plastic_law.hpp) use its force as `elastic`. In tension the dashpot adds no attraction,
 /// and friction is limited by the force plus the maximum attraction of the contact (Thakur et al. 2014).
 template <class T> struct BasicLaw {
   T stiffness{};             ///< linear: k [N/m], > 0;  Hertz: (4/3) E_eff [Pa]
@@ -234,7 +234,7 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
       least = elastic < zero ? elastic : zero;
     }
   T dashpot = c.damping * approach;
-  // Without attraction the dashpot may cancel the spring force but not turn it into tension.
+  // Without attraction the dashpot may at most cancel a compressive spring force, and not add to a tensile one.
   if (!law.attraction) dashpot = elastic + dashpot < least ? least - elastic : dashpot;
   T normalForce = elastic + dashpot;
   T pressing = normalForce;

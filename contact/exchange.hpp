@@ -130,7 +130,7 @@ private:
   std::size_t words_{0};              ///< words per element in the buffers
   std::uint32_t sent_{0};             ///< number of runs sent, included in the messages to peers
   std::vector<std::uint32_t> sentBy_; ///< per rank: number in its last message
-  base::Messages messages_;           ///< declared last: its destructor waits for messages into the buffers above
+  base::Messages messages_;           ///< destroyed before the buffers above: waits for messages into them
   enum class Stage { idle, packed, sent, arrived, published } stage_{Stage::idle};
   std::int64_t bytesSent_{0}, runs_{0};
 };

@@ -47,7 +47,7 @@ public:
   static constexpr int kMostTeeth = 64;
   static constexpr int kAround = 128; ///< quadrature points around a boss deep inside a tooth
 
-  /// `teeth`: at most kMostTeeth; `pinRadius`: pitch radius of the seated pins [m]; `seatHalfAngle` [rad]; other
+  /// `teeth`: at most kMostTeeth; `pinRadius`: radius of the circle of seated pins [m]; `seatHalfAngle` [rad]; other
   /// parameters as in vehicle::GearShapes.
   GapProfile(int teeth, double pinRadius, double seatRadius, double seatHalfAngle, double flankRadius,
              double tipRadius);

@@ -157,7 +157,7 @@ GrainPartContacts::GrainPartContacts(const base::Exec& exec, const GrainPartMode
   for (std::size_t m = 0; crushes_ && m < materials.laws.size(); ++m)
     crushing.push_back(crushingOf(materials.crushing[m % materials.crushing.size()], materials.laws[m]));
   crushing_ = base::Array<Crushing>(exec, crushing);
-  std::vector<bool> isMet(sets.size()); // only parts in contact with grains need a table
+  std::vector<bool> isMet(sets.size()); // only parts that grains can touch need a table
   for (const GrainPart& part : parts)
     if (part.meets && part.surface >= 0) isMet[static_cast<std::size_t>(part.surface)] = true;
   std::vector<SurfaceGridView> views;

@@ -36,7 +36,7 @@ struct GrainPart {
 enum PartSum : int {
   kPatchesNow,    ///< patches in contact in this step
   kElasticNow,    ///< elastic energy
-  kSqueezedNow,   ///< pairs with an overlap above kSqueezed
+  kSqueezedNow,   ///< pairs of grain and part with overlap / radius above kSqueezed
   kCappedNow,     ///< patches at the crushing force
   kDampedByParts, ///< cumulative, like all sums below
   kSumsOfStep = kDampedByParts,

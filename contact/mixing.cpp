@@ -198,7 +198,7 @@ double contactTime(const ContactLaw& law, double effectiveMass, double effective
 }
 
 double restitutionOf(const ContactLaw& law, double effectiveMass, double movedMass) {
-  const double more = std::sqrt(effectiveMass / movedMass); // critical damping: effective mass / moved mass
+  const double more = std::sqrt(effectiveMass / movedMass); // damping ratio for the moved mass / for the effective mass
   if (law.hertz)
     return hertzRestitutionOf(more * law.rootDamping / (2 * std::sqrt(1.5 * law.stiffness)), law.attraction);
   const double zeta = law.rootDamping > 0 ? law.rootDamping / (2 * std::sqrt(law.stiffness))

@@ -34,7 +34,7 @@ void checkLength(std::uint32_t most, bool equal) {
                                          "time step, a smaller skin or larger smallest grains"));
 }
 
-/// Cell width: about the grain size near small grains; the maximum reach if all grains are nearly equal.
+/// Cells per maximum reach: cells about as wide as the smallest grains, at most kMost; 1 if grains are nearly equal.
 int timesFiner(std::int64_t diameter, std::int64_t smallest) {
   constexpr double kTypical = 1.4; // cell width / smallest diameter
   constexpr int kMost = 4;

@@ -63,7 +63,7 @@ private:
       if (base::squaredNorm(apart.as<std::int32_t>()) < (radii.sphere ? reach * reach : reach2)) visit(j);
     }
   }
-  /// True if the cell is occupied along x or y; wraps around at periodic boundaries.
+  /// True if the cell is within the grid along x or y; wraps around at periodic boundaries.
   GROUSER_HD bool besides(int axis, std::uint32_t& c) const {
     const std::uint32_t cells = grid.cells[axis];
     if (grid.period.along(axis)) c = c == cells ? 0 : c > cells ? cells - 1 : c;

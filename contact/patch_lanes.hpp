@@ -16,7 +16,7 @@ GROUSER_SIMD Vec3P allLanes(const base::Vec3d& v) { return base::broadcast<Point
 GROUSER_SIMD PointLanes greater(const PointLanes& a, const PointLanes& b) { return a > b ? a : b; }
 GROUSER_SIMD PointLanes lesser(const PointLanes& a, const PointLanes& b) { return a < b ? a : b; }
 
-/// Contact pressure of one patch in one step, summed over its points. Moments are about a reference point of A.
+/// Contact pressure of one patch in one step, summed over its points. Positions and moments refer to one point of A.
 template <class T> struct PressureOf {
   T area, weight;        ///< contact area [m2]; sum of normal force magnitudes [N]
   base::Vec3<T> place;   ///< sum of normal force magnitude x position [N m]

@@ -183,7 +183,7 @@ template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T 
 
 } // namespace detail
 
-/// Returns the force at `overlap` > 0 of a contact with p.share > 0 and updates its state. The plastic work is
+/// Returns the force at `overlap` > 0 of a contact with p.share > 0 and updates its state. Plastic work from
 /// -dU/dx_p^m of the elastic energy U: in closed form on first loading and Luding's branch, by the trapezoidal rule
 /// over the step on EEPA's adhesive branch.
 template <class T> GROUSER_HD BasicPlasticForce<T>

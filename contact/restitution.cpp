@@ -33,7 +33,7 @@ template <class F> double ratioFor(double restitution, const F& restitutionAt, d
   return 0.5 * (low + high);
 }
 
-/// Largest restitution of a dashpot without attraction.
+/// Restitution that a dashpot without attraction can have: the given one, or kLeastDashpotRestitution for 0.
 double reachable(double restitution) { return restitution > 0 ? restitution : kLeastDashpotRestitution; }
 
 struct UnitImpact {

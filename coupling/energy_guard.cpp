@@ -49,7 +49,7 @@ std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) co
 }
 
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
-  if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding grains dissipate energy of steps
+  if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding dissipates energy created by steps
   const Exchange x = since(now, held);
   // The elastic energy of a large bed varies before a vehicle has dissipated much; its dashpots then seem to create the
   // energy that parts dissipate.

@@ -7,7 +7,7 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Joint opening speed below which initial velocities count as rounded input, and are corrected [m/s].
+/// Joint opening speed above which initial velocities count as rounded input, and are corrected [m/s].
 constexpr double kRoundedRate = 1e-12;
 
 } // namespace

@@ -39,7 +39,7 @@ struct SurfaceSetup {
   SurfaceMotion motion;
   std::optional<FreeSurface> free;
   bool moves{};                                          ///< true: moved by its prescribed motion or by forces
-  bool hasPivot{};                                       ///< true: torques refer to its pivot
+  bool hasPivot{};                                       ///< true: its torque about the pivot is recorded too
   std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null except for meshes
   double sphereRadius{};                                 ///< radius of the spheres of a mesh [m]
   bool sphereRadiusGiven{};                              ///< radius set in the scene; else it may become finer

@@ -114,7 +114,7 @@ private:
   double thickestStone_, heading_; ///< for observers [m], [rad]
   std::unique_ptr<vehicle::Observer> observer_;
   std::optional<Watch> watch_;
-  double carried_;         ///< mass supported by the ground at rest [kg]: vehicle and bodies connected to it
+  double carried_;         ///< mass supported by the ground at rest [kg]: vehicle and all other moving bodies
   base::Vec3d fluidForce_; ///< fluid force on all bodies in this step [N]
   vehicle::BlowMeter blows_;
   PartContacts::RunningGear gear_;

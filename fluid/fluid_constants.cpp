@@ -14,7 +14,7 @@ namespace {
 /// Quantum for which a pair term of at most `largest` is at most 2^30 quanta.
 base::FixedPoint pairTerms(double largest) { return base::fixedPointFor(largest, 30); }
 
-/// Minimum initial height of fixed walls and particles [m].
+/// Height below all fixed walls and particles at the start [m]: one spacing below the lowest.
 double lowestOf(const FluidSetup& setup) {
   if (setup.markers.empty()) return -base::kInfinity;
   double lowest = base::kInfinity;

@@ -7,8 +7,8 @@
 namespace grouser::fluid {
 
 /// Constants of a weakly compressible fluid of particles. SI units.
-/// The state of a particle is its velocity and its compression s = rho/rho0 - 1. All particles have the mass rho0
-/// spacing^d. Pressure p = c^2 (rho - rho0) = c^2 rho0 s.
+///
+/// The state of a particle is its velocity and its compression s = rho/rho0 - 1. All particles have the mass
 /// rho0 spacing^d. Pressure p = c^2 (rho - rho0) = c^2 rho0 s.
 struct FluidModel {
   int dimensions = 3;     ///< 2: all particles have the same y coordinate, and masses are per metre

@@ -15,8 +15,8 @@ struct FluidParticle {
   double compression{0}; ///< rho/rho0 - 1 [-]
 };
 
-/// Wall point, which acts like fluid at rest with the wall. Each wall has layers of markers as thick as the kernel
-/// support.
+/// Wall point, which acts like fluid at rest with the wall. Behind each wall surface are layers of markers as thick as
+/// the kernel support.
 struct WallMarker {
   base::Vec3d position;   ///< [m]
   base::Vec3d velocity{}; ///< tangential velocity of the wall, whose position is fixed [m/s]

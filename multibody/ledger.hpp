@@ -41,8 +41,8 @@ struct CompensatedVector {
 /// is the error of conservative forces, workless constraints and gyroscopic terms. See balance() in readings.hpp. New
 /// kinds of forces must be recorded in detail/euler_ledger.cpp and detail/rattle_ledger.cpp.
 struct Ledger {
-  /// kSymplecticEuler: impulse times the mean rate over the step. kRattle: energy decrease for gravity and springs,
-  /// force times path per stage for drives and dampers; external loads as in kSymplecticEuler.
+  /// kSymplecticEuler: impulse times the mean of the rates before and after the step. kRattle: energy decrease for
+  /// gravity and springs, force times path per stage for drives and dampers; external loads as in kSymplecticEuler.
   CompensatedSum gravityWork, externalWork, driveWork;
   CompensatedSum springWork; ///< work of elastic forces and preloads
   CompensatedSum dissipated; ///< sum of the three damping terms below, rounded differently

@@ -65,7 +65,7 @@ struct Joint {
   Pose frame_A; ///< joint frame in A's body frame (in the world if A is kWorld)
   Pose frame_B; ///< joint frame in B's body frame
   double damping =
-      0; ///< damping of the free axis, or of a cylindrical joint's angle [N m s/rad] or [N s/m], >= 0. Implicit.
+      0; ///< damping of the free axis, or a cylindrical's angle [N m s/rad] or [N s/m], >= 0. Implicit: any size
   double slideDamping = 0; ///< damping of the slide of a cylindrical joint [N s/m], >= 0
   double length = 0;       ///< length of a distance joint [m], > 0; 0: from the body poses
 };

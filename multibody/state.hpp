@@ -16,7 +16,7 @@ struct JointReading {
   Vec3d force; ///< force of A on B: hard rows plus axis force, world components [N]; for a shoe joint the track
                ///< tension
   Vec3d
-      torque; ///< torque of A on B about the joint point (origin of frame B), with axis torque, world components [N m]
+      torque; ///< torque of A on B about the joint point (origin of frame_B), with axis torque, world components [N m]
   double position = 0;    ///< angle [rad], unwrapped over full turns, or slide [m]; 0 if the type has no axis; for a
                           ///< cylindrical joint the angle (slide: State::slide)
   double rate = 0;        ///< [rad/s] or [m/s]

@@ -15,7 +15,7 @@ double press(NodeContact& contact, const NodeContact* former, const LoadedNodes&
   if (former) {
     before = former->area;
     double elastic = former->elastic;
-    if (former->offset != t.offset) { // the soil has moved away from the body
+    if (former->offset != t.offset) { // the soil has sunk away from the body
       elastic = t.before.elastic(t.before.pressureAt(former->depth - t.offset));
       energy.slipSinkage += before * (former->elastic - elastic);
     }

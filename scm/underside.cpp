@@ -36,7 +36,7 @@ std::optional<Underside> Undersides::lowestAt(double x, double y, double ceiling
     if (gap.distance <= near_) return Underside{bottom + climbed, motion_.rotation * gap.normal};
     climbed += gap.distance;
   }
-  if (clearance) *clearance = 0.5 * nearest; // at least half the last distance between two points of a line
+  if (clearance) *clearance = 0.5 * nearest; // between two points the gap is >= half of the second one
   return {};
 }
 

@@ -55,7 +55,7 @@ struct Lattice {
     const auto [low, high] = bounds(mesh);
     for (int k = 0; k < 3; ++k) {
       const double extent = high[k] - low[k], room = extent - 2 * radius;
-      // A relative 1e-9 absorbs the rounding of extents that are whole multiples.
+      // 1e-9 of the spacing absorbs the rounding of extents that are whole multiples.
       const double intervals = room > 0 ? std::floor(room / step + 1e-9) : 0;
       first[k] = low[k] + 0.5 * (extent - intervals * step);
       count[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(intervals) + 1;
@@ -158,7 +158,7 @@ private:
     return centres_.any(p, distance,
                         [&](std::uint32_t i) { return norm2(spheres_[i].centre - p) < distance * distance; });
   }
-  /// Tests only spheres near the lattice point of the sample's own sphere: the common case, at a fraction of the cost.
+  /// Tests only spheres near the place of the sample's own sphere: the common case, at a fraction of the cost.
   bool coveredBeneath(const SurfaceSample& sample) const {
     return centres_.any(sample.point - sample.normal * radius_, 0.5 * spacing_, [&](std::uint32_t i) {
       return detail::discDistance(spheres_[i], sample.point) <= options_.maxDip * radius_;
@@ -274,7 +274,7 @@ void check(const std::string& name, const DecompositionOptions& o) {
   if (o.radius != 0) range("radius", o.radius, kSmallestRadius, kLargestRadius, "m");
 }
 
-/// Rejects spheres as large as the part.
+/// Rejects spheres wider than the longest side of the part.
 void checkFits(const TriangleMesh& mesh, const std::string& name, double radius) {
   const auto [low, high] = bounds(mesh);
   const double half = 0.5 * std::max({high.x - low.x, high.y - low.y, high.z - low.z});

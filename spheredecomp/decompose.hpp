@@ -25,7 +25,7 @@ struct DecompositionOptions {
   double flatTolerance{0.01}; ///< maximum protrusion of a flat disc from the mesh [radius]
   double smallest{0.2};       ///< minimum sphere radius at thin places of the part, relative to the radius [-]
   bool thin{false};           ///< true: the part has thin places, which receive finer fits, discs and samples
-  std::size_t most{};         ///< number of surface spheres at which an unfinished cut stops; 0: no limit
+  std::size_t most{};         ///< number of surface spheres beyond which the cut stops, unfinished; 0: no limit
   bool interior{true};        ///< true: also fill the interior with lattice spheres (contacts need the surface only)
 };
 

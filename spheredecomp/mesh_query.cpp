@@ -48,7 +48,7 @@ Vec3d closestOnTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Ve
   return edges[best];
 }
 
-/// Twice the signed area of (a, b, (x, y)) in the x-y plane, never zero: a point on the line is perturbed by (e, e^2).
+/// Twice the signed area of (a, b, (x, y)) in the x-y plane. `positive`: its sign, on the line as if moved by (e, e^2).
 /// Evaluated from the vertex of lower index, so that two triangles have exactly opposite values along their common
 /// edge.
 double side(const Vec3d& a, std::uint32_t ia, const Vec3d& b, std::uint32_t ib, double x, double y, bool& positive) {

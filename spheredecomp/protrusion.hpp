@@ -16,8 +16,8 @@ struct Protrusion {
 struct ProtrusionLimit {
   double permitted{};                   ///< [m], > 0
   double contactSize{};                 ///< [m], > 0: size of the smallest contact partner
-  double permittedDip{base::kInfinity}; ///< permitted depth of the set below the surface at small spheres; default:
-                                        ///< that of the default cut [m]
+  double permittedDip{base::kInfinity}; ///< permitted depth of the default cut below the surface where its spheres
+                                        ///< shrink [m]; infinite: no limit
   bool automatic{}; ///< true: default radius, which a finer cut may replace; false: protrusion is only measured
 };
 
@@ -51,7 +51,7 @@ struct CutReport {
 
 /// Report line: "shoe.obj: 600 spheres of 0.02 m, largest protrusion 0.16 mm at (...) m, permitted 0.77 mm".
 std::string protrusionLine(const CutReport& report);
-/// Warning if an explicit radius exceeds the protrusion limit; else empty.
+/// Warning if the protrusion with an explicit radius exceeds the limit; else empty.
 std::string protrusionWarning(const CutReport& report);
 
 /// Inputs of the result in addition to cutOrigin(), as text.

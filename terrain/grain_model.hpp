@@ -84,8 +84,8 @@ struct GrainLedger {
   double work{};                       ///< work of all forces on the grains [J]: kinetic and rotational energy gain
   double turnover{};                   ///< sum of |work| per grain and step [J]
   base::Vec3d momentum;                ///< current value [kg m/s]
-  base::Vec3d angularMomentum;         ///< current value, about the world origin [kg
-  base::Vec3d impulse, angularImpulse; ///< m2/s] of gravity, walls and floor [N s], [N m s] about the world origin
+  base::Vec3d angularMomentum;         ///< current value, about the world origin [kg m2/s]
+  base::Vec3d impulse, angularImpulse; ///< impulse of gravity, walls and floor [N s], [N m s] about the world origin
   std::int64_t contacts{};             ///< grain-grain contacts
   std::int64_t boundaryContacts{};     ///< contacts of grains with walls, floor and surfaces
   std::int64_t squeezed{};             ///< grain-grain contacts with an overlap above contact::kSqueezed

@@ -14,7 +14,7 @@ using SurfaceHeight = std::function<double(double x, double y)>;
 /// Tangent plane of the ground under a vehicle: least-squares plane through surface points below both tracks.
 struct GroundPlane {
   double ahead = 0, left = 0; ///< slopes along the heading and to its left [-]; exactly 0 on level ground
-  double height = 0;          ///< at the vehicle origin [m]
+  double height = 0;          ///< height of the plane at (x, y) of the vehicle origin [m]
   double highest = 0;         ///< largest elevation of a point above the plane [m]
   double top = 0;             ///< highest z of the points [m]
 };

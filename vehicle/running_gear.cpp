@@ -345,7 +345,7 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
   const Fault preload{{named("idler", "preload", "N")}, "", fmt::format("set idler.preload = {:.0f}", tenth)};
   if (s.idler.preload <= 0) {
     Fault f = preload;
-    f.what = "leaves the track slack, and the sprocket skips teeth; a usual strand tension is 10 % of the weight";
+    f.what = "leaves the track slack, and the sprocket skips teeth; 10 % of the weight in each strand is usual";
     return f;
   }
   if (s.idler.preload > 2 * weight) {

@@ -135,7 +135,7 @@ struct VehicleSpec {
   bool sprocketInFront() const { return idler.x < 0; }
   /// Direction along x in which the tensioner pushes the idler, away from the sprocket: 1 or -1.
   double outward() const { return sprocketInFront() ? -1 : 1; }
-  /// Radius of the smallest wheel inside the track [m].
+  /// Radius of the smallest wheel that rolls in the track: road wheel, roller or idler [m].
   double smallestWheel() const;
   /// Track-ground contact length: from the rearmost to the foremost road wheel axle [m].
   double groundRun() const { return roadWheel.spacing * (roadWheel.count - 1); }

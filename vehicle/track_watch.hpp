@@ -29,8 +29,8 @@ struct UnguidedWheel {
   double beside{}; ///< lateral distance from its middle to that of the horns, along its axle [m]
 };
 
-/// Returns the first wheel that is above its plates by more than `lift` [m], so that no horn reaches between its discs,
-/// with these horns displaced laterally by more than half of their height: they cannot return. A track above its wheels
+/// Returns the first wheel that is off its plates by more than `lift` [m], so that no horn reaches between its discs,
+/// with these horns displaced laterally by more than half of their height: they cannot return. A track off its wheels
 /// within its own plane remains guided at any distance: it is slack, or lifted by an edge, and will return.
 UnguidedWheel unguidedWheel(const Assembly& vehicle, int track, const multibody::State& state, double lift);
 

@@ -250,7 +250,7 @@ double idlerXOfLength(VehicleSpec spec) {
   return spec.idler.x;
 }
 
-/// Idler x for a `sound` vehicle, to 0.1 mm, searched in steps of 5 mm; 0: none within 0.6 m, nor near the position
+/// Nearest idler x for a `sound` vehicle, to 0.1 mm, in steps of 5 mm; 0: none within 0.6 m, nor near the position
 /// required by the loop.
 double soundIdlerX(VehicleSpec spec, const std::optional<Wrap>& nearest,
                    const std::function<bool(const VehicleSpec&)>& sound) {

@@ -106,7 +106,7 @@ double axisPositionAfter(const Constraint& c, const JointFrames& f0, const Joint
 /// Rotation vector of R_AB in the axes of A [rad], |phi| <= pi.
 Vec3d relativeRotation(const JointFrames& f);
 
-/// J (v, w) of one row [m/s, rad/s], from the frames and twists of both bodies.
+/// J (v, w) of one row [m/s, rad/s], from the frames and twists of all bodies.
 double rowRate(const Constraint& c, const JointFrames& f, const RowDirections& rows, int row,
                const std::vector<Frame>& frames, const std::vector<Twist>& twist);
 

@@ -92,7 +92,7 @@ private:
     Lanes gravity, external, drive, spring, dissipated;
     // Terms of ledger.hpp. `fall`: sum of m g.v.
     Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
-    Vec3d ground, groundMoment; ///< impulse on immovable bodies
+    Vec3d ground, groundMoment; ///< impulse from immovable bodies on the movable ones
   };
   /// Velocity of the point p_B of B relative to A, with the angular velocity of B relative to A.
   Twist relativeTwist(int k, const std::vector<Twist>& twist) const;

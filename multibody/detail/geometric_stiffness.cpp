@@ -18,8 +18,8 @@
 ///
 ///   f(q) = J(q)^T lambda,    K u = -d/ds f(q + s u),
 ///
-/// the geometric stiffness of structures under load: a chain link under the tension T is restored by T times its
-/// length. Both integrators use the directions of f at the beginning of a step. With A the mobility under the
+/// the geometric stiffness of structures under load: a chain link under the tension T turns back with T times its
+/// length [N m/rad]. Both integrators use the directions of f at the beginning of a step. With A the mobility under the
 /// constraints and omega^2 an eigenvalue of A K, a transverse oscillation is therefore stable for steps up to 2 /
 /// omega, as with explicit springs; springs that are implicit along themselves only add mass there.
 namespace grouser::multibody::detail {

@@ -15,8 +15,8 @@ namespace grouser::multibody::detail {
 /// position. Pivot threshold, in units of the usual one, for rows that a rotation [rad] within a step can take through
 /// a singular position.
 inline double weakPivotScale(double turn) { return std::max(10 * turn * turn, 1e-6) / Elimination::kPivotTolerance; }
-/// Pivot threshold for rows that can transmit an impulse: a gap of the tolerance allows a deviation of up to its square
-/// root across the singular direction, which must be small beside the angle for the impulse to act along the row.
+/// Threshold for rows that can transmit an impulse: a gap of the tolerance allows a deviation of up to its root across
+/// the singular direction, which must be small beside the angle, else the impulse acts on the motion through it.
 inline double firmPivotScale(double positionTolerance) {
   return std::max(1.0, 1e2 * positionTolerance / Elimination::kPivotTolerance);
 }

@@ -90,7 +90,7 @@ private:
   void finishAxis(int a, State& state, double h);
 
   // Ledger of the kicks (rattle_ledger.cpp).
-  /// Adds an impulse along a row to the vectors of its bodies, and the part on immovable bodies to the ledger.
+  /// Adds an impulse along a row to the vectors of its bodies, and the impulse from an immovable one to the ledger.
   void give(int k, int row, double impulse);
   void bookFirstKick(const Part& part, const State& state, const Loads& loads, double h);
   void bookSecondKick(const Part& part, const Loads& loads, double h);

@@ -18,7 +18,7 @@ void add(SoftRow& row, const LinearSpring& spring) {
   row.damping += spring.damping;
 }
 
-/// Mean force of one end stop over a stage, outward, in the direction of its overlap.
+/// Mean force on one end stop over a stage, in the direction of its overlap; the axis receives the opposite.
 struct StopStage {
   double elastic = 0, damper = 0;
   double slope = 0; ///< slope of both over x1

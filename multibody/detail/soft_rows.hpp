@@ -18,7 +18,7 @@ struct SoftRow {
   double applied1 = 0;
   bool stops = false;  ///< has end stops
   bool driven = false; ///< position and rate are imposed
-  double target = 0;   ///< imposed position at the end of the stage, or its increment (`relative`)
+  double target = 0;   ///< imposed position at the end of the stage (law), or its increment (no law: `relative`)
   bool relative = false;
   double rate = 0;         ///< at the end of the stage
   double acceleration = 0; ///< at the end of the stage

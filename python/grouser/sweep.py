@@ -76,7 +76,8 @@ class _OfRuns(Quantity):
 
 class _Means(dict[str, list[SweepMean]]):
     def __missing__(self, figure: str) -> list[SweepMean]:
-        raise KeyError(f"no means of {figure!r}; means are {', '.join(self) or 'none, since no seeds were run'}")
+        raise KeyError(f"no means of {figure!r}; means are {', '.join(self) or 'none, since no seeds were run'}; "
+                       "sweep[figure] has the values of all runs")
 
 
 class Sweep:
@@ -84,6 +85,9 @@ class Sweep:
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
+        if self.folder.is_dir() and not (self.folder / "summary.csv").exists():
+            run = "; open_run opens the folder of a run" if (self.folder / "results.h5").exists() else ""
+            raise FileError(f"{self.folder}: no summary.csv; give the folder of a sweep{run}")
         rows = read_csv(self.folder / "summary.csv")
         columns = list(rows[0]) if rows else []
         if not rows and (self.folder / "summary.csv").read_text(encoding="utf-8").startswith("run,"):

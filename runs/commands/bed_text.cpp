@@ -84,8 +84,8 @@ std::vector<std::string> bedNotes(const TrackOnBed& t) {
                                 t.width, wide, wide));
   if (t.pressedDiameter > fine)
     notes.push_back(fmt::format(
-        "track pads are only {:.1f} mean grain diameters wide (recommended: {:g}): coarse grains overestimate bearing "
-        "capacity; use terrain.grain_radius <= {:.2g} m, or a finer terrain.sieve_size",
+        "track pads are only {:.1f} mean grain diameters wide (at least {:g} recommended): coarse grains overestimate "
+        "bearing capacity; use terrain.grain_radius <= {:.2g} m, or a finer terrain.sieve_size",
         t.padWidth / t.pressedDiameter, kGrainsInPad, 0.5 * fine));
   if (!t.roughFloor)
     notes.emplace_back(

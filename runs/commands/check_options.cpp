@@ -65,8 +65,8 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->check(support::positive("a percentage"));
   check
       ->add_option("--of", c.options.figures,
-                   "reduce the error bars of these figures to --bar with the fewest runs: sinkage, torque, speed, "
-                   "slip, tension, motion_resistance, or any figure listed in check.json")
+                   "reduce the error bars of these figures to --bar with the least run time: sinkage, torque, "
+                   "speed, slip, tension, motion_resistance, or any figure listed in check.json")
       ->delimiter(',');
   check
       ->add_option(
@@ -76,8 +76,8 @@ void addCheck(CLI::App& app, const Invocation&) {
       ->delimiter(',');
   check
       ->add_option("--draws", c.options.draws,
-                   "number of random samples of the constants of deformable soil, which add the parameter uncertainty "
-                   "to the error bars; default: 0")
+                   "number of random samples of the constants of deformable soil, for the parameter error of each "
+                   "figure; default: 0")
       ->check(support::wholeNumber(0, 1000));
   check->add_option("--budget", c.options.budget,
                     "limit on the total wall time, e.g. 90s, 20min or 1.5h; runs that do not fit, judged by the "

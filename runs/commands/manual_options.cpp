@@ -51,7 +51,7 @@ void addManual(CLI::App& app, const Invocation&) {
   CLI::Option* markdown =
       manual->add_flag("--markdown", command->markdown, "print the options of all commands, as in docs/options.md");
   CLI::Option* folder = manual->add_option("--folder", command->folder,
-                                           "write all manual pages and the completion script to this folder instead");
+                                           "write all pages and the completion script below this folder instead");
   completion->excludes(name), folder->excludes(name), folder->excludes(completion);
   markdown->excludes(name), markdown->excludes(completion), markdown->excludes(folder);
   manual->callback([command, &app] { manualCommand(app, *command); });

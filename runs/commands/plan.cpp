@@ -283,7 +283,7 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
     text += output::mechanismSize(coupling::Mechanism(setup::contactFreeSetup(scene), step));
   text += bedHeightText(scene);
   for (const support::SoilUse& use : scene::soilUses(scene))
-    text += fmt::format("  {:<24} {}\n", "soil", scene::soilLine(use));
+    text += fmt::format("  {:<24} {}\n", "soil", scene::soilLine(use, !scene.deformable()));
   text += pairsText(scene);
   const setup::StepLimit limit = setup::stepLimit(scene);
   text += timeText(scene, limit, step, static_cast<double>(grains));

@@ -21,7 +21,7 @@ void addRun(CLI::App& app, const Invocation& invocation) {
   run->add_option("--threads", c.threads, "number of CPU threads; 0: all cores; the results do not depend on it")
       ->check(support::wholeNumber(0, 1024));
   support::addOut(*run, c.folder, "results folder; default: out/NAME, where NAME is the scene name");
-  run->add_option("--steps", c.steps, "stop after this number of time steps")->check(support::wholeNumber(1));
+  run->add_option("--steps", c.steps, "stop at this time step, counted after settling")->check(support::wholeNumber(1));
   run->add_flag("--force", c.force, "overwrite existing results in the output folder");
   CLI::Option* resume =
       run->add_option(

@@ -95,7 +95,8 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
                static_cast<double>(grains->system().deviceBytes()) /
                    static_cast<double>(std::max<std::size_t>(1, grains->view().count)));
   describeRanks(simulation);
-  for (const support::SoilUse& use : provenance.soils) fmt::print("soil      {}\n", scene::soilLine(use));
+  for (const support::SoilUse& use : provenance.soils)
+    fmt::print("soil      {}\n", scene::soilLine(use, simulation.ground().grains != nullptr));
   fmt::print("{}", bedText(simulation));
   describePlaced(simulation);
   if (kept.beds && !kept.beds->summary().empty()) fmt::print("bed       {}\n", kept.beds->summary());

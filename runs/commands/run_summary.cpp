@@ -69,7 +69,7 @@ std::string energyText(const output::Summary& summary) {
   const double converted = summary.figures.at("energy_converted_J");
   if (!(converted > 0)) return {};
   return fmt::format(
-      "energy    residual {:.0e} and time-integration error {:.2g} % of the work of all forces, {:.3g} J\n",
+      "energy    residual {:.0e} and time-integration error {:.2g} % of the absolute work of all forces, {:.3g} J\n",
       std::fabs(summary.figures.at("energy_residual_J")) / converted,
       100 * std::fabs(summary.figures.at("integration_error_J")) / converted, converted);
 }

@@ -76,7 +76,7 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7),
            "normal stresses of the shear tests [Pa]");
   keys.add(soil, "--steps-per-contact", &PlanOptions::stepsPerContact, support::between(6, 600),
-           "time steps per shortest contact; increased automatically for tests that become unstable");
+           "time steps per shortest contact; increased automatically for tests that end as unsound");
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
            "height of the sheared layer, at least ten grains [m]");
   soil.add_flag("!--no-wide", keys.wide(),

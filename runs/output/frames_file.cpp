@@ -303,7 +303,7 @@ std::vector<support::FileField> frameFields() {
       {"ground/position", "float32", "[vertices, 3]", "m", "vertices of rigid ground and planes"},
       {"ground/triangles", "uint32", "[triangles, 3]", "-", corners},
       {"vertices/NUMBER", "uint32", "[NUMBER, 1]", "-",
-       "0, 1, 2... up to the number of grains; topology for ParaView"}};
+       "0, 1, 2... for frames with this number of grains; required by ParaView"}};
   fields.insert(fields.end(), others.begin(), others.end());
   return fields;
 }

@@ -58,7 +58,7 @@ inline constexpr ResultConstant kSurfaceX{"terrain/surface/x", "m", "x of the no
 inline constexpr ResultConstant kInputs{
     "inputs/series", "-, various",
     "one row per input: step before which it was set, kind (index into the attribute kinds), target (track: 0 left, 1 "
-    "right; or index of a body), 1 if the input was released, six values in the unit of the kind"};
+    "right; body: its index), 1 if the input was released, six values in the unit of the kind"};
 
 /// All fields of results.h5. For each series the dataset `value`, beside which are `step` and `time`.
 std::vector<support::FileField> resultFields();

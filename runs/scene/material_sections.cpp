@@ -104,8 +104,8 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(1e9);
   t.add("attraction", &S::attraction, "",
-        "whether the dashpot may cause a tensile force while surfaces separate; otherwise the normal force is at least "
-        "0 (to model cohesion, use cohesion)");
+        "whether the dashpot may cause a tensile force while surfaces separate; otherwise it cancels at most "
+        "the spring force (to model cohesion, use cohesion)");
   t.add("friction", &S::friction, "-", "Coulomb friction coefficient").atLeast(0).atMost(10);
   static_assert(S::kTangentialStiffnessRatio == 2.0 / 7, "as the help says");
   t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",

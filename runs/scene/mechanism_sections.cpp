@@ -31,8 +31,8 @@ Table<BodySection> bodyTable() {
       .above(0)
       .atMost(1e6);
   t.add("inertia", &S::inertia, "kg m2",
-        "moments of inertia about the centre of mass in the body axes: xx, yy, zz, optionally also xy, xz, yz; "
-        "default: those of a uniform box, or of uniform shapes");
+        "moments of inertia about the centre of mass in the body axes: xx, yy, zz, optionally also the matrix entries "
+        "xy, xz, yz; default: those of a uniform box, or of uniform shapes");
   t.add("box", &S::box, "m",
         "edge lengths of the box that represents the body in pictures; default: from mass and inertia")
       .above(0)
@@ -328,8 +328,8 @@ SectionEntry bodies() {
 Table<MechanismPlacement> placementTable() {
   Table<MechanismPlacement> t("mechanism", "Common placement of all bodies of a mechanism");
   t.add("above_bed", &MechanismPlacement::aboveBed, "m",
-        "minimum gap between each shape and the highest grain below it; bodies, joints and attachments to the world "
-        "are raised together by this rule after the bed has settled")
+        "minimum gap between each shape and the highest grain below it after the bed has settled; bodies, joints and "
+        "attachments to the world are raised or lowered together to this gap")
       .atLeast(0)
       .atMost(1e5);
   return t;

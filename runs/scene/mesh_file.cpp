@@ -27,8 +27,8 @@ LoadedMesh loadMesh(const base::Section& section, const std::string& file, doubl
   const base::Vec3d size = high - low;
   const double longest = std::max({size.x, size.y, size.z}), byDefault = norm(size) / MeshSection::kRadiiInDiagonal;
   if (!sphereRadius && !(byDefault >= spheredecomp::kSmallestRadius && byDefault <= spheredecomp::kLargestRadius))
-    section.fail("scale", fmt::format("[m] results in a mesh of length {:.4g} m with spheres of {:.3g} m, outside "
-                                      "[{:g}, {:g}] m; correct it (scale is the length of one unit of the file)",
+    section.fail("scale", fmt::format("[m] results in a mesh of length {:.4g} m with a sphere radius of {:.3g} m, "
+                                      "outside [{:g}, {:g}] m; correct it (length of one unit of the file)",
                                       longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
   loaded.sphereRadius = sphereRadius.value_or(byDefault);
   if (loaded.sphereRadius > 0.5 * longest)

@@ -36,7 +36,7 @@ Table<RunSettings> runTable() {
   t.add("time_step", &S::timeStep, "s",
         "time step; \"auto\": duration of the shortest contact / steps_per_contact (1e-4 s without grains), at most "
         "half the largest step at which beds come to rest, 0.2 of the Rayleigh time of hertz grains, 0.1 s and the "
-        "duration; for mechanisms from their oscillation periods; the maximum is the stability limit of the contacts")
+        "duration; for mechanisms from their oscillation periods; a set step may be up to the stability limit")
       .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");
@@ -67,7 +67,7 @@ Table<RunSettings> runTable() {
   t.add("seed", &S::seed, "-", "seed of the random number generator").atLeast(0);
   t.add("device", &S::device, "", "device for the grains; \"auto\": a GPU if available");
   t.add("precision", &S::precision, "",
-        "precision of the grain forces; with both, results are bitwise identical on all machines");
+        "precision of the grain forces; with either, results are bitwise identical on all machines");
   addContactKeys(t);
   t.add("impact_speed", &S::impactSpeed, "m/s",
         "maximum expected impact speed, used to choose and check the time step of hertz materials; with "

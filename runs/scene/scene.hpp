@@ -238,7 +238,7 @@ struct Course {
   double acceleration = 1;                   ///< [m/s2]
   std::optional<double> radius;              ///< [m] circle radius, positive to the left
   std::vector<double> x, y;                  ///< [m] points of a path
-  std::optional<double> lookAhead;           ///< [m]; empty: track-ground contact length
+  std::optional<double> lookAhead;           ///< [m]; empty: distance from first to last road wheel
   double speedGain = 0.5, speedIntegral = 1; ///< [-], [1/s]
   double turnGain = 0.5, turnIntegral = 2;   ///< [-], [1/s]
   double maxSprocketSpeed = 100;             ///< [rad/s]

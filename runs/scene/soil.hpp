@@ -102,8 +102,9 @@ std::string soilHint(const std::string& word, const std::filesystem::path& scene
 
 /// Soils of a scene: one for each material that is a soil, in the order of the materials.
 std::vector<support::SoilUse> soilUses(const Scene& scene);
-/// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times its own, cohesion [J/m2] 3; uncalibrated".
-std::string soilLine(const support::SoilUse& use);
+/// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times its own, cohesion [J/m2] 3; uncalibrated"; only
+/// name, file and hash if not `isGranular`.
+std::string soilLine(const support::SoilUse& use, bool isGranular = true);
 
 /// Notes on the scene's soils, a line each.
 std::vector<std::string> soilNotes(const Scene& scene);

@@ -97,12 +97,15 @@ std::vector<support::SoilUse> soilUses(const Scene& scene) {
   return uses;
 }
 
-std::string soilLine(const support::SoilUse& use) {
+std::string soilLine(const support::SoilUse& use, bool isGranular) {
+  const std::string name =
+      fmt::format("{}{}: {} ({})", use.material, use.material == use.soil ? "" : fmt::format(" is {}", use.soil),
+                  use.file, use.hash);
+  if (!isGranular) return name;
   std::string values;
   for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);
-  return fmt::format("{}{}: {} ({}), grains of {}, {:.4g} times the soil's{}; {}", use.material,
-                     use.material == use.soil ? "" : fmt::format(" is {}", use.soil), use.file, use.hash,
-                     millimetres(use.grainRadius), use.scale, values,
+  return fmt::format("{}, grains of {}, {:.4g} times the soil's{}; {}", name, millimetres(use.grainRadius), use.scale,
+                     values,
                      use.calibrated                                 ? "calibrated"
                      : std::fabs(use.scale - 1) > kCalibratedWithin ? "scaled, not calibrated at this size"
                                                                     : "uncalibrated");

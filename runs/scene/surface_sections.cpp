@@ -46,8 +46,8 @@ template <class S> void addSurface(Table<S>& t) {
   t.template add<Number>("until", &S::until, "s", "end time of velocity, spin and oscillation").above(0).atMost(1e5);
   t.template add<std::optional<Axis>>(
       "free", &S::free, "",
-      "axis along which the surface moves freely under load, contact forces and weight, in addition to velocity, spin "
-      "and amplitude (e.g. a wheel under load, or a plate that is pulled or turned)");
+      "axis along which the surface moves freely from the start under load, forces of the grains and weight, in "
+      "addition to velocity, spin and amplitude (e.g. a wheel under load, or a plate that is pulled or turned)");
   t.template add<Number>("mass", &S::mass, "kg", "mass of a free surface; required with free").above(0).atMost(1e12);
   t.template add<Number>("load", &S::load, "N",
                          "force on a free surface along its axis; along z, negative presses down")
@@ -103,7 +103,7 @@ Table<CylinderSection> cylinderTable() {
   t.add("radius", &S::radius, "m", "radius").above(0).atMost(1e5).required();
   t.add("length", &S::length, "m", "length along the axis").above(0).atMost(1e5).required();
   t.add("hollow", &S::hollow, "",
-        "whether the cylinder is a thin drum or pipe, open at both ends, with contact inside and outside");
+        "whether the cylinder is a drum or pipe of zero thickness, open at both ends, with contact inside and outside");
   addSurface(t);
   return t;
 }
@@ -127,7 +127,7 @@ Table<MeshSection> meshTable() {
       .atMost(spheredecomp::kLargestRadius);
   t.add("sphere_refinement", &S::sphereRefinement, "-",
         "divisor of the sphere radius, and of the permitted protrusion if the radius is automatic; grouser check "
-        "doubles it")
+        "doubles it in its finer case")
       .atLeast(1)
       .atMost(16);
   addSurface(t);

@@ -117,8 +117,8 @@ Table<Terrain> terrainTable() {
       .atLeast(0)
       .atMost(10);
   t.add("settle_time_limit", &S::settleTimeLimit, "s",
-        "maximum settling time of the bed; 0: no settling, so a random bed starts as a loose column regardless of "
-        "porosity")
+        "time limit of settling, after which the run ends with an error; 0: no settling, so a random bed starts as a "
+        "loose column regardless of porosity")
       .atLeast(0)
       .atMost(1e4);
   t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-",
@@ -189,7 +189,7 @@ void completeArrangement(const Section& section, Terrain& t) {
   }
   for (const char* key : {"layers", "spacing", "jitter", "packing"})
     if (section.has(key))
-      section.fail(key, "requires arrangement = \"lattice\"; set it, or replace layers by depth [m]");
+      section.fail(key, "requires arrangement = \"lattice\"; set it, or remove the key and set depth [m]");
   if (!t.depth) section.fail("depth", "[m] is missing, but a random bed requires it; add it, e.g. depth = 0.5");
   t.radiusDistribution = t.radiusDistribution.value_or(RadiusLaw::uniform);
   const bool spreads = t.radiusDistribution == RadiusLaw::uniform || t.radiusDistribution == RadiusLaw::lognormal;

@@ -43,7 +43,7 @@ Table<Vehicle> vehicleTable() {
       .atMost(1)
       .orWord("auto");
   t.add("sphere_refinement", &S::sphereRefinement, "-",
-        "divisor of all sphere radii, and of the permitted protrusion of automatic radii; grouser check doubles it")
+        "divisor of all sphere radii and of automatic protrusion limits; grouser check doubles it in its finer case")
       .atLeast(1)
       .atMost(16);
   t.add("material", &S::material, "",
@@ -105,7 +105,7 @@ Table<Driver> driverTable() {
       .atLeast(0)
       .atMost(1e3);
   t.add("weight_ramp", &S::weightRamp, "s",
-        "ramp duration of gravity and the preload of the suspension arms, after tension_ramp")
+        "ramp duration of the vehicle's weight and the preload of the suspension arms, after tension_ramp")
       .atLeast(0)
       .atMost(1e3);
   t.add("drive_start", &S::driveStart, "s",
@@ -202,7 +202,7 @@ Table<Stop> stopTable() {
       .atLeast(0)
       .atMost(1e6);
   t.add("immobile", &S::immobile, "s",
-        "maximum duration for which the hull speed is less than a twentieth of the track speed; default: no limit")
+        "maximum time with a hull speed below a twentieth of the speed of the driven tracks; default: no limit")
       .above(0)
       .atMost(1e5);
   return t;

@@ -217,11 +217,11 @@ void checkTimeScales(const scene::Scene& scene, double timeStep) {
   for (const TimeScale& s : timeScales(scene)) {
     const double steps = s.time / timeStep;
     if (steps >= wanted * (1 - kDigits)) continue;
-    s.fail(
-        fmt::format("[{}] is under-resolved: {} has {:.3g} time steps of {:.4g} s, fewer than run.steps_per_period = "
-                    "{:g}; set run.time_step to {} s or less, or to \"auto\"{}, or lower run.steps_per_period",
-                    s.unit, s.what, steps, timeStep, wanted, base::roundedDown(s.time / wanted, 4),
-                    s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
+    s.fail(fmt::format("[{}] is under-resolved: {} spans {:.3g} of the required {:g} time steps of {:.4g} s "
+                       "(run.steps_per_period); set run.time_step to {} s or less, or to \"auto\"{}, or lower "
+                       "run.steps_per_period",
+                       s.unit, s.what, steps, wanted, timeStep, base::roundedDown(s.time / wanted, 4),
+                       s.repeats ? "" : ", or make it a jump (a time given twice, a ramp of 0 s)"));
   }
 }
 

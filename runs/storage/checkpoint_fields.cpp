@@ -48,7 +48,7 @@ constexpr Meaning kMeanings[] = {
     {"bed/depth", "m", "depth below the undisturbed surface"},
     {"bed/porosity_at_depth", "-", "porosity at that depth"},
     {"undisturbed_surface", "m", "heights at the nodes"},
-    {"lifts", "m", "heights by which objects placed on the settled bed were raised"},
+    {"lifts", "m", "heights by which objects placed on the settled bed were raised; negative: lowered"},
     {"inputs", "-, various",
      "inputs, ten numbers each: step before which the input was set, kind, target (track or body), 1 if released, six "
      "values; kinds in order: sprocket_speed [rad/s], sprocket_torque [N m], throttle [-], hitch_force [N], "

@@ -27,17 +27,24 @@ nlohmann::ordered_json jsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// Minimum and maximum of the hull's speed in the steady part [m/s], for tracks at constant speeds; null otherwise.
+/// Minimum and maximum of the hull's speed in the steady part [m/s], for sprockets at constant speeds; null otherwise.
 nlohmann::ordered_json speedRange(const scene::Scene& scene, const std::filesystem::path& results, double from) {
   const scene::Driver& driver = scene.driver;
   if (!setup::asksToDrive(scene) || driver.course || driver.table || driver.torqueTable) return nullptr;
   const support::Hdf5File file = support::Hdf5File::open(results);
-  const char* const track = file.has("/vehicle/left/speed/value") ? "left" : "right";
-  const std::vector<double> times = file.numbers("/series/time"),
-                            speeds = file.numbers(fmt::format("/vehicle/{}/speed/value", track));
+  const std::vector<double> times = file.numbers("/series/time");
+  std::vector<double> speeds(times.size());
+  int tracks = 0;
+  for (const std::string dataset : {"/vehicle/left/speed/value", "/vehicle/right/speed/value"}) {
+    if (!file.has(dataset)) continue;
+    const std::vector<double> track = file.numbers(dataset);
+    ++tracks;
+    for (std::size_t i = 0; i < std::min(speeds.size(), track.size()); ++i) speeds[i] += track[i];
+  }
   double low = base::kInfinity, high = -base::kInfinity;
   for (std::size_t i = 0; i < times.size(); ++i)
-    if (times[i] >= from && std::isfinite(speeds[i])) low = std::min(low, speeds[i]), high = std::max(high, speeds[i]);
+    if (const double speed = speeds[i] / tracks; times[i] >= from && std::isfinite(speed))
+      low = std::min(low, speed), high = std::max(high, speed);
   return low <= high ? nlohmann::ordered_json{low, high} : nullptr;
 }
 
@@ -58,7 +65,10 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < found.columns.size(); ++i)
     json["figures"].push_back({{"name", found.columns[i]}, {"value", jsonNumber(found.values.front()[i])}});
   json["inconclusive"] = found.doubtOf(std::size_t{0});
-  const double from = steadyFrom(scene, manifest);
+  const auto column = std::find(found.columns.begin(), found.columns.end(), "steady from [s]");
+  const double from = column == found.columns.end()
+                          ? steadyFrom(scene, manifest)
+                          : found.values.front()[static_cast<std::size_t>(column - found.columns.begin())];
   json["steady_from"] = jsonNumber(from), json["speed_range"] = speedRange(scene, whole / "results.h5", from);
   json["check"] = keptCheck(scene, manifest.text("inputs"));
   return json;

@@ -38,7 +38,6 @@ namespace {
 
 using output::RunStatus;
 
-constexpr const char* kLog = "log.txt"; // output of a run
 
 /// Status of this run by this program in the folder; pending if there is none.
 RunStatus statusOf(const fs::path& folder, const SweepRun& run) {
@@ -59,7 +58,7 @@ RunStatus statusOf(const fs::path& folder, const SweepRun& run) {
 void checkRunFolder(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return;
-  const bool isOurs = fs::exists(folder / kLog, error); // a plain `grouser run` writes none
+  const bool isOurs = fs::exists(folder / kRunLog, error); // a plain `grouser run` writes none
   if (!fs::is_directory(folder, error) || (!isOurs && !fs::is_empty(folder, error)))
     throw base::InputError(fmt::format(
         "{}: exists but is not the folder of a run; choose another with --out, or use it anyway with --force",
@@ -225,7 +224,7 @@ private:
     const int place = freePlace();
     program.environment = gpus_.environment();
     program.environment.emplace_back(support::kFirstGpu, support::firstGpuOf(place));
-    program.log = folder(i) / kLog, program.append = goesOn;
+    program.log = folder(i) / kRunLog, program.append = goesOn;
     if (goesOn) progress_.note(fmt::format("{} resumes from its checkpoint", title(i)));
     running_.emplace_back(i, place, program);
     outcomes_[i].status = RunStatus::running;
@@ -262,7 +261,7 @@ private:
   bool restarted(std::size_t i, const support::ProcessEnd& end) {
     constexpr int kWrongInput = 2;
     if (stopping_ || !goesOn_.contains(i) || end.status != kWrongInput) return false;
-    progress_.note(fmt::format("{} restarts: {}", title(i), reason(end, folder(i) / kLog)));
+    progress_.note(fmt::format("{} restarts: {}", title(i), reason(end, folder(i) / kRunLog)));
     goesOn_.erase(i);
     launch(i);
     return true;
@@ -290,7 +289,7 @@ private:
       outcomes_[i].status = RunStatus::stopped;
       progress_.note(fmt::format("{} stopped", title(i)));
     } else {
-      outcomes_[i] = {RunStatus::failed, reason(end, folder(i) / kLog), causeIn(RunManifest(folder(i)))};
+      outcomes_[i] = {RunStatus::failed, reason(end, folder(i) / kRunLog), causeIn(RunManifest(folder(i)))};
       progress_.note(fmt::format("{} failed: {}", title(i), outcomes_[i].message));
     }
     changed_(outcomes_);

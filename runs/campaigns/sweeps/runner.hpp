@@ -13,6 +13,8 @@
 /// Runs of scenes, one process each.
 namespace grouser::sweeps {
 
+inline constexpr const char* kRunLog = "log.txt"; ///< output of a run, in its folder
+
 struct SweepOptions {
   std::filesystem::path program; ///< grouser executable
   std::filesystem::path folder;  ///< contains the folders of the runs, summary.csv and summary.png

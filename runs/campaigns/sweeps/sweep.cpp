@@ -3,15 +3,19 @@
 
 #include "base/counted.hpp"
 #include "runs/campaigns/sweeps/branches.hpp"
+#include "runs/campaigns/sweeps/check_cases.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/output/plots.hpp"
+#include "runs/support/tell.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <set>
 
 namespace grouser::sweeps {
 
@@ -46,18 +50,59 @@ std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOu
                      tooShort, base::counted(finished, "run"));
 }
 
+/// Warnings of the runs, from their logs: the first kShownWarnings texts, each with the number of runs that print it.
+std::string runWarnings(const SweepPlan& plan, const fs::path& folder) {
+  constexpr std::size_t kShownWarnings = 5;
+  const std::string begin = "WARNING: ";
+  std::vector<std::pair<std::string, int>> found;
+  for (const SweepRun& run : plan.runs) {
+    std::ifstream log(folder / run.name / kRunLog);
+    std::set<std::string> own;
+    for (std::string line; std::getline(log, line);)
+      if (line.starts_with(begin) && line.find("inconclusive") == std::string::npos)
+        own.insert(line.substr(begin.size()));
+    for (const std::string& text : own) {
+      const auto at = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == text; });
+      if (at == found.end())
+        found.emplace_back(text, 1);
+      else
+        ++at->second;
+    }
+  }
+  std::string all;
+  for (std::size_t i = 0; i < std::min(found.size(), kShownWarnings); ++i)
+    all += fmt::format("WARNING in {} of {} runs: {}\n", found[i].second, plan.runs.size(), found[i].first);
+  if (found.size() > kShownWarnings)
+    all += fmt::format("WARNING: {} more in the files {} of the runs\n",
+                       base::counted(found.size() - kShownWarnings, "warning"), kRunLog);
+  return all;
+}
+
+/// Note for a plan with several seeds but without a random scene; else empty.
+std::string seedsNote(const SweepPlan& plan) {
+  std::set<std::int64_t> seeds;
+  for (const SweepRun& run : plan.runs) {
+    if (seedMatters(run.scene)) return {};
+    seeds.insert(run.scene.run.seed);
+  }
+  if (seeds.size() < 2) return {};
+  return "WARNING: nothing in these scenes is random, so the seeds give equal results and no error bars; remove them "
+         "and use grouser check\n";
+}
+
 } // namespace
 
 int runSweep(const SweepPlan& given, const SweepOptions& options) {
   if (!options.force) checkSweepFiles(options.folder);
   const SweepPlan plan = options.from ? branched(given, options) : given;
+  support::tell("{}", seedsNote(plan));
   const std::vector<SweepOutcome> outcomes = runMissing(
       plan, options, "sweep", [&](const std::vector<SweepOutcome>& now) { writeSummary(plan, now, options.folder); });
   // Files of an earlier sweep with other values.
   for (const char* name : {kIntervalsFile, kSummaryPlot}) fs::remove(options.folder / name);
   std::vector<fs::path> tables = {options.folder / kSummaryFile};
   const SweepFigures figures = sweepFigures(plan, outcomes, options.folder);
-  fmt::print("{}", inconclusiveText(plan, figures));
+  fmt::print("{}{}", runWarnings(plan, options.folder), inconclusiveText(plan, figures));
   const SeedIntervals intervals = seedIntervals(plan, figures);
   if (!intervals.groups.empty()) {
     fmt::print("{}", intervalsText(intervals));

@@ -43,11 +43,13 @@ struct Spread {
 /// Steady rows of the series of a run. All values are NaN without a file.
 class Steady {
 public:
-  Steady(const support::Hdf5File* file, double from) : file_(file) {
+  Steady(const support::Hdf5File* file, double from) : file_(file), from_(from) {
     if (file) times_ = file->numbers("/series/time");
     while (first_ < times_.size() && !(times_[first_] >= from)) ++first_;
     part_ = first_, first_ = firstOfWholeTeeth();
   }
+  /// Start of the means [s]; NaN without a file.
+  double from() const { return !file_ ? base::kNaN : first_ > part_ ? times_[first_ - 1] : from_; }
   Spread of(const std::string& path) const {
     Spread spread;
     for (const double v : rows(path)) spread.add(v);
@@ -158,6 +160,7 @@ private:
   }
 
   const support::Hdf5File* file_;
+  double from_; ///< [s]
   std::vector<double> times_;
   std::size_t part_ = 0;  ///< first row of the steady part
   std::size_t first_ = 0; ///< first row of the means
@@ -206,11 +209,11 @@ std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const 
   const Steady steady(file, from);
   std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
                               {"integration error [J]", steady.last("ledger/integration_error")}};
-  if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", file ? from : base::kNaN});
+  if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", steady.from()});
   addSurfaces(steady, columns.surfaces, figures);
   if (!columns.vehicle) return figures;
   const Spread sinkage = steady.ofTracks("sinkage"), tension = steady.ofTracks("tension");
-  const std::vector<Figure> ofVehicle{{"steady from [s]", file ? from : base::kNaN},
+  const std::vector<Figure> ofVehicle{{"steady from [s]", steady.from()},
                                       {"teeth passed [-]", steady.teeth().mean()},
                                       {"speed [m/s]", steady.ofTracks("speed").mean()},
                                       {"slip [-]", steady.slip()},

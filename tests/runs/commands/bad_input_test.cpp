@@ -111,7 +111,7 @@ std::vector<Mistake> vehicles() {
 std::vector<Mistake> grainsAndSurfaces() {
   return {
       badScene("GrainOfNoSize", "position = [0, 0, 0.5]\nradius = 0.01", "position = [0, 0, 0]\nradius = 2e-320",
-               {"scene.toml:10", "grain.0.radius", "smaller than 1e-12 m"}),
+               {"scene.toml:10", "grain.0.radius", "below the minimum 1e-12 m"}),
       badScene("GrainsOverlap", "position = [0.1, 0, 0.5]", "position = [0.015, 0, 0.5]",
                {"grain.1.position", "overlaps", "move it"}),
       badScene("GrainsAtOnePlace", "position = [0.1, 0, 0.5]", "position = [0, 0, 0.5]",
@@ -153,7 +153,8 @@ std::vector<Mistake> stepsAndSizes() {
       badScene("SurfaceTooQuick", "[[plane]]",
                "[[box]]\nposition = [0, 0, 0]\nsize = [1, 1, 0.1]\nvelocity = [0, 0, 600]",
                {"scene.toml:9: box.0.velocity", "without contact", "keep it below 500 m/s"}),
-      badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3", {"run.time_step", "unstable", "or less"}),
+      badScene("StepTooLarge", "time_step = 1e-5", "time_step = 1e-3",
+               {"run.time_step", "the stability limit", "or less"}),
       badScene("TooManyGrains", "grain_radius = 0.03\nlayers = 1", "grain_radius = 5e-5\nlayers = 10000",
                {"scene.toml:11: terrain.grain_radius", "use larger grains"}, replaced(kBed, "time_step = 1e-4\n", "")),
       badScene("TerrainBeyondTheRangeOfPlaces", "grain_radius = 0.03", "grain_radius = 1e-6",

@@ -40,7 +40,7 @@ TEST(BedNotes, NameEachRuleThatABedBreaksWithItsRemedy) {
   TrackOnBed coarse = good; // 0.45 m requested
   coarse.meanDiameter = coarse.pressedDiameter = 0.08, coarse.thickness = 0.43;
   EXPECT_EQ(bedNotes(coarse).size(), 1u) << "only on its grains";
-  EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "terrain.size >= 4.6 m"));
+  EXPECT_TRUE(only([](TrackOnBed& t) { t.width = 4.5; }, "the width in terrain.size to 4.6 m or more"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.pressedDiameter = 0.015; }, "terrain.grain_radius <= 0.007 m"));
   EXPECT_TRUE(only([](TrackOnBed& t) { t.roughFloor = false; }, "terrain.floor_grains"));
   TrackOnBed graded = good; // coarse below

@@ -124,7 +124,7 @@ TEST(PlanOfPairs, SaysWhatDoesNothing) {
                             "friction = 0.9\nrolling_friction = 0.3\n[[plane]]\nmaterial = \"rough\"\n" +
                             kGrain;
   const std::string plan = planText(parsed(pairs)), nothing = "rolling_friction = 0.3 of material.rough has no effect";
-  expectSaid(plan, nothing + " against soil, which has 0");
+  expectSaid(plan, nothing + " in contact with soil, which has 0");
   expectSaid(plan, "[contact.\"soil|rough\"]");
   expectSaid(plan, "grain on a plane: soil, rough");
   expectNotSaid(planText(parsed(pairs + "[contact.\"soil|rough\"]\nrolling_friction = 0.2\n")), nothing);

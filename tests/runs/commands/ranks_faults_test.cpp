@@ -77,7 +77,7 @@ TEST_F(OnRanks, CutsThatMakeNoLatticeAreNamedWithTheirLine) {
   put(folder_ / "cut.toml", std::string(kBed) + "[parallel]\ncuts_x = [0.3, 0.6]\n");
   const Outcome o = run(2, "run cut.toml --out o");
   EXPECT_EQ(o.code, 2);
-  EXPECT_NE(o.errors.find("cut.toml:25: parallel.cuts_x = [0.3, 0.6] [m] makes 3 subdomains along x"),
+  EXPECT_NE(o.errors.find("cut.toml:25: parallel.cuts_x = [0.3, 0.6] [m] results in 3 subdomains along x"),
             std::string::npos)
       << o.errors;
   EXPECT_NE(run(1, "plan cut.toml --ranks 6").out.find("3 x 2 x 1"), std::string::npos) << "the plan matches the run";

@@ -65,6 +65,13 @@ TEST_F(RunSummary, WarnsFirstIfFiguresAreInconclusive) {
   EXPECT_LT(warning, run.out.find(line(run.out, "speed"))) << run.out;
 }
 
+TEST_F(RunSummary, WarnsIfTheSpeedStillVariesInTheSteadyPart) {
+  const Outcome surging = call("run scene.toml --out a", withSharedCache());
+  const std::size_t warning = surging.out.find("WARNING: the speed varies from ");
+  ASSERT_NE(warning, std::string::npos) << surging.out;
+  EXPECT_LT(warning, surging.out.find(line(surging.out, "speed"))) << surging.out;
+}
+
 TEST_F(RunSummary, ASceneWithoutVehicleHasEnergyAndResults) {
   put(folder_ / "ball.toml", "version = 1\n[run]\nduration = 0.1\n[material.glass]\nstiffness = 1e4\n[[plane]]\n"
                              "material = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\nradius = 0.01\n"

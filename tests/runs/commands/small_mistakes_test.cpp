@@ -55,7 +55,8 @@ TEST_F(SmallMistakes, AKeyIsSetOnce) {
   expectRefused("run grains.toml --out o --set 'contact.\"glass|glass\".friction=0.1' --set "
                 "contact.'glass|glass'.friction=0.2",
                 {"set twice, as 0.1 and as 0.2"});
-  expectRefused("run grains.toml --out o --device cpu --set run.device=cuda", {"as cuda and as cpu", "--device sets"});
+  expectRefused("run grains.toml --out o --device cpu --set run.device=cuda",
+                {"as cuda and as cpu", "--device also sets"});
 }
 
 TEST_F(SmallMistakes, AnOptionIsNoValueOfTheOneBefore) {
@@ -143,7 +144,7 @@ TEST_F(SmallMistakes, MissingCheckpointIsNamed) {
 }
 
 TEST_F(SmallMistakes, MoreRanksThanGrainsAreNoPlan) {
-  expectRefused("plan grains.toml --ranks 100000", {"--ranks 100000: the scene has 2 grains", "plan for 2 at most"});
+  expectRefused("plan grains.toml --ranks 100000", {"--ranks 100000: the scene has only 2 grains", "use at most 2"});
   const Outcome o = call("plan grains.toml --ranks 2");
   EXPECT_EQ(o.code, 0) << o.errors;
 }

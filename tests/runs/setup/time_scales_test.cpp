@@ -61,8 +61,8 @@ const std::string kBox = "[[box]]\nname = \"lid\"\nmaterial = \"soil\"\nposition
 TEST(TimeScales, SineDriveBelowTwentyStepsAPeriodIsRefusedWithPlaceNumberAndRemedy) {
   const std::string scene = rotor("amplitude = 100\nfrequency = 1001\n");
   const std::string error = errorOf(scene, {"run.time_step=9.99000999e-4"});
-  EXPECT_EQ(error.rfind("scene.toml:20: drive.0.frequency = 1001 [Hz] is under-resolved: a period of 0.000999 s has 1 "
-                        "time steps of 0.000999 s, fewer than run.steps_per_period = 20",
+  EXPECT_EQ(error.rfind("scene.toml:20: drive.0.frequency = 1001 [Hz] is under-resolved: a period of 0.000999 s spans "
+                        "1 of the required 20 time steps of 0.000999 s (run.steps_per_period)",
                         0),
             0u)
       << error;
@@ -102,7 +102,7 @@ TEST(TimeScales, SmallestGapOfATableCountsThatBeginsBeforeTheEnd) {
   EXPECT_EQ(errorOf(table, {"run.time_step=2e-4"}), "no error");
   const std::string error = errorOf(table, {"run.time_step=1e-3"});
   EXPECT_NE(error.find("drive.0.time = a list of 5 entries [s] is under-resolved: the interval of 0.004 s from 0.5 to "
-                       "0.504 s has 4 time steps of 0.001 s"),
+                       "0.504 s spans 4 of the required 20 time steps of 0.001 s"),
             std::string::npos)
       << error;
   EXPECT_NEAR(stepAskedFor(error), 2e-4, 1e-9);
@@ -131,11 +131,14 @@ TEST(TimeScales, MovingSurfacesAreJudgedByPeriodAndTurnUnlessTheyAreRound) {
     EXPECT_NE(error.find(message), std::string::npos) << error;
   };
   refused(kPlane + "amplitude = [0, 0, 1e-6]\nfrequency = 100\n",
-          "plane.0.frequency = 100 [Hz] is under-resolved: a period of 0.01 s has 10 time steps of 0.001 s");
-  refused(kBox + "spin = [0, 0, 628.3185307179586]\n", "box.0.spin = [0, 0, 628.3185307179587] [rad/s] is "
-                                                       "under-resolved: a turn of 0.01 s has 10 time steps of 0.001 s");
+          "plane.0.frequency = 100 [Hz] is under-resolved: a period of 0.01 s spans 10 of the required 20 time steps "
+          "of 0.001 s");
+  refused(kBox + "spin = [0, 0, 628.3185307179586]\n",
+          "box.0.spin = [0, 0, 628.3185307179587] [rad/s] is "
+          "under-resolved: a turn of 0.01 s spans 10 of the required 20 time steps of 0.001 s");
   refused(kBox + "free = \"z\"\nmass = 1e3\nload = 1\nload_ramp = 0.01\n",
-          "box.0.load_ramp = 0.01 [s] is under-resolved: the ramp of 0.01 s has 10 time steps of 0.001 s");
+          "box.0.load_ramp = 0.01 [s] is under-resolved: the ramp of 0.01 s spans 10 of the required 20 time steps of "
+          "0.001 s");
   const std::string rod = "[[cylinder]]\nmaterial = \"soil\"\nposition = [5, 0, 0]\nradius = 0.1\nlength = 1\n"
                           "axis = [0, 1, 0]\nspin = ";
   refused(rod + "[600, 0, 0]\n", "cylinder.0.spin");
@@ -157,7 +160,7 @@ TEST(TimeScales, DriversTableAndRampsAreJudged) {
   const std::string table = "[driver.table]\nleft = [0, 1, 1, 1]\nright = [0, 1, 1, 1]\ntime = ";
   EXPECT_NE(errorOf(vehicle(table + "[0, 1, 1.0015, 2]\n"))
                 .find("driver.table.time = [0, 1, 1.0015, 2] [s] is under-resolved: the interval of 0.0015 s from 1 to "
-                      "1.0015 s has 15 time steps of 0.0001 s"),
+                      "1.0015 s spans 15 of the required 20 time steps of 0.0001 s"),
             std::string::npos)
       << errorOf(vehicle(table + "[0, 1, 1.0015, 2]\n"));
   EXPECT_EQ(errorOf(vehicle(table + "[0, 1, 1, 2]\n")), "no error");

@@ -92,7 +92,7 @@ TEST_F(MeasuredPlatesTest, NamesLineColumnAndRemedy) {
       {head + "1,-60,0,0\n", "outside (0, 10000]"},
       {head + "1,60,0,0\n1,80,9,9\n", "use a separate number for each test"},
       {head + "1,60,0,0\n1,60,4,9\n", "no test reaches 5 mm; remove this sinkage"},
-      {head + "1,60,0,0\n1,60,9,-9\n", "bears -5 kPa at 5 mm"},
+      {head + "1,60,0,0\n1,60,9,-9\n", "carries -5 kPa at 5 mm"},
       {head + "1,60,0,nan\n", "is not a number"}};
   for (const auto& [text, message] : cases)
     EXPECT_NE(errorOf(text).find(message), std::string::npos) << text << "\n" << errorOf(text);

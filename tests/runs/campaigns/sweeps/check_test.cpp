@@ -183,7 +183,7 @@ TEST_F(Check, WhatBoundsABedAtItsSidesLeavesTheWidthOut) {
             "plane 0 (side) is at a side of the bed and would not move with it");
   EXPECT_EQ(width(plane("[0, 0, -0.1]", "[0, 0, 1]")), "run") << "a level plane looks the same beside the bed";
   EXPECT_EQ(width(box("[0.1, 0, 0]", "[0.04, 0.04, 0.3]")), "run") << "a post inside it";
-  EXPECT_EQ(width(box("[0.1, -0.07, 0]", "[0.3, 0.02, 0.2]")).substr(0, 14), "box 0 stands a");
+  EXPECT_EQ(width(box("[0.1, -0.07, 0]", "[0.3, 0.02, 0.2]")).substr(0, 14), "box 0 is at a ");
   EXPECT_EQ(width(box("[0.1, -0.2, 0]", "[0.3, 0.02, 0.2]")), "run") << "beyond the wider bed";
 }
 

@@ -68,6 +68,21 @@ TEST(SweepValues, SplitAtCommasOutsideBracketsAndQuotes) {
   EXPECT_EQ(splitValues("1,"), (Words{"1", ""}));
 }
 
+TEST_F(Sweep, PrintsWarningsOfItsRunsOnceWithTheirNumber) {
+  put(folder_ / "soil.toml", "version = 1\n[run]\nduration = 1e-3\n[material.sand]\nsoil = \"sandy_loam\"\n"
+                             "grain_radius = 0.02\n[[plane]]\nmaterial = \"sand\"\n[[grain]]\n"
+                             "position = [0, 0, 0.03]\nradius = 0.02\nmaterial = \"sand\"\n[output]\nplots = false\n"
+                             "picture = false\nframes = false\n");
+  const Outcome sweep = call("sweep soil.toml --set run.skin=0.4,0.5 --out soil");
+  EXPECT_NE(sweep.out.find("WARNING in 2 of 2 runs: material.sand: "), std::string::npos) << sweep.out << sweep.errors;
+}
+
+TEST_F(Sweep, WarnsThatSeedsOfADeterministicSceneAreEqual) {
+  const Outcome sweep = call("sweep fall.toml --set run.skin=0.5 --seeds 2 --out s");
+  EXPECT_NE(sweep.errors.find("WARNING: nothing in these scenes is random"), std::string::npos) << sweep.errors;
+  EXPECT_EQ(call("sweep fall.toml --set run.skin=0.5 --out t").errors.find("random"), std::string::npos);
+}
+
 TEST_F(Sweep, IsTheProductOfAllListsNamedByTheirValues) {
   const SweepPlan plan = planSweep(scene(), {{"run.seed=1,2", "run.skin=0.5", "grain.0.velocity=[0, 0, 1],[1,0,0]"}});
   EXPECT_EQ(plan.keys, (Words{"run.seed", "grain.0.velocity"}));
