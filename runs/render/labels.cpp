@@ -12,9 +12,9 @@
 #include <stdexcept>
 
 // The font is part of the program, so that labels do not depend on the fonts of the machine.
-asm(".pushsection .rodata\n.global grouser_label_font\n.hidden grouser_label_font\n"
-    "grouser_label_font: .incbin \"" GROUSER_LABEL_FONT "\"\n.popsection");
-extern "C" const unsigned char grouser_label_font[];
+asm(".pushsection .rodata\n.global kGrouserLabelFont\n.hidden kGrouserLabelFont\n"
+    "kGrouserLabelFont: .incbin \"" GROUSER_LABEL_FONT "\"\n.popsection");
+extern "C" const unsigned char kGrouserLabelFont[];
 
 namespace grouser::render {
 
@@ -63,7 +63,7 @@ struct Font::Data {
 };
 
 Font::Font() : data_(std::make_unique<Data>()) {
-  if (!stbtt_InitFont(&data_->info, grouser_label_font, 0))
+  if (!stbtt_InitFont(&data_->info, kGrouserLabelFont, 0))
     throw std::runtime_error("the font of the labels is damaged: " GROUSER_LABEL_FONT " at build time");
 }
 

@@ -98,7 +98,7 @@ std::vector<support::SoilUse> soilUses(const Scene& scene) {
 }
 
 std::string soilLine(const support::SoilUse& use, bool isGranular) {
-  const std::string name =
+  std::string name =
       fmt::format("{}{}: {} ({})", use.material, use.material == use.soil ? "" : fmt::format(" is {}", use.soil),
                   use.file, use.hash);
   if (!isGranular) return name;
