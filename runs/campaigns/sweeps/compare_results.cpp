@@ -34,10 +34,9 @@ bool isShown(const std::string& column) {
 }
 
 /// Mean pitch over the steady part, nose up positive [deg].
-double steadyPitch(const SweepRun& run, const fs::path& folder) {
+double steadyPitch(const fs::path& folder, double from) {
   const RunSeries series = readSeries(folder);
   const std::vector<double>* pitch = series.of("vehicle.pitch_angle [rad]");
-  const double from = steadyFrom(run.scene, RunManifest(folder));
   double sum = 0;
   int count = 0;
   for (std::size_t i = 0; pitch && i < series.time.size(); ++i)
@@ -53,7 +52,7 @@ SweepFigures figuresOf(const SweepPlan& plan, const std::vector<SweepOutcome>& o
   figures.columns.emplace_back(kPitch);
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     figures.values[i].push_back(
-        output::hasEnded(outcomes[i].status) ? steadyPitch(plan.runs[i], folder / plan.runs[i].name) : base::kNaN);
+        output::hasEnded(outcomes[i].status) ? steadyPitch(folder / plan.runs[i].name, figures.from[i]) : base::kNaN);
   return figures;
 }
 

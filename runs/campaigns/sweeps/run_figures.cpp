@@ -2,22 +2,18 @@
 #include "runs/campaigns/sweeps/run_figures.hpp"
 
 #include "base/error.hpp"
-#include "base/math.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/drive_length.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "runs/support/hdf5_file.hpp"
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
-#include <vector>
 
 namespace grouser::sweeps {
 
@@ -27,25 +23,11 @@ nlohmann::ordered_json jsonNumber(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
 
-/// Minimum and maximum of the hull's speed in the steady part [m/s], for sprockets at constant speeds; null otherwise.
-nlohmann::ordered_json speedRange(const scene::Scene& scene, const std::filesystem::path& results, double from) {
+/// Range of the hull's speed, for sprockets at constant speeds; null otherwise.
+nlohmann::ordered_json speedRange(const scene::Scene& scene, const std::array<double, 2>& range) {
   const scene::Driver& driver = scene.driver;
-  if (!setup::asksToDrive(scene) || driver.course || driver.table || driver.torqueTable) return nullptr;
-  const support::Hdf5File file = support::Hdf5File::open(results);
-  const std::vector<double> times = file.numbers("/series/time");
-  std::vector<double> speeds(times.size());
-  int tracks = 0;
-  for (const std::string dataset : {"/vehicle/left/speed/value", "/vehicle/right/speed/value"}) {
-    if (!file.has(dataset)) continue;
-    const std::vector<double> track = file.numbers(dataset);
-    ++tracks;
-    for (std::size_t i = 0; i < std::min(speeds.size(), track.size()); ++i) speeds[i] += track[i];
-  }
-  double low = base::kInfinity, high = -base::kInfinity;
-  for (std::size_t i = 0; i < times.size(); ++i)
-    if (const double speed = speeds[i] / tracks; times[i] >= from && std::isfinite(speed))
-      low = std::min(low, speed), high = std::max(high, speed);
-  return low <= high ? nlohmann::ordered_json{low, high} : nullptr;
+  const bool isConstant = setup::asksToDrive(scene) && !driver.course && !driver.table && !driver.torqueTable;
+  return isConstant && range[0] <= range[1] ? nlohmann::ordered_json(range) : nullptr;
 }
 
 nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
@@ -65,11 +47,8 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   for (std::size_t i = 0; i < found.columns.size(); ++i)
     json["figures"].push_back({{"name", found.columns[i]}, {"value", jsonNumber(found.values.front()[i])}});
   json["inconclusive"] = found.doubtOf(std::size_t{0});
-  const auto column = std::find(found.columns.begin(), found.columns.end(), "steady from [s]");
-  const double from = column == found.columns.end()
-                          ? steadyFrom(scene, manifest)
-                          : found.values.front()[static_cast<std::size_t>(column - found.columns.begin())];
-  json["steady_from"] = jsonNumber(from), json["speed_range"] = speedRange(scene, whole / "results.h5", from);
+  json["steady_from"] = jsonNumber(found.from.front());
+  json["speed_range"] = speedRange(scene, found.speedRange.front());
   json["check"] = keptCheck(scene, manifest.text("inputs"));
   return json;
 }

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <set>
 
 namespace grouser::sweeps {
@@ -54,32 +55,27 @@ std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOu
 std::string runWarnings(const SweepPlan& plan, const fs::path& folder) {
   constexpr std::size_t kShownWarnings = 5;
   const std::string begin = "WARNING: ";
-  std::vector<std::pair<std::string, int>> found;
+  std::map<std::string, std::size_t> found;
   for (const SweepRun& run : plan.runs) {
     std::ifstream log(folder / run.name / kRunLog);
     std::set<std::string> own;
     for (std::string line; std::getline(log, line);)
-      if (line.starts_with(begin) && line.find("inconclusive") == std::string::npos)
+      if (line.starts_with(begin) && line.find("inconclusive") == std::string::npos) // see inconclusiveText()
         own.insert(line.substr(begin.size()));
-    for (const std::string& text : own) {
-      const auto at = std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == text; });
-      if (at == found.end())
-        found.emplace_back(text, 1);
-      else
-        ++at->second;
-    }
+    for (const std::string& text : own) ++found[text];
   }
   std::string all;
-  for (std::size_t i = 0; i < std::min(found.size(), kShownWarnings); ++i)
-    all += fmt::format("WARNING in {} of {} runs: {}\n", found[i].second, plan.runs.size(), found[i].first);
+  std::size_t shown = 0;
+  for (auto at = found.begin(); at != found.end() && shown < kShownWarnings; ++at, ++shown)
+    all += fmt::format("WARNING in {} of {} runs: {}\n", at->second, plan.runs.size(), at->first);
   if (found.size() > kShownWarnings)
     all += fmt::format("WARNING: {} more in the files {} of the runs\n",
                        base::counted(found.size() - kShownWarnings, "warning"), kRunLog);
   return all;
 }
 
-/// Note for a plan with several seeds but without a random scene; else empty.
-std::string seedsNote(const SweepPlan& plan) {
+/// Warning for a plan with several seeds but without a random scene; else empty.
+std::string seedsWarning(const SweepPlan& plan) {
   std::set<std::int64_t> seeds;
   for (const SweepRun& run : plan.runs) {
     if (seedMatters(run.scene)) return {};
@@ -95,7 +91,7 @@ std::string seedsNote(const SweepPlan& plan) {
 int runSweep(const SweepPlan& given, const SweepOptions& options) {
   if (!options.force) checkSweepFiles(options.folder);
   const SweepPlan plan = options.from ? branched(given, options) : given;
-  support::tell("{}", seedsNote(plan));
+  support::tell("{}", seedsWarning(plan));
   const std::vector<SweepOutcome> outcomes = runMissing(
       plan, options, "sweep", [&](const std::vector<SweepOutcome>& now) { writeSummary(plan, now, options.folder); });
   // Files of an earlier sweep with other values.

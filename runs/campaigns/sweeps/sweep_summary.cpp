@@ -97,6 +97,17 @@ public:
     }
     return asked > 0 ? 1 - went / (asked * constant("vehicle/pitch_radius")) : base::kNaN;
   }
+  /// Minimum and maximum of the hull's speed, averaged over the tracks [m/s]; infinite and reversed without one.
+  std::array<double, 2> speedRange() const {
+    const std::vector<double> left = rows("vehicle/left/speed"), right = rows("vehicle/right/speed");
+    const std::vector<double>& one = left.empty() ? right : left;
+    std::array<double, 2> range{base::kInfinity, -base::kInfinity};
+    for (std::size_t i = 0; i < one.size(); ++i)
+      if (const double speed = i < left.size() && i < right.size() ? 0.5 * (left[i] + right[i]) : one[i];
+          std::isfinite(speed))
+        range = {std::min(range[0], speed), std::max(range[1], speed)};
+    return range;
+  }
   /// Whether the direction of motion changes: gross traction has the sign of the torques when driving forward.
   bool turnsRound() const {
     const std::vector<double> traction = rows("vehicle/gross_traction"), left = rows("vehicle/left/mean_torque"),
@@ -205,8 +216,7 @@ void addSurfaces(const Steady& steady, const std::vector<std::string>& names, st
 }
 
 /// The figures of one run, for header and rows; all NaN if `file` is null.
-std::vector<Figure> figuresOf(const support::Hdf5File* file, double from, const Columns& columns) {
-  const Steady steady(file, from);
+std::vector<Figure> figuresOf(const Steady& steady, const Columns& columns) {
   std::vector<Figure> figures{{"drive work [J]", steady.last("ledger/drive_work")},
                               {"integration error [J]", steady.last("ledger/integration_error")}};
   if (!columns.surfaces.empty() && !columns.vehicle) figures.push_back({"steady from [s]", steady.from()});
@@ -248,8 +258,9 @@ void addFigures(const SweepRun& run, const SweepOutcome& outcome, const fs::path
   const double from = ended ? steadyFrom(run.scene, RunManifest(folder / run.name)) : base::kNaN;
   const support::Hdf5File* const read = file ? &*file : nullptr;
   std::vector<double>& values = all.values.emplace_back();
-  for (const Figure& f : figuresOf(read, from, columns)) values.push_back(f.value);
   const Steady steady(read, from);
+  for (const Figure& f : figuresOf(steady, columns)) values.push_back(f.value);
+  all.from.push_back(steady.from()), all.speedRange.push_back(steady.speedRange());
   all.inconclusive.push_back(ended ? doubtOf(run.scene, outcome, steady.teeth().most) : "");
   all.turned.emplace_back(steady.turnsRound() ? kTurned : "");
 }
@@ -293,7 +304,7 @@ double steadyFrom(const scene::Scene& scene, const RunManifest& manifest) {
 SweepFigures sweepFigures(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
   const Columns columns(plan);
   SweepFigures all;
-  for (const Figure& f : figuresOf(nullptr, base::kNaN, columns)) all.columns.push_back(f.column);
+  for (const Figure& f : figuresOf(Steady(nullptr, base::kNaN), columns)) all.columns.push_back(f.column);
   for (std::size_t i = 0; i < plan.runs.size(); ++i) addFigures(plan.runs[i], outcomes[i], folder, columns, all);
   return all;
 }

@@ -4,6 +4,7 @@
 #include "runs/campaigns/sweeps/sweep_plan.hpp"
 #include "runs/output/run_status.hpp"
 
+#include <array>
 #include <filesystem>
 #include <limits>
 #include <string>
@@ -31,9 +32,11 @@ double steadyFrom(const scene::Scene& scene, const RunManifest& manifest);
 /// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5. With a vehicle they
 /// cover a whole number of sprocket teeth at the end of the steady part, to within a row.
 struct SweepFigures {
-  std::vector<std::string> columns;        ///< name and unit; vehicle and surfaces only if a run has them
-  std::vector<std::vector<double>> values; ///< [runs][columns]; NaN: none, e.g. unfinished runs
-  std::vector<std::string> inconclusive;   ///< [runs] reason, e.g. fewer than two teeth; empty: valid
+  std::vector<std::string> columns;              ///< name and unit; vehicle and surfaces only if a run has them
+  std::vector<std::vector<double>> values;       ///< [runs][columns]; NaN: none, e.g. unfinished runs
+  std::vector<double> from;                      ///< [runs] start of the means [s]; NaN: none
+  std::vector<std::array<double, 2>> speedRange; ///< [runs] minimum and maximum of the hull's speed in them [m/s]
+  std::vector<std::string> inconclusive;         ///< [runs] reason, e.g. fewer than two teeth; empty: valid
   std::vector<std::string> turned; ///< [runs] reason for figures along the motion, whose direction changes; else empty
 
   /// Reason why all figures of a run, or the named ones, are inconclusive; empty if all are valid.
