@@ -98,9 +98,8 @@ std::vector<support::SoilUse> soilUses(const Scene& scene) {
 }
 
 std::string soilLine(const support::SoilUse& use, bool isGranular) {
-  std::string name =
-      fmt::format("{}{}: {} ({})", use.material, use.material == use.soil ? "" : fmt::format(" is {}", use.soil),
-                  use.file, use.hash);
+  std::string name = fmt::format("{}{}: {} ({})", use.material,
+                                 use.material == use.soil ? "" : fmt::format(" is {}", use.soil), use.file, use.hash);
   if (!isGranular) return name;
   std::string values;
   for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);

@@ -38,7 +38,6 @@ namespace {
 
 using output::RunStatus;
 
-
 /// Status of this run by this program in the folder; pending if there is none.
 RunStatus statusOf(const fs::path& folder, const SweepRun& run) {
   const scene::Scene& scene = run.scene;
