@@ -23,14 +23,14 @@ namespace {
 
 constexpr double kBetweenQuestions = 0.1; ///< interval between two calls of keepGoing [s]
 
-/// Refuses forked processes: a fork does not copy the threads of GNU OpenMP, and the child would hang at the next one.
+/// Refuses forked processes: a fork does not copy the threads of GNU OpenMP; the child would hang in a parallel region.
 void requireThreads(const base::Exec& exec) {
   static std::atomic<pid_t> withThreads{0};
   const pid_t before = withThreads.load();
   if (before != 0 && before != getpid())
     throw base::InputError(
-        "a process forked after a multi-threaded simulation cannot run simulations: spawn it instead "
-        "(Python: multiprocessing.set_start_method(\"spawn\")), or use threads = 1 in its parent");
+        "a process forked after a multi-threaded simulation cannot run simulations: spawn the process instead "
+        "(Python: multiprocessing.set_start_method(\"spawn\")), or use threads = 1 in the parent process");
   if (exec.onCpu() && exec.threads > 1) withThreads = getpid();
 }
 
@@ -72,8 +72,8 @@ Run::Run(const Scene& of, const Options& given, const std::optional<std::filesys
   if (resume) {
     former = goOn();
   } else {
-    const coupling::SettleProgress progress = [this](double time, double agitation) {
-      if (options.settling) options.settling(time, agitation);
+    const coupling::SettleProgress progress = [this](double time, double energyRatio) {
+      if (options.settling) options.settling(time, energyRatio);
     };
     simulation = std::make_unique<coupling::Simulation>(setup::simulationSetup(scene, comm().size()), exec, progress,
                                                         comm(), kept.beds ? &*kept.beds : nullptr,
@@ -90,7 +90,7 @@ Run::~Run() {
   try {
     session->stop(fmt::format("destroyed at {:.6g} s without finish()", simulation->time()));
   } catch (const std::exception&) {
-    // For example a full disk.
+    // The manifest cannot be written, for example because the disk is full.
   }
 }
 
@@ -177,13 +177,13 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
   requireOpen("step()");
   translated([this] { requireThreads(exec); });
   if (count < 1) throw InputError(fmt::format("step({}): count must be at least 1", count));
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max() / 4;
-  if (count > kMost) throw InputError(fmt::format("step({}): count must be at most {}", count, kMost));
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max() / 4;
+  if (count > kMax) throw InputError(fmt::format("step({}): count must be at most {}", count, kMax));
   if (const coupling::VehicleRig* rig = now().vehicle(); rig && !rig->ended().empty())
     throw InputError("the scene's [stop] has ended the run: " + rig->ended());
   act(count);
   now().restartMeans(coupling::Means::watch);
-  std::exception_ptr thrown; // by keepGoing, between two steps: the simulation stays valid
+  std::exception_ptr thrown; // by keepGoing, between two steps; the simulation remains valid
   isStepping = true;
   try {
     const auto all = [&] { thrown = advance(count, keepGoing); };
@@ -198,7 +198,7 @@ void Run::step(std::int64_t count, const std::function<bool()>& keepGoing) {
 
 std::exception_ptr Run::advance(std::int64_t count, const std::function<bool()>& keepGoing) {
   const std::int64_t end = now().steps() + count;
-  const auto goesOn = [&] { return now().steps() < end && !(now().vehicle() && !now().vehicle()->ended().empty()); };
+  const auto continues = [&] { return now().steps() < end && !(now().vehicle() && !now().vehicle()->ended().empty()); };
   std::exception_ptr thrown;
   const auto stops = [&] {
     try {
@@ -208,13 +208,13 @@ std::exception_ptr Run::advance(std::int64_t count, const std::function<bool()>&
       return true;
     }
   };
-  // All ranks ask at the same steps; their clocks differ.
+  // All ranks must call keepGoing at the same steps, although their clocks differ.
   constexpr std::int64_t kOfRanks = 16;
-  while (goesOn()) {
+  while (continues()) {
     const support::Stopwatch lap;
     const std::int64_t next =
         keepGoing ? std::min(end, now().steps() + (comm().alone() ? stepsAtATime : kOfRanks)) : end;
-    while (now().steps() < next && goesOn()) {
+    while (now().steps() < next && continues()) {
       const std::int64_t most = next - now().steps();
       session ? session->advance(most) : static_cast<void>(now().advance(most));
     }

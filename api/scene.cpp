@@ -48,7 +48,7 @@ Scene Scene::fromText(std::string_view toml, const std::filesystem::path& folder
   return Scene(loaded(std::string(toml), folder / file, {}));
 }
 
-/// Replaces an earlier value of the same key.
+/// Appends an override; removes an earlier override of the same key.
 Scene& Scene::put(std::string_view key, std::string value) {
   std::vector<std::string> overrides = data_->overrides;
   const std::string begin = std::string(key) + '=';

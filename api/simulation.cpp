@@ -100,8 +100,8 @@ std::size_t Simulation::ownGrainCount() const {
 void Simulation::readPositions(std::span<Vec3> positions) const {
   const auto& grains = run_->now().ground().grains;
   if (positions.size() != ownGrainCount())
-    throw InputError(
-        fmt::format("readPositions(): the buffer holds {} grains, not {}", positions.size(), ownGrainCount()));
+    throw InputError(fmt::format("readPositions(): the buffer has {} elements, but there are {} grains",
+                                 positions.size(), ownGrainCount()));
   if (!grains || positions.empty()) return;
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   detail::translated([&] {
@@ -157,7 +157,7 @@ std::vector<std::string> warningsOf(const Simulation& simulation) {
   for (const setup::Notice& notice : detail::translated([&] { return setup::noticesOf(run.scene, run.now()); }))
     texts.push_back(notice.text);
   if (run.exec.threads > 1 && !std::getenv("GOMP_SPINCOUNT") && !std::getenv("OMP_WAIT_POLICY"))
-    texts.emplace_back("idle threads spin, which makes steps many times slower if other programs use the cores: set "
+    texts.emplace_back("idle threads spin; steps become many times slower if other programs use the cores: set "
                        "GOMP_SPINCOUNT=5000 in the environment before this program starts, or use one thread");
   return texts;
 }
@@ -168,7 +168,7 @@ void Simulation::save(const std::filesystem::path& checkpoint) const {
   if (!std::filesystem::is_directory(folder, error) || std::filesystem::is_directory(checkpoint, error))
     throw InputError(fmt::format("save(\"{}\"): {}", checkpoint.string(),
                                  std::filesystem::is_directory(checkpoint, error)
-                                     ? "this is a folder; give a file name"
+                                     ? "this is a folder; specify a file name"
                                      : "the folder does not exist; create it first"));
   if (!run_->failed.empty())
     throw InputError("save(): the simulation has failed and its state is invalid. The cause: " + run_->failed);
@@ -181,7 +181,7 @@ void Simulation::save(const std::filesystem::path& checkpoint) const {
 void Simulation::restore(const std::filesystem::path& checkpoint) {
   detail::Run& run = *run_;
   if (run.session)
-    throw InputError("restore(): not possible with an output folder, rows would be duplicated; create the simulation "
+    throw InputError("restore(): not supported with an output folder (rows would be duplicated); create the simulation "
                      "without a folder, or use Simulation::resumed() with another folder");
   const session::RunRequest before = run.request;
   run.request.resume = checkpoint, run.request.branch = true;

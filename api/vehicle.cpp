@@ -35,7 +35,7 @@ VehicleState Vehicle::state() const {
   s.position = {o.position.x, o.position.y, o.position.z}, s.velocity = {o.velocity.x, o.velocity.y, o.velocity.z};
   s.speed = hull.speed, s.heading = o.heading, s.pitch = o.pitchAngle, s.roll = o.rollAngle, s.turnRate = hull.turnRate;
   s.groundForce = {o.groundForce.x, o.groundForce.y, o.groundForce.z}, s.drawbarPull = o.drawbarPull;
-  // As a whole number of steps: the vehicle adds up its own time.
+  // Round to a whole number of steps, since the vehicle sums its time step by step.
   if (const auto start = rig.driveStart()) {
     const double step = run_->now().timeStep();
     s.driveStart = std::round(*start / step) * step;

@@ -94,7 +94,7 @@ template <class T> std::vector<T> toHost(const Exec& exec, const T* device, std:
   return values;
 }
 
-/// Device array with a pinned copy on the host, for data transferred every step.
+/// Device array with a pinned host copy, for data transferred in every step.
 template <class T> class Mirrored {
   static_assert(std::is_trivially_copyable_v<T>);
 

@@ -12,7 +12,7 @@ enum class Cause {
   unknown,
   unsettledBed,     ///< the bed did not come to rest or did not reach the requested porosity
   unstableContacts, ///< the time integration creates or loses energy in contacts
-  pressedGrain,     ///< an overlap is too large although the energy balance closes
+  excessiveOverlap, ///< an overlap is too large, although the energy balance is satisfied
   fastGrain,        ///< a grain moves farther than the skin of its neighbour list within a step
   lostGrain,        ///< a grain leaves the representable range of positions
   noNumber,         ///< a value is not a number (NaN)
@@ -38,7 +38,7 @@ template <> struct EnumWords<Cause> {
   static constexpr EnumWord<E> list[] = {{E::unknown, "unknown"},
                                          {E::unsettledBed, "unsettled bed"},
                                          {E::unstableContacts, "unstable contacts"},
-                                         {E::pressedGrain, "pressed grain"},
+                                         {E::excessiveOverlap, "pressed grain"},
                                          {E::fastGrain, "fast grain"},
                                          {E::lostGrain, "lost grain"},
                                          {E::noNumber, "no number"},

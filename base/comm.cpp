@@ -157,7 +157,7 @@ struct Messages::Impl {
 
 Messages::Messages(const Comm& comm) : impl_(std::make_unique<Impl>()) { impl_->waited = comm.waited_; }
 Messages::~Messages() {
-  // Skipped during exception unwinding: the other ranks may never send, and the error ends them all.
+  // Skip this during exception unwinding: the other ranks may never send, and the error ends all ranks.
   if (impl_ && std::uncaught_exceptions() == 0) waitAll();
 }
 Messages::Messages(Messages&&) noexcept = default;

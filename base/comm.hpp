@@ -8,14 +8,14 @@
 #include <type_traits>
 #include <vector>
 
-/// MPI ranks that run one scene together. This is the only place that calls MPI, except for HDF5 output that all ranks
-/// write to one file. A program started as a single process never calls MPI.
+/// MPI ranks that run one scene together. Only these functions call MPI, except for HDF5 output that all ranks write to
+/// one file. A program started as a single process never calls MPI.
 namespace grouser::base {
 
 using Bytes = std::vector<std::byte>;
 
-/// Communicator of a run; cheap to copy. The default has a single rank, for which every call returns at once without
-/// MPI. Results are in rank order. All ranks make their calls in the same order. MPI errors abort all ranks.
+/// Communicator of a run; cheap to copy. The default has a single rank, for which every call returns immediately
+/// without MPI. Results are in rank order. All ranks must make the same calls in the same order. MPI errors abort all.
 class Comm {
 public:
   Comm() = default;
@@ -123,7 +123,7 @@ public:
   const Comm& comm() const { return comm_; }
   int rankOnHost() const { return rankOnHost_; }
   int ranksOnHost() const { return ranksOnHost_; }
-  /// Aborts all ranks with this exit code. Returns if there is only one rank.
+  /// Aborts all ranks with an exit code. Returns if there is only one rank.
   void abort(int code) const;
 
 private:

@@ -34,7 +34,7 @@ void DeviceGraph::begin() {
 void DeviceGraph::end() {
   cudaGraph_t graph = nullptr;
   checkCuda(cudaStreamEndCapture(streamOf(exec_), &graph), "cudaStreamEndCapture");
-  // A graph of the same topology is updated in place, which is faster than a new instantiation.
+  // If the topology is the same, update the graph in place, which is faster than a new instantiation.
   cudaGraphExecUpdateResultInfo unused{};
   cudaError_t code = cudaErrorGraphExecUpdateFailure;
   if (graph_) code = cudaGraphExecUpdate(graphOf(graph_), graph, &unused);

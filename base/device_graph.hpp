@@ -11,8 +11,8 @@ namespace grouser::base {
 /// Device work recorded once and replayed as one CUDA graph, at the host cost of a single kernel launch. On a CPU the
 /// work runs directly.
 ///
-/// The graph records launches and copies with their pointers, counts and constants, but no host code. The work must not
-/// allocate or wait; call forget() after any of these changes.
+/// The graph records launches and copies with their pointers, counts and constants, but no host code; call forget()
+/// after any of these changes. The work must not allocate or wait.
 class DeviceGraph {
 public:
   DeviceGraph() = default;
@@ -82,7 +82,7 @@ public:
     for (Turn& turn : turns_) turn.graph = DeviceGraph(exec);
   }
   /// Returns the graph of work that reads `buffer`, and half `other` of a second double buffer. A third combination
-  /// replaces the second.
+  /// replaces the second stored graph.
   DeviceGraph& from(const void* buffer, unsigned other = 0) {
     for (Turn& turn : turns_)
       if (turn.taken && turn.buffer == buffer && turn.other == other) return turn.graph;
@@ -105,7 +105,7 @@ private:
   std::array<Turn, 2> turns_;
 };
 
-/// A second stream of an Exec's device, for work that may run beside the Exec's own. On a CPU it is the Exec itself.
+/// A second stream of an Exec's device, for work that may run concurrently with the Exec's own. On a CPU, the Exec.
 class SideStream {
 public:
   SideStream() = default;

@@ -15,8 +15,8 @@ template <class E> struct EnumWord {
   std::string_view word;
 };
 
-/// Names of an enum's values, in the order of messages and help. Specialise for each enum that users choose from;
-/// values without a name cannot be chosen:
+/// Names of an enum's values, in the order of messages and help. Specialise this template for each enum that users
+/// choose from; values without a name cannot be chosen:
 ///
 ///     template <> struct EnumWords<FloorShape> {
 ///       static constexpr EnumWord<FloorShape> list[] = {{FloorShape::follow, "follow"}, {FloorShape::flat, "flat"}};

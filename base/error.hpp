@@ -44,7 +44,7 @@ private:
   Cause cause_;
 };
 
-/// Failure of a device call, with the code it returned. Exit code 4.
+/// Failure of a device call, with the returned code. Exit code 4.
 class DeviceError : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;

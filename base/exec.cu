@@ -37,13 +37,13 @@ std::string processorName() {
   return "unknown processor";
 }
 
-/// Reason why a CUDA build cannot use a GPU of this machine; empty if it can, or if the build has no CUDA.
+/// Reason why a CUDA build cannot use a GPU of this machine; empty if a GPU is usable or the build has no CUDA.
 std::string whyNoGpu() {
 #if defined(__CUDACC__)
   int count = 0, driver = 0;
   const cudaError_t code = cudaGetDeviceCount(&count);
   if (code == cudaSuccess) return count > 0 ? "" : "none found by the driver";
-  // The runtime reports a missing driver as too old.
+  // The runtime reports a missing driver as a driver that is too old.
   if (cudaDriverGetVersion(&driver) == cudaSuccess && driver == 0) return "NVIDIA's driver is not installed";
   return cudaGetErrorString(code);
 #else
@@ -75,7 +75,7 @@ Exec cudaExec(int index) {
   checkCuda(cudaDeviceGetDefaultMemPool(&pool, index), "cudaDeviceGetDefaultMemPool");
   std::uint64_t all = ~std::uint64_t{0};
   checkCuda(cudaMemPoolSetAttribute(pool, cudaMemPoolAttrReleaseThreshold, &all), "cudaMemPoolSetAttribute");
-  // Priority between those of the side streams (SideStream).
+  // Use a priority between the priorities of the side streams (SideStream).
   int last = 0, greatest = 0;
   checkCuda(cudaDeviceGetStreamPriorityRange(&last, &greatest), "cudaDeviceGetStreamPriorityRange");
   cudaStream_t stream = nullptr;
@@ -138,7 +138,7 @@ std::uint64_t deviceId(const Exec& exec) {
 #endif
 }
 
-std::size_t memoryTaken(const Exec& exec) {
+std::size_t usedMemory(const Exec& exec) {
   if (exec.onCpu()) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -173,7 +173,7 @@ bool isBusy(const Exec& exec) {
 #if defined(__CUDACC__)
 namespace {
 
-/// Returns the pool's released memory to the system.
+/// Returns to the system all memory that the pool keeps for later allocations.
 void emptyPool(const Exec& exec) {
   synchronize(exec);
   int index = 0;
@@ -212,7 +212,7 @@ void* allocateUnset(const Exec& exec, std::size_t bytes) {
 #if defined(__CUDACC__)
   cudaError_t code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));
   if (code == cudaErrorMemoryAllocation) {
-    // The pool may contain fragments that are too small; returned to the system, they merge.
+    // The pool may contain fragments that are too small; they merge when returned to the system.
     cudaGetLastError();
     emptyPool(exec);
     code = cudaMallocAsync(&memory, bytes, static_cast<cudaStream_t>(exec.stream));

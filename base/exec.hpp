@@ -9,7 +9,7 @@ namespace grouser::base {
 
 enum class Device { Cpu, Cuda };
 
-/// Execution target: CPU threads, or one CUDA device and its stream. Cheap to copy and non-owning: the stream that
+/// Execution target: CPU threads, or a stream of a CUDA device. Cheap to copy and non-owning: the stream that
 /// cudaExec() creates exists until the program ends.
 struct Exec {
   Device device{Device::Cpu};
@@ -21,7 +21,7 @@ struct Exec {
 
 /// Returns an Exec for the CPU. `threads` = 0 uses all cores available to this process.
 Exec cpuExec(int threads = 0);
-/// Returns an Exec for CUDA device `index`. Throws DeviceError if this build or machine has none.
+/// Returns an Exec for CUDA device `index`. Throws DeviceError if this build or machine has no CUDA device.
 Exec cudaExec(int index = 0);
 /// True if this build supports CUDA and a usable device is present.
 bool cudaAvailable();
@@ -34,14 +34,14 @@ std::uint64_t deviceId(const Exec& exec);
 /// One-line description of the device: processor name and cores, or GPU name and memory.
 std::string describe(const Exec& exec);
 /// Device memory in use by all programs [B]; for a CPU the peak of this process.
-std::size_t memoryTaken(const Exec& exec);
+std::size_t usedMemory(const Exec& exec);
 
 /// Waits until all work queued on `exec` has finished. Throws DeviceError with the returned code.
 void synchronize(const Exec& exec);
 /// True if work queued on `exec` has not finished; does not wait. Throws DeviceError with the returned code.
 bool isBusy(const Exec& exec);
 
-/// Allocates zeroed memory on `exec`'s device. Throws DeviceError (out of memory: states the bytes requested).
+/// Allocates zeroed memory on the device of `exec`. Throws DeviceError, with the bytes requested if out of memory.
 void* allocate(const Exec& exec, std::size_t bytes);
 /// Allocates uninitialised memory on the device of `exec`.
 void* allocateUnset(const Exec& exec, std::size_t bytes);

@@ -17,7 +17,7 @@
 namespace grouser::base {
 
 /// Approximate cost of a loop item on one core [ns]: the body's `static constexpr double kNanoseconds` or `double
-/// nanoseconds() const`, otherwise the cost of a few memory accesses. Only selects serial or threaded execution.
+/// nanoseconds() const`, otherwise the cost of a few memory accesses. It determines only whether the loop is threaded.
 template <class Body> double nanosecondsOf(const Body& body) {
   if constexpr (requires { body.nanoseconds(); })
     return body.nanoseconds();
@@ -46,9 +46,9 @@ template <class Body> __global__ void __launch_bounds__(128, blocksTogether<Body
 } // namespace detail
 #endif
 
-/// Runs `body(i)` for i in [0, count), in any order: an OpenMP loop on the CPU, threaded if the loop is long enough
-/// (nanosecondsOf()), or one kernel on the GPU. `body` is a named functor of pointers and scalars; `name` appears in
-/// error messages. Asynchronous on the GPU.
+/// Runs `body(i)` for i in [0, count), in any order: on the CPU as an OpenMP loop, threaded if the loop is long enough
+/// (nanosecondsOf()); on the GPU asynchronously as one kernel. `body` is a named functor of pointers and scalars; error
+/// messages contain `name`.
 template <class Body> void forEach(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;
   if (exec.onCpu()) {
@@ -86,7 +86,7 @@ GROUSER_HD std::uint32_t atomicAdd32(std::uint32_t* target, std::uint32_t value)
 #endif
 }
 
-/// Atomic maximum. A plain read comes first; a stale value only costs one extra atomic.
+/// Atomic maximum, preceded by a plain read; a stale value costs only one unnecessary atomic operation.
 GROUSER_HD void atomicMax32(std::uint32_t* target, std::uint32_t value) {
 #if defined(__CUDA_ARCH__)
   if (value > *target) atomicMax(target, value);
@@ -105,7 +105,7 @@ GROUSER_HD void raise(std::uint32_t* flag) {
 #endif
 }
 
-/// Atomic minimum: keeps the first fault by key, whichever thread finds it.
+/// Atomic minimum: keeps the fault with the smallest key, independent of the thread that finds it.
 GROUSER_HD void atomicMin64(std::uint64_t* target, std::uint64_t value) {
 #if defined(__CUDA_ARCH__)
   atomicMin(reinterpret_cast<unsigned long long*>(target), static_cast<unsigned long long>(value));

@@ -50,8 +50,8 @@ template <int kWidth, class Body> __global__ void __launch_bounds__(kGroupBlock)
 #endif
 
 /// Runs `body(i, group)` for i in [0, count) like forEach, but with `kWidth` GPU threads (a power of two up to 32) per
-/// item. For bodies that traverse lists too long for one thread. On the CPU, a body with a member runOnCpu(first, last)
-/// receives a thread's whole range at once.
+/// item, for bodies that traverse lists too long for one thread. On the CPU, a body with a member runOnCpu(first, last)
+/// receives the whole range of a thread in one call.
 template <int kWidth, class Body>
 void forEachGroup(const Exec& exec, const char* name, std::int64_t count, const Body& body) {
   if (count <= 0) return;

@@ -10,7 +10,7 @@ namespace grouser::base {
 
 namespace {
 
-/// Returns all sections selected by `where`, each with its path for messages.
+/// Returns all sections selected by `where`, each with a path for messages.
 std::vector<std::pair<Node*, std::string>> sectionsAt(Node& node, const std::string& path, const std::string& where) {
   std::vector<std::pair<Node*, std::string>> found;
   const auto add = [&](Node& child, const std::string& name, const std::string& rest) {

@@ -17,7 +17,7 @@ namespace {
 
 void lower(std::optional<double>& room, double to) { room = std::max(0.0, room ? std::min(*room, to) : to); }
 
-/// The number in a file; empty if it is not a number ("max").
+/// Reads a number from a file; empty if the content is not a number ("max").
 std::optional<double> numberIn(const std::string& file) {
   std::ifstream in(file);
   double value = 0;

@@ -11,7 +11,7 @@ namespace grouser::base {
 /// the cgroup (v2) limit and of `ulimit -v`. Empty if unknown.
 std::optional<double> freeMemoryOfHost();
 
-/// Free memory on the device of `exec` [B]; for a CPU same as freeMemoryOfHost().
+/// Free memory on the device of `exec` [B]; for a CPU, freeMemoryOfHost().
 std::optional<double> freeMemoryOf(const Exec& exec);
 
 } // namespace grouser::base

@@ -19,7 +19,7 @@ namespace grouser::base {
 
 namespace {
 
-constexpr int kBlock = 128; // a single block, since its threads wait for each other; fits beside other kernels
+constexpr int kBlock = 128; // a single block, since its threads wait for each other; runs beside other kernels
 
 cudaStream_t streamOf(const Exec& exec) { return static_cast<cudaStream_t>(exec.stream); }
 
@@ -33,7 +33,7 @@ __global__ void __launch_bounds__(128) carryBeforeGate(Watch watch, ParcelWords 
   if (i < words.count() && !raised(watch)) words(i);
 }
 
-/// Reads many words before writing the first: access to host memory takes a microsecond.
+/// Reads many words before it writes the first, since each access to host memory takes a microsecond.
 __device__ void carryTogether(const ParcelWords& words) {
   constexpr int kAtOnce = 10;
   for (std::int64_t first = threadIdx.x; first < words.count(); first += kAtOnce * kBlock) {
@@ -66,13 +66,13 @@ __global__ void __launch_bounds__(kBlock)
 }
 
 __global__ void __launch_bounds__(kBlock)
-    tellHost(const std::uint32_t* off, std::uint64_t* count, std::uint64_t* told, ParcelWords words) {
+    signalHost(const std::uint32_t* off, std::uint64_t* count, std::uint64_t* signalled, ParcelWords words) {
   if (*off) return;
   carryTogether(words);
   __threadfence_system();
   __syncthreads();
   if (threadIdx.x != 0) return;
-  const cuda::atomic_ref<std::uint64_t, cuda::thread_scope_system> answer(*told);
+  const cuda::atomic_ref<std::uint64_t, cuda::thread_scope_system> answer(*signalled);
   answer.store(++*count, cuda::memory_order_release);
 }
 
@@ -108,19 +108,19 @@ void Gate::pass(const Exec& exec, const Watch& watch, std::span<const Parcel> pa
   checkCuda(cudaGetLastError(), "launch of pass");
 }
 
-void Gate::tell(const Exec& exec, Mark mark, std::span<const Parcel> parcels) {
+void Gate::signal(const Exec& exec, Mark mark, std::span<const Parcel> parcels) {
   const ParcelWords words(parcels);
   if (exec.onCpu()) return words.onHost();
   Passed* const p = passed_.data();
-  tellHost<<<1, kBlock, 0, streamOf(exec)>>>(&p->off, &p->told[mark], &words_.host()[1 + mark].value, words);
-  checkCuda(cudaGetLastError(), "launch of tell");
+  signalHost<<<1, kBlock, 0, streamOf(exec)>>>(&p->off, &p->signalled[mark], &words_.host()[1 + mark].value, words);
+  checkCuda(cudaGetLastError(), "launch of signal");
 }
 
 #else
 
 void Gate::carryBefore(const Exec&, const Watch&, std::span<const Parcel> parcels) { ParcelWords(parcels).onHost(); }
 void Gate::pass(const Exec&, const Watch&, std::span<const Parcel> parcels) { ParcelWords(parcels).onHost(); }
-void Gate::tell(const Exec&, Mark, std::span<const Parcel> parcels) { ParcelWords(parcels).onHost(); }
+void Gate::signal(const Exec&, Mark, std::span<const Parcel> parcels) { ParcelWords(parcels).onHost(); }
 
 #endif
 
@@ -133,17 +133,18 @@ void Gate::open() {
 
 void Gate::await(Mark mark) {
   if (exec_.onCpu()) return;
-  const auto told = [this, mark] {
+  const auto signalled = [this, mark] {
     return std::atomic_ref(words_.host()[1 + mark].value).load(std::memory_order_acquire) >= opened_;
   };
   constexpr int kSpins = 1 << 16; // between two queries of the device state
-  while (!told()) {
-    for (int k = 0; k < kSpins && !told(); ++k) {
+  while (!signalled()) {
+    for (int k = 0; k < kSpins && !signalled(); ++k) {
 #if defined(__x86_64__)
       __builtin_ia32_pause();
 #endif
     }
-    if (!told() && !isBusy(exec_) && !told()) throw std::logic_error("a run passed the gate without reporting");
+    if (!signalled() && !isBusy(exec_) && !signalled())
+      throw std::logic_error("a run passed the gate without reporting");
   }
 }
 

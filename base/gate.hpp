@@ -6,9 +6,9 @@
 
 namespace grouser::base {
 
-/// Synchronises the host with device work that is launched before its data are ready. The work waits on the device for
-/// the host and reports its progress, which hides the launch latency. One run may wait at the gate while the previous
-/// one is still running.
+/// Synchronises the host with device work that is launched before its data are ready, in order to hide the launch
+/// latency. The work waits on the device for the host and reports its progress. A run may wait at the gate while the
+/// previous run is still in progress.
 ///
 /// While a run waits, no thread may make a call that waits for all device work, such as freeing pinned memory.
 ///
@@ -17,8 +17,8 @@ class Gate {
 public:
   Gate() = default;
   explicit Gate(const Exec& exec);
-  /// True on a GPU, unless CUDA_LAUNCH_BLOCKING=1 makes every launch synchronous. Set that variable also under
-  /// profilers that serialise kernels.
+  /// True on a GPU, unless CUDA_LAUNCH_BLOCKING=1 makes every launch synchronous. Set this variable also for profilers
+  /// that serialise kernels.
   static bool canWait(const Exec& exec);
 
   /// Progress marks of the work.
@@ -31,17 +31,17 @@ public:
   /// run, returns without waiting or copying.
   void pass(const Exec& exec, const Watch& watch, std::span<const Parcel> parcels);
   /// Copies `parcels` and releases await(mark) for this run; has no effect if the run is cancelled.
-  void tell(const Exec& exec, Mark mark, std::span<const Parcel> parcels);
+  void signal(const Exec& exec, Mark mark, std::span<const Parcel> parcels);
   /// Device word, valid after pass(): nonzero if this run is cancelled and must not change any state.
   const std::uint32_t* calledOff() const;
 
   // Host side.
-  /// Lets one run pass; it sees all earlier host writes.
+  /// Lets one run pass; the run sees all earlier host writes.
   void open();
   /// Spins until the latest run that passed has reached the mark. Throws DeviceError if the device has failed.
   void await(Mark mark);
   /// Cancels the run that is waiting, will wait, or has passed without reaching its mark; then waits for the device and
-  /// resets. Required before destroying the gate during a run, which would deadlock.
+  /// resets the gate. Call it before the gate is destroyed during a run; otherwise the destructor deadlocks.
   void callOff();
 
 private:
@@ -52,7 +52,7 @@ private:
   /// Device-side counters.
   struct Passed {
     std::uint64_t runs;
-    std::uint64_t told[2];
+    std::uint64_t signalled[2];
     std::uint32_t off, unused;
   };
   static constexpr std::uint64_t kCalledOff = ~std::uint64_t{0};

@@ -7,8 +7,8 @@
 
 namespace grouser::base {
 
-/// 64-bit hash of a sequence of words, to compare states. Each word passes a full 64-bit mix (the finaliser of
-/// splitmix64; Steele, Lea and Flood 2014). Not cryptographic.
+/// 64-bit hash of a sequence of words, for comparisons of states; not cryptographic. Each word passes a full 64-bit mix
+/// (the finaliser of splitmix64; Steele, Lea and Flood 2014).
 class StateHash {
 public:
   explicit StateHash(std::uint64_t value = 0) : value_(value) {} ///< continues from another hash's value()

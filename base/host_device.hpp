@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Marks a function for the CPU and, if compiled with CUDA, also for the GPU.
+/// Compiles a function for the CPU and, in CUDA builds, also for the GPU.
 #if defined(__CUDACC__)
 #define GROUSER_HD __host__ __device__ __forceinline__
 #else

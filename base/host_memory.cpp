@@ -24,7 +24,7 @@ void noteTaken(void* memory) noexcept {
 void noteGivenBack(void* memory) noexcept { held.now -= malloc_usable_size(memory); }
 
 std::size_t heldOnHost() { return held.now; }
-std::size_t mostHeldOnHost() { return held.most; }
+std::size_t peakHostMemory() { return held.most; }
 void restartHostPeak() { held.most = held.now.load(); }
 
 } // namespace grouser::base

@@ -12,7 +12,7 @@ void noteGivenBack(void* memory) noexcept;
 
 /// Current size, and peak since restartHostPeak() [B].
 std::size_t heldOnHost();
-std::size_t mostHeldOnHost();
+std::size_t peakHostMemory();
 void restartHostPeak();
 
 } // namespace grouser::base

@@ -8,14 +8,14 @@ namespace grouser::base {
 
 namespace {
 
-// Minimum work for a team of threads [ns]: the cost of starting and joining a parallel loop.
-constexpr double kLeastOfTeam = 4e3, kLeastOfThread = 250;
-constexpr std::size_t kLeastShared = std::size_t{1} << 19; // [bytes] minimum size for several threads
-constexpr std::size_t kPage = 4096;                        // [bytes]
+// Minimum work for a team of threads [ns], above the cost of starting and joining a parallel loop.
+constexpr double kMinOfTeam = 4e3, kMinOfThread = 250;
+constexpr std::size_t kMinShared = std::size_t{1} << 19; // [bytes] minimum size for several threads
+constexpr std::size_t kPage = 4096;                      // [bytes]
 
 /// Calls work(first byte, number of bytes) for shares of whole pages.
 template <class Work> void share(std::size_t bytes, int threads, const Work& work) {
-  if (threads <= 1 || bytes < kLeastShared) return work(0, bytes);
+  if (threads <= 1 || bytes < kMinShared) return work(0, bytes);
   const std::size_t pages = (bytes + kPage - 1) / kPage, shares = static_cast<std::size_t>(threads);
 #pragma omp parallel for schedule(static, 1) num_threads(threads)
   for (std::size_t t = 0; t < shares; ++t) {
@@ -28,7 +28,7 @@ template <class Work> void share(std::size_t bytes, int threads, const Work& wor
 
 int threadsForLoop(std::int64_t count, double nanoseconds, int most) {
   if (most < 2 || count < 2) return 1;
-  return static_cast<double>(count) * nanoseconds < kLeastOfTeam + kLeastOfThread * most ? 1 : most;
+  return static_cast<double>(count) * nanoseconds < kMinOfTeam + kMinOfThread * most ? 1 : most;
 }
 
 void zeroShared(void* memory, std::size_t bytes, int threads) {

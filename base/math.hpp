@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
-/// Elementary functions with bitwise identical results on every processor: built only from + - * / and sqrt in a fixed
-/// order. C library versions differ between processors (they choose fused multiply-add paths at run time). Accuracy: a
-/// few units in the last place over the stated ranges; measured in tests/base/arithmetic_test.cu.
+/// Elementary functions with bitwise identical results on every processor, composed only of + - * / and sqrt in a fixed
+/// order. Results of C libraries differ between processors (fused multiply-add is selected at run time). Accuracy: a
+/// few units in the last place over the stated ranges, as measured in tests/base/arithmetic_test.cu.
 namespace grouser::base {
 
 inline constexpr double kPi = 3.14159265358979323846;
@@ -126,7 +126,7 @@ GROUSER_HD double log(double x) {
   return n * 6.93147180369123816490e-01 + (2 * (s + s * p) + n * 1.90821492927058770002e-10);
 }
 
-/// Cube root of x >= 0; 0 for x < 0. Halley's method, started from a third of the exponent (3 % error).
+/// Cube root of x >= 0; 0 for x < 0. Halley's method, with a third of the exponent as initial guess (3 % error).
 GROUSER_HD double cubeRoot(double x) {
   if (!(x > 0)) return 0;
   double y = bitsAs<double>(bitsAs<std::uint64_t>(x) / 3 + 0x2A9F7893782DA1CEull);
@@ -138,7 +138,7 @@ GROUSER_HD double cubeRoot(double x) {
 }
 /// Cube root of floats, scalar or SIMD; `Bits` is the integer type of the same size.
 template <class Bits, class Float> GROUSER_HD Float cubeRootBy(const Float& x) {
-  // Selects 1 where the result is 0: the cube of the guess would be a denormal number, which is slow.
+  // Use 1 if the result is 0: the cube of the guess would be a denormal number, which is slow.
   Float y = x > 0 ? bitsAs<Float>(bitsAs<Bits>(x) / 3 + 0x2A512CE3u) : Float{} + 1;
   for (int k = 0; k < 2; ++k) {
     const Float cube = y * y * y;

@@ -35,7 +35,7 @@ std::size_t countOf(cudaMemPoolAttr what) {
 } // namespace
 
 MemoryHeld memoryHeld(const Exec& exec) {
-  if (exec.onCpu()) return {heldOnHost(), mostHeldOnHost(), mostHeldOnHost()};
+  if (exec.onCpu()) return {heldOnHost(), peakHostMemory(), peakHostMemory()};
 #if defined(__CUDACC__)
   return {countOf(cudaMemPoolAttrUsedMemCurrent), countOf(cudaMemPoolAttrUsedMemHigh),
           countOf(cudaMemPoolAttrReservedMemHigh)};
@@ -48,7 +48,7 @@ void restartMemoryPeak(const Exec& exec) {
   if (exec.onCpu()) return restartHostPeak();
 #if defined(__CUDACC__)
   synchronize(exec);
-  std::uint64_t none = 0; // the only value accepted by CUDA: resets the peak to the current size
+  std::uint64_t none = 0; // 0 is the only value that CUDA accepts; it resets the peak to the current size
   for (const cudaMemPoolAttr peak : {cudaMemPoolAttrUsedMemHigh, cudaMemPoolAttrReservedMemHigh})
     checkCuda(cudaMemPoolSetAttribute(currentPool(), peak, &none), "cudaMemPoolSetAttribute");
 #else

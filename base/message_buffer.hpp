@@ -7,7 +7,7 @@
 
 namespace grouser::base {
 
-/// Buffer for messages between ranks, in words. Grows to 5/4 of the largest message; growing discards the contents.
+/// Buffer for messages between ranks, in words. It grows to 5/4 of the largest message and then loses its contents.
 template <void* (*kAllocate)(const Exec&, std::size_t), void (*kRelease)(const Exec&, void*) noexcept>
 class MessageWords {
 public:

@@ -7,9 +7,9 @@
 
 namespace grouser::base {
 
-/// Branch-free square root, quotient and inverse of numbers from 2^-60 to 2^60 on a GPU. Correctly rounded by an
-/// approximation and Newton steps with fused multiply-adds, like the compiler's fast paths (P. Markstein 1990, IBM J.
-/// Res. Dev. 34:111). tests/base/arithmetic_test.cu compares them with the operators.
+/// Branch-free square root, quotient and inverse of numbers from 2^-60 to 2^60 on a GPU. The results are correctly
+/// rounded, by an approximation and Newton steps with fused multiply-adds, like the compiler's fast paths (P. Markstein
+/// 1990, IBM J. Res. Dev. 34:111). tests/base/arithmetic_test.cu compares them with the operators.
 template <class T> GROUSER_HD T moderateRoot(const T& x) {
 #if defined(__CUDA_ARCH__)
   if constexpr (std::is_same_v<T, float>) {

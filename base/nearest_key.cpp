@@ -13,9 +13,9 @@ namespace grouser::base {
 
 namespace {
 
-constexpr std::size_t kMostNamed = 3;  ///< maximum number of suggested keys
-constexpr std::size_t kTellingKey = 3; ///< minimum length of a key that identifies its section: x or z occur in many
-constexpr int kOtherSection = 2;       ///< maximum penalty for another section: less than two letters of the key
+constexpr std::size_t kMaxNamed = 3;   ///< maximum number of suggested keys
+constexpr std::size_t kTellingKey = 3; ///< minimum length of a key that identifies its section; x and z occur in many
+constexpr int kOtherSection = 2;       ///< maximum penalty for another section; less than the cost of two letters
 
 std::string sectionOf(const std::string& full) { return full.substr(0, full.rfind('.')); }
 std::string keyOf(const std::string& full) { return full.substr(full.rfind('.') + 1); }
@@ -31,7 +31,7 @@ int distance(const std::string& word, const std::string& key) {
   return isPartOf(word, key) || isPartOf(key, word) ? std::min(edits, 3) : edits;
 }
 
-/// True if near enough for a suggestion: at most a third of the letters are wrong.
+/// True if a key is near enough for a suggestion: at most a third of the letters are wrong.
 bool isNear(int distance, const std::string& word) {
   return distance <= std::max(2, static_cast<int>(2 * word.size() / 3));
 }
@@ -50,7 +50,7 @@ std::vector<std::string> nearestKeys(const std::string& path, const std::string&
     if (d < least) best.clear();
     if (d <= least) least = d, best.push_back(full);
   }
-  return best.size() > kMostNamed ? std::vector<std::string>() : best;
+  return best.size() > kMaxNamed ? std::vector<std::string>() : best;
 }
 
 } // namespace

@@ -8,8 +8,8 @@
 
 namespace grouser::base {
 
-/// Returns the error with the nearest of all the file's keys ("section.key"): the message suggests another section if
-/// the key belongs there or is nearer to one of its keys.
+/// Returns the error with the nearest of all keys of the file ("section.key"). The message suggests another section if
+/// the key belongs to it or is nearer to one of its keys.
 InputError amongAllKeys(const UnknownKey& unknown, const std::vector<std::string>& all);
 
 } // namespace grouser::base

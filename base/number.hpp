@@ -7,7 +7,7 @@
 #include <cmath>
 #include <type_traits>
 
-/// Number types of the contact laws, which are templates over float, double or SIMD vectors of these (base/simd.hpp).
+/// Number types of the contact laws, which are templates over float, double and SIMD vectors of both (base/simd.hpp).
 /// Selections are written `mask ? a : b`, valid for scalars and vectors; other operations are below.
 namespace grouser::base {
 
@@ -33,8 +33,8 @@ template <class T> GROUSER_HD Vec3<T> broadcast(const Vec3<ScalarOf<T>>& v) {
 /// Square root, correctly rounded on every processor (IEEE 754), so results are bitwise reproducible.
 template <class T> GROUSER_HD T squareRoot(const T& x) { return NumberTraits<T>::squareRoot(x); }
 
-/// part / whole, for whole > 0. A GPU's division has a slow path for zero and values near the limits of the float
-/// range, so a zero is divided as a one; the form keeps the compiler from undoing this.
+/// part / whole, for whole > 0. Division on a GPU has a slow path for zero and for values near the limits of the float
+/// range; therefore 1 is divided instead of 0. The expression prevents the compiler from undoing this.
 template <class T> GROUSER_HD T shareOf(const T& part, const T& whole) {
   if constexpr (std::is_floating_point_v<T>) {
     T dividend = part == 0 ? T(1) : part;

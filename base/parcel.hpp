@@ -6,19 +6,19 @@
 
 namespace grouser::base {
 
-/// A copy of memory, or zeros, into device memory or pinned host memory.
+/// A copy of memory, or of zeros, to device memory or pinned host memory.
 struct Parcel {
   void* to;
   const void* from;  ///< null: writes zeros
   std::size_t bytes; ///< a multiple of 8
 };
 
-/// Sixteen bytes of device memory that cancel the work if they differ from their normal values.
+/// Sixteen bytes of device memory; if they differ from their normal values, the work is cancelled.
 struct Watch {
   const void* at = nullptr; ///< null: never cancels
   std::uint64_t idle[2] = {0, 0};
 };
 
-constexpr std::size_t kMostParcels = 4;
+constexpr std::size_t kMaxParcels = 4;
 
 } // namespace grouser::base

@@ -24,7 +24,7 @@ using Handle = cudaIpcMemHandle_t;
 struct Handle {};
 #endif
 
-/// Handle for mapping a rank's memory by other ranks.
+/// Handle with which other ranks map a rank's memory.
 struct Offer {
   std::uint64_t device;
   std::uint32_t given;
@@ -51,14 +51,14 @@ PeerMemory::PeerMemory(const Exec& exec, const Comm& comm, PeerUse use, std::siz
     : exec_(exec), comm_(comm), use_(use),
       shares_(!comm.alone() && (use == PeerUse::always || (use == PeerUse::automatic && !exec.onCpu()))),
       views_(static_cast<std::size_t>(comm.size()), nullptr) {
-  // At least one page from the start, to determine at once which ranks have mutual access.
+  // Allocate at least one page, so that mutual access of the ranks can be tested immediately.
   if (shares_ || bytes > 0) allocate(bytes);
   checkUse();
 }
 
 PeerMemory::~PeerMemory() {
-  // Skipped during exception unwinding: others may still read this memory, and release() would wait in closeAll() for
-  // ranks that never come. The error ends them all.
+  // Skip this during exception unwinding: other ranks may still read this memory, and release() would wait in
+  // closeAll() for ranks that never call it. The error ends all ranks.
   if (shares_ && std::uncaught_exceptions() > 0) return;
   release();
 }
@@ -69,9 +69,8 @@ void PeerMemory::checkUse() {
   release();
   throw InputError(
       "peer memory \"always\", but not all ranks can access each other's memory: GPUs must be on one machine and "
-      "support "
-      "peer access (nvidia-smi topo -p2p r); CPU ranks need enough shared memory and access to /proc/PID/fd of the "
-      "others (one user, one container); or use \"auto\"");
+      "support peer access (nvidia-smi topo -p2p r); CPU ranks require enough shared memory and access to /proc/PID/fd "
+      "of the others (same user, same container); otherwise use \"auto\"");
 }
 
 void PeerMemory::reserve(std::size_t bytes) {
@@ -95,7 +94,7 @@ void PeerMemory::allocate(std::size_t bytes) {
   SharedBlock block;
   if (shares_ && exec_.onCpu()) {
     block = createShared(size);
-    // CPUs share only on request: no fallback to private memory, which could be far too large.
+    // CPUs share memory only on request, without fallback to private memory, which could be far too large.
     if (comm_.sumOf(block.memory ? 0 : 1) > 0) {
       closeShared(block.memory, size);
       endSharing(block);
@@ -109,10 +108,10 @@ void PeerMemory::allocate(std::size_t bytes) {
   setZero(exec_, own_, size_);
   synchronize(exec_);
   if (shares_) share(block.file);
-  endSharing(block); // every rank has opened it by now
+  endSharing(block); // every rank has opened the block by now
 }
 
-/// Exports this rank's memory to the others on its machine, and maps theirs.
+/// Exports this rank's memory to the other ranks on its machine, and maps their memory.
 void PeerMemory::share(int file) {
   Offer mine{};
   mine.device = deviceId(exec_);
@@ -149,8 +148,8 @@ void PeerMemory::share(int file) {
   comm_.wait();
 }
 
-/// Tests, by rank, whether data written through its mapping arrive in both directions. A mapping may open and still be
-/// wrong, e.g. in some virtual machines. wait() orders the reads of all ranks after the writes of all.
+/// Tests for each rank whether data written through its mapping arrive, in both directions. A mapping may open and yet
+/// be wrong, e.g. in some virtual machines. wait() ensures that all ranks have written before any rank reads.
 std::vector<bool> PeerMemory::tryViews() const {
   const auto word = [](void* memory, int r) { return static_cast<std::uint32_t*>(memory) + r; };
   const int me = comm_.rank();
@@ -191,8 +190,8 @@ void PeerMemory::close(int rank) noexcept {
   view = nullptr;
 }
 
-/// Waits for this device's work, unmaps the memory of the others, and waits until all ranks have done so: afterwards no
-/// rank reads this one's memory, and it can be freed.
+/// Waits for the work of this device, unmaps the memory of other ranks, and waits until all ranks have done so.
+/// Afterwards no other rank reads the memory of this rank, and it can be freed.
 void PeerMemory::closeAll() noexcept {
   if (!shares_ || !own_) return;
 #if defined(__CUDACC__)

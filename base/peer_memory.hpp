@@ -14,8 +14,8 @@ namespace grouser::base {
 /// Policy for direct access to the memory of other ranks on the same machine.
 enum class PeerUse {
   never,
-  automatic, ///< GPUs that support it
-  always     ///< InputError if unsupported; includes CPUs, and PeerReduction among ranks that share one GPU
+  automatic, ///< for GPUs that support it
+  always     ///< InputError if unsupported; also for CPUs, and for PeerReduction among ranks on one GPU
 };
 
 template <> struct EnumWords<PeerUse> {
@@ -24,8 +24,8 @@ template <> struct EnumWords<PeerUse> {
 };
 
 /// Device memory of this rank with mappings of the other ranks' memory: the GPUs of one machine access each other's
-/// memory (CUDA IPC) without host or MPI. Access is tested at run time; without it only the rank's own memory is
-/// mapped. CPUs share memory only on request, since messages are equally fast.
+/// memory (CUDA IPC) without host or MPI. Access is tested at run time; without access, only the rank's own memory is
+/// mapped. CPUs share memory only on request, since MPI messages are equally fast.
 ///
 /// All members not marked `local` are collective, including the destructor: call them in the same order on all ranks.
 class PeerMemory {

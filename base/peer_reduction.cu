@@ -15,30 +15,30 @@ namespace grouser::base {
 
 namespace {
 
-constexpr int kMostRanks = 32; // one lane of a warp per rank
+constexpr int kMaxRanks = 32; // one lane of a warp per rank
 
-/// Message of one rank in one run, written to the memory of another: `least` and `bits`, then a system-wide fence, then
-/// `run`. The reader spins until `run` equals the number of this run, executes a fence too, and reads the other two.
-/// The writer's fence also publishes earlier writes of its stream, such as packed ghosts.
+/// Message of one rank in one run, written to the memory of another rank: `least` and `bits`, then a system-wide fence,
+/// then `run`. The reader spins until `run` equals the number of this run, executes a fence, and reads `least` and
+/// `bits`. The fence of the writer also publishes earlier writes of its stream, such as packed ghosts.
 struct alignas(16) Word {
   std::uint64_t least, bits;
   std::uint32_t run;
 };
 
 /// Memory of one rank, written by all others. Double-buffered by the parity of the run: a rank that has finished run n
-/// may write its message of n + 1 while a slower one still reads those of n. It overwrites n with n + 2 only after
-/// receiving all messages of n + 1, each sent by a rank that has finished n.
+/// may write its message of n + 1 while a slower rank still reads messages of n. A rank overwrites its message of n
+/// with n + 2 only after it has received all messages of n + 1, each sent by a rank that has finished n.
 struct Table {
-  Word said[2][kMostRanks]; ///< by rank
-  std::uint64_t waited;     ///< [ns]
-  std::uint32_t runs;       ///< number of runs finished by this rank
+  Word said[2][kMaxRanks]; ///< by rank
+  std::uint64_t waited;    ///< [ns]
+  std::uint32_t runs;      ///< number of runs finished by this rank
 };
 
 struct Tables {
-  Table* of[kMostRanks];
+  Table* of[kMaxRanks];
 };
 
-/// CPU version; release and acquire of `run` replace the fences.
+/// Version for CPUs: release and acquire of `run` replace the fences.
 void agreeOnHost(const Tables& tables, int me, int size, std::uint64_t* words) {
   Table& mine = *tables.of[me];
   const std::uint32_t run = mine.runs + 1;
@@ -79,7 +79,7 @@ __global__ void agree(Tables tables, int me, int size, std::uint64_t* words) {
     __threadfence_system();
     least = in.least, bits = in.bits, waited = nanoseconds() - from;
   }
-  for (int other = kMostRanks / 2; other > 0; other /= 2) {
+  for (int other = kMaxRanks / 2; other > 0; other /= 2) {
     const std::uint64_t l = __shfl_xor_sync(~0u, least, other);
     least = l < least ? l : least;
     bits |= __shfl_xor_sync(~0u, bits, other);
@@ -95,7 +95,7 @@ __global__ void agree(Tables tables, int me, int size, std::uint64_t* words) {
 
 PeerReduction::PeerReduction(const Exec& exec, const Comm& comm, PeerUse use)
     : exec_(exec), memory_(exec, comm, use, sizeof(Table)), rank_(comm.rank()), size_(comm.size()),
-      possible_(memory_.allSeeAll() && size_ <= kMostRanks && (use == PeerUse::always || !memory_.deviceShared())) {}
+      possible_(memory_.allSeeAll() && size_ <= kMaxRanks && (use == PeerUse::always || !memory_.deviceShared())) {}
 
 double PeerReduction::waited() const {
   if (!possible_) return 0;
@@ -110,7 +110,7 @@ void PeerReduction::run(const Exec& exec, std::uint64_t* words) {
   for (int r = 0; r < size_; ++r) tables.of[r] = static_cast<Table*>(r == rank_ ? memory_.own() : memory_.of(r));
   if (exec.onCpu()) return agreeOnHost(tables, rank_, size_, words);
 #if defined(__CUDACC__)
-  agree<<<1, kMostRanks, 0, static_cast<cudaStream_t>(exec.stream)>>>(tables, rank_, size_, words);
+  agree<<<1, kMaxRanks, 0, static_cast<cudaStream_t>(exec.stream)>>>(tables, rank_, size_, words);
   checkCuda(cudaGetLastError(), "launch of a peer reduction");
 #endif
 }

@@ -10,15 +10,15 @@ namespace grouser::base {
 /// Grain position as three 42-bit integers in 16 bytes: the low 32 bits of each axis, then the 10 high bits of each of
 /// the three axes.
 ///
-/// The unit is a power of two in metres for which the largest grain diameter is between 1e8 and 2e8 units. The low
-/// words alone determine the exact difference of any two grains less than 2^31 units (about 10 diameters) apart, by
-/// wrapping 32-bit subtraction: without cell arithmetic or rounding, and antisymmetric. The range is 2^42 units, i.e.
-/// 20,000 to 40,000 diameters.
+/// The unit is a power of two in metres for which the largest grain diameter is between 1e8 and 2e8 units. For grains
+/// less than 2^31 units (about 10 diameters) apart, a wrapping 32-bit subtraction of the low words yields the exact
+/// difference, which is antisymmetric, without cell arithmetic or rounding. The range is 2^42 units, i.e. 20,000 to
+/// 40,000 diameters.
 struct alignas(16) Position {
   std::uint32_t x, y, z, high;
 };
 
-/// Signed 42-bit coordinate of one axis [units]; `low` is the low word of that axis.
+/// Signed 42-bit coordinate of one axis [units]; `low` is the low word of this axis.
 GROUSER_HD std::int64_t axisOf(std::uint32_t low, std::uint32_t high, int axis) {
   const std::int64_t top = static_cast<std::int32_t>(high << (22 - 10 * axis)) >> 22; // sign-extends 10 bits
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(top) << 32 | low);

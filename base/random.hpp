@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
-/// Counter-based random numbers: pure functions of seed, purpose and id, independent of the call order and of the
-/// domain decomposition. Checkpoints need no generator state.
+/// Counter-based random numbers: pure functions of seed, purpose and id, independent of call order and domain
+/// decomposition. Checkpoints therefore contain no generator state.
 namespace grouser::base {
 
 namespace detail {
@@ -24,7 +24,7 @@ inline constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15ull; ///< 2^64 / gold
 
 } // namespace detail
 
-/// Identifier of a random stream, from a name such as "terrain.jitter" (FNV-1a). Two purposes never share a stream.
+/// Identifier of a random stream, computed from a name such as "terrain.jitter" (FNV-1a). Each purpose has its own.
 constexpr std::uint64_t purpose(std::string_view name) {
   std::uint64_t h = 0xCBF29CE484222325ull;
   for (const char c : name) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001B3ull;

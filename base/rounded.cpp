@@ -14,7 +14,7 @@ std::string rounded(double value, int digits, int direction) {
   const std::string nearest = fmt::format("{:.{}e}", value, digits - 1);
   double number = std::strtod(nearest.c_str(), nullptr);
   if (std::isfinite(value) && (direction < 0 ? number > value : number < value)) {
-    // Increments the last digit, in integers.
+    // Increment the last digit in integer arithmetic.
     const std::size_t e = nearest.find('e');
     std::string mantissa = nearest.substr(0, e);
     if (const std::size_t point = mantissa.find('.'); point != std::string::npos) mantissa.erase(point, 1);
@@ -22,7 +22,7 @@ std::string rounded(double value, int digits, int direction) {
     long long whole = std::strtoll(mantissa.c_str(), nullptr, 10), least = 1;
     for (int d = 1; d < digits; ++d) least *= 10;
     const long long sign = whole < 0 ? -1 : 1;
-    // Rounding a power of ten towards zero yields nines in all digits.
+    // A power of ten rounded towards zero has nines in all digits.
     if (whole * sign == least && sign != direction)
       whole = sign * (10 * least - 1), --exponent;
     else

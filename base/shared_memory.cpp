@@ -22,13 +22,13 @@ void* map(int file, std::size_t bytes) {
   return memory == MAP_FAILED ? nullptr : memory;
 }
 
-/// Unlike /dev/shm, anonymous memory has no limit: a block larger than the machine's memory would end the process.
+/// Anonymous memory has no limit, unlike /dev/shm: a block larger than the machine's memory would end the process.
 bool fitsMachine(std::size_t bytes) {
   struct sysinfo machine {};
   return sysinfo(&machine) == 0 && bytes / machine.mem_unit < machine.totalram;
 }
 
-/// Checks that the block belongs to this program: in another namespace the number may denote another process.
+/// Checks that the block belongs to this program: in another namespace, the process number may denote another process.
 bool isShared(const std::string& link) {
   std::array<char, 64> target{};
   const ssize_t length = readlink(link.c_str(), target.data(), target.size());
@@ -42,7 +42,7 @@ SharedBlock createShared(std::size_t bytes) noexcept {
   if (!fitsMachine(bytes)) return block;
   block.file = memfd_create(kName, MFD_CLOEXEC);
   if (block.file < 0) return block;
-  // Reserves all pages now: otherwise a first access beyond the available memory would end the program (SIGBUS).
+  // Reserve all pages now; otherwise a first access beyond the available memory would end the program (SIGBUS).
   if (posix_fallocate(block.file, 0, static_cast<off_t>(bytes)) == 0) block.memory = map(block.file, bytes);
   if (!block.memory) endSharing(block);
   return block;

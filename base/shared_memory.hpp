@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-/// Anonymous memory shared by processes of one machine; the system frees it however the processes end.
+/// Anonymous memory shared by processes of one machine; the system frees it even if the processes are killed.
 namespace grouser::base {
 
 /// Zeroed memory block of this process that other processes can map while `file` is open.

@@ -20,18 +20,18 @@
 /// Two ways to use the processor's instructions:
 ///   - fixed width (multibody: four doubles): GROUSER_SIMD_CLONES compiles a function for each
 ///     processor kind; the loader selects one;
-///   - native width (grains: 4, 8 or 16 floats): one source file for each width, compiled with its options, and
-///     selected at run time. Such a file must not emit functions that other files also emit: the linker might use
-///     that copy for the whole program. So all callees are inlined (GROUSER_SIMD here, `flatten` on its only
-///     function), and the test simd.alone inspects the object files. Valid for optimised builds only.
+///   - native width (grains: 4, 8 or 16 floats): one source file for each width, compiled with the options for this
+///     width, and selected at run time. Such a file must not emit functions that other files also emit, because the
+///     linker might use its copy for the whole program. Therefore all callees are inlined (GROUSER_SIMD here, `flatten`
+///     on the only function of the file), and the test simd.alone inspects the object files of optimised builds.
 ///
 /// Highway and std::experimental::simd are unsuitable: their vectors cannot replace float everywhere (struct members,
 /// arrays, operators of base::Vec3 with scalars), so each law would need a second version.
 namespace grouser::base {
 
 #define GROUSER_SIMD inline __attribute__((always_inline))
-// Tests may override this. Clones are selected before the address sanitizer is initialised, and clang (used by the
-// linter) rejects flattened clones.
+// Tests may override this macro. It is empty under the address sanitizer, which is initialised after the selection of
+// clones, and for clang (used by the linter), which rejects flattened clones.
 #if !defined(GROUSER_SIMD_CLONES)
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define GROUSER_SIMD_CLONES __attribute__((target_clones("arch=x86-64-v4", "avx2", "default"), flatten))

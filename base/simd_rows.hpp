@@ -5,15 +5,15 @@
 
 #include <utility>
 
-/// Transposes records to SIMD lanes and back: a row contains four numbers of one record, a vector one number of several
-/// records.
+/// Transposes records to SIMD lanes and back: a row contains four numbers of one record, and a vector contains one
+/// number of several records.
 namespace grouser::base {
 
 using Float4 = Simd<float, 4>;
 using Int4 = Simd<std::int32_t, 4>;
 using Double4 = Simd<double, 4>;
 
-/// Loads three numbers without reading a fourth, which may be out of bounds. Two loads, no stack copy.
+/// Loads three numbers, in two loads and without a stack copy; a fourth number might be out of bounds.
 GROUSER_SIMD Float4 load3(const void* from) {
   std::uint64_t first;
   std::uint32_t last;
@@ -102,7 +102,7 @@ template <SimdVector V> GROUSER_SIMD void transpose(V (&r)[4]) {
   detail::transpose(r, std::make_integer_sequence<int, kWidthOf<V>>{});
 }
 
-/// Loads four numbers of each of kWidth records; the lane order is that of `storeRows`.
+/// Loads four numbers of each of kWidth records; the lane order is the same as for `storeRows`.
 template <SimdVector V> GROUSER_SIMD void loadRows(const Float4* rows, V (&out)[4]) {
   constexpr int kStride = kWidthOf<V> / 4; // rows per register
 #pragma GCC unroll 4

@@ -12,7 +12,7 @@ constexpr double sphereMass(double density, double radius) {
   return density * (4.0 / 3.0) * kPi * radius * radius * radius;
 }
 constexpr double sphereVolume(double radius) { return sphereMass(1, radius); } ///< [m3]
-/// Volume of a sphere of radius r about height z that lies below height h [m3].
+/// Volume of the part below height h of a sphere with radius r and centre at height z [m3].
 constexpr double sphereVolumeBelow(double h, double z, double r) {
   const double cap = std::clamp(h - (z - r), 0.0, 2 * r);
   return kPi * cap * cap * (3 * r - cap) / 3;

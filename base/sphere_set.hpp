@@ -19,24 +19,24 @@ namespace grouser::base {
 struct SetSphere {
   Vec3d centre;    ///< [m]
   double radius{}; ///< [m]; the set's radius, or less if the part is thinner than a sphere
-  Vec3d normal; ///< outward unit normal of the mesh face it lies under; zero for an interior sphere. Where the part is
-                ///< as thin as the sphere, one sphere serves both sides and carries the normal of one of them
-  double offset{}; ///< [m]: the plane of that face is normal . x = offset; normal . centre + radius <= offset, with
-                   ///< equality except for spheres pushed deeper by an edge or a concave corner
-  double flat{};   ///< [m] >= 0, radius of the disc; 0 next to a convex edge, where the sphere itself rounds the edge
-  double area{};   ///< [m2] outer mesh area represented by this sphere; a set's sum is the mesh's outer area; may be 0
+  Vec3d normal; ///< outward unit normal of the mesh face above the sphere; zero for an interior sphere. If the part is
+                ///< as thin as the sphere, one sphere represents both sides and has the normal of one side
+  double offset{}; ///< [m]: the plane of this face is normal . x = offset; normal . centre + radius <= offset, with
+                   ///< equality except for spheres moved deeper at an edge or a concave corner
+  double flat{};   ///< [m] >= 0, radius of the disc; 0 next to a convex edge, which the sphere itself rounds
+  double area{};   ///< [m2] outer mesh area represented by this sphere, >= 0; the sum over a set is the outer mesh area
   bool surface() const { return norm2(normal) > 0; }
 };
 
-/// Sphere decomposition of a rigid part: surface spheres first, then interior ones.
+/// Sphere decomposition of a rigid part: surface spheres first, then interior spheres.
 struct SphereSet {
   std::string name;
   std::vector<SetSphere> spheres;
   std::size_t surfaceCount{};
   double spacing{};    ///< [m] lattice spacing
   double radius{};     ///< [m] sphere radius, the largest of the set
-  double meshVolume{}; ///< [m3] of the union of the mesh's shells
-  double meshArea{};   ///< [m2] of the outer surface of that union
+  double meshVolume{}; ///< [m3] volume of the union of the mesh's shells
+  double meshArea{};   ///< [m2] area of the outer surface of this union
 };
 
 /// Scalar properties of a set, without spheres and name, for files and messages between ranks.

@@ -9,7 +9,7 @@
 
 namespace grouser::base {
 
-/// Exact sums over the banks of a kernel and over all ranks: banks[k] is a partial sum of sum k % count. Collective.
+/// Exact sums over the banks of a kernel and over all ranks: banks[k] is a part of the sum k % count. Collective call.
 std::vector<WideSum> summedBanks(const std::vector<WideSum>& banks, std::size_t count, const Comm& comm);
 
 } // namespace grouser::base

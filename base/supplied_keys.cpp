@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Derived keys, read as if they were in the file.
+// Adds derived keys, which are then read as if they were in the file.
 #include "base/table.hpp"
 
 #include <fmt/format.h>
@@ -8,7 +8,7 @@ namespace grouser::base {
 
 namespace {
 
-/// Returns the table `key` of `parent`, adding it if missing.
+/// Returns the table `key` of `parent`; adds the table if it is missing.
 Node& tableAt(Node& parent, const std::string& key, const std::string& path, const std::string& origin) {
   Node* child = parent.find(key);
   if (!child) {

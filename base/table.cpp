@@ -92,8 +92,8 @@ std::string unitText(const Field& field) { return field.unit.empty() ? "" : " ["
 [[noreturn]] void failType(const Node& node, const Field& field, const std::string& fullKey) {
   std::string wanted = typeText(field.type);
   if (!field.autoWord.empty()) wanted += " or \"" + field.autoWord + "\"";
-  throw InputError(fmt::format("{}: {} = {} has the wrong type; give {}{} ({})", node.origin, fullKey, nodeText(node),
-                               wanted, unitText(field), field.help));
+  throw InputError(fmt::format("{}: {} = {} has the wrong type; expected {}{} ({})", node.origin, fullKey,
+                               nodeText(node), wanted, unitText(field), field.help));
 }
 
 double readReal(const Node& node, const Node& whole, const Field& field, const std::string& fullKey) {
@@ -107,7 +107,7 @@ double readReal(const Node& node, const Node& whole, const Field& field, const s
   const bool low = field.minOpen ? !(x > field.min) : !(x >= field.min);
   const bool high = field.maxOpen ? !(x < field.max) : !(x <= field.max);
   if (!std::isfinite(x))
-    throw InputError(fmt::format("{}: {} = {}{} is not finite; give a finite number", node.origin, fullKey,
+    throw InputError(fmt::format("{}: {} = {}{} is not finite; use a finite number", node.origin, fullKey,
                                  nodeText(whole), unitText(field)));
   if (low || high)
     throw InputError(fmt::format("{}: {} = {}{} is outside {}; choose a value in that range ({})", node.origin, fullKey,
@@ -125,7 +125,7 @@ std::string readText(const Node& node, const Field& field, const std::string& fu
   const auto* text = std::get_if<std::string>(&node.value);
   if (!text) failType(node, field, fullKey);
   if (!field.choices.empty() && std::find(field.choices.begin(), field.choices.end(), *text) == field.choices.end())
-    throw InputError(fmt::format("{}: {} = {} is none of {}; did you mean \"{}\"? ({})", node.origin, fullKey,
+    throw InputError(fmt::format("{}: {} = {} is not one of {}; did you mean \"{}\"? ({})", node.origin, fullKey,
                                  quoted(*text), fmt::join(field.choices, ", "), nearestWord(*text, field.choices),
                                  field.help));
   return *text;
@@ -230,7 +230,7 @@ void failMissing(const Node& section, const Field& field, const std::string& pat
                                typeText(field.type), range.empty() ? "" : ", " + range, field.help));
 }
 
-/// True if at least a third of the letters agree; otherwise a suggestion would mislead.
+/// True if at least a third of the letters agree; with fewer, a suggestion would be misleading.
 bool resembles(const std::string& word, const std::string& other) {
   return 3 * editDistance(word, other) <= 2 * static_cast<int>(std::max(word.size(), other.size()));
 }
@@ -291,7 +291,7 @@ std::vector<Section> Section::list(const std::string& key) const {
   if (!node) return sections;
   const std::string full = path_.empty() ? key : path_ + "." + key;
   const auto* list = std::get_if<Node::List>(&node->value);
-  // Only --set keys: the file has no such section; another one may have been meant.
+  // If only --set defines keys, the file has no such section; the user may have meant another section.
   if (const auto* map = std::get_if<Node::Map>(&node->value); map && node->origin == "--set" && !map->empty())
     throw UnknownKey({node->origin, full, map->front().key, {}, {}}, "");
   if (!list || !std::all_of(list->begin(), list->end(), [](const Node& n) { return n.isMap(); }))
@@ -338,7 +338,7 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& v
   std::string best;
   int least = std::numeric_limits<int>::max();
   for (const std::string& candidate : valid) {
-    // Prefer the word with omitted letters among equally near ones: "drivr" is driver, not drive.
+    // Among equally near words, prefer one from which letters were omitted: "drivr" is driver, not drive.
     const int d = 2 * editDistance(word, candidate) - (isAbridged(word, candidate) ? 1 : 0);
     if (d < least) least = d, best = candidate;
   }

@@ -17,10 +17,10 @@
 #include <variant>
 #include <vector>
 
-/// Strict reading of TOML files, driven by one table of fields for each section.
+/// Strict reader of TOML files, based on one table of fields for each section.
 ///
-/// A section is a plain struct; its `Table` lists every key once, with unit, range and help, bound to a member of the
-/// struct. The table drives the parsing, the checks, the help text and the resolved copy:
+/// A section is a plain struct. Its `Table` lists every key once, with unit, range and help, bound to a member of the
+/// struct, and is used for parsing, checks, help text and resolved copy:
 ///
 ///     struct Wheel { double radius = 0.2; std::string material; };
 ///     base::Table<Wheel> wheelTable() {
@@ -37,7 +37,7 @@ namespace grouser::base {
 using FieldValue = std::variant<std::monostate, bool, std::int64_t, double, std::string, std::array<double, 2>, Vec3d,
                                 std::vector<double>, std::vector<std::string>, std::array<bool, 2>>;
 
-/// Type of a field in the file. Integers are accepted as reals, not vice versa.
+/// Type of a field in the file. Integers are accepted as reals, but reals not as integers.
 enum class FieldType { Boolean, Integer, Real, Text, Pair, Vector, RealList, TextList, BooleanPair };
 
 /// Description of a field, without its storage. Setters return the field, so calls can be chained.
@@ -50,9 +50,9 @@ struct Field {
   double max = std::numeric_limits<double>::infinity();
   bool minOpen = false, maxOpen = false;
   bool isRequired = false;
-  std::string autoWord;                ///< a word that means "not set", e.g. "auto"
+  std::string autoWord;                ///< word that means "not set", e.g. "auto"
   std::vector<std::string> formerKeys; ///< accepted for one version; read by Document::renameKeys
-  std::vector<std::string> choices;    ///< the words of an enum; empty: any text
+  std::vector<std::string> choices;    ///< words of an enum; empty: any text
 
   Field& above(double a) { return min = a, minOpen = true, *this; }
   Field& atLeast(double a) { return min = a, minOpen = false, *this; }
@@ -68,7 +68,7 @@ struct Field {
   std::string rangeText() const;
 };
 
-/// Renamed key: its former and present names.
+/// Former and current name of a renamed key.
 struct FormerKey {
   std::string former, now;
 };
@@ -146,13 +146,13 @@ template <HasWords E> struct FieldTypeOf<E> : FieldTypeOf<std::string> {};
 template <HasWords E> struct FieldTypeOf<std::vector<E>> : FieldTypeOf<std::vector<std::string>> {};
 template <class T> struct FieldTypeOf<std::optional<T>> : FieldTypeOf<T> {};
 
-/// Enum type of a member that stores one, several or an optional; void if the type has no words.
+/// Enum type of a member that is an enum, a list of enums or an optional enum; void if the type has no words.
 template <class T> struct EnumOf { using Type = void; };
 template <HasWords E> struct EnumOf<E> { using Type = E; };
 template <class T> struct EnumOf<std::vector<T>> : EnumOf<T> {};
 template <class T> struct EnumOf<std::optional<T>> : EnumOf<T> {};
 
-/// Converts between a member and its FieldValue. The word has already been checked against the enum's words.
+/// Converts between a member and its FieldValue. Words must be valid words of the enum.
 template <class T> struct Conversion {
   using Stored = typename FieldTypeOf<T>::Stored;
   static FieldValue toField(const T& member) { return static_cast<Stored>(member); }
@@ -182,7 +182,7 @@ template <class T> struct Conversion<std::optional<T>> {
 };
 } // namespace detail
 
-/// Fields of one section, bound to the members of `S`. Defaults are those of a default-constructed `S`. Member types:
+/// Fields of one section, bound to the members of `S`. Defaults are the values of a default-constructed `S`. Types:
 /// bool, int, int64, double, string, array<double, 2>, Vec3d, vector<double>, vector<string>, array<bool, 2>, an enum
 /// with words or a vector of it, or an optional of these (empty: not set).
 template <class S> class Table {
@@ -225,7 +225,8 @@ public:
   }
 
   /// Reads `section` into `s`, which contains the defaults. `path` is the section's full name for messages;
-  /// `subsections` lists keys read elsewhere. Throws InputError: unknown key, wrong type, out of range, missing.
+  /// `subsections` lists keys read elsewhere. Throws InputError for a key that is unknown or missing, or has a value of
+  /// the wrong type or out of range.
   void read(const Node& section, const std::string& path, S& s,
             const std::vector<std::string>& subsections = {}) const {
     std::vector<std::string> valid = subsections;
@@ -279,8 +280,8 @@ public:
   std::string name() const { return path_.substr(path_.rfind('.') + 1); }
 
   bool has(std::string_view key) const { return node_->find(key) != nullptr; }
-  /// Returns the value of a field's key with the same checks as read(); empty if the key is absent. Throws InputError:
-  /// wrong type, out of range.
+  /// Returns the value of a field's key with the same checks as read(); empty if the key is absent. Throws InputError
+  /// for a wrong type or a value out of range.
   FieldValue value(const Field& field) const;
   /// Returns the table `key`. Throws InputError if it is missing or not a table.
   Section section(const std::string& key) const;
@@ -300,8 +301,8 @@ public:
   /// Throws InputError for a key not in `valid`; the message names the nearest valid key.
   void allowOnly(const std::vector<std::string>& valid) const { detail::checkKeys(*node_, path_, valid); }
 
-  /// Throws InputError "file:line: path.key = value <message>"; the line is the key's, or the section's if it is
-  /// absent.
+  /// Throws InputError "file:line: path.key = value <message>", with the line of the key, or of the section if the key
+  /// is absent.
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
 
 private:
@@ -314,20 +315,21 @@ class Document {
 public:
   /// Reads the file. Each override is "a.b.c=value", e.g. `grain.0.radius=0.01`, `contact."a|b".friction=0.3` or
   /// `body."left wheel".mass=2` (list entry named "left wheel"); the value is TOML or a bare word, read as text.
-  /// "~a.b.c" removes a key or section. Throws InputError: missing file, syntax (file:line:column), version, override.
+  /// "~a.b.c" removes a key or section. Throws InputError for a missing file, invalid syntax (file:line:column), an
+  /// unsupported version, or an invalid override.
   static Document load(const std::filesystem::path& path, const std::vector<std::string>& overrides = {});
   /// Parses text instead of a file; `name` is the file name for messages.
   static Document parse(std::string_view text, const std::string& name, const std::vector<std::string>& overrides = {});
 
-  /// Renames former keys of a file to their present names, before anything is read. `where` is the path of a section:
+  /// Renames former keys of a file to their current names; call it before any section is read. `where`: section path,
   /// "run", or "grain" for every entry of that list; a trailing ".*" selects all subsections: "material.*". Throws
   /// InputError if the file has both names.
   void renameKeys(const std::string& where, const std::vector<FormerKey>& keys);
   /// Sets `key` = `text` in the table `section.name` if the key is absent, with `origin` as its location in messages.
-  /// Adds the table if missing. Throws InputError if either is not a table.
+  /// Adds the table if missing. Throws InputError if a parent of the key is not a table.
   void supply(const std::string& section, const std::string& name, const std::string& key, const std::string& text,
               const std::string& origin);
-  /// Sets `section.key` to `value`, replacing any former value; adds the section if missing. Throws InputError if it is
+  /// Sets `section.key` to `value`, also if already set; adds the section if missing. Throws InputError if `section` is
   /// not a table.
   void put(const std::string& section, const std::string& key, const Node& value);
   /// One line per renamed key, with its location and the required change to the file.

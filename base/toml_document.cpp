@@ -35,12 +35,13 @@ Node convert(const toml::node& from, const std::string& file) {
   } else if (const auto* flag = from.as_boolean()) {
     to.value = flag->get();
   } else {
-    throw InputError(fmt::format("{}: dates and times are not supported; remove it or put it in quotes", to.origin));
+    throw InputError(
+        fmt::format("{}: dates and times are not supported; remove the value or put it in quotes", to.origin));
   }
   return to;
 }
 
-/// toml++ sorts keys alphabetically; messages and resolved copies use file order.
+/// Restores file order, which messages and resolved copies use; toml++ sorts keys alphabetically.
 void sortByLine(Node& node, const toml::node& from) {
   if (const auto* table = from.as_table()) {
     auto& map = std::get<Node::Map>(node.value);
@@ -66,7 +67,7 @@ Node parseToml(std::string_view text, const std::string& name) {
     sortByLine(node, table);
     return node;
   } catch (const toml::parse_error& e) {
-    throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}; correct the syntax there", name, e.source().begin.line,
+    throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}; correct the syntax", name, e.source().begin.line,
                                  e.source().begin.column, e.description()));
   }
 }
@@ -97,7 +98,7 @@ void setOrigin(Node& node, const std::string& origin) {
     for (Node& n : *list) setOrigin(n, origin);
 }
 
-/// Value of an override: TOML if it parses, else plain text.
+/// Value of an override: parsed as TOML if valid, else plain text.
 Node overrideValue(const std::string& text) {
   Node node;
   try {
@@ -113,7 +114,7 @@ Node overrideValue(const std::string& text) {
   return node;
 }
 
-/// Returns the node of this key; null if there is none.
+/// Returns the node of a key; null if the key is absent.
 Node* nodeAt(Node& root, const std::vector<std::string>& parts) {
   Node* node = &root;
   for (const std::string& part : parts)
@@ -153,7 +154,7 @@ void applyOverride(Node& root, const std::string& text) {
         continue;
       }
       if (!isNumber || part.size() > 9 || std::stoul(part) >= list->size())
-        throw InputError(fmt::format("--set {}: there is no entry {} in a list of {}; count from 0, or give its name",
+        throw InputError(fmt::format("--set {}: there is no entry {} in a list of {}; use an index from 0, or a name",
                                      text, part, list->size()));
       node = &(*list)[std::stoul(part)];
       continue;
@@ -195,11 +196,13 @@ Document Document::parse(std::string_view text, const std::string& name, const s
 Document Document::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
   std::error_code error;
   const bool there = std::filesystem::exists(path, error);
-  // Reading a device may never end, and a pipe may have no writer.
+  // Accept regular files only: a device may have no end, and a pipe no writer.
   if (there && !std::filesystem::is_regular_file(path, error))
-    throw InputError(fmt::format("{}: not a file; give the path of a TOML file", path.string()));
+    throw InputError(fmt::format("{}: not a file; specify the path of a TOML file", path.string()));
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: cannot be read; check the path and its permissions", path.string()));
+  if (!file)
+    throw InputError(fmt::format("{}: {}", path.string(),
+                                 there ? "cannot be read; check its permissions" : "no such file; check the path"));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   return parse(text, path.string(), overrides);
 }

@@ -12,7 +12,7 @@
 
 namespace grouser::base {
 
-/// Unknown key or section of a file. The message names the nearest one in the same section; base/nearest_key.hpp
+/// Unknown key or section of a file. The message names the nearest key of the same section; base/nearest_key.hpp
 /// considers the keys of all sections.
 class UnknownKey : public InputError {
 public:
@@ -21,7 +21,7 @@ public:
     std::string path;               ///< section's path; empty at the root
     std::string key;                ///< as written in the file
     std::vector<std::string> inner; ///< keys inside an unknown section; empty for an unknown key
-    std::vector<std::string> valid; ///< valid keys and sections at that place
+    std::vector<std::string> valid; ///< valid keys and sections in this section
   };
   UnknownKey(Place place, const std::string& nearest) : InputError(message(place, nearest)), place_(std::move(place)) {}
 

@@ -8,7 +8,7 @@
 
 namespace grouser::base {
 
-/// Three components, in a right-handed frame: x forward, y left, z up.
+/// Vector with three components in a right-handed frame: x forward, y left, z up.
 template <class T> struct Vec3 {
   T x{}, y{}, z{};
 
@@ -75,7 +75,7 @@ template <class T> GROUSER_HD Vec3<T> operator*(const Mat3<T>& a, const Vec3<T>&
   return {a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z, a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
           a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
 }
-/// Transpose of `a` times `v`, without forming the transpose.
+/// Product of the transpose of `a` and `v`; does not form the transpose.
 template <class T> GROUSER_HD Vec3<T> transposedTimes(const Mat3<T>& a, const Vec3<T>& v) {
   return {a.m[0][0] * v.x + a.m[1][0] * v.y + a.m[2][0] * v.z, a.m[0][1] * v.x + a.m[1][1] * v.y + a.m[2][1] * v.z,
           a.m[0][2] * v.x + a.m[1][2] * v.y + a.m[2][2] * v.z};

@@ -51,8 +51,8 @@ GROUSER_HD void atomicAddWide(WideSum* sum, std::int64_t value) {
 
 #if defined(__CUDACC__)
 namespace detail {
-/// Stores in values[0] the warp's sum of the value with index lane / (32 / kCount): each exchange halves the number of
-/// values per lane.
+/// Stores in values[0] the sum over the warp of the value with index lane / (32 / kCount). Each exchange halves the
+/// number of values per lane.
 template <int kCount> __device__ inline void reduceScatter(std::int64_t* values, unsigned lane, unsigned apart = 16) {
   if constexpr (kCount > 1) {
     constexpr int kHalf = kCount / 2;
@@ -68,8 +68,8 @@ template <int kCount> __device__ inline void reduceScatter(std::int64_t* values,
 }
 } // namespace detail
 
-/// Adds `kCount` values per thread to as many sums, like atomicAddWide(). A complete warp adds its total once: values
-/// are below 2^58, so 32 of them do not overflow.
+/// Adds `kCount` values per thread to `kCount` sums, like atomicAddWide(). A complete warp adds its total once; since
+/// values are below 2^58, the sum of 32 values does not overflow.
 template <int kCount> __device__ inline void atomicAddTogether(WideSum* sums, const std::int64_t (&values)[kCount]) {
   static_assert(kCount <= 32);
   if (__activemask() == ~0u) {

@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# The program and its data, found relative to it: ../share/grouser (runs/support/locations.hpp).
+# The program and its data, which the program finds in ../share/grouser (runs/support/locations.hpp).
 set(share ${CMAKE_INSTALL_DATADIR}/grouser)
 install(TARGETS grouser RUNTIME COMPONENT program)
 install(DIRECTORY assets/meshes assets/heightmaps assets/vehicles assets/soils DESTINATION ${share}/assets COMPONENT program)

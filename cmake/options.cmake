@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Compiler flags for equal bits on all machines and backends, warnings, and two helper functions for rooms.
+# Compiler flags for bitwise equal results on all machines and backends, warnings, and two helper functions for rooms.
 
 add_library(grouser_flags INTERFACE)
 target_include_directories(grouser_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
-# No implicit fused multiply-add, no fast-math, no -march=native, for equal bits. x86-64-v2 (SSE4.2, every processor
-# since 2009) has no fused multiply-add and rounds in one instruction.
+# For bitwise equal results: no implicit fused multiply-add, no fast-math, no -march=native. x86-64-v2 (SSE4.2, every
+# processor since 2009) has no fused multiply-add; it has an instruction for rounding.
 target_compile_options(grouser_flags INTERFACE
   $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wredundant-decls;-Wzero-as-null-pointer-constant;-Werror>>
   $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-march=x86-64-v2>
-  # SIMD values (base/simd.hpp) are passed between inlined functions only, so the ABI does not matter.
+  # SIMD values (base/simd.hpp) are passed only between inlined functions, so the ABI has no effect.
   $<$<COMPILE_LANGUAGE:CXX>:-Wno-psabi>)
 
 # Output of `grouser --version`.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # `cpack -G DEB`: grouser, and grouser-dev with headers and libraries. With CUDA: grouser-cuda and grouser-cuda-dev,
-# which replace the others.
+# which replace the packages without CUDA.
 
-# Maintainer, as in Debian's tools: DEBFULLNAME and DEBEMAIL, else the user of git.
+# Maintainer, as in Debian's tools: DEBFULLNAME and DEBEMAIL, else the git user.
 set(name "$ENV{DEBFULLNAME}")
 set(mail "$ENV{DEBEMAIL}")
 foreach(part name mail)
@@ -51,7 +51,7 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and the C
 tracked vehicles on granular terrain, to build other programs:
 find_package(grouser), grouser::grouser.")
 
-# Plots, reports, films and MPI require the recommended packages; the program names missing ones.
+# Plots, reports, films and MPI require the recommended packages; the program names missing packages.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-matplotlib, openmpi-bin, libjs-three, libjs-dygraphs")
@@ -63,7 +63,7 @@ libcli11-dev, libeigen3-dev, libfmt-dev, libhdf5-openmpi-dev, libopenmpi-dev, li
 libtomlplusplus-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake")
 
-# Debian policy for files, and Python bytecode.
+# Permissions of files as required by Debian policy; no Python bytecode.
 set(debian ${PROJECT_SOURCE_DIR}/cmake/debian)
 foreach(script postinst prerm)
   configure_file(${debian}/${script} debian/${script} @ONLY)

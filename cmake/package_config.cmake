@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# find_package(grouser): the target grouser::grouser, and one per room (grouser::multibody, grouser::terrain...).
+# find_package(grouser): target grouser::grouser, and one target per room (grouser::multibody, grouser::terrain...).
 @PACKAGE_INIT@
 include(CMakeFindDependencyMacro)
 enable_language(C)

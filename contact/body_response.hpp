@@ -33,7 +33,7 @@ public:
   virtual ~BodyResponse() = default;
   /// [part] index of the part's body in `inverses()`.
   virtual const std::vector<std::uint32_t>& bodyOfPart() const = 0;
-  /// Inverse mass properties by body: an upper bound of the response, since joints only reduce it.
+  /// Inverse mass properties by body. They are an upper bound on the response, which joints can only reduce.
   virtual const std::vector<Inverse>& inverses() const = 0;
   /// Computes the velocities at the end of the step from the impulses, one entry per body.
   virtual void respond(const std::vector<BodyImpulse>& impulses, std::vector<BodyVelocity>& velocities) = 0;

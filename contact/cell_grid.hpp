@@ -10,7 +10,7 @@
 namespace grouser::contact {
 
 /// Dense grid over the occupied cells; z runs fastest, so the three cells of a column are adjacent in memory. Along
-/// periodic axes the cells fill the period, none narrower than `edge`, and wrap around.
+/// periodic axes the cells are at least `edge` wide, fill the period, and wrap around.
 struct CellGrid {
   using Cell = base::Vec3<std::uint32_t>;
   base::Period period;
@@ -54,8 +54,8 @@ struct CellGrid {
       const std::int64_t first = from > 0 ? from : 0, last = to < all ? to : all - 1;
       return {static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first + 1)};
     }
-    // The last cell includes the remainder of the division, so its points lie nearer downwards and farther upwards than
-    // computed here.
+    // The last cell is wider than `edge`, since it includes the remainder of the division. The range may therefore
+    // contain more cells than needed, but never fewer.
     const std::int64_t inside = u + period.periodsBack(axis, u) * period.length[axis] - period.low[axis];
     const std::int64_t own = inside / edge[axis] < all ? inside / edge[axis] : all - 1;
     const std::int64_t below = inside - own * edge[axis];

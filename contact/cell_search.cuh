@@ -6,8 +6,8 @@
 
 #include <cstdint>
 
-/// Kernel bodies shared by all cell searches: spheres are sorted by the cells of a dense grid, z fastest, and each
-/// searches the columns of cells around it. A grid has cellOf(position), low, cells, local(position), key(cell).
+/// Kernel bodies shared by all cell searches. Spheres are sorted by cell of a dense grid (z fastest). Each sphere
+/// searches the columns around its cell. A grid must provide cellOf(position), low, cells, local(position), key(cell).
 namespace grouser::contact {
 
 using Cell = base::Vec3<std::uint32_t>;
@@ -29,8 +29,8 @@ template <class Visit> GROUSER_HD void overShare(std::int64_t thread, std::int64
 #endif
 }
 
-/// Bounds of the occupied cells, by sharesOf(count) threads. bounds[0..2] store the complement of the minimum, so that
-/// all six are maxima.
+/// Finds the bounds of the occupied cells with sharesOf(count) threads. bounds[0..2] store the complement of the
+/// minimum, so that all six bounds are maxima.
 template <class Grid> struct FindBounds {
   static constexpr double kNanoseconds = 3.0 * kShare;
   Grid grid;
@@ -61,7 +61,7 @@ template <class Grid> struct AssignKeys {
   GROUSER_HD void operator()(int i) const { key[i] = grid.key(grid.local(position[list ? list[i] : i])); }
 };
 
-/// Sets start[c] to the first place whose key is >= c, for c in [0, cells]; run for count + 1 places.
+/// Sets start[c] to the first place with a key >= c, for c in [0, cells]. Run it for count + 1 places.
 struct MarkStarts {
   const std::uint64_t* key;
   std::int64_t count, cells;
@@ -73,7 +73,7 @@ struct MarkStarts {
   }
 };
 
-/// Range of sorted places of the spheres in the cells z - 1, z and z + 1 of a column.
+/// Range of places, in sorted order, of the spheres in the cells z - 1, z and z + 1 of a column.
 struct ColumnOfThree {
   std::uint32_t first, last;
 
@@ -85,7 +85,7 @@ struct ColumnOfThree {
   }
 };
 
-/// True if differences of the positions' low words are exact; they may not be if distant spheres widened the cells.
+/// True if the low words of two positions suffice for an exact difference; not always in cells widened by far spheres.
 GROUSER_HD bool differencesHold(const base::Vec3l& apart) {
   constexpr std::int64_t kSafe = std::int64_t{1} << 30;
   return apart.x < kSafe && apart.x > -kSafe && apart.y < kSafe && apart.y > -kSafe && apart.z < kSafe &&

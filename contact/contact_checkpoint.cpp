@@ -145,7 +145,7 @@ void GrainPartContacts::restore(const SavedGrainPatches& saved) {
     const float* a = saved.angles.data() + w / kWords * 3;
     angles[at] = {a[0], a[1], a[2]};
   }
-  // Build a list of the touching pairs only: the next refresh takes the history from it, as from any former list.
+  // Build a list of the touching pairs only; the next refresh copies the history from it, as from any previous list.
   pairs_ = keys.size();
   held_ = Held::everywhere;
   key_.assign(keys);

@@ -31,13 +31,13 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
   return plasticPlace(features) + (features & kPlastic ? kPlasticNumbers : 0);
 }
 
-/// Contact law between two surfaces, in float or double. Every law is a normal spring and dashpot, and a tangential
-/// spring with history and a dashpot, which slips at the Coulomb limit (Cundall and Strack 1979, Geotechnique
+/// Contact law between two surfaces, in float or double. Every law has a normal spring and dashpot, and a tangential
+/// spring (with history) and dashpot, with slip at the Coulomb limit (Cundall and Strack 1979, Geotechnique
 /// 29:47):
 ///
 ///   F_n = elastic + c_n v_n                     v_n: approach speed;  never attractive unless `attraction`
-///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; on slip a spring whose own force
-///                                               exceeds the limit is shortened to it
+///   F_t = -k_t shear - c_t v_t                  |F_t| <= friction F_n; on slip, a spring force above
+///                                               the limit is reduced to the limit
 ///
 /// Linear:  elastic = k overlap,  k_t constant,  c_n = gamma m_eff.  For grains of many masses with a given
 /// restitution, c_n = 2 zeta sqrt(k m_eff), so that the restitution is the same for all masses.
@@ -50,8 +50,8 @@ GROUSER_HD constexpr int historyWidth(unsigned features) {
 ///   233:30). So F_t^2 / (2 k_t) never increases as k_t changes: no closed path of loading and shear gains energy.
 ///
 /// Cohesion (DMT, Derjaguin et al. 1975): a constant attraction of 2 pi w R_eff while the spheres overlap; w is the
-/// energy of adhesion. It drops to zero at zero overlap: separation needs this force, and its work is that gained on
-/// approach. Friction and rolling resistance are limited by the compressive part, F_n without the attraction.
+/// energy of adhesion. It drops to zero at zero overlap. Its work on approach equals the work against it on
+/// separation. Friction and rolling resistance are limited by the compressive part, F_n without the attraction.
 ///
 /// Elastic-plastic contacts (plastic_law.hpp) use its force as `elastic`. In tension the dashpot adds no attraction,
 /// and friction is limited by the force plus the maximum attraction of the contact (Thakur et al. 2014).
@@ -62,7 +62,7 @@ template <class T> struct BasicLaw {
   T tangentialDamping{};     ///< linear: gamma_t [1/s], >= 0;  Hertz: 0
   T friction{};              ///< Coulomb coefficient [-], >= 0; 0 disables the tangential force
   bool attraction{};         ///< true: the dashpot may cause a net attraction
-  bool hertz{};              ///< Hertz, else linear
+  bool hertz{};              ///< true: Hertz; false: linear
   T rootDamping{};           ///< Hertz: 2 beta sqrt(2 E_eff) [sqrt(Pa)];  linear with many masses: 2 zeta sqrt(k)
   T tangentialRootDamping{}; ///< same for the tangential dashpot
   T rollingFriction{};       ///< [-], >= 0; 0 disables rolling resistance
@@ -73,7 +73,7 @@ template <class T> struct BasicLaw {
   /// Linear law, single mass: factor of both dashpots against a fixed grain [-], for the given restitution.
   T fixedShare{1};
   /// Power of two near 1 / (typical contact force) [1/N]. Forces and torques are scaled by it before squaring: a float
-  /// cannot represent the squared force between micrometre grains or beyond 1e19 N. Otherwise results are unchanged;
+  /// cannot represent the squared force between micrometre grains or beyond 1e19 N. The scale does not change results;
   /// scaledFor() in strongest_force.hpp sets it.
   T squareScale{1};
   /// Coefficient of restitution [-]; complementarity contacts use it instead of the damping.
@@ -105,7 +105,7 @@ template <class T> struct BasicLaw {
     law.plastic = {};
     return law;
   }
-  /// Returns this law with adhesion and cohesion scaled by `share` [-]; the same features if `share` > 0.
+  /// Returns this law with adhesion and cohesion scaled by `share` [-]; features() is unchanged if `share` > 0.
   BasicLaw pulling(T share) const {
     BasicLaw law = *this;
     for (T* pull :
@@ -149,14 +149,14 @@ using ContactGeometry = BasicContactGeometry<float>;
 /// contact radius, hence to the square root of the overlap.
 template <class T> struct StiffnessChange {
   T kept = base::broadcast<T>(1); ///< ratio of spring lengths [-]: loading preserves the force, unloading the length
-  T taken{};                      ///< dissipated energy over stiffness times squared former length [-], >= 0
+  T taken{};                      ///< dissipated energy / (stiffness x squared former length) [-], >= 0
 };
 
 /// Stiffness change for the approach `way` of the surfaces within the step [m].
 template <class T> GROUSER_HD StiffnessChange<T> hertzChange(T overlap, T way) {
   using Scalar = ScalarOf<T>;
   const T one = base::broadcast<T>(1), share = way / overlap, within = share < one ? share : one;
-  const T root = squareRoot(one - within), less = within / (one + root); // former stiffness over present; 1 - that
+  const T root = squareRoot(one - within), less = within / (one + root); // former stiffness / present; 1 - root
   const T kept = root < one ? root : one;
   return {kept, Scalar(0.5) * kept * (less < Scalar(0) ? -less : less)};
 }
@@ -204,14 +204,14 @@ coefficientsOf(const BasicLaw<ScalarOf<T>>& law, T overlap, T effectiveMass, T e
 }
 
 /// Returns the force of `law` on side i and updates the tangential spring `shear` [m] to the end of the step. T is
-/// float, double, or a SIMD vector: one source for the kernels of both devices and for many contacts at once. Swapping
+/// float, double, or a SIMD vector: this source serves the kernels of both devices and SIMD batches. Swapping
 /// i and j (normal, velocity and shear change sign) only changes the sign of the force, bit for bit. `state`:
 /// history of an elastic-plastic contact, also updated; null if all contacts are elastic.
 ///
 /// Dashpot work uses the mid-step velocity, for which symplectic Euler changes the kinetic energy exactly by F . (v_old
 /// + v_new) / 2 dt if this contact acts alone: second order in the step for a single collision. A sticking contact
-/// dissipates only in its dashpots; a sliding one dissipates all work except the energy gain of its spring, with the
-/// slip at the start of the step, since a grain held at the Coulomb limit by other contacts must not appear to move.
+/// dissipates only in its dashpots. A sliding contact dissipates all work except the energy gain of its spring, with
+/// the slip of the step's start, since a grain kept at the Coulomb limit by other contacts must not appear to move.
 /// Rotating the spring into the tangent plane loses energy; this is a time-integration error and not counted here. With
 /// Hertz's law the tangential spring loses energy as k_t follows the contact radius, for any step size; this represents
 /// the slip that begins at the rim of the contact and is reported as `slipped`.
@@ -272,8 +272,8 @@ GROUSER_HD BasicReaction<T> contactForce(const BasicLaw<ScalarOf<T>>& law, const
     if (const auto beyond = slides & (spring2 > limit2); base::any(beyond))
       shear = base::select(beyond, shear * base::shareOf(scaledLimit, squareRoot(spring2)), shear);
   }
-  // A force at the rim of a sphere accelerates the slip 1 + 5/2 times as much as the centres: slip + 7/2 F h is the
-  // mid-step slip.
+  // A force at the rim of a sphere accelerates the slip 1 + 5/2 times as much as the centres. The mid-step slip is
+  // slip + 7/2 F halfStepPerMass.
   const T along = dot(tangential, slip), square = dot(slip, slip) + along * (Scalar(3.5) * halfStepPerMass);
   const T gained = Scalar(0.5) * (c.tangentialStiffness * dot(shear, shear) - storedBefore);
   reaction.damped += slides ? zero : c.tangentialDamping * square * dt;

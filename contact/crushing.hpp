@@ -4,17 +4,17 @@
 #include "contact/contact_law.hpp"
 
 /// Grains that crush: the normal force of a contact is at most F_c = sigma_f d^2 (d: diameter; sigma_f: crushing
-/// strength; Jaeger 1967, Int. J. Rock Mech. Min. Sci. 4:219). Beyond it the contact yields: the further indentation,
-/// the `dent`, is permanent, and the spring depends on the elastic overlap e = overlap - dent only:
+/// strength; Jaeger 1967, Int. J. Rock Mech. Min. Sci. 4:219). At F_c the contact yields: the further indentation, the
+/// `dent`, is permanent, and the spring depends only on the elastic overlap e = overlap - dent:
 ///
 ///   F = F_spring(e),  0 <= e <= y,  F_spring(y) = F_c
 ///   overlap - dent > y:  dent = overlap - y, which dissipates (F_c - pull) x the growth of the dent
 ///   overlap <= dent:     the surfaces are apart in the dent: no force, no energy
 ///
 /// (pull: attraction of cohesion). The stored energy is that of the spring at e, a function of the state (overlap,
-/// dent): unloading from the cap returns only the elastic energy, along the same curve. Linear law: unloading has the
-/// slope k, and an impact of relative energy E retains the fraction F_c^2 / (2 k) / E. The dashpot acts in addition to
-/// the spring force, up to F_c.
+/// dent). Unloading from F_c follows the curve F_spring(e) and returns only the elastic energy. Linear law: unloading
+/// has the slope k, and an impact with the relative energy E retains the fraction F_c^2 / (2 k) / E. The dashpot acts
+/// in addition to the spring, up to a total force of F_c.
 namespace grouser::contact {
 
 /// Crushing constants of one material, for its contacts with parts.
@@ -41,7 +41,7 @@ struct Yielded {
   bool capped;
 };
 
-/// Increases the `dent`. `approach`: approach speed of the surfaces [m/s]. The effective radius is the grain's.
+/// Increases the `dent`. `approach`: approach speed of the surfaces [m/s]. The effective radius is the grain radius.
 template <unsigned kFeatures> GROUSER_HD Yielded yieldContact(const Crushing& crushing, const BasicLaw<float>& law,
                                                               float overlap, float approach, float dt, float mass,
                                                               float radius, float& dent) {

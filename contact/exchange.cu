@@ -45,8 +45,8 @@ template <bool kPack> struct MoveWord {
   }
 };
 
-/// Copies between fields and `buffer`, which begins with element `first`. Launches count in int: each launch copies
-/// at most `wordsAtATime` words, but at least one element.
+/// Copies between fields and `buffer`, which begins with element `first`. Launch sizes are of type int, so each launch
+/// copies at most `wordsAtATime` words, but at least one element.
 template <bool kPack> void moveWords(const base::Exec& exec, const Fields& fields, const std::uint32_t* slots,
                                      std::size_t first, std::size_t elements, std::uint32_t* buffer,
                                      std::size_t wordsAtATime) {
@@ -99,7 +99,7 @@ Exchange::Exchange(const base::Exec& exec, const base::Comm& comm, const Exchang
       sentBy_(static_cast<std::size_t>(comm.size())), messages_(comm) {}
 
 void Exchange::setPlan(base::Array<std::uint64_t>& ranks, base::Array<std::uint32_t>& slots, std::size_t count) {
-  if (underWay()) throw std::logic_error("the plan is changed while elements are under way");
+  if (underWay()) throw std::logic_error("cannot change the plan while elements are in transit");
   const auto size = static_cast<std::size_t>(comm_.size());
   base::sortByKey(exec_, ranks.data(), slots.data(), count);
   base::Array<std::uint32_t> starts(exec_, size + 1);
@@ -116,12 +116,12 @@ void Exchange::setPlan(base::Array<std::uint64_t>& ranks, base::Array<std::uint3
     mine[r] = base::Comm::bytesOf(std::vector<std::uint32_t>{sendStart_[r], sendStart_[r + 1] - sendStart_[r],
                                                              static_cast<std::uint32_t>(count)});
   const std::vector<base::Bytes> theirs = comm_.allToAll(mine);
-  mostExported_ = 0;
+  maxExported_ = 0;
   for (std::size_t r = 0; r < size; ++r) {
     const std::vector<std::uint32_t> said = base::Comm::valuesOf<std::uint32_t>(theirs[r]);
     startAtSource_[r] = said[0];
     receiveStart_[r + 1] = receiveStart_[r] + said[1];
-    mostExported_ = std::max<std::size_t>(mostExported_, said[2]);
+    maxExported_ = std::max<std::size_t>(maxExported_, said[2]);
   }
   importCount_ = receiveStart_.back();
   setImportSlots(0);
@@ -145,8 +145,8 @@ std::uint32_t* Exchange::packedBy(int rank) const {
   return static_cast<std::uint32_t*>(memory) + (packed_.shares() ? bufferIndex_ * (packed_.size() / 8) : 0);
 }
 
-/// Calls `each(first, end, peer)` for ranges of ranks with the same transport: one peer by its memory, or any number of
-/// others by messages.
+/// Calls `each(first, end, peer)` for ranges of ranks with the same transport: one peer with accessible memory, or any
+/// number of other ranks that use messages.
 template <class Each> void Exchange::forWays(const Each& each) const {
   for (int first = 0, end = 0; first < comm_.size(); first = end) {
     end = first + 1;
@@ -157,11 +157,11 @@ template <class Each> void Exchange::forWays(const Each& each) const {
 }
 
 void Exchange::pack(const base::Exec& exec, std::span<const ExchangeField> fields) {
-  if (underWay()) throw std::logic_error("elements are packed while others are under way");
+  if (underWay()) throw std::logic_error("cannot pack elements while others are in transit");
   const Fields all = collect(fields);
   words_ = all.words;
   bufferIndex_ ^= 1u;
-  packed_.reserve((packed_.shares() ? 2 * mostExported_ : exportCount()) * words_ * sizeof(std::uint32_t));
+  packed_.reserve((packed_.shares() ? 2 * maxExported_ : exportCount()) * words_ * sizeof(std::uint32_t));
   std::uint32_t* const out = packedBy(comm_.rank());
   moveWords<true>(exec, all, sendSlots_.data(), 0, exportCount(), out, wordsAtATime_);
   stage_ = Stage::packed;
@@ -175,7 +175,7 @@ void Exchange::pack(const base::Exec& exec, std::span<const ExchangeField> field
 }
 
 void Exchange::send() {
-  if (stage_ != Stage::packed) throw std::logic_error("elements are sent that have not been packed");
+  if (stage_ != Stage::packed) throw std::logic_error("cannot send elements that have not been packed");
   forWays([&](int first, int end, bool peer) {
     if (peer || placeOf(receiveStart_, first) == placeOf(receiveStart_, end)) return;
     received_.reserve(importCount_ * words_);
@@ -203,13 +203,13 @@ void Exchange::arrive() {
   messages_.waitAll();
   for (int r = 0; r < comm_.size(); ++r)
     if (withPeer(r) && sentBy_[static_cast<std::size_t>(r)] != sent_)
-      throw std::logic_error("ranks exchange elements in different orders");
+      throw std::logic_error("the ranks run their exchanges in different orders");
   stage_ = Stage::arrived;
 }
 
 void Exchange::publish() {
   if (stage_ != Stage::packed || !peersOnly())
-    throw std::logic_error("elements are published that others cannot see, or that have not been packed");
+    throw std::logic_error("cannot publish: a rank cannot access this memory, or nothing has been packed");
   stage_ = Stage::published;
 }
 
@@ -226,7 +226,7 @@ void Exchange::countRuns(std::int64_t runs) {
 void Exchange::unpack(const base::Exec& exec, std::span<const ExchangeField> fields) {
   const Fields all = collect(fields);
   if (stage_ < Stage::arrived || all.words != words_)
-    throw std::logic_error("an exchange is finished that was not started, or with other fields");
+    throw std::logic_error("cannot unpack: no elements have arrived, or the fields differ from those sent");
   stage_ = Stage::idle;
   forWays([&](int first, int end, bool peer) {
     const std::size_t place = placeOf(receiveStart_, first), count = placeOf(receiveStart_, end) - place;

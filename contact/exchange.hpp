@@ -32,13 +32,13 @@ struct ExchangeOptions {
 };
 
 /// Transfers elements between ranks, independent of the element type: the caller specifies which slots go to which
-/// ranks (a communication plan), the fields to transfer, and the slots of the imports. A migration with the full state
-/// and a ghost update with less are two plans, or one plan with two field lists.
+/// ranks (a communication plan), the fields to transfer, and the slots of the imports. A migration (full state) and a
+/// ghost update (fewer fields) need two plans, or one plan with two field lists.
 ///
 /// An exchange may run any number of times within a step. Elements are packed and unpacked on the device. If the
 /// receiver's GPU can access the sender's memory, it unpacks from there, and MPI only notifies it that the sender has
-/// packed; otherwise MPI transfers device memory if supported, else pinned host memory. All members are collective and
-/// called in the same order on all ranks.
+/// packed; otherwise MPI transfers device memory if it supports this, else pinned host memory. All member functions are
+/// collective and must be called in the same order on all ranks.
 class Exchange {
 public:
   static constexpr std::size_t kMaxFields = 16;
@@ -64,7 +64,7 @@ public:
     base::synchronize(exec_);
     send();
   }
-  /// Waits for the imports and unpacks them into `fields`, which must have the same words as the fields sent.
+  /// Waits for the imports and unpacks them into `fields`, which must have the same word counts as the fields sent.
   void finish(std::span<const ExchangeField> fields) {
     arrive();
     unpack(exec_, fields);
@@ -77,19 +77,19 @@ public:
 
   // Separate steps of start() and finish(), to overlap with other work. `exec`: the exchange's Exec or a side stream.
 
-  /// Enqueues packing on `exec` into the buffer half not used by the previous run, without waiting. If memory must
-  /// grow, waits for all ranks; the second of two equally large runs on one plan never grows it. Packing may be
+  /// Enqueues packing on `exec` into the buffer half not used by the previous run, without waiting. If the buffer must
+  /// grow, this waits for all ranks; the second of two equally large runs on one plan never grows it. Packing may be
   /// repeated on all ranks before send(); the first packing is then discarded.
   void pack(const base::Exec& exec, std::span<const ExchangeField> fields);
-  void send();   ///< call synchronize() first, so that the device has packed
-  void arrive(); ///< waits for the messages; returns at once if none were sent
+  void send();   ///< call synchronize() first, so that packing is complete
+  void arrive(); ///< waits for the messages; returns at once if there are none
   /// Enqueues unpacking on `exec`, without waiting.
   void unpack(const base::Exec& exec, std::span<const ExchangeField> fields);
 
   /// True if every rank can access the memory of all others. Then a base::PeerReduction queued between pack() and
   /// unpack() replaces the messages, and publish() replaces send() and arrive().
   bool peersOnly() const { return packed_.allSeeAll(); }
-  bool sharesMemory() const { return packed_.seesAny(); } ///< accessible for at least one other rank
+  bool sharesMemory() const { return packed_.seesAny(); } ///< true if it can access another rank's memory
   void publish();
   void discard();                    ///< discards packed or published data
   void countRuns(std::int64_t runs); ///< adds published runs to the counts below
@@ -117,7 +117,7 @@ private:
   bool direct_;                                         ///< MPI accepts device pointers
   std::vector<std::uint32_t> sendStart_, receiveStart_; ///< [ranks + 1] first entry in the plan
   std::vector<std::uint32_t> startAtSource_;            ///< [ranks] first entry for this rank in the plan of another
-  std::size_t mostExported_{0};                         ///< maximum over all ranks
+  std::size_t maxExported_{0};                          ///< maximum over all ranks
   base::Array<std::uint32_t> sendSlots_, receiveSlots_;
   std::size_t importCount_{0};
   /// Double-buffered: peers read run n from one half while this rank packs run n + 1 into the other. Run n + 2

@@ -59,7 +59,7 @@ GROUSER_SIMD_CLONES PressureLanes pressRims(const PatchLaw& law, double timeStep
 }
 
 /// Lanes contain columns of the face. Each column is integrated from the chamfer of the disc to the point where the
-/// face leaves the disc side, in two intervals: chamfer nearest, side nearest.
+/// face leaves the disc side, in two intervals: one is nearest to the chamfer, the other to the side.
 GROUSER_SIMD_CLONES PatchPressure pressFace(const PatchLaw& law, double timeStep, const FaceAtDisc& f) {
   PressureLanes sums;
   sums.clear();
@@ -143,7 +143,7 @@ GapProfile::GapProfile(int number, double pins, double seat, double seatHalfAngl
     : teeth(number), pinRadius(pins), seatRadius(seat), flankRadius(flank), tipRadius(tip),
       seatCos(base::cos(seatHalfAngle)), seatSin(base::sin(seatHalfAngle)), flankX((seat + flank) * seatSin),
       flankY(-(seat + flank) * seatCos), seatStep(seatHalfAngle / kSeatPoints) {
-  if (teeth > kMostTeeth) throw base::InputError("a sprocket with shapes has at most 64 teeth");
+  if (teeth > kMaxTeeth) throw base::InputError("a sprocket with shapes has at most 64 teeth");
   for (std::size_t k = 0; k < kSeatPoints; ++k) {
     const double angle = (static_cast<double>(k) + 0.5) * seatStep;
     sine[k / kPointLanes][k % kPointLanes] = base::sin(angle);

@@ -44,10 +44,10 @@ PatchPressure pressFace(const PatchLaw& law, double timeStep, const FaceAtDisc& 
 class GapProfile {
 public:
   static constexpr int kSeatPoints = 16; ///< quadrature points on each half of the seat
-  static constexpr int kMostTeeth = 64;
+  static constexpr int kMaxTeeth = 64;
   static constexpr int kAround = 128; ///< quadrature points around a boss deep inside a tooth
 
-  /// `teeth`: at most kMostTeeth; `pinRadius`: radius of the circle of seated pins [m]; `seatHalfAngle` [rad]; other
+  /// `teeth`: at most kMaxTeeth; `pinRadius`: radius of the circle of seated pins [m]; `seatHalfAngle` [rad]; other
   /// parameters as in vehicle::GearShapes.
   GapProfile(int teeth, double pinRadius, double seatRadius, double seatHalfAngle, double flankRadius,
              double tipRadius);
@@ -59,7 +59,7 @@ public:
   double seatStep;                                                     ///< angle between seat points [rad]
   std::array<PointLanes, kSeatPoints / kPointLanes> sine, cosine;      ///< angles of the seat's points from its bottom
   std::array<std::array<PointLanes, 2>, kAround / kPointLanes> around; ///< cosine and sine of points about a boss
-  std::array<double, kMostTeeth> gapCos, gapSin;                       ///< directions of the gaps
+  std::array<double, kMaxTeeth> gapCos, gapSin;                        ///< directions of the gaps
 };
 
 /// Cylinder of A (pin boss) in a sprocket gap.

@@ -9,7 +9,7 @@
 namespace grouser::contact {
 
 /// Overlap / (smaller) grain radius above which a contact counts as a large overlap [-].
-inline constexpr double kSqueezed = 0.2;
+inline constexpr double kDeepOverlap = 0.2;
 
 /// Load of one rigid part on one grain in one step: force in quanta (the part receives exactly the opposite) and torque
 /// about the grain's centre [N m].

@@ -19,7 +19,7 @@ using base::Vec3f;
 
 namespace {
 
-/// Squared distance from a point to a box, in the box' frame.
+/// Squared distance from a point to a box, in the box frame.
 GROUSER_HD double distance2ToBox(const Vec3d& p, const Vec3d& low, const Vec3d& high) {
   double sum = 0;
   for (int a = 0; a < 3; ++a) {
@@ -39,7 +39,7 @@ struct ListParts {
   const GrainPart* parts;
   int partCount;
   double reach;
-  Vec3d low, high; ///< world box around all parts and their reach
+  Vec3d low, high; ///< world box around all parts, enlarged by their reach
   std::uint32_t *count, *first;
   std::uint64_t* key;
   std::uint32_t* slot;
@@ -65,7 +65,7 @@ struct ListParts {
   }
 };
 
-/// Finds each pair in the sorted keys of the former list and copies its history.
+/// Finds each pair in the sorted keys of the previous list and copies its history.
 struct RestorePatches {
   static constexpr double kNanoseconds = 30;
   const std::uint64_t *key, *oldKey;
@@ -96,7 +96,7 @@ struct RestorePatches {
   }
 };
 
-/// Marks the pairs whose grain goes to another rank.
+/// Marks the pairs with a grain that moves to another rank.
 struct FindDestination {
   const std::uint32_t *slot, *destination;
   std::uint32_t me;
@@ -202,8 +202,8 @@ std::vector<ExchangeField> GrainPartContacts::history() {
 
 void GrainPartContacts::migrate(const std::uint32_t* destination) {
   if (held_ == Held::everywhere) return;
-  // Second migration before a refresh: received pairs have no slots yet to follow their grains, so every rank takes all
-  // pairs of the scene, as after a restore.
+  // Second migration before a refresh: received pairs have no slots yet and cannot follow their grains. Every rank
+  // therefore stores all pairs of the scene, as after a restore.
   if (held_ == Held::migrated) return restore(save());
   // Few pairs, and only at rebuilds: plain messages are fast enough.
   if (!exchange_) exchange_ = std::make_unique<Exchange>(exec_, comm_, ExchangeOptions{.peers = base::PeerUse::never});
@@ -217,8 +217,8 @@ void GrainPartContacts::migrate(const std::uint32_t* destination) {
                 ReadDestination{leaving.data(), slot_.data(), destination, ranks.data()});
   exchange_->setPlan(ranks, leaving, leaving.size());
   exchange_->start(history());
-  // Sent pairs stay in the arrays until the next refresh, which finds no grain for them; they are emptied so that
-  // save() skips them.
+  // Sent pairs stay in the arrays until the next refresh, which finds no grain for them. Clear them, so that save()
+  // skips them.
   base::forEach(exec_, "forget pairs that leave", static_cast<std::int64_t>(leaving.size()),
                 Forget{exchange_->exportSlots(), memory_.data()});
   key_.resizeKeeping(pairs_ + exchange_->importCount());
@@ -232,7 +232,7 @@ void GrainPartContacts::migrate(const std::uint32_t* destination) {
 }
 
 void GrainPartContacts::refresh(const GrainsView& grains, const base::Array<PartMotion>& motion) {
-  // The former list, sorted by key, as the source of history.
+  // Sort the previous list by key; the history is copied from it.
   const std::size_t oldPairs = pairs_;
   key_.swap(oldKey_);
   memory_.swap(oldMemory_);
@@ -383,7 +383,7 @@ GrainPartContacts::Ledger GrainPartContacts::ledger() const {
   const auto energy = [&](std::size_t k) { return model_.energy.value(q[k]); };
   constexpr std::size_t kForce = kReceivedByGrains;
   return {q[kPatchesNow],
-          q[kSqueezedNow],
+          q[kDeepOverlapsNow],
           energy(kElasticNow),
           energy(kDampedByParts),
           energy(kSlidingLossByParts),

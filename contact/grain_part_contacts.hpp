@@ -26,8 +26,8 @@ struct PartPatches;
 
 /// Contacts of grains with rigid parts made of spheres.
 ///
-/// Pairs of grain and part within a margin are listed; every step each listed pair looks up one cell of the part's
-/// table. Grain loads are integers; parts receive exactly the opposite.
+/// The list contains all pairs of a grain and a part closer than a margin. In every step, each pair looks up one cell
+/// in the part's table. Grain loads are integers; parts receive exactly the opposite.
 ///
 /// Each rank computes the pairs of its own grains; the part loads are then this rank's partial sums.
 class GrainPartContacts {
@@ -44,8 +44,8 @@ public:
   /// Lists the pairs of the grains in their current slots; restores the history by grain id and part.
   void refresh(const GrainsView& grains, const base::Array<PartMotion>& motion);
 
-  /// Adds the contact loads of this step to `loads`: one entry per part and, if grains crush, an extra entry whose
-  /// force.x counts the pairs whose grain is crushed to its centre.
+  /// Adds the contact loads of this step to `loads`: one entry per part and, if grains crush, an extra entry. Its
+  /// force.x counts the pairs with a grain crushed to its centre.
   void compute(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads) {
     computeOn(exec_, grains, motion, loads);
   }
@@ -55,7 +55,7 @@ public:
   /// Same, for work launched ahead, after clearing clearedSums() and clearedCount(). `off`: see base::Gate.
   void computeOnCleared(const base::Exec& exec, const GrainsView& grains, const base::Array<PartMotion>& motion,
                         PartLoad* loads, const std::uint32_t* off);
-  /// Returns the surfaces near each listed grain, for the solver of complementarity contacts, which replaces compute().
+  /// Replaces compute() with complementarity contacts: returns the surfaces near each listed grain for their solver.
   /// `loads`: as in compute(). Clear clearedSums() before each step. Valid until the next refresh.
   PartPatches patches(const GrainsView& grains, const base::Array<PartMotion>& motion, PartLoad* loads);
   /// Contact laws of all grain materials with all part materials; see GrainPart::firstLaw.
@@ -84,7 +84,7 @@ public:
     std::uint32_t grain;
     int part;
   };
-  /// Returns the contacts of all ranks, sorted by grain, then part; collective. Visits all listed pairs: output only.
+  /// Returns the contacts of all ranks, sorted by grain, then part; collective. Slow, since it visits all listed pairs.
   std::vector<Touch> touching() const;
   /// Ids of the grains crushed to their centre at the last compute, ascending, over all ranks; collective.
   std::vector<std::uint32_t> ended() const;
@@ -102,7 +102,7 @@ public:
   void resetDeepestOverlap();
   struct Ledger {
     std::int64_t contacts{};             ///< patches in contact at the last compute
-    std::int64_t squeezed{};             ///< pairs deeper than kSqueezed at the last compute
+    std::int64_t squeezed{};             ///< pairs deeper than kDeepOverlap at the last compute
     double elastic{};                    ///< elastic energy of their springs at the last compute [J]
     double damped{}, rubbed{}, rolled{}; ///< cumulative dissipation by dashpots, sliding, rolling resistance [J]
     double slipped{};                    ///< cumulative dissipation by stiffness changes of Hertz springs [J]
@@ -112,7 +112,7 @@ public:
     base::Vec3d impulseOnGrains;         ///< cumulative impulse [N s] of the loads applied to the grains
   };
   Ledger ledger() const; ///< sums over all ranks; collective
-  /// State over all ranks, for hashes and checkpoints; collective. restore() throws InputError if the state belongs to
+  /// State of all ranks, for hashes and checkpoints; collective. restore() throws InputError if the state belongs to
   /// other parts; call refresh() before the next compute.
   SavedGrainPatches save() const;
   void restore(const SavedGrainPatches& saved);
@@ -134,7 +134,7 @@ private:
   base::Array<SurfaceGridView> gridViews_;
   base::Array<GrainPart> parts_;
   std::size_t pairs_{0};
-  /// Extent of the pairs stored on this rank.
+  /// Selection of pairs that this rank stores.
   enum class Held {
     listed,     ///< pairs of its own grains, with their slots
     migrated,   ///< pairs of its own grains, some without slots until the next refresh

@@ -22,7 +22,7 @@ inline constexpr float kSameFace = 0.97f;  // cosine: discs of one face belong t
 inline constexpr float kSamePatch = 0.8f;  // cosine: a patch is identified with one of the previous step
 inline constexpr float kOtherSide = -0.5f; // cosine: a patch on the far side of the part
 
-/// Key whose minimum selects the largest overlap over radius and, among equals, the first grain.
+/// Key for atomicMin: the minimum selects the largest overlap / radius; among equal ratios, the lowest grain id.
 GROUSER_HD std::uint64_t pressKey(float share, std::uint32_t grain) {
   return static_cast<std::uint64_t>(~base::bitsAs<std::uint32_t>(share)) << 32 | grain;
 }
@@ -46,7 +46,7 @@ struct AddLater {
   GROUSER_HD void add(int which, std::int64_t value) { of[which] += value; }
 };
 
-/// Loads of one listed pair, by one thread or by the threads of a group that share its discs.
+/// Computes the loads of one listed pair, with one thread or with a group of threads that share its discs.
 template <unsigned kFeatures> struct GrainPartForces {
   static constexpr double kNanoseconds = 170;
   GrainPartModel model;
@@ -60,10 +60,10 @@ template <unsigned kFeatures> struct GrainPartForces {
   const std::uint32_t* slot;
   PatchMemory* memory;
   base::Vec3f* angle;       ///< null without rolling friction
-  const Crushing* crushing; ///< one per law; null if none crushes
-  float* dent;              ///< dent per patch [m]; null if none crushes
-  std::int64_t* energyHeld; ///< spring energy per pair [quanta]; null if none crushes
-  int endedAt;              ///< index after the loads of the parts; its force.x counts crushed grains
+  const Crushing* crushing; ///< one per law; null if no grain crushes
+  float* dent;              ///< dent per patch [m]; null if no grain crushes
+  std::int64_t* energyHeld; ///< spring energy per pair [quanta]; null if no grain crushes
+  int endedAt;              ///< index of the entry after the part loads; its force.x counts crushed grains
   GrainLoad* load;
   PartLoad* partLoad;
   std::int64_t* sums;       ///< [kPartSums]
@@ -157,7 +157,7 @@ protected:
       total.add(kCrushedByParts, model.energy.quantise(sum.crushed));
       total.add(kCutByCrushing, model.force.quantise(sum.cut));
     }
-    if (share > static_cast<float>(kSqueezed)) total.add(kSqueezedNow, 1);
+    if (share > static_cast<float>(kDeepOverlap)) total.add(kDeepOverlapsNow, 1);
     base::atomicMin64(pressed + p, pressKey(share, static_cast<std::uint32_t>(key[e] >> 16)));
   }
 
@@ -223,7 +223,7 @@ protected:
                           : findPatches(grids[of.surface], c, ballRadius, group, patches);
   }
 
-  /// A convex shape has a single nearest point.
+  /// Finds the patch at the nearest point of a convex shape.
   GROUSER_HD static int touchShape(const SurfaceGeometry& shape, const base::Vec3d& c, double ballRadius,
                                    TouchedPatch* patches) {
     const SurfaceGap gap = gapTo(shape, c);
@@ -234,7 +234,7 @@ protected:
     return 1;
   }
 
-  /// Finds the deepest contact first, then the deepest outside all patches found so far.
+  /// Finds the deepest contact first, then repeatedly the deepest contact outside all patches found so far.
   template <class Group> GROUSER_HD int findPatches(const SurfaceGridView& grid, const base::Vec3d& c,
                                                     double ballRadius, const Group& group,
                                                     TouchedPatch* patches) const {
@@ -278,9 +278,9 @@ protected:
     return best;
   }
 
-  /// Matches the current patches to those of the previous step (-1: no match). Returns the depth of a grain that has
-  /// passed through a thin part within this step (a deep new contact on the far side), which counts as pressed beyond
-  /// its centre; otherwise 0.
+  /// Matches the current patches to those of the previous step (-1: no match). Returns 0, or the depth of a grain that
+  /// has passed through a thin part within this step (a deep new contact on the far side). Such a grain counts as
+  /// pressed beyond its centre.
   GROUSER_HD static float recallAll(const PatchMemory* held, const TouchedPatch* patches, int found, float radius,
                                     int* former) {
     unsigned used = 0;

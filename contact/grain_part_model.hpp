@@ -34,11 +34,11 @@ struct GrainPart {
 
 /// Sums over the contacts of grains with parts, as integers: energies and forces in quanta.
 enum PartSum : int {
-  kPatchesNow,    ///< patches in contact in this step
-  kElasticNow,    ///< elastic energy
-  kSqueezedNow,   ///< pairs of grain and part with overlap / radius above kSqueezed
-  kCappedNow,     ///< patches at the crushing force
-  kDampedByParts, ///< cumulative, like all sums below
+  kPatchesNow,      ///< patches in contact in this step
+  kElasticNow,      ///< elastic energy
+  kDeepOverlapsNow, ///< pairs of grain and part with overlap / radius above kDeepOverlap
+  kCappedNow,       ///< patches at the crushing force
+  kDampedByParts,   ///< cumulative, like all sums below
   kSumsOfStep = kDampedByParts,
   kSlidingLossByParts,
   kRolledByParts,
@@ -62,7 +62,7 @@ struct GrainPartModel {
   std::size_t searchFrom{0}; ///< minimum number of pairs for a search of near pairs; 0: 8192 on a GPU, never on a CPU
 };
 
-/// Parameters by grain material, for grains that differ: laws against the parts (replace the model's) and masses.
+/// Parameters by grain material, if grains differ: laws against the parts (replace GrainPartModel::law), and masses.
 struct GrainPartMaterials {
   std::vector<ContactLaw> laws;    ///< all grain materials against the first part material, then the second...
   std::vector<double> massPerCube; ///< mass / radius^3 [kg/m3]

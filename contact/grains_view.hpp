@@ -15,7 +15,7 @@ struct GrainsView {
   const Motion* motion;
   const std::uint32_t* id;
   std::size_t count;                    ///< slots
-  const std::uint32_t* ghost = nullptr; ///< nonzero for ghosts, whose loads their own rank computes; null
+  const std::uint32_t* ghost = nullptr; ///< nonzero for ghosts: their own rank computes their loads; null
                                         ///< without ghosts
 };
 

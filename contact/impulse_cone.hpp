@@ -46,9 +46,9 @@ template <class T> GROUSER_HD base::Vec3<T> cutTo(const base::Vec3<T>& v, T most
   return v * (most / static_cast<T>(sqrt(size2)));
 }
 
-/// Clips to Coulomb's law, which is not the projection on its cone: keeps a compressive normal part, then limits the
-/// other parts by it. A fixed point of steps along the relative velocity satisfies Coulomb's law exactly, without
-/// dilation. `push`: unit normal towards side i.
+/// Clips to Coulomb's law, which differs from the projection onto its cone: keeps a compressive normal component, then
+/// limits the other components by it. A fixed point of steps along the relative velocity satisfies Coulomb's law
+/// exactly, without dilation. `push`: unit normal towards side i.
 template <class T>
 GROUSER_HD Impulse<T> cutToCoulomb(const Impulse<T>& z, const base::Vec3<T>& push, const ImpulseCone<T>& cone) {
   const T along = dot(z.linear, push);
@@ -58,8 +58,8 @@ GROUSER_HD Impulse<T> cutToCoulomb(const Impulse<T>& z, const base::Vec3<T>& pus
 }
 
 /// Projects an impulse onto the cone in the norm of `metric`: the convex relaxation (Anitescu 2006, Math. Program.
-/// 105:113), in which a sliding contact separates at friction times its sliding speed. If parts exceed their limits,
-/// the normal part is a weighted mean of its own value and those at which these parts reach their limits.
+/// 105:113), in which a sliding contact separates at friction times its sliding speed. If other components exceed their
+/// limits, the normal one is a weighted mean of its own value and the values that put these components at their limits.
 template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, const base::Vec3<T>& push,
                                                        const ImpulseCone<T>& cone, const ImpulseMetric<T>& metric) {
   struct Limited {
@@ -69,7 +69,7 @@ template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, cons
   const base::Vec3<T> shear = z.linear - push * along;
   const Limited slides{lengthOf(shear), cone.friction, metric.shear};
   const Limited rolls{lengthOf(z.rolling), cone.arm, metric.rolling};
-  // Start with the part that exceeds its limit more; the other may then satisfy its own.
+  // Start with the component that exceeds its limit more; the other component may then satisfy its own limit.
   const bool slidesFirst = slides.size * rolls.slope >= rolls.size * slides.slope;
   T asked = along, weights = 1, normal = along;
   for (int k = 0; k < 2; ++k) {
@@ -82,7 +82,7 @@ template <class T> GROUSER_HD Impulse<T> projectOnCone(const Impulse<T>& z, cons
   return {push * normal + cutTo(shear, slides.slope * normal), cutTo(z.rolling, rolls.slope * normal)};
 }
 
-/// Returns the admissible impulse for `z`: clipped by Coulomb's law, or projected on the cone.
+/// Returns the admissible impulse for `z`: clipped by Coulomb's law, or projected onto the cone.
 template <class T> GROUSER_HD Impulse<T> allowed(const Impulse<T>& z, const base::Vec3<T>& push,
                                                  const ImpulseCone<T>& cone, const ImpulseMetric<T>& metric,
                                                  bool associated) {

@@ -17,7 +17,7 @@
 namespace grouser::contact {
 
 enum class ImpulseFriction { coulomb, associated }; ///< see cutToCoulomb(), projectOnCone()
-enum class Compliance { law, rigid };               ///< springs of the contact law, or none
+enum class Compliance { law, rigid };               ///< springs of the contact law, or no springs
 
 /// Options of complementarity contacts.
 struct ComplementarityOptions {
@@ -26,7 +26,7 @@ struct ComplementarityOptions {
   double residual{};   ///< tolerance of a step [m/s], > 0
   int iterations{200}; ///< maximum per step, > 0
   double recovery{};   ///< maximum separation speed of overlapping rigid contacts [m/s], >= 0
-  double impact{};     ///< minimum approach speed [m/s] for Newton restitution of a new contact; below it none
+  double impact{};     ///< minimum approach speed [m/s] for Newton restitution of a new contact
   /// Maximum gap of a pair at rest that enters the problem [m]; also limited to a fraction of the smallest radius.
   double reach = std::numeric_limits<double>::infinity();
   bool strict{false}; ///< true: exceeding the residual ends the run
@@ -68,7 +68,7 @@ template <class T> struct ImpulseRow {
   Impulse<T> start;        ///< initial impulse of the solver
 };
 
-/// Warm-start record of a rigid contact, stored in place of a spring: a length [m] that represents the initial
+/// Warm start of a rigid contact, stored in place of a spring: a length [m] that represents the initial
 /// impulse of the next step.
 template <class T> GROUSER_HD base::Vec3<T> keptImpulse(const base::Vec3<T>& impulse, const ImpulseRules<T>& rules) {
   return impulse * (T(-1) / (rules.timeStep * rules.stiffness));
@@ -89,7 +89,7 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
   row.push = touch.push;
   row.cone = {law.friction, law.rollingFriction * touch.effectiveRadius};
   if (touch.gap < 0) row.pull = h * law.pull(touch.effectiveRadius) * touch.pullShare;
-  const T closing = -(touch.gap + h * (parting + touch.freely)); // overlap at the end without contacts
+  const T closing = -(touch.gap + h * (parting + touch.freely)); // overlap at the end, without contact forces
   row.impact = !touch.held && parting < -rules.impact && closing > 0;
   if (row.impact) {
     row.offset = touch.push * (law.restitution * parting);
@@ -108,7 +108,7 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
   c.damping *= touches, c.tangentialDamping *= touches;
   row.damping = c.damping, row.shearDamping = c.tangentialDamping;
   const T stiffness = c.normalStiffness, soft = h * stiffness + c.damping;
-  const T force = c.elastic - stiffness * (deep + touch.gap); // at rest; < 0 if the surfaces are apart
+  const T force = c.elastic - stiffness * (deep + touch.gap); // spring force; < 0 if the surfaces are apart
   row.softness = soft > 0 ? 1 / (h * soft) : T(0);
   row.offset = touch.push * (soft > 0 ? -force / soft : touch.gap / h);
   const T softShear = h * c.tangentialStiffness + c.tangentialDamping;

@@ -66,7 +66,7 @@ void setLinear(const MixedPair& m, std::optional<double> effectiveMass, ContactL
   law.tangentialRootDamping = law.rootDamping * dampingRatio;
 }
 
-/// Rebound speed / impact speed [-]. If only damping [1/s] is given, for the scene's single mass; 0 for many masses.
+/// Rebound speed / impact speed [-]. If only damping [1/s] is given: the value for a single mass; 0 for many masses.
 double restitutionOfPair(const MixedPair& m, const ContactLaw& law, std::optional<double> effectiveMass) {
   const auto& [a, b, pair, same] = m;
   if (pair.restitution) return *pair.restitution;
@@ -92,7 +92,7 @@ void setHertz(const MixedPair& m, ContactLaw& law) {
                               std::sqrt(law.tangentialStiffness);
 }
 
-/// Grain radius at which a pair's adhesion energies apply, if they are proportional to it.
+/// Grain radius to which a pair's adhesion energies refer, if these are proportional to the radius.
 std::optional<double> adhesionRadius(const MixedPair& m) {
   const std::optional<double>&a = m.a.adhesionRadius, &b = m.b.adhesionRadius;
   return a && b ? m.geometricMean(*a, *b) : a ? a : b;

@@ -81,8 +81,8 @@ struct MixingError : base::InputError {
 /// Returns the law between two materials. Damping is derived from the restitution by the formula for the clamped or
 /// unclamped force: for bodies of the given effective mass [kg], or, without one, for any mass (grains of many masses).
 ///
-/// Values of `pair` override; otherwise
-/// - linear: stiffness in series doubled, 2 k_a k_b / (k_a + k_b), so that equal materials keep theirs;
+/// Values set in `pair` override these rules:
+/// - linear: stiffness in series doubled, 2 k_a k_b / (k_a + k_b), so that equal materials keep their stiffness;
 /// - hertz: 1 / E_eff = (1 - nu_a^2) / E_a + (1 - nu_b^2) / E_b and 1 / G_eff = (2 - nu_a) / G_a + (2 - nu_b) / G_b;
 /// - the smaller friction, rolling friction and restitution, the smaller tangential and rolling ratios; the geometric
 ///   mean of the cohesions; attraction only if both allow it;
@@ -100,8 +100,8 @@ struct Foundation {
   double restitution{};     ///< [-] minimum
   double tangentialRatio{}; ///< [-] minimum; 2/7 for hertz materials
 };
-/// Returns the mixed foundation; friction and restitution in `pair` override. A material with `damping` instead of
-/// restitution counts with restitution kRestitution.
+/// Returns the mixed foundation; friction and restitution set in `pair` override the mixing rules. A material with
+/// `damping` instead of restitution is treated as if its restitution were kRestitution.
 Foundation mixedFoundation(const MaterialProperties& a, const MaterialProperties& b, const PairProperties& pair = {});
 
 /// Coefficients of a contact at its maximum stiffness: constant for a linear law, at the maximum overlap of an impact
@@ -115,8 +115,8 @@ double contactTime(const ContactLaw& law, double effectiveMass, double effective
 /// the mass `effectiveMass` [kg].
 double restitutionOf(const ContactLaw& law, double effectiveMass, double movedMass);
 
-/// Travel time of a Rayleigh wave along half a grain of a hertz material [s]; infinite for a linear one. `radius` [m].
-/// Requires Young's modulus.
+/// Time in which a Rayleigh wave travels half the circumference of a grain of a hertz material [s]; infinite for a
+/// linear material. `radius` [m]. Requires Young's modulus.
 double rayleighTimeOf(const MaterialProperties& material, double radius);
 
 } // namespace grouser::contact

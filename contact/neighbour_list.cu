@@ -17,15 +17,15 @@ using base::Position;
 
 namespace {
 
-constexpr std::uint32_t kMostEqual = 64;    // neighbours of equal spheres: one word of touching bits
-constexpr std::uint32_t kMostOthers = 1024; // neighbours of spheres of several sizes
-constexpr std::uint32_t kWindow = 1024;     // number of spheres sorted among themselves
-constexpr std::size_t kSpare = 32;          // one spare place per this many places,
-constexpr std::size_t kMostSpare = 1 << 22; // maximum number of spare places
-constexpr std::size_t kSlotsRead = 8;       // slots that SIMD loads on a CPU read beyond the last row
+constexpr std::uint32_t kMaxEqual = 64;    // neighbours of equal spheres: one word of touching bits
+constexpr std::uint32_t kMaxOthers = 1024; // neighbours of spheres of several sizes
+constexpr std::uint32_t kWindow = 1024;    // number of spheres sorted among themselves
+constexpr std::size_t kSpare = 32;         // one spare place per this many places,
+constexpr std::size_t kMaxSpare = 1 << 22; // maximum number of spare places
+constexpr std::size_t kSlotsRead = 8;      // slots that SIMD loads on a CPU read beyond the last row
 
 void checkLength(std::uint32_t most, bool equal) {
-  const std::uint32_t limit = equal ? kMostEqual : kMostOthers;
+  const std::uint32_t limit = equal ? kMaxEqual : kMaxOthers;
   if (most > limit)
     throw base::SimulationError("a grain has " + std::to_string(most) + " neighbours, more than the limit of " +
                                 std::to_string(limit) + ": the bed has collapsed" +
@@ -34,13 +34,13 @@ void checkLength(std::uint32_t most, bool equal) {
                                          "time step, a smaller skin or larger smallest grains"));
 }
 
-/// Cells per maximum reach: cells about as wide as the smallest grains, at most kMost; 1 if grains are nearly equal.
+/// Cells per maximum reach, at most kMax: cells are about as wide as the smallest grains. 1 for nearly equal grains.
 int timesFiner(std::int64_t diameter, std::int64_t smallest) {
   constexpr double kTypical = 1.4; // cell width / smallest diameter
-  constexpr int kMost = 4;
+  constexpr int kMax = 4;
   if (smallest <= 0) return 1;
   const double ratio = static_cast<double>(diameter) / (kTypical * static_cast<double>(smallest));
-  return std::clamp(static_cast<int>(std::min<double>(ratio, kMost)), 1, kMost);
+  return std::clamp(static_cast<int>(std::min<double>(ratio, kMax)), 1, kMax);
 }
 
 } // namespace
@@ -58,8 +58,8 @@ void NeighbourList::sort(const Position* position, std::size_t count, const std:
   if (!exec_.onCpu()) groupByContacts(rowOf);
 }
 
-/// A warp takes as long as its grain with the most contacts: nearby grains are reordered so that those in a warp have
-/// similar numbers of contacts and neighbours. Not needed on a CPU.
+/// A warp takes as long as its grain with the most contacts. Nearby grains are therefore reordered so that the grains
+/// in a warp have similar numbers of contacts and neighbours. A CPU does not need this.
 void NeighbourList::groupByContacts(const std::uint32_t* rowOf) {
   const auto n = static_cast<std::int64_t>(sorted_);
   base::Array<std::uint64_t> key(exec_, sorted_);
@@ -94,7 +94,7 @@ base::Array<std::uint32_t> NeighbourList::largestNear(const RadiiInW& radii) con
 void NeighbourList::build(const Position* position, const std::uint32_t* id, const RowOrigins* origins,
                           const RadiiInW& radii) {
   const auto n = static_cast<std::int64_t>(sorted_);
-  // Only the contacts of the former list are needed: they are cached, and the new list reuses its memory.
+  // Cache the contacts of the previous list; the new list overwrites the memory of the previous one.
   const std::uint32_t former = rows();
   base::Array<std::uint32_t> keptStart(exec_, std::size_t{former} + 1), keptId(exec_);
   base::Array<float> keptHistory(exec_);
@@ -124,10 +124,10 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   const RowLayout layout = layRows(exec_, count_, start_, kSlotsRead);
   stride_ = layout.stride;
   const std::size_t places = layout.places + kSlotsRead;
-  // Reserve more than needed, so that not every rebuild allocates.
+  // Reserve more than needed, so that most rebuilds do not allocate.
   const auto width = static_cast<std::size_t>(width_);
   if (places > slot_.size())
-    slot_.resize(places + std::min(places / kSpare, kMostSpare)), history_.resize(slot_.size() * width);
+    slot_.resize(places + std::min(places / kSpare, kMaxSpare)), history_.resize(slot_.size() * width);
   base::forEach(exec_, "list neighbours", n, ListNear{near, id, {start_.data(), stride_}, slot_.data()});
   if (radii.sphere) {
     reach_.resize(slot_.size());
@@ -159,7 +159,7 @@ void NeighbourList::build(const Position* position, const std::uint32_t* id, con
   for (base::Array<std::uint32_t>* array : {&cellStart_, &slotAt_, &order_}) *array = base::Array<std::uint32_t>(exec_);
 }
 
-std::uint32_t NeighbourList::mostTouching(const std::uint32_t* slots, std::size_t count) const {
+std::uint32_t NeighbourList::maxTouching(const std::uint32_t* slots, std::size_t count) const {
   if (!haveRows_ || count == 0) return 0;
   base::Array<std::uint32_t> bits(exec_, count);
   base::forEach(exec_, "count neighbours in touch", static_cast<std::int64_t>(count),

@@ -23,7 +23,7 @@ struct TouchingRows;
 class NeighbourList {
 public:
   /// `diameter` (largest sphere) and `skin` are in units of the scene's position scale; `width`: history values per
-  /// contact, 0 for none. `period`: periodic boundaries, at least three diameters plus skins apart, none along z.
+  /// contact, 0 for none. `period`: periodic boundaries, at least three diameters plus skins apart, not along z.
   /// `smallest`: approximate diameter of the smallest sphere; 0: equal spheres.
   NeighbourList(const base::Exec& exec, std::int64_t diameter, std::int64_t skin, int width,
                 const base::Period& period = {}, std::int64_t smallest = 0);
@@ -34,16 +34,16 @@ public:
   const std::uint32_t* order() const { return order_.data(); }
 
   /// Lists the neighbours of grains already permuted by `order()`, and restores the history of the previous list. `id`:
-  /// global id by new slot, which defines the order in a row. `origins`: with several ranks, else null. `radii`: for
+  /// global id by new slot, which defines the order in a row. `origins`: null on a single rank. `radii`: for
   /// spheres of several sizes.
   void build(const base::Position* position, const std::uint32_t* id, const RowOrigins* origins = nullptr,
              const RadiiInW& radii = {});
 
   /// Maximum number of contacts of the grains in `slots` (device array).
-  std::uint32_t mostTouching(const std::uint32_t* slots, std::size_t count) const;
+  std::uint32_t maxTouching(const std::uint32_t* slots, std::size_t count) const;
   /// Writes the rows of these slots for transfer to other ranks.
   void exportRows(const std::uint32_t* slots, std::size_t count, const TravellingRows& travelling) const;
-  /// Number of grains with a row; grains added since the last build have none.
+  /// Number of grains with a row; grains added since the last build have no row.
   std::uint32_t rows() const { return haveRows_ ? static_cast<std::uint32_t>(count_.size()) : 0; }
 
   /// Discards the history, because other grains occupy the slots: the next list starts without it.

@@ -26,7 +26,7 @@ struct LongestOfSlice {
 };
 
 struct StartInSlice {
-  const std::uint32_t* sliceStart; ///< in places of a row
+  const std::uint32_t* sliceStart; ///< start of each slice / kSlice
   std::uint32_t* start;
   GROUSER_HD void operator()(int i) const { start[i] = sliceStart[i / kSlice] * kSlice + i % kSlice; }
 };

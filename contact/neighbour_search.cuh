@@ -110,7 +110,7 @@ struct LargestAlong {
 
 /// Sorts nearby spheres by number of contacts, then by row length: interleaved rows are padded to the longest.
 struct AssignContactKeys {
-  static constexpr std::uint64_t kMost = 255; ///< maximum of the distinguished numbers of contacts and neighbours
+  static constexpr std::uint64_t kMax = 255; ///< larger numbers of contacts or neighbours count as this one
   TouchingRows former;
   const std::uint32_t* order; ///< previous slots, in cell order
   const std::uint32_t* rowOf; ///< row of the previous list by previous slot; null: equal to the slot
@@ -119,8 +119,8 @@ struct AssignContactKeys {
   GROUSER_HD void operator()(int k) const {
     const std::uint32_t slot = order[k], row = rowOf ? rowOf[slot] : slot;
     const std::uint32_t contacts = former.contactsOf(row), listed = row < former.rowCount ? former.count[row] : 0;
-    key[k] = static_cast<std::uint64_t>(k) / window << 16 | (contacts < kMost ? contacts : kMost) << 8 |
-             (listed < kMost ? listed : kMost);
+    key[k] = static_cast<std::uint64_t>(k) / window << 16 | (contacts < kMax ? contacts : kMax) << 8 |
+             (listed < kMax ? listed : kMax);
   }
 };
 

@@ -52,7 +52,7 @@ struct RadiiInW {
 /// Origins of the rows of a list, with several ranks.
 struct RowOrigins {
   static constexpr std::uint32_t kNone = ~0u;
-  const std::uint32_t* origin; ///< by new slot: row of the former list, or rows() + place in `arrived`, or kNone
+  const std::uint32_t* origin; ///< by new slot: row of the previous list, or rows() + place in `arrived`, or kNone
   const std::uint32_t* ghost;  ///< by new slot: nonzero for a grain that needs no row
   TravellingRows arrived;
 };

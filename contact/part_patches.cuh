@@ -45,7 +45,7 @@ struct PartPatches : GrainPartForces<kGeneral> {
   /// Records the overlap of a grain with a part [m].
   GROUSER_HD void noteOverlap(int e, float overlap, float radius) const {
     load[e].deepest = overlap;
-    if (overlap > static_cast<float>(kSqueezed) * radius) count(kSqueezedNow, 1);
+    if (overlap > static_cast<float>(kDeepOverlap) * radius) count(kDeepOverlapsNow, 1);
     if (overlap > 0) base::atomicMin64(pressed + partOf(e), pressKey(overlap / radius, grain(e)));
   }
 };

@@ -14,7 +14,7 @@ using base::Vec3f;
 namespace {
 
 constexpr float kSamePlane = 0.98f; // cosine between the normals of discs that count as coplanar
-constexpr double kMostCells = 6e5;
+constexpr double kMaxCells = 6e5;
 
 /// Disc of one cell, with the data for pruning.
 struct Candidate {
@@ -32,7 +32,7 @@ class Pruning {
 public:
   Pruning(const std::vector<Disc>& discs, double reach) : discs_(discs), reach_(reach) {}
 
-  /// Appends their discs to `kept`.
+  /// Appends the discs of the selected candidates to `kept`.
   void run(const std::vector<Candidate>& candidates, std::vector<std::uint32_t>& kept) {
     best_.clear();
     for (const Candidate& c : candidates) {
@@ -69,7 +69,7 @@ private:
 
   const std::vector<Disc>& discs_;
   double reach_;
-  std::vector<Best> best_; ///< nearest of each plane
+  std::vector<Best> best_; ///< nearest disc of each plane
 };
 
 /// Finds the discs that may touch a ball centred in each cell of a table, one x layer at a time.
@@ -121,7 +121,7 @@ private:
     for (auto& candidates : near_) candidates.clear();
     for (const Reaching& r : row_[static_cast<std::size_t>(y)]) {
       const Disc& d = discs_[r.disc];
-      // Most cells of the box about a disc are out of reach: rejected without a square root, with a margin.
+      // Most cells in the box about a disc are out of its reach; this test, with a margin, needs no square root.
       const double most = ballRadius_ + d.radius + d.flat + reach_ + 1e-6, most2 = most * most;
       for (int z = r.from; z <= r.to; ++z) {
         const Vec3d centre = low_ + Vec3d{x + 0.5, y + 0.5, z + 0.5} * edge_;
@@ -192,7 +192,7 @@ SurfaceGrid::SurfaceGrid(const base::Exec& exec, const base::SphereSet& set, dou
   low -= {margin, margin, margin}, high += {margin, margin, margin};
   const Vec3d extent = high - low;
   double edge = cellEdge;
-  while (std::ceil(extent.x / edge) * std::ceil(extent.y / edge) * std::ceil(extent.z / edge) > kMostCells) edge *= 1.1;
+  while (std::ceil(extent.x / edge) * std::ceil(extent.y / edge) * std::ceil(extent.z / edge) > kMaxCells) edge *= 1.1;
   low_ = low, perEdge_ = 1 / edge;
   cells_ = {static_cast<int>(std::ceil(extent.x / edge)), static_cast<int>(std::ceil(extent.y / edge)),
             static_cast<int>(std::ceil(extent.z / edge))};

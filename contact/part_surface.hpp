@@ -51,7 +51,7 @@ struct SurfaceGridView {
   double perEdge{};
   base::Vec3i cells;
 
-  /// False if a ball lies outside the table and therefore has no contact.
+  /// False if a ball is outside the table and therefore has no contact.
   GROUSER_HD bool reaches(const base::Vec3d& p, double radius) const {
     const base::Vec3d u = (p - low) * perEdge;
     const double r = radius * perEdge;

@@ -40,10 +40,10 @@ Partition::Partition(const std::array<int, 3>& shape, const base::Vec3l& low, co
                      const std::array<std::vector<std::int64_t>, 3>& weights)
     : shape_(shape) {
   for (std::size_t a = 0; a < 3; ++a) {
-    if (shape[a] < 1 || shape[a] > kMostSubdomainsAnAxis)
+    if (shape[a] < 1 || shape[a] > kMaxSubdomainsAnAxis)
       throw base::InputError(
           fmt::format("the number of subdomains along {}, {}, is outside [1, {}]; change parallel.subdomains", "xyz"[a],
-                      shape[a], kMostSubdomainsAnAxis));
+                      shape[a], kMaxSubdomainsAnAxis));
     cuts_[a] = migrate(shape[a], low[static_cast<int>(a)], high[static_cast<int>(a)], weights[a]);
   }
 }
@@ -70,7 +70,7 @@ std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size, co
       const std::array<int, 3> shape{x, y, ranks / x / y};
       bool fits = true;
       for (std::size_t a = 0; a < 3; ++a)
-        fits = fits && (wanted[a] == 0 || wanted[a] == shape[a]) && shape[a] <= kMostSubdomainsAnAxis;
+        fits = fits && (wanted[a] == 0 || wanted[a] == shape[a]) && shape[a] <= kMaxSubdomainsAnAxis;
       if (!fits) continue;
       double area = 0;
       for (std::size_t a = 0; a < 3; ++a) area += (shape[a] - 1) * size[(a + 1) % 3] * size[(a + 2) % 3];
@@ -80,7 +80,7 @@ std::array<int, 3> latticeShape(int ranks, const std::array<double, 3>& size, co
     throw base::InputError(
         fmt::format("{} ranks cannot form a lattice of [{}, {}, {}] subdomains (0: any number up to {}), "
                     "one per rank; change parallel.subdomains, or mpirun -np",
-                    ranks, wanted[0], wanted[1], wanted[2], kMostSubdomainsAnAxis));
+                    ranks, wanted[0], wanted[1], wanted[2], kMaxSubdomainsAnAxis));
   return best;
 }
 

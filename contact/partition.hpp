@@ -11,12 +11,12 @@
 
 namespace grouser::contact {
 
-inline constexpr int kMostSubdomainsAnAxis = 64;
+inline constexpr int kMaxSubdomainsAnAxis = 64;
 
 /// Kernel view of a partition: the planes between subdomains, ascending along each axis.
 struct PartitionView {
   int shape[3];
-  std::int64_t cut[3][kMostSubdomainsAnAxis - 1]; ///< [units]
+  std::int64_t cut[3][kMaxSubdomainsAnAxis - 1]; ///< [units]
 
   /// Index along one axis of the subdomain that contains coordinate `u`.
   GROUSER_HD int along(int axis, std::int64_t u) const {

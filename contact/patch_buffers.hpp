@@ -18,7 +18,7 @@ struct SampleChunk {
 
 /// Lists and sums of contacts of extended surfaces, independent of the type of the other surface.
 struct PatchBuffers {
-  /// `sampledParts`: for each pair the part whose samples are tested against the other surface.
+  /// `sampledParts`: for each pair, the part with the samples to be tested against the other surface.
   PatchBuffers(const base::Exec& exec, const std::vector<const base::SphereSet*>& sets,
                const std::vector<int>& setOfPart, const std::vector<int>& sampledParts);
 

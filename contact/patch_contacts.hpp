@@ -16,8 +16,8 @@ struct PartPair {
   int a{}, b{}; ///< part indices
 };
 
-/// Finds the deepest contact of a ball at world point `x` with a part, whose discs are in `grid`: outward normal and
-/// overlap [m]. Returns false without contact. The threads of `group` share the search.
+/// Finds the deepest contact of a ball at world point `x` with a part; `grid` contains its discs. Sets outward normal
+/// and overlap [m]. Returns false if there is no contact. The threads of `group` share the search.
 template <class Group> GROUSER_HD bool deepestDisc(const SurfaceGridView& grid, const PartMotion& part,
                                                    const base::Vec3d& x, double radius, const Group& group,
                                                    base::Vec3d& normal, double& overlap) {

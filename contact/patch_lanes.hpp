@@ -4,7 +4,7 @@
 #include "base/simd.hpp"
 #include "contact/patch_law.hpp"
 
-/// Eight contact points in SIMD lanes, of one patch or of eight.
+/// Eight contact points in SIMD lanes, of one patch or of eight patches.
 namespace grouser::contact {
 
 inline constexpr int kPointLanes = 8;
@@ -56,7 +56,7 @@ struct PressureLanes : PressureOf<PointLanes> {
     torque += cross(x, pressed);
   }
 
-  /// Adds all but force and torque. Returns the magnitudes of the normal forces [N].
+  /// Adds to all sums except force and torque. Returns the magnitudes of the normal forces [N].
   GROUSER_SIMD PointLanes addSize(const PatchLaw& law, double timeStep, const Vec3P& x, const PointLanes& overlap,
                                   const PointLanes& share, const PointLanes& opening) {
     const PointLanes touching = overlap > allLanes(0) ? share : allLanes(0);

@@ -25,7 +25,7 @@ void listSamples(PatchBuffers& buffers, const Target& target, const base::Array<
   if (buffers.entries) base::forEach(buffers.exec, "list samples", chunks, list);
 }
 
-/// Computes the pressure on every listed sample, then the friction of every patch; sums must be zero before.
+/// Computes the pressure on every listed sample, then the friction of every patch. Clear the sums before.
 /// `travelled`: device pointer to the upper bound of the relative motion of any pair since the samples were listed [m].
 /// `off`: device pointer, may be null; nonzero cancels the work.
 template <class Target> void computePatches(const base::Exec& exec, PatchBuffers& buffers, const Target& target,

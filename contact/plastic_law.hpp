@@ -27,7 +27,7 @@ namespace grouser::contact {
 ///   x* and beyond, x* proportional to R_eff; a(x) = k_c x. On the adhesive branch the maximum overlap is reduced to
 ///   the value from which unloading would reach the current point, and k2 with it.
 ///
-/// The constants below belong to the law; the state of a contact follows.
+/// This struct contains the constants of the law; BasicPlasticState is the state of a contact.
 template <class T> struct BasicPlasticity {
   T share{};       ///< lambda = 1 - k1/k2 [-], in [0, 1); Luding: its maximum; 0: elastic contact
   T depthShare{};  ///< x_p / x_m on the first loading: lambda^(1/m) [-] (EEPA)
@@ -62,7 +62,7 @@ template <class T> struct BasicElasticSpring {
   GROUSER_HD T force(T overlap) const {
     return hertz ? stiffness * base::squareRoot(effectiveRadius * overlap) * overlap : stiffness * overlap;
   }
-  /// x_a / x_b for a force at x_a that is `ratio` (>= 0) times that at x_b.
+  /// x_a / x_b if the force at x_a is `ratio` (>= 0) times the force at x_b.
   GROUSER_HD T overlapRatio(T ratio) const {
     if (!hertz) return ratio;
     const T root = base::cubeRootOf(ratio);
@@ -118,7 +118,7 @@ template <class T> GROUSER_HD PullOff<T> pullOff(const BasicPlasticity<base::Sca
   return {most, origin - most / steep};
 }
 
-/// Luding: k_c x where the steep line is above it, else the value at their intersection [N]. SIMD allowed.
+/// Luding: k_c x up to the intersection of -k_c x with the steep line, constant beyond it [N]. SIMD allowed.
 template <class T> GROUSER_HD T ludingPull(const BasicPlasticity<base::ScalarOf<T>>& p, T elastic, T steep, T origin) {
   const T most = steep * origin / (steep + p.adhesion);
   return p.adhesion * (elastic < most ? elastic : most);
@@ -183,9 +183,9 @@ template <class T> GROUSER_HD T yieldedByPulling(const BasicPlasticity<T>& p, T 
 
 } // namespace detail
 
-/// Returns the force at `overlap` > 0 of a contact with p.share > 0 and updates its state. Plastic work from
-/// -dU/dx_p^m of the elastic energy U: in closed form on first loading and Luding's branch, by the trapezoidal rule
-/// over the step on EEPA's adhesive branch.
+/// Returns the force at `overlap` > 0 of a contact with p.share > 0 and updates its state. The plastic work is the
+/// integral of -dU/dx_p^m (U: elastic energy): in closed form on first loading and on Luding's branch, by the
+/// trapezoidal rule over the step on EEPA's adhesive branch.
 template <class T> GROUSER_HD BasicPlasticForce<T>
 plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T overlap, BasicPlasticState<T>& state) {
   const T radius = spring.effectiveRadius, elastic = spring.force(overlap);
@@ -206,7 +206,7 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
     return {-branch.pull, branch.pull, detail::yieldedByPulling(p, spring.stiffness, overlap, before, steep, steepNow)};
   }
   state.origin = elastic + branch.pull / steep;
-  // Start at the departure from the steep line, or at the previous step: one Newton step from here.
+  // The branch starts where the force leaves the steep line (found by one Newton step), or at the previous step.
   T start = elastic - (line + branch.pull) / (steep + branch.slope * branch.pull / elastic);
   start = start < before.origin ? start : before.origin;
   const auto place = [&](T force) { return overlap * spring.overlapRatio(force / elastic); };
@@ -214,11 +214,11 @@ plasticForce(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring, T
   return {-branch.pull, branch.pull, T(0.5) * steep * stretched * (before.origin - state.origin)};
 }
 
-/// Same for one contact of a SIMD batch: not inlined, hence not compiled for unsupported instruction sets.
+/// Same for one contact of a SIMD batch. Not inlined, so it is never compiled for an unsupported instruction set.
 BasicPlasticForce<float> plasticForceAlone(const BasicPlasticity<float>& p, const BasicElasticSpring<float>& spring,
                                            float overlap, BasicPlasticState<float>& state);
 
-/// Releasable energy of an elastic-plastic contact [J]: its elastic energy plus the plastic work of a move to this
+/// Releasable energy of an elastic-plastic contact [J]: its elastic energy plus the plastic work of a change to this
 /// overlap.
 template <class T> GROUSER_HD T plasticEnergy(const BasicPlasticity<T>& p, const BasicElasticSpring<T>& spring,
                                               T overlap, BasicPlasticState<T> state) {

@@ -9,8 +9,8 @@
 namespace grouser::contact {
 
 /// SIMD version of plasticForce(): the same operations in the same order, so bitwise identical. First loading and the
-/// steep line are computed in all lanes, then selected; the few contacts on the adhesive branch, or with decreasing
-/// EEPA force, are computed one by one.
+/// steep line are computed in all lanes, then selected. The few contacts on the adhesive branch, or with decreasing
+/// EEPA force, are computed separately.
 template <base::SimdVector T>
 GROUSER_SIMD BasicPlasticForce<T> plasticForce(const BasicPlasticity<base::ScalarOf<T>>& p,
                                                const BasicElasticSpring<T>& spring, const T& overlap,

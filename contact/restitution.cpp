@@ -21,7 +21,7 @@ double clampedDuration(double zeta) {
   return base::log((zeta + s) / (zeta - s)) / s;
 }
 
-/// Argument at which the decreasing function `restitutionAt` is `restitution`, to the given accuracy or the last bit.
+/// Argument for which the decreasing function `restitutionAt` returns `restitution`, to `accuracy` or to the last bit.
 template <class F> double ratioFor(double restitution, const F& restitutionAt, double accuracy) {
   double low = 0, high = 1;
   while (restitutionAt(high) > restitution) high *= 2;
@@ -33,8 +33,8 @@ template <class F> double ratioFor(double restitution, const F& restitutionAt, d
   return 0.5 * (low + high);
 }
 
-/// Restitution that a dashpot without attraction can have: the given one, or kLeastDashpotRestitution for 0.
-double reachable(double restitution) { return restitution > 0 ? restitution : kLeastDashpotRestitution; }
+/// Restitution that a dashpot without attraction can reach: the given value, or kMinDashpotRestitution for 0.
+double reachable(double restitution) { return restitution > 0 ? restitution : kMinDashpotRestitution; }
 
 struct UnitImpact {
   double restitution, deepest;

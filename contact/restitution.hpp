@@ -4,16 +4,16 @@
 namespace grouser::contact {
 
 /// Coefficient of restitution [-] of the linear law at damping ratio zeta = gamma / (2 omega_0), zeta >= 0.
-/// With attraction e = exp(-zeta pi / sqrt(1 - zeta^2)); without, the contact force ends when it reaches zero and
+/// With attraction, e = exp(-zeta pi / sqrt(1 - zeta^2)). Without attraction, the contact ends when its force is zero:
 /// e = exp(-eta t_c) with the shortened duration t_c (Schwager and Poeschel 2007, Granular Matter 9:465).
 double restitutionOf(double zeta, bool attraction);
 
 /// Restitution of the dashpot if 0 is requested without attraction. No dashpot reaches 0 (surfaces always separate at
-/// some speed); impulse contacts do, and use the dashpot only for lasting contacts.
-inline constexpr double kLeastDashpotRestitution = 0.01;
+/// some speed); complementarity contacts do, and use the dashpot only for lasting contacts.
+inline constexpr double kMinDashpotRestitution = 0.01;
 
-/// Damping ratio [-] for a given `restitution` in (0, 1]; inverse of `restitutionOf`. For 0: critical damping with
-/// attraction, else that of `kLeastDashpotRestitution`.
+/// Damping ratio [-] for a given `restitution` in (0, 1]; inverse of `restitutionOf`. For restitution 0: critical
+/// damping with attraction, and the damping ratio for `kMinDashpotRestitution` without it.
 double dampingRatioFor(double restitution, bool attraction);
 
 /// Contact duration [s] for omega_0 = sqrt(k / m_eff) [1/s].
@@ -30,12 +30,12 @@ double stableStepOfMode(double stiffness, double damping);
 double stableStep(double omega0, double zeta);
 
 /// Coefficient of restitution [-] of the Hertz law with the dashpot c_n = 2 beta sqrt(k_n m_eff), k_n = 2 E_eff a;
-/// independent of speed. With attraction e follows from beta / sqrt(5/6) as in the linear law (Antypov and Elliott
-/// 2011, EPL 94:50004). Without it the equation of motion is integrated to 1e-6. (The polynomial fit of Thornton,
+/// independent of speed. With attraction, e follows from beta / sqrt(5/6) as in the linear law (Antypov and Elliott
+/// 2011, EPL 94:50004). Without it, the equation of motion is integrated to 1e-6. (The polynomial fit of Thornton,
 /// Cummins and Cleary 2013, Powder Technol. 233:30, deviates by up to 0.008 near e = 1.)
 double hertzRestitutionOf(double beta, bool attraction);
 
-/// Damping ratio beta for a given `restitution` in (0, 1]; 0 as above. Inverse of `hertzRestitutionOf`.
+/// Damping ratio beta for a given `restitution` in (0, 1]; 0 as in dampingRatioFor(). Inverse of `hertzRestitutionOf`.
 double hertzDampingRatioFor(double restitution, bool attraction);
 
 /// Elastic Hertz impact at `speed` [m/s]: maximum overlap [m] and duration [s].
@@ -48,7 +48,7 @@ HertzImpact hertzImpact(double effectiveModulus, double effectiveRadius, double 
 /// Integrated to 1e-6.
 double hertzDepthShare(double beta);
 
-/// Travel time of a Rayleigh wave along half the surface of a sphere [s].
+/// Time in which a Rayleigh wave travels half the circumference of a sphere [s].
 double rayleighTime(double radius, double density, double shearModulus, double poisson);
 
 } // namespace grouser::contact

@@ -15,7 +15,7 @@ template <class T> struct RollingMotion {
 
 /// Rolling inertia of a sphere on a fixed surface.
 template <class T> GROUSER_HD T rollingInertia(T mass, T radius) { return ScalarOf<T>(1.4) * mass * radius * radius; }
-/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2), in a form whose products neither overflow nor
+/// Two spheres: 1 / I_r = 1 / (1.4 m_i R_i^2) + 1 / (1.4 m_j R_j^2), in a form without products that overflow or
 /// underflow a float. Swapping i and j changes no bit.
 template <class T> GROUSER_HD T rollingInertia(T massI, T radiusI, T massJ, T radiusJ) {
   const T i = rollingInertia(massI, radiusI), j = rollingInertia(massJ, radiusJ);
@@ -34,14 +34,14 @@ template <class T> GROUSER_HD T rollingStiffness(const BasicLaw<ScalarOf<T>>& la
 ///   M = -k_r angle - c_r spin    with k_r = 2.25 k_n (mu_r R_r)^2,  |M| <= mu_r R_r F_n
 ///
 /// The angle [rad] is the accumulated relative rotation in the tangent plane; at the limit the spring is shortened to
-/// the limit and the dashpot is off. Below, the dashpot may at most raise the torque to the limit: in the paper it may
-/// exceed it many times, so that a fast ball loses several percent of its energy at the instant of contact. Spin about
-/// the normal is not resisted. `pressing`, `normalStiffness` and `change` are those of the reaction; `change`: null if
-/// k_n is constant. With Hertz's law k_r is proportional to k_n, and the spring adapts like the tangential one, without
-/// adding energy. Returns the torque on i [N m]; j receives exactly the opposite. Adds to the dissipation: the dashpot,
-/// with the mid-step spin as if this torque acted alone; at the limit all work except the energy gain of the spring;
-/// and the loss by the stiffness change. T as in contactForce(): one source for the kernels of both devices and for
-/// many contacts at once.
+/// the limit and the dashpot is off. Below the limit, the dashpot may raise the torque at most to the limit. In the
+/// paper the torque may exceed the limit many times, and a fast ball loses several percent of its energy when contact
+/// begins. Spin about the normal is not resisted. `pressing`, `normalStiffness` and `change` are those of the reaction;
+/// `change`: null if k_n is constant. With Hertz's law k_r is proportional to k_n, and the spring adapts like the
+/// tangential one, without adding energy. Returns the torque on i [N m]; j receives exactly the opposite. Adds to
+/// the dissipation: the work of the dashpot, with the mid-step spin as if this torque acted alone; at the limit, all
+/// work except the energy gain of the spring; and the loss by the stiffness change. T as in contactForce(): one source
+/// for the kernels of both devices and for SIMD batches.
 template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarOf<T>>& law, const RollingMotion<T>& m,
                                                           T pressing, T normalStiffness, ScalarOf<T> dt,
                                                           base::Vec3<T>& angle, T& dissipated,
@@ -61,7 +61,7 @@ template <class T> GROUSER_HD base::Vec3<T> rollingTorque(const BasicLaw<ScalarO
   const T limit = law.rollingFriction * m.radius * (pressing > zero ? pressing : zero) * scale;
   const T limit2 = limit * limit, size2 = dot(spring, spring);
   const auto slides = size2 > limit2;
-  // Below the limit the dashpot raises the torque at most to it.
+  // Below the limit, the dashpot raises the torque at most to the limit.
   base::Vec3<T> torque = spring - rolling * (Scalar(2) * law.rollingDamping * squareRoot(inertia * stiffness));
   const T both2 = dot(torque, torque);
   if (const auto beyond = both2 > limit2; base::any(beyond))

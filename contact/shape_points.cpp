@@ -15,10 +15,10 @@ using base::Vec3d;
 
 namespace {
 
-constexpr int kCellsOfEdge = 24, kLeastCells = 4, kMostCells = 48; ///< cells between two edges
-constexpr int kAround = 512;                                       ///< points around a cylinder
-constexpr int kRings = 12;                                         ///< rings of points on the end of a cylinder
-constexpr int kLatitudes = 96;                                     ///< rings of points on a sphere
+constexpr int kCellsOfEdge = 24, kMinCells = 4, kMaxCells = 48; ///< cells between two edges
+constexpr int kAround = 512;                                    ///< points around a cylinder
+constexpr int kRings = 12;                                      ///< rings of points on the end of a cylinder
+constexpr int kLatitudes = 96;                                  ///< rings of points on a sphere
 
 /// Inset of edge points within their face [half of the face], so that a face does not press along its edges while an
 /// adjacent face lies on a plane.
@@ -26,7 +26,7 @@ constexpr double kInset = 0.005;
 
 /// Cells of an interval between two edges, and weight of node k: half at either end (trapezoidal rule).
 int cellsOf(double length, double spacing) {
-  return std::clamp(static_cast<int>(std::ceil(length / spacing - 1e-9)), kLeastCells, kMostCells);
+  return std::clamp(static_cast<int>(std::ceil(length / spacing - 1e-9)), kMinCells, kMaxCells);
 }
 double shareOf(int k, int cells) { return (k == 0 || k == cells ? 0.5 : 1.0) / cells; }
 double nodeOf(int k, int cells) { return (1 - kInset) * (2.0 * k / cells - 1); } ///< position of node k [half interval]

@@ -16,7 +16,7 @@ namespace grouser::contact {
 /// half the face.
 std::vector<SurfaceSample> shapePoints(const SurfaceGeometry& shape);
 
-/// Maximum point spacing of a mesh [m]: 1/40 of the diagonal of its bounding box, of half edges `half` [m].
+/// Maximum point spacing of a mesh [m]: 1/40 of the diagonal of its bounding box. `half`: half edges of the box [m].
 inline double meshSpacing(const base::Vec3d& half) { return norm(half) / 20; }
 
 /// Surface points of a mesh in its own frame, each with its share of the area [m2]: corners of triangles with edges up

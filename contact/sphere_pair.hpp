@@ -17,7 +17,7 @@ template <class T> struct SpherePair {
 template <class T, class Reach> GROUSER_HD SpherePair<T> spherePair(const base::Vec3<T>& apart, const T& distance2,
                                                                     const T& missing2, const Reach& reach,
                                                                     base::ScalarOf<T> unit) {
-  // Whole numbers of units, from 1 to about 2^60.
+  // distance2 is a whole number from 1 to about 2^60.
   const T distance = base::moderateRoot(distance2);
   return {apart * base::moderateInverse(distance), distance * unit,
           base::moderateQuotient(missing2, reach + distance) * unit};

@@ -8,12 +8,12 @@
 namespace grouser::contact {
 
 /// Force [N] of a linear contact at an overlap of one grain radius, or of a Hertz contact at the overlap d with (d /
-/// radius)^1.5 = `hertz`. Sets the scale of the quanta of force and energy sums; the last bits of those sums depend on
-/// it.
+/// radius)^1.5 = `hertz`. Sets the scale of the quanta of force and energy sums, and so affects the last bits of these
+/// sums.
 inline double strongestForce(const ContactLaw& law, double radius, double hertz) {
   return law.stiffness * radius * (law.hertz ? hertz * radius : 1.0);
 }
-/// Returns the law with its squareScale for grains of `radius` [m].
+/// Returns the law with squareScale set for grains of `radius` [m].
 inline ContactLaw scaledFor(ContactLaw law, double radius) {
   int exponent = 0;
   std::frexp(strongestForce(law, radius, 0.1), &exponent);

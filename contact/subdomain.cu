@@ -100,7 +100,7 @@ private:
     return bits;
   }
   GROUSER_HD std::uint64_t slabs(int axis, std::int64_t low, std::int64_t high) const {
-    static_assert(kMostSubdomainsAnAxis <= 64);
+    static_assert(kMaxSubdomainsAnAxis <= 64);
     std::uint64_t bits = 0;
     for (int k = partition.along(axis, low), end = partition.along(axis, high); k <= end; ++k)
       bits |= std::uint64_t{1} << k;
@@ -108,7 +108,7 @@ private:
   }
 };
 
-/// Roles by slot before sorting: owned elements are masters if another rank needs them, else uniques; then ghosts.
+/// Assigns roles by slot before sorting. Owned elements: master if another rank needs it, else unique; then ghosts.
 struct AssignRoles {
   const std::uint32_t* ghostTargets;
   std::uint32_t owned;
@@ -178,7 +178,7 @@ Partition startingPartition(const std::vector<Position>& position, const Partiti
     if (wanted[a] != 0 && wanted[a] != given)
       throw base::InputError(std::string("parallel.cuts_") + "xyz"[a] + " has " + std::to_string(given - 1) +
                              " planes, hence " + std::to_string(given) + " subdomains, but parallel.subdomains is " +
-                             std::to_string(wanted[a]) + " along that axis; make them agree");
+                             std::to_string(wanted[a]) + " along that axis; change one of them");
     wanted[a] = given;
   }
   base::Vec3l low{}, high{};
@@ -290,7 +290,7 @@ Partition Subdomain::balanced(const Position* position, std::size_t slots, doubl
   base::Array<std::int64_t> bins(exec_, 3 * kPartitionBins);
   base::forEach(exec_, "count elements in bins", n, CountInBins{position, role, low, width, bins.data()});
   std::vector<std::int64_t> weight = bins.toHost();
-  // Whole numbers, so that all ranks have the same sums: costs in 1/1024 of the maximum.
+  // Costs are whole numbers, in 1/1024 of the maximum, so that all ranks compute the same sums.
   double dearest = costEach;
   comm_.maximum(&dearest, 1);
   const auto cost = std::max<std::int64_t>(1, static_cast<std::int64_t>(1024 * costEach / dearest));

@@ -15,8 +15,8 @@ namespace grouser::contact {
 
 /// Role of an element in a subdomain that has a copy of it.
 enum class Role : std::uint32_t {
-  unique, ///< needed by no other subdomain; integrated here. Must be 0 for kernels
-  master, ///< centre lies here, within range of a border; integrated here, copied to others as slaves
+  unique, ///< needed by no other subdomain; integrated here. Kernels require the value 0
+  master, ///< centre is here, within range of a border; integrated here, copied to others as slaves
   slave,  ///< copy of a master of another subdomain (ghost): it exerts forces and is not integrated
 };
 

@@ -8,7 +8,7 @@
 
 namespace grouser::contact {
 
-/// Rigid surface shapes whose nearest point has a closed form. Each is centred at the origin of its own frame S.
+/// Rigid surface shapes with a closed form for the nearest point. Each is centred at the origin of its own frame S.
 enum class SurfaceShape : std::int32_t {
   plane,    ///< half-space z < 0
   box,      ///< solid, |x|, |y|, |z| <= half
@@ -132,7 +132,7 @@ inline double thinnest(const SurfaceGeometry& g) {
   return fmin(half.x, fmin(half.y, half.z));
 }
 
-/// Support function: largest p . d of the points p of a surface [m], for a unit vector d in its frame; not of a plane.
+/// Support function: largest p . d over the points p of a surface [m]; d: unit vector in its frame. Not for planes.
 inline double farthestAlong(const SurfaceGeometry& g, const base::Vec3d& d) {
   const double up = fabs(d.z) * g.half.z, across = sqrt(d.x * d.x + d.y * d.y);
   if (g.shape == SurfaceShape::box) return fabs(d.x) * g.half.x + fabs(d.y) * g.half.y + up;

@@ -7,15 +7,15 @@
 #include "contact/patch_law.hpp"
 
 /// Kernel bodies of contacts between extended surfaces. Part A is represented by its samples; the other side is a
-/// Target: another part's table of discs, or the ground. A patch consists of all touching samples of one pair whose
-/// normals belong to one cluster.
+/// Target: another part's table of discs, or the ground. A patch consists of all touching samples of one pair with
+/// normals in one cluster.
 ///
 /// Members required of a Target:
 ///   int pairs                                   number of pairs
 ///   int partA(pair), partB(pair)                 indices into the motions; partB < 0: fixed
 ///   bool near(pair, motion, margin)              true if contact is possible
-///   bool findContact(pair, motion, x, radius, group, normal, overlap)   world point x: outward normal of B, overlap >
-///   0 PatchLaw law(pair)
+///   bool findContact(pair, motion, x, radius, group, normal, overlap)   at world point x: normal of B, overlap > 0
+///   PatchLaw law(pair)
 namespace grouser::contact {
 
 /// Bound of the rounding error of distances in single precision [m].

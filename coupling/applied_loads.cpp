@@ -29,7 +29,7 @@ void AppliedLoads::accountWork(const multibody::State& state, double dt) {
 }
 
 void AppliedLoads::restore(const std::vector<double>& saved) {
-  if (saved.empty()) return; // from a version without applied loads
+  if (saved.empty()) return; // written by a version without applied loads
   if (saved.size() != save().size())
     throw base::InputError("the checkpoint contains a different number of applied-load work values; resume with the "
                            "program version that wrote it");

@@ -73,8 +73,8 @@ Vec3d BodiesInContact::meanForceOn(std::size_t obstacle) const {
 
 void BodiesInContact::enter(Ledger& ledger, multibody::Balance bodies, double potential, double elastic) const {
   const ContactLedger contacts = contacts_ ? contacts_->ledger() : ContactLedger{};
-  // The residual of the grains lacks the impulse of the parts.
-  bodies.linearLeftOver -= contacts.bed.impulseOnGrains, bodies.angularLeftOver += contacts.angularOnParts;
+  // The momentum residual of the grains does not include the impulse of the parts.
+  bodies.linearRemainder -= contacts.bed.impulseOnGrains, bodies.angularRemainder += contacts.angularOnParts;
   enterBodies(ledger, bodies);
   enterGrainParts(ledger, contacts.bed);
   ledger.potential += potential, ledger.elastic += elastic + contacts.elastic();

@@ -71,8 +71,8 @@ protected:
   void addBodies(const MechanismSetup& setup, const multibody::Model& model, const GroundTraits& ground,
                  SphereSets* kept);
 
-  /// Sums over steps of the force of ground and surfaces on each contact part, then of that on each surface, in whole
-  /// quanta, so that checkpoints are exact.
+  /// Sums over steps: the force of ground and surfaces on each contact part, then the force on each surface. The sums
+  /// are whole quanta, so that checkpoints are exact.
   struct ForceMeans {
     std::vector<base::Vec3l> sums;
     std::int64_t steps{0};

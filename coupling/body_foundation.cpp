@@ -22,7 +22,7 @@ namespace {
 bool isRound(const SurfaceGeometry& g) { return g.shape != SurfaceShape::box; }
 bool isBall(const SurfaceGeometry& g) { return g.shape == SurfaceShape::capsule && g.half.z == 0; }
 
-/// Minimum stiffness of a shape about its rest over its faces, strips and caps [N/m]. Forces at the overlap x follow
+/// Minimum stiffness of a shape that rests on one of its faces, strips or caps [N/m]. Forces at the overlap x follow
 /// from the indented volume: box K A x, sphere pi K R x^2, strip of a cylinder 4/3 K L sqrt(2 R) x^(3/2).
 double restingStiffness(const SurfaceGeometry& g, double modulus, double load) {
   const double x = restingOverlap(g, modulus, load), r = g.half.x, length = 2 * g.half.z;
@@ -30,8 +30,8 @@ double restingStiffness(const SurfaceGeometry& g, double modulus, double load) {
   return isBall(g) ? 2 * base::kPi * modulus * r * x : 2 * modulus * length * std::sqrt(2 * r * x);
 }
 
-/// Geometric mean of the rest stiffness on the smallest and the largest patch, so that the damping on both is close to
-/// the intended one [N/m].
+/// Geometric mean of the stiffnesses at rest on the smallest and on the largest patch [N/m], so that the damping on
+/// both is close to the intended value.
 double meanStiffness(const SurfaceGeometry& g, double modulus, double load) {
   const double least = restingStiffness(g, modulus, load);
   if (isBall(g)) return least;

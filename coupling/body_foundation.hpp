@@ -24,15 +24,15 @@ struct FoundationTable {
 };
 
 /// Maximum contact area of a shape on a plane [m2]: a face of a box, the end or a strip of a cylinder, a cap of a
-/// sphere. Strips and caps are those at an overlap of `overlap` [m].
+/// sphere. Areas of strips and caps are those at an overlap of `overlap` [m].
 double largestPatch(const contact::SurfaceGeometry& shape, double overlap);
 
 /// Maximum overlap [m] of a shape on a plane under `load` [N], over its faces, strips and caps.
 double restingOverlap(const contact::SurfaceGeometry& shape, double modulus, double load);
 
 /// Contact law of a shape with its own mass [kg]. The relaxation reproduces the restitution for small bounces of the
-/// free shape about its rest on a plane under `gravity` [m/s2], on a patch of mean stiffness: larger faces and stronger
-/// impacts on curved shapes dissipate more, strips, edges and corners less.
+/// free shape about its rest on a plane under `gravity` [m/s2], on a patch of mean stiffness. Larger faces, and
+/// stronger impacts of curved shapes, dissipate more; strips, edges and corners dissipate less.
 contact::PatchLaw patchLaw(const contact::Foundation& foundation, const contact::SurfaceGeometry& shape, double mass,
                            double gravity);
 

@@ -41,8 +41,8 @@ public:
     for (const multibody::Joint& joint : model.joints()) tied_.insert(std::minmax(joint.bodyA, joint.bodyB));
   }
 
-  /// Uses the points of the smaller shape on the larger one. The law is that of the moving body; if both move, the one
-  /// with the shorter relaxation time.
+  /// Tests the points of the smaller shape against the larger shape. Uses the law of the moving body; if both bodies
+  /// move, the law with the shorter relaxation time.
   void addAmongShapes(ContactParts& all, std::size_t first) const {
     for (std::size_t i = 0; i < shapes_.size(); ++i)
       for (std::size_t j = i + 1; j < shapes_.size(); ++j) {
@@ -57,11 +57,11 @@ public:
       }
   }
 
-  /// Uses the points of the vehicle's shoes, and of all parts cut into spheres, on the shapes.
+  /// Tests the points of the vehicle's shoes, and of all its parts cut into spheres, against the shapes.
   void addOnVehicle(ContactParts& all, std::size_t first) const {
     for (std::size_t part = 0; part < first; ++part) {
       const ContactPart& p = all.parts[part];
-      if (!p.meetsGround && all.surfaces[static_cast<std::size_t>(p.surface)]->spheres.empty()) continue;
+      if (!p.touchesGround && all.surfaces[static_cast<std::size_t>(p.surface)]->spheres.empty()) continue;
       for (std::size_t j = 0; j < shapes_.size(); ++j) {
         const BodyShape& s = shapes_[j];
         if (!mayTouch(p.body, s.body)) continue;
@@ -91,7 +91,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
   const std::size_t first = all.parts.size(), firstSet = all.pointSets;
   const BodyLaws laws(setup, model);
   const int ground = setup.foundations.ground;
-  // Materials of the parts: that of the vehicle, if present, then those of the shapes.
+  // Materials of the parts: the vehicle's material, if there is a vehicle, then the materials of the shapes.
   const int ofVehicle = first > 0 ? 1 : 0;
   std::size_t shown = 0; // number of vehicle parts in the frames
   for (const ContactPart& part : all.parts) shown = std::max(shown, part.shown + 1);
@@ -103,7 +103,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
     const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const auto& b) { return sameSurface(b, s); });
     const auto index = static_cast<std::size_t>(same - shapes.begin());
     if (same == shapes.end()) shapes.push_back(s), surfaces.push_back(s.mesh ? nextMesh++ : -1);
-    all.contactSize = std::min(all.contactSize, leastFeature(s));
+    all.contactSize = std::min(all.contactSize, minFeature(s));
     const multibody::Body& body = bodies[s.body];
     all.parts.push_back({.name = fmt::format("body \"{}\"", body.name),
                          .body = s.body,
@@ -115,7 +115,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
                          .foundation = ground < 0 ? contact::PatchLaw{} : laws.on(ground, s),
                          .material = ofVehicle + s.material,
                          .reach = norm(halfExtent(s.shape)) + norm(s.pose_B.position),
-                         .meetsGround = ground >= 0 && !body.fixed,
+                         .touchesGround = ground >= 0 && !body.fixed,
                          .fixed = body.fixed,
                          .ofBody = true,
                          .shown = shown + s.body - setup.ofVehicle.bodies});

@@ -16,7 +16,7 @@ using base::Vec3d;
 namespace {
 
 /// Upper bound (Gershgorin) of the largest eigenvalue of sum A n n^T over the triangles: the translational stiffness of
-/// a surface on springs of unit stiffness per area [m2]. A box has twice its largest face.
+/// a surface on springs of unit stiffness per area [m2]. For a box it is twice the area of the largest face.
 double facingArea(const base::TriangleMesh& mesh) {
   base::Mat3d sum{};
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3) {
@@ -50,7 +50,7 @@ double halfThickness(const BodyShape& s) {
   return s.mesh ? std::min(ofBox, s.mesh->halfThickness) : ofBox;
 }
 
-double leastFeature(const BodyShape& s) {
+double minFeature(const BodyShape& s) {
   return s.mesh ? std::min(halfThickness(s), 2 * s.mesh->sphereRadius) : halfThickness(s);
 }
 

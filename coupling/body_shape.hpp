@@ -14,11 +14,11 @@
 
 namespace grouser::coupling {
 
-/// A closed mesh whose bounding box is centred at the origin.
+/// A closed mesh with its bounding box centred at the origin.
 struct BodyMesh {
   std::shared_ptr<const spheredecomp::MeshQuery> query;
   double sphereRadius{};    ///< radius of the spheres that represent the mesh in grain contacts [m]
-  bool sphereRadiusGiven{}; ///< radius set in the scene; otherwise a cut may choose a finer one
+  bool sphereRadiusGiven{}; ///< true: radius set in the scene; false: the sphere cut may use a smaller radius
   double halfThickness{};   ///< mean half thickness: volume / area [m]
   double facingArea{};      ///< largest projected area, front plus back [m2]
 };
@@ -42,8 +42,8 @@ double distanceFrom(const BodyShape& shape, const base::Vec3d& p_S);
 /// Minimum half thickness of a shape, at most half the mean thickness of a mesh [m].
 double halfThickness(const BodyShape& shape);
 /// Minimum contact feature [m]: the half thickness; for a mesh, at most its sphere diameter. A shape that moves by more
-/// than half of it in one step could pass through another.
-double leastFeature(const BodyShape& shape);
+/// than half this length in one step could pass through another shape.
+double minFeature(const BodyShape& shape);
 /// Support function: largest p . d over the surface points p [m], for a unit vector d in the shape's frame.
 double farthestAlong(const BodyShape& shape, const base::Vec3d& d);
 /// Sample points for contact with rigid surfaces.

@@ -21,21 +21,20 @@ struct PlacedShape {
   std::vector<contact::SurfaceSample> points;
 };
 
-/// Throws if points of `a` lie too deep in the surface measured by `overlap` [m]. `other`: its name.
+/// Throws if points of `a` are too deep inside the surface measured by `overlap` [m]. `other`: name of that surface.
 void checkDepth(const PlacedShape& a, const std::string& body, const std::string& other, double thickness,
                 const std::function<double(const Vec3d&)>& overlap) {
-  constexpr double kMost = 0.02; // [-] fraction of half the thickness
+  constexpr double kMax = 0.02; // [-] fraction of half the thickness
   double deepest = 0;
   Vec3d place;
   for (const contact::SurfaceSample& s : a.points) {
     const Vec3d p = a.pose.toWorld(s.centre.as<double>());
     if (const double depth = overlap(p); depth > deepest) deepest = depth, place = p;
   }
-  if (deepest <= kMost * thickness) return;
+  if (deepest <= kMax * thickness) return;
   throw base::InputError(fmt::format("{}: body \"{}\" overlaps {} by {:.3g} m at ({:.3g}, {:.3g}, {:.3g}) m at the "
                                      "start, more than {:.3g} m; move the body",
-                                     a.shape.place, body, other, deepest, place.x, place.y, place.z,
-                                     kMost * thickness));
+                                     a.shape.place, body, other, deepest, place.x, place.y, place.z, kMax * thickness));
 }
 
 } // namespace

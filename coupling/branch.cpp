@@ -47,13 +47,13 @@ void branch(SimulationState& state, const VehicleSetup& setup, bool otherDriver,
     driver.restore(vehicle.driver);
   }
   if (!otherHitch) return;
-  if (!vehicle.hitchBooks.empty()) keepWork(state, Towing::workOf(vehicle.hitchBooks));
-  vehicle.hitch.clear(), vehicle.hitchBooks.clear();
+  if (!vehicle.hitchSums.empty()) keepWork(state, Towing::workOf(vehicle.hitchSums));
+  vehicle.hitch.clear(), vehicle.hitchSums.clear();
   if (!setup.hitch) return;
   vehicle::Hitch hitch(*setup.hitch);
   if (asked.driven) hitch.holdFrom(time - *driver.driveStart());
   vehicle.hitch = hitch.save();
-  vehicle.hitchBooks = Towing(*setup.hitch).saveSums();
+  vehicle.hitchSums = Towing(*setup.hitch).saveSums();
 }
 
 } // namespace grouser::coupling

@@ -34,7 +34,7 @@ struct ContactPart {
   int material{};                 ///< index of its material in the list for all parts
   double reach{};                 ///< bounding radius of the surface about its body's centre of mass [m]
   bool meetsGrains = true;        ///< true: in contact with grains
-  bool meetsGround{};             ///< true: in contact with rigid ground as a foot; a hull touches it as an obstacle
+  bool touchesGround{};           ///< true: in contact with rigid ground as a foot; a hull touches it as an obstacle
   bool fixed{};                   ///< immovable body: no contact with surfaces at rest
   bool ofBody{};                  ///< belongs to a [[body]], not to the vehicle
   bool isHull{};                  ///< true: in contact with rigid ground as an obstacle

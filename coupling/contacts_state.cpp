@@ -16,7 +16,7 @@ std::vector<std::uint32_t> ContactsState::words() const {
   std::vector<std::uint32_t> words;
   for (const std::vector<std::uint32_t>& more : {track.words(), ground.words(), bed.words()})
     words.insert(words.end(), more.begin(), more.end());
-  // Only patches in contact: others are not part of the state.
+  // Include only patches in contact; other patches are not part of the state.
   for (std::size_t k = 0; k < surfaces.states.size(); ++k) {
     const contact::PatchState& s = surfaces.states[k];
     if (s.stiffness == 0) continue;

@@ -11,8 +11,8 @@ namespace grouser::coupling {
 
 namespace {
 
-/// Energy error that never raises an alarm [J]: rounding, a small fraction of the whole run, and errors hidden by
-/// springs.
+/// Energy error that never raises an alarm [J]: rounding, a small fraction of all energy exchanged so far, and errors
+/// hidden by springs.
 double neverAlarms(const Ledger& now, double held, double hidden) {
   return EnergyGuard::kRounding * held + EnergyGuard::kQuiet * (now.turnover + std::fabs(now.dissipated.total())) +
          hidden;
@@ -40,10 +40,10 @@ std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) co
     return fmt::format("{} {:.3g} J since the last check (at most {} steps ago), of {:.3g} J exchanged", what, energy,
                        kInterval, x.moved);
   };
-  if (!implicit && x.lost > kMostLost * x.moved + x.neverAlarms) return found("time integration lost", x.lost);
-  if (x.gained > kMostMade * x.moved + x.neverAlarms || -x.lost > kMaxSpuriousDissipation * x.moved + x.neverAlarms)
+  if (!implicit && x.lost > kMaxLost * x.moved + x.neverAlarms) return found("time integration lost", x.lost);
+  if (x.gained > kMaxMade * x.moved + x.neverAlarms || -x.lost > kMaxSpuriousDissipation * x.moved + x.neverAlarms)
     return found("time integration created", -x.lost);
-  if (x.given > kMostGiven * x.moved + x.neverAlarms)
+  if (x.given > kMaxGiven * x.moved + x.neverAlarms)
     return found("the time step is too long: dampers created", x.given);
   return judgeHeat(now, held);
 }
@@ -51,17 +51,17 @@ std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) co
 std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
   if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding dissipates energy created by steps
   const Exchange x = since(now, held);
-  // The elastic energy of a large bed varies before a vehicle has dissipated much; its dashpots then seem to create the
-  // energy that parts dissipate.
-  if (-x.lost > kMostMade * (x.heat + x.lost) + x.neverAlarms)
+  // The elastic energy of a large bed varies before a vehicle has dissipated much; the dashpots of the bed then seem to
+  // create the energy that parts dissipate.
+  if (-x.lost > kMaxMade * (x.heat + x.lost) + x.neverAlarms)
     return fmt::format("time integration created {:.3g} J of the {:.3g} J dissipated since the last check (at most {} "
                        "steps ago)",
                        -x.lost, x.heat, kInterval);
   const double all = now.dissipated.total() - std::min(0.0, now.dissipated.ofGrains()), made = -now.integrationError;
-  const double bed = std::max(mostInGrains_, std::fabs(now.grainElastic));
-  const double hidden = std::clamp(kMostHidden * now.dissipated.ofParts(), kElasticTolerance * bed, kSpringShare * bed);
+  const double bed = std::max(maxInGrains_, std::fabs(now.grainElastic));
+  const double hidden = std::clamp(kMaxHidden * now.dissipated.ofParts(), kElasticTolerance * bed, kSpringShare * bed);
   if (std::max(all, made) <= kAtTheStart * held) return {};
-  if (made > kMostMade * (all - made) + neverAlarms(now, held, hidden))
+  if (made > kMaxMade * (all - made) + neverAlarms(now, held, hidden))
     return fmt::format("time integration created {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }
@@ -69,15 +69,15 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
 void EnergyGuard::look(const Ledger& now) {
   last_ = {now.integrationError, now.turnover, now.dissipated.total(),
            now.driveWork,        now.elastic,  now.dissipated.ofGrains()};
-  mostInGrains_ = std::max(mostInGrains_, std::fabs(now.grainElastic));
+  maxInGrains_ = std::max(maxInGrains_, std::fabs(now.grainElastic));
 }
 
 void EnergyGuard::restore(const std::vector<double>& saved) {
   if (saved.size() != 7)
     throw base::InputError(
-        "the checkpoint has another form of energy guard; resume with the program version that wrote it");
+        "the checkpoint's energy check has a different layout; resume with the program version that wrote it");
   last_ = {saved[0], saved[1], saved[2], saved[3], saved[4], saved[5]};
-  mostInGrains_ = saved[6];
+  maxInGrains_ = saved[6];
 }
 
 } // namespace grouser::coupling

@@ -36,7 +36,7 @@ fluid::FluidSetup FluidDomain::withBodies(const multibody::Model* model, const m
                                           const FluidDomainState* former) {
   fluid::FluidSetup all = setup_.fluid;
   if (former && former->bodies.size() != kNumbers * setup_.bodies.size())
-    throw base::InputError("the fluid in the checkpoint has other bodies; resume with the scene that was run");
+    throw base::InputError("the fluid in the checkpoint has different bodies; resume with the scene that was run");
   for (std::size_t k = 0; k < setup_.bodies.size(); ++k) {
     const BodyInFluid& b = setup_.bodies[k];
     const auto column = std::find(columns_.begin(), columns_.end(), b.column);

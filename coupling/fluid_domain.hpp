@@ -19,13 +19,13 @@ namespace grouser::coupling {
 /// need shorter steps than a fluid. Loads on bodies are those at the start of a fluid step, as for all contacts; the
 /// fluid receives the opposite integers in two half kicks, at the start and end of its step.
 ///
-/// Marker pressures depend on the acceleration of their body, which depends on these pressures (added mass): with the
-/// acceleration of the last step the loop has the gain M_g / m of ghost inertia and mass, and diverges above 1.
+/// Marker pressures depend on the acceleration of their body, which depends on these pressures (added mass). With the
+/// acceleration of the last step, this loop has the gain M_g / m (ghost inertia / mass) and diverges for gains above 1.
 /// Relaxation by 1 / (1 + gain) makes it converge for any gain; a constant acceleration is exact in the limit.
 class FluidDomain {
 public:
-  /// `model`, `bodies`: null without bodies; `former`: saved state to resume, or null. Throws base::InputError if it
-  /// belongs to another scene. `setup` must outlive this object.
+  /// `model`, `bodies`: null without bodies; `former`: saved state to resume, or null. Throws base::InputError if
+  /// `former` belongs to another scene. `setup` must outlive this object.
   FluidDomain(const FluidDomainSetup& setup, const multibody::Model* model, const multibody::State* bodies,
               const base::Exec& exec, const base::Comm& comm = {}, const FluidDomainState* former = nullptr);
   FluidDomainState save() const;

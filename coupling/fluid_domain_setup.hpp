@@ -16,7 +16,7 @@ namespace grouser::coupling {
 /// Body of the model in the fluid.
 struct BodyInFluid {
   std::size_t body{};               ///< index into the model's bodies
-  std::size_t about{};              ///< body whose centre of mass is the reference point of its torque
+  std::size_t about{};              ///< body with the reference point of its torque, the centre of mass
   std::string column;               ///< output column, which sums the loads of its bodies
   std::vector<base::Vec3d> markers; ///< positions in the body frame [m]
   bool touches{};                   ///< see FluidBody
@@ -46,7 +46,7 @@ struct FluidDomainSetup {
 struct FluidDomainState {
   fluid::FluidState fluid;
   /// 18 numbers per body: acceleration for the extrapolation of wall pressures, velocity at the last fluid step, and
-  /// sum of those since, each linear and angular [m/s2, rad/s2, m/s, rad/s].
+  /// sum of the velocities since then, each linear and angular [m/s2, rad/s2, m/s, rad/s].
   std::vector<double> bodies;
   std::int64_t waited{}; ///< simulation steps since the last fluid step
 };

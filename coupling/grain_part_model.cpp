@@ -11,7 +11,7 @@ contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::
   const terrain::GrainModel& bed = grains.model();
   contact::GrainPartModel model;
   model.radius = bed.radius, model.mass = bed.mass, model.timeStep = bed.timeStep;
-  // A grain listed at one end of its half skin may touch at the other.
+  // A listed grain may move by a whole skin: from half a skin on one side of its reference to half on the other.
   model.margin = bed.skin * bed.radius + margin;
   const terrain::GrainConstants& constants = grains.system().constants;
   model.gap = static_cast<double>(constants.marginUnits) * constants.scale.unit; // 0 with penalty contacts
@@ -21,7 +21,7 @@ contact::GrainPartModel grainPartModel(const GrainsSetup& setup, const terrain::
   double pressed = 0;
   for (const contact::ContactLaw& law : setup.partLaws.laws)
     pressed = std::max(pressed, contact::strongestForce(law, bed.radius, contact::kForcePress));
-  // Impulses are summed over the whole run in these quanta: 2^27 steps of a contact at maximum force.
+  // Impulses are summed over the whole run in these quanta, with room for 2^27 steps of a contact at maximum force.
   model.force = base::fixedPointFor(pressed, 36);
   model.torque = base::fixedPointFor(pressed * contact::leverScale(bed.radius), 36);
   model.energy = base::fixedPointFor(pressed * bed.radius, 36);

@@ -18,8 +18,8 @@ namespace grouser::coupling {
 /// Contacts of grains with the parts of a vehicle and of bodies. Each rank computes the contacts of its own grains.
 class GrainsOnParts {
 public:
-  /// `grains` must outlive this object, and this object must outlive their steps: on several ranks it registers with
-  /// their migration, like MeshContacts.
+  /// `grains` must outlive this object, and this object must outlive all steps of `grains`: on several ranks it
+  /// registers with the grain migration, like MeshContacts.
   GrainsOnParts(const PartsOnGround& parts, const GrainsSetup& setup, terrain::Grains& grains, const base::Exec& exec);
   GrainsOnParts(const GrainsOnParts&) = delete;
   GrainsOnParts& operator=(const GrainsOnParts&) = delete;
@@ -32,7 +32,7 @@ public:
 
   /// Names of the parts that overlap a grain, with the overlap [m]; collective.
   std::vector<std::pair<std::string, double>> pressing(std::uint32_t grain) const;
-  /// Sets the number of grain-part pairs that ended in this step, over all ranks.
+  /// Sets the number of pairs with a grain crushed to its centre in this step, over all ranks.
   void countEnded(std::int64_t pairs) { ended_ = pairs; }
   /// Ids of the grains crushed to their centre in this step, over all ranks; collective.
   std::vector<std::uint32_t> endedGrains() const;

@@ -64,7 +64,7 @@ double liftOffGrains(const vehicle::Assembly& assembly, const terrain::Grains& g
       const Vec3d at{grid.x(static_cast<int>(node % static_cast<std::size_t>(grid.columns))),
                      grid.y(static_cast<int>(node / static_cast<std::size_t>(grid.columns))), tops[node]};
       const Vec3d local = s.pose.toBody(at);
-      // Beside the pad a sphere is lower.
+      // Beside the pad, the part of a sphere below the pad is lower than the top of the sphere.
       const double dx = std::max(0.0, std::fabs(local.x) - halfLength),
                    dy = std::max(0.0, std::fabs(local.y) - halfWidth);
       const double beside = std::max(0.0, std::sqrt(dx * dx + dy * dy) - kReach * spacing);

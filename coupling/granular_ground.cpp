@@ -26,7 +26,7 @@ LoadQuanta GranularGround::meet(const PartsOnGround& parts) {
   return onParts_->quanta();
 }
 
-/// Computes walls and floor concurrently; without a vehicle there is no other work.
+/// Starts walls and floor, concurrently with the part contacts. Without parts there is no concurrent work.
 void GranularGround::beginUncoupled() {
   if (onParts_) grains().beginBoundaries();
 }

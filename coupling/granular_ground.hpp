@@ -7,7 +7,7 @@
 
 namespace grouser::coupling {
 
-/// Granular ground: a bed under a vehicle, or grains in a container, in a mixer, or alone. Divided among the ranks.
+/// Granular ground: a bed under a vehicle, or grains in a container, in a mixer, or alone. The ranks share the grains.
 class GranularGround : public Ground {
 public:
   /// `laid`, which must contain grains, and `setup` must outlive this object.

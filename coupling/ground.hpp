@@ -34,14 +34,14 @@ struct SimulationState;
 
 /// Properties of a ground that the assembly of the vehicle depends on.
 struct GroundTraits {
-  base::Comm comm;                                 ///< ranks that share the ground; a single rank: each has all of it
-  ReplicatedWork replicated;                       ///< for work that every rank repeats
-  double smallestGrain = base::kInfinity;          ///< radius [m]; limits the sphere radius of parts
-  const terrain::HeightField* hullMeets = nullptr; ///< rigid surface for the hull, computed with the obstacles
-  bool onHost = false;                             ///< contacts are computed by computeOnHost() instead of compute()
-  bool deforms = false;                            ///< implements fieldsNow(), and has its own energies in the ledger
-  bool solves = false;                             ///< complementarity contacts: solve() computes them
-  bool hasMomentum = false;                        ///< the ledger includes the momentum of the ground; only for grains
+  base::Comm comm;                                  ///< ranks that share the ground; one rank: each has all of it
+  ReplicatedWork replicated;                        ///< for work that every rank repeats
+  double smallestGrain = base::kInfinity;           ///< radius [m]; limits the sphere radius of parts
+  const terrain::HeightField* hullGround = nullptr; ///< rigid surface for the hull, computed with the obstacles
+  bool onHost = false;                              ///< contacts are computed by computeOnHost() instead of compute()
+  bool deforms = false;                             ///< implements fieldsNow(), and has its own energies in the ledger
+  bool solves = false;                              ///< complementarity contacts: solve() computes them
+  bool hasMomentum = false;                         ///< the ledger includes the momentum of the ground; only for grains
 };
 
 /// Parts of a vehicle and of bodies in contact with a ground. Its references must outlive the ground's steps.
@@ -67,8 +67,8 @@ struct ListedContacts {
 /// Ground under a vehicle. Derive from it to add a ground model (CONTRIBUTING.md#adding-a-ground has an example).
 /// Vehicle and step loop access a ground model only through this class. SI units.
 ///
-/// Functions are listed in call order. All are collective, in the same order on all ranks. A ground that is not divided
-/// among ranks is computed by every rank, with identical bits.
+/// Functions are listed in call order. All are collective and called in the same order on all ranks. If a ground is not
+/// divided among ranks, every rank computes it, with identical bits.
 class Ground {
 public:
   Ground() = default;
@@ -82,15 +82,15 @@ public:
   /// if the state belongs to another ground.
   virtual void restore(const SimulationState&) {}
   /// Height of the undisturbed surface at (x, y) [m]; valid as long as the ground. Reference for vehicle placement and
-  /// sinkage. Null if there is none.
+  /// sinkage. Null if the ground has no surface.
   virtual std::function<double(double x, double y)> surface() const = 0;
   /// Called several times; must always return the same result.
   virtual GroundTraits traits() const { return {}; }
   /// Additional height of the assembled vehicle above surface() for a start without contact [m]. Not called for a
   /// resumed simulation.
   virtual double clearance(const vehicle::Assembly&) const { return 0; }
-  /// Receives the parts of the vehicle, once. Without a vehicle neither this nor the contact functions are called, and
-  /// they use no memory. Returns the quanta of compute()'s sums.
+  /// Receives the contact parts, once. Without parts neither this function nor the contact functions are called, and
+  /// contacts use no memory. Returns the quanta of compute()'s sums.
   virtual LoadQuanta meet(const PartsOnGround& parts) = 0;
   /// Restores the history of contacts with the parts, from saveContacts().
   virtual void restoreContacts(const ContactsState&) {}
@@ -108,10 +108,10 @@ public:
   /// Null: always the same memory.
   virtual const void* buffer() const { return nullptr; }
   /// Enqueues the contacts of this step on the device, without waiting. Recorded as a graph on a GPU, so launches must
-  /// be the same in every step between two calls of refreshContacts(). Adds to loads[c] force and torque on contact
-  /// part c about its centre of mass, as order-independent integer sums. loads[number of parts] belongs to the ground
-  /// itself. `exec`: another stream than that of the track contacts. `travelled`, on the device: maximum travel of a
-  /// part since refreshContacts() [m].
+  /// be the same in every step between two calls of refreshContacts(). Adds the force and torque on contact part c
+  /// about its centre of mass to loads[c], as order-independent integer sums. loads[number of parts] belongs to the
+  /// ground itself. `exec`: a stream other than that of the track contacts. `travelled`, on the device: maximum
+  /// travel of a part since refreshContacts() [m].
   virtual void compute(const base::Exec&, const base::Array<contact::PartMotion>&, const double* /*travelled*/,
                        contact::PartLoad* /*loads*/) {
     throw std::logic_error("a ground without onHost must override compute()");
@@ -150,9 +150,9 @@ public:
 
   // State: everything that later steps depend on, for hash and checkpoint.
 
-  /// Writes the ground's own state: grains to `grains`, other kinds as an array of numbers to `ground`.
+  /// Writes the ground's own state: grains to `grains`, other kinds of ground as an array of numbers to `ground`.
   virtual void save(SimulationState&) const {}
-  /// Writes the history of contacts with the parts to `ground` or `bed`; other kinds may write it in save().
+  /// Writes the history of contacts with the parts to `ground` or `bed`; other kinds of ground may write it in save().
   virtual void saveContacts(ContactsState&) const {}
 };
 

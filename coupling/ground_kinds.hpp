@@ -9,7 +9,7 @@
 namespace grouser::coupling {
 
 /// Creates the ground of a scene: of the kind in `setup`, else granular if there are grains, else rigid; null if there
-/// is neither. Both arguments must outlive it.
+/// is neither. Both arguments must outlive the ground.
 std::unique_ptr<Ground> makeGround(LaidGround& laid, const GroundSetup& setup, const base::Exec& exec);
 
 } // namespace grouser::coupling

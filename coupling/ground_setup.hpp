@@ -33,7 +33,7 @@ struct SettleSetup {
 
 /// Bed composed of copies of one settled tile.
 struct TileSetup {
-  std::shared_ptr<const GroundSetup> ground;   ///< ground of the tile alone: level, with periodic boundaries
+  std::shared_ptr<const GroundSetup> ground;   ///< ground of a single tile: level, with periodic boundaries
   std::array<double, 2> size{}, terrainSize{}; ///< [m] along x, y
   std::array<std::int64_t, 2> copies{};
   std::array<bool, 2> periodic{}; ///< periodicity of the whole terrain
@@ -103,7 +103,7 @@ struct GroundSetup {
   std::vector<SurfaceSetup> surfaces;          ///< for contact with grains: moving or named planes, boxes, ...
   std::vector<Obstacle> obstacles;             ///< for contact with parts of the vehicle
   std::optional<GrainsSetup> grains;
-  /// Creates a ground that is neither granular nor rigid; empty: see makeGround(). Its arguments must outlive it.
+  /// Creates a ground that is neither granular nor rigid; empty: see makeGround(). The arguments must outlive it.
   std::function<std::unique_ptr<Ground>(const GroundSetup&, const base::Exec&)> otherKind;
 };
 

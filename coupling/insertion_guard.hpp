@@ -9,8 +9,8 @@
 
 namespace grouser::coupling {
 
-/// Makes `grains` reject entering grains that would overlap others: InputError before the first step, SimulationError
-/// later, both with the name of the source. `surfaces`: names of the grains' surfaces.
+/// Makes `grains` reject entering grains that would overlap grains or surfaces: InputError before the first step,
+/// SimulationError later, both with the name of the source. `surfaces`: names of the grains' surfaces.
 void guardInsertion(terrain::Grains& grains, const Sources& sources, const std::vector<std::string>& surfaces);
 
 } // namespace grouser::coupling

@@ -78,7 +78,7 @@ terrain::BedStructure structureOf(const LaidGround& ground) {
 }
 
 void checkStructure(const BedSetup& bed, const terrain::BedStructure& structure) {
-  constexpr std::int64_t kEnough = 200; // minimum number of grains; the porosity of fewer is too uncertain
+  constexpr std::int64_t kEnough = 200; // minimum number of grains; with fewer the porosity is too uncertain
   if (!bed.densest || structure.grains < kEnough || 1 - structure.porosity <= *bed.densest) return;
   throw base::SimulationError(
       fmt::format("the settled bed has a solid fraction of {:.4f}, but disordered grains of these radii reach at most "

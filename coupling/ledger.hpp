@@ -89,14 +89,14 @@ struct Ledger {
 
   std::int64_t grainContacts{}, boundaryContacts{}, partContacts{}, patches{};
   /// Number of overlaps above a fifth of the grain radius: grain-grain; with planes, floor and surfaces; with parts.
-  std::int64_t squeezedPairs{}, squeezedAtBoundaries{}, squeezedByParts{};
+  std::int64_t deepPairs{}, deepAtBoundaries{}, deepByParts{};
   std::int64_t cappedNow{};                ///< current number of contacts with parts at the crushing force of the grain
   double cutImpulse{};                     ///< cumulative impulse removed by the crushing force cap [N s]
   double deepestOverlap{}, fastestGrain{}; ///< [m], [m/s]
 
   /// Subtracts `start`, and computes integrationError and residual.
   void countFrom(const Ledger& start);
-  /// Shifts the start by the change between two ledgers without a step, e.g. when grains enter.
+  /// Shifts the reference by the change between two ledgers without a step, e.g. when grains enter.
   void move(const Ledger& before, const Ledger& after);
 
   /// Accumulated values in a fixed order, for checkpoints.

@@ -15,14 +15,14 @@ void enterGrains(Ledger& l, const terrain::GrainLedger& g) {
   l.momentum += g.momentum, l.angularMomentum += g.angularMomentum;
   l.momentumResidual += g.momentum - g.impulse, l.angularResidual += g.angularMomentum - g.angularImpulse;
   l.grainContacts += g.contacts, l.boundaryContacts += g.boundaryContacts;
-  l.squeezedPairs += g.squeezed, l.squeezedAtBoundaries += g.squeezedAtBoundaries;
+  l.deepPairs += g.squeezed, l.deepAtBoundaries += g.deepAtBoundaries;
   l.deepestOverlap = g.deepestOverlap, l.fastestGrain = g.fastest;
 }
 
 void enterGrainParts(Ledger& l, const contact::GrainPartContacts::Ledger& c) {
   l.dissipated.damping += c.damped, l.dissipated.friction += c.rubbed, l.dissipated.microSlip += c.slipped;
   l.dissipated.rolling += c.rolled, l.dissipated.crushing += c.crushed;
-  l.partContacts += c.contacts, l.squeezedByParts += c.squeezed;
+  l.partContacts += c.contacts, l.deepByParts += c.squeezed;
   l.cappedNow += c.capped, l.cutImpulse += c.cutImpulse;
 }
 
@@ -35,7 +35,7 @@ void enterBodies(Ledger& l, const multibody::Balance& b) {
   l.kinetic += b.now.kinetic, l.work += b.now.kinetic - b.leftOver, l.turnover += b.turnover;
   l.driveWork += b.driveWork, l.dissipated.joints += b.dissipated();
   l.momentum += b.now.linearMomentum, l.angularMomentum += b.now.angularMomentum;
-  l.momentumResidual += b.linearLeftOver, l.angularResidual += b.angularLeftOver;
+  l.momentumResidual += b.linearRemainder, l.angularResidual += b.angularRemainder;
 }
 
 } // namespace grouser::coupling

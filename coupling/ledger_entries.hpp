@@ -29,7 +29,7 @@ void enterGrains(Ledger& ledger, const terrain::GrainLedger& grains);
 void enterGrainParts(Ledger& ledger, const contact::GrainPartContacts::Ledger& contacts);
 /// Adds a fluid. Its kinetic energy also counts as work, since the work on particles is not recorded.
 void enterFluid(Ledger& ledger, const fluid::FluidTotals& fluid);
-/// Adds bodies without their potential and elastic energies, which the caller counts from another start.
+/// Adds bodies without their potential and elastic energies: the caller adds these with another reference.
 void enterBodies(Ledger& ledger, const multibody::Balance& bodies);
 
 } // namespace grouser::coupling

@@ -17,9 +17,9 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// The longest stable step is proportional to 1 / sqrt(tension). It is recomputed when the largest force reaches
-/// kTensionShare of the limit of the current step, but not before it has grown by kLeastGrowth (an unstable oscillation
-/// soon does), and at the latest when it has grown by kMostGrowth, since poses change too [-].
-constexpr double kTensionShare = 0.5, kLeastGrowth = 1.05, kMostGrowth = 4;
+/// kTensionShare of the limit for the current step, but not before this force has grown by kMinGrowth (as it soon
+/// does in an unstable oscillation), and at the latest when it has grown by kMaxGrowth, since poses change too [-].
+constexpr double kTensionShare = 0.5, kMinGrowth = 1.05, kMaxGrowth = 4;
 
 /// Steps per bounce off an end stop, as chosen by "auto" [-].
 constexpr double kBounceSteps = 20;
@@ -39,7 +39,7 @@ Mechanism::Mechanism(const MechanismSetup& setup, double timeStep, const base::E
   if (setup.shapes.empty()) return;
   const GroundTraits traits = ground ? ground->traits() : GroundTraits{};
   addBodies(setup, model_, traits, kept);
-  replicated_ = traits.replicated, mostTravel_ = 0.5 * std::min(traits.smallestGrain, contactParts_.contactSize);
+  replicated_ = traits.replicated, maxTravel_ = 0.5 * std::min(traits.smallestGrain, contactParts_.contactSize);
   contacts_ = std::make_unique<PartContacts>(contactParts_, nullptr, obstacles, exec, timeStep_, ground, kept);
 }
 
@@ -97,7 +97,7 @@ void Mechanism::advance() {
 /// through it without contact.
 void Mechanism::checkTravel() const {
   const double way = contacts_->lastTravel();
-  if (!(way > mostTravel_)) return;
+  if (!(way > maxTravel_)) return;
   std::size_t fastest = 0;
   double speed = -1;
   for (const ContactPart& part : contactParts_.parts) {
@@ -108,7 +108,7 @@ void Mechanism::checkTravel() const {
        fmt::format("body \"{}\" moves at up to {:.4g} m/s, {:.4g} m a step, more than {:.4g} m, half the radius of the "
                    "smallest grain or a quarter of the thinnest shape: it could pass through without contact; set "
                    "run.time_step to {} s or less, or limit its drive",
-                   model_.bodies()[fastest].name, speed, way, mostTravel_, base::roundedDown(mostTravel_ / speed, 4)));
+                   model_.bodies()[fastest].name, speed, way, maxTravel_, base::roundedDown(maxTravel_ / speed, 4)));
 }
 
 void Mechanism::watchDrift() {
@@ -123,8 +123,8 @@ void Mechanism::judge() {
   judgeTurns();
 }
 
-/// A large rotation per step makes a body precess too slowly: one of moments 1, 1, 2 with spin (0.5, 0, 1) by 0.07 % at
-/// 0.1 rad a step, 0.65 % at a turn in 20 steps, 3.4 % at 0.75 rad (measured).
+/// A large rotation per step makes a body precess too slowly: with moments of inertia 1, 1, 2 and spin (0.5, 0, 1), by
+/// 0.07 % at 0.1 rad per step, 0.65 % at 20 steps per turn, and 3.4 % at 0.75 rad per step (measured).
 void Mechanism::judgeTurns() const {
   for (std::size_t b = 0; b < state_.twist.size(); ++b) {
     const double rate = norm(state_.twist[b].w), turn = timeStep_ * rate;
@@ -150,12 +150,12 @@ void Mechanism::judgeTension() {
        fmt::format(
            "transverse oscillations of tensioned joints may have grown {:g} times: the time step stays above the "
            "stability limit, now {:.3g} times ({}): {}; set run.time_step to {} s or less",
-           SwingGrowth::kMost, r, part, tensionStepWarning_, base::roundedDown(0.5 * timeStep_ / r, 4)));
+           SwingGrowth::kMax, r, part, tensionStepWarning_, base::roundedDown(0.5 * timeStep_ / r, 4)));
 }
 
 /// Growing forces in joints and springs reduce the longest stable step. The limit is recorded, and enforced from the
 /// next check on: a peak may pass before any oscillation has grown. The first tension above the limit is kept, not the
-/// largest, since later ones contain the forces of the oscillation itself.
+/// largest, since later tensions include the forces of the oscillation itself.
 void Mechanism::watchTension() {
   double force = 0;
   for (const multibody::JointReading& joint : state_.joint) force = std::max(force, norm(joint.force));
@@ -163,8 +163,7 @@ void Mechanism::watchTension() {
   if (!(force > boundedTension_)) return;
   const double most = checkTension();
   overTension_ = timeStep_ >= most;
-  boundedTension_ =
-      force * std::clamp(kTensionShare * (most / timeStep_) * (most / timeStep_), kLeastGrowth, kMostGrowth);
+  boundedTension_ = force * std::clamp(kTensionShare * (most / timeStep_) * (most / timeStep_), kMinGrowth, kMaxGrowth);
 }
 
 /// Longest stable step under the current tension [s].

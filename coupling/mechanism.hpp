@@ -23,8 +23,8 @@ namespace grouser::coupling {
 /// Moving mechanism of a scene: model, state and solver, with drives that follow their laws over time.
 class Mechanism : public BodiesInContact {
 public:
-  /// `ground`: in contact with the bodies' shapes, must outlive it; null without. `obstacles`: surfaces at rest in
-  /// contact with the shapes. `kept` as in VehicleParts.
+  /// `ground`: ground in contact with the bodies' shapes; may be null; must outlive this object. `obstacles`: surfaces
+  /// at rest in contact with the shapes. `kept` as in VehicleParts.
   Mechanism(const MechanismSetup& setup, double timeStep, const base::Exec& exec = base::cpuExec(1),
             Ground* ground = nullptr, const std::vector<Obstacle>& obstacles = {}, SphereSets* kept = nullptr);
 
@@ -56,9 +56,9 @@ public:
     return solver_.stabilityLimit() / solver_.geometricStiffnessRate(state_, loads_, part);
   }
   /// Message with the time and place at which the tension of joints and springs first required a shorter step, and the
-  /// length of that step; empty: never so far.
+  /// length of that step; empty if that has not happened so far.
   const std::string& tensionStepWarning();
-  /// Message about an end stop with too few steps per bounce; empty: none, or error-controlled steps.
+  /// Message about an end stop with too few steps per bounce; empty if there is none, or if steps are error-controlled.
   std::string bounceNote();
 
   /// Constraint errors of the joints.
@@ -103,7 +103,7 @@ private:
   std::unique_ptr<StepController> controller_; ///< null: fixed steps
   std::vector<double> startTurn_;              ///< rotation of each body in the first step [rad]
   AppliedLoads applied_;                       ///< external loads, if bodies have contacts
-  double mostTravel_ = 0;                      ///< maximum travel of a surface point in a step [m]
+  double maxTravel_ = 0;                       ///< maximum travel of a surface point in a step [m]
 };
 
 } // namespace grouser::coupling

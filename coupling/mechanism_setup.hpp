@@ -46,7 +46,7 @@ struct MechanismSetup {
 };
 
 /// Adds the bodies' shapes to the contact parts. Shapes of one body, of two fixed bodies and of two bodies connected by
-/// a joint do not touch each other. `model`: the setup's, or that of the vehicle with the bodies; the existing parts of
+/// a joint do not touch each other. `model`: model of the setup, or of the vehicle with the bodies. Parts already in
 /// `all` are the vehicle's. The caller appends the sphere sets of meshCuts() to `all.surfaces`.
 void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibody::Model& model);
 

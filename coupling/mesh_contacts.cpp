@@ -46,12 +46,12 @@ MeshContacts::MeshContacts(const GroundSetup& setup, const base::Exec& exec, ter
   loads_.resize(sets_.size());
 }
 
-/// Depends only on the motions, so it is equal on all ranks.
+/// Depends only on the motions, so the result is equal on all ranks.
 bool MeshContacts::haveLeft(const std::vector<contact::PartMotion>& motions) const {
   if (listedAt_.empty()) return true;
   for (std::size_t k = 0; k < motions.size(); ++k) {
     const contact::PartMotion &was = listedAt_[k], &is = motions[k];
-    double turned = 0; // sum of the chords of three axes: no less than the norm of the turn
+    double turned = 0; // sum of the chords of three axes; an upper bound of the rotation
     for (int column = 0; column < 3; ++column) {
       Vec3d chord;
       for (int row = 0; row < 3; ++row) chord[row] = is.rotation.m[row][column] - was.rotation.m[row][column];

@@ -19,8 +19,8 @@ PartCut meshCut(const SurfaceSetup& surface, double contactSize);
 /// meshes share one material.
 class MeshContacts {
 public:
-  /// Registers with the grains' migration, so that history follows them to other ranks; must outlive their steps.
-  /// `kept`: source of sphere sets; null: all meshes are cut.
+  /// Registers with the grain migration, so that history follows the grains to other ranks; must outlive all steps of
+  /// `grains`. `kept`: source of sphere sets; null: all meshes are cut.
   MeshContacts(const GroundSetup& setup, const base::Exec& exec, terrain::Grains& grains, SphereSets* kept);
   MeshContacts(const MeshContacts&) = delete;
   MeshContacts& operator=(const MeshContacts&) = delete;

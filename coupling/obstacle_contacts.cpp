@@ -72,15 +72,15 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
 
 namespace {
 
-constexpr double kMostLift = 0.1; // [m]
-constexpr double kClear = 1e-4;   // [m] gap between the two
-constexpr int kMostTries = 1000;  // more lifts indicate that the vehicle is beside a wall
+constexpr double kMaxLift = 0.1; // [m]
+constexpr double kClear = 1e-4;  // [m] gap between part and obstacle
+constexpr int kMaxTries = 1000;  // more lifts indicate that the vehicle is beside a wall
 
 /// Assembled part in the world.
 struct Placed {
   base::Pose pose; ///< X_WP
   const base::SphereSet* set;
-  double reach; ///< about the pose's origin [m]
+  double reach; ///< bounding radius about the pose's origin [m]
   std::string name;
 };
 
@@ -116,7 +116,7 @@ double liftOffObstacles(const multibody::Model& model, const ContactParts& parts
   if (obstacles.empty()) return 0;
   const std::vector<Placed> placed = placedParts(model, parts);
   double lift = 0;
-  for (int tries = 0; tries < kMostTries; ++tries) {
+  for (int tries = 0; tries < kMaxTries; ++tries) {
     double most = 0;
     const Placed* part = nullptr;
     const Obstacle* obstacle = nullptr;
@@ -125,11 +125,11 @@ double liftOffObstacles(const multibody::Model& model, const ContactParts& parts
         if (const double depth = depthIn(p, o.surface, lift); depth > most) most = depth, part = &p, obstacle = &o;
     if (!part) return lift;
     lift += most + kClear;
-    if (lift > kMostLift || tries + 1 == kMostTries)
+    if (lift > kMaxLift || tries + 1 == kMaxTries)
       throw base::InputError(fmt::format(
           "{}: overlaps the {} at the vehicle's start; raising the vehicle by {} mm does not clear it; move it or "
           "vehicle.position",
-          obstacle->surface.place, part->name, 1e3 * kMostLift));
+          obstacle->surface.place, part->name, 1e3 * kMaxLift));
   }
   return lift;
 }

@@ -50,8 +50,8 @@ private:
   std::unique_ptr<terrain::RigidContacts> contacts_;
 };
 
-/// Additional lift of a vehicle so that no part overlaps an obstacle [m]; 0 if none does. Throws InputError with the
-/// obstacle's location in the scene if it exceeds 10 cm.
+/// Additional lift of a vehicle so that no part overlaps an obstacle [m]; 0 if no part does. Throws InputError with the
+/// obstacle's location in the scene if the lift exceeds 10 cm.
 double liftOffObstacles(const multibody::Model& model, const ContactParts& parts,
                         const std::vector<Obstacle>& obstacles);
 

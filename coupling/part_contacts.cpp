@@ -68,7 +68,7 @@ void PartContacts::makeTrack() {
 void PartContacts::makeObstacles(const std::vector<Obstacle>& obstacles, SphereSets* kept) {
   const bool hullTouches =
       std::any_of(parts_.parts.begin(), parts_.parts.end(), [](const ContactPart& part) { return part.isHull; });
-  obstacles_ = ObstacleContacts::make(parts_, obstacles, hullTouches ? traits_.hullMeets : nullptr,
+  obstacles_ = ObstacleContacts::make(parts_, obstacles, hullTouches ? traits_.hullGround : nullptr,
                                       {quanta_, timeStep_}, traits_.comm, kept);
 }
 
@@ -102,7 +102,7 @@ void PartContacts::compute(StepObserver* observer) {
   if (usesDevice())
     graph_.from(ground_ ? ground_->buffer() : nullptr).run([this] {
       uploadPoses();
-      // Concurrently: both write different parts of loadSums_, and read the same poses.
+      // These run concurrently: they write to different parts of loadSums_ and only read the poses.
       side_.fork();
       computeGround(side_.exec());
       computeTrack();
@@ -130,8 +130,8 @@ void PartContacts::computeOnHost() {
   computeRigid();
 }
 
-/// Writes the travel to the pinned memory copied by uploadPoses(). Not part of the graph, whose host code runs only
-/// during recording.
+/// Writes the travel to the pinned memory copied by uploadPoses(). Must stay outside the graph, since host code in a
+/// graph runs only during recording.
 void PartContacts::noteTravel() { travelled_.host()[0] = 2 * relativeTravel_, travelled_.host()[1] = absoluteTravel_; }
 
 void PartContacts::uploadPoses() {
@@ -202,7 +202,7 @@ void PartContacts::solve(contact::BodyResponse& bodies, multibody::Loads& loads)
   for (std::size_t c = 0; c < parts_.count(); ++c) addGroundLoad(c, loads.external[parts_.parts[c].body]);
 }
 
-/// Integer sums are identical on all ranks, in any order: every rank moves the vehicle identically.
+/// Integer sums are identical on all ranks, in any order, so every rank moves the vehicle identically.
 void PartContacts::sumGroundLoads() {
   const std::size_t n = parts_.count();
   contact::PartLoad* const ground = groundLoads();
@@ -259,7 +259,7 @@ void PartContacts::trackTravel(const multibody::State& state) {
 }
 
 /// In a step launched ahead a part may move up to four times as far as in the previous step.
-bool PartContacts::listsHold(bool ahead) const {
+bool PartContacts::listsAreValid(bool ahead) const {
   if (!ahead) return !trackHasLeft() && !groundHasLeft();
   const bool track = !track_ || 2 * (relativeTravel_ + std::max(4 * lastRelative_, kAhead / 2)) <= kTrackMargin;
   return track && absoluteTravel_ + std::max(4 * lastAbsolute_, kAhead) <= kGroundMargin;
@@ -288,11 +288,11 @@ void PartContacts::launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, G
     track_->computeOnCleared(side_.exec(), motion_.device(), travelled_.device().data(), track, gate.calledOff());
   bed.computeOnCleared(exec_, grains.view(), motion_.device(), ground, gate.calledOff());
   side_.fork(); // the host receives the loads while the grains advance
-  gate.tell(side_.exec(), base::Gate::kFirst, std::array{base::Parcel{loadSums_.host(), track, loadSums_.bytes()}});
+  gate.signal(side_.exec(), base::Gate::kFirst, std::array{base::Parcel{loadSums_.host(), track, loadSums_.bytes()}});
   grains.launchGrains(onGrains.loads());
   side_.join();
   grains.joinGrains();
-  gate.tell(exec_, base::Gate::kSecond, std::array{grains.flagsAfter()});
+  gate.signal(exec_, base::Gate::kSecond, std::array{grains.flagsAfter()});
 }
 
 ContactLedger PartContacts::ledger() const {

@@ -37,8 +37,8 @@ public:
     const vehicle::Assembly& assembly;
     const VehicleParts& parts;
   };
-  /// `parts`, `gear` and `ground` must outlive it. `gear`: running gear with contacts between its parts; null without.
-  /// `ground`: ground in contact with the parts; null without. `kept` as in VehicleParts.
+  /// `parts`, `gear` and `ground` must outlive this object. `gear`: running gear with contacts between its parts.
+  /// `ground`: ground in contact with the parts. Both may be null. `kept` as in VehicleParts.
   PartContacts(const ContactParts& parts, const RunningGear* gear, const std::vector<Obstacle>& obstacles,
                const base::Exec& exec, double timeStep, Ground* ground, SphereSets* kept);
   PartContacts(const PartContacts&) = delete;
@@ -48,7 +48,7 @@ public:
   void setPoses(const multibody::State& state);
   /// `groundListsEnded`: result of Ground::refreshLists().
   void refreshLists(bool groundListsEnded);
-  /// Enqueues the contacts on the device, without waiting, and computes those of the host. `observer`: called after
+  /// Enqueues the contacts on the device, without waiting, and computes the host contacts. `observer`: called after
   /// each kind of contact.
   void compute(StepObserver* observer);
   /// Applies the loads, summed over all ranks, to the bodies, after the device has finished. Complementarity contacts
@@ -63,8 +63,8 @@ public:
   void trackTravel(const multibody::State& state);
 
   // Grain step launched ahead of its poses; see StepsAhead.
-  /// Enqueues walls, floor and the grains without listed parts; behind the gate the part contacts, then the other
-  /// grains; then copies the loads and the flags of the grains to the host.
+  /// Enqueues walls, floor and the grains without listed parts; then, behind the gate, the part contacts and the other
+  /// grains; then copies of the loads and of the grain flags to the host.
   void launchAhead(base::Gate& gate, terrain::GrainsAhead& grains, GrainsOnParts& onGrains);
   /// Call before the gate opens: sets the data read by the device in addition to the poses.
   void noteTravel();
@@ -72,7 +72,7 @@ public:
   void computeOnHost();
   /// True if the lists are valid for the current poses; `ahead`: also for those of the next step, unless a part is
   /// thrown off.
-  bool listsHold(bool ahead = false) const;
+  bool listsAreValid(bool ahead = false) const;
   double lastTravel() const { return lastAbsolute_; } ///< upper bound of the travel of surface points in the last step
   std::int64_t listings() const { return listings_; }
 

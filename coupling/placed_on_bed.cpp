@@ -133,19 +133,19 @@ void requireRoomInBed(const SurfaceSetup& surface, const std::vector<Row>& rows,
   const Deepest d = deepestIn(surface, rows, comm);
   if (!(d.share > kPressed)) return;
   throw base::InputError(fmt::format(
-      "{}: {} would lie {:.3g} m deep in grain {} of the settled bed, radius {:g} m at {}, more than {:g} of the "
+      "{}: {} would penetrate {:.3g} m into grain {} of the settled bed, radius {:g} m at {}, more than {:g} of the "
       "radius; set above_bed [m] to place it on the settled bed, move it, or set placed = \"before\" to lay the bed "
       "around it",
       surface.place, surface.name, d.depth, d.grain.id, d.grain.radius, pointOf(d.grain.position), kPressed));
 }
 
-/// Checks overlaps that Grains::add() cannot: with meshes, and with walls if the height was not known before.
+/// Checks overlaps that Grains::add() does not check: with meshes, and with walls if the height was not known before.
 void requireRoomFor(const PlacedGrains& section, const GroundSetup& scene) {
   const GrainsSetup& all = *scene.grains;
   const auto refuse = [&](const terrain::GrainSpec& g, double depth, const std::string& what) {
     if (depth > all.model.maxEntryOverlap * g.radius)
-      throw base::InputError(fmt::format("{}: a grain of radius {:g} m at {} would lie {:.3g} m deep in {}, more than "
-                                         "{:g} of its radius (run.max_overlap); move it",
+      throw base::InputError(fmt::format("{}: a grain of radius {:g} m at {} would penetrate {:.3g} m into {}, more "
+                                         "than {:g} of its radius (run.max_overlap); move it",
                                          section.place, g.radius, pointOf(g.position), depth, what,
                                          all.model.maxEntryOverlap));
   };
@@ -186,8 +186,8 @@ void makeGrains(LaidGround& ground, const GroundSetup& scene, const std::vector<
   guardInsertion(*ground.grains, g.sources, namesOfShapes(scene));
 }
 
-/// Index of each boundary of the bed among those of the scene: walls, floor contacts, then surfaces. With larger grains
-/// a floor may have more contacts per grain than before.
+/// Index of each boundary of the bed among those of the whole scene: walls, floor contacts, then surfaces. With larger
+/// grains a floor may have more contacts per grain than before.
 std::vector<std::size_t> boundariesInScene(const GroundSetup& scene, const terrain::GrainLayout& alone,
                                            const terrain::GrainLayout& layout) {
   std::size_t surfaces = 0, later = 0;
@@ -335,7 +335,7 @@ void extendBedToScene(LaidGround& ground, const GroundSetup& scene, const base::
     materials[k] = static_cast<int>(std::find(all.materials.begin(), all.materials.end(), alone.materials[k]) -
                                     all.materials.begin());
   const std::vector<terrain::GrainSpec> start = specsOf(bed, alone.model, scale, materials, comm);
-  ground.grains.reset(); // frees memory, which may not suffice for both
+  ground.grains.reset(); // frees memory, which may not suffice for both sets of grains
   makeGrains(ground, scene, start, exec, comm);
   GrainState rows = ground.grains->state();
   takeMotion(bed, scale.unit == ground.grains->scale().unit, rows);
@@ -360,7 +360,7 @@ void putGrains(LaidGround& ground, const GroundSetup& scene) {
   for (const PlacedGrains& p : scene.grains->onBed) {
     grains.onInsertionOverlap([&](const terrain::InsertionOverlap& o) {
       throw base::InputError(fmt::format(
-          "{}: its grain at {} would lie {:.3g} m deep in {}, more than {:g} of the radius (run.max_overlap); set "
+          "{}: its grain at {} would penetrate {:.3g} m into {}, more than {:g} of the radius (run.max_overlap); set "
           "above_bed [m] to place it on the settled bed, or move it",
           p.place, pointOf(p.grains[o.entering].position), o.overlap,
           o.grain ? fmt::format("grain {} at {}", *o.grain, pointOf(o.position)) : namesOfShapes(scene)[o.surface],

@@ -16,8 +16,8 @@ using base::Vec3d;
 
 namespace {
 
-/// Contacts with normals at a cosine below kAgainst pinch the grain; a velocity at a cosine to gravity above kDownwards
-/// counts as a fall.
+/// Two contacts pinch the grain if the cosine between their normals is below kAgainst. The grain falls if the cosine
+/// between its velocity and gravity is above kDownwards.
 constexpr double kAgainst = -0.3, kDownwards = 0.8;
 
 /// A sphere on some rank.
@@ -99,8 +99,8 @@ void addRigid(std::vector<PressedGrain::Presser>& by, const GroundSetup& setup,
 
 } // namespace
 
-PressedGrain pressedGrain(const terrain::Grains& grains, const GroundSetup& setup,
-                          const std::function<base::Pose(std::size_t)>& surfacePose, std::uint32_t id) {
+PressedGrain excessiveOverlap(const terrain::Grains& grains, const GroundSetup& setup,
+                              const std::function<base::Pose(std::size_t)>& surfacePose, std::uint32_t id) {
   const terrain::GrainSnapshot block = grains.snapshot();
   const std::optional<Found> own = findGrain(grains, block, id);
   if (!own) return {};
@@ -117,9 +117,9 @@ std::string PressedGrain::sentence() const {
     for (std::size_t i = 0; i < j; ++i)
       if (dot(by[i].normal, by[j].normal) < kAgainst)
         return fmt::format("it is pinched between {} and {}", named(by[i]), named(by[j]));
-  constexpr std::size_t kMostNamed = 3;
+  constexpr std::size_t kMaxNamed = 3;
   std::string all;
-  for (std::size_t i = 0; i < std::min(kMostNamed, by.size()); ++i)
+  for (std::size_t i = 0; i < std::min(kMaxNamed, by.size()); ++i)
     all += (i == 0 ? "it is pressed by " : ", ") + named(by[i]);
   return all;
 }

@@ -7,8 +7,8 @@
 
 namespace grouser::coupling {
 
-/// Runs work repeated by every rank (bodies and track of the vehicle) and reports its duration, which the load balance
-/// subtracts from the rank's busy time, since no subdomain cut could move it. On a single rank it only runs the work.
+/// Runs work that every rank repeats (bodies and track of the vehicle) and reports its duration. Load balancing
+/// subtracts this from the rank's busy time, since no cut can move such work. On a single rank it only runs the work.
 class ReplicatedWork {
 public:
   ReplicatedWork() = default;

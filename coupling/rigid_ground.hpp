@@ -10,7 +10,7 @@ namespace grouser::coupling {
 /// Rigid ground with the surface of a height map: an elastic foundation under each shoe; an obstacle for the hull.
 class RigidGround : public Ground {
 public:
-  /// `laid` must have a rigid height-field and outlive it.
+  /// `laid` must have a rigid height field and outlive this object.
   explicit RigidGround(const LaidGround& laid) : laid_(laid) {}
 
   std::function<double(double, double)> surface() const override { return surfaceHeight(laid_); }

@@ -15,7 +15,7 @@ std::unique_ptr<terrain::Grains> settledTile(const TileSetup& tile, const base::
                                              const SettleProgress& progress, const FoundFrictions* found) {
   LaidGround ground = buildGround(*tile.ground, exec);
   const BedSetup& bed = *tile.ground->grains->bed;
-  if (bed.settle.timeLimit > 0) settle(bed, ground, SettleProgress(progress.tell), found);
+  if (bed.settle.timeLimit > 0) settle(bed, ground, SettleProgress(progress.report), found);
   return std::move(ground.grains);
 }
 

@@ -5,8 +5,8 @@
 
 namespace grouser::coupling {
 
-/// Creates grains and walls. Only a tile to be copied settles here, observed by `progress`. If objects are placed on
-/// the settled bed (placed_on_bed.hpp), the ground is the bed alone. Each rank has the grains of its subdomain.
+/// Creates grains and walls. Only a tile to be copied settles here (observed by `progress`). If objects are placed on
+/// the settled bed (placed_on_bed.hpp), the ground contains only the bed. Each rank has the grains of its subdomain.
 /// `found`: as in frictionFor().
 LaidGround buildGround(
     const GroundSetup& setup, const base::Exec& exec, const base::Comm& comm = {},

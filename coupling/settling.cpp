@@ -15,10 +15,10 @@ namespace grouser::coupling {
 
 namespace {
 
-constexpr double kLeastFriction = 1e-4, kMostFriction = 2; // 0 would be another law
-constexpr double kPreparedPull = 1e-4;                     // factor of cohesion and adhesion [-]; 0 is a different law
-constexpr double kClose = 0.002;                           // tolerance of porosities [-]
-constexpr double kOff = 0.01; // tolerance of porosities beyond the ends of the bisection [-]
+constexpr double kMinFriction = 1e-4, kMaxFriction = 2; // 0 would select a different contact law
+constexpr double kPreparedPull = 1e-4;                  // factor of cohesion and adhesion [-]; 0 is a different law
+constexpr double kClose = 0.002;                        // tolerance of porosities [-]
+constexpr double kOff = 0.01;                           // tolerance of porosities beyond the ends of the bisection [-]
 constexpr int kTrials = 10;
 constexpr double kSteep = 1;          // slope of the floor [-] above which every bed slides, for any friction
 constexpr double kStep = 4;           // [radii] smaller height differences are ignored
@@ -36,7 +36,7 @@ double porosityAt(const PreparationSetup& preparation, double friction, const ba
   return structureOf(ground).porosity;
 }
 
-/// Advice for a bed whose floor is too steep; empty if the slope is acceptable.
+/// Advice for a bed on a floor that is too steep; empty if the slope is acceptable.
 std::string steepnessText(const LaidGround& ground) {
   const terrain::HeightFieldBounds& floor = ground.rigid->bounds();
   if (!(floor.slope > kSteep) || floor.highest - floor.lowest < kStep * ground.grains->model().radius) return "";
@@ -52,7 +52,7 @@ void measureHeight(const LaidGround& ground, SettleReport& report) {
   const terrain::Rectangle& w = *ground.walls;
   const terrain::BedSurface surface(exec, *ground.grains, ground.rigid->view(), w);
   report.meanHeight = terrain::heightsOf(extentOf(ground, surface)).mean;
-  // Length of this diagonal covers the whole bed.
+  // Search radius about the corner nodes that covers the whole bed.
   const terrain::NodeGrid corners{2, 2, w.width(), w.length(), w.xMin, w.yMin};
   const double all = w.width() + w.length();
   report.highest = terrain::highestTops(exec, *ground.grains, corners, all).front();
@@ -84,13 +84,13 @@ void settleUntilRest(const BedSetup& bed, const SettleSetup& wanted, terrain::Gr
     if (wanted.forceRatio)
       forceRatio = terrain::forceRatio(grains.system()); // before any other operation, as it requires a step
     const terrain::GrainLedger ledger = grains.ledger();
-    report.agitation = (ledger.kinetic + (wanted.spins ? ledger.rotational : 0)) / unit;
-    progress(report.time, report.agitation);
+    report.energyRatio = (ledger.kinetic + (wanted.spins ? ledger.rotational : 0)) / unit;
+    progress(report.time, report.energyRatio);
     const bool rests =
-        report.agitation < wanted.kineticEnergy && (!wanted.forceRatio || forceRatio < *wanted.forceRatio);
+        report.energyRatio < wanted.kineticEnergy && (!wanted.forceRatio || forceRatio < *wanted.forceRatio);
     calm = rests ? calm + 1 : 0;
     if (calm >= kCalmLooks && report.time > landed) return;
-    energies[looks % kCalmLooks] = report.agitation;
+    energies[looks % kCalmLooks] = report.energyRatio;
     ratios[looks++ % kCalmLooks] = forceRatio;
   }
   const auto most = [](const auto& values) { return *std::max_element(values.begin(), values.end()); };
@@ -133,18 +133,18 @@ void settleWithFriction(const BedSetup& bed, terrain::Grains& grains, double fri
 
 namespace {
 
-bool isPossible(double friction) { return friction >= kLeastFriction && friction <= kMostFriction; }
+bool isPossible(double friction) { return friction >= kMinFriction && friction <= kMaxFriction; }
 
 double frictionByTrials(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress) {
   const double wanted = preparation.porosity;
   const auto at = [&](double friction) { return porosityAt(preparation, friction, exec, progress); };
-  double low = kLeastFriction, high = kMostFriction;
+  double low = kMinFriction, high = kMaxFriction;
   const double densest = at(low), loosest = at(high);
   if (wanted < densest - kOff || wanted > loosest + kOff)
     throw base::InputError(fmt::format(
-        "{} cannot be reached: with friction {:g} these grains settle to {:.3f}, with {:g} to {:.3f}; choose a "
-        "porosity between these, or use rolling_friction for looser beds and a wider radius_distribution for "
-        "denser ones",
+        "{} cannot be reached: with friction {:g} these grains settle to the porosity {:.3f}, with {:g} to {:.3f}; "
+        "choose a porosity between these, or use rolling_friction for looser beds and a wider radius_distribution "
+        "for denser beds",
         preparation.place, low, densest, high, loosest));
   if (wanted <= densest + kClose) return low;
   if (wanted >= loosest - kClose) return high;

@@ -13,12 +13,12 @@ namespace grouser::coupling {
 
 /// Observer of a settling bed.
 struct SettleProgress {
-  template <class Tell>
-  requires std::invocable<const Tell&, double, double> SettleProgress(Tell f) : tell(std::move(f)) {}
-  void operator()(double time, double agitation) const { tell(time, agitation); }
+  template <class Report>
+  requires std::invocable<const Report&, double, double> SettleProgress(Report f) : report(std::move(f)) {}
+  void operator()(double time, double energyRatio) const { report(time, energyRatio); }
 
   /// Called at intervals: simulated time [s], kinetic energy per grain / (m g radius) [-].
-  std::function<void(double time, double agitation)> tell;
+  std::function<void(double time, double energyRatio)> report;
   /// Called before a SimulationError is thrown, with the current bed and the message. May be empty; must not throw.
   std::function<void(const terrain::Grains& bed, const std::string& message, base::Cause cause)> failed{};
 };
@@ -37,8 +37,8 @@ public:
 
 /// Result of settling.
 struct SettleReport {
-  double time{};      ///< simulated time [s]
-  double agitation{}; ///< mean kinetic energy per grain / (m g radius) [-]
+  double time{};        ///< simulated time [s]
+  double energyRatio{}; ///< mean kinetic energy per grain / (m g radius) [-]
   std::int64_t steps{};
   double friction{}; ///< friction of the preparation [-]; 0: the material's own
   /// Top of the highest grain, and mean surface height as in BedStructure [m].
@@ -64,7 +64,7 @@ SettleReport settle(const BedSetup& bed, const LaidGround& ground, const SettleP
 
 /// Friction during settling that yields the target porosity: by bisection on small beds, to within 0.002. Identical on
 /// every device and rank. Throws InputError with the range of porosities if the target is outside. `found`: store of
-/// earlier results; null: none, as on several ranks, where each rank runs all trials.
+/// earlier results; null: run all trials (always the case on several ranks, where each rank runs all of them).
 double frictionFor(const PreparationSetup& preparation, const base::Exec& exec, const SettleProgress& progress,
                    const FoundFrictions* found = nullptr);
 

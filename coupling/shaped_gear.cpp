@@ -16,7 +16,7 @@ namespace {
 Vec3d column(const base::Mat3d& m, int i) { return {m.m[0][i], m.m[1][i], m.m[2][i]}; }
 
 /// Minimum cosine of the angle between the y axis of a shoe and a wheel axis for contact.
-constexpr double kLeastTurn = 0.5;
+constexpr double kMinTurn = 0.5;
 
 /// Upper bound by which misalignment shortens the distance to a wheel axis, at the lateral offset `across` [m] from the
 /// shoe's middle. `turn`: cosine of the angle between the axes.
@@ -103,7 +103,7 @@ void ShapedGear::meetWheel(const Near& near) {
   const Vec3d apart = near.axle - near.origin;
   const double x = dot(apart, near.x), radius = near.of.radius;
   const double turn = dot(near.y, near.axis);
-  if (turn < kLeastTurn) return;
+  if (turn < kMinTurn) return;
   const double slack = slackOf(turn, shapes_.plateOuter, radius);
   const auto cuts = [&](double level, double halfLength) {
     const double above = dot(apart, near.z) - level, beyond = std::max(std::fabs(x) - halfLength, 0.0);
@@ -112,18 +112,19 @@ void ShapedGear::meetWheel(const Near& near) {
   };
   const bool onPlates = cuts(plateTop_, halfLength_);
   if (onPlates) {
-    meetPlate(near, plateTop_, halfLength_, -shapes_.plateOuter, -shapes_.plateInner, kPlates);
-    meetPlate(near, plateTop_, halfLength_, shapes_.plateInner, shapes_.plateOuter, kPlates + 1);
+    collidePlate(near, plateTop_, halfLength_, -shapes_.plateOuter, -shapes_.plateInner, kPlates);
+    collidePlate(near, plateTop_, halfLength_, shapes_.plateInner, shapes_.plateOuter, kPlates + 1);
   }
   const double tip = plateTop_ + hornHeight_;
   if (!onPlates && !cuts(tip, 0.5 * shapes_.hornLength)) return;
-  meetHorn(near, -1, kHornSides);
-  meetHorn(near, 1, kHornSides + 1);
-  meetPlate(near, tip, 0.5 * shapes_.hornTipLength, -0.5 * shapes_.hornTipWidth, 0.5 * shapes_.hornTipWidth, kHornTip);
+  collideHorn(near, -1, kHornSides);
+  collideHorn(near, 1, kHornSides + 1);
+  collidePlate(near, tip, 0.5 * shapes_.hornTipLength, -0.5 * shapes_.hornTipWidth, 0.5 * shapes_.hornTipWidth,
+               kHornTip);
 }
 
 /// Contact of a rectangle of the shoe, parallel to its plates at height `level`, with the rim of the disc above it.
-void ShapedGear::meetPlate(const Near& near, double level, double halfLength, double from, double to, int patch) {
+void ShapedGear::collidePlate(const Near& near, double level, double halfLength, double from, double to, int patch) {
   const double turn = dot(near.y, near.axis);
   const double x = std::clamp(dot(near.axle - near.origin, near.x), -halfLength, halfLength);
   const Vec3d plate = near.origin + near.z * level;
@@ -159,7 +160,7 @@ void ShapedGear::pressRims() {
   rimCount_ = 0;
 }
 
-void ShapedGear::meetHorn(const Near& near, double side, int patch) {
+void ShapedGear::collideHorn(const Near& near, double side, int patch) {
   contact::FaceAtDisc face;
   face.foot = near.origin + near.z * plateTop_ + near.y * (0.5 * side * shapes_.hornWidth);
   face.up = near.z * hornHeight_ + near.y * (0.5 * side * (shapes_.hornTipWidth - shapes_.hornWidth));

@@ -24,7 +24,7 @@ public:
   /// `assembly`: its spec must have shapes; must outlive this object.
   ShapedGear(const vehicle::Assembly& assembly, const VehicleParts& parts, const Model& model);
 
-  /// Adds this step's loads, opposite for shoe and wheel.
+  /// Adds this step's loads; shoe and wheel receive opposite loads.
   void compute(const contact::PartMotion* motion, contact::PartLoad* loads);
 
   contact::PatchBuffers::Ledger ledger() const { return patches_.ledger(); }
@@ -58,8 +58,8 @@ private:
 
   Near nearby(const contact::PartMotion* motion, int shoe, const Wheel& wheel, std::size_t patches) const;
   void meetWheel(const Near& near);
-  void meetPlate(const Near& near, double level, double halfLength, double from, double to, int patch);
-  void meetHorn(const Near& near, double side, int patch);
+  void collidePlate(const Near& near, double level, double halfLength, double from, double to, int patch);
+  void collideHorn(const Near& near, double side, int patch);
   void meetSprocket(const Near& near);
   void pressRims();
 

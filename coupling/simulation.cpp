@@ -113,13 +113,13 @@ BodiesInContact* Simulation::movingBodies() {
   return mechanism_.get();
 }
 
-/// `last`: the next step must not be launched ahead.
+/// `last`: true if the next step must not be launched ahead.
 void Simulation::stepAhead(bool last) {
   vehicle_->setSurfacePoses();
   if (!ahead_->nextIsLaunched()) {
     const bool listsEnded = ground_->refreshLists();
     vehicle_->refreshLists(listsEnded);
-  } else if (!vehicle_->contacts().listsHold()) {
+  } else if (!vehicle_->contacts().listsAreValid()) {
     throw base::SimulationError(
         fmt::format("step {}, time {:.4g} s: a part of the vehicle was thrown: in one step it moved "
                     "more than four times as far as in the step before; use a smaller "
@@ -246,8 +246,8 @@ void Simulation::addGrains() {
   start_.move(before, wholeLedger());
 }
 
-/// Removes grains crushed to their centre in this step, so that none passes through a part. The elastic energy of their
-/// contacts with parts counts as dissipated; the ledger keeps their other energies.
+/// Removes grains crushed to their centre in this step, since they could pass through a part. The elastic energy of
+/// their contacts with parts counts as dissipated; the ledger keeps their other energies.
 void Simulation::takeOutCrushed() {
   if (!setup_.crushes()) return;
   GrainsOnParts* onParts = granular_->onParts();
@@ -303,7 +303,7 @@ terrain::SoilFields fieldsOf(Simulation& s, const terrain::FieldGrid& grid) {
 
 /// Returns the grain that has stopped the run, with its contacts, including vehicle and meshes.
 PressedGrain Simulation::pressed(std::uint32_t grain) {
-  PressedGrain pressed = pressedGrain(
+  PressedGrain pressed = excessiveOverlap(
       *laid_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
   std::vector<std::pair<std::string, double>> parts;
   if (touching_) parts = granular_->onParts()->pressing(grain);
@@ -317,7 +317,7 @@ std::optional<DeepestPartOverlap> Simulation::deepestPartOverlap() const {
   return surfaces_ ? surfaces_->deepestPartOverlap() : std::nullopt;
 }
 
-/// Hertz contacts at faster impacts are stiffer than assumed for the time step.
+/// Hertz contacts are stiffer than assumed for the time step if grains move faster than run.impact_speed.
 std::string Simulation::impactNote(const Ledger& now) const {
   if (!laid_.grains || !setup_.ground.grains->impactSpeed) return {};
   const double chosen = *setup_.ground.grains->impactSpeed;
@@ -352,12 +352,12 @@ base::Alarm Simulation::alarmOf(const terrain::GrainFault& fault) {
                       vehicle_ && fault.fault == Fault::through
                           ? "keep soil out of the running gear (vehicle.soil_contact)"
                           : "raise run.max_overlap"),
-          base::Cause::pressedGrain};
+          base::Cause::excessiveOverlap};
 }
 
 /// Updates ledger and guard after each step.
 void Simulation::afterStep() {
-  // Elastic energy of part contacts is known for the start of the last step: after the first one, for the start.
+  // The elastic energy of part contacts is that at the start of the last step: after step 1, at the start of the run.
   if (steps_ == 1) start_.elastic += partsElastic();
   // A fluid has its own fault checks, and its walls may add or remove energy.
   if (fluid_ || steps_ % EnergyGuard::kInterval != 0) return;
@@ -406,7 +406,7 @@ void Simulation::checkEnergy(const Ledger& now) {
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   if (vehicle_ && now.dissipated.ofParts() > now.dissipated.ofGrains())
-    remedy += "; shoe contacts dissipated most on " + mostDissipating(vehicle_->assembly(), vehicle_->save());
+    remedy += "; shoe contacts dissipated most on " + maxDissipating(vehicle_->assembly(), vehicle_->save());
   throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
 

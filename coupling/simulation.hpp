@@ -48,13 +48,13 @@ public:
 
   /// Advances one step of length timeStep(). Throws SimulationError on a fault.
   void step(StepObserver* observer = nullptr);
-  /// Advances at least one step and at most `most`: as many as can be launched as one graph, or ahead of each other.
+  /// Advances at least one step and at most `most`: as many as can be launched as one graph or ahead of one another.
   /// Returns the number of steps. If it throws, some steps may have been completed.
   std::int64_t advance(std::int64_t most);
 
-  /// Sets inputs for the following steps, regardless of their `step`: all or, if it throws, none. They are stored in
-  /// checkpoints, and in the state hash while active. Collective, with the same inputs. Throws base::InputError if the
-  /// scene lacks the input, or a value is not finite or out of range.
+  /// Sets inputs for the following steps, regardless of their `step`; if it throws, it sets no input. Inputs are stored
+  /// in checkpoints, and in the state hash while active. Collective, with the same inputs. Throws base::InputError if
+  /// the scene lacks the input, or a value is not finite or out of range.
   void set(std::vector<Input> inputs);
   const Inputs& inputs() const { return inputs_; }
 
@@ -65,12 +65,12 @@ public:
 
   const base::Comm& comm() const { return comm_; }
   const LaidGround& ground() const { return laid_; } ///< height map, floor and current grains
-  /// Ground under the vehicle, or grains alone; null if the vehicle hangs, and for a mechanism.
+  /// Ground in contact with vehicle and bodies, or grains alone; null if the scene has neither terrain nor grains.
   const Ground* actingGround() const { return ground_.get(); }
   const GranularGround* granularGround() const { return granular_; } ///< actingGround() if granular, else null
   const VehicleRig* vehicle() const { return vehicle_.get(); }
   const Mechanism* mechanism() const { return mechanism_.get(); }
-  const Surfaces* surfaces() const { return surfaces_.get(); } ///< null without
+  const Surfaces* surfaces() const { return surfaces_.get(); } ///< null if there are none
   /// Restarts the means of the observers: Means::rows after every output row. Only a vehicle has Means::watch.
   void restartMeans(Means of = Means::rows) {
     if (vehicle_) vehicle_->restartMeans(of);
@@ -79,7 +79,9 @@ public:
     if (surfaces_) surfaces_->restartMeans();
     if (mechanism_) mechanism_->restartMeans();
   }
-  const TakenOut& takenOut() const { return taken_; } ///< grains removed since the start because they were crushed
+  const CrushedGrains& crushedGrains() const {
+    return taken_;
+  } ///< grains removed since the start because they were crushed
   /// Deepest overlap with a part or mesh since restartMeans(); empty without grains in contact. Collective.
   std::optional<DeepestPartOverlap> deepestPartOverlap() const;
   const SettleReport& settled() const { return settled_; }
@@ -100,7 +102,7 @@ private:
   void command();
   bool canStepAhead() const;
   void stepAhead(bool last);
-  BodiesInContact* movingBodies(); ///< null without
+  BodiesInContact* movingBodies(); ///< null if there are none
   void checkAlarm();
   void addGrains();
   void takeOutCrushed();
@@ -125,7 +127,7 @@ private:
   void makeSurfaces(const SurfaceStates* former);
   void makeMeshContacts(SphereSets* spheres);
   bool hasBed() const { return setup_.ground.grains && setup_.ground.grains->bed; }
-  /// True if the bed settles alone, and the rest of the scene is added afterwards.
+  /// True if the bed settles first and the rest of the scene is added afterwards.
   bool isPutOnBed() const { return hasBed() && setup_.ground.grains->bed->alone; }
   /// Ground in which the bed settles.
   const GroundSetup& bedGround() const { return isPutOnBed() ? *setup_.ground.grains->bed->alone : setup_.ground; }
@@ -134,32 +136,32 @@ private:
   base::Exec exec_;
   base::Comm comm_;
   LaidGround laid_;
-  std::unique_ptr<Ground> ground_;    ///< null without; refers to laid_
+  std::unique_ptr<Ground> ground_;    ///< null if there is none; refers to laid_
   GranularGround* granular_{nullptr}; ///< ground_ if it is granular
   SettleReport settled_;
   std::vector<double> lifts_;          ///< lifts of objects placed on a settled bed; see liftsOnto()
-  std::unique_ptr<Surfaces> surfaces_; ///< null without
+  std::unique_ptr<Surfaces> surfaces_; ///< null if there are none
   std::unique_ptr<VehicleRig> vehicle_;
   std::unique_ptr<Mechanism> mechanism_;
-  std::unique_ptr<FluidDomain> fluid_; ///< null without
+  std::unique_ptr<FluidDomain> fluid_; ///< null if there is none
   BodiesInContact* touching_{nullptr}; ///< vehicle, or mechanism with shapes; else null
-  std::unique_ptr<StepsAhead> ahead_;  ///< steps launched ahead; created by the first of them
+  std::unique_ptr<StepsAhead> ahead_;  ///< steps launched ahead; created by the first such step
   EnergyGuard guard_;
   Inputs inputs_;       ///< external inputs
   base::Vec3d gravity_; ///< current gravity [m/s2]
   std::int64_t steps_{0};
-  TakenOut taken_;
-  Ledger start_; ///< ledger before the first step, which is the reference
+  CrushedGrains taken_;
+  Ledger start_; ///< reference: ledger before the first step
 };
 
-/// Throws base::InputError if Simulation::set() would reject the input. Not collective: one rank may call it alone.
+/// Throws base::InputError if Simulation::set() would reject the input. Not collective: a single rank may call it.
 void require(const Simulation& simulation, const Input& input);
 
 /// Index of a body of the vehicle or mechanism, for InputKind::bodyLoad. Throws base::InputError with the nearest name.
 /// The index is InputKind::bodyLoad's target.
 std::int32_t bodyIndex(const Simulation& simulation, const std::string& name);
 
-/// The fluid of a simulation; null without.
+/// The fluid of a simulation; null if there is none.
 FluidDomain* fluidOf(const Simulation& simulation);
 
 /// Sphere cuts of the meshes of vehicle and scene; parts without contacts have no entry.

@@ -15,7 +15,7 @@
 namespace grouser::coupling {
 
 /// Grains that were crushed to their centre and removed.
-struct TakenOut {
+struct CrushedGrains {
   double grains{}, mass{}; ///< [-], [kg]
   double energy{};         ///< their kinetic, potential and elastic energy [J]
   base::Vec3d momentum;    ///< [N s]
@@ -36,7 +36,7 @@ struct SimulationState {
   std::optional<MechanismState> mechanism;
   std::optional<FluidDomainState> fluid;
   std::vector<double> lifts;  ///< lifts of objects placed on a settled bed [m]; empty without such objects
-  TakenOut taken;             ///< grains removed since the start
+  CrushedGrains taken;        ///< grains removed since the start
   std::vector<double> inputs; ///< Inputs::save(); empty without inputs
 
   /// Hash of the data that the next step depends on, as 16 hexadecimal digits: equal bits, equal hash, for any

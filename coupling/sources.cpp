@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kSourcePurpose = base::purpose("source.place");
 constexpr int kSourceTries = 2000; // attempts to find a free position for one grain
-constexpr double kRoom = 2.002;    // [radii] minimum distance of centres that enter together
+constexpr double kRoom = 2.002;    // [radii] minimum distance between the centres of grains that enter together
 
 } // namespace
 

@@ -11,7 +11,7 @@
 
 namespace grouser::coupling {
 
-/// One [[source]]: grains that enter in a box during the run.
+/// One [[source]]: grains that enter inside a box during the run.
 struct SourceSetup {
   std::string place;                     ///< location for messages: "scene.toml:14: source.0"
   base::Vec3d low, high;                 ///< corners of the box that contains their centres [m]

@@ -9,7 +9,7 @@
 
 namespace grouser::coupling {
 
-/// Steps a simulation and times each stage, waiting for the device after it: the same results, but slower.
+/// Steps a simulation and times each stage. It waits for the device after each stage: same results, but slower.
 class StageTimer : private StepObserver {
 public:
   StageTimer(Simulation& simulation, const base::Exec& exec) : simulation_(simulation), exec_(exec) {}

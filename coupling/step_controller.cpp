@@ -14,7 +14,7 @@ namespace grouser::coupling {
 namespace {
 
 /// Ratio of the next interval to the last [-]: safety factor, minimum and maximum ratio.
-constexpr double kAim = 0.9, kLeast = 0.2, kMost = 2;
+constexpr double kAim = 0.9, kMin = 0.2, kMax = 2;
 /// Negligible remaining time, and the shortest interval, relative to the time [-].
 constexpr double kNoTime = 1e-12, kShortest = 1e-13;
 /// Round-off error of an interval per metre of coordinates and per radian [-].
@@ -71,9 +71,7 @@ void StepController::advance(multibody::Solver& solver, multibody::State& state,
     twice_ = state;
     const bool solved = tryStretch(solver, loads, h);
     const double found = solved ? error(h) : 0, allowed = control_.tolerance * h + roundOff();
-    const double factor = !solved     ? kLeast
-                          : found > 0 ? std::clamp(kAim * std::sqrt(allowed / found), kLeast, kMost)
-                                      : kMost;
+    const double factor = !solved ? kMin : found > 0 ? std::clamp(kAim * std::sqrt(allowed / found), kMin, kMax) : kMax;
     if (!solved || !(found <= allowed)) {
       ++record_.rejected;
       record_.next = h * std::min(factor, 0.5);
@@ -83,7 +81,7 @@ void StepController::advance(multibody::Solver& solver, multibody::State& state,
                       "raise it, or check for an impact at this time",
                       state.time, record_.next, control_.tolerance));
     }
-    // An interval shortened by the end does not limit the next ones.
+    // An interval shortened to end at `until` does not limit later intervals.
     record_.next = factor >= 1 && pieces == 1 ? std::max(h * factor, record_.next) : h * factor;
     record_.smallest = record_.taken == 0 ? 0.5 * h : std::min(record_.smallest, 0.5 * h);
     record_.largest = std::max(record_.largest, 0.5 * h);

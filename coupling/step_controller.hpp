@@ -10,12 +10,12 @@
 
 namespace grouser::coupling {
 
-/// Error-controlled steps of a mechanism. Each interval h is computed in one step and in two steps of h / 2; a third of
-/// their difference is the error of the two (RATTLE is of order 2), which are accepted if for every body
+/// Error-controlled steps of a mechanism. Each interval h is computed in one step and in two steps of h / 2. A third of
+/// the difference is the error of the two steps (RATTLE is of order 2), which are accepted if for every body
 ///   |dp| + h |dv|  and  |dphi| + h |dw|   are at most   tolerance h + round-off      [m], [rad]:
-/// the error of positions and rotations per second. The next h is 0.9 sqrt(tolerance h / error) of the last, limited to
-/// [0.2, 2]. No step is longer than drives and rotations permit (time_scales.hpp). Decisions depend only on the state,
-/// so resumed runs are bitwise identical.
+/// `tolerance` limits the error per second. The next h is the last h times 0.9 sqrt(tolerance h / error), a factor kept
+/// within [0.2, 2]. No step is longer than drives and rotations permit (time_scales.hpp). Decisions depend only on the
+/// state, so resumed runs are bitwise identical.
 class StepController {
 public:
   StepController(const StepControl& control, double largestTurn)

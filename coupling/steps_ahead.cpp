@@ -35,7 +35,7 @@ void StepsAhead::begin() {
 void StepsAhead::computeOnHost() { vehicle_.stepContacts().computeOnHost(); }
 
 void StepsAhead::launchNext() {
-  if (vehicle_.contacts().listsHold(true)) launch();
+  if (vehicle_.contacts().listsAreValid(true)) launch();
 }
 
 void StepsAhead::end() {

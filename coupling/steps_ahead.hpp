@@ -9,7 +9,7 @@
 
 namespace grouser::coupling {
 
-/// Steps of a vehicle on grains whose work is launched before the vehicle poses are known. Walls, floor and the grains
+/// Steps of a vehicle on grains; their work is launched before the vehicle poses are known. Walls, floor and the grains
 /// without listed parts advance at once; part contacts and all other grains wait at a gate for the poses computed by
 /// the host. Launch latency is hidden, and the results are those of Simulation::step().
 ///

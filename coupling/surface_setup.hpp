@@ -42,7 +42,7 @@ struct SurfaceSetup {
   bool hasPivot{};                                       ///< true: its torque about the pivot is recorded too
   std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< null except for meshes
   double sphereRadius{};                                 ///< radius of the spheres of a mesh [m]
-  bool sphereRadiusGiven{};                              ///< radius set in the scene; else it may become finer
+  bool sphereRadiusGiven{};                              ///< true: radius set in the scene; false: it may be refined
   double sphereRefinement{1};                            ///< [-] divides the radius and the limits of an automatic one
   bool placedLater{};               ///< true: placed on a bed settled without it; false: the bed is built around it
   std::optional<double> aboveBed{}; ///< then: height of its lowest point above the highest grain below it [m]
@@ -52,9 +52,9 @@ struct SurfaceSetup {
 
 /// Initial pose, at rest.
 terrain::SurfacePose startingPose(const SurfaceSetup& surface);
-/// Initial overlap of a sphere with it [m]; negative: gap.
+/// Initial overlap of a sphere with the surface [m]; negative: gap.
 double startingOverlap(const SurfaceSetup& surface, const base::Vec3d& position, double radius);
-/// Overlap of a sphere with it, with its frame at `pose` [m].
+/// Overlap of a sphere with the surface, with the surface frame at `pose` [m].
 double overlapAt(const SurfaceSetup& surface, const base::Pose& pose, const base::Vec3d& position, double radius);
 
 /// Axis-aligned bounding box in the world of a box, cylinder, tube or mesh [m]; undefined for a plane.
@@ -65,7 +65,7 @@ SurfaceBounds boundsOf(const SurfaceSetup& surface, const base::Pose& pose);
 
 /// Checks a surface at periodic boundaries, beyond which boxes, cylinders and meshes have no images: it must be at
 /// least `radius` away from both boundaries, or extend across both. Returns an error message, or an empty string.
-/// `radius`: of the largest grain [m].
+/// `radius`: radius of the largest grain [m].
 std::string faultAtBoundaries(const SurfaceSetup& surface, const base::Pose& pose,
                               const terrain::PeriodicBoundaries& sides, double radius);
 

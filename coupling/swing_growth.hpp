@@ -14,9 +14,9 @@ namespace grouser::coupling {
 class SwingGrowth {
 public:
   /// Maximum growth factor [-]: constraint errors of joints, at most 1e-10 m, grow to 0.1 mm.
-  static constexpr double kMost = 1e6;
+  static constexpr double kMax = 1e6;
 
-  /// Records a check, `steps` after the last one; r: step / longest stable step. Returns false for too large a growth.
+  /// Records a check, `steps` after the last one; r: step / longest stable step. Returns false if growth exceeds kMax.
   bool bears(double r, std::int64_t steps) {
     if (!(r > 1)) {
       rate_ = grown_ = 1;
@@ -24,8 +24,8 @@ public:
     }
     const double now = (r + std::sqrt(r * r - 1)) * (r + std::sqrt(r * r - 1)), rate = std::min(now, rate_);
     rate_ = now;
-    for (std::int64_t i = 0; i < steps && grown_ < kMost; ++i) grown_ *= rate;
-    return grown_ < kMost;
+    for (std::int64_t i = 0; i < steps && grown_ < kMax; ++i) grown_ *= rate;
+    return grown_ < kMax;
   }
 
   std::vector<double> save() const { return {rate_, grown_}; }

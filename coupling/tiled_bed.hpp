@@ -12,10 +12,10 @@ namespace grouser::coupling {
 
 /// Bed composed of copies of one settled tile.
 ///
-/// A level piece of the bed of about terrain.tile, with periodic boundaries, is built and settled alone, then copied
+/// A level piece of the bed (size about terrain.tile, periodic boundaries) is built and settled by itself, then copied
 /// over the terrain with its contact springs, so that the copies are in equilibrium across their seams. Grains that
-/// would overlap a wall are omitted, and, on uneven ground, grains with centres above the height map; their neighbours
-/// must settle again. Every rank creates the same tile.
+/// would overlap a wall are omitted and, on uneven ground, grains with centres above the height map; the neighbours of
+/// omitted grains must settle again. Every rank creates the same tile.
 class TiledBed {
 public:
   /// `settled`: the grains of tile.ground, at rest; `surface`: height field of the whole terrain.

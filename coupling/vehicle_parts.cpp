@@ -40,7 +40,7 @@ VehicleParts::VehicleParts(const vehicle::Assembly& assembly, const VehicleSetup
     else
       addContactPart(p);
   }
-  // Last, so that the indices of the others do not depend on it.
+  // The hull is last, so that the indices of the other parts do not depend on it.
   if (setup.hullTouches)
     for (const std::size_t hull : hulls) addContactPart(hull);
   cut(touching, hulls.empty() ? meshes_.size() : meshOfPart_[hulls.front()], setup,
@@ -62,9 +62,9 @@ void VehicleParts::addContactPart(std::size_t part) {
 void VehicleParts::cut(const std::vector<std::size_t>& meshes, std::size_t hull, const VehicleSetup& setup,
                        double contactSize, SphereSets* kept, const base::Comm& comm) {
   constexpr double kPermitted = 0.05; // protrusion [contact size]
-  // For the hull, which rarely touches [its sphere radius, and its diagonal if it is small]. The limit of other parts,
-  // 1.9 mm for shoes of 154 mm, would need too many spheres for a hull of 40 m2; by default the hulls of the supplied
-  // vehicles protrude by 6.0, 6.0 and 0.7 mm of 20 mm, and keep their cut.
+  // Limits for the hull, which is rarely in contact: [sphere radius], and [diagonal] of a small hull. The limit of the
+  // other parts, 1.9 mm for shoes of 154 mm, would need too many spheres for a hull of 40 m2. By default the hulls of
+  // the supplied vehicles protrude by 6.0, 6.0 and 0.7 mm at a sphere radius of 20 mm, and keep their cut.
   constexpr double kHullPermitted = 0.35, kSmallHullPermitted = 0.005;
   std::vector<PartCut> parts;
   for (const std::size_t m : meshes) {
@@ -114,7 +114,7 @@ ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoe
                          .shown = partOf(c)});
   }
   for (const int part : assembly.groundParts)
-    all.parts[static_cast<std::size_t>(contactIndex(part))].meetsGround = true;
+    all.parts[static_cast<std::size_t>(contactIndex(part))].touchesGround = true;
   all.pointSets = sets_.size();
   all.points = [this](int set) { return points(static_cast<std::size_t>(set)); };
   all.onObstacle = [](const ContactPart& part, const Obstacle& o) {

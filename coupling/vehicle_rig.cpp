@@ -51,7 +51,7 @@ bool shapesAlone(const SimulationSetup& setup) {
   return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty();
 }
 
-/// Lift [m] at which no shoe overlaps the ground, and no part an obstacle.
+/// Lift [m] at which no shoe overlaps the ground and no part overlaps an obstacle.
 double liftFor(const SimulationSetup& setup, const Ground* ground, const VehicleParts& parts,
                const std::function<double(double, double)>& surfaceHeight) {
   const VehicleSetup& vehicle = *setup.vehicle;
@@ -100,7 +100,7 @@ std::array<double, 4> edgesToMeet(const std::optional<terrain::Rectangle>& area,
   return edges;
 }
 
-/// Message about a shoe that has left the terrain; empty if none has.
+/// Message about a shoe that has left the terrain; empty if all shoes are on it.
 std::string offTerrain(const std::optional<terrain::Rectangle>& area, const vehicle::Assembly& assembly,
                        const multibody::State& state) {
   const std::optional<ShoeAtEdge> at = shoeAtEdge(area, assembly, state, {});
@@ -219,7 +219,7 @@ std::string VehicleRig::judgeRest() {
                        g > 0 ? -dot(groundForce(alarmMeans_) + fluidForce_, down) / (carried_ * g) : 0.0);
 }
 
-/// As for mechanisms: parts with a large rotation per step could pass teeth and plates without contact.
+/// Same check as for mechanisms: parts with a large rotation per step could pass teeth and plates without contact.
 std::string VehicleRig::judgeTurns() const {
   std::size_t quickest = 0;
   double rate = 0;
@@ -233,7 +233,7 @@ std::string VehicleRig::judgeTurns() const {
                      2 * base::kPi / largestTurn_, base::roundedDown(largestTurn_ / rate, 4));
 }
 
-/// As for mechanisms: transverse oscillations of the tensioned track and other loaded joints.
+/// Same check as for mechanisms: transverse oscillations of the tensioned track and other loaded joints.
 std::string VehicleRig::judgeTension() {
   std::string part;
   const double r = timeStep_ * solver_->geometricStiffnessRate(state_, loads_, &part) / solver_->stabilityLimit();
@@ -241,10 +241,10 @@ std::string VehicleRig::judgeTension() {
   return fmt::format("transverse oscillations of tensioned joints may have grown {:g} times: the time step stays above "
                      "the stability limit, now {:.3g} times ({}); set run.time_step to {} s or less, or lower the "
                      "tension (idler.preload of the vehicle file, driver)",
-                     SwingGrowth::kMost, r, part, base::roundedDown(0.5 * timeStep_ / r, 4));
+                     SwingGrowth::kMax, r, part, base::roundedDown(0.5 * timeStep_ / r, 4));
 }
 
-/// True if every track with a turning sprocket moves the hull at less than a twentieth of its speed.
+/// True if the hull moves at less than a twentieth of the speed of every track with a turning sprocket.
 bool VehicleRig::stalls() const {
   constexpr double kShare = 0.05, kTurns = 0.01; // [-], [m/s]
   const std::optional<double> start = driver_.driveStart();
@@ -312,7 +312,7 @@ VehicleState VehicleRig::save() const {
   s.asked = vehicle::Handover{!asked_.held, state_.time, asked_.sprocketSpeed, asked_.torque,
                               vehicle::hullMotion(assembly_, state_).speed}
                 .save();
-  if (towing_) s.hitch = towing_->save(), s.hitchBooks = towing_->saveSums();
+  if (towing_) s.hitch = towing_->save(), s.hitchSums = towing_->saveSums();
   s.appliedWork = applied_.save();
   contacts_->save(s.contacts);
   s.groundForces = rowMeans_.sums, s.meanSteps = rowMeans_.steps;
@@ -334,7 +334,7 @@ void VehicleRig::restore(const VehicleState& s) {
   driver_.restore(s.driver);
   const vehicle::Handover asked = vehicle::Handover::of(s.asked);
   asked_.held = !asked.driven, asked_.sprocketSpeed = asked.sprocketSpeed, asked_.torque = asked.torque;
-  if (towing_) towing_->restore(s.hitch, s.hitchBooks);
+  if (towing_) towing_->restore(s.hitch, s.hitchSums);
   applied_.restore(s.appliedWork);
   contacts_->restore(s.contacts);
   rowMeans_ = {s.groundForces, s.meanSteps};

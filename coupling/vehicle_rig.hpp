@@ -28,8 +28,8 @@ namespace grouser::coupling {
 /// Vehicle of a scene: bodies and joints, driver, contacts of its parts, and observers.
 class VehicleRig : public BodiesInContact {
 public:
-  /// Reads the meshes, cuts them into spheres, and places the vehicle on the ground, raised by `lift` [m]; without
-  /// `lift` just free of contact. `ground` must outlive it; null if the vehicle hangs. `kept` as in VehicleParts.
+  /// Reads the meshes, cuts them into spheres, and places the vehicle on the ground, raised by `lift` [m]; if empty,
+  /// just enough to avoid contact. `ground` must outlive it; null if the vehicle hangs. `kept` as in VehicleParts.
   VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Ground* ground,
              const std::function<double(double, double)>& surfaceHeight, SphereSets* kept,
              std::optional<double> lift = {});

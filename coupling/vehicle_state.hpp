@@ -29,7 +29,7 @@ struct VehicleState {
   std::vector<base::Vec3l> alarmForces;  ///< sums by part and surface, since the last alarm check
   std::int64_t alarmSteps{};             ///< number of steps in alarmForces
   std::vector<double> judged;            ///< SwingGrowth::save(), vehicle::BlowMeter::save()
-  std::vector<double> hitchBooks;        ///< Towing::saveSums()
+  std::vector<double> hitchSums;         ///< Towing::saveSums()
   std::vector<double> appliedWork;       ///< AppliedLoads::save()
   std::int64_t stalledSteps{};           ///< steps in which driven tracks have not moved the hull
 
@@ -39,6 +39,6 @@ struct VehicleState {
 
 /// Message with the three largest dissipations in shoe contacts since the start [J], by sprocket, idler, wheels and
 /// rollers of each side, and rigid ground.
-std::string mostDissipating(const vehicle::Assembly& assembly, const VehicleState& state);
+std::string maxDissipating(const vehicle::Assembly& assembly, const VehicleState& state);
 
 } // namespace grouser::coupling

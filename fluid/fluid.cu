@@ -15,7 +15,7 @@
 namespace grouser::fluid {
 
 namespace {
-constexpr double kGreatestShift = 0.1; ///< maximum shift per step [spacings]
+constexpr double kMaxShift = 0.1; ///< maximum shift per step [spacings]
 } // namespace
 
 Fluid::Fluid(const FluidSetup& setup, const base::Exec& exec, const contact::PartitionOptions& ranks)
@@ -104,7 +104,7 @@ Fluid::Fluid(const FluidSetup& setup, const FluidState& state, const base::Exec&
     : Fluid(withParticles(setup, state), exec, ranks) {
   steps_ = state.steps;
   if (state.bodyLoads.size() != 2 * bodyLoad_.size())
-    throw base::InputError("the state belongs to a fluid with other bodies; resume with the scene that was run");
+    throw base::InputError("the state belongs to a fluid with different bodies; resume with the scene that was run");
   // Forces are evaluated at the mid-step velocities of the last step.
   std::vector<Losses> losses(slots_);
   std::vector<base::Vec3l> force(slots_);
@@ -230,7 +230,7 @@ void Fluid::step(const std::vector<BodyMotion>& bodies) {
   *flags_.host() = {kNoFault, 0, 0};
   flags_.upload();
   const double skin = model_.skin(), shiftFactor = model_.shifting * model_.kernel().length() * model_.timeStep;
-  const double greatestShift = model_.shifting > 0 ? kGreatestShift * model_.spacing : 0.0;
+  const double greatestShift = model_.shifting > 0 ? kMaxShift * model_.spacing : 0.0;
   base::forEach(exec_, "fluid kick", n, Kick{view()});
   base::forEach(exec_, "fluid drift", n, Drift{view()});
   agreeOnSpeed();

@@ -55,7 +55,7 @@ FluidConstants fluidConstants(const FluidSetup& setup) {
 
   // Largest pair terms: |F| r and |F| at their maxima, compressions and speeds at their limits.
   const double steep = volume * kernel.steepest(), centre = -volume * kernel.slopeAtCentre();
-  const double apart = 2 * model.greatestSpeed(), most = kGreatestCompression;
+  const double apart = 2 * model.greatestSpeed(), most = kMaxCompression;
   const double stress = most / ((1 - most) * (1 - most)), spread = (1 + stress) * (1 + stress);
   const double laminar = 2 * model.viscosity / model.density * (model.centralViscosity ? model.dimensions + 2 : 1);
   const double viscous = (model.artificialViscosity * h * c + 2 * laminar) * centre * apart; // walls: 2 u_w

@@ -54,7 +54,7 @@ const FluidModel& checkedModel(const FluidSetup& setup) {
   }
   for (const FluidParticle& p : setup.particles) {
     need(inRange(p.position), "a particle lies outside the periodic boundaries or the range of positions");
-    need(std::abs(p.compression) < kGreatestCompression && base::norm(p.velocity) < m.greatestSpeed(),
+    need(std::abs(p.compression) < kMaxCompression && base::norm(p.velocity) < m.greatestSpeed(),
          "a particle starts faster than sound or too compressed");
   }
   return m;
@@ -68,7 +68,7 @@ std::string faultText(std::uint64_t fault, const FluidModel& model, std::int64_t
                          model.soundSpeed);
     case FluidFault::compression:
       return fmt::format("is {} by {:.1f} %, more than {:.0f} %", particle.compression > 0 ? "compressed" : "stretched",
-                         100 * std::abs(particle.compression), 100 * kGreatestCompression);
+                         100 * std::abs(particle.compression), 100 * kMaxCompression);
     case FluidFault::displacement:
       return "moved by more than half the skin of the neighbour lists in one step";
     case FluidFault::range:

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-/// Kernel bodies of a fluid step. Every pair term is an exact function of the pair, opposite to that of its partner,
+/// Kernel bodies of a fluid step. Every pair term is an exact function of the pair, opposite to its partner's term,
 /// and rounded once to an integer, so sums are identical in any order, on every device.
 namespace grouser::fluid {
 
@@ -165,16 +165,16 @@ struct Drift {
 struct CompressAndDrift {
   static constexpr double kNanoseconds = 30;
   FluidView f;
-  double skin;            ///< [m]
-  double shiftFactor;     ///< shifting x h x dt [m s]
-  double greatestShift;   ///< [m]
-  double leastDivergence; ///< no shifting below this value [-]
+  double skin;          ///< [m]
+  double shiftFactor;   ///< shifting x h x dt [m s]
+  double greatestShift; ///< [m]
+  double minDivergence; ///< no shifting below this value [-]
 
   GROUSER_HD void operator()(int i) const {
     if (f.isGhost(i)) return;
     addCompression(i);
     base::Vec3d move = 0.5 * f.timeStep * f.precise[i].velocity;
-    if (f.shift && f.divergence[i] > leastDivergence) move += shiftOf(i);
+    if (f.shift && f.divergence[i] > minDivergence) move += shiftOf(i);
     moveBy(f, i, move);
     if (movedSinceListed(f, i) > 0.5 * skin) raiseFault(f.flags, FluidFault::displacement, f.id[i]);
   }
@@ -185,11 +185,11 @@ private:
     const CompressionChange change = f.change[i];
     const double mean = compression + 0.5 * (change.flow + change.diffusion);
     compression += change.flow + change.diffusion;
-    if (change.limit < kGreatestCompression) limitCompression(i, change.limit);
+    if (change.limit < kMaxCompression) limitCompression(i, change.limit);
     // Internal energy change due to diffusion: p/rho^2 drho.
     f.losses[i].diffusion -= static_cast<double>(f.constants.sound2) * stress(mean) * change.diffusion;
     f.motion[i].w = static_cast<float>(compression);
-    if (!(fabs(compression) < kGreatestCompression)) raiseFault(f.flags, FluidFault::compression, f.id[i]);
+    if (!(fabs(compression) < kMaxCompression)) raiseFault(f.flags, FluidFault::compression, f.id[i]);
   }
   GROUSER_HD void limitCompression(int i, double limit) const {
     double& compression = f.precise[i].compression;
@@ -235,7 +235,7 @@ template <bool kShifts> struct Continuity {
       if (pair.q < beside) pinched |= f.contactOf(j - f.particles) < k.contact;
     });
     f.change[i] = {f.timeStep * k.rate.value(flow), f.timeStep * k.rate.value(diffusion),
-                   pinched ? kPinchedCompression : kGreatestCompression};
+                   pinched ? kPinchedCompression : kMaxCompression};
     if constexpr (kShifts) {
       f.divergence[i] = static_cast<float>(k.divergence.value(divergence));
       f.shift[i] = k.gradient.value(gradient);
@@ -285,8 +285,8 @@ struct Extrapolate {
     const double c2 = static_cast<double>(k.sound2);
     const base::Vec3d pull = (f.gravity - markerAcceleration(m)) * (1 / c2);
     const double s = (k.compression.value(compression) + dot(pull, k.moment.value(moment))) / sum;
-    constexpr double kMost = kGreatestCompression;
-    own.w = static_cast<float>(stress(s > kMost ? kMost : s < -kMost ? -kMost : s));
+    constexpr double kMax = kMaxCompression;
+    own.w = static_cast<float>(stress(s > kMax ? kMax : s < -kMax ? -kMax : s));
     if (f.ghostVelocity)
       f.ghostVelocity[m] = (2.0 * own.xyz().as<double>() - k.speed.value(velocity) * (1 / sum)).as<float>();
   }

@@ -15,7 +15,7 @@ struct FluidModel {
   double spacing = 0;     ///< initial particle spacing [m]
   double smoothing = 1.3; ///< smoothing length / spacing [-]
   double density = 1000;  ///< at zero pressure [kg/m3]
-  double soundSpeed = 0;  ///< numerical sound speed, far below that of water [m/s]
+  double soundSpeed = 0;  ///< numerical sound speed, far below the sound speed of water [m/s]
   double viscosity = 0;   ///< dynamic [Pa s]
   /// true: central viscosity operator of Monaghan and Gingold (1983), which conserves angular momentum and is correct
   /// at free surfaces (Colagrossi et al. 2011); false: Morris operator (1997), more accurate at walls.
@@ -36,9 +36,9 @@ struct FluidModel {
 
 /// Compression magnitude beyond which a fault is raised [-]; integer sums are scaled for it. Jets that hit a wall at v
 /// are compressed by v/c, more than the 1 % of the bulk flow.
-inline constexpr double kGreatestCompression = 0.3;
-/// Maximum compression beside bodies that touch others [-], twice that of the flow; the excess compression counts as a
-/// loss to walls.
+inline constexpr double kMaxCompression = 0.3;
+/// Maximum compression beside bodies that touch other bodies [-]: twice that of the flow. The energy of compression
+/// above it counts as a loss to walls.
 inline constexpr double kPinchedCompression = 0.02;
 
 /// Stability limits of the explicit time step by cause [s].
@@ -49,7 +49,7 @@ struct StepLimits {
   double least() const;
 };
 
-/// `speed`: maximum expected [m/s]; `acceleration`: maximum expected [m/s2], at least gravity.
+/// `speed`: maximum expected speed [m/s]; `acceleration`: maximum expected acceleration [m/s2], at least gravity.
 StepLimits stepLimits(const FluidModel& model, double speed, double acceleration);
 
 /// Sound speed [m/s] for a flow with this maximum speed [m/s] and pressure [Pa], so that density varies by about 1 %.

@@ -19,7 +19,7 @@ struct FluidParticle {
 /// the kernel support.
 struct WallMarker {
   base::Vec3d position;   ///< [m]
-  base::Vec3d velocity{}; ///< tangential velocity of the wall, whose position is fixed [m/s]
+  base::Vec3d velocity{}; ///< tangential velocity of the wall [m/s]; its position stays fixed
 };
 
 /// Motion of a rigid body in the fluid; vectors in world components.
@@ -34,9 +34,9 @@ struct FluidBody {
   std::string name;                 ///< name in messages
   std::vector<base::Vec3d> markers; ///< positions in the body's frame [m]
   BodyMotion start;
-  /// true: the surface touches others, like those of wheels and shoes. A particle between two surfaces in contact is
-  /// half a spacing from the markers of both, and would be squeezed out at the speed of sound. Therefore markers do not
-  /// repel it, their pressure ignores the body's acceleration, which is noisy in impacts, and the compression of
+  /// true: the surface touches other bodies, as wheels and shoes do. A particle between two surfaces in contact is
+  /// half a spacing from the markers of both, and would be squeezed out at the speed of sound. Therefore its markers
+  /// do not repel particles, their pressure ignores the body's acceleration (noisy in impacts), and the compression of
   /// particles beside them is limited to kPinchedCompression.
   bool touches = false;
 };

@@ -8,8 +8,8 @@
 
 namespace grouser::fluid {
 
-/// Work per mass dissipated by a particle since the start [J/kg]. Markers store no energy: the work of their pressure
-/// in excess of the fluid's compression energy is the loss to walls.
+/// Work per mass dissipated by a particle since the start [J/kg]. Markers store no energy: the loss to walls is the
+/// work of the marker pressure in excess of the fluid's compression energy.
 struct Losses {
   double viscous, diffusion, wall;
 };

@@ -20,7 +20,7 @@ struct alignas(32) PreciseMotion {
 /// Compression changes in a step [-]: by flow, and by density diffusion.
 struct CompressionChange {
   double flow, diffusion;
-  double limit; ///< maximum compression, lower beside bodies that touch others [-]
+  double limit; ///< maximum compression [-]; lower beside bodies that touch other bodies
 };
 
 /// Fluid load on a body about its frame origin: exact sums, in quanta of acceleration x particle mass, and of that

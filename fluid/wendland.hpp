@@ -5,7 +5,7 @@ namespace grouser::fluid {
 
 /// Wendland's C2 kernel with compact support (Wendland 1995; Dehnen and Aly 2012, Mon. Not. R. Astron. Soc. 425,
 /// 1068-1082): W(q) = a h^-d (1 - q/2)^4 (1 + 2q) for q = r/h < 2, with a = 7/(4 pi) in two dimensions and 21/(16 pi)
-/// in three. Its gradient is F(q) r, with F = -5 a h^-(d+2) (1 - q/2)^3: no division by r.
+/// in three. Its gradient is F(q) r, with F = -5 a h^-(d+2) (1 - q/2)^3, which needs no division by r.
 class Wendland {
 public:
   /// `length`: smoothing length h [m]; `dimensions`: 2 or 3.

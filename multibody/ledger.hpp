@@ -5,9 +5,9 @@
 
 namespace grouser::multibody {
 
-/// Compensated sum: the error of a million small terms equals that of one. The rounding error of each addition is
-/// computed exactly (Knuth 1997, The Art of Computer Programming 2, 4.2.2, theorem B) and summed separately (Neumaier
-/// 1974, ZAMM 54:39). The member `sum` is the plain sum.
+/// Compensated sum: a sum of a million small terms is as accurate as a single addition. The rounding error of each
+/// addition is computed exactly (Knuth 1997, The Art of Computer Programming 2, 4.2.2, theorem B) and summed separately
+/// (Neumaier 1974, ZAMM 54:39). The member `sum` is the uncompensated sum.
 struct CompensatedSum {
   double sum = 0, lost = 0;
 
@@ -33,26 +33,25 @@ struct CompensatedVector {
 
 /// Energy and momentum ledger of a mechanism since its first step [J, N s, N m s].
 ///
-/// An impulse p changes the kinetic energy of a body by exactly p . (v_before + v_after) / 2, likewise an impulse of
-/// torque with the angular velocities. kineticWork sums this over all impulses of all steps, including constraint and
-/// gyroscopic impulses. It must equal the kinetic energy gain of the bodies; any difference is rounding or an
-/// unrecorded change of the state. Potential and elastic energy are functions of positions. So
+/// An impulse p changes the kinetic energy of a body by exactly p . (v_before + v_after) / 2; the same holds for a
+/// torque impulse and the angular velocities. kineticWork sums these changes over all impulses of all steps, including
+/// constraint and gyroscopic impulses. It must equal the kinetic energy gain of the bodies; any difference is rounding
+/// or an unrecorded change of the state. Potential and elastic energy are functions of positions. Therefore
 ///   integration error = drives + external loads - dissipated - potential - elastic - kineticWork
 /// is the error of conservative forces, workless constraints and gyroscopic terms. See balance() in readings.hpp. New
 /// kinds of forces must be recorded in detail/euler_ledger.cpp and detail/rattle_ledger.cpp.
 struct Ledger {
-  /// kSymplecticEuler: impulse times the mean of the rates before and after the step. kRattle: energy decrease for
-  /// gravity and springs, force times path per stage for drives and dampers; external loads as in kSymplecticEuler.
+  /// kSymplecticEuler: impulse times the mean of the rates before and after the step. kRattle: for gravity and springs
+  /// the energy decrease, for drives and dampers force times path in each stage, for loads as in kSymplecticEuler.
   CompensatedSum gravityWork, externalWork, driveWork;
   CompensatedSum springWork; ///< work of elastic forces and preloads
   CompensatedSum dissipated; ///< sum of the three damping terms below, rounded differently
 
   CompensatedSum kineticWork;
-  CompensatedSum potentialGain, elasticGain; ///< sums of each step's gain at constant loads of that step
+  CompensatedSum potentialGain, elasticGain; ///< sums of the gains in each step, at the loads of this step
   CompensatedSum jointDamping, springDamping, stopDamping;
-  /// Reference for relative errors: sum of the absolute values of all works plus the initial kinetic energy.
-  /// Constraints count by their total work on both bodies (kSymplecticEuler), or by the total work of all constraints
-  /// on a body (kRattle).
+  /// Reference for relative errors: sum of the absolute work of all forces plus the initial kinetic energy. The term of
+  /// constraints is the total work of each on both bodies (kSymplecticEuler), or of all on each body (kRattle).
   CompensatedSum turnover;
   /// Impulses of gravity, external loads and immovable bodies, and their moments about the world origin.
   CompensatedVector linearImpulse, angularImpulse;

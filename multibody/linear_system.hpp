@@ -8,8 +8,8 @@
 
 namespace grouser::multibody {
 
-/// Linear system of a step (detail/elimination.hpp) with all axes free, for measuring its size and cost. A Solver owns
-/// a separate one.
+/// Linear system of a step (detail/elimination.hpp) with all axes free, for measurements of its size and cost. A Solver
+/// owns a separate system.
 class LinearSystem {
 public:
   /// Determines the elimination order. The model must outlive the system and not change.

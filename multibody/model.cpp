@@ -44,11 +44,10 @@ void checkPose(const PartName& what, const char* key, const Pose& X) {
   const Quat& q = X.orientation;
   const double n = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;
   if (!finite(X.position) || !(std::fabs(n - 1) < 1e-9))
-    refuse(what, key,
-           "needs a finite position and a unit quaternion (its squared norm is " + text(n) + "); normalise it");
+    refuse(what, key, "requires a finite position and a unit quaternion (squared norm " + text(n) + "); normalise it");
 }
 
-/// "1, 2, 3": the principal moments of a symmetric inertia, for messages.
+/// Principal moments of a symmetric inertia as text, such as "1, 2, 3".
 std::string principalMoments(const Mat3d& I) {
   Eigen::Matrix3d matrix;
   for (int i = 0; i < 3; ++i)
@@ -58,7 +57,7 @@ std::string principalMoments(const Mat3d& I) {
   return text(moments[0]) + ", " + text(moments[1]) + ", " + text(moments[2]);
 }
 
-/// Leading minors: all positive exactly for a positive definite symmetric matrix (Sylvester).
+/// True if all leading minors are positive, i.e. the symmetric matrix is positive definite (Sylvester).
 bool positiveDefinite(const Mat3d& a) {
   const double d1 = a.m[0][0];
   const double d2 = a.m[0][0] * a.m[1][1] - a.m[0][1] * a.m[1][0];
@@ -80,21 +79,21 @@ void checkInertia(const PartName& what, const Mat3d& I) {
                    ") = " + text(I.m[i][j]) + " and " + text(I.m[j][i]) + " must be equal");
   if (!positiveDefinite(I))
     refuse(what, "inertia",
-           "[kg m2] is not positive definite; every principal moment must be > 0, and they are " + principalMoments(I));
-  // Triangle inequality in any axes: the second moment of mass, tr(I)/2 - I, has no negative eigenvalue. A flat plate
-  // has a zero one: the allowance is for its round-off.
+           "[kg m2] is not positive definite; every principal moment must be > 0, but they are " + principalMoments(I));
+  // Triangle inequality in any axes: the second moment of mass, tr(I)/2 - I, has no negative eigenvalue. For a flat
+  // plate one eigenvalue is zero; the allowance of 1e-9 covers its round-off.
   Mat3d second;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) second.m[i][j] = (i == j ? (0.5 + 1e-9) * trace : 0) - I.m[i][j];
   if (!positiveDefinite(second))
     refuse(what, "inertia",
-           "[kg m2] breaks the triangle inequality: no principal moment may exceed the sum of the other "
-           "two, and they are " +
+           "[kg m2] violates the triangle inequality: no principal moment may exceed the sum of the other "
+           "two, but they are " +
                principalMoments(I) + "; correct the entries");
 }
 
 Vec3d perpendicularTo(const Vec3d& z) {
-  // The coordinate axis least along z gives the best conditioned cross product.
+  // The cross product with the coordinate axis least aligned with z is best conditioned.
   const double ax = std::fabs(z.x), ay = std::fabs(z.y), az = std::fabs(z.z);
   const Vec3d e = ax <= ay && ax <= az ? Vec3d{1, 0, 0} : ay <= az ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1};
   return normalized(e - z * dot(e, z));
@@ -122,7 +121,7 @@ int Model::addBody(const Body& body) {
   checkPose(what, "pose", body.pose);
   if (!finite(body.v_WB) || !finite(body.w_WB)) refuse(what, "velocity", "is not finite");
   if (body.point && (body.fixed || !(body.w_WB == Vec3d{})))
-    refuse(what, "is a point body, which cannot be fixed or rotate; remove that, or set an inertia");
+    refuse(what, "is a point body, which cannot be fixed or rotate; set an inertia, or remove fixed and rotation");
   if (!body.fixed) {
     if (!(std::isfinite(body.mass) && body.mass > 0))
       refuse(what, "mass", "= " + text(body.mass) + " [kg] must be > 0");
@@ -132,7 +131,7 @@ int Model::addBody(const Body& body) {
   }
   bodies_.push_back(body);
   bodies_.back().pose.orientation = body.pose.orientation.normalized();
-  // A point body never rotates; a radius of gyration of 1 m keeps its equations well scaled.
+  // A point body never rotates; a radius of gyration of 1 m scales its equations well.
   if (body.point) bodies_.back().inertia_B = Mat3d::diagonal({body.mass, body.mass, body.mass});
   return static_cast<int>(bodies_.size()) - 1;
 }
@@ -143,10 +142,10 @@ void Model::checkBodies(const PartName& what, int bodyA, int bodyB) const {
     if (b < kWorld || b >= count)
       refuse(what, "body index " + std::to_string(b) + " is outside [-1, " + std::to_string(count - 1) +
                        "] (-1 is the world); add the body first");
-  if (bodyA == bodyB) refuse(what, "joins '" + bodyName(bodyA) + "' to itself; name two bodies");
+  if (bodyA == bodyB) refuse(what, "joins '" + bodyName(bodyA) + "' to itself; name two different bodies");
   const auto immovable = [&](int b) { return b == kWorld || bodies_[static_cast<std::size_t>(b)].fixed; };
   if (immovable(bodyA) && immovable(bodyB))
-    refuse(what, "both '" + bodyName(bodyA) + "' and '" + bodyName(bodyB) + "' are fixed; remove it");
+    refuse(what, "both '" + bodyName(bodyA) + "' and '" + bodyName(bodyB) + "' are fixed; remove this element");
 }
 
 /// Resolves kOnly to the only axis.
@@ -200,7 +199,7 @@ int Model::addJoint(const Joint& given) {
     };
     joint.length = norm(placed(joint.bodyB, joint.frame_B.position) - placed(joint.bodyA, joint.frame_A.position));
     if (!(joint.length > 1e-9))
-      refuse(what, "its two points coincide: a rod needs a length > 0; use a spherical joint");
+      refuse(what, "its two points coincide, but a rod requires a length > 0; use a spherical joint");
   }
   joints_.push_back(joint);
   return static_cast<int>(joints_.size()) - 1;
@@ -274,9 +273,9 @@ int Model::addDrive(const Drive& given) {
   checkFinite(what, "speed", drive.speed);
   if (const std::string fault = timeLawFault(drive.law); !fault.empty()) refuse(what, fault);
   if (drive.kind == DriveKind::kPosition && drive.law.empty())
-    refuse(what, "imposes a position, but has no law; specify the position over time");
+    refuse(what, "imposes a position, but has no law; set a law for the position over time");
   if (drive.kind == DriveKind::kPosition && !drive.law.ramps.times.empty())
-    refuse(what, "position ramps have jumps in speed; use a table, polynomial or harmonics");
+    refuse(what, "ramps of a position cause jumps in speed; use a table, polynomial or harmonics");
   if (drive.kind != DriveKind::kForce)
     for (const Drive& other : drives_)
       if (other.joint == drive.joint && other.axis == drive.axis && other.kind != DriveKind::kForce)
@@ -293,7 +292,7 @@ int Model::addCoupling(const Coupling& given) {
   checkAxis(what, coupling.joint2, coupling.axis2);
   if (coupling.joint1 == coupling.joint2 && coupling.axis1 == coupling.axis2)
     refuse(what, "couples an axis of joint '" + joints_[static_cast<std::size_t>(coupling.joint1)].name +
-                     "' to itself; name two axes");
+                     "' to itself; name two different axes");
   if (!(std::isfinite(coupling.ratio) && coupling.ratio != 0))
     refuse(what, "ratio", "= " + text(coupling.ratio) + " must be finite and not 0");
   if (std::isinf(coupling.offset)) refuse(what, "offset", "is infinite");

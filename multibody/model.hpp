@@ -20,7 +20,7 @@ using base::Vec3d;
 
 struct PartName; // part_error.hpp
 
-/// Index of the world (an immovable body whose frame is the world frame) in joints and springs.
+/// Index of the world, an immovable body with the world frame as body frame, in joints and springs.
 inline constexpr int kWorld = -1;
 
 struct Body {
@@ -37,7 +37,7 @@ struct Body {
   bool point = false;
 };
 
-/// Joint type, named by its free motions. x, y, z are the axes of the joint frames, one attached to A, one to B.
+/// Joint types with their free motions. x, y, z are the axes of the two joint frames, one attached to A, one to B.
 enum class JointType {
   kRevolute,    ///< rotation about z
   kSpherical,   ///< rotation about the common origin
@@ -45,18 +45,18 @@ enum class JointType {
   kPrismatic,   ///< translation along z of A's frame
   kFixed,       ///< no relative motion
   kCylindrical, ///< rotation about z and translation along z of A's frame
-  kDistance,    ///< constant distance of the two origins: a massless rigid rod with ball joints
+  kDistance,    ///< constant distance between the two origins: a massless rigid rod with ball joints
 };
 
 /// Free axis of a joint.
 enum class JointAxis {
-  kOnly,  ///< angle of a revolute or slide of a prismatic joint; not valid for a cylindrical one
+  kOnly,  ///< angle of a revolute or slide of a prismatic joint; not valid for a cylindrical joint
   kAngle, ///< angle of a revolute or cylindrical joint [rad]
   kSlide, ///< slide of a prismatic or cylindrical joint [m]
 };
 
-/// Joint between bodies A and B. Angle and slide are those of B relative to A, positive for a rotation about or
-/// translation along +z of B with A at rest. Angles are continuous over full turns.
+/// Joint between bodies A and B. Angle and slide describe the motion of B relative to A, positive for a rotation about,
+/// or translation along, +z. Angles are continuous over full turns.
 struct Joint {
   std::string name;
   JointType type = JointType::kRevolute;
@@ -65,18 +65,18 @@ struct Joint {
   Pose frame_A; ///< joint frame in A's body frame (in the world if A is kWorld)
   Pose frame_B; ///< joint frame in B's body frame
   double damping =
-      0; ///< damping of the free axis, or a cylindrical's angle [N m s/rad] or [N s/m], >= 0. Implicit: any size
+      0; ///< damping of the free axis, or of a cylindrical's angle [N m s/rad] or [N s/m], >= 0; implicit: any value
   double slideDamping = 0; ///< damping of the slide of a cylindrical joint [N s/m], >= 0
   double length = 0;       ///< length of a distance joint [m], > 0; 0: from the body poses
 };
 
 /// Spring, damper, preload and end stops on a free axis of a revolute, prismatic or cylindrical joint (N m and rad for
-/// an angle, N and m for a slide). End stops alone (axis limits) are a spring of stiffness 0. Generalised force on B
+/// an angle, N and m for a slide). For an axis with end stops (limits) only, set stiffness = 0. Generalised force on B
 /// along +z (A receives the opposite), at axis position x (angle or slide):
 ///   F = loadFactor preload - stiffnessFactor stiffness (x - freePosition) - damping xdot,
-/// and beyond a limit additionally -stopStiffness (x - limit) - stopDamping xdot, never adhesive. Implicit in x and
-/// xdot with Integrator::kSymplecticEuler: stable at any step size; the numerical damping ratio of an undamped spring
-/// is omega dt / 2. For Integrator::kRattle see Springs in solver_options.hpp.
+/// and beyond a limit additionally -stopStiffness (x - limit) - stopDamping xdot, never adhesive. With
+/// Integrator::kSymplecticEuler the force is implicit in x and xdot, so any step is stable; the numerical damping
+/// ratio of an undamped spring is omega dt / 2. For Integrator::kRattle see Springs in solver_options.hpp.
 struct AxisSpring {
   std::string name;
   int joint = 0;
@@ -91,8 +91,8 @@ struct AxisSpring {
   JointAxis axis = JointAxis::kOnly;
 };
 
-/// Spring-damper between a point of A and a point of B. Repulsive force at distance l:
-///   F = loadFactor preload - stiffnessFactor stiffness (l - restLength) - damping ldot. Implicit, as AxisSpring.
+/// Spring-damper between a point of A and a point of B, implicit like AxisSpring. Repulsive force at distance l:
+///   F = loadFactor preload - stiffnessFactor stiffness (l - restLength) - damping ldot.
 struct PointSpring {
   std::string name;
   int bodyA = kWorld;
@@ -106,13 +106,13 @@ struct PointSpring {
 };
 
 /// Elastic bearing: linear springs and dampers in all six directions between a frame of A and a frame of B.
-/// Translation d: from A's origin to B's, in the axes of A's frame. Rotation phi: the rotation vector (axis times
-/// angle, |phi| < pi) of R_AB, which transforms components in B's frame to A's frame. With diagonal K and C, force on
-/// B at the origin of its frame, and torque on B, in the axes of A's frame (A receives the opposite at the same
-/// point):
+/// Translation d: from the origin of A's frame to the origin of B's frame, in the axes of A's frame. Rotation phi: the
+/// rotation vector (axis times angle, |phi| < pi) of R_AB, which transforms components in B's frame to A's frame. Force
+/// on B at the origin of B's frame, and torque on B, in the axes of A's frame (A receives the opposite at the same
+/// point), with diagonal matrices:
 ///   F = -stiffness d - damping ddot,     M = -Y(phi)^T (rotationStiffness phi + rotationDamping phidot),
-/// where phidot = Y(phi) w_AB; Y is the identity for small phi, so the elastic energy is (d.K d + phi.K_r phi) / 2 at
-/// any phi.
+/// where phidot = Y(phi) w_AB; Y tends to the identity for small phi. The elastic energy is (d . stiffness d + phi .
+/// rotationStiffness phi) / 2 at any phi.
 struct Bushing {
   std::string name;
   int bodyA = kWorld;
@@ -132,7 +132,7 @@ enum class DriveKind {
 };
 
 /// Drive of a free axis of a revolute, prismatic or cylindrical joint. The force of an imposed motion is the
-/// constraint's multiplier: see JointReading, driveForce() and drivePower() in state.hpp and readings.hpp.
+/// multiplier of its constraint; see JointReading, driveForce() and drivePower() in state.hpp and readings.hpp.
 struct Drive {
   std::string name;
   int joint = 0;
@@ -141,13 +141,14 @@ struct Drive {
   JointAxis axis = JointAxis::kOnly;
   DriveKind kind = DriveKind::kSpeed;
   /// Speed, position or force over time. Empty: Loads sets speed or force in each step (kPosition requires a law). A
-  /// speed law imposes its integral, position = start + integral of the law, which prevents drift.
+  /// speed law is imposed as a position, start + integral of the law, which prevents drift.
   TimeLaw law{};
 };
 
 /// Couples the positions of two axes (gears, belts, rack and pinion, screw):
 ///   position of axis 2 = ratio * position of axis 1 + offset.
-/// The two joints may connect up to four bodies; each reacts on its own two (a gear housing carries the difference).
+/// The two joints may connect up to four bodies; each axis force acts on the two bodies of its joint. The housing of a
+/// gear supports the difference of the two torques.
 struct Coupling {
   std::string name;
   int joint1 = 0;
@@ -158,7 +159,7 @@ struct Coupling {
   double offset = std::numeric_limits<double>::quiet_NaN(); ///< [rad] or [m]; NaN: from the body poses
 };
 
-/// Number of parts of each kind.
+/// Numbers of parts of each kind.
 struct PartCounts {
   std::size_t bodies{}, joints{}, axisSprings{}, pointSprings{}, bushings{}, drives{}, couplings{};
 };
@@ -168,7 +169,7 @@ class Model {
 public:
   int addBody(const Body& body);
   int addJoint(const Joint& joint);
-  /// Adds a joint whose two frames coincide at the start: `X_WJ` is the joint frame in the world, at the poses of the
+  /// Adds a joint with frames that coincide at the start: `X_WJ` is the joint frame in the world, at the poses of the
   /// existing bodies.
   int addJointAt(const std::string& name, JointType type, int bodyA, int bodyB, const Pose& X_WJ, double damping = 0);
   int addAxisSpring(const AxisSpring& spring);
@@ -176,7 +177,7 @@ public:
   int addBushing(const Bushing& bushing);
   int addDrive(const Drive& drive);
   int addCoupling(const Coupling& coupling);
-  /// Translates all bodies by `way` [m], and the attachment frames of joints, springs and bushings in the world.
+  /// Translates all bodies by `way` [m], and also the frames of joints, springs and bushings attached to the world.
   void translate(const Vec3d& way);
 
   const std::vector<Body>& bodies() const { return bodies_; }
@@ -188,12 +189,12 @@ public:
   const std::vector<Coupling>& couplings() const { return couplings_; }
 
   PartCounts counts() const;
-  /// Adds the parts of `all` beyond `from`; the first parts of `all` must be those of this model, possibly at other
+  /// Adds the parts of `all` beyond `from`; the first parts of `all` must be the parts of this model, possibly at other
   /// poses. Bodies in `moved` ([body of all]) move with the frame from `X_from` to `X_to`.
   void append(const Model& all, const PartCounts& from, const std::vector<bool>& moved, const Pose& X_from,
               const Pose& X_to);
 
-  /// Index by name; throws PartError if there is none.
+  /// Index of an element by name; throws PartError if no element has this name.
   int bodyIndex(const std::string& name) const;
   int jointIndex(const std::string& name) const;
   /// Name of a body; "world" for kWorld.

@@ -15,7 +15,7 @@ struct PartName {
   std::string text() const { return name.empty() ? kind : kind + " '" + name + "'"; }
 };
 
-/// Error in one part of a mechanism. The message reads `joint 'hip': damping = -1 [N s/m] must be ...`; file readers
+/// Error in one part of a mechanism, with a message like `joint 'hip': damping = -1 [N s/m] must be ...`; file readers
 /// prepend the part's location in the file.
 class PartError : public base::InputError {
 public:

@@ -98,8 +98,8 @@ Balance balance(const Model& model, const State& state, const Loads& loads) {
   b.integrationError = l.integrationError();
   b.leftOver = b.kineticGain - l.kineticWork;
   b.turnover = l.turnover;
-  b.linearLeftOver = t.linearMomentum - l.startLinear - l.linearImpulse.value();
-  b.angularLeftOver = t.angularMomentum - l.startAngular - l.angularImpulse.value();
+  b.linearRemainder = t.linearMomentum - l.startLinear - l.linearImpulse.value();
+  b.angularRemainder = t.angularMomentum - l.startAngular - l.angularImpulse.value();
   return b;
 }
 

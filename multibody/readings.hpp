@@ -8,8 +8,8 @@ namespace grouser::multibody {
 
 /// Returns position, rate [rad, rad/s or m, m/s] and force [N m or N] of a joint axis; kOnly for single-axis joints.
 AxisReading axisReading(const Model& model, const State& state, int joint, JointAxis axis = JointAxis::kOnly);
-/// Force [N] or torque [N m] exerted by a drive on B along its axis in the last step; and power of the drive [W],
-/// positive if it adds energy to the mechanism.
+/// Force [N] or torque [N m] exerted by a drive on B along its axis in the last step, and power of the drive [W],
+/// positive if the drive adds energy to the mechanism.
 double driveForce(const Model& model, const State& state, int drive);
 double drivePower(const Model& model, const State& state, int drive);
 
@@ -27,8 +27,8 @@ double elasticEnergy(const Model& model, const State& state, const Loads& loads)
 
 /// Balance of the ledger of a state (ledger.hpp) since its first step [J, N s, N m s]:
 ///   kineticGain + potentialGain + elasticGain + dissipated() + integrationError = driveWork + externalWork + leftOver
-/// Energy added by changing loads (ramps of springs and of gravity) counts neither as stored energy nor as work: gains
-/// are summed at the loads of each step.
+/// Energy added by changing loads (ramps of springs and of gravity) counts neither as stored energy nor as work, since
+/// the gains in each step are computed with constant loads.
 struct Balance {
   Totals now; ///< totals of the current state
   double driveWork = 0, externalWork = 0;
@@ -37,11 +37,11 @@ struct Balance {
   double springDamping = 0; ///< dissipated by axis springs, point springs and bushings
   double stopDamping = 0;   ///< dissipated by end stops
   double dissipated() const { return jointDamping + springDamping + stopDamping; }
-  double integrationError = 0; ///< decreases with the step
-  double leftOver = 0;         ///< kinetic energy residual: rounding
+  double integrationError = 0; ///< error of the finite step; tends to 0 with it
+  double leftOver = 0;         ///< residual of the kinetic energy: rounding
   double turnover = 0;         ///< sum of absolute works plus initial kinetic energy
-  Vec3d linearLeftOver;        ///< momentum residual: rounding
-  Vec3d angularLeftOver;       ///< angular momentum residual about the world origin
+  Vec3d linearRemainder;       ///< momentum residual: rounding
+  Vec3d angularRemainder;      ///< angular momentum residual about the world origin
 };
 Balance balance(const Model& model, const State& state, const Loads& loads);
 /// Initialises the ledger of a state; the solver calls it before its first step.

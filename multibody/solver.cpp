@@ -50,7 +50,7 @@ struct Solver::Impl {
     checkCouplings(system, m);
     checkDrives(system, m);
     const bool rattle = options.integrator == Integrator::kRattle;
-    // Twists of kSymplecticEuler are means over steps, and an imposed rate belongs to the first step.
+    // With kSymplecticEuler twists are means over steps; an imposed rate applies to the first step, not to its start.
     if (options.startVelocities == StartVelocities::kRefuse)
       checkVelocities(system, m, options.velocityTolerance, rattle);
     start = driveStart(system, m);
@@ -136,7 +136,7 @@ void Solver::Impl::describe() {
   for (const int c : redundancy.couplings) out << "  coupling '" << model.couplings()[at(c)].name << "'\n";
   if (redundancy.singularAtStart > 0)
     out << "the mechanism starts in a singular position: " << redundancy.singularAtStart
-        << " rows are dependent only there; they are kept\n";
+        << " rows are dependent only in this position; they are kept\n";
   text = out.str();
 }
 
@@ -199,7 +199,7 @@ double Solver::Impl::geometricStiffnessRate(const State& state, const Loads& loa
   return std::sqrt(highest);
 }
 
-/// Orders above 2 have backward stages, in which a damper adds energy: tolerable while damping is weak.
+/// Refuses strong dampers for orders above 2, which have backward stages: in these, a damper adds energy.
 void Solver::Impl::checkDampers(double dt) {
   if (options.integrator != Integrator::kRattle || options.order == 2 || dt <= checkedDampers) return;
   axisDamping(system, model, stiffness);
@@ -217,8 +217,8 @@ void Solver::Impl::checkDampers(double dt) {
   checkedDampers = dt;
 }
 
-/// Explicit springs: checked before the first step, for longer steps, and periodically, since frequencies depend on
-/// positions.
+/// Checks the step against explicit springs: before the first step, before longer steps, and periodically, since
+/// frequencies depend on positions.
 void Solver::Impl::checkStable(const State& state, const Loads& loads, double dt) {
   constexpr long long kInterval = 512;
   if (options.integrator != Integrator::kRattle || options.springs != Springs::kExplicit) return;
@@ -273,7 +273,7 @@ double Solver::projectVelocities(State& state, const Loads& loads) {
   for (const ConstraintSystem::Part& part : s.system.parts()) {
     s.system.linearise(part, frames, s.laws);
     std::vector<Twist> twist = state.twist;
-    // The second pass removes round-off.
+    // A second pass reduces the round-off of the first.
     for (int pass = 0; pass < 2; ++pass) projectTwists(s.system, part, s.laws, s.x, twist);
     for (const int node : part.bodies)
       setTwist(s.model, state, s.system.bodyOf(node), twist[at(s.system.bodyOf(node))]);

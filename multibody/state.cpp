@@ -15,7 +15,7 @@ using namespace detail;
 
 namespace {
 
-/// Ledger numbers counted by State::kBooks.
+/// Calls `f` for the State::kBooks numbers of the ledger.
 template <class Ledger_, class F> void forEachBook(Ledger_& l, F f) {
   f(l.gravityWork.lost), f(l.externalWork.lost), f(l.driveWork.lost), f(l.springWork.lost), f(l.dissipated.lost);
   const auto sum = [&](auto& s) { f(s.sum), f(s.lost); };
@@ -49,7 +49,8 @@ template <class State_, class F> void forEachNumber(State_& s, F f) {
   forEachBook(s.ledger, f);
 }
 
-/// Fills axis positions and rates, lengths and bushings' readings from poses and twists; angles within half a turn.
+/// Computes the positions and rates of axes, and the readings of springs and bushings, from poses and twists; angles
+/// are within half a turn.
 void findAxes(const ConstraintGraph& graph, State& state) {
   std::vector<Frame> frames;
   graph.place(state.pose, frames);
@@ -86,8 +87,8 @@ void State::restore(const std::vector<double>& flat) {
   std::size_t count = 0;
   forEachNumber(*this, [&](double&) { ++count; });
   if (count != flat.size())
-    throw base::InputError("multibody state: " + std::to_string(flat.size()) + " numbers stored, this model has " +
-                           std::to_string(count) + "; resume with the model that was saved");
+    throw base::InputError("multibody state: " + std::to_string(flat.size()) + " numbers stored, but this model has " +
+                           std::to_string(count) + "; resume with the model of the checkpoint");
   std::size_t i = 0;
   forEachNumber(*this, [&](double& x) { x = flat[i++]; });
 }

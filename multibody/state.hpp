@@ -10,8 +10,8 @@
 
 namespace grouser::multibody {
 
-/// Readings of a joint in the last step. Forces are means over the step with kSymplecticEuler and end values with
-/// kRattle.
+/// Readings of a joint in the last step. Forces are means over the step with kSymplecticEuler, and values at its end
+/// with kRattle.
 struct JointReading {
   Vec3d force; ///< force of A on B: hard rows plus axis force, world components [N]; for a shoe joint the track
                ///< tension
@@ -50,7 +50,7 @@ struct BushingReading {
 
 /// Readings of a coupling in the last step.
 struct CouplingReading {
-  double force = 0; ///< generalised force on axis 2 along +axis; axis 1 receives -ratio times it [N m] or [N]
+  double force = 0; ///< generalised force on axis 2 along +axis [N m] or [N]; axis 1 receives -ratio * force
 };
 
 /// Readings of a point spring in the last step.
@@ -74,9 +74,9 @@ struct State {
   std::vector<BushingReading> bushing;
   std::vector<CouplingReading> coupling;
 
-  /// Returns the complete dynamic state as a flat array; a run resumed from it is bitwise equal to an unbroken one.
+  /// Returns the complete state as a flat array; a run resumed from it is bitwise equal to an uninterrupted run.
   std::vector<double> save() const;
-  /// Number of trailing ledger values, excluded from state hashes because no step depends on them.
+  /// Number of ledger values at the end of save(); state hashes exclude them, since no step depends on them.
   static constexpr std::size_t kBooks = 39;
   /// Inverse of save(); throws base::InputError if the length does not match this state's model.
   void restore(const std::vector<double>& flat);

@@ -12,16 +12,16 @@ namespace grouser::multibody {
 
 namespace {
 
-/// A polynomial piece, value at s = t - start: a + b s + c s^2 + d s^3, up to `end`.
+/// A polynomial piece from `start` to `end`, with the value a + b s + c s^2 + d s^3 at s = t - start.
 struct Piece {
   double start, end, a, b, c, d;
 };
 
 double pieceIntegral(const Piece& p, double s) { return s * (p.a + s * (p.b / 2 + s * (p.c / 3 + s * (p.d / 4)))); }
 
-/// Second derivatives of the cubic spline whose slope is 0 at both ends, so that it goes over into the constants
-/// outside without a jump of the rate: h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i -
-/// slope_{i-1}), where h and slope outside the table are 0 (de Boor 1978, A Practical Guide to Splines, ch. IV).
+/// Second derivatives M of the cubic spline with slope 0 at both ends, so that the rate does not jump where the spline
+/// meets the constants outside: h_{i-1} M_{i-1} + 2 (h_{i-1} + h_i) M_i + h_i M_{i+1} = 6 (slope_i - slope_{i-1}),
+/// with h = slope = 0 outside the table (de Boor 1978, A Practical Guide to Splines, ch. IV).
 std::vector<double> secondDerivatives(const TimeLaw::Table& t) {
   const std::size_t n = t.times.size();
   std::vector<double> M(n, 0.0), diagonal(n, 1.0);
@@ -38,8 +38,8 @@ std::vector<double> secondDerivatives(const TimeLaw::Table& t) {
   return M;
 }
 
-/// Calls `f` for the pieces of a table, including its constant ends, in order, starting at the first that ends after
-/// `from`.
+/// Calls `f` in order for the pieces of a table, including its constant ends, starting at the first piece that ends
+/// after `from`.
 template <class F> void forEachPiece(const TimeLaw::Table& t, bool smooth, F f) {
   const std::size_t n = t.times.size();
   if (n == 0) return;
@@ -84,7 +84,7 @@ std::string tableFault(const char* key, const TimeLaw::Table& t, bool jumps) {
   if (t.times.empty() && t.values.empty()) return "";
   if (t.times.size() != t.values.size() || t.times.size() < 2)
     return name + " has " + std::to_string(t.times.size()) + " times and " + std::to_string(t.values.size()) +
-           " values; give equal numbers, at least 2";
+           " values; set the same number of both, at least 2";
   for (std::size_t i = 0; i < t.times.size(); ++i) {
     if (!std::isfinite(t.times[i]) || !std::isfinite(t.values[i]))
       return name + " has an entry that is not a finite number";

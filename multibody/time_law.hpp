@@ -10,11 +10,11 @@ namespace grouser::multibody {
 /// Function of time: the sum of
 ///   polynomial    c[0] + c[1] t + c[2] t^2 + ...
 ///   harmonics     amplitude sin(frequency t + phase)
-///   table         cubic spline through (times, values) with zero end rates; constant before the
-///                 first and after the last time: the rate never jumps. May overshoot with unequal intervals.
-///   ramps         piecewise linear through (times, values), constant outside: for speeds and forces. A repeated time
-///                 is a jump; at that time the first of the two values applies.
-/// Empty terms are 0. Evaluated by base/math.hpp: bitwise identical on all machines.
+///   table         cubic spline through (times, values) with zero rate at both ends; constant before the first and
+///                 after the last time, so that the rate never jumps. May overshoot with unequal intervals.
+///   ramps         piecewise linear through (times, values), constant outside; for speeds and forces. A repeated time
+///                 is a jump; at this time the first of the two values applies.
+/// Empty terms are 0. base/math.hpp evaluates all functions; results are bitwise identical on all machines.
 struct TimeLaw {
   struct Harmonic {
     double amplitude = 0; ///< unit of the value
@@ -22,7 +22,7 @@ struct TimeLaw {
     double phase = 0;     ///< [rad]
   };
   struct Table {
-    std::vector<double> times;  ///< [s], increasing, of ramps with jumps
+    std::vector<double> times;  ///< [s], increasing; a repeated time is a jump (ramps only)
     std::vector<double> values; ///< same number as times
   };
 
@@ -40,8 +40,8 @@ struct TimeLaw {
   static TimeLaw constant(double value) { return {{value}, {}, {}, {}}; }
 };
 
-/// Index of the first time of a table that does not increase, 0 if there is none. With `jumps` a time may occur twice,
-/// which marks a jump of the value.
+/// Index of the first time of a table that does not increase, 0 if there is none. With `jumps`, a time may occur twice
+/// and then marks a jump of the value.
 inline std::size_t firstOutOfOrder(const std::vector<double>& times, bool jumps) {
   for (std::size_t i = 1; i < times.size(); ++i) {
     const bool jump = jumps && times[i] == times[i - 1] && !(i > 1 && times[i - 1] == times[i - 2]);

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs with apt-get what grouser needs and the machine lacks. Sourced by runs/quickstart, tests/run and tests/lint.
+# Installs the missing packages that grouser requires, with apt-get. Sourced by runs/quickstart, tests/run, tests/lint.
 
-# docs/install.md names all of these, cmake/package.cmake those it runs with; tests/python/docs_test.py compares.
+# docs/install.md lists all packages, cmake/package.cmake those required at run time; tests/python/docs_test.py compares.
 
 GROUSER_BUILD=(
   g++ cmake ninja-build pkg-config git ca-certificates python3
@@ -11,10 +11,10 @@ GROUSER_BUILD=(
 GROUSER_RUN=(
   python3 python3-numpy python3-h5py python3-matplotlib openmpi-bin libjs-three libjs-dygraphs)
 GROUSER_TESTS=(libgtest-dev clang-format-14)
-# Tests of what a browser shows, and of the site, are left out without them.
+# Without these packages, tests of pages in a browser and of the web site are skipped.
 GROUSER_PAGES=(chromium-headless-shell mkdocs)
 
-install_packages() { # install_packages PACKAGE...: these, and what it takes to build and run
+install_packages() { # install_packages PACKAGE...: installs these, and the packages to build and run grouser
   local missing=() package
   for package in "${GROUSER_BUILD[@]}" "${GROUSER_RUN[@]}" libgtest-dev "$@"; do
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
@@ -23,14 +23,14 @@ install_packages() { # install_packages PACKAGE...: these, and what it takes to 
   echo "installing: ${missing[*]}"
   local sudo=()
   if [ "$(id -u)" -ne 0 ]; then
-    command -v sudo >/dev/null || { echo "these packages are missing, and there is no sudo to install them: ${missing[*]}" >&2; return 1; }
+    command -v sudo >/dev/null || { echo "packages are missing, and sudo is not available to install them; install as root: ${missing[*]}" >&2; return 1; }
     sudo=(sudo)
   fi
   "${sudo[@]}" apt-get update -qq
   DEBIAN_FRONTEND=noninteractive "${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# configure_and_build FOLDER TARGET...: with CUDA where the toolkit and a GPU are there, without elsewhere.
+# configure_and_build FOLDER TARGET...: builds the targets, with CUDA if the toolkit and a GPU are present.
 configure_and_build() {
   local folder=$1 preset=cpu
   shift

@@ -41,7 +41,7 @@ void Berms::deposit(Node& from, double x, double y, double dx, double dy) {
 void Berms::slide() {
   if (active_.empty()) return;
   std::set<Place> next;
-  // Pairs are in four classes; no two of a class share a node, so the order within a class has no effect.
+  // Pairs are in four classes; no two pairs of a class share a node, so the order within a class has no effect.
   for (const auto& [di, dj] : {std::pair{1, 0}, std::pair{0, 1}})
     for (int parity = 0; parity < 2; ++parity)
       for (const auto& [tileJ, tileI] : active_)

@@ -20,7 +20,7 @@ public:
   Berms(SoilMap& map, double repose) : map_(map), steepest_(repose * map.spacing()) {}
 
   /// Moves the displaced soil of a node outward from (x, y) along the horizontal unit vector (dx, dy), to the nearest
-  /// node without contact. If there is none within kFarthest nodes, the soil remains pending.
+  /// node without contact. If no such node is within kFarthest nodes, the soil remains pending.
   void deposit(Node& from, double x, double y, double dx, double dy);
   /// Performs one sweep over the tiles with moved soil. Each pair of neighbours halves its height excess over the
   /// slope of repose.

@@ -7,8 +7,8 @@
 
 namespace grouser::scm {
 
-/// Node in contact in this step. Loose soil carries the load until the pressure of the firm soil below exceeds it; then
-/// it counts as compacted into the firm soil. `offset` is the depth at which the layer's sinkage begins.
+/// Node in contact in this step. Loose soil carries the load until the pressure of the firm soil below is higher; then
+/// the loose soil counts as compacted into the firm soil. `offset` is the depth at which the layer's sinkage begins.
 struct LoadedNode {
   Node* node{};
   double deepest{};  ///< maximum depth of the bodies below the undisturbed surface, along its normal [m]

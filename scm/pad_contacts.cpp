@@ -39,8 +39,8 @@ PadContacts::PadContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Pad> pad
   }
 }
 
-/// Width b of each pad: in a track the smaller of its width and the length of the run of pads in contact that contains
-/// the pad or would be extended by it.
+/// Width b of each pad. In a track it is the smaller of the pad width and the length of the run of pads in contact; the
+/// run includes the pad, even if this pad is not in contact yet.
 void PadContacts::updateBreadths() {
   for (std::size_t first = 0, end = 0; first < pads_.size(); first = end) {
     for (end = first + 1; end < pads_.size() && pads_[first].track >= 0 && pads_[end].track == pads_[first].track;)

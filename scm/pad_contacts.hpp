@@ -21,7 +21,7 @@ struct Pad {
   Vec3d along, across;              ///< unit vectors of its sides; along x across points out of the soil
   double halfLength{}, halfWidth{}; ///< along, across [m]
   double breadth{};                 ///< b of Bekker's relation [m]; in a track its maximum, for a long run of shoes
-  /// Pads of one track are in the order of the closed loop; b is that of the run of pads in contact.
+  /// Pads of one track are in the order of the closed loop; b depends on the run of pads in contact.
   int track = -1;                     ///< -1: no track
   double pitch{};                     ///< distance of neighbouring pads in the track [m]
   std::optional<Grousers> grousers{}; ///< empty: a rough plate, with the soil's own shear strength

@@ -22,7 +22,7 @@ double SoilMap::topOf(std::int32_t i0, std::int32_t i1, std::int32_t j0, std::in
   double top = -base::kInfinity;
   for (std::int32_t j = tileAt(j0); j <= tileAt(j1); ++j)
     for (std::int32_t i = tileAt(i0); i <= tileAt(i1); ++i) top = std::max(top, tileOf(i, j).top);
-  return top + mostLoose_;
+  return top + maxLoose_;
 }
 
 const Node* SoilMap::find(std::int32_t i, std::int32_t j) const {

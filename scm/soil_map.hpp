@@ -65,7 +65,7 @@ public:
   }
   /// Adds loose soil to a node, or removes it [kHeightQuantum]. All changes must use this function.
   void addLoose(Node& node, std::int64_t quanta) {
-    node.looseQuanta += quanta, mostLoose_ = std::max(mostLoose_, node.looseThickness());
+    node.looseQuanta += quanta, maxLoose_ = std::max(maxLoose_, node.looseThickness());
   }
   /// Upper bound of the surface height at the nodes i0 ... i1, j0 ... j1 [m].
   double topOf(std::int32_t i0, std::int32_t i1, std::int32_t j0, std::int32_t j1);
@@ -103,7 +103,7 @@ private:
   double spacing_;
   std::function<terrain::SurfaceJet(double, double)> surface_;
   std::unordered_map<std::uint64_t, std::unique_ptr<Tile>> tiles_;
-  double mostLoose_{}; ///< upper bound of the thickness of loose soil [m]
+  double maxLoose_{}; ///< upper bound of the thickness of loose soil [m]
   Tile* last_{};
   std::uint64_t lastKey_{};
 };

@@ -24,21 +24,21 @@ using detail::OuterSurface;
 using detail::PointGrid;
 using detail::SurfaceSample;
 
-/// Disc radius limit: a little over half the diagonal of a lattice square [spacing].
+/// Maximum radius of a disc: slightly more than half the diagonal of a lattice square [spacing].
 constexpr double kFlatReach = 0.74;
-/// Distance below which lattice spheres are merged after the move [spacing].
+/// Distance below which lattice spheres are merged after they have moved to the surface [spacing].
 constexpr double kMerge = 0.5;
 /// Distance between surface samples [spacing].
 constexpr double kSampleStep = 0.33;
-/// Sample distance for thin parts, where a gap between discs is a hole [spacing].
+/// Sample distance for thin parts, in which a gap between discs is a hole [spacing].
 constexpr double kThinSampleStep = 0.2;
 
-/// Number of samples whose spheres are fitted in parallel.
+/// Number of samples per block; the spheres of a block are fitted in parallel.
 constexpr std::size_t kBlock = 2048;
-/// Block size for thin parts, whose fits are expensive.
+/// Block size for thin parts, which require expensive fits.
 constexpr std::size_t kThinBlock = 128;
 
-/// Runs body(i) for i in [0, count) on all threads; each i writes only its own entry, so the order does not matter.
+/// Runs body(i) for i in [0, count) on all threads; each i writes only entry i, so the order has no effect.
 template <class Body> void parallel(std::size_t count, Body&& body) {
 #pragma omp parallel for schedule(dynamic, 32)
   for (std::int64_t i = 0; i < static_cast<std::int64_t>(count); ++i) body(static_cast<std::size_t>(i));
@@ -66,7 +66,7 @@ struct Lattice {
   }
 };
 
-/// Inner lattice point, with the nearest surface point if near.
+/// Inner lattice point, with the nearest surface point if this point is near.
 struct LatticePoint {
   Vec3d point;
   ClosestPoint near;
@@ -99,7 +99,7 @@ public:
   SurfaceBuilder(const OuterSurface& outer, double radius, double spacing, const DecompositionOptions& options)
       : outer_(outer), radius_(radius), spacing_(spacing), options_(options), centres_(spacing) {}
 
-  /// One sphere per lattice point of the shell, unless it coincides with an existing one.
+  /// Adds one sphere per lattice point of the shell, unless it coincides with an existing sphere.
   void addLattice(const std::vector<LatticePoint>& points) {
     std::vector<SetSphere> fitted(points.size());
     parallel(points.size(), [&](std::size_t i) {
@@ -112,8 +112,8 @@ public:
     parallel(spheres_.size(), [&](std::size_t i) { setFlat(spheres_[i]); });
   }
 
-  /// Adds spheres under samples with too large a dip. Works in blocks of fixed size: the fits of a block run in
-  /// parallel, then its spheres are added in order and reduce the fits of the next block.
+  /// Adds spheres under samples with a dip above the limit, in blocks of fixed size: the spheres of a block are fitted
+  /// in parallel, then added in order, so that the next block needs fewer fits.
   void closeHoles(const std::vector<SurfaceSample>& samples) {
     std::vector<SetSphere> fitted;
     const std::size_t block = options_.thin ? kThinBlock : kBlock;
@@ -127,7 +127,7 @@ public:
       });
       if (beyondLimit()) return;
       for (SetSphere& s : fitted) {
-        // Near an edge the sphere cannot reach the sample: test its own highest point.
+        // Near an edge the sphere cannot reach the sample: test the highest point of the sphere.
         if (s.radius == 0 || covered(s.centre + s.normal * s.radius)) continue;
         setFlat(s);
         add(s);
@@ -135,7 +135,7 @@ public:
     }
   }
 
-  /// Assigns each sample's area to the sphere that touches the surface nearest to it, preferably of similar normal.
+  /// Assigns the area of each sample to the sphere with the nearest surface, preferably of similar normal.
   void shareArea(const std::vector<SurfaceSample>& samples) {
     std::vector<std::uint32_t> owner(samples.size());
     parallel(samples.size(), [&](std::size_t i) { owner[i] = ownerOf(samples[i]); });
@@ -158,7 +158,7 @@ private:
     return centres_.any(p, distance,
                         [&](std::uint32_t i) { return norm2(spheres_[i].centre - p) < distance * distance; });
   }
-  /// Tests only spheres near the place of the sample's own sphere: the common case, at a fraction of the cost.
+  /// Tests only spheres near the sample's own sphere, which is sufficient in most cases at a fraction of the cost.
   bool coveredBeneath(const SurfaceSample& sample) const {
     return centres_.any(sample.point - sample.normal * radius_, 0.5 * spacing_, [&](std::uint32_t i) {
       return detail::discDistance(spheres_[i], sample.point) <= options_.maxDip * radius_;
@@ -201,10 +201,10 @@ SphereSet decomposeAt(const TriangleMesh& mesh, const std::string& name, const D
                       double radius) {
   const double spacing = radius * options.spacingRatio;
   const Lattice lattice(mesh, radius, spacing);
-  if (!(lattice.points() <= kMostLatticePoints))
+  if (!(lattice.points() <= kMaxLatticePoints))
     throw base::InputError(
-        fmt::format("{}: radius = {:.3g} m needs {:.3g} lattice points, more than {:.0e}; use a larger radius", name,
-                    radius, lattice.points(), kMostLatticePoints));
+        fmt::format("{}: radius = {:.3g} m requires {:.3g} lattice points, more than {:.0e}; use a larger radius", name,
+                    radius, lattice.points(), kMaxLatticePoints));
   const OuterSurface outer(mesh, spacing / 6);
   const double shell = radius + 0.5 * spacing;
   const std::vector<LatticePoint> inside = pointsInside(outer, lattice, shell);
@@ -270,7 +270,7 @@ void check(const std::string& name, const DecompositionOptions& o) {
   range("maxDip", o.maxDip, 0.001, 0.5, "[radius]");
   range("flatTolerance", o.flatTolerance, 0.001, 0.2, "[radius]");
   range("smallest", o.smallest, 1e-6, 1, "[radius]");
-  if (o.radius == 0 && o.targetCount == 0) throw base::InputError(name + ": give radius [m] or targetCount");
+  if (o.radius == 0 && o.targetCount == 0) throw base::InputError(name + ": set radius [m] or targetCount");
   if (o.radius != 0) range("radius", o.radius, kSmallestRadius, kLargestRadius, "m");
 }
 
@@ -288,7 +288,7 @@ void checkFits(const TriangleMesh& mesh, const std::string& name, double radius)
 } // namespace
 
 std::string cutOrigin(const TriangleMesh& mesh, const DecompositionOptions& options) {
-  // All options except the sphere limit: sets within the limit do not depend on it, and others are not stored.
+  // Omit the sphere limit: sets within the limit do not depend on it, and larger sets are not stored.
   [[maybe_unused]] const auto& [radius, targetCount, spacingRatio, maxDip, flatTolerance, smallest, thin, most,
                                 interior] = options;
   base::StateHash hash;

@@ -27,7 +27,7 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   std::vector<std::uint32_t> target;
   target.reserve(mesh.vertices.size());
   for (const Vec3d& v : mesh.vertices) {
-    // Adding +0.0 gives -0 and 0 the same key.
+    // Add +0.0, so that -0 and 0 have the same key.
     const auto next = static_cast<std::uint32_t>(welded.vertices.size());
     const auto [it, added] = seen.try_emplace({v.x + 0.0, v.y + 0.0, v.z + 0.0}, next);
     if (added) welded.vertices.push_back(v);
@@ -78,7 +78,7 @@ void checkFinite(const TriangleMesh& mesh, const std::string& name) {
                                          name, i + 1, v.x, v.y, v.z));
 }
 
-/// True if the mesh lies in the plane of its largest triangle.
+/// True if the whole mesh is in the plane of its largest triangle.
 bool isFlat(const TriangleMesh& mesh) {
   Vec3d normal, point;
   for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -92,14 +92,14 @@ bool isFlat(const TriangleMesh& mesh) {
                      [&](const Vec3d& v) { return std::fabs(dot(v - point, normal)) <= thickness; });
 }
 
-/// Hint on vertices of open edges that lie close together, which indicates rounding gaps; empty: none.
+/// Hint on vertices of open edges that are close together, which indicates rounding gaps; empty without such vertices.
 std::string nearOpenVertices(const TriangleMesh& mesh) {
   TriangleMesh welded = mesh;
   const auto [low, high] = bounds(mesh);
   const double tolerance = 1e-3 * norm(high - low);
   const std::size_t near = weldOpenEdges(welded, tolerance);
   return near == 0 ? ""
-                   : fmt::format("{} of their vertices lie within {:.2g} m of another: merge these by distance in a "
+                   : fmt::format("{} of their vertices are within {:.2g} m of another: merge these by distance in a "
                                  "mesh editor, ",
                                  near, tolerance);
 }
@@ -123,7 +123,7 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
   }
   if (const double volume = signedVolume(mesh); !(volume > 0))
     throw base::InputError(
-        fmt::format("{}: the mesh encloses {:.3g} m3, its faces point inwards; flip them", name, volume));
+        fmt::format("{}: the mesh encloses {:.3g} m3, i.e. its faces point inwards; flip the faces", name, volume));
 }
 
 std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance) {
@@ -153,8 +153,8 @@ std::size_t weldOpenEdges(TriangleMesh& mesh, double tolerance) {
 
 namespace {
 
-/// Tolerance for equal vertices [largest coordinate]: floats have about seven digits, texts of "%.6f" often five.
-/// Used by weldOpenEdges().
+/// Tolerance of weldOpenEdges() for equal vertices [largest coordinate]: floats have about seven digits, numbers
+/// written by "%.6f" often five.
 constexpr double kWeldTolerances[] = {4e-6, 2e-5};
 
 double largestCoordinate(const TriangleMesh& mesh) {
@@ -180,7 +180,7 @@ void closeByWelding(TriangleMesh& mesh, const std::string& path, std::string* no
   }
 }
 
-/// A damaged file may refer to missing vertices: assimp's later steps and append() trust the indices.
+/// Checks the indices, since assimp's later steps and append() do not: a damaged file may refer to missing vertices.
 void checkIndices(const aiScene& scene, const std::string& path) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
@@ -189,7 +189,7 @@ void checkIndices(const aiScene& scene, const std::string& path) {
         if (part.mFaces[f].mIndices[k] >= part.mNumVertices)
           throw base::InputError(
               fmt::format("{}: corner {} of face {} refers to a vertex beyond the {} of the mesh; the "
-                          "file is damaged or cut short, export it again",
+                          "file is damaged or truncated; export it again",
                           path, k + 1, f + 1, part.mNumVertices));
   }
 }
@@ -210,7 +210,7 @@ bool assimpTriangulates(const aiScene& scene) {
     const aiMesh& part = *scene.mMeshes[m];
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const unsigned count = part.mFaces[f].mNumIndices;
-      if (count == 0) return false; // assimp counts it as a polygon, and aborts if it finds no other
+      if (count == 0) return false; // assimp counts this face as a polygon, and aborts if it finds no other polygon
       if (count <= 3) continue;
       const std::vector<Vec3d> corners = cornersOf(part, part.mFaces[f]);
       if (!detail::isConvex(corners) && (count > 4 || detail::triangulate(corners).empty())) return false;
@@ -221,14 +221,14 @@ bool assimpTriangulates(const aiScene& scene) {
 
 /// Shortens a message of assimp, which may quote the rest of the file.
 std::string shortened(const std::string& message) {
-  constexpr std::size_t kMost = 40;
+  constexpr std::size_t kMax = 40;
   const std::size_t from = message.find('"'), to = message.rfind('"');
-  if (from == std::string::npos || to - from <= kMost) return message;
-  return message.substr(0, from + 1 + kMost) + "..." + message.substr(to);
+  if (from == std::string::npos || to - from <= kMax) return message;
+  return message.substr(0, from + 1 + kMax) + "..." + message.substr(to);
 }
 
-/// Reads all meshes of a file into one frame, triangulated if assimp does so correctly: its triangles of convex faces
-/// are kept, since decompositions depend on them bitwise.
+/// Reads all meshes of a file into one frame. assimp triangulates if it does so correctly: its triangles of convex
+/// faces must not change, since decompositions depend on them bitwise.
 const aiScene& readScene(Assimp::Importer& importer, const std::string& path) {
   const aiScene* scene = importer.ReadFile(path, 0);
   if (scene) {
@@ -256,7 +256,7 @@ void append(const aiMesh& part, const std::string& path, TriangleMesh& mesh) {
     if (triangles.empty())
       throw base::InputError(
           fmt::format("{}: the outline of a face of {} corners crosses itself, one corner at ({:.6g}, "
-                      "{:.6g}, {:.6g}) m; repair it or export triangles",
+                      "{:.6g}, {:.6g}) m; repair the face or export triangles",
                       path, corners.size(), corners[0].x, corners[0].y, corners[0].z));
     for (const auto& triangle : triangles)
       for (const std::uint32_t k : triangle) mesh.indices.push_back(first + face.mIndices[k]);

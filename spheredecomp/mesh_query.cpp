@@ -48,9 +48,9 @@ Vec3d closestOnTriangle(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Ve
   return edges[best];
 }
 
-/// Twice the signed area of (a, b, (x, y)) in the x-y plane. `positive`: its sign, on the line as if moved by (e, e^2).
-/// Evaluated from the vertex of lower index, so that two triangles have exactly opposite values along their common
-/// edge.
+/// Twice the signed area of (a, b, (x, y)) in the x-y plane. `positive`: sign of the area; for a point on the line, the
+/// sign after a shift by a small (e, e^2). Evaluated from the vertex of lower index, so that two triangles have exactly
+/// opposite values along their common edge.
 double side(const Vec3d& a, std::uint32_t ia, const Vec3d& b, std::uint32_t ib, double x, double y, bool& positive) {
   if (ia > ib) {
     const double value = -side(b, ib, a, ia, x, y, positive);
@@ -156,7 +156,7 @@ bool MeshQuery::within(const Vec3d& p, double distance) const {
 }
 
 namespace {
-/// Intersection of the vertical line through (x, y) with a triangle; false if there is none.
+/// Intersection of the vertical line through (x, y) with a triangle; returns false if there is none.
 bool crossTriangle(const MeshQuery& query, std::uint32_t t, double x, double y, Crossing& crossing) {
   const auto* index = &query.mesh().indices[3 * t];
   const Vec3d &a = query.vertex(t, 0), &b = query.vertex(t, 1), &c = query.vertex(t, 2);

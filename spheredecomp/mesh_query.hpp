@@ -14,40 +14,40 @@ inline constexpr std::uint32_t kNone = 0xFFFFFFFFu; ///< no triangle
 struct ClosestPoint {
   Vec3d point;              ///< [m]
   double distance{};        ///< [m], >= 0
-  std::uint32_t triangle{}; ///< index of its triangle; the lowest index among equally near ones
+  std::uint32_t triangle{}; ///< index of the triangle; among equally near triangles, the lowest index
 };
 
 /// Crossing of a vertical line with the mesh.
 struct Crossing {
   double z{}; ///< [m]
-  int step{}; ///< change of the winding number when passed downwards: +1 enters through an upper face
+  int step{}; ///< change of the winding number along the line downwards: +1 at entry through an upper face
 };
 
 /// Distance and inside/outside queries on a triangle mesh, by a bounding-box tree. Immutable after construction, hence
 /// thread-safe.
 class MeshQuery {
 public:
-  /// Copies the mesh, which must be closed for winding numbers, but not for distances.
+  /// Copies the mesh. Winding numbers require a closed mesh; distances do not.
   explicit MeshQuery(TriangleMesh mesh);
 
-  /// Returns the nearest surface point within `limit` [m]; if none, `triangle` is kNone and `distance` is `limit`.
+  /// Returns the nearest surface point within `limit` [m]; if there is none, triangle = kNone and distance = limit.
   ClosestPoint closest(const Vec3d& p, double limit = 1e300) const;
 
-  /// True if any surface point is nearer than `distance` [m]; stops at the first one found.
+  /// True if any surface point is nearer than `distance` [m]; stops at the first such point.
   bool within(const Vec3d& p, double distance) const;
 
   /// Writes all crossings of the vertical line through (x, y) to `crossings`, from top to bottom; clears it first.
   void column(double x, double y, std::vector<Crossing>& crossings) const;
 
-  /// Winding number of the mesh about `p`: number of enclosing shells. Counted by signed crossings of a vertical ray,
-  /// which for a closed mesh equals the solid angle divided by 4 pi. A point on the surface may count either way.
+  /// Winding number of the mesh about `p`, i.e. the number of enclosing shells: the sum of signed crossings of a
+  /// vertical ray. A point on the surface may count as inside or outside.
   int winding(const Vec3d& p) const;
   bool inside(const Vec3d& p) const { return winding(p) != 0; }
 
   /// Distance to the surface [m], negative inside.
   double signedDistance(const Vec3d& p) const;
 
-  /// Indices of triangles whose bounding boxes overlap the box [low, high], ascending.
+  /// Indices of triangles with bounding boxes that overlap the box [low, high], ascending.
   void overlapping(const Vec3d& low, const Vec3d& high, std::vector<std::uint32_t>& triangles) const;
 
   const TriangleMesh& mesh() const { return mesh_; }

@@ -18,10 +18,10 @@ using base::SetSphere;
 using base::Vec3d;
 
 constexpr int kAround = 24;      // points per ring about a disc's centre
-constexpr int kMostTries = 4;    // finer cuts, each with half the radius
-constexpr double kForced = 0.25; // radius of a sphere where none fits [permitted]
+constexpr int kMaxTries = 4;     // finer decompositions, each with half the radius
+constexpr double kForced = 0.25; // radius of a sphere if no sphere fits [permitted]
 
-/// Protrusion of the balls of a rounded disc, <= 0 if inside the mesh [m].
+/// Protrusion of the balls that represent a rounded disc [m]; <= 0 if they are inside the mesh.
 double standsOut(const detail::OuterSurface& outer, const SetSphere& s) {
   const auto out = [&](const Vec3d& p) {
     const double depth = outer.surface().closest(p).distance;
@@ -41,17 +41,17 @@ double standsOut(const detail::OuterSurface& outer, const SetSphere& s) {
 
 bool isShrunk(const SetSphere& s, const SphereSet& set) { return s.radius < 0.999 * set.radius; }
 
-/// Depth of the surface above shrunken spheres [m]: one sphere may serve both sides.
+/// Depth of dips in the surface above shrunken spheres [m]; one sphere may represent both sides.
 double dipWhereThin(const SphereSet& set, const DecompositionOptions& options) {
   const bool shrunk =
       std::any_of(set.spheres.begin(), set.spheres.end(), [&](const SetSphere& s) { return isShrunk(s, set); });
   return shrunk ? options.maxDip * set.radius : 0;
 }
 
-/// Approximate number of spheres that cover a mesh, up to a quarter more in thin sheets.
+/// Approximate number of spheres that cover a mesh; thin sheets require up to a quarter more.
 double countOf(double area, double radius) { return 1.25 * area / (radius * radius); }
 
-/// Message with the reason and location of an insufficient default decomposition.
+/// Reason and location of an insufficient default decomposition.
 struct Cause {
   Vec3d place;
   std::string fault;
@@ -70,12 +70,12 @@ Cause causeOf(const SphereSet& set, const Protrusion& worst, const Decomposition
                       set.radius, dipWhereThin(set, options), limit.permittedDip)};
 }
 
-/// Offers the default radius, whose error is known.
+/// Rejects a mesh; the message offers the default radius, for which the error is known.
 [[noreturn]] void refuse(const std::string& name, const Cause& cause, const ProtrusionLimit& limit, double radius,
                          const std::string& finer) {
   throw base::InputError(fmt::format(
       "{}: the mesh is thin or pointed at ({:.4g}, {:.4g}, {:.4g}), in metres: {} for a contact size of {:.3g} m, "
-      "and {}; thicken the part, split it, use a box instead, or set the sphere radius to {:.6g} m to accept this",
+      "and {}; thicken or split the part, use a box instead, or set the sphere radius to {:.6g} m to accept this error",
       name, cause.place.x, cause.place.y, cause.place.z, cause.fault, limit.contactSize, finer, radius));
 }
 
@@ -106,16 +106,16 @@ SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, con
   const Cause cause = causeOf(set, protrusion, options, limit);
   const double defaultRadius = set.radius, meshArea = set.meshArea;
   const auto refuseWith = [&](const std::string& finer) { refuse(name, cause, limit, defaultRadius, finer); };
-  const std::string tooMany = fmt::format("a finer cut needs more than {:.0f} spheres", kSphereBudget);
+  const std::string tooMany = fmt::format("a finer decomposition requires more than {:.0f} spheres", kSphereBudget);
   DecompositionOptions fine = options;
   fine.thin = true;
   fine.maxDip = 0.02;
   fine.flatTolerance = 0.005;
   fine.most = static_cast<std::size_t>(kSphereBudget);
-  // If the contact size would require too many spheres, use larger ones, up to twice the size.
+  // If spheres of the contact size would be too many, use larger spheres, up to twice this size.
   const double cheapest = std::sqrt(countOf(meshArea, 1) / kSphereBudget);
   fine.radius = std::min(options.radius, std::clamp(cheapest, limit.contactSize, 2 * limit.contactSize));
-  for (int tries = 0; tries < kMostTries; ++tries) {
+  for (int tries = 0; tries < kMaxTries; ++tries) {
     if (countOf(meshArea, fine.radius) > 1.0001 * kSphereBudget) refuseWith(tooMany);
     fine.smallest = std::min(0.2, kForced * limit.permitted / fine.radius);
     set = decompose(mesh, name, fine);

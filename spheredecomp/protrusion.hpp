@@ -12,30 +12,29 @@ struct Protrusion {
   base::Vec3d place; ///< centre of the sphere, in the mesh's frame [m]
 };
 
-/// Permitted protrusion of a part's spheres, with the contact size.
+/// Permitted protrusion of a part's spheres, and contact size.
 struct ProtrusionLimit {
   double permitted{};                   ///< [m], > 0
   double contactSize{};                 ///< [m], > 0: size of the smallest contact partner
-  double permittedDip{base::kInfinity}; ///< permitted depth of the default cut below the surface where its spheres
-                                        ///< shrink [m]; infinite: no limit
-  bool automatic{}; ///< true: default radius, which a finer cut may replace; false: protrusion is only measured
+  double permittedDip{base::kInfinity}; ///< permitted depth of dips of the default decomposition at places where
+                                        ///< spheres shrink [m]; infinite: no limit
+  bool automatic{}; ///< true: default radius, which may be reduced; false: protrusion is only measured
 };
 
-/// Maximum number of spheres of a finer cut; above it, a default radius is rejected.
+/// Maximum number of spheres of a finer decomposition; if more are required, a default radius is rejected.
 inline constexpr double kSphereBudget = 1e5;
 
-/// Returns the maximum protrusion of a set. Exact for spheres under a flat or convex surface, an upper bound where the
-/// surface is concave: for balls at points of each disc (centre, rim, and a ring half-way), their radius minus the
-/// depth of the point.
+/// Returns the maximum protrusion of a set, computed as radius minus depth for balls at points of each disc (centre,
+/// rim, and a ring half-way). Exact for spheres under a flat or convex surface; an upper bound under a concave surface.
 Protrusion largestProtrusion(const TriangleMesh& mesh, const SphereSet& set);
 
-/// Runs decompose() and measures the protrusion. With an automatic radius, a mesh whose set protrudes more than
+/// Runs decompose() and measures the protrusion. With an automatic radius, a mesh with a set that protrudes more than
 /// permitted (thin sheets, wedges, tips) is decomposed again into spheres no larger than the contact size, which shrink
 /// at thin places. Throws base::InputError if this requires more than kSphereBudget spheres.
 SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options,
                           const ProtrusionLimit& limit, Protrusion& protrusion);
 
-/// True if the result of decompose() is acceptable without a finer cut.
+/// True if the result of decompose() is acceptable without a finer decomposition.
 bool meets(const ProtrusionLimit& limit, const SphereSet& set, const DecompositionOptions& options,
            const Protrusion& protrusion);
 

@@ -22,7 +22,7 @@ using detail::OuterSurface;
 using detail::PointGrid;
 using detail::SurfaceSample;
 
-/// Depth beyond which points of the set's surface belong to the inner side of a hollow shell [radius].
+/// Points of the set's surface deeper than this are on the inner side of a hollow shell [radius].
 constexpr double kInnerSide = 0.75;
 /// Number of sampled directions per sphere.
 constexpr int kDirections = 96;
@@ -44,7 +44,7 @@ struct Shape {
   double distance(std::uint32_t i, const Vec3d& p) const {
     return discs ? detail::discDistance(set.spheres[i], p) : detail::ballDistance(set.spheres[i], p);
   }
-  /// Distance from p to the union [m], negative inside. The search radius grows until the nearest is certain.
+  /// Distance from p to the union [m], negative inside. The search radius grows until the nearest sphere is certain.
   double distance(const Vec3d& p) const {
     for (double range = 0.125 * set.radius;; range *= 4) {
       double best = 1e300;
@@ -94,7 +94,7 @@ SurfaceDistance measureSurface(const OuterSurface& outer, const std::vector<Surf
   }
   result.rms = std::sqrt(square / outer.area());
 
-  // From the set to the mesh: directions about each sphere, and the top of its disc.
+  // From the set to the mesh: sample directions about each sphere, and the top of its disc.
   const std::vector<Vec3d> spread = directions();
   std::vector<std::pair<double, double>> farthest(shape.set.surfaceCount); // inside, outside
 #pragma omp parallel for schedule(dynamic, 16)

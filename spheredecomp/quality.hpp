@@ -30,11 +30,11 @@ struct Quality {
   double areaRatio{};      ///< sum of SetSphere::area / outer area of the mesh [-]
 };
 
-/// Measures the accuracy by deterministic sampling at about a third of the spacing, so that the distances are lower
-/// bounds, below the supremum by a few hundredths of the radius.
+/// Measures the accuracy by deterministic sampling at about a third of the spacing. Therefore the distances are lower
+/// bounds; the maximum over the whole surface is larger by up to a few hundredths of the radius.
 Quality measure(const TriangleMesh& mesh, const SphereSet& set);
 
-/// Text report of the figures, a few lines with units.
+/// Text report of the accuracy, a few lines with units.
 std::string report(const SphereSet& set, const Quality& quality);
 
 } // namespace grouser::spheredecomp

@@ -43,7 +43,7 @@ std::vector<Seed> layBed(const HeightField& surface, const BedOptions& options) 
   if (const auto* layers = std::get_if<LayerOptions>(&options.grains)) {
     double highest = 0;
     for (const Seed& s : floor) highest = std::max(highest, s.radius);
-    // Vertical distance above the floor grains' tops: normal to a slope it is smaller.
+    // On a slope the vertical distance is larger than `highest`, which is measured along the normal.
     const double slope = surface.bounds().slope;
     grains = layGrains(surface, *layers, highest * std::sqrt(1 + slope * slope));
   } else {

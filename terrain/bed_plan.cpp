@@ -16,7 +16,7 @@ double clearHeight(const HeightField& floor, double x, double y, double z, doubl
   // In a hollow tighter than the sphere the foot point is not unique: stay above the whole hollow.
   if (around.valleyCurvature * radius >= 1) return safe;
 
-  // Newton's method on the distance, whose derivative along z is the z component of the normal.
+  // Newton's method on the distance; its derivative along z is the z component of the normal.
   const HeightFieldView view = floor.view();
   const SurfaceJet s = view.jet(x, y);
   double contact = s.h + radius * std::sqrt(1 + s.hx * s.hx + s.hy * s.hy);

@@ -24,7 +24,7 @@ constexpr int kDistances = 60;     // bins of the radial distribution
 constexpr double kNear = 1.4;      // maximum distance of neighbours / sum of their radii
 constexpr double kAlike = 0.7;     // two grains are alike if the normalised product of their order vectors exceeds this
 constexpr int kAlikeOfCrystal = 7; // minimum number of connected neighbours of a crystalline grain
-constexpr double kMostGrains = 60'000;
+constexpr double kMaxGrains = 60'000;
 
 /// Bins grains into cells, to find the grains near a point.
 class NearGrains {
@@ -44,7 +44,7 @@ public:
     sorted_.resize(grains.size());
     for (std::size_t g = 0; g < grains.size(); ++g) sorted_[next[indexOf(cellOf(grains[g].centre))]++] = g;
   }
-  /// Calls visit(grain) for every grain whose centre may be nearer than `reach`, until a call returns false.
+  /// Calls visit(grain) for every grain with a centre that may be nearer than `reach`, until a call returns false.
   template <class Visit> void visit(const Vec3d& p, double reach, const Visit& visit) const {
     base::Vec3<int> from, to;
     for (int a = 0; a < 3; ++a) {
@@ -94,7 +94,7 @@ double legendre6(double x) {
   return (((231 * s - 315) * s + 105) * s - 5) / 16;
 }
 
-/// Part of the bed at least `off` away from all walls; the middle fifth of a side if that is empty.
+/// Part of the bed at least `off` away from all walls, but no less than the middle fifth of each side.
 Rectangle inset(const BedExtent& e, double off) {
   const Rectangle& r = e.walls;
   const double x = e.periodic[0] ? 0 : std::min(off, 0.4 * r.width()),
@@ -105,7 +105,7 @@ Rectangle inset(const BedExtent& e, double off) {
 /// Central part of the bed.
 struct Core {
   const BedExtent& extent;
-  double off; ///< [m] from floor and surface
+  double off; ///< [m] excluded margin at floor and surface
   Rectangle inside;
   bool contains(const Vec3d& p) const {
     return p.x >= inside.xMin && p.x <= inside.xMax && p.y >= inside.yMin && p.y <= inside.yMax &&
@@ -298,7 +298,7 @@ BedStructure measureBed(const std::vector<LyingGrain>& grains, const BedExtent& 
 BedStructure measureBed(const Grains& grains, const BedExtent& extent) {
   // Restricts the measurement to a column through the middle.
   const double share =
-      std::min(1.0, std::sqrt(kMostGrains / static_cast<double>(std::max<std::size_t>(1, grains.count()))));
+      std::min(1.0, std::sqrt(kMaxGrains / static_cast<double>(std::max<std::size_t>(1, grains.count()))));
   BedExtent part = extent;
   if (share < 1) part.periodic = {};
   const double x = 0.5 * (1 - share) * extent.walls.width(), y = 0.5 * (1 - share) * extent.walls.length();

@@ -20,12 +20,12 @@ namespace grouser::terrain {
 ///  3. one pass of the binomial kernel (1 2 1)/4 in x and y, linear at the border.
 /// Queries interpolate bilinearly between nodes; outside the area they use the nearest border point.
 ///
-/// Exact for a lattice of equal grain tops, level or inclined up to the roughness of the lattice. If the tops scatter,
-/// it is above their mean (tests/terrain/bed_surface_test.cpp measures the difference), like a straight-edge. Flying
-/// grains count as bed, so the bed must be settled. Cost O(N); independent of the order of the grains.
+/// The surface is exact for a lattice of equal grain tops, level or inclined up to the roughness of the lattice. If the
+/// tops scatter, the surface is above their mean, like a straight-edge (tests/terrain/bed_surface_test.cpp measures the
+/// difference). Flying grains count as bed, so the bed must be settled. Cost O(N), for any order of the grains.
 class BedSurface {
 public:
-  /// `diameter`: of the largest grain [m]. The grid covers `area`; grains more than one diameter outside are ignored.
+  /// `diameter`: largest grain diameter [m]. The grid covers `area`; grains more than one diameter outside are ignored.
   /// Throws InputError if `diameter` is not positive, or a position is not finite.
   BedSurface(std::span<const Seed> grains, const HeightFieldView& floor, const Rectangle& area, double diameter);
   /// Surface of the bed during a simulation, from the grains on their device. With several ranks it covers the whole

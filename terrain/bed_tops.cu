@@ -13,8 +13,8 @@ using base::Vec3d;
 
 namespace {
 
-/// Order-reversing words: the minimum word corresponds to the maximum number, whatever the thread order. None of them
-/// is the word with all bits set, which denotes "no grain".
+/// Order-reversing words: the minimum word corresponds to the maximum height, for any order of the threads. The word
+/// with all bits set denotes "no grain"; no height has this word.
 GROUSER_HD std::uint64_t wordOf(double height) {
   const auto bits = base::bitsAs<std::uint64_t>(height);
   const std::uint64_t rising = bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;

@@ -20,17 +20,17 @@ struct alignas(16) Remainders {
 /// Quantum of a velocity remainder, relative to the power of two below |v|.
 inline constexpr double kRemainderOfBinade = 0x1p-39;
 /// Lower limit 2^-100 of |v|, as float bits; smaller values are irrelevant.
-inline constexpr std::int32_t kLeastBinade = 27 << 23;
-inline constexpr int kLeastRemainder = -32768, kMostRemainder = 32767;
+inline constexpr std::int32_t kMinBinade = 27 << 23;
+inline constexpr int kMinRemainder = -32768, kMaxRemainder = 32767;
 /// Quanta of a position remainder per position unit, and its range.
-inline constexpr int kPlacesPerUnit = 1024, kLeastPlace = -512, kMostPlace = 511;
+inline constexpr int kPlacesPerUnit = 1024, kMinPlace = -512, kMaxPlace = 511;
 /// Displacement per step [units] that raises a speed fault, before conversion to an integer.
-inline constexpr double kMostUnitsPerStep = 1e9;
+inline constexpr double kMaxUnitsPerStep = 1e9;
 
 /// Float bits of the power of two below |v|.
 GROUSER_HD std::int32_t binadeOf(float v) {
   const std::int32_t bits = base::bitsAs<std::int32_t>(v) & 0x7F800000;
-  return bits < kLeastBinade ? kLeastBinade : bits;
+  return bits < kMinBinade ? kMinBinade : bits;
 }
 
 /// Quantum of a velocity remainder: 2^-39 of the power of two below |v|, i.e. 2^-16 of the float's last place.
@@ -59,7 +59,7 @@ GROUSER_HD CompensatedStep addCompensated(float& value, std::int16_t& remainder,
   // Dividing by a power of two equals multiplying by its inverse, bit for bit.
   const double rest = (sum - static_cast<double>(value)) * perRemainderQuantum(value);
   double r = floor(rest + 0.5);
-  r = r > kMostRemainder ? kMostRemainder : r < kLeastRemainder ? kLeastRemainder : r;
+  r = r > kMaxRemainder ? kMaxRemainder : r < kMinRemainder ? kMinRemainder : r;
   remainder = static_cast<std::int16_t>(r);
   return {sum, (r - rest) * remainderQuantum(value)};
 }
@@ -81,7 +81,7 @@ GROUSER_HD std::int64_t advanceKeeping(double displacement, std::uint32_t& word,
   const double wanted = displacement + placesKept(word, axis);
   const double whole = floor(wanted + 0.5);
   double r = floor((wanted - whole) * kPlacesPerUnit + 0.5);
-  r = r > kMostPlace ? kMostPlace : r < kLeastPlace ? kLeastPlace : r;
+  r = r > kMaxPlace ? kMaxPlace : r < kMinPlace ? kMinPlace : r;
   word &= ~(0x3FFu << 10 * axis);
   word |= (static_cast<std::uint32_t>(static_cast<std::int32_t>(r)) & 0x3FFu) << 10 * axis;
   return static_cast<std::int64_t>(whole);

@@ -18,10 +18,10 @@ inline constexpr std::uint8_t kInHollow = 2;   ///< the cell is part of such a h
 
 /// All contact points (feet) of a sphere on a height field.
 struct Feet {
-  static constexpr int kMost = 8;
-  FootPoint foot[kMost]; ///< the first `count` are valid; of more than kMost feet, those separated by the highest rises
+  static constexpr int kMax = 8;
+  FootPoint foot[kMax]; ///< the first `count` are valid: at most kMax feet, those separated by the highest rises
   /// Maximum distance of the centre from the ground on the straight line between two feet [m].
-  double between[kMost][kMost];
+  double between[kMax][kMax];
   int count{0};
 
   GROUSER_HD const FootPoint& nearest() const {
@@ -33,14 +33,14 @@ struct Feet {
 };
 
 /// Loads of the feet. Two feet are separate contacts if the ground between them leaves the sphere. If the ground stays
-/// inside, they form one contact with two minima (a gentle valley, steps in an 8-bit map), whose force is the sum of
-/// both forces minus the force at the overlap of the rise between them. The normal force thus derives from an energy,
+/// inside, they form one contact with two minima (a gentle valley, steps in an 8-bit map). Its force is the sum of both
+/// forces minus the force at the overlap of the rise between them. The normal force thus derives from an energy,
 /// sum of u(overlap of each foot) - sum of u(overlap where contacts merge), and is continuous.
 class FeetLoads {
 public:
   /// `hertz`: true if forces grow with overlap^1.5; otherwise they are linear.
   GROUSER_HD FeetLoads(const Feet& feet, double radius, bool hertz) : hertz_(hertz) {
-    int contact[Feet::kMost];
+    int contact[Feet::kMax];
     for (int k = 0; k < feet.count; ++k)
       contact[k] = k, overlap_[k] = radius - feet.foot[k].distance, force_[k] = force(overlap_[k]);
     for (;;) {
@@ -63,7 +63,7 @@ public:
 
   GROUSER_HD double share(int foot) const {
     return share_[foot];
-  } ///< force relative to that of its overlap in isolation [-]
+  } ///< force / force that this overlap would cause without other feet [-]
   GROUSER_HD double overlap(int foot) const { return overlap_[foot]; } ///< overlap that causes the shared force [m]
   GROUSER_HD int merges() const { return merges_; }
   GROUSER_HD double merged(int merge) const { return merged_[merge]; } ///< overlap at which two contacts merge [m]
@@ -71,9 +71,9 @@ public:
 private:
   GROUSER_HD double force(double overlap) const { return hertz_ && overlap > 0 ? overlap * sqrt(overlap) : overlap; }
 
-  /// Subtracts the force at `overlap`, where contacts `a` and `b` merge, from both, in proportion to the roots of their
-  /// forces beyond it: in a crease the sum points away from its bottom, and a vanishing contact has no force.
-  GROUSER_HD void merge(int (&contact)[Feet::kMost], int a, int b, int count, double overlap) {
+  /// Counts the force at `overlap`, where contacts `a` and `b` merge, only once, and shares it in proportion to the
+  /// roots of the excess forces: in a crease the sum points away from the bottom; a vanishing contact has no force.
+  GROUSER_HD void merge(int (&contact)[Feet::kMax], int a, int b, int count, double overlap) {
     const double common = force(overlap);
     double of[2] = {};
     for (int k = 0; k < count; ++k)
@@ -91,13 +91,13 @@ private:
 
   bool hertz_;
   int merges_{0};
-  double overlap_[Feet::kMost], force_[Feet::kMost], share_[Feet::kMost], merged_[Feet::kMost];
+  double overlap_[Feet::kMax], force_[Feet::kMax], share_[Feet::kMax], merged_[Feet::kMax];
 };
 
 /// Finds the local minima, below the radius, of the distance between a sphere centre and the surface. Away from hollows
-/// tighter than the sphere there is one, found by HeightFieldView::closestPoint(). Near them every cell in reach is
-/// searched: cells outside such hollows from their centre, others from four points, by damped Newton steps that stay
-/// near the cell. For a centre below the surface only the nearest point is used.
+/// tighter than the sphere there is only one, found by HeightFieldView::closestPoint(). Near such hollows every cell in
+/// reach is searched by damped Newton steps that stay near the cell: from four points in cells inside a hollow, from
+/// the centre in other cells. For a sphere centre below the surface only the nearest point is used.
 class FeetSearch {
 public:
   GROUSER_HD FeetSearch(const HeightFieldView& surface, const Vec3d& centre, double radius)
@@ -170,7 +170,7 @@ private:
       }
   }
 
-  /// Search range from `x` along one axis: the cell on bilinear ground; on smooth ground twice the searched width,
+  /// Search range from `x` along one axis. Bilinear ground: the cell. Smooth ground: twice the searched width, which is
   /// `share` of the cell. Unlimited beyond the border.
   GROUSER_HD Range rangeAbout(double x, int i, int cells, double from, double d, double share) const {
     const Range cell = rangeOf(i, cells, from, d);
@@ -185,7 +185,7 @@ private:
   GROUSER_HD double squaredDistance(double x, double y, double z) const {
     return (x - p_.x) * (x - p_.x) + (y - p_.y) * (y - p_.y) + (z - p_.z) * (z - p_.z);
   }
-  /// True if a coordinate is at the end of its range and would descend beyond it.
+  /// True if a coordinate is at an end of its range and descent would move it beyond that end.
   GROUSER_HD static bool held(double x, double slope, const Range& r) {
     return (x <= r.low && slope > 0) || (x >= r.high && slope < 0);
   }
@@ -202,7 +202,7 @@ private:
     stepX = heldX ? 0 : (b * gy - c * gx) / det, stepY = heldY ? 0 : (b * gx - a * gy) / det;
   }
 
-  /// Descends from a point in cell (i, j) to a minimum. Returns false if the cell has none, or it is too far.
+  /// Descends from a point in cell (i, j) to a minimum. Returns false if the cell has no minimum, or it is too far.
   GROUSER_HD bool descend(int i, int j, double x, double y, double share, FootPoint& foot) const {
     constexpr int kIterations = 40;
     const bool bilinear = v_.interpolation == Interpolation::bilinear;
@@ -228,8 +228,8 @@ private:
       else
         stepX *= 0.25, stepY *= 0.25;
     }
-    // At the edge of the range a smooth surface has no minimum; a creased one has a minimum only if no adjacent cell
-    // descends from it.
+    // At the edge of the range a smooth surface has no minimum; a creased surface has one only if no adjacent cell
+    // descends from this point.
     const bool atEdge = heldX || heldY;
     if (atEdge && (!bilinear || !isLowestAround(i, j, x, y))) return false;
     return measure(x, y, s, atEdge, foot);
@@ -299,7 +299,7 @@ private:
         if (side_ * (found.distance - feet.foot[k].distance) < -1e-6 * radius_) put(found, k, feet);
         return;
       }
-    if (feet.count < Feet::kMost)
+    if (feet.count < Feet::kMax)
       put(found, feet.count++, feet);
     else
       replaceLeast(found, feet);
@@ -311,9 +311,9 @@ private:
       if (k != place) feet.between[k][place] = feet.between[place][k] = largestBetween(found, feet.foot[k]);
   }
 
-  /// Drops the foot with the lowest rise to a nearer one; this may be the new foot.
+  /// Drops the foot with the lowest rise between it and a nearer foot; this may be the new foot.
   GROUSER_HD void replaceLeast(const FootPoint& found, Feet& feet) const {
-    double toFound[Feet::kMost], least = 1e300;
+    double toFound[Feet::kMax], least = 1e300;
     int dropped = -1; // the new foot
     for (int k = 0; k < feet.count; ++k) {
       toFound[k] = largestBetween(found, feet.foot[k]);
@@ -352,20 +352,20 @@ GROUSER_HD bool deepestFoot(const HeightFieldView& surface, const Vec3d& centre,
 }
 
 /// Bit mask of the contact entries of a floor.
-inline constexpr std::uint32_t kFloorBits = (1u << Feet::kMost) - 1;
+inline constexpr std::uint32_t kFloorBits = (1u << Feet::kMax) - 1;
 
 /// Assigns feet to the contact entries of the floor, so that a contact keeps its springs between steps: pairs with the
 /// least difference of normals first, at most 60 degrees. `held`: bit mask of entries with a foot in the last step,
 /// with normals `normals` [3 * entry]; null without springs. Returns the bit mask of continuing contacts.
 GROUSER_HD std::uint32_t takePlaces(const Feet& feet, std::uint32_t held, const float* normals,
-                                    int (&place)[Feet::kMost]) {
+                                    int (&place)[Feet::kMax]) {
   std::uint32_t taken = 0;
   for (int k = 0; k < feet.count; ++k) place[k] = -1;
   for (int round = 0; normals && round < feet.count; ++round) {
     double best = 0.5;
     int foot = -1, at = -1;
     for (int k = 0; k < feet.count; ++k)
-      for (int q = 0; q < Feet::kMost; ++q) {
+      for (int q = 0; q < Feet::kMax; ++q) {
         if (place[k] >= 0 || !(held >> q & 1) || taken >> q & 1) continue;
         const float* n = normals + 3 * q;
         const double along = base::dot(feet.foot[k].normal, Vec3d{double(n[0]), double(n[1]), double(n[2])});
@@ -384,10 +384,10 @@ GROUSER_HD std::uint32_t takePlaces(const Feet& feet, std::uint32_t held, const 
   return goOn;
 }
 
-/// Feet of a sphere with the entries assigned by takePlaces(). `goOn`: bit mask of entries whose contact continues.
+/// Feet of a sphere with the entries assigned by takePlaces(). `goOn`: bit mask of entries with a continuing contact.
 struct PlacedFeet {
   Feet feet;
-  int place[Feet::kMost];
+  int place[Feet::kMax];
   std::uint32_t goOn;
 
   GROUSER_HD PlacedFeet(const HeightFieldView& floor, const Vec3d& centre, double radius, std::uint32_t held,

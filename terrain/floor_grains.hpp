@@ -6,7 +6,7 @@
 
 namespace grouser::terrain {
 
-/// Fixed grains that roughen a floor; on a smooth floor a bed would slide and roll like on a ball bearing.
+/// Fixed grains that roughen a floor; on a smooth floor a bed would slide and roll as on a ball bearing.
 struct FloorGrainOptions {
   RadiusDistribution radii;       ///< same distribution as the grains of the bed
   double scale{1};                ///< factor of the radii (DepthGrading)
@@ -14,9 +14,9 @@ struct FloorGrainOptions {
   std::uint64_t seed{1};
 };
 
-/// Places fixed grains with centres on the floor or up to half a radius below it, on a square lattice of two mean
-/// radii, randomly shifted by up to 0.3 of that along x and y. They may overlap each other; a grain between them also
-/// contacts the floor. Within `walls`.
+/// Places fixed grains within `walls`, with centres on the floor or up to half a radius below it, on a square lattice.
+/// Its pitch is two mean radii; each grain is shifted randomly by up to 0.3 pitch along x and y. Fixed grains may
+/// overlap each other; a grain between them also contacts the floor.
 std::vector<Seed> layFloorGrains(const HeightField& floor, const Rectangle& walls, const FloorGrainOptions& options);
 
 /// Returns the number of these grains.

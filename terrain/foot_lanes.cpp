@@ -117,7 +117,7 @@ GROUSER_SIMD_CLONES unsigned FootLanes::find(const Vec3P& p, const PointLanes& r
   if (nodes_.empty()) return 0;
   const PointLanes none = allLanes(0);
   const double shorter = std::min(view_.dx, view_.dy), converged = 1e-12 * shorter * shorter;
-  // Beyond the border the field is extrapolated along its tangents, whose slope is unbounded.
+  // Beyond the border the field is extrapolated along its tangents; their slope is unbounded.
   const double xMax = view_.xMin + (view_.columns - 1) * view_.dx, yMax = view_.yMin + (view_.rows - 1) * view_.dy;
   const Mask border = ~((p.x - radius >= none + view_.xMin) & (p.x + radius <= none + xMax) &
                         (p.y - radius >= none + view_.yMin) & (p.y + radius <= none + yMax));

@@ -22,8 +22,8 @@ public:
   explicit FootLanes(const HeightFieldView& view);
 
   /// Finds outward normals and overlaps [m] of spheres at `centre` [m] with `radius` [m]; an overlap <= 0 means no
-  /// contact. Returns the bit mask of solved lanes. The others need the scalar search: near hollows, at the border, and
-  /// where the iteration fails.
+  /// contact. Returns the bit mask of solved lanes. Other lanes need the scalar search: near hollows, at the border,
+  /// and where the iteration fails.
   unsigned find(const contact::Vec3P& centre, const contact::PointLanes& radius, contact::Vec3P& normal,
                 contact::PointLanes& overlap) const;
 

@@ -29,7 +29,7 @@ template <class T> struct Move {
   }
 };
 
-/// A field missing in all() would be skipped by growth, sorting and migration. A test checks that none is listed twice.
+/// A field missing in all() would be skipped by growth, sorting and migration. A test checks for duplicates.
 template <class... Fields> constexpr std::size_t sizeOf(const std::tuple<Fields&...>*) {
   return (sizeof(Fields) + ...);
 }

@@ -11,7 +11,7 @@ namespace grouser::terrain {
 struct GrainKernelData;
 
 /// Fields of the grains, each declared with its uses. Growth, sorting, migration, ghosts and memory counts loop over
-/// all fields, checkpoints over those saved unchanged.
+/// all fields; checkpoints loop over the fields that are saved unchanged.
 struct GrainFields {
   /// Sets the field widths required by this layout; does not allocate.
   explicit GrainFields(const GrainLayout& scene);
@@ -23,8 +23,8 @@ struct GrainFields {
   /// Bit mask of walls, floor and surfaces in contact.
   GrainField<std::uint32_t> boundaryContactMask{kSorted | kMigrates, &GrainState::wallBits};
   GrainField<Crossings> crossings{kSorted | kMigrates, &GrainState::crossings};
-  /// Motion before the last step, stored while grains are sorted between steps; at other times it is motion.next, and
-  /// the width is 0.
+  /// Motion before the last step, stored while grains are sorted between steps; at other times motion.next stores it,
+  /// and the width is 0.
   GrainField<Motion> formerMotion{kSorted | kMigrates};
   /// Low words of the positions when the neighbours were last listed.
   GrainField<base::Vec3<std::uint32_t>> reference{0};
@@ -69,7 +69,7 @@ public:
   }
 
   void setGravityStep(const base::Vec3d& step) { gravityStep_ = step; } ///< g dt [m/s], for entering grains
-  /// Appends grains after the existing slots; missing values are zero. Entering grains count as in free fall before.
+  /// Appends grains after the existing slots; missing values are zero. Entering grains are treated as in free fall.
   void append(const EnteringGrains& grains);
   /// Sets the number of slots for a loaded state; the caller sets the fields.
   void setSlots(std::size_t slots);
@@ -78,17 +78,17 @@ public:
   void beginRebuild();
   /// Call after the neighbours are listed at the current positions: allocates the memory again.
   void endRebuild();
-  /// Moves slot order[i] (device array) to slot i. Only during a rebuild.
+  /// Moves slot order[i] (device array) to slot i. Call it only during a rebuild.
   void permute(const std::uint32_t* order);
   /// Swaps `next` and `now` after a step; the previous state remains in `next`.
   void swapBuffers();
 
-  /// Fields of one use (kMigrates, kGhosted, kUpdated), for an exchange between ranks. `written`: uses `next`, which
-  /// the launched step writes, since the buffers are not swapped yet.
+  /// Fields of one use (kMigrates, kGhosted, kUpdated), for an exchange between ranks. `written`: true to use `next`,
+  /// which the launched step writes, before the buffers are swapped.
   std::vector<contact::ExchangeField> exchanged(FieldUse use, bool written = false);
   /// Moves slot from[k] to slot to[k], for k < count (device arrays); the two sets must be disjoint.
   void move(const std::uint32_t* from, const std::uint32_t* to, std::size_t count);
-  /// Changes the number of slots, keeping those that fit; new slots are undefined. Only during a rebuild.
+  /// Changes the number of slots; contents that fit are kept, new slots are undefined. Call it only during a rebuild.
   void resizeKeeping(std::size_t slots);
 
   /// Motion before the last step, on the device, by slot; null unless the last operation was a step.

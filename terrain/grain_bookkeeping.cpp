@@ -16,8 +16,8 @@ namespace {
 /// Quanta per unit for which `most` is 2^50 quanta.
 double quantaPer(double most) { return base::fixedPointFor(most, 50).perUnit; }
 
-/// Upper bounds per step: a grain's work is far below that of the strongest force along one radius, a wall force below
-/// eight strongest forces, and its torque about the origin below that of these forces at the ends of the scene's range.
+/// Upper bounds per step: the work on a grain is far below the work of the strongest force along one radius; a wall
+/// force is below eight such forces, and its torque about the origin below their torque at the ends of the scene.
 LedgerScale scaleOf(const GrainConstants& c) {
   double force = 0;
   const auto consider = [&](const contact::ContactLaw& law) {

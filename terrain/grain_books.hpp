@@ -49,8 +49,8 @@ struct LedgerScale {
 /// Rounds `quanta` to the nearest integer, ties to even, without a function call. Clamps values beyond +-2^51 to the
 /// limit, and NaN to -2^51.
 GROUSER_HD std::int64_t wholeQuanta(double quanta) {
-  constexpr double kMost = 0x1p51, kShift = 0x1.8p52;
-  const double within = !(quanta > -kMost) ? -kMost : quanta < kMost ? quanta : kMost;
+  constexpr double kMax = 0x1p51, kShift = 0x1.8p52;
+  const double within = !(quanta > -kMax) ? -kMax : quanta < kMax ? quanta : kMax;
   return base::bitsAs<std::int64_t>(within + kShift) - base::bitsAs<std::int64_t>(kShift); // the last place is 1
 }
 
@@ -81,7 +81,7 @@ using WallAccumulator = EnergyAccumulator<kFirstOfWalls, kPlasticDissipation>;
 using RareAccumulator = EnergyAccumulator<kPlasticDissipation, kLedgerSums>;
 
 /// Change of half the squared velocity in a step that adds `faster`: faster (v_old + v_new) / 2, plus the effect of
-/// rounding, whose square is below double precision.
+/// rounding (the square of the rounding error is below double precision).
 GROUSER_HD double halfSquareGained(double faster, const CompensatedStep& now) {
   return faster * (now.sum - 0.5 * faster) + now.rounding * now.sum;
 }

@@ -56,7 +56,7 @@ GROUSER_HD void copySprings(const float* source, std::uint32_t from, float* targ
     target[std::int64_t{to} * width + w] = from > 0 ? source[(std::int64_t{from} - 1) * width + w] : 0.0f;
 }
 
-/// Converts counts before each slot to indices: the list, and each slot's index in it. Moves springs from the former to
+/// Converts the counts before each slot to the list, and to each slot's index in it. Moves springs from the previous to
 /// the new indices.
 struct ListNearBoundary {
   const std::uint32_t* before;
@@ -146,8 +146,8 @@ void GrainBoundaries::list(const GrainConstants& c, const GrainKernelData& d, Gr
   const std::size_t slots = arrays.slots();
   const auto n = static_cast<std::int64_t>(slots);
   auto before = base::Array<std::uint32_t>::unset(exec_, slots); // marks, then the marks before each
-  // Surfaces may require a list between rebuilds. Its grains may already be half the skin from their reference, and may
-  // end half the skin on the other side.
+  // Surfaces may require a list between rebuilds. At that time a grain may already be half the skin from its reference
+  // position, and it may later move to half the skin on the other side.
   const double skin = (hasSurfaces() ? 1.0 : 0.5) * c.model.skin * c.smallestRadius;
   const double margin = static_cast<double>(c.marginUnits) * d.unitLength;
   const double reach = (c.manyRadii() ? 0 : c.model.radius) + skin + margin + d.unitLength;

@@ -30,7 +30,7 @@ public:
   std::span<const SurfacePose> surfacePoses() const { return {poses_.host(), geometries_.size()}; }
   double strongest() const { return strongest_; } ///< upper bound of the force of a contact with a surface [N]
 
-  /// True if the list of grains near surfaces must be rebuilt. Depends only on the poses, so it is equal on all ranks.
+  /// True if the list of grains near surfaces must be rebuilt. Depends only on the poses, so all ranks agree.
   bool surfacesHaveLeft() const;
   /// Lists the grains that may reach a boundary before the next list, and those in contact, with their springs. `d`:
   /// kernel data of the grains in their current slots; `ghosts`: nonzero for those to skip; null without ghosts.

@@ -9,7 +9,7 @@ namespace grouser::terrain {
 /// collective.
 class GrainCheckpoint {
 public:
-  /// Returns the state of all grains; on several ranks that of this rank's block of ids.
+  /// Returns the state of all grains; on several ranks, only of this rank's block of ids.
   static GrainState state(const GrainSystem& system);
   /// Writes x, y, z [m] of this rank's grains, sorted by id, to memory for three numbers each.
   static void readPositions(const GrainSystem& system, double* xyz);

@@ -43,7 +43,7 @@ unsigned featuresOf(const GrainModel& model, const Boundaries& boundaries, bool 
 }
 
 int Boundaries::floorPlaces(double radius) const {
-  return !floor ? 0 : SearchedHeightField::hasHollows(*floor, radius) ? Feet::kMost : 1;
+  return !floor ? 0 : SearchedHeightField::hasHollows(*floor, radius) ? Feet::kMax : 1;
 }
 
 GrainLayout layoutOf(unsigned features, int boundaries, std::size_t materials, int floorPlaces) {
@@ -115,7 +115,7 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
       historyWidth(contact::historyWidth(features)), wallCount(static_cast<int>(boundaries.walls.size())),
       floorPlaces(boundaries.floorPlaces(model.radius)), boundaryCount(boundaries.count(model.radius)),
       period(periodOf(boundaries, scale, listRange())) {
-  // Overlaps are whole units: those of a grain a thousand times smaller are resolved only to 1e-5 of its size.
+  // Overlaps are whole units: a grain a thousand times smaller than the largest resolves only 1e-5 of its size.
   if (smallestRadius < 1e-3 * model.radius)
     throw base::InputError(
         fmt::format("radii from {:g} m to {:g} m in one scene; the largest may be at most 1000 times "
@@ -124,7 +124,7 @@ GrainConstants::GrainConstants(const GrainModel& grainModel, const Boundaries& b
   if (boundaryCount > 32)
     throw base::InputError(fmt::format(
         "{} planes and other surfaces, including the floor{}; at most 32 are supported", boundaryCount,
-        floorPlaces > 1 ? fmt::format(" as {}, since its hollows are tighter than the grains", floorPlaces) : ""));
+        floorPlaces > 1 ? fmt::format(" (counts as {}: its hollows are tighter than the grains)", floorPlaces) : ""));
 }
 
 float GrainConstants::storedRadius(const GrainSpec& grain) const {

@@ -50,14 +50,14 @@ struct GrainConstants {
     return half * half;
   }
   /// Complementarity: maximum gap of a pair at rest in the problem of a step [m].
-  double leastMargin() const { return std::min(kLeastMargin * smallestRadius, model.complementarity->reach); }
+  double minMargin() const { return std::min(kMinMargin * smallestRadius, model.complementarity->reach); }
   /// Maximum gap of any pair [m]: includes the distance that both grains travel in a step, at up to kFastImpacts times
   /// `reach`.
   double margin() const {
-    return leastMargin() +
-           std::min(2 * GrainModel::kMostWaySolved * smallestRadius, kFastImpacts * model.complementarity->reach);
+    return minMargin() +
+           std::min(2 * GrainModel::kMaxWaySolved * smallestRadius, kFastImpacts * model.complementarity->reach);
   }
-  static constexpr double kLeastMargin = 0.2; ///< [smallest radius]
+  static constexpr double kMinMargin = 0.2; ///< [smallest radius]
   static constexpr double kFastImpacts = 4;
   /// Value of velocity.w in the state: grain radius [m], or 0 if all radii are equal; for a fixed grain minus its
   /// radius, or -1.

@@ -15,7 +15,7 @@ using contact::TravellingRows;
 
 namespace {
 
-/// For each slot after the migration, before sorting: the row of its grain in the former neighbour list (or among the
+/// For each slot after the migration, before sorting: the row of its grain in the last neighbour list (or among the
 /// received rows), as if all remaining grains had kept their slots.
 struct NoteOrigins {
   std::uint32_t kept, owned, former;
@@ -81,7 +81,7 @@ TravellingRows GrainDistribution::exportRows(const contact::NeighbourList& neigh
   const Exchange& exchange = subdomain_.migration();
   TravellingRows rows{nullptr, 0, static_cast<std::uint32_t>(historyWidth_)};
   rows.capacity = static_cast<std::uint32_t>(
-      subdomain_.comm().maximumOf(neighbours.mostTouching(exchange.exportSlots(), exchange.exportCount())));
+      subdomain_.comm().maximumOf(neighbours.maxTouching(exchange.exportSlots(), exchange.exportCount())));
   leaving.resize(exchange.exportCount() * rows.words());
   rows.data = leaving.data();
   neighbours.exportRows(exchange.exportSlots(), exchange.exportCount(), rows);
@@ -146,8 +146,8 @@ void GrainDistribution::finishGhostUpdate(const base::Exec& exec, GrainArrays& a
 void GrainDistribution::updateGhosts(GrainArrays& arrays) { subdomain_.haloExchange().run(arrays.exchanged(kUpdated)); }
 
 /// Moves the cuts if the busiest rank exceeds the mean by kImbalance. Busy time is the wall time since the last check,
-/// minus waiting for other ranks and minus replicated work. Measured times differ between runs, and so do the cuts, but
-/// not a single bit of the results.
+/// minus waiting for other ranks and minus replicated work. Measured times differ between runs, and so do the cuts; the
+/// results are bitwise identical.
 void GrainDistribution::rebalance(const GrainArrays& arrays, std::int64_t step) {
   const base::Comm& comm = subdomain_.comm();
   const Clock::time_point now = Clock::now();

@@ -15,7 +15,7 @@ using contact::PartitionOptions;
 using contact::Subdomain;
 
 /// Distribution of the grains over several ranks: migration across borders, ghosts near borders, and load balancing.
-/// Absent on a single rank. All functions not marked `local` are collective, in the same order on all ranks.
+/// Absent on a single rank. All functions not marked `local` are collective, and called in the same order on all ranks.
 class GrainDistribution {
 public:
   /// `start`: positions of the scene's grains; the initial cuts divide them evenly. Throws InputError if the requested
@@ -27,7 +27,7 @@ public:
   Subdomain& subdomain() { return subdomain_; }
   /// Sets the cuts for the next migration; local, but must be equal on all ranks.
   void setPartition(const Partition& partition) { subdomain_.setPartition(partition); }
-  /// Keeps the cuts for a while: loaded grains must stay on the rank that loads them.
+  /// Postpones load balancing, since loaded grains must stay on the rank that loads them.
   void keepCuts(std::int64_t step) { balancedAt_ = step; }
   /// Callback before grains migrate, in their old slots, with the new rank of the grain in each slot (device array;
   /// Subdomain::kNobody for slaves), so that owners of grain history can migrate it too. One listener only: setting a

@@ -37,7 +37,7 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
     places[i] = scale.fromMetres(x);
     if (start[i].fixed && (norm2(start[i].velocity) > 0 || norm2(start[i].spin) > 0))
       throw base::InputError(fmt::format("grain {} at ({}, {}, {}) m is fixed and has a velocity or a spin; a fixed "
-                                         "grain never moves: remove one of the two",
+                                         "grain never moves: remove fixed, or velocity and spin",
                                          first + i, x.x, x.y, x.z));
     if (start[i].fixed && !c.has(kFixed)) throw std::logic_error("a fixed grain enters a scene without fixed grains");
     for (int a = 0; a < 2; ++a)
@@ -53,7 +53,7 @@ std::vector<Position> placesOf(const std::vector<GrainSpec>& start, std::size_t 
 
 namespace {
 
-/// True if all positions have different hashes. If not, which is rare, the positions are compared.
+/// True if all positions have different hashes. Otherwise (rare) the caller compares the positions.
 bool hashesDiffer(const base::Exec& exec, const std::vector<Position>& position) {
   constexpr std::uint64_t kPurpose = base::purpose("terrain.places");
   std::vector<std::uint64_t> hash(position.size());

@@ -19,11 +19,11 @@ std::size_t fixedAmong(const std::vector<GrainSpec>& grains);
 std::vector<base::Position> placesOf(const std::vector<GrainSpec>& start, std::size_t first, const GrainConstants& c);
 
 /// Throws InputError if two grains have the same position, since the contact normal would be undefined. Uses the
-/// threads of `exec`, for a GPU those of its host.
+/// threads of `exec`; for a GPU, the threads of its host.
 void checkDistinct(const base::Exec& exec, const std::vector<base::Position>& position,
                    const std::vector<std::uint32_t>& id);
 
-/// Overlap of an entering grain with another grain or a surface that exceeds the model's limit.
+/// Overlap, above the model's limit, of an entering grain with another grain or a surface.
 struct InsertionOverlap {
   std::size_t entering{};             ///< index in the list of entering grains
   double overlap{};                   ///< [m]

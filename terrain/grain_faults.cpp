@@ -26,9 +26,10 @@ void stopFor(std::uint64_t key, const GrainSystem& system) {
                   static_cast<double>(system.steps) * c.model.timeStep, id, found[0], found[1], found[2]);
   switch (fault) {
   case Fault::overlap:
-    throw GrainFault(fault, id,
-                     fmt::format("{} overlaps another by more than {:.3g} of its radius", where, c.model.maxOverlap),
-                     "use stiffer contacts (material stiffness) or a smaller time_step");
+    throw GrainFault(
+        fault, id,
+        fmt::format("{} overlaps another grain by more than {:.3g} of its radius", where, c.model.maxOverlap),
+        "use stiffer contacts (material stiffness) or a smaller time_step");
   case Fault::through:
     throw GrainFault(fault, id, where + " is about to pass through a rigid surface",
                      "use stiffer contacts (material stiffness) or a smaller time_step");
@@ -51,7 +52,7 @@ base::Cause GrainFault::causeOf(Fault fault) {
   switch (fault) {
   case Fault::overlap:
   case Fault::through:
-    return base::Cause::pressedGrain;
+    return base::Cause::excessiveOverlap;
   case Fault::range:
     return base::Cause::lostGrain;
   case Fault::speed:

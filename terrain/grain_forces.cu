@@ -55,7 +55,7 @@ double forceRatio(const GrainSystem& system) {
   const GrainModel& model = system.constants.model;
   const double weightChange = norm(model.gravity) * model.timeStep;
   if (!(weightChange > 0)) return 0;
-  // Range: impacts of many thousand g, and 1e12 grains.
+  // The range covers impacts of many thousand g, and 1e12 grains.
   const base::FixedPoint scale = base::fixedPointFor(weightChange, 24);
   base::Array<std::int64_t> sum(system.exec, std::vector<std::int64_t>{0});
   const GrainField<Motion>& motion = system.arrays.fields().motion;

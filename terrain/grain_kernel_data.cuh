@@ -28,7 +28,7 @@ struct GrainKernelData {
   const Wall* walls;
   int wallCount, boundaryCount; ///< number of planes; of planes, floor contacts and surfaces, in this order
   HeightFieldView floor;
-  int floorPlaces; ///< maximum floor contacts of a grain: 1, or Feet::kMost on a floor with tight hollows
+  int floorPlaces; ///< maximum floor contacts of a grain: 1, or Feet::kMax on a floor with tight hollows
   base::Period period;
   const SurfaceGeometry* surfaces;
   const SurfacePose* placements; ///< poses of the surfaces in this step
@@ -70,7 +70,7 @@ struct GrainKernelData {
     return boundaryHistory + place * boundaryRow + boundary * width;
   }
   GROUSER_HD float* floorNormals(std::int64_t place, int width) const { return historyOf(place, boundaryCount, width); }
-  /// Law index of a boundary [walls, floor, surfaces]; all floor contacts have the same.
+  /// Law index of a boundary [walls, floor, surfaces]; all floor contacts have the same index.
   GROUSER_HD int lawOf(int boundary) const {
     if (boundary <= wallCount || floorPlaces <= 1) return boundary;
     return boundary < wallCount + floorPlaces ? wallCount : boundary - floorPlaces + 1;
@@ -95,7 +95,7 @@ template <class Real> struct ForceData {
   BoundaryLoad<Real>* boundaryLoads;           ///< by index in the list of grains near boundaries
 };
 
-/// Size of one grain, with its own radius or the scene's.
+/// Size of one grain, with its own radius or the common radius.
 template <class Real> struct GrainSize {
   Real radius, mass;
   std::int64_t units; ///< radius in whole units of length; 0 if all are equal
@@ -138,8 +138,8 @@ template <unsigned kFeatures, class Real> struct GrainKernel {
   GROUSER_HD base::Vec3i apart(const base::Position& i, const base::Position& j) const {
     return has(kPeriodic) ? d.period.apart(i, j).template as<std::int32_t>() : base::difference(i, j);
   }
-  /// True if this step of a batch must be skipped: the previous step, on this rank or (after the reduction) another,
-  /// has raised a flag. Those flags are final: its kernels precede this one in the stream.
+  /// True if this step of a batch must be skipped: the previous step has raised a flag, on this rank or (after the
+  /// reduction) on another. The flags are final, since the kernels of that step precede this one in the stream.
   GROUSER_HD bool ended() const { return d.former && (d.former->stale || d.former->fault != kNoFault); }
   GROUSER_HD bool hasHistory() const { return has(contact::kFriction | contact::kRollingFriction | contact::kPlastic); }
   GROUSER_HD int historyWidth() const {

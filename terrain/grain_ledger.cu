@@ -42,7 +42,7 @@ template <class Real> struct MeasureGrain : GrainKernel<contact::kGeneral, Real>
   static constexpr int kBanks = 64; // reduces conflicts between threads
 
   base::FixedPoint energy, momentum, angular;
-  base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching and squeezed pairs twice
+  base::WideSum* sums; ///< [kBanks][kSums] in quanta; touching and squeezed pairs count twice
   /// Complements of the deepest overlap [units] and the maximum speed [nm/s]; index of the first sum whose range a
   /// grain exceeds.
   std::uint64_t* extremes;
@@ -124,7 +124,7 @@ private:
           (alone ? 1 : 0.5) * stored(law, overlap, ri * rj / (ri + rj), alone ? mi : mi * mj / (mi + mj), history);
       held.deepest = overlap > held.deepest ? overlap : held.deepest;
       held.touching += alone ? 2 : 1;
-      if (overlap > contact::kSqueezed * (ri < rj ? ri : rj)) held.squeezed += alone ? 2 : 1;
+      if (overlap > contact::kDeepOverlap * (ri < rj ? ri : rj)) held.squeezed += alone ? 2 : 1;
     }
   }
 
@@ -162,7 +162,7 @@ private:
     for (int m = 0; m < loads.merges(); ++m) held.elastic -= alone(law, loads.merged(m), radius);
   }
 
-  /// Energy of the normal spring alone [J]: see FeetLoads.
+  /// Energy of only the normal spring [J]; see FeetLoads.
   GROUSER_HD static double alone(const Law& law, double overlap, double radius) {
     return contact::storedEnergy(law, overlap, radius, base::Vec3<Real>{});
   }
@@ -179,7 +179,7 @@ private:
         stored(Kernel::boundaryLaw(b, size.material), overlap, radius, static_cast<double>(size.mass), history);
     held.deepest = overlap > held.deepest ? overlap : held.deepest;
     ++held.boundary;
-    if (overlap > contact::kSqueezed * radius) ++held.squeezedAtBoundary;
+    if (overlap > contact::kDeepOverlap * radius) ++held.squeezedAtBoundary;
   }
 
   /// Distance to a plane or a surface.
@@ -189,7 +189,7 @@ private:
     return gapTo(d.surfaces[surface], d.placements[surface].motion.toPart(x)).distance;
   }
 
-  /// `history`: null if the contact has none yet.
+  /// `history`: null if the contact has no history yet.
   GROUSER_HD double stored(const Law& law, double overlap, double effectiveRadius, double effectiveMass,
                            const float* history) const {
     const Vec3f shear = history ? loadVector(history) : Vec3f{};
@@ -288,7 +288,7 @@ GrainLedger measureLedger(GrainSystem& system) {
   ledger.contacts = static_cast<std::int64_t>(q[Sums::kTouching]) / 2;
   ledger.boundaryContacts = static_cast<std::int64_t>(q[Sums::kAtBoundary]);
   ledger.squeezed = static_cast<std::int64_t>(q[Sums::kSqueezedPairs]) / 2;
-  ledger.squeezedAtBoundaries = static_cast<std::int64_t>(q[Sums::kSqueezedAtBoundary]);
+  ledger.deepAtBoundaries = static_cast<std::int64_t>(q[Sums::kSqueezedAtBoundary]);
   for (int a = 0; a < 3; ++a) {
     const auto axis = static_cast<std::size_t>(a);
     ledger.momentum[a] = q[Sums::kMomentum + axis] * momentum.quantum;

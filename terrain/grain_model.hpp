@@ -39,24 +39,24 @@ struct GrainMaterials {
   std::size_t count() const { return density.size(); }
 };
 
-/// Precision of the forces. Both produce bitwise identical results on every device, for any number of threads and
-/// ranks. The state is the same for both: positions in whole units of about 1e-8 of a diameter, velocities and spins as
-/// float plus remainder, contact springs as float. In double, nothing between the state and its change is rounded to
-/// float: laws, normals, overlaps, lever arms and sums; the forces of rigid parts are integers in both.
+/// Precision of the forces. In either precision, results are bitwise identical on every device, for any number of
+/// threads and ranks. The state has the same format in both: positions in whole units of about 1e-8 of a diameter,
+/// velocities and spins as float plus remainder, contact springs as float. In double, no intermediate value (laws,
+/// normals, overlaps, lever arms, sums) is rounded to float; the forces of rigid parts are integers in both.
 enum class Precision { single, double_ };
 
 /// Constants of a bed of spheres, copied to kernels.
 struct GrainModel {
   double radius{};               ///< radius of the largest grain [m]
-  double smallestRadius{0};      ///< minimum radius, including grains that enter later [m]; 0: that of initial grains
+  double smallestRadius{0};      ///< minimum radius, including grains that enter later [m]; 0: radius of initial grains
   double mass{};                 ///< mass of the largest grain [kg]
   double timeStep{};             ///< [s]
   base::Vec3d gravity;           ///< [m/s2]
   contact::ContactLaw law;       ///< grain-grain law
   contact::ContactLaw floorLaw;  ///< law between grains and the height-field floor, if there is one
   double skin{0.3};              ///< skin of the neighbour list / smallest radius [-]
-  double maxOverlap{0.5};        ///< maximum allowed overlap of two grains / either radius [-]; more stops the run
-  double maxSurfaceOverlap{0.8}; ///< same for walls, floor and surfaces; for parts it is 1
+  double maxOverlap{0.5};        ///< maximum overlap of two grains / either radius [-]; a larger one stops the run
+  double maxSurfaceOverlap{0.8}; ///< same limit for walls, floor and surfaces; for parts: 1
   double maxEntryOverlap{0.2};   ///< maximum allowed overlap of entering grains / smaller radius [-]
   bool fixedGrains{false};       ///< true if some grains are fixed; a fixed initial grain also sets it
   bool ledger{true};             ///< true: work and dissipation are accounted for
@@ -64,12 +64,12 @@ struct GrainModel {
   std::optional<contact::ComplementarityOptions> complementarity;
   GrainMaterials materials; ///< replaces law, floorLaw and the walls' laws for grains of several materials
   Precision precision{Precision::single};
-  bool specialised{true}; ///< false: always the general kernel; same bits, for tests
+  bool specialised{true}; ///< false: always the general kernel; same results, for tests
   /// Maximum displacement of a grain per step / smallest radius [-]: with penalty contacts half the skin, so that no
   /// contact is missed.
-  double mostWay() const { return complementarity ? kMostWaySolved : 0.5 * skin; }
-  static constexpr double kMostWaySolved = 0.4;
-  int mostSimdLanes{16}; ///< maximum number of SIMD lanes on a CPU: 16, 8, 4, 1; same bits, for tests
+  double maxWay() const { return complementarity ? kMaxWaySolved : 0.5 * skin; }
+  static constexpr double kMaxWaySolved = 0.4;
+  int maxSimdLanes{16}; ///< maximum number of SIMD lanes on a CPU: 16, 8, 4, 1; same results, for tests
 };
 
 /// Current state functions of the grains, and their energy accounting since the start; all sums are order-independent.
@@ -88,8 +88,8 @@ struct GrainLedger {
   base::Vec3d impulse, angularImpulse; ///< impulse of gravity, walls and floor [N s], [N m s] about the world origin
   std::int64_t contacts{};             ///< grain-grain contacts
   std::int64_t boundaryContacts{};     ///< contacts of grains with walls, floor and surfaces
-  std::int64_t squeezed{};             ///< grain-grain contacts with an overlap above contact::kSqueezed
-  std::int64_t squeezedAtBoundaries{}; ///< same for walls, floor and surfaces
+  std::int64_t squeezed{};             ///< grain-grain contacts with an overlap above contact::kDeepOverlap
+  std::int64_t deepAtBoundaries{};     ///< same for walls, floor and surfaces
   double deepestOverlap{};             ///< [m]
   double fastest{};                    ///< [m/s]
 };

@@ -26,7 +26,7 @@ template <class Real> struct MeasuredBoundaryLoad : BoundaryLoad<Real> { contact
 GROUSER_HD bool isFixed(const Vec4f& velocity) { return velocity.w < 0; }
 
 /// Net number of crossings of the upper periodic boundary along x and y: the total displacement of the grain exceeds
-/// that of its position by this many periods.
+/// the change of its position by this many periods.
 struct Crossings {
   std::int32_t x, y;
 };

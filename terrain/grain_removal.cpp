@@ -21,7 +21,7 @@ double massOf(const GrainState& state, std::size_t row, const GrainModel& model)
 
 double removeGrains(Grains& grains, const std::vector<std::uint32_t>& ids) {
   GrainState state = grains.state();
-  std::vector<double> mass(ids.size(), 0.0); // each is known to one rank only
+  std::vector<double> mass(ids.size(), 0.0); // each mass is known to one rank only
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const auto row = std::lower_bound(state.id.begin(), state.id.end(), ids[k]);
     if (row != state.id.end() && *row == ids[k])

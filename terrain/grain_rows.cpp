@@ -50,7 +50,8 @@ std::vector<std::uint32_t> GrainState::words() const {
 
 GrainState GrainState::withoutRows() const {
   GrainState out;
-  out.layout = layout, out.total = total, out.gone = gone, out.skin = skin, out.rebuilds = rebuilds, out.books = books;
+  out.layout = layout, out.total = total, out.gone = gone, out.skin = skin, out.rebuilds = rebuilds,
+  out.energySums = energySums;
   return out;
 }
 
@@ -68,7 +69,7 @@ void GrainState::remove(const std::vector<std::uint32_t>& ids) {
     RowReader reader(words.data());
     visitRow(kept, reader);
   }
-  // Remaining contacts.
+  // Copy the remaining contacts.
   std::size_t from = 0, to = 0;
   for (std::uint32_t& count : kept.contacts) {
     std::uint32_t left = 0;

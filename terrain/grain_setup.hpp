@@ -48,7 +48,7 @@ struct Boundaries {
 
   /// Maximum floor contacts of a grain of `radius` [m]: several if the floor has tighter hollows.
   int floorPlaces(double radius) const;
-  /// Number of boundaries with contact springs: walls, floor contacts, surfaces. `radius`: of the largest grain [m].
+  /// Number of boundaries with contact springs: walls, floor contacts, surfaces. `radius`: largest grain radius [m].
   int count(double radius) const { return static_cast<int>(walls.size() + surfaces.size()) + floorPlaces(radius); }
 };
 

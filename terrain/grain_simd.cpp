@@ -10,12 +10,12 @@ namespace grouser::terrain {
 namespace {
 
 // Grains per task: enough to amortise its start and end, and few enough that all threads have some.
-constexpr int kMostAtATime = 256, kLeastAtATime = 64;
+constexpr int kMaxAtATime = 256, kMinAtATime = 64;
 constexpr int kBlocksPerThread = 4; // in a step
 constexpr double kNanosecondsOfGrain = 50, kNanosecondsAtWall = 20;
 
 int grainsAtATime(std::int64_t count, int threads) {
-  return static_cast<int>(std::clamp<std::int64_t>(count / (kBlocksPerThread * threads), kLeastAtATime, kMostAtATime));
+  return static_cast<int>(std::clamp<std::int64_t>(count / (kBlocksPerThread * threads), kMinAtATime, kMaxAtATime));
 }
 
 struct GrainBlockTask {
@@ -94,11 +94,11 @@ void accountPlasticWork(const GrainKernelData& d, int i, float yielded) {
 }
 
 void addToLedger(const GrainKernelData& d, int first, const GrainAccumulator& accumulator) {
-  addToBank(d.ledgerSums, first / kLeastAtATime, accumulator);
+  addToBank(d.ledgerSums, first / kMinAtATime, accumulator);
 }
 
 void addToLedger(const GrainKernelData& d, int first, const WallAccumulator& accumulator) {
-  addToBank(d.ledgerSums, first / kLeastAtATime, accumulator);
+  addToBank(d.ledgerSums, first / kMinAtATime, accumulator);
 }
 
 } // namespace detail

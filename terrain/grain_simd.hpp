@@ -17,7 +17,7 @@ void runWallSimd(const base::Exec& exec, const GrainKernelData& d, const ForceDa
 namespace detail {
 
 using LaneStep = void(const GrainKernelData& d, const ForceData<float>& f, int first, int last);
-/// Steps grains [first, last) of a launch. One source file per instruction set, named after it.
+/// Steps grains [first, last) of a launch. Each instruction set has its own source file, named after it.
 LaneStep stepSse, stepAvx2, stepAvx512;
 /// Processes entries [first, last) of the list of grains near boundaries.
 LaneStep wallsSse, wallsAvx2, wallsAvx512;

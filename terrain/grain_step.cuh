@@ -50,7 +50,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
 
   /// History of a contact.
   struct History {
-    float* at;          ///< null where the laws need none
+    float* at;          ///< null if the laws need no history
     bool held;          ///< true: history of this contact; false: of an earlier one
     base::Vec3f spring; ///< first three values, or 0
     base::Vec3f angle;  ///< next three values for rolling resistance, or 0
@@ -162,7 +162,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     return static_cast<std::int64_t>(std::uint64_t{units} * units);
   }
 
-  /// History of the contact at list entry `at`; null if the laws have none.
+  /// History of the contact at list entry `at`; null if the laws need no history.
   GROUSER_HD float* historyAt(std::int64_t at) const {
     return Kernel::hasHistory() ? d.neighbours.history + at * Kernel::historyWidth() : nullptr;
   }
@@ -204,7 +204,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     const contact::BasicLaw<Real>& law =
         has(kManyMaterials) ? f.pairLaws[own.size.material * d.materials + other.size.material] : f.law;
     if (onGround) touch.effectiveMass = own.size.mass, touch.dampingShare = law.fixedShare;
-    // Both lever arms end at the same point, which conserves angular momentum: each sphere takes half the overlap.
+    // Both lever arms end at the same point, at half the overlap, so that angular momentum is conserved.
     Real arm = Real(0.5) * pair.distance;
     if (has(kManyRadii)) {
       const GrainSize<Real>&a = own.size, &b = other.size;
@@ -261,7 +261,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
     accountFixedGrain(p, {(-force).template as<Real>(), (-torque).template as<Real>()}, accumulator);
   }
 
-  /// Adds impulses of fixed grains to those of walls. Few grains have any.
+  /// Adds impulses of fixed grains to those of walls. Few grains touch a fixed grain.
   GROUSER_HD void accountFixedGrain(const base::Position& p, const Held& held, Accumulator& accumulator) const {
     if (!has(kLedger)) return;
     const base::Vec3d x = base::toUnits(p).as<double>() * d.unitLength;
@@ -296,7 +296,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       quanta += load.force;
       torque += load.torque.template as<double>();
       // Stones can be jammed between tooth and track: a part may overlap a grain more than another grain may, but not
-      // beyond its centre.
+      // beyond the grain's centre.
       if (load.deepest > static_cast<float>(size.radius)) raise(Fault::through, i);
     }
     force += d.loads.force.value(quanta);
@@ -365,7 +365,7 @@ template <unsigned kFeatures, class Real> struct GrainStep : GrainKernel<kFeatur
       kept.axis[a] = packRemainders(rv, rw);
       const double displacement = speed.sum * d.unitsPerSpeed;
       // A NaN speed must not reach the integer conversion.
-      if (displacement > -kMostUnitsPerStep && displacement < kMostUnitsPerStep)
+      if (displacement > -kMaxUnitsPerStep && displacement < kMaxUnitsPerStep)
         moved[a] += advanceKeeping(displacement, kept.position, a);
     }
     if (has(kLedger)) {

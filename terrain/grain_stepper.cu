@@ -68,7 +68,7 @@ bool GrainStepper::canLaunchAhead(const GrainSystem& system) const {
   return base::Gate::canWait(exec_) && !system.distribution && !system.boundaries.hasSurfaces() && !system.impulses;
 }
 
-/// Index of the flags of a step launched ahead: that of the buffer with its initial state.
+/// Index of the flags of a step launched ahead: the same as the index of the buffer with its initial state.
 int GrainStepper::placeAhead(const GrainSystem& system) {
   const auto& position = system.arrays.fields().position;
   return std::less<>()(position.next.data(), position.now.data()) ? 1 : 0;
@@ -172,11 +172,11 @@ StepOutcome GrainStepper::end(GrainSystem& system) {
   return outcome;
 }
 
-/// Not with SIMD on a CPU, whose kernel does not check the flags of the previous step (the scalar one does, for tests).
-/// Not with surfaces, whose poses the host uploads for every step. On several ranks not in the first step after a
-/// rebuild: a recorded batch begins by unpacking a halo exchange, and none is pending then.
+/// False with SIMD on a CPU: its kernel does not check the flags of the previous step (the scalar kernel does, for
+/// tests). False with surfaces: the host uploads their poses for every step. On several ranks, false in the first step
+/// after a rebuild: a recorded batch begins by unpacking a halo exchange, and no exchange is pending then.
 bool GrainStepper::canBatchSteps(const GrainSystem& s) const {
-  const bool lanes = exec_.onCpu() && s.constants.model.mostSimdLanes > 1;
+  const bool lanes = exec_.onCpu() && s.constants.model.maxSimdLanes > 1;
   if (lanes || s.boundaries.hasSurfaces() || s.impulses) return false;
   return !s.distribution ||
          (s.distribution->subdomain().stepsTogether() && s.distribution->subdomain().haloExchange().underWay());

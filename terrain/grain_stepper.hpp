@@ -27,7 +27,7 @@ public:
 
   /// Launches contacts with walls and floor on a side stream, joined by begin(). They read the current grain state and
   /// write loads, masks and springs by slot, so slots must not change in between. Does nothing in scenes with
-  /// surfaces, whose poses for this step may be unknown yet: begin() then computes the contacts.
+  /// surfaces, since their poses for this step may be unknown yet: begin() then computes the contacts.
   void beginBoundaries(GrainSystem& system);
   bool boundariesBegun() const { return boundariesBegun_; }
   /// Launches one step without waiting. `loads`: loads of rigid parts; null without parts.
@@ -72,7 +72,7 @@ private:
   void computeBoundaryContacts(const base::Exec& exec, const Launch& step);
   /// Advances the grains of `slots`; duplicates must be adjacent and count once.
   void advanceListed(const base::Exec& exec, const Launch& step, std::span<const std::uint32_t> slots);
-  /// Advances all grains except those with a nonzero entry in `excluded`, by slot; null excludes none.
+  /// Advances all grains except those with a nonzero entry in `excluded`, by slot; null: no exclusions.
   void advanceUnless(const base::Exec& exec, const Launch& step, const std::uint32_t* excluded);
   static void advance(const base::Exec& exec, GrainSystem& s, const GrainKernelData& d, std::int64_t count);
   Launch ahead(GrainSystem& system, const contact::GrainLoadsView* loads);

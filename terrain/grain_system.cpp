@@ -65,7 +65,7 @@ GrainKernelData GrainSystem::kernelData() {
   d.maxOverlap = static_cast<float>(model.maxOverlap * r);
   d.maxOverlapShare = static_cast<float>(model.maxOverlap);
   d.maxSurfaceShare = static_cast<float>(model.maxSurfaceOverlap);
-  const double maxSpeed = model.mostWay() * constants.smallestRadius / dt;
+  const double maxSpeed = model.maxWay() * constants.smallestRadius / dt;
   d.maxSpeed2 = static_cast<float>(maxSpeed * maxSpeed);
   d.gravityStep = model.gravity * dt;
   d.period = constants.period;

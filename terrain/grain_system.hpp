@@ -37,7 +37,7 @@ struct GrainSystem {
   const std::uint32_t* ghosts() const { return distribution ? distribution->subdomain().ghostMarks() : nullptr; }
   /// Host copy of ghosts(); zeros if there are none.
   std::vector<std::uint32_t> ghostsOnHost() const;
-  /// Rank whose subdomain contains this position, which is at most one period outside.
+  /// Rank with the subdomain that contains this position. The position may be at most one period outside.
   int ownerOf(const base::Position& place) const {
     return distribution
                ? distribution->subdomain().partition().view().ownerOf(constants.period.wrapped(base::toUnits(place)))

@@ -42,7 +42,7 @@ bool Grains::refreshNeighbours() {
 }
 
 void Grains::rebuild() {
-  if (stepper_.boundariesBegun()) throw std::logic_error("slots change while boundary contacts are being computed");
+  if (stepper_.boundariesBegun()) throw std::logic_error("cannot change slots while boundary contacts are computed");
   GrainSystem& s = system_;
   s.arrays.beginRebuild();
   if (s.distribution) s.distribution->migrate(s.arrays, s.neighbours, s.boundaries, s.steps);

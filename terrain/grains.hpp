@@ -12,7 +12,7 @@ namespace grouser::terrain {
 ///
 /// The state is on the device of `exec`, sorted in space. Results do not depend on the sorting, the rebuild times, the
 /// number of threads, the device, or the number of ranks and their subdomains. All members not marked `local` are
-/// collective, in the same order on all ranks.
+/// collective, and called in the same order on all ranks.
 class Grains {
 public:
   /// `start`: all grains of the scene, on every rank. Throws InputError if a grain is outside the range of the integer
@@ -42,8 +42,8 @@ public:
 
   /// Adds grains between steps; their ids follow the existing ones. Throws InputError like the constructor.
   void add(const std::vector<GrainSpec>& more);
-  /// Callback of add() on all ranks, before any change, if grains would overlap; must throw. Without it add() does not
-  /// check.
+  /// Callback of add() on all ranks, before any change, if grains would overlap; must throw. Without a callback, add()
+  /// does not check.
   using InsertionOverlapAlarm = std::function<void(const InsertionOverlap&)>;
   void onInsertionOverlap(InsertionOverlapAlarm alarm) { insertionOverlapAlarm_ = std::move(alarm); }
 
@@ -78,8 +78,8 @@ public:
   /// `restore(state())` is bitwise identical to an uninterrupted one, on any device, for any number of ranks and any
   /// skin.
   GrainState state() const;
-  /// Restores a state. Throws InputError if it belongs to other grains. `grows`: it may have more grains than the
-  /// initial scene. Set the surface poses first.
+  /// Restores a state. Throws InputError if it belongs to other grains. `grows`: the state may have more grains than
+  /// the initial scene. Set the surface poses first.
   void restore(const GrainState& state, bool grows = false);
   GrainLedger ledger();
 

@@ -48,7 +48,7 @@ Net controlNet(const std::vector<double>& heights, int columns, int rows, int i,
   return net;
 }
 
-/// Control net of a cell from values and slopes of its nodes; without slopes that of the bilinear patch.
+/// Control net of a cell from values and slopes of its nodes; without slopes, the net of the bilinear patch.
 Net controlNetOf(const HeightFieldView& v, int i, int j) {
   Net net;
   for (int b = 0; b < 2; ++b)

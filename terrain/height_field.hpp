@@ -165,7 +165,7 @@ struct HeightFieldView {
     const Vec3d gap = p - foot.point;
     foot.distance = base::dot(gap, foot.normal);
 
-    // Not perpendicular, or on the wrong side: not a foot point, but the nearest point found.
+    // A gap that is not perpendicular to the surface, or on its wrong side: this is only the nearest point found.
     const double length = base::norm(gap);
     if (length > 10 * converged && side * foot.distance < 0.9 * length) {
       foot.distance = side * length;
@@ -176,7 +176,7 @@ struct HeightFieldView {
 
 private:
   GROUSER_HD static int clamp(int i, int n) { return i < 0 ? 0 : i < n ? i : n - 1; }
-  /// Clamped first: values beyond the integer range, or NaN, must not be converted.
+  /// Clamps first, since values beyond the integer range, or NaN, must not be converted.
   GROUSER_HD static int cellAt(double u, int cells) {
     return !(u > 0) ? 0 : u < cells ? static_cast<int>(u) : cells - 1;
   }
@@ -191,9 +191,9 @@ private:
   }
 };
 
-/// Bounds of a height field over its grid, from the control net of each bicubic cell. Never too small; on smooth ground
-/// overestimated by 5 (slope) to 20 (curvature) per cent, on noise up to threefold. The tangent extrapolation beyond
-/// the border is not included.
+/// Bounds of a height field over its grid, from the control net of each bicubic cell. They are never too small. They
+/// are too large by 5 (slope) to 20 (curvature) per cent on smooth ground, and by up to a factor of three on noise. The
+/// tangent extrapolation beyond the border is not included.
 struct HeightFieldBounds {
   double lowest{}, highest{}; ///< [m]
   double slope{};             ///< |gradient| [-]

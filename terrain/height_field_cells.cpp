@@ -11,7 +11,7 @@ namespace grouser::terrain {
 
 namespace {
 
-constexpr int kMostCells = 256;                          ///< larger boxes are not tested cell by cell
+constexpr int kMaxCells = 256;                           ///< larger boxes are not tested cell by cell
 constexpr double kSameHeight = 1e-10, kSameSlope = 1e-9; // [m], [-]
 
 /// Height and slopes of a planar cell at one of its corners.
@@ -55,13 +55,13 @@ HeightFieldCells::HeightFieldCells(const HeightField& field)
 
 /// Returns the index of the plane through `corner` with these slopes; -1 if the list is full.
 std::int32_t HeightFieldCells::listed(const Vec3d& corner, double hx, double hy) {
-  constexpr std::size_t kMostPlanes = 64;
+  constexpr std::size_t kMaxPlanes = 64;
   const Vec3d normal = base::normalized(Vec3d{-hx, -hy, 1});
   for (std::size_t k = 0; k < planes_.size(); ++k)
     if (norm(planes_[k].normal - normal) <= kSameSlope &&
         std::fabs(dot(planes_[k].normal, corner) - planes_[k].height) <= kSameHeight)
       return static_cast<std::int32_t>(k);
-  if (planes_.size() == kMostPlanes) return -1;
+  if (planes_.size() == kMaxPlanes) return -1;
   planes_.push_back({normal, dot(normal, corner)});
   return static_cast<std::int32_t>(planes_.size() - 1);
 }
@@ -80,7 +80,7 @@ HeightFieldCells::Range HeightFieldCells::rangeOf(double x0, double x1, double y
 }
 
 std::int32_t HeightFieldCells::commonPlane(const Range& r) const {
-  if (r.cells() > kMostCells) return -1;
+  if (r.cells() > kMaxCells) return -1;
   const std::int32_t first = planeOf_[cell(r.i0, r.j0)];
   for (int j = r.j0; first >= 0 && j <= r.j1; ++j)
     for (int i = r.i0; i <= r.i1; ++i)
@@ -92,7 +92,7 @@ bool HeightFieldCells::near(const Vec3d& low, const Vec3d& high) const {
   if (!contains(low.x, high.x, low.y, high.y)) return true;
   if (low.z > highest_) return false;
   const Range r = rangeOf(low.x, high.x, low.y, high.y);
-  if (r.cells() > kMostCells) return true;
+  if (r.cells() > kMaxCells) return true;
   for (int j = r.j0; j <= r.j1; ++j)
     for (int i = r.i0; i <= r.i1; ++i)
       if (low.z <= tops_[cell(i, j)]) return true;
@@ -102,7 +102,7 @@ bool HeightFieldCells::near(const Vec3d& low, const Vec3d& high) const {
 HeightFieldCells::Under HeightFieldCells::under(const Vec3d& low, const Vec3d& high) const {
   if (!contains(low.x, high.x, low.y, high.y)) return {nullptr, base::kInfinity};
   const Range r = rangeOf(low.x, high.x, low.y, high.y);
-  if (r.cells() > kMostCells) return {nullptr, base::kInfinity};
+  if (r.cells() > kMaxCells) return {nullptr, base::kInfinity};
   const std::int32_t index = commonPlane(r);
   if (index < 0) {
     double curvature = 0;

@@ -65,7 +65,7 @@ std::uint32_t wordAt(const std::vector<stbi_uc>& bytes, std::size_t at) {
   return word;
 }
 
-// Offsets in a PNG, whose first chunk must be the header, IHDR.
+// Offsets in a PNG file; its first chunk must be the header, IHDR.
 constexpr std::size_t kHeaderTypeAt = 12, kWidthAt = 16, kHeightAt = 20, kDepthAt = 24, kColourTypeAt = 25,
                       kInterlacedAt = 28;
 
@@ -84,8 +84,8 @@ bool isPngWithoutHeader(const std::vector<stbi_uc>& bytes) {
 /// Columns and rows in a PNG header (the decoder gives no reason for rejecting large ones); 0 for other files.
 std::pair<std::int64_t, std::int64_t> sizeOfPng(const std::vector<stbi_uc>& bytes) {
   if (bytes.size() < kDepthAt || !isPng(bytes)) return {0, 0};
-  constexpr std::uint32_t kMost = 0x7FFFFFFF; // the format's limit
-  return {std::min(wordAt(bytes, kWidthAt), kMost), std::min(wordAt(bytes, kHeightAt), kMost)};
+  constexpr std::uint32_t kMax = 0x7FFFFFFF; // the format's limit
+  return {std::min(wordAt(bytes, kWidthAt), kMax), std::min(wordAt(bytes, kHeightAt), kMax)};
 }
 
 /// CRC-32 of ISO/IEC 15948, annex D.
@@ -132,8 +132,8 @@ std::int64_t unpackedBytes(const std::vector<stbi_uc>& bytes) {
   return total;
 }
 
-/// Makes the decoder return palette indices, by changing the colour type to grey: it would copy colours beyond the
-/// palette from uninitialised memory.
+/// Changes the colour type to grey, so that the decoder returns palette indices; otherwise it would copy colours beyond
+/// the palette from uninitialised memory.
 std::string paletteFault(std::vector<stbi_uc> bytes, const PngPixels& pixels) {
   constexpr int kGrey = 0, kPalette = 3;
   const int most = (1 << bytes[kDepthAt]) - 1;
@@ -203,7 +203,7 @@ bool isCutShort(const std::vector<stbi_uc>& bytes) {
   return jpeg && !(bytes[n - 2] == 0xFF && bytes[n - 1] == 0xD9);
 }
 
-/// Brightness of one pixel; integers below 2^31, one correctly rounded division, and grey keeps its value exactly.
+/// Brightness of one pixel. Uses integers below 2^31 and one correctly rounded division; grey keeps its value exactly.
 template <class Channel> double brightness(const Channel* pixel, int channels, int white) {
   const bool grey = channels <= 2;
   const int r = pixel[0], g = grey ? r : pixel[1], b = grey ? r : pixel[2];

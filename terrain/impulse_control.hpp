@@ -17,7 +17,7 @@ struct IterationSums {
 template <class Real> struct ImpulseControl {
   /// Limits of tau. The metric bounds the curvature at tau = 1; larger values are needed for bodies with a larger
   /// response than free bodies.
-  static constexpr double kMostTau = 16, kLeastTau = 1e-3, kLongerStep = 0.97;
+  static constexpr double kMaxTau = 16, kMinTau = 1e-3, kLongerStep = 0.97;
   static constexpr int kPatience = 100; ///< iterations within which the residual must halve
 
   double residual{}; ///< tolerance [m/s]
@@ -27,7 +27,7 @@ template <class Real> struct ImpulseControl {
   bool done{false};
   int now = 0, before = 0, tried = 2; ///< indices of row buffers
   int iterations = 0, halvedAt = 0, evaluations = 0;
-  Real ahead = 0, tau = 1; ///< extrapolation; inverse step size over that of the metric
+  Real ahead = 0, tau = 1; ///< extrapolation factor; inverse step size / that of the metric
   double theta = 1, halved = 0;
   IterationSums last{};
 
@@ -41,14 +41,14 @@ template <class Real> struct ImpulseControl {
   /// which has no potential, does not converge.
   GROUSER_HD void take(const IterationSums& sums) {
     ++evaluations;
-    if (tau < Real(kMostTau) && sums.curvature > static_cast<double>(tau) * sums.length) {
+    if (tau < Real(kMaxTau) && sums.curvature > static_cast<double>(tau) * sums.length) {
       tau *= 2;
       return;
     }
     const bool restarts = sums.against > 0;
     const double next = restarts ? 1 : 0.5 * theta * (sqrt(theta * theta + 4) - theta);
     ahead = restarts ? Real(0) : static_cast<Real>(theta * (1 - theta) / (theta * theta + next));
-    theta = next, tau = tau * Real(kLongerStep) > Real(kLeastTau) ? tau * Real(kLongerStep) : Real(kLeastTau);
+    theta = next, tau = tau * Real(kLongerStep) > Real(kMinTau) ? tau * Real(kLongerStep) : Real(kMinTau);
     before = now, now = tried, tried = 3 - now - before;
     last = sums, ++iterations;
     done = !(last.worst > residual) || iterations >= maxIterations;

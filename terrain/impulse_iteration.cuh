@@ -3,8 +3,8 @@
 
 #include "terrain/impulse_setup.cuh"
 
-/// An iteration has two kernels: first each grain takes a step in its own rows and adds their impulses to its velocity;
-/// then it computes the gradient of its rows from the velocities of all grains.
+/// An iteration has two kernels. In the first, each grain steps in its own rows and adds their impulses to its
+/// velocity; in the second, it computes the gradient of its rows from the velocities of all grains.
 namespace grouser::terrain {
 
 /// Adds the impulses of a grain to its velocity. `kTry`: after a gradient step from the extrapolated impulses;

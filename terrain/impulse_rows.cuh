@@ -9,7 +9,7 @@
 
 /// Rows of the complementarity problem of a step, as seen by its kernels. Each grain of a pair has its own row, with
 /// opposite impulses that are bitwise equal: a grain sums its rows in the order of its neighbours' ids, and writes only
-/// these.
+/// its own rows.
 namespace grouser::terrain {
 
 inline constexpr std::uint32_t kFixedPartner = ~0u; ///< denotes a wall, floor, surface or fixed grain
@@ -92,7 +92,7 @@ template <class Real> struct ImpulseData {
   ImpulseMotion<Real>* motion;   ///< [slot] velocities with the impulses of this iteration, including ghosts
   const std::uint32_t* ghost;    ///< [slot] nonzero for ghosts; null without ghosts
   std::int64_t margin;           ///< maximum gap of a row [units]
-  std::int64_t leastMargin;      ///< gap below which a pair at rest has a row [units]
+  std::int64_t minMargin;        ///< gap below which a pair at rest has a row [units]
   ImpulseControl<Real>* control; ///< state of the iterations
   int now;                       ///< buffer index of the rows before and after the iterations
   // Force-driven surfaces.

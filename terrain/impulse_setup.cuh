@@ -22,8 +22,8 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
 
   /// Maximum gap [units] of a row whose sides have the total speed `speed` [m/s].
   GROUSER_HD std::int64_t marginFor(double speed) const {
-    const double way = speed * d.unitsPerSpeed, most = static_cast<double>(s.margin - s.leastMargin);
-    return s.leastMargin + static_cast<std::int64_t>(way < most ? way : most);
+    const double way = speed * d.unitsPerSpeed, most = static_cast<double>(s.margin - s.minMargin);
+    return s.minMargin + static_cast<std::int64_t>(way < most ? way : most);
   }
   GROUSER_HD double speedOf(int i) const { return norm(d.motion[i].velocity.xyz().template as<double>()); }
 
@@ -32,7 +32,7 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     return Real(0.4) * size.mass * size.radius * size.radius;
   }
 
-  /// Loads the springs of the last step and rotates them into the current tangent plane; a new contact has none. Stores
+  /// Loads the springs of the last step and rotates them into the current tangent plane; zero in a new contact. Stores
   /// them back to `history` for the end of the step.
   GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, bool rolls, Touch& touch) const {
     if (touch.held) {
@@ -44,8 +44,8 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     if (rolls) storeTurned(history + 3, turned, touch.angle);
   }
 
-  /// Contact of a grain with a boundary or part whose contact point has the velocity `moves` [m/s] and spin `turns`
-  /// [rad/s], and gains `gains` [m/s] in this step without contacts. Without history.
+  /// Contact of a grain with a boundary or part, without history. The other contact point has the velocity `moves`
+  /// [m/s] and spin `turns` [rad/s], and gains `gains` [m/s] in this step without contacts.
   GROUSER_HD Touch touchOf(int i, const GrainSize<Real>& size, const Vec& push, Real gap, const Arms& arms,
                            const Vec& moves, const Vec& turns, const Vec& gains) const {
     const ImpulseMotion<Real> mine = motionAtStart<Real>(d, i);
@@ -139,7 +139,7 @@ private:
     const GrainSize<Real> other = Kernel::sizeOf(static_cast<int>(j));
     const bool ground = Base::fixedAt(j);
     const Law& law = has(kManyMaterials) ? f.pairLaws[size.material * d.materials + other.material] : f.law;
-    // Both arms end at the same point, which conserves angular momentum: each sphere takes its share of the gap.
+    // Both arms end at the same point, which conserves angular momentum: the radii determine each sphere's share.
     const Real share = pair.distance / (size.radius + other.radius);
     const Arms arms{size.radius * share, other.radius * share};
     const ImpulseMotion<Real> mine = motionAtStart<Real>(d, i), theirs = motionAtStart<Real>(d, static_cast<int>(j));
@@ -300,7 +300,7 @@ template <class Real> struct CountRows : ImpulseKernel<Real> {
   }
 };
 
-/// Computes the metric of each row, which bounds the effect of all rows of both grains on its velocity: each grain's
+/// Computes the metric of each row. It bounds the effect of all rows of both grains on the row's velocity: each grain's
 /// mass is split among its rows (Tonge, Benevolenski and Voroshilov 2012, ACM Trans. Graph. 31:105). With this step
 /// size the objective of the convex problem never increases.
 template <class Real> struct WeighRows : ImpulseKernel<Real> {
@@ -348,7 +348,7 @@ private:
     roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other) + turns) + roll.softness;
   }
 
-  /// Upper bound of the velocity per impulse of a body at a contact point [1/kg], from the trace of the rotational
+  /// Upper bound of a body's velocity change per impulse at a contact point [1/kg], from the trace of the rotational
   /// part.
   GROUSER_HD Real mobilityOf(const contact::BodyResponse::Inverse& body, const Vec& arm) const {
     const base::Vec3d r = arm.template as<double>();

@@ -10,8 +10,8 @@
 namespace grouser::terrain {
 
 void checkReport(const ImpulseReport& report, const contact::ComplementarityOptions& options, std::int64_t step) {
-  constexpr double kMost = 1e30; // m/s
-  if (report.residual > kMost)
+  constexpr double kMax = 1e30; // m/s
+  if (report.residual > kMax)
     throw base::SimulationError(
         fmt::format("step {}: contact velocities of grains are not finite; use a smaller time_step", step),
         base::Cause::noNumber);

@@ -26,7 +26,7 @@ struct ImpulseParts {
 
 /// Outcome of solving the complementarity problem of a step, identical on all ranks.
 struct ImpulseReport {
-  int iterations{};    ///< 0: the impulses of the last step already satisfied the residual
+  int iterations{};    ///< 0: the impulses of the last step already satisfied the tolerance
   double residual{};   ///< maximum over all rows [m/s]
   double rms{};        ///< root mean square over all rows [m/s]
   double rows{};       ///< number of contacts

@@ -75,7 +75,7 @@ public:
     data_.rules = {real(c.model.timeStep), real(options_.recovery), real(options_.impact), real(law.stiffness),
                    options_.compliance == contact::Compliance::rigid};
     data_.margin = c.marginUnits;
-    data_.leastMargin = c.scale.inUnits(c.leastMargin());
+    data_.minMargin = c.scale.inUnits(c.minMargin());
     // Range of the sums: velocity changes that would move a grain by 16 radii in a step.
     const double fastest = 16 * c.model.radius / c.model.timeStep;
     data_.perEnergy = base::fixedPointFor(c.model.mass * fastest * fastest, 50).perUnit;

@@ -15,7 +15,7 @@ using base::Vec3l;
 
 namespace {
 
-constexpr std::uint64_t kMostUnits = 0xFFFFFFFFull;
+constexpr std::uint64_t kMaxUnits = 0xFFFFFFFFull;
 
 struct Entering {
   base::Position position;
@@ -36,7 +36,7 @@ struct FindInsertionOverlap {
   double radius;                 ///< radius of all grains [units]; 0: each has its own
   double unitsPerMetre, allowed; ///< maximum allowed overlap / smaller radius [-]
   std::uint64_t*
-      deepest; ///< kMostUnits minus the overlap, then the id: the minimum has the deepest overlap, then the lowest id
+      deepest; ///< kMaxUnits minus the overlap, then the id: the minimum has the deepest overlap, then the lowest id
 
   GROUSER_HD void operator()(int i) const {
     if (ghost && ghost[i]) return;
@@ -50,7 +50,7 @@ struct FindInsertionOverlap {
       const double smaller = own < entering[k].radius ? own : entering[k].radius;
       if (!(overlap > allowed * smaller)) continue;
       const auto units = static_cast<std::uint64_t>(overlap); // at most two radii, 2e8
-      base::atomicMin64(deepest, (kMostUnits - units) << 32 | id[i]);
+      base::atomicMin64(deepest, (kMaxUnits - units) << 32 | id[i]);
     }
   }
 };
@@ -71,7 +71,7 @@ std::optional<InsertionOverlap> overlapWithSurface(const std::vector<GrainSpec>&
 
 constexpr std::uint64_t kNobody = std::numeric_limits<std::uint64_t>::max();
 
-/// Key of the deepest overlap of FindInsertionOverlap; kNobody if none is too deep. Equal on all ranks.
+/// Key of the deepest overlap of FindInsertionOverlap; kNobody if no overlap is too deep. Equal on all ranks.
 std::uint64_t deepestOverlap(const std::vector<GrainSpec>& entering, const std::vector<Entering>& all,
                              const GrainSystem& system) {
   const GrainConstants& c = system.constants;
@@ -138,7 +138,7 @@ std::optional<InsertionOverlap> insertionOverlapOf(const std::vector<GrainSpec>&
   const std::uint64_t key = deepestOverlap(entering, all, system);
   if (key == kNobody) return {};
   InsertionOverlap overlap;
-  overlap.overlap = static_cast<double>(kMostUnits - (key >> 32)) * c.scale.unit;
+  overlap.overlap = static_cast<double>(kMaxUnits - (key >> 32)) * c.scale.unit;
   overlap.grain = static_cast<std::uint32_t>(key);
   describeOverlap(entering, all, system, overlap);
   return overlap;

@@ -32,12 +32,12 @@ int processorLanes([[maybe_unused]] int most) {
   return 1;
 }
 
-/// Selects from a list of kernels, with the kernel for SIMD or the reason for its absence.
+/// Selects a kernel from a list. `simd`: features of the SIMD kernel; `noSimd`: reason for its absence, or null.
 template <class List>
 KernelChoice chosen(const List& list, unsigned features, const GrainModel& model, unsigned simd, const char* noSimd) {
   if (!model.specialised) return {kGeneral, 1, "the general kernel is requested"};
   if (model.precision != Precision::single) return {kGeneral, 1, "double precision"};
-  return {detail::isListed(list, features) ? features : kGeneral, noSimd ? 1 : processorLanes(model.mostSimdLanes),
+  return {detail::isListed(list, features) ? features : kGeneral, noSimd ? 1 : processorLanes(model.maxSimdLanes),
           noSimd, simd};
 }
 

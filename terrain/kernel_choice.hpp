@@ -9,7 +9,7 @@ namespace grouser::terrain {
 
 /// Kernel selected for grains with given features. All kernels produce identical bits.
 struct KernelChoice {
-  /// Features it was compiled for, or contact::kGeneral for all, tested at run time.
+  /// Features for which it was compiled; contact::kGeneral: all features, tested at run time.
   unsigned compiledFor = contact::kGeneral;
   int lanes = 1;                        ///< number of contacts computed at once by this machine's CPU; 1: scalar kernel
   const char* noSimd = nullptr;         ///< reason why SIMD is not used on any CPU; null: SIMD if the CPU has lanes
@@ -19,8 +19,8 @@ struct KernelChoice {
   bool simdGeneral() const { return simdFor == contact::kGeneral; }
 };
 
-/// Selects the kernel of the grain step. This is the only place of the decision: the launches (grain_kernels.cu),
-/// `grouser plan` and tests call it, without a device. `features`: featuresOf(), plus kLoads with rigid parts.
+/// Selects the kernel of the grain step. Only this function decides: the launches (grain_kernels.cu), `grouser plan`
+/// and tests call it. It needs no device. `features`: featuresOf(), plus kLoads with rigid parts.
 KernelChoice stepKernel(unsigned features, const GrainModel& model);
 /// Selects the kernel of walls, floor and surfaces.
 KernelChoice boundaryKernel(unsigned features, const GrainModel& model);
@@ -28,7 +28,7 @@ KernelChoice boundaryKernel(unsigned features, const GrainModel& model);
 /// Text of the features, e.g. "linear, friction, planes or floor".
 std::string featureText(unsigned features);
 /// Text of the choice: features, precision, specialised or general kernel, and SIMD on this machine's CPU. For the
-/// general kernel it names a feature whose removal permits a specialised one, if any.
+/// general kernel it names a feature, if any, without which there is a specialised kernel.
 std::string stepKernelText(unsigned features, const GrainModel& model);
 std::string boundaryKernelText(unsigned features, const GrainModel& model);
 

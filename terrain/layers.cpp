@@ -43,7 +43,7 @@ struct Axis {
   }
 };
 
-/// Centres as many points as fit between walls with `length` for grain centres; odd layers are offset.
+/// Places as many points as fit between walls, centred in the `length` for grain centres; odd layers are offset.
 Axis fit(double from, double length, double spacing) {
   const int n = static_cast<int>(std::floor(length / spacing)) + 1;
   const double left = length - (n - 1) * spacing;

@@ -14,8 +14,8 @@ struct LayerOptions {
   double radius{}; ///< radius of every grain [m], > 0
   int layers{0};   ///< number of layers, >= 1, or 0: derived from `depth` (flat floor: at the lowest point)
   double depth{0}; ///< thickness of the settled bed [m], > 0; used if `layers` is 0
-  /// Layers settle into each other's pockets: near 2.1 they form a nearly regular packing with a smooth surface
-  /// (scatter of 0.06 radii on level ground), from 2.6 with full jitter a disordered one (0.3 radii).
+  /// Layers settle into each other's pockets. Near 2.1 they form a nearly regular packing with a smooth surface
+  /// (scatter of 0.06 radii on level ground); from 2.6 with full jitter, a disordered packing (0.3 radii).
   double spacingInRadii{2.1}; ///< lattice spacing in x and y, and between layers on level ground [radii], (2, 10]
   double jitter{0.9};         ///< used fraction of the free gap, [0, 1] [-]
   double packing{0.6};        ///< expected solid fraction of the settled bed [-], in [0.3, 0.74]
@@ -27,8 +27,8 @@ struct LayerOptions {
 
 /// Plans a bed whose settled surface approximates `surface`: the layer thickness is the grain volume / (area between
 /// the walls x `packing`). Trial beds (5 and 8 layers, friction 0.5, level and 20 % slope, settled under gravity)
-/// deviated from the height map by -0.4 to +1.0 radii, with the default options by +0.03. Cost O(grains). Throws
-/// InputError if an option is out of range, or a single grain does not fit between the walls.
+/// deviated from the height map by -0.4 to +1.0 radii; with the default options, by +0.03 radii. Cost O(grains). Throws
+/// InputError if an option is out of range, or not even one grain fits between the walls.
 BedPlan planBed(const HeightField& surface, const LayerOptions& options);
 
 /// Places the grains of `planBed(surface, options)`, layer by layer from `lift` [m] above the floor, row by row (y),

@@ -71,7 +71,7 @@ double RadiusDistribution::smallest() const {
   case RadiusLaw::uniform:
     return radius * (1 - spread);
   case RadiusLaw::lognormal:
-    return fromNormal(-kMostDeviations);
+    return fromNormal(-kMaxDeviations);
   case RadiusLaw::sieve:
     return 0.5 * fractionsOf(*this).front().fine;
   default:
@@ -84,7 +84,7 @@ double RadiusDistribution::largest() const {
   case RadiusLaw::uniform:
     return radius * (1 + spread);
   case RadiusLaw::lognormal:
-    return fromNormal(kMostDeviations);
+    return fromNormal(kMaxDeviations);
   case RadiusLaw::sieve:
     return 0.5 * fractionsOf(*this).back().coarse;
   default:
@@ -98,8 +98,8 @@ double RadiusDistribution::meanPower(int n) const {
     return power(radius, n) * (power(1 + spread, n + 1) - power(1 - spread, n + 1)) / (2 * spread * (n + 1));
   case RadiusLaw::lognormal: {
     const auto weight = [](double z) { return base::exp(-0.5 * z * z); };
-    return integral(-kMostDeviations, kMostDeviations, [&](double z) { return weight(z) * power(fromNormal(z), n); }) /
-           integral(-kMostDeviations, kMostDeviations, weight);
+    return integral(-kMaxDeviations, kMaxDeviations, [&](double z) { return weight(z) * power(fromNormal(z), n); }) /
+           integral(-kMaxDeviations, kMaxDeviations, weight);
   }
   case RadiusLaw::sieve: {
     double sum = 0, number = 0;
@@ -123,11 +123,11 @@ double RadiusDistribution::medianByMass() const {
     return radius * std::sqrt(std::sqrt(0.5 * (power(1 + spread, 4) + power(1 - spread, 4))));
   if (law != RadiusLaw::lognormal) return radius;
   const auto mass = [&](double z) { return base::exp(-0.5 * z * z + 3 * spread * z); };
-  const double all = integral(-kMostDeviations, kMostDeviations, mass);
-  double low = -kMostDeviations, high = kMostDeviations;
+  const double all = integral(-kMaxDeviations, kMaxDeviations, mass);
+  double low = -kMaxDeviations, high = kMaxDeviations;
   for (int k = 0; k < 40; ++k) {
     const double middle = 0.5 * (low + high);
-    (integral(-kMostDeviations, middle, mass) < 0.5 * all ? low : high) = middle;
+    (integral(-kMaxDeviations, middle, mass) < 0.5 * all ? low : high) = middle;
   }
   return fromNormal(0.5 * (low + high));
 }

@@ -10,7 +10,7 @@ namespace grouser::terrain {
 enum class RadiusLaw {
   single,    ///< all equal
   uniform,   ///< uniform by number, between 1 - spread and 1 + spread times the radius
-  lognormal, ///< lognormal by number: `radius` is the median, `spread` the standard deviation of ln r; cut at 2 of it
+  lognormal, ///< lognormal by number: `radius`: median; `spread`: standard deviation of ln r; truncated at 2 spreads
   sieve      ///< by mass, from a sieve analysis
 };
 
@@ -38,7 +38,7 @@ struct RadiusDistribution {
   double skewness() const;
 
 private:
-  static constexpr double kMostDeviations = 2; ///< largest deviation of ln r from its mean / `spread` [-]
+  static constexpr double kMaxDeviations = 2; ///< largest deviation of ln r from its mean / `spread` [-]
 
   static double normalOf(double x, double square); ///< by the polar method
   double fromNormal(double z) const;               ///< [m]
@@ -73,7 +73,7 @@ template <class Uniform> double RadiusDistribution::draw(const Uniform& uniform)
       const double x = 2 * uniform(k) - 1, y = 2 * uniform(k + 1) - 1, square = x * x + y * y;
       if (square >= 1 || square == 0) continue;
       const double z = normalOf(x, square);
-      if (z >= -kMostDeviations && z <= kMostDeviations) return fromNormal(z);
+      if (z >= -kMaxDeviations && z <= kMaxDeviations) return fromNormal(z);
     }
   case RadiusLaw::sieve:
     return ofSieves(uniform(0), uniform(1));

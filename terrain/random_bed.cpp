@@ -145,7 +145,7 @@ struct Dice {
   double operator()(std::uint64_t k) const { return base::uniform(seed, purpose, id, k); }
 };
 
-/// Places the grains one after the other.
+/// Places the grains sequentially.
 class Insertion {
 public:
   Insertion(const HeightField& surface, const RandomBedOptions& o, const std::vector<Seed>& there)

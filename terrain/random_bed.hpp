@@ -31,7 +31,7 @@ double largestRadius(const RandomBedOptions& options);
 /// the new grains.
 ///
 /// Random sequential insertion from below: each grain, of random radius, is placed at the first of its random
-/// positions without overlap, in a column whose height corresponds to a solid fraction of 0.28. The height is also
+/// positions without overlap, in a column with the height for a solid fraction of 0.28. The grain's height is also
 /// random, within four radii of the grain's share of the column, so that coarse grains of a graded bed start below
 /// the fine ones. No grain touches floor or walls. Positions depend only on seed and number of the grain. Cost
 /// O(grains).

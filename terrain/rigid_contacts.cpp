@@ -24,7 +24,7 @@ struct RigidContacts::Press {
   const PartMotion* motion;
   const PartMotion& part;
   const PointTree& tree;
-  const BoxInPart* box; ///< if the surface is one
+  const BoxInPart* box; ///< the surface, if it is a box
   contact::PointPress law;
   contact::PatchPressure planar; ///< sum of blocks on planes
   PressureLanes& other;          ///< sum of other blocks, if `any`
@@ -155,7 +155,7 @@ void RigidContacts::pressOnPlane(Press& press, const Plane& plane, std::uint32_t
     press.planar += contact::pressOnPlane(press.touched, press.law, plane.normal, plane.height);
 }
 
-/// True if points of a node may touch the surface. Sets `plane` if it is planar below all of them.
+/// True if points of a node may touch the surface. Sets `plane` if the surface is planar below all of them.
 bool RigidContacts::mayTouch(const Press& press, const PointTree::Node& node, std::optional<Plane>& plane) const {
   if (press.box) {
     if (press.box->clearOf(node)) return false;

@@ -10,7 +10,7 @@ namespace grouser::terrain {
 class SearchedHeightField {
 public:
   SearchedHeightField() = default;
-  /// `radius`: of the largest searching sphere [m].
+  /// `radius`: radius of the largest sphere [m].
   SearchedHeightField(const base::Exec& exec, const HeightField& field, double radius);
 
   /// View for kernels; valid while this object exists and is not moved from.

@@ -107,7 +107,7 @@ private:
   /// Cells are at least as large as a grain, so no other plane cuts it.
   GROUSER_HD Cut cutAlong(int axis, double x, double radius) const {
     const double at = (x - grid.low[axis]) / grid.cell[axis];
-    constexpr double kFar = 1e9; // in cells: no integer beyond
+    constexpr double kFar = 1e9; // [cells] larger values have no integer
     const double bounded = at > -kFar ? at < kFar ? at : kFar : -kFar;
     const double plane = floor(bounded + 0.5);
     const double t = (bounded - plane) * grid.cell[axis] / radius, beyond = t > -1 ? t < 1 ? t : 1 : -1;
@@ -269,9 +269,9 @@ std::array<double, kCellSums> valuesOf(const std::int64_t* sums, const CellScale
 FieldGrid fieldGrid(const Vec3d& low, const Vec3d& high, double edge, const PeriodicBoundaries& periodic) {
   FieldGrid grid{low, {}, {}, {}};
   for (int a = 0; a < 3; ++a) {
-    constexpr double kRounding = 1e-9, kMost = 1e9; // maximum number of grains per cell; more than any device can store
+    constexpr double kRounding = 1e-9, kMax = 1e9; // maximum number of grains per cell; more than any device can store
     const double extent = high[a] - low[a];
-    const double whole = std::clamp(std::floor(extent / edge + kRounding), 1.0, kMost);
+    const double whole = std::clamp(std::floor(extent / edge + kRounding), 1.0, kMax);
     grid.cells[static_cast<std::size_t>(a)] = static_cast<int>(whole);
     grid.cell[a] = std::max(extent / whole, edge * (1 - kRounding));
   }

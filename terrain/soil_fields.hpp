@@ -38,15 +38,15 @@ using Tensor6 = std::array<double, 6>;
 struct SoilFields {
   FieldGrid grid;
   std::vector<double> porosity; ///< void volume / total volume [-]
-  /// Mean number of contacts per grain, with grains and all else; the same for grains with at least two contacts
-  /// (Thornton 2000, Geotechnique 50:43) [-]. NaN without such grains.
+  /// Mean number of contacts per grain, with grains, parts and boundaries; the same mean over grains with at least two
+  /// contacts (Thornton 2000, Geotechnique 50:43) [-]. NaN without such grains.
   std::vector<double> coordination, mechanicalCoordination;
   std::vector<base::Vec3d> velocity; ///< mass-weighted mean [m/s]; NaN without free grains
   /// Symmetric velocity gradient [1/s] of the linear mass-weighted least-squares fit to the grains of the cell. NaN if
   /// they are too few or coplanar.
   std::vector<Tensor6> strainRate;
   /// Love-Weber stress: sum of force times lever arm over all contacts of the grains, divided by the cell volume [Pa].
-  /// Positive in tension. Forces are those of the next step, by its laws and in its precision.
+  /// Positive in tension. Forces are those of the next step, with the same laws and precision.
   std::vector<Tensor6> stress;
 };
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Read by ctest once the tests of all programs are known.
+# ctest reads this file after it has discovered the tests of all programs.
 
-# The long ones, which tests/run leaves to tests/run --long: about what each takes [s], and tests of the same claim that
-# are not long. Beside these, ranks.8_all (ranks.1 to ranks.8).
+# Long tests, which run only with tests/run --long: name, approximate time [s], and quicker tests of the same claim.
+# ranks.8_all is also a long test (quicker: ranks.1 to ranks.8).
 foreach(row
     "OneAnswerBed.TwentyThousandGrainsOverTenThousandSteps 60 OneAnswerScenes.HashIsThatOfEveryMachineAndNumberOfThreads"
     "SoilSample.ALayerThatSticksIsShearedItself 70 SoilSample.OneThatSticksIsShearedMoreWhereTeethArePressedIn"
@@ -19,8 +19,8 @@ foreach(row
   set_tests_properties(${test} PROPERTIES LABELS long COST ${seconds})
 endforeach()
 
-# The longest of the others start first (COST: about what they take [s], until ctest has measured them itself), so that
-# none is left alone at the end.
+# The longest of the other tests start first, so that no single test runs at the end. COST is the approximate time [s],
+# until ctest has measured the time itself.
 foreach(row
     "SoilCommandTest.MeasuresInSlicesAndWritesItsTables 25"
     "SoilSample.OneThatSticksIsShearedMoreWhereTeethArePressedIn 23"
@@ -39,7 +39,7 @@ foreach(row
   set_tests_properties(${test} PROPERTIES COST ${seconds})
 endforeach()
 
-# Of several ranks or threads: where other tests take their cores they wait for each other many times as long.
+# Tests with several ranks or threads need their own cores: otherwise the ranks wait much longer for each other.
 foreach(test
     OneAnswer.OnObstacles OneAnswer.OfATowingVehicle OneAnswer.OfAVehicleThatTowsASled
     OnRanks.PeriodicBoundariesMovingSurfacesSourcesAndRigsGiveTheBitsOfOneRank

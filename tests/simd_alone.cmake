@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Fails where an object of detail/grain_simd_*.cpp holds symbols that other objects may hold too (weak ones).
+# Fails if an object of detail/grain_simd_*.cpp contains weak symbols, which other objects may also contain.
 foreach(object ${OBJECTS})
   if(NOT object MATCHES "grain_simd_(sse|avx2|avx512)")
     continue()
   endif()
   execute_process(COMMAND ${NM} --defined-only ${object} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
   if(symbols MATCHES " [uvwVW] [^\n]*")
-    message(FATAL_ERROR "${object} holds${CMAKE_MATCH_0}, which the whole program might get")
+    message(FATAL_ERROR "${object} contains the weak symbol${CMAKE_MATCH_0}, which the whole program might use")
   endif()
   math(EXPR found "${found} + 1")
 endforeach()
 if(NOT found EQUAL 3)
-  message(FATAL_ERROR "three objects were to be looked at, ${found} were found")
+  message(FATAL_ERROR "expected three objects grain_simd_*, found ${found}")
 endif()

@@ -21,8 +21,8 @@ const Vec3d kForward{1, 0, 0}, kLeft{0, 1, 0};
 /// Mass of each guide body / hull mass.
 constexpr double kGuideShare = 1e-4;
 
-/// Adds one track after the other to an assembly. Points and frames are in the vehicle frame V, whose axes are
-/// initially those of the chassis.
+/// Adds the tracks to an assembly. Points and frames are in the vehicle frame V; initially its axes are the axes of the
+/// chassis.
 class Builder {
 public:
   Builder(const VehicleSpec& spec, const AssemblyOptions& options) : options_(options) {
@@ -156,7 +156,7 @@ private:
   void addSprocket() {
     const Vec3d axle{0, track_.y, 0};
     MassSpec mass{spec().sprocket.mass, spec().sprocket.inertia};
-    // Rotating inertia of the engine, as a disc: half of it about the other axes.
+    // Add the rotating inertia of the engine as a disc, with half of this inertia about the other two axes.
     if (options_.drive == SprocketDrive::engine) {
       if (!spec().engine)
         throw base::InputError("vehicle: driver.drive = \"engine\" requires a section [engine] in the vehicle file");
@@ -269,7 +269,7 @@ base::Pose placeOnSlope(const VehicleSpec& spec, double x, double y, double grou
   const auto [cosRoll, sinRoll] = halfTurn(left / std::sqrt(1 + ahead * ahead));
   base::Pose pose = placeOnGround(spec, x, y, groundHeight, 0, heading);
   pose.orientation = pose.orientation * base::Quat{cosPitch, 0, -sinPitch, 0} * base::Quat{cosRoll, sinRoll, 0, 0};
-  // The perpendicular from the origin meets the ground under the vehicle, not at (x, y).
+  // `clearance` is normal to the ground; the height of the origin is measured vertically at (x, y).
   pose.position.z = groundHeight + (clearance - spec.groundHeight()) * slant;
   return pose;
 }

@@ -20,13 +20,13 @@ const char* sideName(Side side);
 
 enum class PartKind { kChassis, kShoe, kSprocket, kRoadWheel, kRoller, kIdler };
 
-/// Rigid part with a surface. Its mesh is in the part frame P; the body frame B has its origin at the centre of
-/// mass.
+/// Rigid part with a surface. The coordinates of its mesh are in the part frame P; the body frame B has its origin at
+/// the centre of mass.
 struct Part {
   std::string name; ///< "left shoe 12"
   PartKind kind{};
   int body{};        ///< index into the model's bodies
-  std::string mesh;  ///< file name in the spec's mesh folder; parts of one kind share it
+  std::string mesh;  ///< file name in the spec's mesh folder; the same for all parts of a kind
   int track = -1;    ///< index into Assembly::tracks, -1 for the chassis
   base::Pose pose_B; ///< X_BP
 };
@@ -40,7 +40,7 @@ struct PartPair {
 /// Indices of one track's bodies, joints and springs in the model.
 struct Track {
   Side side{};
-  double y{};             ///< y of its middle in the vehicle frame [m]
+  double y{};             ///< y of the track's mid-plane in the vehicle frame [m]
   std::vector<int> shoes; ///< bodies, in the order of the wrap
   std::vector<int>
       shoeJoints;          ///< joint i connects shoe i (A) and shoe i+1 (B); its angle is the fold, > 0 about a wheel
@@ -49,8 +49,8 @@ struct Track {
   std::vector<int> armJoints;               ///< chassis to arm, positive about +y (wheel up); fixed for rigid arms
   std::vector<int> armSprings;              ///< axis springs; none for rigid arms
   std::vector<int> rollers;                 ///< bodies
-  int sprocket{}, sprocketJoint{}, drive{}; ///< body, joint (positive is forward), drive by speed
-  int torque = -1;                          ///< drive by torque, if used
+  int sprocket{}, sprocketJoint{}, drive{}; ///< body, joint (positive is forward), speed drive
+  int torque = -1;                          ///< torque drive; -1 if there is none
   int carrier{}, slideJoint{}, tensioner{}; ///< body, joint (positive is away from the sprocket), axis spring
   int idler{};                              ///< body
   std::vector<int> shoeParts;               ///< indices into Assembly::parts, in the order of the wrap
@@ -96,13 +96,13 @@ Assembly assemble(const VehicleSpec& spec, const AssemblyOptions& options = {});
 base::Pose placeOnGround(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
                          double heading);
 
-/// Same for inclined ground of height `groundHeight` at (x, y) with slopes `ahead` along the heading and `left` to its
-/// left [-]; `clearance` is normal to the ground. The heading is the horizontal projection of the hull's x axis.
+/// Pose on inclined ground of height `groundHeight` at (x, y), with slopes `ahead` along the heading and `left` to the
+/// left of it [-]; `clearance` is normal to the ground. The heading is the horizontal projection of the hull's x axis.
 base::Pose placeOnSlope(const VehicleSpec& spec, double x, double y, double groundHeight, double clearance,
                         double heading, double ahead, double left);
 
-/// Converts driver controls to loads: gravity, preload factors of tensioners and arms, drive speeds. `gravity`:
-/// gravity of the scene after its ramp [m/s2]; does not change the wrenches in `loads`.
+/// Converts driver controls to loads: gravity, preload factors of tensioners and arms, drive speeds. The wrenches in
+/// `loads` do not change. `gravity`: gravity of the scene after its ramp [m/s2].
 void applyControls(const Assembly& vehicle, const Controls& controls, const base::Vec3d& gravity,
                    multibody::Loads& loads);
 

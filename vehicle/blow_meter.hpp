@@ -8,9 +8,9 @@
 
 namespace grouser::vehicle {
 
-/// Detects ground impacts on a vehicle by the upward ground force over weight, averaged over at least kSpan. A vehicle
-/// that lands on stopped or rigid arms receives many times its weight; the first shoe in contact then determines the
-/// motion, which depends on time step and seed (docs/evidence/vehicle_stability.md).
+/// Detects ground impacts on a vehicle by the ratio of upward ground force to weight, averaged over at least kSpan. If
+/// a vehicle lands on rigid arms, or on arms at their stops, this ratio is far above 1. The first shoe in contact then
+/// determines the motion, so that it depends on time step and seed (docs/evidence/vehicle_stability.md).
 class BlowMeter {
 public:
   static constexpr double kSpan = 0.01; ///< [s]
@@ -41,7 +41,7 @@ public:
   }
 
   double most = 0; ///< largest mean so far, in vehicle weights [-]
-  double at = 0;   ///< end time of that mean [s]
+  double at = 0;   ///< end time of the interval of the largest mean [s]
 
 private:
   double weight_ = 0, last_ = 0, impulse_ = 0, span_ = 0;

@@ -20,7 +20,7 @@ constexpr double kStep = 0.004; // [m]
 
 double rounded(double x) { return std::floor(1e4 * x + 0.5) / 1e4; }
 
-/// Distance of the road wheel next to the sprocket from the sprocket axle [m].
+/// Distance between the axles of the sprocket and of the road wheel nearest to it [m].
 double nearestWheel(const VehicleSpec& s) {
   const double beside = s.sprocketPinRadius() + s.roadWheel.radius + 0.05;
   const double near =
@@ -28,7 +28,7 @@ double nearestWheel(const VehicleSpec& s) {
   return near > 0.5 * beside ? near : beside;
 }
 
-/// Returns the gear stretched to an idler `away` from the sprocket axle, with road wheels ending `end` before it.
+/// Returns the gear with the idler axle `away` from the sprocket axle, and the last road wheel `end` before the idler.
 VehicleSpec stretched(const VehicleSpec& given, double away, double end) {
   VehicleSpec s = given;
   const double side = s.outward(), ratio = away / std::fabs(given.idler.x);
@@ -36,7 +36,7 @@ VehicleSpec stretched(const VehicleSpec& given, double away, double end) {
   s.idler.x = rounded(side * away);
   if (s.roadWheel.count > 1) s.roadWheel.spacing = rounded((last - first) / (s.roadWheel.count - 1));
   s.roadWheel.firstX = side > 0 ? rounded(first) : rounded(-first - s.roadWheel.spacing * (s.roadWheel.count - 1));
-  // At the same relative position the upper strand has equal height.
+  // Scale x of the rollers: the upper strand then has the same height at each roller as before.
   for (double& x : s.roller.x) x = rounded(ratio * x);
   return s;
 }

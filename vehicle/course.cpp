@@ -41,7 +41,7 @@ Course::Place Course::placeAt(double way) const {
   return {options_.x[i - 1] + s * dx, options_.y[i - 1] + s * dy, dx, dy};
 }
 
-/// Nearest point of the path within lookAhead, since a path may cross itself.
+/// Advances to the nearest path point within lookAhead; points further on are ignored, since a path may cross itself.
 void Course::follow(const HullMotion& m) {
   double nearest = 1e300, found = travelled_;
   for (std::size_t i = 1; i < ways_.size(); ++i) {
@@ -67,8 +67,8 @@ std::array<double, 2> Course::sprocketSpeeds(const HullMotion& m, double time, d
     speed = std::min(speed, std::sqrt(2 * o.acceleration * std::max(0.0, length() - travelled_)));
     const Place ahead = placeAt(travelled_ + o.lookAhead);
     const double dx = ahead.x - m.x, dy = ahead.y - m.y;
-    curvature = 2 * (m.forwardX * dy - m.forwardY * dx) /
-                std::max(dx * dx + dy * dy, 0.01 * o.lookAhead * o.lookAhead); // for a hull far off the path
+    // The lower bound of the squared distance limits the curvature if the point ahead is near.
+    curvature = 2 * (m.forwardX * dy - m.forwardY * dx) / std::max(dx * dx + dy * dy, 0.01 * o.lookAhead * o.lookAhead);
   }
   const double turn = speed * curvature, missing = speed - m.speed, missingTurn = turn - m.turnRate;
   const double speedSum = speedSum_ + o.speedIntegral * missing * dt;

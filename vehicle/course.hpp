@@ -24,7 +24,7 @@ struct CourseOptions {
   double pitchRadius{}; ///< [m]
 };
 
-/// Hull motion for the driver, at the middle of the ground contact length, on the hull's centre plane.
+/// Hull motion for the driver, at the middle of the track-ground contact length, on the hull's centre plane.
 struct HullMotion {
   double x{}, y{};               ///< position in the world [m]
   double forwardX{}, forwardY{}; ///< heading as a unit vector
@@ -37,17 +37,17 @@ struct HullMotion {
 ///   v = v* + speedGain e + speedIntegral int e dt,    e = v* - speed,
 ///   r = r* + turnGain f + turnIntegral int f dt,      f = r* - turnRate,
 ///   left, right = (v -+ r tread / 2) / pitchRadius.
-/// v* rises with the acceleration a, and decreases towards the end of a path as sqrt(2 a distance). r* is v* / radius
-/// on a circle. On a path it is v* times the curvature of the arc that is tangent to the hull's heading and ends at the
-/// path point `lookAhead` further on (pure pursuit; Coulter 1992): 2 left / distance^2, with `left` the lateral
-/// offset of that point. The integrals compensate slip; they are frozen while a sprocket command exceeds
-/// maxSprocketSpeed, and both sides are then scaled down equally.
+/// v* rises with the acceleration a, and decreases towards the end of a path as sqrt(2 a distance). On a circle, r* is
+/// v* / radius. On a path, r* is v* times the curvature 2 left / distance^2 of the arc that is tangent to the hull's
+/// heading and ends at the path point `lookAhead` further on (pure pursuit; Coulter 1992); `left` is the lateral
+/// offset of this point. The integrals compensate slip. While a sprocket command exceeds maxSprocketSpeed, the
+/// integrals are frozen, and the commands of both sides are reduced by the same factor.
 class Course {
 public:
   explicit Course(CourseOptions options);
 
   /// Returns the left and right sprocket speeds [rad/s] for a step of `dt` [s] that begins `time` [s] after the
-  /// start of the drive, or after takeover at a hull speed `from` [m/s].
+  /// start of the drive, or after a takeover at a hull speed `from` [m/s].
   std::array<double, 2> sprocketSpeeds(const HullMotion& motion, double time, double dt, double from = 0);
 
   /// Arc length of the path point nearest to the hull [m]; never decreases.

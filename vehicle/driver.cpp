@@ -31,10 +31,11 @@ Driver::Driver(DriverOptions options) : options_(std::move(options)) {
   const SpeedTable& table = options_.speeds;
   const TorqueTable& torques = options_.torques;
   if (options_.tensionRamp < 0 || options_.weightRamp < 0 || options_.driveRamp < 0)
-    throw base::InputError("driver: ramps must last >= 0 s");
+    throw base::InputError("driver: ramp durations must be >= 0 s");
   if (options_.driveStart < options_.tensionRamp + options_.weightRamp)
     throw base::InputError(
-        "driver: the drive starts before the tension and weight ramps end; start it after their sum");
+        "driver: the drive starts before the tension and weight ramps end; set drive_start >= tension_ramp + "
+        "weight_ramp");
   if (table.time.empty() || table.left.size() != table.time.size() || table.right.size() != table.time.size())
     throw base::InputError("driver: the speed table needs at least one time, and a left and a right speed for each");
   if (multibody::firstOutOfOrder(table.time, true) > 0)
@@ -145,7 +146,7 @@ void Commands::layOver(Controls& controls) const {
   }
 }
 
-/// Blends commands of a former driver into those of this one.
+/// Blends the commands of a former driver into the commands of this driver.
 void Driver::passInto(std::array<double, 2>& asked, const std::array<double, 2>& former, double time) const {
   const double share = smoothRamp(time, from_->time, options_.changeRamp);
   for (std::size_t side = 0; side < 2; ++side) asked[side] = former[side] + share * (asked[side] - former[side]);

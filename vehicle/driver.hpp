@@ -19,7 +19,7 @@ struct SpeedTable {
   std::vector<double> right; ///< [rad/s]
 };
 
-/// Rest criteria for the end of settling; the drive then starts.
+/// Criteria for a vehicle at rest; the drive starts when they are satisfied.
 struct RestBounds {
   double speed = 0.01;  ///< maximum speed of the hull's centre of mass along gravity [m/s]
   double load = 0.05;   ///< maximum deviation of ground force / weight from 1 [-]
@@ -69,7 +69,7 @@ struct Commands {
   std::array<std::optional<double>, 2> sprocketSpeed{}; ///< [rad/s]
   std::array<std::optional<double>, 2> torque{};        ///< [N m]
   std::array<std::optional<double>, 2> throttle{};      ///< engine throttles [-], -1..1
-  /// Writes the commands to `controls` once the drive has started, scaled by its ramp.
+  /// Writes the commands to `controls` once the drive has started, scaled by the drive ramp.
   void layOver(Controls& controls) const;
 };
 
@@ -87,8 +87,8 @@ struct Handover {
   static constexpr std::size_t kSaved = 7;
 };
 
-/// Open- or closed-loop driver: tension, then weight, then drive, each with a smooth ramp. A step of the tension causes
-/// force peaks of 16 kN, a ramp 7 kN; a step of the drive to 5 rad/s 99 kN, a ramp of 0.8 s 11 kN.
+/// Open- or closed-loop driver that applies tension, then weight, then drive, each with a smooth ramp. Without ramps,
+/// force peaks are higher: tension 16 kN instead of 7 kN, drive to 5 rad/s 99 kN instead of 11 kN (ramp of 0.8 s).
 class Driver {
 public:
   /// Throws base::InputError for negative times, columns of unequal length or decreasing table times.
@@ -108,15 +108,15 @@ public:
   /// Start time of the drive [s]; empty until the vehicle is at rest.
   std::optional<double> driveStart() const { return options_.rest ? begun_ : options_.driveStart; }
 
-  /// Takes over from a driver with other speeds, torques or course; `former`: its save(). During the drive, commands
-  /// blend over changeRamp; table times still count from the start of the drive, and a course starts at the current
-  /// hull speed. Before the drive the former driver has no effect.
+  /// Takes over from a driver with other speeds, torques or course; `former`: save() of that driver. If the drive has
+  /// started, commands blend over changeRamp; table times still count from the start of the drive, and a course starts
+  /// at the current hull speed. If the drive has not started, the former driver has no effect.
   void takeOver(const std::vector<double>& former, const Handover& from);
   /// End time of the speed ramp [s] for a drive that began at `start`.
   double rampEnds(double start) const { return from_ ? from_->time + options_.changeRamp : start + options_.driveRamp; }
 
-  /// State variables for checkpoints and hashes: start time and time since rest (-1: none), the course state, and the
-  /// takeover. Empty if the start is fixed and there is neither course nor takeover.
+  /// State variables for checkpoints and hashes: start time and time since rest (-1: not at rest), state of the course,
+  /// and takeover. Empty if the start is fixed and the driver has neither a course nor a takeover.
   std::vector<double> save() const;
   void restore(const std::vector<double>& saved);
   const DriverOptions& options() const { return options_; }

@@ -16,9 +16,9 @@ double fullLoadTorque(const EngineSpec& engine, double speed) {
 
 namespace {
 
-/// Torque of a driving engine in the gear for that direction.
+/// Torque on the sprocket of a driving engine, in the gear for `forwards` or backwards.
 double driveTorque(const EngineSpec& engine, double throttle, bool forwards, double speed) {
-  // When rolling against the gear, the engine is at the low end of its curve.
+  // If the sprocket rotates against the gear, the torque at zero engine speed applies.
   const double shaft = forwards ? speed * engine.ratio : -speed * engine.ratio;
   return throttle * engine.ratio * engine.efficiency * fullLoadTorque(engine, std::max(0.0, shaft));
 }

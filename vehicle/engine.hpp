@@ -12,17 +12,17 @@ double fullLoadTorque(const EngineSpec& engine, double speed);
 /// Governed torque on a sprocket [N m], forward positive, at `speed` with the commanded speed `wanted` [rad/s]. With
 /// the droop d, both speeds at the engine shaft, and w the smaller of commanded and governed speed,
 ///   throttle = (w - speed) / d, clamped to [-1, 1];
-/// a throttle towards w drives with that fraction of the full load, times ratio and efficiency; a throttle against w,
-/// and any at w = 0, brakes with that fraction of the brake torque. Under a load L within its capacity the sprocket is
-/// slower than commanded by d L / (full load at the sprocket).
+/// a throttle with the sign of w drives with this fraction of the full-load torque, times ratio and efficiency; a
+/// throttle of opposite sign, and any throttle at w = 0, brakes with this fraction of the brake torque. A load L below
+/// full load slows the sprocket by d L / (full load at the sprocket) relative to the commanded speed.
 double engineTorque(const EngineSpec& engine, double wanted, double speed);
 
-/// Torque without a governor, at a throttle from -1 to 1: drives with that fraction of the full load, forward if
-/// positive; against the sprocket's rotation it brakes with that fraction of the brake torque.
+/// Torque on a sprocket without a governor, at a throttle from -1 to 1: drives with this fraction of the full-load
+/// torque, forward if positive; against the rotation of the sprocket, brakes with this fraction of the brake torque.
 double throttleTorque(const EngineSpec& engine, double throttle, double speed);
 
-/// Maximum slope of that torque over sprocket speed [N m s/rad]: with the driven inertia it defines a time constant
-/// that the time step must resolve.
+/// Maximum slope of the torque over sprocket speed [N m s/rad]. Inertia / slope is a time constant that the time step
+/// must resolve.
 double governorSlope(const EngineSpec& engine);
 
 } // namespace grouser::vehicle

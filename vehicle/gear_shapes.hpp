@@ -11,9 +11,9 @@ enum class GearContactModel {
   samples ///< sample points of the meshes
 };
 
-/// Dimensions of the contact surfaces of the running gear: plates, horns, bosses, discs and arcs [m]. Without them the
-/// contacts use sample points of the meshes. y is measured from the mid-plane of a part; all surfaces are symmetric
-/// about that plane.
+/// Dimensions of the contact surfaces of the running gear: plates, horns, bosses, discs and arcs [m]. Without these
+/// dimensions, contacts use sample points of the meshes. y is measured from the mid-plane of a part; all surfaces are
+/// symmetric about this plane.
 struct GearShapes {
   // Shoe.
   double plateInner{}, plateOuter{};      ///< wheel plates: range of |y|
@@ -22,7 +22,7 @@ struct GearShapes {
   double bossRadius{};                    ///< radius of the pin bosses at x = +pitch/2
   double bossInner{}, bossOuter{};        ///< bosses: range of |y|
   double padTop{};                        ///< z of the pad's upper face
-  double grouserX{};                      ///< two grousers at x = +- this value; 0: a single one in the middle
+  double grouserX{};                      ///< two grousers at x = +- this value; 0: a single grouser in the middle
   double grouserWidth{};                  ///< grouser length in x
   double chamfer{};                       ///< 45-degree chamfer of the lower edges of grousers and pad
   // Road wheels, rollers, idler: two discs each.

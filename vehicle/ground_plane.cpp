@@ -7,8 +7,8 @@
 namespace grouser::vehicle {
 
 GroundPlane groundPlane(const VehicleSpec& spec, double x, double y, double c, double s, const SurfaceHeight& surface) {
-  // The grid is symmetric, so that both slopes are independent. Heights are relative to the first: level ground has
-  // exactly zero slope.
+  // The grid is symmetric, so that both slopes are independent. Heights are relative to the height of the first point;
+  // level ground then has exactly zero slope.
   constexpr int kAlong = 40, kAcross = 2;
   constexpr double kLevel = 1e-9; // [-]
   const double first = spec.roadWheel.firstX - 0.2;

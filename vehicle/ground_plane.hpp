@@ -20,8 +20,8 @@ struct GroundPlane {
 };
 
 /// Fits the plane under a vehicle with its origin at (x, y) and the horizontal unit heading (c, s). The grid has 40
-/// points along each track, to 0.2 m beyond the axles of first and last road wheel, and 5 across each pad, so single
-/// grains hardly affect the plane.
+/// points along each track, to 0.2 m beyond the axles of first and last road wheel, and 5 across each pad; therefore
+/// single grains have little effect on the plane.
 GroundPlane groundPlane(const VehicleSpec& spec, double x, double y, double c, double s, const SurfaceHeight& surface);
 
 } // namespace grouser::vehicle

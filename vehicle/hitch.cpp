@@ -77,7 +77,7 @@ Vec3d Hitch::pullSled(const HitchMotion& m, double dt, const Vec3d& gravity) {
   const double rate = dot(levelled(m.velocity) - motion_, along);
   const double tension = stretch > 0 ? std::max(0.0, o.stiffness * stretch + o.damping * rate) : 0.0;
 
-  // Forces first, then friction against the resulting velocity.
+  // Apply the forces first, then friction against the resulting velocity.
   Vec3d velocity = motion_ + (along * (tension / o.mass) + levelled(gravity)) * dt;
   const double speed = norm(velocity), braked = o.friction * std::fabs(gravity.z) * dt;
   velocity = speed > braked ? velocity * (1 - braked / speed) : Vec3d{};
@@ -105,7 +105,7 @@ std::vector<double> Hitch::save() const {
 void Hitch::restore(const std::vector<double>& s) {
   constexpr std::size_t kAlways = 12;
   if (s.size() != kAlways && s.size() != kAlways + 1)
-    throw base::InputError("hitch: the checkpoint belongs to another hitch; resume with the scene that was run");
+    throw base::InputError("hitch: the checkpoint belongs to another hitch; resume with the scene that wrote it");
   holds_ = s[0] != 0;
   origin_ = {s[1], s[2], 0}, line_ = {s[3], s[4], 0}, begun_ = s[5];
   place_ = {s[6], s[7], 0}, motion_ = {s[8], s[9], 0}, way_ = s[10], speed_ = s[11];

@@ -40,8 +40,8 @@ struct HitchMotion {
   double trackSpeed{};           ///< mean sprocket speed times pitch radius [m/s]
 };
 
-/// Horizontal hitch force on a hull. With t the time since the hitch engaged, p and v the horizontal position and
-/// velocity of its point, d the heading, s(t) the smooth ramp from 0 to 1:
+/// Horizontal hitch force on a hull. With time t since the hitch engaged, horizontal position p and velocity v of the
+/// hitch point, heading d, and smooth ramp s(t) from 0 to 1:
 ///
 ///   force   F = -s(t) force d
 ///   ramp    F = -(force + rate t) d
@@ -49,17 +49,17 @@ struct HitchMotion {
 ///           q'' = (T / mass) e + g - friction |g_z| q' / |q'|; at rest it sticks while T and g are below friction
 ///   speed   F = -(k (x - w) + c (x' - w')) d_0,  x = (p - p_0) d_0,  w' = (1 - s) x'_0 + s (1 - slip) omega r
 ///
-/// q is the sled position at its own height, initially `length` behind the hitch with the same velocity; p_0, x'_0 and
-/// d_0 are the values when the carriage engaged: it moves on a straight line from there, and its drive supports the
-/// pull. The hull follows the carriage to within F / k; on average both have the same speed. Sled and carriage use
-/// symplectic Euler; sled friction acts at the end of its step and can only stop it.
+/// q is the horizontal position of the sled, initially `length` behind the hitch and with the velocity of the hitch.
+/// p_0, x'_0 and d_0 are values at the engagement of the carriage, which moves on a straight line from p_0 at any pull.
+/// The hull follows the carriage to within F / k; on average both have the same speed. Sled and carriage use symplectic
+/// Euler; sled friction acts at the end of a step and stops the sled but never reverses it.
 class Hitch {
 public:
   /// Throws base::InputError for values out of range.
   explicit Hitch(const HitchOptions& options);
 
   /// Returns the force on the hull at the hitch point [N] for a step of `dt` [s] that begins `sinceDrive` [s] after the
-  /// start of the drive (negative: before). Call once per step.
+  /// start of the drive (negative: before the start). Call once per step.
   base::Vec3d step(const HitchMotion& motion, double sinceDrive, double dt, const base::Vec3d& gravity);
 
   /// Overrides the force [N] of a hitch of kind force, or the speed [m/s] of a carriage, from the next step; empty

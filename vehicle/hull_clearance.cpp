@@ -82,7 +82,7 @@ Polygon slice(const std::array<Vec3d, 3>& triangle, double from, double to) {
   return flat;
 }
 
-/// Minimum shift along an edge normal that separates two shapes [m]; negative if they are apart.
+/// Minimum shift along an edge normal that separates two shapes [m]; negative if they do not overlap.
 double overlapOf(const Polygon& a, const Polygon& b) {
   double least = base::kInfinity;
   for (const Polygon* shape : {&a, &b})
@@ -104,7 +104,7 @@ double overlapOf(const Polygon& a, const Polygon& b) {
   return least;
 }
 
-/// Penetration of a polygon into a disc [m]; negative if apart.
+/// Overlap of a polygon and a disc [m]; negative if they do not overlap.
 double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
   double nearest = base::kInfinity;
   bool inside = polygon.size() > 2;
@@ -121,8 +121,8 @@ double depthInDisc(const Polygon& polygon, PlanePoint centre, double radius) {
   return radius - (inside && turn != 0 ? 0.0 : nearest);
 }
 
-/// Penetration of a track part at `offset` into the hull [m]: the smaller one of those in the track plane and across;
-/// infinite if inside, negative if clear.
+/// Penetration of a track part at `offset` into the hull [m]: the smaller of its values in and across the track plane;
+/// infinite if the part is inside the hull, negative without overlap.
 double depthOf(const spheredecomp::MeshQuery& query, const TrackPart& part, double offset) {
   if (query.inside({part.centre.x, offset, part.centre.z})) return base::kInfinity;
   const TriangleMesh& hull = query.mesh();
@@ -143,7 +143,7 @@ double depthOf(const spheredecomp::MeshQuery& query, const TrackPart& part, doub
 
 struct Clash {
   std::string part; ///< "left shoe 3"
-  double depth;     ///< [m]; infinite: completely inside
+  double depth;     ///< penetration [m]; infinite: completely inside
 };
 
 std::optional<Clash> clashAt(const spheredecomp::MeshQuery& hull, const std::vector<TrackPart>& parts, double offset) {
@@ -166,12 +166,12 @@ std::optional<SpecFault> hullFault(const VehicleSpec& s, const PartMeshes& meshe
   std::string what = std::isfinite(clash->depth)
                          ? fmt::format("[m] makes the hull {} and the {} overlap by {:.1f} mm", s.chassis.mesh,
                                        clash->part, 1e3 * clash->depth)
-                         : fmt::format("[m] puts the {} into the hull {}", clash->part, s.chassis.mesh);
-  constexpr double kStep = 0.01, kMost = 5; // [m]
-  for (double offset = std::floor(s.trackOffset / kStep + 1) * kStep; offset <= kMost; offset += kStep)
+                         : fmt::format("[m] places the {} inside the hull {}", clash->part, s.chassis.mesh);
+  constexpr double kStep = 0.01, kMax = 5; // [m]
+  for (double offset = std::floor(s.trackOffset / kStep + 1) * kStep; offset <= kMax; offset += kStep)
     if (!clashAt(hull, parts, offset))
       return SpecFault{"vehicle", "track_offset", fmt::format("{}; set vehicle.track_offset = {:.2f}", what, offset)};
-  return SpecFault{"vehicle", "track_offset", what + "; no wider track resolves it: use another hull mesh"};
+  return SpecFault{"vehicle", "track_offset", what + "; no larger value removes the overlap: use another hull mesh"};
 }
 
 } // namespace grouser::vehicle

@@ -34,15 +34,14 @@ constexpr VehicleField kVehicleFields[] = {
     {"heading", "rad", "heading of the hull, from world x towards y, continuous over turns", &Observation::heading},
     {"pitch_angle", "rad", "pitch of the hull, nose up positive, within +-pi/2", &Observation::pitchAngle},
     {"roll_angle", "rad", "roll of the hull, right side down positive, continuous over turns", &Observation::rollAngle},
-    {"gross_traction", "N", "mean drive torques over the pitch radius, in the direction of motion",
+    {"gross_traction", "N", "sum of the mean drive torques / pitch radius, in the direction of motion",
      &Observation::grossTraction},
     {"net_thrust", "N",
-     "ground force on the vehicle in the direction of motion, along the ground, mean since the last row",
+     "ground force on the vehicle along the ground, in the direction of motion, mean since the last row",
      &Observation::netThrust},
     {"drawbar_pull", "N",
-     "force of the vehicle on its hitch in the direction of motion, mean since the last row; without a hitch net "
-     "thrust "
-     "minus the weight component along the ground",
+     "force of the vehicle on its hitch in the direction of motion, mean since the last row; without a hitch: net "
+     "thrust minus the weight component along the ground",
      &Observation::drawbarPull},
     {"motion_resistance", "N", "gross traction minus net thrust; NaN while the tracks run in opposite directions",
      &Observation::motionResistance},
@@ -53,7 +52,7 @@ constexpr ScalarField kTrackFields[] = {
     {"drive_torque", "N m", "drive torque of the hull on the sprocket, forward positive",
      &TrackObservation::driveTorque},
     {"mean_torque", "N m", "drive torque, mean since the last row", &TrackObservation::meanTorque},
-    {"drive_power", "W", "drive power on the sprocket, mean since the last row", &TrackObservation::drivePower},
+    {"drive_power", "W", "power of the drive at the sprocket, mean since the last row", &TrackObservation::drivePower},
     {"idler_force", "N", "tensioner force on the idler, positive away from the sprocket",
      &TrackObservation::idlerForce},
     {"idler_slide", "m", "idler displacement from the drawn position, positive away from the sprocket",
@@ -63,10 +62,10 @@ constexpr ScalarField kTrackFields[] = {
     {"tooth_speed", "m/s", "speed, mean over whole tooth passages", &TrackObservation::toothSpeed},
     {"tooth_slip", "-", "slip, mean over whole tooth passages", &TrackObservation::toothSlip},
     {"teeth_passed", "-", "sprocket speed x teeth / (2 pi), integrated", &TrackObservation::teethPassed},
-    {"pitches_passed", "-", "pitches of track past the sprocket", &TrackObservation::pitchesPassed},
+    {"pitches_passed", "-", "track pitches that passed the sprocket", &TrackObservation::pitchesPassed},
     {"skipped", "-", "teeth passed minus pitches passed", &TrackObservation::skipped},
-    {"sideways", "m", "largest distance of a shoe from its track's plane", &TrackObservation::sideways},
-    {"wheel_lift", "m", "largest gap between a road wheel and its plates", &TrackObservation::wheelLift},
+    {"sideways", "m", "largest lateral distance of a shoe from its track's plane", &TrackObservation::sideways},
+    {"wheel_lift", "m", "largest gap between a road wheel and the plates below it", &TrackObservation::wheelLift},
 };
 
 constexpr ShoeField kShoeFields[] = {
@@ -74,11 +73,11 @@ constexpr ShoeField kShoeFields[] = {
     {"sinkage", "m", "depth of the pad centre below the undisturbed surface, along its normal, in ground contact",
      &TrackObservation::sinkage},
     {"tension", "N", "force in the pin joint ahead of each shoe", &TrackObservation::tension},
-    {"ground_pressure", "Pa", "ground force normal to the pad over its area", &TrackObservation::groundPressure},
-    {"on_ground", "-", "1 if the shoe is in ground contact and carries load", &TrackObservation::onGround},
+    {"ground_pressure", "Pa", "ground force normal to the pad / pad area", &TrackObservation::groundPressure},
+    {"on_ground", "-", "1 if the shoe is in ground contact and loaded, else 0", &TrackObservation::onGround},
 };
 
-/// Optional fields.
+/// Fields that are written only with per-shoe forces.
 constexpr ShoeField kForceFields[] = {
     {"normal_force", "N", "ground force on each shoe normal to its pad, mean since the last row",
      &TrackObservation::normalForce},
@@ -86,7 +85,7 @@ constexpr ShoeField kForceFields[] = {
      &TrackObservation::forwardForce},
     {"left_force", "N", "ground force across the shoe, left positive, mean since the last row",
      &TrackObservation::leftForce},
-    {"shear", "Pa", "resultant shear force on each pad over its area", &TrackObservation::shear},
+    {"shear", "Pa", "resultant shear force on each pad / pad area", &TrackObservation::shear},
 };
 
 } // namespace

@@ -17,19 +17,19 @@ namespace {
 using base::Vec3d;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// Speed thresholds of running tracks, and of a hull sliding on stopped tracks [m/s]; settling oscillations are slower.
+/// Minimum speeds of running tracks, and of a hull that slides on stopped tracks [m/s]; settling motions are slower.
 constexpr double kRuns = 1e-4, kSlides = 0.01;
-/// Speed threshold of a track reversal [m/s]; a stalled vehicle rocks more slowly.
+/// Minimum track speed of a reversal [m/s]; a stalled vehicle rocks at lower speeds.
 constexpr double kTurnedRound = 0.01;
-/// Slack and stretch move the track relative to the sprocket by less than half a pitch; three quarters indicate a skip.
+/// Skip threshold in pitches: slack and stretch move the track relative to the sprocket by less than half a pitch.
 constexpr double kSkip = 0.75;
 
-/// Unwraps `angle`: adds full turns to be nearest to `last` [rad].
+/// Unwraps an angle [rad]: adds full turns so that it is nearest to `last`.
 double continued(double angle, double last) {
   return angle + 2 * base::kPi * std::floor((last - angle) / (2 * base::kPi) + 0.5);
 }
 
-/// Direction against gravity; world z without gravity.
+/// Unit vector opposite to gravity; world z without gravity.
 Vec3d upOf(const Vec3d& gravity) {
   const double g = base::norm(gravity);
   return g > 0 ? gravity * (-1 / g) : Vec3d{0, 0, 1};
@@ -93,11 +93,11 @@ double carryingLoad(const Assembly& vehicle, double gravity) {
 }
 
 double sidewaysShift(const Assembly& vehicle, int track, const multibody::State& state) {
-  return mostSideways(vehicle, track, state).shift;
+  return maxLateralShift(vehicle, track, state).shift;
 }
 
 double wheelLift(const Assembly& vehicle, int track, const multibody::State& state) {
-  return mostLifted(vehicle, track, state).gap;
+  return maxLifted(vehicle, track, state).gap;
 }
 
 double suspendedSag(const VehicleSpec& spec, double gravity) {
@@ -150,7 +150,7 @@ std::vector<Observer::DriveSums> Observer::means(const multibody::State& state) 
 }
 
 /// Direction of motion: 1 forward, -1 backward; 0 if the tracks run in opposite directions; empty if too slow.
-/// `sums`: of the tracks over `updates` updates.
+/// `sums`: sums for each track over `updates` updates.
 std::optional<int> Observer::motion(const std::vector<DriveSums>& sums, double updates) const {
   double most = 0, least = 0, hull = 0; // [m/s]
   for (const DriveSums& track : sums) {
@@ -173,7 +173,7 @@ void Observer::restartMeans() {
 }
 
 base::Alarm Observer::alarm(const multibody::State& state, const GroundLoads& ground) const {
-  // A freely hanging track, or one with unknown load, may sag off its wheels; wheels may also roll over stones.
+  // A track that hangs freely, or has an unknown load, may sag off its wheels; wheels may also roll over stones.
   const double allowed =
       vehicle_->spec.shoe.hornHeight + stone_ +
       (stands(*vehicle_, ground, gravity_) ? 0.0 : suspendedSag(vehicle_->spec, base::norm(gravity_)));
@@ -256,7 +256,7 @@ Observation Observer::observe(const multibody::State& state, const GroundLoads& 
   o.groundForce = {kNaN, kNaN, kNaN};
   if (!ground.force.empty()) {
     Vec3d sum;
-    // All bodies: a stone jammed between track and wheel pushes one backward and the other forward.
+    // Sum over all bodies: a stone jammed between track and wheel pushes one of them backward, the other forward.
     for (const Vec3d& force : ground.force) sum += force;
     const Vec3d forward{base::cos(o.heading), base::sin(o.heading), 0};
     o.groundForce = {base::dot(sum, forward), base::dot(sum, Vec3d{-forward.y, forward.x, 0}), sum.z};
@@ -296,7 +296,7 @@ std::vector<double> Observer::save() const {
 void Observer::restore(const std::vector<double>& flat) {
   const std::size_t each = travel_.empty() ? 0 : travel_.front().save().size();
   if (flat.size() != save().size())
-    throw base::InputError("observers: the checkpoint belongs to another vehicle or an earlier program version; "
+    throw base::InputError("observers: the checkpoint belongs to another vehicle or to another program version; "
                            "restart the run with --force");
   const auto place = [&](std::size_t i) { return flat.begin() + static_cast<std::ptrdiff_t>(i * each); };
   for (std::size_t i = 0; i < travel_.size(); ++i) travel_[i].restore({place(i), place(i + 1)});

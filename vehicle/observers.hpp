@@ -15,11 +15,11 @@
 namespace grouser::vehicle {
 
 inline constexpr double kStandardGravity = 9.80665; ///< [m/s2]
-/// Sprocket speed below which it counts as stopped and slip is undefined [rad/s].
+/// A sprocket slower than this speed counts as stopped, and slip is undefined [rad/s].
 inline constexpr double kStanding = 1e-6;
 
-/// Ground force on each body of the model, world components [N]; empty: unknown. Preferably the mean over the output
-/// interval: on grains the force of a single step fluctuates, and with it the set of loaded shoes.
+/// Ground force on each body of the model, world components [N]; empty: unknown. Use the mean over the output interval
+/// if possible: on grains the force in a single step fluctuates, and therefore also the set of loaded shoes.
 struct GroundLoads {
   std::vector<base::Vec3d> force;
 };
@@ -44,7 +44,7 @@ struct TrackObservation {
   double idlerSlide = 0;              ///< slide from the wrap position, forward positive [m]
   double speed = 0;                   ///< hull speed at this track, along the hull x axis [m/s]
   double slip = 0;                    ///< 1 - speed / (omega r_pitch) [-]; NaN while the sprocket is stopped
-  double toothSpeed = 0;              ///< mean speed over whole tooth passages [m/s]; NaN before the first
+  double toothSpeed = 0;              ///< mean speed over whole tooth passages [m/s]; NaN before the first passage
   double toothSlip = 0;               ///< mean slip over whole tooth passages [-]
   double teethPassed = 0;             ///< integral of omega Z / (2 pi) [-]
   double pitchesPassed = 0;           ///< track pitches that passed the sprocket [-]
@@ -68,7 +68,7 @@ struct Observation {
   double pitchAngle = 0;       ///< nose up positive, within +-pi/2 [rad]
   double rollAngle = 0;        ///< right side down positive, continuous over full turns [rad]
   base::Vec3d groundForce;     ///< sum over all bodies: forward along the heading, left, up [N]; NaN if unknown
-  Along along;                 ///< direction of the four forces below
+  Along along;                 ///< direction in which the four forces below count as positive
   double grossTraction = 0;    ///< sum of the mean drive torques / pitch radius [N]
   double netThrust = 0;        ///< ground force on the vehicle [N]
   double drawbarPull = 0;      ///< force of the vehicle on its hitch; netThrust until VehicleRig sets it [N]
@@ -79,9 +79,9 @@ struct Observation {
 };
 
 struct ObserverOptions {
-  int averageTeeth = 1; ///< tooth passages per mean
-  double stone{};       ///< [m] maximum stone size between road wheel and plates that is not a thrown track
-  double heading{};     ///< [rad] initial heading of the vehicle: headings start within pi of it
+  int averageTeeth = 1; ///< number of tooth passages per mean of speed and slip
+  double stone{};       ///< [m] stones up to this size between road wheel and plates raise no alarm
+  double heading{};     ///< [rad] initial heading of the vehicle, from which headings are continuous
   base::Vec3d gravity{0, 0, -kStandardGravity}; ///< gravity of the run [m/s2]; reference for loads
 };
 
@@ -92,18 +92,18 @@ public:
   explicit Observer(const Assembly& vehicle, const ObserverOptions& options = {});
 
   void update(const multibody::State& state, double dt);
-  /// `surface` may be null without a bed: sinkage is then NaN, and the ground is assumed level.
+  /// Observes the vehicle. `surface` may be null without a bed: sinkage is then NaN, and level ground is assumed.
   ///
   /// Traction, thrust and resistance refer to the direction of motion along the ground: the tangent of groundPlane() in
   /// the hull's heading, forward or backward according to the track motion since restartMeans(). If the tracks are
-  /// stopped (locked, on a slope), the hull's own motion determines it. The last direction is kept if nothing moves,
-  /// and while the tracks reverse by less than 0.01 m/s (a stalled vehicle rocks). Initially, and if the tracks run in
-  /// opposite directions (a pivot turn, without motion resistance), it is forward.
+  /// stopped (locked, on a slope), the motion of the hull determines the direction. The last direction is kept if
+  /// nothing moves, and while the tracks reverse by less than 0.01 m/s (a stalled vehicle rocks). The direction is
+  /// forward initially, and if the tracks run in opposite directions (a pivot turn, without motion resistance).
   Observation observe(const multibody::State& state, const GroundLoads& ground, const SurfaceHeight& surface) const;
   /// Computes only the alarm; cheap enough for a call every few steps.
   base::Alarm alarm(const multibody::State& state, const GroundLoads& ground) const;
   void setGravity(const base::Vec3d& gravity) { gravity_ = gravity; } ///< [m/s2]
-  /// Restarts the means of torque and power. Until the next update() they equal the instantaneous values.
+  /// Restarts the means of torque and power. Until the next update(), the means equal the current values.
   void restartMeans();
   const Travel& travel(int track) const { return travel_[track]; }
 
@@ -133,22 +133,23 @@ private:
   std::vector<DriveSums> driven_; ///< one per track
   double updates_ = 0;
   double heading_, roll_ = 0; ///< angles at the last update, continuous over full turns [rad]
-  int way_ = 0;               ///< last direction of motion: 1 forward, -1 backward, 0 none yet
+  int way_ = 0;               ///< last direction of motion: 1 forward, -1 backward, 0 unknown
   std::vector<Travel> travel_;
 };
 
 /// Lowest of the four lower corners of a shoe's pad plate, in the world [m].
 double padHeight(const ShoeSpec& shoe, const base::Pose& pose_W);
 
-/// Sinkage of a shoe [m]: distance, along the local normal of the undisturbed surface, from that surface to the
-/// middle of the underside of the pad plate (without grousers), positive downward. Both are evaluated at the foot
-/// point, the point of the surface whose normal passes through the middle of the pad.
+/// Sinkage of a shoe [m]: distance from the undisturbed surface, along its local normal, to the middle of the
+/// underside of the pad plate (without grousers), positive downward. Height and normal of the surface are evaluated at
+/// the foot point, that is where the normal passes through the middle of the pad.
 ///
-/// The normal is that of the least-squares plane through the heights at 5 x 5 points of an axis-parallel square, one
-/// pitch wide, about the point, since grains are smaller than a shoe. The foot point iteration starts below the pad:
-/// the middle of the pad is projected onto the plane with this normal through the surface there, until it moves by less
-/// than 1e-9 m, at most 40 times. Exact for a plane after one step. If the surface height jumps from grain to grain the
-/// iteration may alternate between two points; the effect on the distance is second order.
+/// The normal is the normal of the least-squares plane through the heights at 5 x 5 points of an axis-parallel square,
+/// one pitch wide, about the foot point: an average over grains, which are smaller than a shoe. The foot point is found
+/// by iteration, starting below the pad: the middle of the pad is projected onto the plane with this normal through the
+/// current surface point, until the point moves by less than 1e-9 m, at most 40 times. One step is exact for a plane.
+/// If the surface height jumps between grains, the iteration may alternate between two points; the effect on the
+/// distance is second order.
 double sinkage(const VehicleSpec& spec, const base::Pose& shoePose_W, const SurfaceHeight& surface);
 
 /// True for a shoe of the lower run with its middle between the axles of the first and last road wheel, in the hull
@@ -165,8 +166,8 @@ double sidewaysShift(const Assembly& vehicle, int track, const multibody::State&
 /// Maximum gap between a road wheel's rim and the plates under it, normal to the hull [m].
 double wheelLift(const Assembly& vehicle, int track, const multibody::State& state);
 
-/// Sag of the lower run of a freely hanging vehicle, as a parabola between sprocket and idler: lambda g L^2 / (8 T)
-/// [m], with `gravity` [m/s2]. A gap of this size under a wheel does not indicate a thrown track.
+/// Sag of the lower run of a freely hanging vehicle, a parabola between sprocket and idler [m]: lambda g L^2 / (8 T)
+/// with mass per length lambda, `gravity` g [m/s2], distance L and tension T. A track with such a gap is not thrown.
 double suspendedSag(const VehicleSpec& spec, double gravity);
 
 } // namespace grouser::vehicle

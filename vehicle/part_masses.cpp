@@ -15,33 +15,33 @@ namespace {
 using base::roundedDown;
 using base::roundedUp;
 
-/// Plausible densities: from air (a hull is mostly empty) to the heaviest metals [kg/m3].
-constexpr double kLeastDensity = 1, kMostDensity = 25e3;
-/// Radius of gyration / extent from the centre of mass [-]. Below 1 for a solid; simplified meshes may exceed it.
-constexpr double kLeastGyration = 0.01, kMostGyration = 2;
+/// Range of plausible densities, from air (a hull is mostly empty) to the heaviest metals [kg/m3].
+constexpr double kMinDensity = 1, kMaxDensity = 25e3;
+/// Range of radius of gyration / extent from the centre of mass [-]: below 1 for a solid, but meshes may be simplified.
+constexpr double kMinGyration = 0.01, kMaxGyration = 2;
 
 std::optional<SpecFault> densityFault(const char* section, double mass, const std::string& mesh, double volume) {
   const double density = mass / volume;
-  if (density >= kLeastDensity && density <= kMostDensity) return {};
+  if (density >= kMinDensity && density <= kMaxDensity) return {};
   return SpecFault{section, "mass",
-                   fmt::format("[kg] in the {:.3g} m3 of {} is a density of {:.3g} kg/m3, {}; choose a mass in "
-                               "[{}, {}] kg, or use a mesh of the right size (in metres)",
+                   fmt::format("[kg] in the {:.3g} m3 of {} implies a density of {:.3g} kg/m3, {}; choose a mass in "
+                               "[{}, {}] kg, or correct the size of the mesh (in metres)",
                                volume, mesh, density,
-                               density < kLeastDensity ? "lighter than air" : "heavier than any metal",
-                               roundedUp(kLeastDensity * volume, 3), roundedDown(kMostDensity * volume, 3))};
+                               density < kMinDensity ? "lighter than air" : "heavier than any metal",
+                               roundedUp(kMinDensity * volume, 3), roundedDown(kMaxDensity * volume, 3))};
 }
 
 /// `reach`: extent of the part from its centre of mass [m].
 std::optional<SpecFault> inertiaFault(const char* section, const char* key, double mass, const Vec3d& inertia,
                                       double reach, const char* what) {
   const double largest = std::max({inertia.x, inertia.y, inertia.z}), gyration = std::sqrt(largest / mass);
-  if (gyration >= kLeastGyration * reach && gyration <= kMostGyration * reach) return {};
+  if (gyration >= kMinGyration * reach && gyration <= kMaxGyration * reach) return {};
   return SpecFault{
       section, key,
-      fmt::format("[kg m2] means {:g} kg at a radius of gyration of {:.3g} m, but {} extends {:.3g} m from its "
-                  "centre of mass; choose a largest moment in [{}, {}]",
-                  mass, gyration, what, reach, roundedUp(kLeastGyration * kLeastGyration * reach * reach * mass, 3),
-                  roundedDown(kMostGyration * kMostGyration * reach * reach * mass, 3))};
+      fmt::format("[kg m2] implies, for {:g} kg, a radius of gyration of {:.3g} m, but {} extends {:.3g} m from its "
+                  "centre of mass; the largest moment must be in [{}, {}]",
+                  mass, gyration, what, reach, roundedUp(kMinGyration * kMinGyration * reach * reach * mass, 3),
+                  roundedDown(kMaxGyration * kMaxGyration * reach * reach * mass, 3))};
 }
 
 std::optional<SpecFault> surfaceFault(const char* section, const SurfaceSpec& part, const base::TriangleMesh& mesh,
@@ -52,7 +52,7 @@ std::optional<SpecFault> surfaceFault(const char* section, const SurfaceSpec& pa
   return inertiaFault(section, "inertia", part.mass, part.inertia, reach, part.mesh.c_str());
 }
 
-/// The hull's centre of mass may be outside its mesh, but not far.
+/// Checks that the hull's centre of mass is outside its mesh by at most the size of the mesh.
 std::optional<SpecFault> centreFault(const VehicleSpec& s, const base::TriangleMesh& mesh) {
   const auto [low, high] = spheredecomp::bounds(mesh);
   const Vec3d& centre = s.chassis.centre;
@@ -62,7 +62,7 @@ std::optional<SpecFault> centreFault(const VehicleSpec& s, const base::TriangleM
     if (at >= from && at <= to) continue;
     const bool beyond = at > to;
     return SpecFault{"chassis", "centre",
-                     fmt::format("[m] lies {:.0f} mm {} the hull {}, further than it is {}; choose its {} in [{:.3g}, "
+                     fmt::format("[m] is {:.0f} mm {} the hull {}, further than the hull is {}; {} must be in [{:.3g}, "
                                  "{:.3g}]",
                                  1e3 * (beyond ? at - high[a] : low[a] - at), beyond ? "beyond" : "before",
                                  s.chassis.mesh, sizes[a], axes[a], from, to)};

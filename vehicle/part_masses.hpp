@@ -5,9 +5,9 @@
 
 namespace grouser::vehicle {
 
-/// Returns the first mass, moment of inertia or centre of mass that is implausible for the size of its mesh: a part
+/// Returns the first mass, moment of inertia or centre of mass that is implausible for the size of the mesh: a part
 /// lighter than air or heavier than any metal, a radius of gyration far above or below the extent, or a hull centre of
-/// mass far outside the hull. Empty if all are plausible.
+/// mass far outside the hull. Empty if all values are plausible.
 std::optional<SpecFault> massFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

@@ -17,7 +17,7 @@ constexpr double kFits = 1e-3; // [m] tolerated difference of mesh and spec
 
 double radiusAt(const Vec3d& p) { return std::sqrt(p.x * p.x + p.z * p.z); }
 
-/// Maximum of `measure` over the vertices accepted by `counts`; -infinity without any.
+/// Maximum of `measure` over the vertices accepted by `counts`; -infinity if there are none.
 template <class Counts, class Measure> double most(const TriangleMesh& mesh, Counts counts, Measure measure) {
   double largest = -base::kInfinity;
   for (const Vec3d& v : mesh.vertices)
@@ -42,7 +42,7 @@ std::optional<SpecFault> rimFault(const char* section, double radius, const std:
   return differs(section, "radius", name, "the rim has a radius of", rim, std::floor(1e3 * rim + 0.5) / 1e3);
 }
 
-/// Pin bosses of a shoe's mesh, beside the pads. NaN if there are none.
+/// Pin bosses of a shoe's mesh, which are beside the pads. NaN if the mesh has no bosses.
 struct Bosses {
   double x, radius; ///< x and radius of the bosses at the joint ahead [m]
 };
@@ -58,7 +58,7 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
   const auto down = [](const Vec3d& v) { return -v.z; };
   const auto middle = [&](const Vec3d& v) { return std::fabs(v.y) <= 0.5 * s.shoe.padHalfWidth; };
   const std::string& name = s.shoe.mesh;
-  // Checked first, since other lengths are measured beside the pads and between them.
+  // Check the pads first: other lengths are measured beside or between the pads.
   const double pads = most(
       mesh, [&](const Vec3d& v) { return std::fabs(v.z - s.shoe.padBottom) <= kFits; },
       [](const Vec3d& v) { return std::fabs(v.y); });
@@ -69,7 +69,7 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
     return differs("shoe", "pad_half_width", name, "all vertices lie within |y| =", wide,
                    std::floor(1e3 * wide + 0.5) / 1e3);
   if (const Bosses b = bossesOf(s, mesh); std::isfinite(b.x) && std::fabs(b.x - 0.5 * s.shoe.pitch) > kFits)
-    return differs("shoe", "pitch", name, "the front pins lie at x =", b.x, std::floor(2e3 * b.x + 0.5) / 1e3);
+    return differs("shoe", "pitch", name, "the front pins are at x =", b.x, std::floor(2e3 * b.x + 0.5) / 1e3);
   const double half = most(mesh, middle, [](const Vec3d& v) { return std::fabs(v.x); });
   if (std::fabs(half - s.shoe.halfLength) > kFits)
     return differs("shoe", "half_length", name, "plate and pad reach to x =", half, std::floor(1e3 * half + 0.5) / 1e3);
@@ -95,7 +95,7 @@ std::optional<SpecFault> shoeMeshFault(const VehicleSpec& s, const TriangleMesh&
   return {};
 }
 
-/// Checks that the teeth lie between the pins, and the pins in the gaps.
+/// Checks that the teeth are between the pins, and the pins in the gaps.
 std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& meshes) {
   const double pins = s.sprocketPinRadius(), tip = most(meshes.sprocket, all, radiusAt);
   const auto tooth = [&](const Vec3d& v) { return base::cos(s.sprocket.teeth * base::atan2(v.z, v.x)); };
@@ -109,7 +109,7 @@ std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& mesh
         fmt::format("[-] and shoe.pitch = {:g} m put the pins {:.1f} mm from the axle, but the teeth of {} "
                     "end at {:.1f} mm; choose teeth and pitch that fit the mesh, or use a matching mesh",
                     s.shoe.pitch, 1e3 * pins, s.sprocket.mesh, 1e3 * tip)};
-  if (phase > -0.25 * beyond) // the tips lie midway between two gaps
+  if (phase > -0.25 * beyond) // the tips are midway between two gaps
     return SpecFault{
         "sprocket", "teeth",
         fmt::format("[-]: the teeth of {} do not match this number of pins; set the number of teeth of the mesh, which "
@@ -129,13 +129,13 @@ std::optional<SpecFault> teethFault(const VehicleSpec& s, const PartMeshes& mesh
                   2 * (seat + boss.radius) * base::sin(base::kPi / s.sprocket.teeth))};
 }
 
-/// Radius of a wheel's surface within |y| <= half, i.e. of the hub between the discs [m].
+/// Radius of the hub between a wheel's discs [m]: maximum radius of the mesh within |y| <= half.
 double hubRadius(const TriangleMesh& mesh, double half) {
   double largest = 0;
   for (std::size_t t = 0; t + 2 < mesh.indices.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3d a = mesh.vertices[mesh.indices[t + k]], b = mesh.vertices[mesh.indices[t + (k + 1) % 3]];
-      // The part of the edge inside the band; the radius is maximal at one of its ends.
+      // Clip the edge to the band; the radius has its maximum at one end of the clipped edge.
       double from = 0, to = 1;
       for (const double side : {-1.0, 1.0}) {
         const double da = half - side * a.y, db = half - side * b.y; // inside if >= 0

@@ -14,9 +14,9 @@ struct PartMeshes {
   base::TriangleMesh chassis{}, shoe{}, sprocket{}, roadWheel{}, roller{}, idler{};
 };
 
-/// Returns the first difference between mesh and spec dimensions that would cause initial overlaps or gaps, e.g. teeth
-/// that do not fit the pins, horns that reach a wheel's hub, or a hull that reaches below the tracks. Empty if the
-/// meshes match within 1 mm.
+/// Returns the first difference between the dimensions of mesh and spec that would cause initial overlaps or gaps, e.g.
+/// teeth that do not fit the pins, horns that reach a wheel's hub, or a hull that reaches below the tracks. Empty if
+/// the dimensions agree within 1 mm.
 std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes);
 
 } // namespace grouser::vehicle

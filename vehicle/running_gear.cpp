@@ -18,8 +18,8 @@ namespace {
 
 using base::kPi;
 
-/// Tolerated initial overlap of a wheel and a plate [m]: about 1 kN for the default vehicle's widest roller at 1e10
-/// N/m3.
+/// Tolerated initial overlap of a wheel and a plate [m]; it causes about 1 kN for the default vehicle's widest roller
+/// at 1e10 N/m3.
 constexpr double kTouch = 1e-4;
 constexpr double kGravity = 9.80665; // [m/s2]
 
@@ -27,7 +27,7 @@ double distance(double x0, double z0, double x1, double z1) {
   return std::sqrt((x1 - x0) * (x1 - x0) + (z1 - z0) * (z1 - z0));
 }
 
-/// Key whose value may be changed to fix a fault.
+/// Key that may be changed to fix a fault.
 struct Knob {
   std::string section, key, unit;
   std::string name; ///< in advice: "roller.z[1]"
@@ -36,13 +36,13 @@ struct Knob {
 };
 
 struct Fault {
-  std::vector<Knob> knobs; ///< the first one names the key
+  std::vector<Knob> knobs; ///< the message names the first key
   std::string what;
-  std::string advice; ///< if no key value fixes it
+  std::string advice; ///< remedy, if no value of a key fixes the fault
   bool closure = false;
 };
 
-/// Length key, unless `unit` differs.
+/// Key of a numeric value; a length unless `unit` differs.
 Knob knob(const std::string& section, const std::string& key, double value, double step,
           std::function<void(VehicleSpec&, double)> set, const std::string& unit = "m") {
   return {section, key, unit, section + "." + key, value, step, std::move(set)};
@@ -106,7 +106,7 @@ Knob ofRoller(const VehicleSpec& s, const char* key, std::size_t i) {
   return k;
 }
 
-/// Knob for the common height of all rollers.
+/// Key for the common height of all rollers.
 Knob rollersZ(const VehicleSpec& s) {
   Knob k = knob("roller", "z", s.roller.z.empty() ? 0 : s.roller.z.front(), 0.001,
                 [](VehicleSpec& v, double z) { std::fill(v.roller.z.begin(), v.roller.z.end(), z); });
@@ -140,7 +140,7 @@ struct Wheel {
   }
 };
 
-/// `idler`: x of its axle [m]. The sprocket radius is that of its pins; the teeth are slightly larger.
+/// `idler`: x of its axle [m]. The radius of the sprocket is the radius of the engaged pins; the teeth extend further.
 std::vector<Wheel> wheelsOf(const VehicleSpec& s, double idler) {
   using Kind = Wheel::Kind;
   std::vector<Wheel> all{{Kind::sprocket, 0, 0, 0, s.sprocketPinRadius()},
@@ -188,7 +188,7 @@ double plateFold(const ShoeSpec& shoe) {
   return shoe.plateTop > 0 ? 2 * base::atan2(0.5 * shoe.pitch - shoe.halfLength, shoe.plateTop) : kPi;
 }
 
-/// Checks shoes against each other, in line and folded about a wheel, and the tracks against each other.
+/// Checks for overlap between shoes, in line and folded about a wheel, and between the two tracks.
 std::optional<Fault> shoeFault(const VehicleSpec& s) {
   if (const double overlap = s.shoe.padHalfWidth - s.trackOffset; overlap >= 0)
     return Fault{
@@ -231,7 +231,7 @@ std::optional<Fault> shoeFault(const VehicleSpec& s) {
   return {};
 }
 
-/// The shoes under the road wheels must be the lowest of the track.
+/// Checks that the shoes under the road wheels are the lowest of the track.
 std::optional<Fault> groundLineFault(const VehicleSpec& s) {
   const double ground = s.groundPinHeight();
   const auto above = [&](const char* name, double pins, const Knob& other, const Knob& another) {
@@ -254,7 +254,7 @@ std::optional<Fault> groundLineFault(const VehicleSpec& s) {
   return {};
 }
 
-/// Gap between a wheel and the plates of a shoe [m]; negative where they overlap.
+/// Gap between a wheel and the plates of a shoe [m]; negative if they overlap.
 double gapToShoe(const VehicleSpec& s, const Wrap& wrap, int shoe, const Wheel& wheel) {
   const PlanePoint c = wrap.shoeCentre(shoe);
   const double angle = wrap.shoeAngle(shoe), ax = base::cos(angle), az = base::sin(angle);
@@ -274,7 +274,7 @@ bool insideLoop(const Wrap& wrap, double x, double z) {
   return inside;
 }
 
-/// Checks wheels against the shoes of the closed loop.
+/// Checks for overlap between the wheels and the shoes of the closed loop.
 std::optional<Fault> loopFault(const VehicleSpec& s, const Wrap& wrap) {
   using Kind = Wheel::Kind;
   if (auto fault = overlapOfWheels(s, wrap.idlerX + s.outward() * s.idler.slideMin,
@@ -320,9 +320,9 @@ std::optional<Fault> suspensionFault(const VehicleSpec& s) {
   const double load = s.totalMass() * kGravity / (2 * s.roadWheel.count); // on a wheel [N]
   const double lever = s.arm.length * base::cos(s.arm.pivotAngle);
   const double turn = (load - s.arm.preload) * lever; // [N m] torque of the bar beyond its preload
-  constexpr double kMostTurn = 0.5;                   // [rad] largest arm rotation
-  if (std::fabs(turn) <= kMostTurn * s.arm.stiffness && s.arm.stiffness > 0) return {};
-  const bool soft = load * lever > kMostTurn * s.arm.stiffness;
+  constexpr double kMaxTurn = 0.5;                    // [rad] largest accepted arm rotation
+  if (std::fabs(turn) <= kMaxTurn * s.arm.stiffness && s.arm.stiffness > 0) return {};
+  const bool soft = load * lever > kMaxTurn * s.arm.stiffness;
   Fault f;
   if (soft) {
     f.knobs = {named("arm", "stiffness", "N m/rad")};
@@ -339,26 +339,26 @@ std::optional<Fault> suspensionFault(const VehicleSpec& s) {
   return f;
 }
 
-/// Checks the tensioner: its spring pushes the idler forward, between its stops.
+/// Checks that the tensioner spring pushes the idler away from the sprocket, and that the idler is between its stops.
 std::optional<Fault> tensionFault(const VehicleSpec& s) {
   const double weight = s.totalMass() * kGravity, tenth = std::floor(0.2 * weight);
   const Fault preload{{named("idler", "preload", "N")}, "", fmt::format("set idler.preload = {:.0f}", tenth)};
   if (s.idler.preload <= 0) {
     Fault f = preload;
-    f.what = "leaves the track slack, and the sprocket skips teeth; 10 % of the weight in each strand is usual";
+    f.what = "leaves the track slack, so that the sprocket skips teeth; usual is 10 % of the weight in each strand";
     return f;
   }
   if (s.idler.preload > 2 * weight) {
     Fault f = preload;
     f.what = fmt::format("tensions each strand by more than the vehicle's weight of {:.0f} N; it must be in (0, "
-                         "{:.0f}], a tenth of the weight in each strand is usual",
+                         "{:.0f}], usual is a tenth of the weight in each strand",
                          weight, 2 * weight);
     return f;
   }
   if (const double travel = s.idler.preload / s.idler.stiffness; travel > 0.5 * std::fabs(s.idler.x))
     return Fault{{named("idler", "stiffness", "N/m")},
-                 fmt::format("needs a compression of {:.0f} mm for idler.preload = {:g} N, and the track is "
-                             "{:.0f} mm long",
+                 fmt::format("requires a compression of {:.0f} mm for idler.preload = {:g} N, but the idler is only "
+                             "{:.0f} mm from the sprocket",
                              1e3 * travel, s.idler.preload, 1e3 * std::fabs(s.idler.x)),
                  fmt::format("set idler.stiffness = {:.0f}", std::ceil(s.idler.preload / 0.03))};
   if (s.idler.stopStiffness < s.idler.stiffness)
@@ -373,8 +373,8 @@ std::optional<Fault> tensionFault(const VehicleSpec& s) {
   return {};
 }
 
-/// Checks the foundation modulus under the wheel loads: a strip of width w under a wheel of radius R carries 4/3 w
-/// sqrt(2 R) d^1.5 times the modulus at an overlap of d.
+/// Checks the foundation modulus under the wheel loads: at an overlap d, the force on a strip of width w under
+/// a wheel of radius R is 4/3 w sqrt(2 R) d^1.5 times the modulus.
 std::optional<Fault> foundationFault(const VehicleSpec& s) {
   const double load = s.totalMass() * kGravity / (2 * s.roadWheel.count); // on a wheel [N]
   const double strip = 8.0 / 3 * s.shoe.padHalfWidth * std::sqrt(2 * s.roadWheel.radius);
@@ -400,7 +400,7 @@ std::optional<Fault> firstFault(const VehicleSpec& s) {
   return foundationFault(s);
 }
 
-/// Nearest fault-free value of a key, searched in fine and then coarse steps, as text ("0.385"); empty: none.
+/// Nearest value of a key without a fault, searched in fine, then coarse steps, as text ("0.385"); empty if none.
 std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
   constexpr int kCoarse = 80, kRatio = 10;
   const int fine = k.name == "idler.radius" ? 400 : 80; // loops close only in a narrow range of radii
@@ -411,7 +411,7 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
     const double value = from + (i % 2 == 1 ? -away : away);
     const bool place = k.key == "x" || k.key == "z" || k.key == "slide_min" || k.key == "pivot_angle";
     if (!place && value < 0.5 * k.step) continue; // lengths must stay positive
-    // Rounded as if read from the file.
+    // Test the value as it will be read from the file.
     std::string text = fmt::format("{:.6g}", std::floor(1e9 * value + 0.5) / 1e9);
     VehicleSpec other = spec;
     k.set(other, std::strtod(text.c_str(), nullptr));
@@ -420,7 +420,7 @@ std::string mendingValue(const VehicleSpec& spec, const Knob& k) {
   return "";
 }
 
-/// Advice with a set of keys that together fix the fault; empty if none was found.
+/// Advice with a set of keys that together fix the fault; empty if no such set was found.
 std::string combinedAdvice(const VehicleSpec& spec) {
   const std::string keys = consistentKeys(spec, [](const VehicleSpec& other) { return !firstFault(other); });
   return keys.empty() ? "" : "set together " + keys;
@@ -448,7 +448,7 @@ SpecFault withAdvice(const VehicleSpec& spec, const Fault& fault) {
   }
   const std::string keys = combinedAdvice(spec);
   return faultAt(first,
-                 fmt::format("no other value of {} alone resolves it{}{}", names, keys.empty() ? "" : "; ", keys));
+                 fmt::format("no single change of {} removes the fault{}{}", names, keys.empty() ? "" : "; ", keys));
 }
 
 } // namespace
@@ -464,8 +464,8 @@ std::optional<SpecFault> runningGearFault(const VehicleSpec& spec) {
         if (const std::string value = mendingValue(spec, k); !value.empty())
           fault->advice = fmt::format("set {} = {}", k.name, value);
     if (const std::string keys = fault->advice.empty() ? combinedAdvice(spec) : ""; fault->advice.empty())
-      fault->advice = "no other value of idler.x, shoe.count, idler.z, road_wheel.z, shoe.pitch, sprocket.teeth alone "
-                      "resolves it" +
+      fault->advice = "no single change of idler.x, shoe.count, idler.z, road_wheel.z, shoe.pitch or sprocket.teeth "
+                      "removes the fault" +
                       (keys.empty() ? "" : "; " + keys);
   }
   return withAdvice(spec, *fault);

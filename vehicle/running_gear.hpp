@@ -15,8 +15,8 @@ struct SpecFault {
 };
 
 /// Returns the first error of an impossible running gear: overlapping parts, shoes that cannot fold about a wheel, a
-/// loop that does not close, wheels outside it, or a suspension or tensioner without equilibrium. Uses only the spec's
-/// numbers, in the plane of a track; empty for a valid vehicle.
+/// loop that does not close, wheels outside the loop, or a suspension or tensioner without equilibrium. Empty for a
+/// valid vehicle. Uses only the dimensions in the spec, in the plane of a track.
 std::optional<SpecFault> runningGearFault(const VehicleSpec& spec);
 
 } // namespace grouser::vehicle

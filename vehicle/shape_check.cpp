@@ -12,7 +12,7 @@
 namespace grouser::vehicle {
 namespace {
 
-/// Surface points of a part implied by one key.
+/// Points that are on the surface of a part if the value of one key is right.
 struct Claim {
   const char* key;
   std::vector<Vec3d> points;
@@ -50,9 +50,9 @@ std::optional<SpecFault> orderFault(const VehicleSpec& spec) {
       return SpecFault{"shapes", o.key, fmt::format("[m] must be below {:.6g}, {}", o.most, o.limit)};
   if (!(g.tipRadius > pins))
     return SpecFault{"shapes", "tip_radius", fmt::format("[m] must be above {:.6g}, the pin circle radius", pins)};
-  if (spec.sprocket.teeth > contact::GapProfile::kMostTeeth)
+  if (spec.sprocket.teeth > contact::GapProfile::kMaxTeeth)
     return SpecFault{"sprocket", "teeth",
-                     fmt::format("[-] must be at most {} if the file has [shapes]", contact::GapProfile::kMostTeeth)};
+                     fmt::format("[-] must be at most {} if the file has [shapes]", contact::GapProfile::kMaxTeeth)};
   const contact::GapProfile gap = gapProfile(spec);
   const double middle = base::kPi / gap.teeth;
   const double x = g.tipRadius * base::sin(middle) - gap.flankX,
@@ -129,11 +129,11 @@ std::vector<Claim> shoeClaims(const VehicleSpec& spec) {
       claims[2 + end].points.push_back({side * between(g.hornLength, g.hornTipLength, share), 0, z});
       claims[3 + end].points.push_back({0, side * between(g.hornWidth, g.hornTipWidth, share), z});
     }
-    // The bosses lie beside the pad, clear of other surfaces.
+    // The bosses are beside the pad, clear of other surfaces.
     for (int k = 0; k < 8; ++k) {
       const double a = 0.8 * k, x = 0.5 * s.pitch + g.bossRadius * base::cos(a), z = g.bossRadius * base::sin(a);
       claims[6].points.push_back({x, side * 0.5 * (g.bossInner + g.bossOuter), z});
-      // Points on their ends, beside the pins.
+      // Points on the ends of the bosses, beside the pins.
       const double inX = 0.5 * s.pitch + 0.8 * (x - 0.5 * s.pitch);
       claims[7].points.push_back({inX, side * g.bossInner, 0.8 * z});
       claims[8].points.push_back({inX, side * g.bossOuter, 0.8 * z});
@@ -155,8 +155,8 @@ std::optional<SpecFault> claimFault(const std::vector<Claim>& claims, const base
         return SpecFault{
             "shapes", claim.key,
             fmt::format(
-                "[m] does not match {4}: the point ({0:.4f}, {1:.4f}, {2:.4f}) m lies {3:.1f} mm off its surface; "
-                "use the length of the mesh, remove the section [shapes], or set "
+                "[m] does not match {4}: the point ({0:.4f}, {1:.4f}, {2:.4f}) m is {3:.1f} mm off the surface; "
+                "use the dimension of the mesh, remove the section [shapes], or set "
                 "vehicle.gear_contact_model = \"samples\"",
                 p.x, p.y, p.z, 1e3 * off, name)};
   return {};

@@ -13,7 +13,7 @@ namespace {
 /// Collects surface points face by face.
 class Faces {
 public:
-  /// `radius`: of the balls tangent to the faces from inside [m].
+  /// `radius`: radius of the balls that are tangent to the faces from inside [m].
   Faces(double spacing, double radius) : spacing_(spacing), radius_(radius) {}
 
   /// Adds a trapezoid from the edge p +- a to the edge q +- b, facing `outward`.
@@ -83,7 +83,7 @@ std::vector<contact::SurfaceSample> shoePoints(const VehicleSpec& spec, double s
   const double length = s.halfLength, width = s.padHalfWidth, c = g.chamfer, bottom = s.padBottom, top = g.padTop;
   const Vec3d down{0, 0, -1}, ahead{1, 0, 0}, left{0, 1, 0}, up{0, 0, 1};
 
-  // The pad's lower face between its chamfered ends and the grousers' feet.
+  // Lower face of the pad, between its chamfered ends and the feet of the grousers.
   std::vector<double> grousers;
   if (s.grouserHeight > 0) grousers = g.grouserX > 0 ? std::vector{-g.grouserX, g.grouserX} : std::vector{0.0};
   const double foot = 0.5 * g.grouserWidth, tip = bottom - s.grouserHeight;
@@ -114,7 +114,7 @@ std::vector<contact::SurfaceSample> shoePoints(const VehicleSpec& spec, double s
                       ahead * sign);
     faces.rectangle({0, side * g.plateOuter, 0.5 * (top + s.plateTop)}, ahead * length, up * (0.5 * (s.plateTop - top)),
                     left * side);
-    // The horn's sides and ends.
+    // Sides and ends of the horn.
     const double hornTop = s.plateTop + s.hornHeight;
     faces.add({0, 0.5 * side * g.hornWidth, s.plateTop}, ahead * (0.5 * g.hornLength),
               {0, 0.5 * side * g.hornTipWidth, hornTop}, ahead * (0.5 * g.hornTipLength), left * side);

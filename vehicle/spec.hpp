@@ -24,7 +24,7 @@ struct SurfaceSpec : MassSpec {
   std::string mesh; ///< mesh file in the spec's mesh folder
 };
 
-/// Track shoe, with its centre of mass on the pin line. Frame: origin midway between the two pin axes, x along the
+/// Track shoe, with its centre of mass on the pin line. Shoe frame: origin midway between the two pin axes, x along the
 /// track (forward in ground contact), y left, z towards the inside of the loop. The pins are at x = +-pitch/2, z = 0.
 struct ShoeSpec : SurfaceSpec {
   int count{};            ///< shoes per track [-]
@@ -39,8 +39,8 @@ struct ShoeSpec : SurfaceSpec {
   double pinDamping{};    ///< viscous moment in each pin joint [N m s/rad]
 };
 
-/// Drive sprocket, at the rear or in front. Frame: origin on the axle, y along it; gap k is at the angle 2 pi k / teeth
-/// from +x towards +z.
+/// Drive sprocket, at the rear or in front. Sprocket frame: origin on the axle, y along the axle; gap k is at the angle
+/// 2 pi k / teeth from +x towards +z.
 struct SprocketSpec : SurfaceSpec {
   int teeth{}; ///< [-]
 };
@@ -76,13 +76,13 @@ struct RollerSpec : SurfaceSpec {
 };
 
 struct IdlerSpec : SurfaceSpec {
-  double radius{};    ///< [m]
-  double x{}, z{};    ///< drawn axle position [m]; the wrap computes the exact x, which must lie within the slide range
-  double slideMin{};  ///< stop towards the sprocket, relative to the wrap position [m], < 0
-  double slideMax{};  ///< stop away from the sprocket [m], > 0
-  double stiffness{}; ///< tensioner spring [N/m]
-  double damping{};   ///< [N s/m]
-  double preload{};   ///< spring force at the wrap position [N]
+  double radius{};        ///< [m]
+  double x{}, z{};        ///< drawn axle position [m]; the wrap computes the exact x, which must be in the slide range
+  double slideMin{};      ///< stop towards the sprocket, relative to the wrap position [m], < 0
+  double slideMax{};      ///< stop away from the sprocket [m], > 0
+  double stiffness{};     ///< tensioner spring [N/m]
+  double damping{};       ///< [N s/m]
+  double preload{};       ///< spring force at the wrap position [N]
   double stopStiffness{}; ///< [N/m]
   double stopDamping{};   ///< [N s/m]
   double carrierMass{};   ///< [kg]
@@ -101,21 +101,21 @@ struct EngineSpec {
   double efficiency = 1;      ///< gear efficiency [-]
   double governedSpeed{};     ///< maximum shaft speed under the governor [rad/s]
   double droop{};             ///< shaft speed range of the governor from zero to full torque [rad/s]
-  double brakeTorque = 0;     ///< maximum braking torque on a sprocket faster than commanded [N m]
+  double brakeTorque = 0;     ///< maximum braking torque on a sprocket that is faster than commanded [N m]
   double inertia{};           ///< inertia of engine and gearing, reflected to the sprocket [kg m2]
 };
 
 /// Contacts between parts, and with the ground.
 struct ContactSpec {
   double foundationModulus{}; ///< force = modulus * sum(area * overlap) [N/m3]
-  double relaxationTime{};    ///< damping of the foundation: stress = modulus * (overlap + time * rate) [s]
-  double tangentialRatio{};   ///< tangential over normal stiffness [-]
+  double relaxationTime{};    ///< foundation damping: stress = modulus * (overlap + relaxationTime * rate) [s]
+  double tangentialRatio{};   ///< tangential / normal stiffness [-]
   double frictionInside{};    ///< shoes against wheels, sprocket, idler [-]
   double frictionGround{};    ///< shoes against ground [-]
 };
 
-/// Constant data of a tracked vehicle. Vehicle frame: x forward, y left, z up, origin at the middle of the sprocket
-/// axle line. The two tracks are identical, at y = +-trackOffset.
+/// Constant data of a tracked vehicle with two identical tracks, at y = +-trackOffset. Vehicle frame: x forward, y
+/// left, z up, origin at the middle of the sprocket axle line.
 struct VehicleSpec {
   std::string name;
   std::string meshFolder; ///< absolute or relative to the working folder
@@ -128,8 +128,8 @@ struct VehicleSpec {
   RollerSpec roller;
   IdlerSpec idler;
   ContactSpec contact;
-  std::optional<EngineSpec> engine; ///< empty if not in the file
-  std::optional<GearShapes> shapes; ///< empty if not in the file
+  std::optional<EngineSpec> engine; ///< empty if the file has no [engine]
+  std::optional<GearShapes> shapes; ///< empty if the file has no [shapes]
 
   /// True if the sprocket is in front, i.e. the idler is behind it.
   bool sprocketInFront() const { return idler.x < 0; }

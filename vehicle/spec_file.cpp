@@ -18,9 +18,9 @@ namespace grouser::vehicle {
 namespace {
 
 void checkEngine(const base::Section& section, const EngineSpec& engine) {
-  if (engine.speed.empty()) section.fail("speed", "[rad/s] is empty; give at least one point of the torque curve");
+  if (engine.speed.empty()) section.fail("speed", "[rad/s] is empty; set at least one point of the torque curve");
   if (engine.torque.size() != engine.speed.size())
-    section.fail("torque", fmt::format("[N m] and speed differ in length; give one torque for each of the {} speeds",
+    section.fail("torque", fmt::format("[N m] and speed differ in length; set one torque for each of the {} speeds",
                                        engine.speed.size()));
   for (std::size_t i = 1; i < engine.speed.size(); ++i)
     if (!(engine.speed[i] > engine.speed[i - 1]))
@@ -29,7 +29,7 @@ void checkEngine(const base::Section& section, const EngineSpec& engine) {
     section.fail("torque", "[N m] is 0 at all speeds; set a torque > 0");
 }
 
-/// Consistency checks between several keys.
+/// Checks conditions that involve several keys.
 void checkTogether(const base::Section& root, const VehicleSpec& spec) {
   if (spec.arm.suspension == Suspension::sprung)
     for (const char* key : {"stiffness", "damping", "preload"})
@@ -52,7 +52,7 @@ void checkTogether(const base::Section& root, const VehicleSpec& spec) {
   principal("idler", "carrier_inertia", spec.idler.carrierInertia);
 }
 
-/// Reads the file and applies the changed keys. Messages name both locations.
+/// Reads the file and applies the changed keys. Messages name the location in the file and of the change.
 base::Document documentOf(const SpecSource& source) {
   base::Document document = base::Document::load(source.file);
   for (const SpecKey& k : source.changed) {
@@ -63,7 +63,7 @@ base::Document documentOf(const SpecSource& source) {
   return document;
 }
 
-/// Reads the sections one by one.
+/// Reads all sections.
 VehicleSpec readSections(const base::Section& root) {
   root.allowOnly({"version", "vehicle", "chassis", "shoe", "sprocket", "road_wheel", "arm", "roller", "idler",
                   "contact", "engine", "shapes"});

@@ -10,11 +10,11 @@
 
 namespace grouser::vehicle {
 
-/// Reads a vehicle file and applies its changed keys. Throws base::InputError (file:line, key, value, range) for
+/// Reads a vehicle file and applies the changed keys. Throws base::InputError (file:line, key, value, range) for
 /// unknown, missing or out-of-range keys, and for an impossible running gear (runningGearFault).
 VehicleSpec readVehicleSpec(const SpecSource& source);
 
-/// Throws an error in a spec file as base::InputError with its location.
+/// Throws a fault in a spec file as base::InputError, with its location.
 [[noreturn]] void refuse(const SpecSource& source, const SpecFault& fault);
 /// Throws InputError for an unusable mesh of a section; `why`: reason.
 [[noreturn]] void refuseMesh(const SpecSource& source, const std::string& section, const std::string& why);
@@ -27,10 +27,10 @@ struct SpecSection {
 /// All sections, in the order of the documentation.
 std::vector<SpecSection> specSections();
 
-/// All keys, e.g. "shoe.count", each with the prefix `before`.
+/// Names of all keys, e.g. "shoe.count", each with the prefix `before`.
 std::vector<std::string> specKeys(const std::string& before = "");
 
-/// All keys of a vehicle spec file with unit, range and meaning, as Markdown.
+/// Markdown tables of all keys of a vehicle spec file, with unit, range and meaning.
 std::string specFieldHelp();
 
 } // namespace grouser::vehicle

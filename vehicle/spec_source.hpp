@@ -21,7 +21,7 @@ struct SpecKey {
   }
 };
 
-/// Source of a vehicle: its file and changed keys. A path converts implicitly.
+/// Source of a vehicle: its file and changed keys. A path converts implicitly to a source without changed keys.
 struct SpecSource {
   std::string file;
   std::vector<SpecKey> changed{};

@@ -8,7 +8,7 @@ namespace {
 
 using base::Table;
 
-/// Mass and inertia keys, the same for every part. A pointer to a base's member serves the derived struct as well.
+/// Adds the keys of mass and inertia, which are the same for every part.
 template <class S> void addMass(Table<S>& table) {
   table.add("mass", static_cast<double S::*>(&MassSpec::mass), "kg", "mass").atLeast(1e-3).atMost(1e6).required();
   table.add("inertia", static_cast<Vec3d S::*>(&MassSpec::inertia), "kg m2", "principal moments about x, y, z")
@@ -20,7 +20,7 @@ template <class S> void addSurface(Table<S>& table) {
   addMass(table);
   table
       .add("mesh", static_cast<std::string S::*>(&SurfaceSpec::mesh), "",
-           "mesh file in mesh_folder: closed, faces outward, in metres, in the part's frame")
+           "mesh file in mesh_folder: closed surface, faces outward, in metres, in the part's frame")
       .required();
 }
 
@@ -61,7 +61,7 @@ Table<ShoeSpec> shoeTable() {
   t.add("half_length", &ShoeSpec::halfLength, "m", "half length of plate and pad").above(0).atMost(0.5).required();
   t.add("pad_half_width", &ShoeSpec::padHalfWidth, "m", "half width of the pad").above(0).atMost(1).required();
   t.add("horn_height", &ShoeSpec::hornHeight, "m", "height of the guide horn").above(0).atMost(0.3).required();
-  t.add("maximum_fold", &ShoeSpec::maximumFold, "rad", "largest fold angle between neighbouring shoes")
+  t.add("maximum_fold", &ShoeSpec::maximumFold, "rad", "maximum fold angle between neighbouring shoes")
       .above(0)
       .below(base::kPi / 2)
       .required();
@@ -149,7 +149,7 @@ Table<IdlerSpec> idlerTable() {
 
 Table<EngineSpec> engineTable() {
   Table<EngineSpec> t("engine", "Engine and gear of each sprocket, for driver.drive = \"engine\"; if one engine drives "
-                                "both, half of its torque (optional section)");
+                                "both, enter half of its torque (optional section)");
   t.add("speed", &EngineSpec::speed, "rad/s", "shaft speeds of the torque curve, increasing")
       .atLeast(0)
       .atMost(1e5)
@@ -167,7 +167,7 @@ Table<EngineSpec> engineTable() {
       .above(0)
       .atMost(1e5)
       .required();
-  t.add("droop", &EngineSpec::droop, "rad/s", "shaft speed range over which the governor goes from zero to full torque")
+  t.add("droop", &EngineSpec::droop, "rad/s", "shaft speed range between zero and full torque of the governed engine")
       .above(0)
       .atMost(1e4)
       .required();
@@ -203,7 +203,8 @@ Table<GearShapes> shapesTable() {
       .atLeast(-0.5)
       .atMost(0.2)
       .required();
-  t.add("grouser_x", &GearShapes::grouserX, "m", "shoe: position of the grousers, at +-x; 0: one in the middle")
+  t.add("grouser_x", &GearShapes::grouserX, "m",
+        "shoe: position of the two grousers, at +-x; 0: a single grouser in the middle")
       .atLeast(0)
       .atMost(0.5)
       .required();

@@ -6,7 +6,7 @@
 
 namespace grouser::vehicle {
 
-/// Sections of a vehicle spec file: one field table each, for reading, checks and documentation.
+/// Field tables for the sections of a vehicle spec file; used to read, check and document them.
 base::Table<VehicleSpec> vehicleTable();
 base::Table<ChassisSpec> chassisTable();
 base::Table<ShoeSpec> shoeTable();

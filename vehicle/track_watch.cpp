@@ -43,7 +43,7 @@ bool runsAround(const std::vector<Vec3d>& corners, const Vec3d& point) {
 
 } // namespace
 
-SidewaysShoe mostSideways(const Assembly& vehicle, int track, const multibody::State& state) {
+SidewaysShoe maxLateralShift(const Assembly& vehicle, int track, const multibody::State& state) {
   const Track& t = vehicle.tracks[at(track)];
   const base::Pose pose_W = vehiclePose(vehicle, state);
   SidewaysShoe worst;
@@ -55,7 +55,7 @@ SidewaysShoe mostSideways(const Assembly& vehicle, int track, const multibody::S
   return worst;
 }
 
-LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::State& state) {
+LiftedWheel maxLifted(const Assembly& vehicle, int track, const multibody::State& state) {
   const Track& t = vehicle.tracks[at(track)];
   const VehicleSpec& spec = vehicle.spec;
   const base::Pose pose_W = vehiclePose(vehicle, state);
@@ -69,7 +69,7 @@ LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::Stat
     const Vec3d front = pose_W.toBody(pose.toWorld({halfPitch, 0, spec.shoe.plateTop}));
     for (std::size_t i = 0; i < t.wheels.size(); ++i) {
       const double s = (axle_V[i].x - rear.x) / (front.x - rear.x);
-      // Plates under the wheel; neighbours overlap or leave gaps where the track is folded.
+      // Consider the plates under the wheel, with a margin for gaps between neighbours where the track is folded.
       if (!(s >= -0.1 && s <= 1.1) || 0.5 * (rear.z + front.z) > axle_V[i].z) continue;
       gap[i] = std::min(gap[i], axle_V[i].z - spec.roadWheel.radius - (rear.z + s * (front.z - rear.z)));
     }
@@ -83,7 +83,7 @@ LiftedWheel mostLifted(const Assembly& vehicle, int track, const multibody::Stat
 UnguidedWheel unguidedWheel(const Assembly& vehicle, int track, const multibody::State& state, double lift) {
   const Track& t = vehicle.tracks[at(track)];
   const VehicleSpec& spec = vehicle.spec;
-  // Shoes facing a wheel; neighbours overlap or leave gaps where the track is folded.
+  // A shoe faces a wheel within this distance, with a margin for gaps between neighbours where the track is folded.
   const double facing = 0.6 * spec.shoe.pitch;
   const Vec3d up = base::rotate(vehiclePose(vehicle, state).orientation, {0, 0, 1});
   const auto seen = [&](int body, double radius, double side) { // by shoes facing up: 1, down: -1
@@ -126,11 +126,11 @@ std::string thrownTrack(const Assembly& vehicle, int track, const multibody::Sta
   const Track& t = vehicle.tracks[at(track)];
   const char* side = sideName(t.side);
   const double horn = vehicle.spec.shoe.hornHeight;
-  const SidewaysShoe s = mostSideways(vehicle, track, state);
+  const SidewaysShoe s = maxLateralShift(vehicle, track, state);
   if (!(s.shift <= horn))
     return fmt::format("{} track thrown: {} is {:.0f} mm beside its wheels, more than a horn's height of {:.0f} mm; {}",
                        side, nameOf(vehicle, t.shoes[at(s.shoe)]), 1e3 * s.shift, 1e3 * horn, remedy(vehicle));
-  // Wheels are checked only if a shoe is beside them, which is rare.
+  // Check the wheels only if a shoe is beside its wheels, which is rare.
   const UnguidedWheel w = s.shift > 0.5 * horn ? unguidedWheel(vehicle, track, state, lift) : UnguidedWheel{};
   if (w.body >= 0)
     return fmt::format("{} track thrown: {} is {:.0f} mm off its plates, more than {:.0f} mm, and {:.0f} mm beside "

@@ -10,13 +10,13 @@
 namespace grouser::vehicle {
 namespace {
 
-/// `step` minus full turns of length n, in [-n/2, n/2).
+/// `step` minus the multiple of n that brings it into [-n/2, n/2).
 double nearestTurn(double step, double n) { return step - n * std::floor(step / n + 0.5); }
 
 } // namespace
 
 Travel::Travel(const Assembly& vehicle, int track, int teeth) : vehicle_(&vehicle), track_(track), teeth_(teeth) {
-  // Half-way from the sprocket to the next support of the top run: close enough to minimise slack behind the gate.
+  // The gate is half-way from the sprocket to the next support of the top run, so that little slack can lie between.
   const VehicleSpec& spec = vehicle.spec;
   double next = 0.5 * vehicle.wrap.idlerX;
   if (!spec.roller.x.empty()) next = spec.roller.x.front();
@@ -31,7 +31,7 @@ double Travel::loopCoordinate(const multibody::State& state) const {
   const double halfPitch = 0.5 * vehicle_->spec.shoe.pitch;
   const base::Mat3d R_WV = pose_W.orientation.matrix();
   const double n = static_cast<double>(track.shoes.size());
-  // Shoe of the top run at the gate; if several, on an oscillating track, the one nearest to the last.
+  // Find the shoe of the top run at the gate; if an oscillating track has several, take the one nearest to the last.
   double best = std::numeric_limits<double>::quiet_NaN();
   double bestJump = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < track.shoes.size(); ++i) {
@@ -58,7 +58,7 @@ void Travel::update(const multibody::State& state, double dt) {
     time_ = state.time, firstTeeth_ = teeth, lastCoordinate_ = coordinate;
     return;
   }
-  // Without a shoe at the gate (a torn or thrown track) the count stops: the difference to the teeth shows it.
+  // Without a shoe at the gate (a torn or thrown track) the pitch count stops and its difference from the teeth grows.
   if (!std::isnan(coordinate)) {
     pitchesPassed_ += nearestTurn(coordinate - lastCoordinate_, static_cast<double>(track.shoes.size()));
     lastCoordinate_ = coordinate;
@@ -78,7 +78,7 @@ void Travel::recordPassage(double teethBefore, double teethNow, double timeBefor
   const double s = (boundary - teethBefore) / (teethNow - teethBefore);
   const Passage passage{boundary, timeBefore + s * (timeNow - timeBefore),
                         distanceBefore + s * (distance_ - distanceBefore)};
-  // A mean over whole teeth is defined in one direction only: restart after a reversal of the sprocket.
+  // A mean over whole teeth is defined for one direction of rotation: restart after a reversal of the sprocket.
   if (passages_.size() >= 2 &&
       (boundary - passages_.back().tooth) * (passages_.back().tooth - passages_.front().tooth) <= 0)
     passages_.erase(passages_.begin(), passages_.end() - 1);
@@ -112,7 +112,7 @@ std::vector<double> Travel::save() const {
 void Travel::restore(const std::vector<double>& flat) {
   if (flat.size() != save().size())
     throw base::InputError(
-        "track travel: the checkpoint belongs to another vehicle; resume with the scene that was run");
+        "track travel: the checkpoint belongs to another vehicle; resume with the scene that wrote it");
   begun_ = flat[0] != 0;
   time_ = flat[1], firstTeeth_ = flat[2], lastCoordinate_ = flat[3];
   teethPassed_ = flat[4], pitchesPassed_ = flat[5], distance_ = flat[6];

@@ -8,21 +8,21 @@
 
 namespace grouser::vehicle {
 
-/// Travel of one track and its sprocket: pitches that passed the sprocket, and distance at every tooth. Comparing
-/// pitches with teeth passed detects skipping, which a count of engaged pins would miss.
+/// Travel of one track and its sprocket: track pitches that passed the sprocket, and distance at every tooth. The
+/// difference between teeth and pitches passed detects skipped teeth, which a count of engaged pins would miss.
 class Travel {
 public:
   /// `teeth`: number of whole tooth passages over which speed and slip are averaged.
   Travel(const Assembly& vehicle, int track, int teeth = 1);
 
-  /// Updates the counts; call once after every step of length `dt` [s]. The first call sets the start.
+  /// Updates the counts; call once after every step of length `dt` [s]. The first call sets the reference positions.
   void update(const multibody::State& state, double dt);
 
   /// Teeth passed according to the sprocket angle: integral of omega Z / (2 pi) [-].
   double teethPassed() const { return teethPassed_; }
   /// Track pitches that passed a gate on the top run next to the sprocket, forward positive [-].
   double pitchesPassed() const { return pitchesPassed_; }
-  /// Teeth minus pitches passed [-]: slack within +-1/2, a skip near a whole number.
+  /// Teeth minus pitches passed [-]: within +-1/2 due to slack, near a whole number after a skip.
   double skipped() const { return teethPassed_ - pitchesPassed_; }
   /// Distance travelled by the hull point at the track, along the hull x axis [m].
   double distance() const { return distance_; }
@@ -37,7 +37,7 @@ public:
   void restore(const std::vector<double>& flat);
 
 private:
-  /// Record of a tooth boundary passage.
+  /// Record of the passage of a tooth boundary.
   struct Passage {
     double tooth, time, distance;
   };
@@ -54,7 +54,7 @@ private:
   std::deque<Passage> passages_;
 };
 
-/// Speed of the hull at the track's sprocket, along the hull x axis [m/s].
+/// Hull speed at the track's sprocket, along the hull x axis [m/s].
 double trackSpeed(const Assembly& vehicle, int track, const multibody::State& state);
 
 /// Pose of the vehicle frame, X_WV.

@@ -14,11 +14,11 @@ namespace {
 
 using base::kPi;
 
-/// Tolerance for a concave kink to count as convex: the top line reaches the sprocket's first gap within a fraction of
-/// a degree of the tangent.
+/// Tolerance within which a concave kink counts as convex: the top strand meets the sprocket's first gap within a
+/// fraction of a degree of the tangent.
 constexpr double kConcave = 1.0 * kPi / 180;
-/// Closure tolerance of the loop [m]: deviation of the free strands from whole pitches, a few ulp of the loop's length.
-/// Newton's method converges to it.
+/// Closure tolerance of the loop [m]: deviation of the free strands from whole pitches. It is a few ulp of the loop's
+/// length; Newton's method reaches this accuracy.
 constexpr double kClosed = 1e-14;
 
 PlanePoint onCircle(double cx, double cz, double radius, double angle) {
@@ -49,7 +49,7 @@ struct Ends {
   double idlerX, firstAngle;
 };
 
-/// Newton on: |front strand| = n_front pitch, |top| = n_top pitch, for the idler's x and its first pin angle.
+/// Solves |front strand| = n_front pitch, |top| = n_top pitch by Newton's method for idler x and first pin angle.
 std::optional<Ends> solveIdler(const Frame& f, PlanePoint groundEnd, PlanePoint sprocketTop, const WrapCounts& n) {
   Ends u{f.idlerX, -0.5 * kPi};
   const double turn = n.idler * f.idlerStep;
@@ -73,13 +73,13 @@ std::optional<Ends> solveIdler(const Frame& f, PlanePoint groundEnd, PlanePoint 
     const double stepAngle = (-a * missTop + c * missFront) / determinant;
     u.idlerX += std::clamp(stepX, -0.1, 0.1);
     u.firstAngle += std::clamp(stepAngle, -0.3, 0.3);
-    // The last steps are round-off of the lengths.
+    // The last steps only change round-off of the lengths.
     if (iteration > 8 && std::fabs(stepX) < 1e-15 && std::fabs(stepAngle) < 1e-14) return u;
   }
   return std::nullopt;
 }
 
-/// Both ends of the pin line in ground contact under all road wheels.
+/// Both ends of the pin line in ground contact, which extends under all road wheels.
 struct GroundRun {
   PlanePoint start, end;
 };
@@ -93,8 +93,8 @@ std::optional<GroundRun> groundRun(const Frame& f, int bottomGap, int rearStrand
   return GroundRun{start, end};
 }
 
-/// One split of the shoes, closed and convex, or empty. `topGap` and `bottomGap` count teeth from the gap at 180
-/// degrees.
+/// The closed, convex loop for one split of the shoes, or empty. `topGap` and `bottomGap` count teeth from the gap at
+/// 180 degrees.
 std::optional<Wrap> closeLoop(const Frame& f, int topGap, int bottomGap, WrapCounts n) {
   n.sprocket = bottomGap - topGap;
   n.top = f.shoes - n.sprocket - n.rearStrand - n.ground - n.frontStrand - n.idler;
@@ -161,8 +161,8 @@ struct Found {
   std::optional<Wrap> nearest; ///< with the idler nearest to its drawn position
 };
 
-/// True if a strand of `pitches` from `from` can reach an idler within its slide: its length is about that of the
-/// tangent, since its kink at the idler is at most the shoes' fold.
+/// True if a strand of `pitches` from `from` can reach the idler within its slide range: the strand is about as long as
+/// the tangent, since the kink at the idler is at most the maximum fold.
 bool strandFits(const Frame& f, const VehicleSpec& spec, PlanePoint from, int pitches) {
   const double away = distance(from, {f.idlerX, f.idlerZ});
   const double tangent = std::sqrt(std::max(0.0, (away - f.idlerRadius) * (away + f.idlerRadius)));
@@ -171,7 +171,7 @@ bool strandFits(const Frame& f, const VehicleSpec& spec, PlanePoint from, int pi
   return std::fabs(pitches * f.pitch - tangent) <= slack;
 }
 
-/// `anyPlace`: any idler position; otherwise only loops with the idler in its slide.
+/// Searches all splits. `anyPlace`: accept any idler position; otherwise only positions within the slide range.
 Found search(const VehicleSpec& spec, bool anyPlace) {
   const Frame f(spec);
   Found found;
@@ -182,7 +182,7 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
     if (slide < spec.idler.slideMin || slide > spec.idler.slideMax) return;
     if (!found.best || better(*wrap, *found.best, f.idlerX)) found.best = wrap;
   };
-  // All paths of the track from the ground contact over the idler back to the sprocket.
+  // Try all paths of the track from the ground contact over the idler back to the sprocket.
   const auto considerFront = [&](int topGap, int bottomGap, int rear, int ground, PlanePoint groundEnd) {
     const PlanePoint sprocketTop = onCircle(0, 0, f.sprocketRadius, f.gapAngle(topGap));
     for (int front = 1; front <= f.shoes / 4; ++front)
@@ -203,7 +203,7 @@ Found search(const VehicleSpec& spec, bool anyPlace) {
   return found;
 }
 
-/// Returns the vehicle with front and rear exchanged, as far as it affects the loop.
+/// Returns the vehicle with front and rear exchanged in all data that affect the loop.
 VehicleSpec mirrored(VehicleSpec spec) {
   spec.idler.x = -spec.idler.x;
   spec.roadWheel.firstX = -spec.lastWheelX();
@@ -212,11 +212,11 @@ VehicleSpec mirrored(VehicleSpec spec) {
 }
 VehicleSpec atRear(const VehicleSpec& spec) { return spec.sprocketInFront() ? mirrored(spec) : spec; }
 
-/// Returns the loop of a vehicle with its sprocket in front, from that of its mirror image.
+/// Returns the loop of a vehicle with its sprocket in front, from the loop of its mirror image.
 Wrap mirrored(const Wrap& image, const VehicleSpec& spec) {
   Wrap wrap = image;
   wrap.sprocketInFront = true;
-  wrap.sprocketPhase = 0; // a gap of the sprocket lies straight ahead
+  wrap.sprocketPhase = 0; // a gap of the sprocket is straight ahead
   wrap.idlerX = -image.idlerX;
   const double turn = image.counts.idler * 2 * base::asin(0.5 * spec.shoe.pitch / spec.idlerPinRadius());
   wrap.idlerFirstAngle = wrapToPi(kPi - (image.idlerFirstAngle + turn));
@@ -229,7 +229,7 @@ Wrap mirrored(const Wrap& image, const VehicleSpec& spec) {
   return wrap;
 }
 
-/// Number of shoes for a `sound` vehicle, nearest to the path length around the wheels; 0: none.
+/// Number of shoes of a `sound` vehicle with the loop length nearest to the path around the wheels; 0 if none is sound.
 int soundCount(VehicleSpec spec, const std::function<bool(const VehicleSpec&)>& sound) {
   const int wanted = static_cast<int>(std::floor(hullLength(spec) / spec.shoe.pitch + 0.5));
   for (const int off : {0, 1, -1, 2, -2, 3, -3}) {
@@ -250,8 +250,8 @@ double idlerXOfLength(VehicleSpec spec) {
   return spec.idler.x;
 }
 
-/// Nearest idler x for a `sound` vehicle, to 0.1 mm, in steps of 5 mm; 0: none within 0.6 m, nor near the position
-/// required by the loop.
+/// Nearest idler x of a `sound` vehicle, rounded to 0.1 mm, searched in steps of 5 mm; 0 if none is sound within 0.6 m
+/// or near the position required by the loop.
 double soundIdlerX(VehicleSpec spec, const std::optional<Wrap>& nearest,
                    const std::function<bool(const VehicleSpec&)>& sound) {
   const double drawn = spec.idler.x, asked = idlerXOfLength(spec);
@@ -296,7 +296,7 @@ Wrap wrapTrack(const VehicleSpec& spec) {
   const ClosureFault fault = closureFault(spec, [](const VehicleSpec& other) { return findWrap(other).has_value(); });
   throw base::InputError(
       fmt::format("vehicle {}: {}; {}", spec.name, fault.gap,
-                  fault.advice.empty() ? "no shoe count or idler position alone closes the track" : fault.advice));
+                  fault.advice.empty() ? "no single change of shoe.count or idler.x closes the track" : fault.advice));
 }
 
 ClosureFault closureFault(const VehicleSpec& given, const std::function<bool(const VehicleSpec&)>& accepts) {
@@ -314,7 +314,7 @@ ClosureFault closureFault(const VehicleSpec& given, const std::function<bool(con
                             1e3 * spec.idler.slideMin, 1e3 * spec.idler.slideMax);
   else
     fault.gap = fmt::format("the track does not close: {} shoes of pitch {:g} m are {:.4f} m long, the path around the "
-                            "wheels is {:.4f} m ({:+.1f} mm)",
+                            "wheels is {:.4f} m (difference {:+.1f} mm)",
                             spec.shoe.count, spec.shoe.pitch, loop, way, 1e3 * (loop - way));
   if (const double x = soundIdlerX(spec, nearest, sound); x > 0)
     fault.advice = fmt::format("set idler.x = {:.4f}", side * x);
@@ -325,7 +325,7 @@ ClosureFault closureFault(const VehicleSpec& given, const std::function<bool(con
 
 double hullLength(const VehicleSpec& spec) {
   // Perimeter of the convex hull of finely sampled circles and the ends of the ground contact (Andrew's monotone
-  // chain). A polygon of pins is shorter than its circle: the circles here have the polygon's length a radian.
+  // chain). A polygon of pins is shorter than its circle; these circles have the length of the polygon per radian.
   const Frame f(atRear(spec));
   const double sprocketRadius = spec.pitchRadius(), idlerRadius = f.pitch / f.idlerStep;
   std::vector<PlanePoint> points{{f.rearWheelX, f.groundZ}, {f.frontWheelX, f.groundZ}};

@@ -25,7 +25,7 @@ namespace detail {
 
 struct SceneData {
   std::string text;
-  std::filesystem::path file; ///< for messages and relative paths
+  std::filesystem::path file; ///< file name in messages; relative paths start from its folder
   std::vector<std::string> overrides;
   scene::Scene scene;
 };
@@ -35,7 +35,7 @@ struct RanksData {
   RanksData(int& argc, char**& argv) : ranks(argc, argv) {}
 };
 
-/// Translates internal errors to the public exceptions.
+/// Calls a function and translates internal errors into the public exceptions.
 template <class Call> auto translated(const Call& call) -> decltype(call()) {
   try {
     return call();
@@ -50,27 +50,27 @@ template <class Call> auto translated(const Call& call) -> decltype(call()) {
   }
 }
 
-/// A simulation and, where it has a folder, its session.
+/// A simulation and, if it has an output folder, its session.
 struct Run {
   Run(const Scene& scene, const Options& options, const std::optional<std::filesystem::path>& resume);
   ~Run();
 
-  /// The vehicle's rig; throws InputError without one.
+  /// The vehicle's rig; throws InputError if the scene has no vehicle.
   const coupling::VehicleRig& rig() const;
   /// Throws InputError with `what` (the refused call) if the simulation is finished or has failed.
   void requireOpen(const char* what) const;
-  /// Validates inputs and queues them for act(): a setter is not collective, act() is.
+  /// Validates inputs and queues them for act(). set() is not a collective call over the ranks; act() is.
   void set(const std::vector<coupling::Input>& inputs);
   /// Sets the inputs of the left track and, if there is one, the right track.
   void setTracks(coupling::InputKind kind, double left, double right);
-  /// Returns inputs to the scene's values; all targets if none is given.
+  /// Resets inputs to the values of the scene, for `target` or for all targets.
   void release(std::initializer_list<coupling::InputKind> kinds, const std::optional<std::int32_t>& target = {});
   /// Applies the queued inputs. Collective. Throws InputError if inputs or number of steps differ from those of rank 0;
   /// the message names the rank that differs.
   void act(std::int64_t steps = 0);
-  /// Builds the simulation from the request's checkpoint, as a branch if the request says so. Returns the checkpoint.
+  /// Builds the simulation from the request's checkpoint, as a branch if requested. Returns the checkpoint.
   std::unique_ptr<storage::Checkpoint> goOn();
-  /// The simulation; throws InputError if a failed restore() has left none.
+  /// The simulation; throws InputError if a failed restore() has left no simulation.
   coupling::Simulation& now() const;
   void step(std::int64_t count, const std::function<bool()>& keepGoing);
   /// Returns the exception that keepGoing has thrown, or null.
@@ -89,12 +89,12 @@ struct Run {
   base::Exec exec;
   session::Caches kept;
   std::unique_ptr<coupling::Simulation> simulation;
-  std::optional<session::RunSession> session; ///< empty without a folder, and after finish()
+  std::optional<session::RunSession> session; ///< empty without an output folder, and after finish()
   support::FileLock lock;                     ///< lock of the folder of a resumed run
   std::vector<coupling::Input> pending;       ///< inputs queued for act()
   bool finished = false;
   std::string failed;            ///< message of the failed step
-  bool isStepping = false;       ///< within step() or keepGoing
+  bool isStepping = false;       ///< true during step(), including keepGoing
   std::int64_t stepsAtATime = 1; ///< steps between two calls of keepGoing
   support::Stopwatch since;
 };

@@ -16,8 +16,8 @@ namespace {
 constexpr const char* kUsage =
     "usage: grouser_assets FOLDER\n"
     "       grouser_assets --wheel FILE RADIUS WIDTH GROUSERS HEIGHT THICKNESS\n"
-    "Writes the meshes of the vehicles and of rigs into FOLDER as OBJ [m], or into FILE a wheel with GROUSERS [-]\n"
-    "straight blades of HEIGHT and THICKNESS on a drum of RADIUS and WIDTH, all [m].\n";
+    "Writes the meshes of the vehicles and of rigs to FOLDER as OBJ [m]; or writes a wheel to FILE, with GROUSERS [-]\n"
+    "straight blades of HEIGHT and THICKNESS on a drum of RADIUS and WIDTH, all in [m].\n";
 
 /// Returns true if the file was written.
 bool write(const std::filesystem::path& path, const grouser::assets::NamedMesh& part) {
@@ -26,7 +26,7 @@ bool write(const std::filesystem::path& path, const grouser::assets::NamedMesh& 
   file << text;
   file.close();
   if (!file) {
-    std::fprintf(stderr, "%s: cannot write; check that the folder exists and is writable\n", path.c_str());
+    std::fprintf(stderr, "%s: cannot be written; check that the folder exists and is writable\n", path.c_str());
     return false;
   }
   std::printf("%s: %zu triangles, %zu bytes\n", path.c_str(), part.mesh.indices.size() / 3, text.size());
@@ -56,7 +56,7 @@ int writeWheel(char** words) {
 
 } // namespace
 
-/// Exit code 2 for wrong arguments and when a file cannot be written.
+/// Returns exit code 2 for wrong arguments, and if a file cannot be written.
 int main(int argc, char** argv) {
   if (argc == 8 && std::string_view(argv[1]) == "--wheel") return writeWheel(argv + 2);
   if (argc != 2 || argv[1][0] == '-') {

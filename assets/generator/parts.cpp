@@ -81,7 +81,7 @@ std::string toObj(const NamedMesh& part) {
   std::string text =
       "# " + part.name + ", made by grouser_assets [m]; x forward, y left, z up\n" + "o " + part.name + "\n";
   char line[128];
-  // Rounded to a picometre, so that sin(pi) prints as 0.
+  // Round to a picometre, so that sin(pi) prints as 0.
   auto clean = [](double v) { return std::floor(v * 1e12 + 0.5) * 1e-12 + 0.0; };
   for (const Vec3d& v : part.mesh.vertices) {
     std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", clean(v.x), clean(v.y), clean(v.z));

@@ -6,21 +6,21 @@
 #include <string>
 #include <vector>
 
-/// Generates the vehicle's meshes from a few lengths. Every part is a union of closed shells that may overlap; each is
-/// a 2-manifold with outward, counter-clockwise triangles. Part frame: origin at the part's natural centre, x forward,
-/// y left, z up; wheels turn about y. All lengths in metres.
+/// Generates the vehicle's meshes from a few lengths. Every part is a union of closed shells that may overlap; each
+/// shell is a 2-manifold with outward, counter-clockwise triangles. Part frame: origin at the part's natural centre,
+/// x forward, y left, z up; wheels turn about y. All lengths are in metres.
 namespace grouser::assets {
 
 using base::TriangleMesh;
 
-/// Lengths that parts of one track share.
+/// Lengths that the parts of one track have in common.
 struct TrackDims {
   double pitch{0.154};           ///< distance between neighbouring pins
   double plateTop{0.020};        ///< wheel plate above the line of pins
   double padBottom{-0.040};      ///< pad below the line of pins
   double grouserDepth{0.015};    ///< grouser tips below the pad
   double grouserX{0.045};        ///< grousers at x = +-this
-  double grouserWidth{0.016};    ///< grouser's length in x at its root
+  double grouserWidth{0.016};    ///< length of a grouser in x at its root
   double chamfer{0.003};         ///< chamfer of grouser tips, pad edges and wheel discs
   double plateHalfLength{0.068}; ///< plates and pad in x
   double plateInner{0.030};      ///< wheel plates from this |y| ...
@@ -39,8 +39,8 @@ struct TrackDims {
   int bossFacets{48};            ///< facets of a boss
 };
 
-/// One track shoe: pad with two grousers, two wheel plates, guide horn, and at x = +pitch/2 the two bosses and pins of
-/// that joint (those at -pitch/2 belong to the neighbour). Origin between the pins.
+/// One track shoe: pad with two grousers, two wheel plates, guide horn, and the two bosses and pins of the joint at
+/// x = +pitch/2 (bosses and pins at -pitch/2 belong to the neighbour). Origin between the pins.
 TriangleMesh shoe(const TrackDims& dims = {});
 
 /// Two discs on a hub: road wheel, roller, idler.
@@ -51,7 +51,7 @@ struct WheelDims {
 };
 TriangleMesh wheel(const WheelDims& wheel, const TrackDims& dims = {});
 
-/// The sprocket's own lengths (profile of a gap: x tangential, y radial, from the pin seated in it).
+/// Lengths of the sprocket. Profile of a gap: x tangential, y radial, relative to the pin seated in the gap.
 struct SprocketDims {
   int teeth{10};
   double pinRadius{0.249177};             ///< radius of the circle of seated pins
@@ -80,7 +80,7 @@ struct GrouserWheelDims {
   double grouserThickness{0.005}; ///< thickness of a blade
   int facets{6};                  ///< number of facets of the drum between two blades
 };
-/// Throws std::invalid_argument where the blades would overlap.
+/// Throws std::invalid_argument if the blades would overlap.
 TriangleMesh grouserWheel(const GrouserWheelDims& dims = {});
 
 /// Hull of the vehicle for pictures, not for contact. Origin: axle of the rear sprockets on the centre line.
@@ -98,7 +98,7 @@ std::vector<NamedMesh> vehicleParts();
 /// Parts of the M113-like vehicle, in a separate folder: m113/shoe, road_wheel, idler, sprocket, chassis.
 std::vector<NamedMesh> m113Parts();
 
-/// Lengths of the robot's running gear over those of the default vehicle [-].
+/// Length scale: robot's running gear / default vehicle [-].
 inline constexpr double kRobotScale = 0.35;
 /// The robot's parts, in a separate folder: scaled parts of the default vehicle, and a hull.
 std::vector<NamedMesh> robotParts();
@@ -106,7 +106,7 @@ std::vector<NamedMesh> robotParts();
 /// Parts of rigs in runs/scenes: grouser_wheel.
 std::vector<NamedMesh> rigParts();
 
-/// OBJ text with nine significant digits; the same bytes on every machine.
+/// OBJ text with nine significant digits; bitwise equal on every machine.
 std::string toObj(const NamedMesh& part);
 
 } // namespace grouser::assets

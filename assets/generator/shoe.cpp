@@ -5,7 +5,7 @@
 namespace grouser::assets {
 namespace {
 
-/// Overlap of a shell with the one it stands on, so that no two faces coincide [m].
+/// Overlap of a shell with the shell below it, so that no two faces coincide [m].
 constexpr double kSunk = 0.010;
 /// The pad ends this far below the line of pins, clear of the neighbour's pins (radius 0.010) at any fold.
 constexpr double kPadTop = -0.015;
@@ -54,7 +54,7 @@ void addHorn(TriangleMesh& mesh, const TrackDims& d) {
        {0, 0, foot}, {0, 0, tip});
 }
 
-/// Bosses and pins of the joint at x = +pitch/2, with a lug that carries each pin beside the wheel plate.
+/// Bosses and pins of the joint at x = +pitch/2, with a lug that supports each pin beside the wheel plate.
 void addBosses(TriangleMesh& mesh, const TrackDims& d) {
   const double x = d.pitch / 2, lugInner = d.plateOuter + 0.003, lugOuter = d.padHalfWidth - 0.003;
   for (const double side : {-1.0, 1.0}) {

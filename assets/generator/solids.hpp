@@ -25,11 +25,11 @@ void prism(TriangleMesh& mesh, const std::vector<std::pair<double, double>>& pol
 void box(TriangleMesh& mesh, const Vec3d& low, const Vec3d& high);
 
 /// Circle about the line parallel to y through (x, z), first vertex on the +x side, running towards +z.
-/// `radius` is the mean radius of the polygon, its vertices lie a little farther out.
+/// `radius` is the mean radius of the polygon; the vertices are slightly further out.
 Ring circle(double x, double y, double z, double radius, int facets);
 
-/// Appends the body that turns `profile`, pairs (y, mean radius) with ascending or equal y, about the line parallel to
-/// y through (x, z). Both ends are closed by flat caps.
+/// Appends a body of revolution: `profile`, pairs (y, mean radius) with ascending or equal y, rotated about the line
+/// parallel to y through (x, z). Both ends are closed by flat caps.
 void lathe(TriangleMesh& mesh, const std::vector<std::pair<double, double>>& profile, double x, double z, int facets);
 
 } // namespace grouser::assets

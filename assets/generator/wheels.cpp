@@ -9,7 +9,7 @@
 namespace grouser::assets {
 namespace {
 
-/// A point of the gap profile in polar form about the axle, the angle from the gap's middle.
+/// A point of the gap profile in polar coordinates about the axle; the angle starts at the middle of the gap.
 struct Polar {
   double angle, radius;
 };
@@ -20,7 +20,7 @@ std::vector<Polar> toothPeriod(const SprocketDims& d) {
     const double radial = d.pinRadius + y;
     return Polar{base::atan2(x, radial), std::sqrt(x * x + radial * radial)};
   };
-  // Half a gap from its bottom to the tip: the seat arc, then the flank arc.
+  // Half of a gap, from the bottom to the tip: the seat arc, then the flank arc.
   std::vector<Polar> half;
   const double seatEnd = d.seatHalfAngle * base::kPi / 180;
   const int seat = d.seatSegments / 2;
@@ -82,7 +82,7 @@ TriangleMesh sprocket(const SprocketDims& dims) {
     return points;
   };
 
-  // One shell: the hub, which stands 2 mm out of the rings, and the two rings grown from it.
+  // One shell: the hub, which projects 2 mm from the rings, and the two rings.
   const double hub = dims.hubRadius, end = dims.ringOuter + 0.002;
   TriangleMesh mesh;
   loft(mesh,
@@ -96,9 +96,9 @@ TriangleMesh sprocket(const SprocketDims& dims) {
 TriangleMesh grouserWheel(const GrouserWheelDims& dims) {
   const double pitch = 2 * base::kPi / dims.grousers, half = 0.5 * dims.grouserThickness;
   const double tip = dims.radius + dims.grouserHeight;
-  const double foot = base::atan2(half, dims.radius); // angle of a blade's half at its foot
+  const double foot = base::atan2(half, dims.radius); // half angle of a blade at its foot
   if (dims.grousers < 3 || dims.facets < 1 || !(2 * foot < pitch))
-    throw std::invalid_argument("grousers overlap at the drum; use fewer or thinner ones");
+    throw std::invalid_argument("grousers overlap at the drum; use fewer or thinner grousers");
   std::vector<Polar> outline;
   for (int k = 0; k < dims.grousers; ++k) {
     const double middle = pitch * k, end = base::atan2(half, tip);

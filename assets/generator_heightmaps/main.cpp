@@ -15,7 +15,7 @@
 /// Writes the project's height-maps as grey PNG pictures: see grouser_heightmaps --help.
 namespace grouser::heightmaps {
 
-/// InputError: the file cannot be written.
+/// Throws InputError if the file cannot be written.
 void write(const Picture& picture, const std::filesystem::path& file) {
   std::vector<std::uint8_t> bytes8;
   std::vector<std::uint16_t> bytes16;
@@ -47,8 +47,8 @@ std::string footer() {
   std::string text = "Height-maps, with dimensions for a terrain of 20 m x 8 m and heights from 0 to 0.4 m:\n";
   for (const Picture& p : kPictures)
     text += fmt::format("  {:<11} {:>3} x {:>3}, {:>2} bit   {}\n", p.name, p.columns, p.rows, p.bits, p.help);
-  return text + "The left column is x = 0, the top row the far edge (largest y). Pixels are points; the outermost lie "
-                "on the border of the terrain. Black and white are the limits of terrain.height_range in a scene.";
+  return text + "The left column is x = 0, the top row the far edge (largest y). Pixels are points; the outermost "
+                "are on the border of the terrain. Black and white are the limits of terrain.height_range in a scene.";
 }
 
 /// The selected height-maps in the selected size.

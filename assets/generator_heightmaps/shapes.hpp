@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <string_view>
 
-/// The height-maps of the project as functions: brightness in [0, 1] at (u, v), both in [0, 1]; u runs along x (the
-/// picture's left to right), v along y (the picture's bottom to top). The scene sets size and heights in
-/// metres. Dimensions in brackets hold for 20 m x 8 m and heights from 0 to 0.4 m.
+/// The height-maps of the project as functions: brightness in [0, 1] at (u, v), both in [0, 1]; u runs along x (left to
+/// right in the picture), v along y (bottom to top). The scene sets size and heights in metres. Dimensions in brackets
+/// are for a terrain of 20 m x 8 m and heights from 0 to 0.4 m.
 namespace grouser::heightmaps {
 
 /// Level ground at half height (in 8 bits the level above, 128).
@@ -55,8 +55,8 @@ struct Picture {
   double (*shape)(double, double);
   std::string_view help;
 
-  /// Value of a pixel, rounded to the nearest of 2^bits levels. Row 0 is the far edge, v = 1; pixels are points at the
-  /// corners.
+  /// Value of a pixel, rounded to the nearest of 2^bits levels. Row 0 is the far edge, v = 1; the outermost ones are on
+  /// the edges.
   std::uint16_t pixel(int column, int row) const {
     const double u = double(column) / (columns - 1), v = 1 - double(row) / (rows - 1);
     return static_cast<std::uint16_t>(std::floor(shape(u, v) * ((1 << bits) - 1) + 0.5));

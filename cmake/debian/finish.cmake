@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Changes to the staged files required by Debian policy; called by CPack before packing.
+# Changes the staged files as required by Debian policy; CPack calls this script before it packs.
 set(stage ${CPACK_TEMPORARY_INSTALL_DIRECTORY})
 
 function(grouser_call)
@@ -7,11 +7,11 @@ function(grouser_call)
   set(said "${said}" PARENT_SCOPE)
 endfunction()
 
-# Compressed without a time stamp, for reproducible packages.
+# Compress without a time stamp, for reproducible packages.
 file(GLOB pages ${stage}/program/usr/share/man/man1/*.1)
 grouser_call(gzip -9nf ${pages})
 
-# Documents in a folder named after the package, with copyright and Debian changelog.
+# Documents are in a folder named after the package, with copyright and Debian changelog.
 if(CPACK_GROUSER_SUFFIX)
   file(RENAME ${stage}/program/usr/share/doc/grouser ${stage}/program/usr/share/doc/grouser${CPACK_GROUSER_SUFFIX})
 endif()

@@ -10,8 +10,8 @@
 namespace grouser::multibody::detail {
 
 /// Anderson acceleration (1965, J. ACM 12:547; as in Walker and Ni 2011, SIAM J. Numer. Anal. 49:1715) of z <- z +
-/// f(z), which also converges if a few directions do not. From the last changes dZ of the iterate and
-/// dF of its correction it computes
+/// f(z), which also converges if the plain iteration diverges in a few directions. From the last changes dZ of the
+/// iterate and dF of its correction it computes
 ///   gamma = argmin |f - dF gamma|,   z <- z + f - (dZ + dF) gamma.
 /// For a linear problem this is equivalent to GMRES.
 class AndersonAcceleration {
@@ -45,7 +45,7 @@ public:
       for (std::size_t i = 0; i < n; ++i) sum += weight[i] * a[i] * b[i];
       return sum;
     };
-    // Modified Gram-Schmidt, newest pair first; each q_j has its matching dZ + dF in s_j.
+    // Modified Gram-Schmidt, newest pair first; s_j is the combination of dZ + dF that corresponds to q_j.
     std::array<bool, kMemory> used{};
     std::array<std::array<double, kMemory>, kMemory> R{};
     std::array<double, kMemory> target{};

@@ -11,7 +11,7 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Adds a spring-damper: `force` known at the start of the step, stiffness and damping for its implicit part.
+/// Adds a spring-damper: `force` is known at the start of the step; stiffness and damping form the implicit part.
 void add(AxisLaw& law, double force, double stiffness, double damping, double dt) {
   law.known += force;
   law.inverseCompliance += dt * damping + dt * dt * stiffness;
@@ -28,7 +28,7 @@ void add(AxisLaw& law, const LinearSpring& spring, double x, double dt) {
 /// Damping of an end stop over a step [N s/m] or [N m s/rad]. A stop is never adhesive: during separation its damper is
 /// limited by the spring force at the end of the step,
 ///   k (over + dt rate) + c rate >= 0,
-/// so that no force remains without other loads. Below 0: contact with the stop ends within the step.
+/// so that no force remains without other loads. A value below 0 means that contact ends within the step.
 double stopDamping(const AxisSpring& spring, double over, double rate, double dt) {
   if (rate * over >= 0) return spring.stopDamping;
   return std::min(spring.stopDamping, spring.stopStiffness * (over + dt * rate) / -rate);
@@ -118,7 +118,7 @@ void AxisLaws::evaluate(const ConstraintSystem& system, const State& state, cons
       law.driveForce += drive.law.empty() ? loads.drives[d].force : drive.law.value(state.time);
       continue;
     }
-    // The rate is imposed, so all other forces of the axis are known. The mean rate of a law reproduces its position.
+    // The rate is imposed, so all other forces of the axis are known. The mean rate of a law leads to its position.
     law.driven = true;
     law.speed = drive.law.empty()
                     ? loads.drives[d].speed

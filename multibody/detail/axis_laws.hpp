@@ -17,7 +17,7 @@ struct AxisWork {
 /// Assembles the forces along each axis row in one step of the symplectic Euler scheme: joint damping, springs, end
 /// stops, drives. Springs are implicit,
 ///   F = F_0 - k (x + dt x'_new - x_0) - c x'_new  =  [F_0 - k (x - x_0)]  -  (c + dt k) x'_new,
-/// with the bracket known at the start of the step and the rest a soft row of compliance 1 / (dt c + dt^2 k).
+/// where the bracket is known at the start of the step; the last term is a soft row of compliance 1 / (dt c + dt^2 k).
 class AxisLaws {
 public:
   AxisLaws(const Model& model, const ConstraintSystem& system);
@@ -31,7 +31,7 @@ public:
 
 private:
   const Model* model_;
-  std::vector<double> jointDamping_; ///< damping of the joint axes, which precede all others
+  std::vector<double> jointDamping_; ///< damping of the joint axes, which precede all other axes
 };
 
 /// Signed distance beyond the limits of a spring's end stops; 0 between them.
@@ -50,7 +50,7 @@ inline bool imposesMotion(const Drive& drive) { return drive.kind != DriveKind::
 
 /// Position imposed by a drive's law at time t [rad, m]; `start`: axis position at t = 0.
 double drivenPosition(const Drive& drive, double start, double t);
-/// Rate imposed by that law [rad/s, m/s].
+/// Rate imposed by a drive's law at time t [rad/s, m/s].
 double drivenRate(const Drive& drive, double t);
 
 } // namespace grouser::multibody::detail

@@ -32,7 +32,7 @@ inline double ownDamping(const ConstraintSystem& system, const Model& model, con
   return c.kind == ConstraintKind::kCylindrical && axis.row == kSlideRow ? joint.slideDamping : joint.damping;
 }
 
-/// Spring of the element that owns an axis row; for a joint only a damper.
+/// Spring of the element that owns an axis row; for a joint, only its damper.
 inline LinearSpring ownSpring(const ConstraintSystem& system, const Model& model, const Loads& loads,
                               const Axis& axis) {
   const Constraint& c = system.constraints()[static_cast<std::size_t>(axis.constraint)];

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-/// Kernels on 6x6 blocks, stored by columns of 8 numbers of which the first 6 are used (entry (row, column) at [8
-/// column + row]; a column is one cache line), and on vectors of 8 with 6 in use. A column is one compiler vector: one
-/// register with AVX-512, two with AVX2, four with SSE2. The order of the operations on each number is the same, so the
-/// results are bitwise equal. The last two lanes are zero throughout.
+/// Kernels on 6x6 blocks, and on vectors of 6 numbers padded to 8. A block is stored by columns of 8 numbers, padded
+/// likewise (entry (row, column) at [8 column + row]; a column is one cache line). A column is one compiler vector: one
+/// register with AVX-512, two with AVX2, four with SSE2. The order of operations on each number is always the same, so
+/// the results are bitwise equal. The last two lanes are always zero.
 namespace grouser::multibody::detail {
 
 inline constexpr int kStride = 8;
@@ -21,8 +21,8 @@ using Column4 = base::Simd<double, 4>;
 using Column2 = base::Simd<double, 2>;
 
 /// A = L d L^T in place: unit lower L below the diagonal of `A`, 1/d in `dInverse`. Skips rows that are not in the bit
-/// mask `active` or whose pivot magnitude does not exceed their entry of `smallest`: their 1/d is 0. Returns the
-/// mask of the rows kept.
+/// mask `active`, and rows with a pivot not larger in magnitude than their entry of `smallest`; for these, 1/d = 0.
+/// Returns the mask of the rows kept.
 GROUSER_SIMD unsigned factor6(double* __restrict A, double* __restrict dInverse, const double* __restrict smallest,
                               unsigned active) {
   unsigned kept = 0;

@@ -49,14 +49,14 @@ RowDirections rowDirections(const Constraint& c, const JointFrames& f) {
   return rows;
 }
 
-/// Sets the rows of the kind; the others stay zero.
+/// Sets the rows of a constraint kind; all other rows remain zero.
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows) {
   switch (c.kind) {
   case ConstraintKind::kDistance:
   case ConstraintKind::kPointSpring: {
     const Vec3d d = f.p_B - f.p_A;
     const double l = norm(d);
-    // Coincident points: the spring has no direction and no force.
+    // For coincident points, the spring has no direction and no force.
     rows.force[0] = l > 1e-12 ? d * (1 / l) : Vec3d{};
     return;
   }
@@ -147,7 +147,7 @@ void rowBias(const Constraint& c, const JointFrames& f, const Frame& A, const Fr
              const Twist& V_B, double (&bias)[6]) {
   const Vec3d d = f.p_B - f.p_A, r_A = f.p_A - A.p, r_B = f.p_B - B.p;
   const Vec3d &w_A = V_A.w, &w_B = V_B.w;
-  // d' and the part of d'' that holds without accelerations.
+  // d', and d'' at zero acceleration.
   const Vec3d d1 = V_B.v + cross(w_B, r_B) - V_A.v - cross(w_A, r_A);
   const Vec3d d2 = cross(w_B, cross(w_B, r_B)) - cross(w_A, cross(w_A, r_A));
   // C = u . d, u fixed in A:  u'' . d + 2 u' . d' + u . d''.

@@ -49,7 +49,7 @@ constexpr unsigned hardRows(ConstraintKind kind) {
   return 0;
 }
 
-/// Bit mask of a joint's three force rows; its other rows are torques.
+/// Bit mask of the three force rows of a joint; the other rows are torques.
 constexpr unsigned forceRows(ConstraintKind kind) {
   return kind == ConstraintKind::kPrismatic     ? 1u << kAxisRow | 0x03u
          : kind == ConstraintKind::kCylindrical ? 1u << kSlideRow | 0x03u
@@ -88,11 +88,11 @@ JointFrames framesOf(const Constraint& c, const Frame& A, const Frame& B);
 /// Computes C of the hard rows [m, rad]; sets the others to 0.
 void positionError(const Constraint& c, const JointFrames& f, double (&error)[6]);
 
-/// Sets the directions of all rows, including axis row or spring direction; rows absent from the kind stay zero.
+/// Sets the directions of all rows, including axis row or spring direction; rows that the kind lacks remain zero.
 void setRowDirections(const Constraint& c, const JointFrames& f, RowDirections& rows);
 RowDirections rowDirections(const Constraint& c, const JointFrames& f);
 
-/// Jacobian blocks of the rows: row r times (v, w) of A (of B) is the contribution of that body to C'.
+/// Jacobian blocks of the rows: row r times (v, w) of A (of B) is the contribution of A (of B) to C'.
 void rowBlocks(const RowDirections& rows, const Vec3d& p_B, const Vec3d& com_A, const Vec3d& com_B, Block& jacobianA,
                Block& jacobianB);
 

@@ -95,7 +95,7 @@ std::vector<ConstraintEdge> ConstraintGraph::edges() const {
   for (const Constraint& c : constraints_) {
     ConstraintEdge edge;
     edge.bodies = {c.nodeA, c.nodeB};
-    // A rod removes only one degree of freedom: cheaper as a loop constraint.
+    // A rod removes only one degree of freedom; as a loop constraint it is cheaper.
     edge.joint = isJoint(c.kind) && c.kind != ConstraintKind::kDistance;
     edge.hard = hardRows(c.kind);
     edge.rows = edge.hard | axisRows(c.kind);
@@ -128,7 +128,7 @@ double ConstraintGraph::positionOfAxis(int axis, const std::vector<Frame>& frame
 }
 
 int ConstraintGraph::axisOf(int joint, JointAxis axis) const {
-  // Axis rows of a cylindrical: the slide first, then the angle. The model has resolved kOnly.
+  // Axis rows of a cylindrical joint: first the slide, then the angle. The model has already resolved kOnly.
   return axis == JointAxis::kAngle ? firstAxis(joint + 1) - 1 : firstAxis(joint);
 }
 

@@ -46,7 +46,7 @@ public:
   /// Axis rows in the order of the constraints; constraint k has the rows firstAxis(k) to firstAxis(k + 1) - 1.
   const std::vector<Axis>& axes() const { return axes_; }
   int firstAxis(int constraint) const { return firstAxis_[static_cast<std::size_t>(constraint)]; }
-  /// Index of a joint's axis.
+  /// Index of an axis of a joint.
   int axisOf(int joint, JointAxis axis) const;
   const std::vector<CouplingRow>& couplings() const { return couplings_; }
   int couplingNode(int coupling) const { return movableBodies() + static_cast<int>(constraints_.size()) + coupling; }

@@ -52,8 +52,8 @@ void ConstraintSystem::setSizes() {
   for (int k = 0; k < static_cast<int>(constraints().size()); ++k) setPivotThreshold(k);
 }
 
-/// In redundant constraints only rows with a good pivot are kept: the dependent row may change during motion, and
-/// dropping a wrong one leaves a small pivot.
+/// In redundant constraints, keeps only rows with a good pivot: the dependent row may change during motion, and if a
+/// wrong row is dropped, a small pivot remains.
 void ConstraintSystem::setPivotThreshold(int k) {
   constexpr double kGoodPivot = 1e-3;
   double part = pivotScale_ * Elimination::kPivotTolerance;
@@ -76,29 +76,29 @@ void ConstraintSystem::scalePivotThreshold(double scale) {
   for (int k = 0; sized_ && k < static_cast<int>(constraints().size()); ++k) setPivotThreshold(k);
 }
 
-/// With redundant rows, first only good pivots are kept. If more rows than the redundant ones are lost, a singular
-/// position is near: then every row with a pivot is kept.
+/// With redundant rows, first keeps only rows with good pivots. If this loses more rows than the redundant ones, a
+/// singular position is near; then every row with a pivot is kept.
 int ConstraintSystem::linearise(const Part& part, const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {
   ++linearisation_[at(part.index)];
   setUp(frames, laws);
   if (!sized_) setSizes();
-  int leftOut = elimination_->factor();
+  int omitted = elimination_->factor();
   const int expected = expectedLost_[at(part.index)];
   if (expected > 0) {
-    if (leftOut > expected) {
+    if (omitted > expected) {
       strict_ = true;
       for (const int k : part.constraints)
         if (redundant_[at(k)]) setPivotThreshold(k);
-      leftOut = elimination_->factor();
+      omitted = elimination_->factor();
       strict_ = false;
       for (const int k : part.constraints)
         if (redundant_[at(k)]) setPivotThreshold(k);
     }
     for (const int k : part.constraints) hard_[at(k)] = hardRows(constraints()[at(k)].kind) & elimination_->keptRows(k);
-    leftOut = std::max(leftOut - expected, 0);
+    omitted = std::max(omitted - expected, 0);
   }
   if (couplingsOn_ && !part.couplings.empty()) factorCouplings(part);
-  return leftOut;
+  return omitted;
 }
 
 void ConstraintSystem::setUp(const std::vector<Frame>& frames, const std::vector<AxisLaw>& laws) {

@@ -26,23 +26,23 @@ struct AxisLaw {
   double speed = 0; ///< imposed rate
 };
 
-/// Mechanism linearised at given poses: rows, masses and their factorisation. Independent of the time integration:
-/// integrators use its position errors and solutions of
+/// Mechanism linearised at given poses: rows, masses and their factorisation. It does not depend on the time
+/// integration: integrators use its position errors and its solutions of
 ///   M dv - J^T dLambda = bodyResidual,   J dv + G dLambda = rowResidual.
 ///
-/// A coupling row b acts on up to four bodies and lies outside the blocks of the factor. With Y = K^-1 b^T and the
-/// small matrix S = b Y (symmetric, positive semidefinite), a solution x of the other rows is completed to x + Y mu by
-/// S mu = residual - b x.
+/// A coupling row b acts on up to four bodies and is not in the blocks of the factor. With Y = K^-1 b^T and the small
+/// matrix S = b Y (symmetric, positive semidefinite), the complete solution is x + Y mu, where x is the solution of the
+/// other rows and S mu = residual - b x.
 class ConstraintSystem : public ConstraintGraph {
 public:
   explicit ConstraintSystem(const Model& model);
 
   const Elimination& elimination() const { return *elimination_; }
 
-  /// Hard rows kept by the last linearise() (before the first: all of the kind). Each linearise() drops the most
+  /// Hard rows kept by the last linearise(); before the first call, all hard rows. Each linearise() drops the most
   /// dependent rows of redundant constraints, and rows without a pivot in singular positions.
   unsigned hardRowsOf(int constraint) const { return hard_[static_cast<std::size_t>(constraint)]; }
-  /// Marks `row` of a constraint, or an equivalent one, as redundant in all positions.
+  /// Marks `row` of a constraint, or an equivalent row, as redundant in all positions.
   void noteRedundant(int constraint, int row);
 
   /// Assembles and factors one part at `frames`. `laws`: one per axis. Returns the number of rows dropped as singular.
@@ -83,9 +83,9 @@ public:
   double rowTimes(int constraint, int row, const std::vector<Vector6>& x) const;
   /// False for couplings implied by others, as determined by the last linearise().
   bool couplingKept(int coupling) const { return couplingKept_[static_cast<std::size_t>(coupling)] != 0; }
-  /// Excludes couplings from linearise() and solve() (to analyse the joints alone).
+  /// Excludes couplings from linearise() and solve(), for an analysis of the joints only.
   void setCouplingsOn(bool on) { couplingsOn_ = on; }
-  /// Drops rows whose pivot is below `scale` times the usual threshold.
+  /// Sets the threshold: rows with pivots below `scale` times the usual threshold are dropped.
   void scalePivotThreshold(double scale);
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// SIMD part of ConstraintSystem: four bodies and their joints at a time.
+// SIMD part of ConstraintSystem, which processes four bodies and their joints at a time.
 #include "multibody/detail/link_simd.hpp"
 
 #include "multibody/detail/constraint_system.hpp"

@@ -32,7 +32,7 @@ double ConstraintSystem::rowTimes(int k, int row, const std::vector<Vector6>& x)
   return share(c.nodeB, com_B(k)) - share(c.nodeA, com_A(k));
 }
 
-/// Y and the Cholesky factor of S = b Y. A coupling without pivot is implied by the others and dropped.
+/// Computes Y and the Cholesky factor of S = b Y. A coupling without a pivot is implied by the others and dropped.
 void ConstraintSystem::factorCouplings(const Part& part) {
   for (std::size_t i = 0; i < part.couplings.size(); ++i) {
     const int c = part.couplings[i];
@@ -45,7 +45,7 @@ void ConstraintSystem::factorCouplings(const Part& part) {
     addImpulse(one.constraint, one.row, -row.ratio, y);
     elimination_->solve(y.data());
 
-    // Row i of the factor L of S = L L^T, from the couplings before it.
+    // Row i of the factor L of S = L L^T, from the rows of previous couplings.
     std::vector<double>& L = couplingFactor_[at(c)];
     for (std::size_t j = 0; j <= i; ++j) {
       const int d = part.couplings[j];

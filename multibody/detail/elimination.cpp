@@ -12,7 +12,7 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Number in one lane.
+/// Extracts one lane.
 double& in(Lanes& lanes, int lane) { return reinterpret_cast<double*>(&lanes)[lane]; }
 
 void set(Vec3L& v, int lane, const base::Vec3<double>& value) {
@@ -25,12 +25,12 @@ GROUSER_SIMD Lanes dot6(const Lanes (&a)[6], const Lanes (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
 
-/// Symmetric matrix, lower triangle by columns 00 10 20 11 21 22, times a vector.
+/// Product of a symmetric matrix, stored as lower triangle by columns 00 10 20 11 21 22, and a vector.
 GROUSER_SIMD Vec3L timesSymmetric(const Lanes (&m)[6], const Vec3L& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[1] * v.x + m[3] * v.y + m[4] * v.z,
           m[2] * v.x + m[4] * v.y + m[5] * v.z};
 }
-/// Row-major matrix, and its transpose, times a vector.
+/// Products of a row-major matrix, and of its transpose, with a vector.
 GROUSER_SIMD Vec3L times(const Lanes (&m)[9], const Vec3L& v) {
   return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[3] * v.x + m[4] * v.y + m[5] * v.z,
           m[6] * v.x + m[7] * v.y + m[8] * v.z};
@@ -44,7 +44,7 @@ GROUSER_SIMD void put(Lanes (&a)[6], const Vec3L& v, const Vec3L& w) {
   a[0] = v.x, a[1] = v.y, a[2] = v.z, a[3] = w.x, a[4] = w.y, a[5] = w.z;
 }
 
-/// Reads a node's vector of each lane, six of its eight numbers.
+/// Reads the vectors of four nodes, one per lane: six of their eight numbers.
 GROUSER_SIMD void gatherNodes(const double* const (&row)[kLanes], Lanes (&out)[6]) {
   Lanes low[4], high[4];
   gatherRows(row, 0, low);
@@ -119,8 +119,8 @@ void Elimination::startLoops() {
   }
 }
 
-/// Computes directions dual to the rows; their free ones, and the sweep described in elimination.hpp. `pairs`:
-/// destinations of the products of two columns.
+/// Computes the directions dual to the rows, then eliminates the free directions as described in elimination.hpp.
+/// `pairs`: destinations of the products of two columns.
 GROUSER_SIMD void factorBatch(Elimination::Links& b, Elimination::Column* columns, double* const* pairs) {
   if (b.joint[0] >= 0) {
     const Lanes volume = dot(b.torque[0], cross(b.torque[1], b.torque[2]));
@@ -131,7 +131,7 @@ GROUSER_SIMD void factorBatch(Elimination::Links& b, Elimination::Column* column
     for (int i = 0; i < b.freedoms; ++i) {
       const int r = b.freeRow[at(i)];
       for (int j = 0; j < 3; ++j) {
-        // Rows of forces are orthonormal, hence dual to themselves.
+        // Force rows are orthonormal, hence dual to themselves.
         if (b.forceRow[at(j)] == r) put(b.s[i], b.force[j], {});
         if (b.torqueRow[at(j)] == r) put(b.s[i], cross(b.arm, b.dual[j]), b.dual[j]);
       }
@@ -179,13 +179,13 @@ GROUSER_SIMD void shifted(const Elimination::Links& b, Lanes (&vw)[9], Lanes (&w
   const Lanes m[9] = {b.vv[0], b.vv[1], b.vv[2], b.vv[1], b.vv[3], b.vv[4], b.vv[2], b.vv[4], b.vv[5]};
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
-    // A row times [d] is that row x d.
+    // The product of a row and [d] is the cross product of this row and d.
     const Lanes &a0 = m[3 * i], &a1 = m[3 * i + 1], &a2 = m[3 * i + 2];
     vw[3 * i] = b.vw[3 * i] - (a1 * z - a2 * y);
     vw[3 * i + 1] = b.vw[3 * i + 1] - (a2 * x - a0 * z);
     vw[3 * i + 2] = b.vw[3 * i + 2] - (a0 * y - a1 * x);
   }
-  // [d] vw': each column is d x that column. vw^T [d]: row i is (column i of vw) x d.
+  // [d] vw': each column is the cross product of d and this column. vw^T [d]: row i is (column i of vw) x d.
   const auto left = [&](int row, int column) {
     const Lanes &c0 = vw[column], &c1 = vw[3 + column], &c2 = vw[6 + column];
     return row == 0 ? y * c2 - z * c1 : row == 1 ? z * c0 - x * c2 : x * c1 - y * c0;
@@ -237,7 +237,7 @@ GROUSER_SIMD void passOn(Elimination::Links& b, Elimination::Column* columns, st
 }
 
 GROUSER_SIMD_CLONES int Elimination::sweep() {
-  int leftOut = 0;
+  int omitted = 0;
   for (Links& b : links_) {
     const Lanes zero = all(0);
     b.vv[0] = b.vv[3] = b.vv[5] = b.mass;
@@ -247,7 +247,7 @@ GROUSER_SIMD_CLONES int Elimination::sweep() {
   }
   for (const Operation& operation : program_) {
     if (operation.closes) {
-      leftOut += factorLoop(loops_[at(operation.index)]);
+      omitted += factorLoop(loops_[at(operation.index)]);
       continue;
     }
     Links& b = links_[at(operation.index)];
@@ -255,7 +255,7 @@ GROUSER_SIMD_CLONES int Elimination::sweep() {
     factorBatch(b, columns, pairs_.data() + b.firstPair);
     passOn(b, columns, links_);
   }
-  return leftOut;
+  return omitted;
 }
 
 int Elimination::factor() {

@@ -16,23 +16,23 @@ namespace grouser::multibody::detail {
 ///   M dv - J^T dLambda = r           M      mass and inertia of each body, twists at the centres of mass, world axes
 ///   J dv + G dLambda = c             G      diagonal, >= 0: 0 on hard and driven rows, compliance on soft rows
 ///
-/// solved directly along a spanning tree of joints (spanning_tree.hpp), leaves first. A body b that can move relative
-/// to its parent in the directions s_i (dual to the joint's rows) has
+/// is solved directly along a spanning tree of joints (spanning_tree.hpp), leaves first. A body b that can move
+/// relative to its parent in the directions s_i (dual to the joint's rows) satisfies
 ///
 ///   dv_b = X dv_parent + delta + sum s_i q_i             X: shift of a twist between centres of mass
 ///   F = I dv_b + L mu - p                                wrench of the joint; L mu: of the loop constraints
 ///   s_i . F = c_i / G_i - q_i / G_i                      soft row; 0 on a free axis
 ///
-/// delta = motion imposed by the right-hand sides of the rows. Eliminating the q_i one by one subtracts rank-one terms
-/// from the articulated inertia I, from L and from p (Featherstone 1983; for loop-closing constraints Brandl, Johanni
-/// and Otter 1986),
+/// where delta is the motion imposed by the right-hand sides of the rows. The elimination of each q_i subtracts
+/// rank-one terms from the articulated inertia I, from L and from p (Featherstone 1983; for loop-closing constraints
+/// Brandl, Johanni and Otter 1986),
 ///
 ///   U = I s,  D = s . U + 1/G,   I -= U U^T / D,   L -= U (s . L) / D,   p -= U (s . p + c/G) / D
 ///
-/// and the remainder is added to the parent. The loop constraints accumulate -(G + sum (s.L)(s.L)^T / D); each is
-/// eliminated, in blocks, just before its top. Cost: about 250 multiplications per body, and 25 more for each row of a
-/// loop that contains it. A row of a loop constraint with a pivot below kPivotTolerance of its own J M^-1 J^T depends
-/// on others and is dropped (its multiplier is 0). Tree joints always have pivots.
+/// and the remainder is added to the parent. The matrix of the loop constraints is -(G + sum (s.L)(s.L)^T / D); each
+/// constraint is eliminated, in blocks, just before its top. Cost: about 250 multiplications per body, plus 25 for each
+/// row of the loops that contain the body. A row of a loop constraint with a pivot below kPivotTolerance times its own
+/// J M^-1 J^T depends on other rows and is dropped (its multiplier is 0). Tree joints always have pivots.
 ///
 /// Bodies at the same depth are processed four at a time, one per lane. (A vehicle's two rings have two branches each,
 /// which fill four lanes.)
@@ -40,16 +40,16 @@ class Elimination {
 public:
   static constexpr double kPivotTolerance = 1e-11;
 
-  /// Destination of a column of L: the parent's column, or the loop constraint's own block at its top.
+  /// Destination of a column of L: a column of the parent, or, at the top of a loop constraint, the block of the loop.
   struct Onward {
-    double* entry = nullptr; ///< null: none, at the world
+    double* entry = nullptr; ///< null at the world, which needs no column
     int stride = 0;
   };
 
   /// Up to four bodies with their joints.
   struct alignas(64) Links {
     int count = 0, freedoms = 0, columns = 0;
-    bool aligned = false; ///< the parents occupy one batch, in lane order, and so do their columns
+    bool aligned = false; ///< the parents and their columns are in one batch, in lane order
     std::array<int, kLanes> body{}, joint{};
     std::array<int, kLanes> parentBatch{}, parentLane{}; ///< -1: none
     std::array<int, kLanes> parentNode{};                ///< body; -1: the world or no parent
@@ -91,7 +91,7 @@ public:
   Links& links(int batch) { return links_[static_cast<std::size_t>(batch)]; }
   const Links& links(int batch) const { return links_[static_cast<std::size_t>(batch)]; }
   void setBody(int body, double mass, const double (&inertia)[3][3]);
-  /// Sets a constraint between two bodies. Row r is a force at `p_B` and a torque on B, the opposite on A.
+  /// Sets a constraint between two bodies. Row r is a force at `p_B` and a torque on B, and the opposite on A.
   /// `compliance`: G. `active`: bit mask of hard and soft rows; the others are free.
   void setJoint(int constraint, const RowDirectionsOf<double>& rows, const base::Vec3<double>& p_B,
                 const base::Vec3<double>& com_A, const base::Vec3<double>& com_B, const double* compliance,
@@ -99,7 +99,7 @@ public:
   /// Sets any other constraint: one block per body of its edge (row = constraint row, column = v, w of the body).
   void setConstraint(int constraint, const Block* jacobians, const double* compliance, unsigned active);
 
-  /// Sets the pivot sizes below which rows of a loop constraint are dropped; tree joints need none.
+  /// Sets the pivot sizes below which rows of a loop constraint are dropped; not used for tree joints.
   void setSmallestPivots(int constraint, const double (&smallest)[6]);
   /// Factors the system. Returns the number of active rows dropped for lack of a pivot.
   int factor();

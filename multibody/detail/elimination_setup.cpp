@@ -161,7 +161,7 @@ void Elimination::makeLoops(const std::vector<ConstraintEdge>& edges) {
   w_.assign(at(slots), Block{});
   v_.assign(at(slots), Block{});
 
-  // Addresses are set last, when the arrays no longer move.
+  // Addresses are set last, when the arrays are no longer reallocated.
   for (int index = 0; index < static_cast<int>(loops_.size()); ++index) {
     Loop& z = loops_[at(index)];
     for (const int b : z.bodies) {

@@ -7,29 +7,29 @@
 
 #include <cmath>
 
-/// Energy and momentum ledger of a step of symplectic Euler (scheme: euler_step.cpp). Bodies and joints of the spanning
-/// tree are summed four at a time in euler_links.cpp, the rest here.
+/// Energy and momentum ledger of a step of symplectic Euler (scheme: euler_step.cpp). euler_links.cpp sums the bodies
+/// and joints of the spanning tree, four at a time; this file sums the rest.
 ///
-/// Energy. All impulses of a step act at q, on the twist (v_0, w_0), and leave (v, w). As in RATTLE (rattle_ledger.cpp)
-/// that changes the kinetic energy by p.(v_0 + v)/2 + T.(w_0 + w)/2 + G.(w_0 + w)/2 for each body, I that of q, which
-/// the motion with (v_0, w_0) has brought there without changing w_0.I w_0. With S_0 + T = I w + g, g the gyroscopic
-/// momentum that the solution was found with,
+/// Energy. All impulses of a step act at q and change the twist from (v_0, w_0) to (v, w). As in RATTLE
+/// (rattle_ledger.cpp), the kinetic energy of each body changes by p.(v_0 + v)/2 + T.(w_0 + w)/2 + G.(w_0 + w)/2, with
+/// the inertia I at q; the motion with (v_0, w_0) to q has not changed w_0.I w_0. With S_0 + T = I w + g, where g is
+/// the gyroscopic momentum used in the solution,
 ///   G = (S_0 - I w_0) - g.
-/// The residual of the last iterate, g - g(w), stays in the spin and enters the next step's S_0. A constraint exerts F
-/// and M at p_B on B and the opposite on A: its work is
-///   F.(u_0 + u)/2 + M.(r_0 + r)/2,   u the velocity of the point p_B in B less that in A, r = w_B - w_A.
+/// The residual g - g(w) of the last iterate remains in the spin and thus in S_0 of the next step. A constraint exerts
+/// F and M at p_B on B and the opposite on A; its work is F.(u_0 + u)/2 + M.(r_0 + r)/2, where u is the velocity of
+/// p_B as a point of B minus its velocity as a point of A, and r = w_B - w_A.
 ///
-/// Momentum: x x m v + S changes by x x p + T in the step and not while the bodies move, since x moves along v; it
-/// cancels between movable bodies. An immovable body contributes (F, p_B x F + M).
+/// Momentum. The impulses change x x m v + S by x x p + T; the motion of the bodies does not change it, since x moves
+/// along v. Contributions of movable bodies cancel; an immovable body contributes (F, p_B x F + M).
 ///
-/// Steps with rows from several positions (relinearised) use the change of momentum itself; what is not gravity or load
-/// counts as ground reaction.
+/// If rows of several positions act in a step (relinearised), the change of momentum itself is used; everything except
+/// gravity and loads counts as ground reaction.
 namespace grouser::multibody::detail {
 
 namespace {
 Vec3d laneOf(const Vec3L& v, int l) { return {v.x[l], v.y[l], v.z[l]}; }
 
-/// Gain of a spring F = load - stiffness (x - rest) from x0 to x1, without the cancellation of two large energies.
+/// Energy gain of a spring F = load - stiffness (x - rest) from x0 to x1, without cancellation of two large energies.
 double gainOf(double load, double stiffness, double rest, double x0, double x1) {
   return (x1 - x0) * (stiffness * (0.5 * (x0 + x1) - rest) - load);
 }
@@ -50,7 +50,7 @@ Twist EulerStep::relativeTwist(int k, const std::vector<Twist>& twist) const {
   return motion;
 }
 
-/// Records the motion before the step of constraints outside the spanning tree.
+/// Records the motion, before the step, of the constraints outside the spanning tree.
 void EulerStep::noteOldMotion(const ConstraintSystem::Part& part, const State& state) {
   for (const int k : system_.offTree()) oldMotion_[at(k)] = relativeTwist(k, state.twist);
   for (const int c : part.couplings) {
@@ -129,7 +129,7 @@ void EulerStep::recordGround(int k, const Vec3d& force, const Vec3d& torque) {
   stepLedger_.angular += side * (cross(system_.jointFrames(k).p_B, force) + torque);
 }
 
-/// Mixed corrections leave a gyroscopic momentum other than that of the last iterate; it follows from the spins.
+/// Gyroscopic momentum computed from the spins: after mixed corrections it differs from that of the last iterate.
 void EulerStep::recordMixedSpins(const State& state) {
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const LinkLanes& links = system_.links()[i];

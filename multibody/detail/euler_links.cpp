@@ -15,9 +15,9 @@ namespace {
 
 constexpr std::size_t kWidth = kLanes;
 
-/// Rotation per step times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration; below, the iteration itself converges. The second value is for the exact
-/// solution, as in RATTLE.
+/// Rotation per step times the spread of the inertia [rad] above which the gyroscopic equation of each body is solved
+/// by Newton's method within the iteration; below this value the iteration itself converges. The second value is for
+/// the exact solution, as in RATTLE.
 constexpr double kFastSpin = 0.3, kAnySpin = 1e-7;
 
 GROUSER_SIMD Vec3L axisForce(const LinkLanes& b, int a) { return b.rows.force[at(b.axisRow[at(a)])]; }
@@ -67,7 +67,7 @@ GROUSER_SIMD void gatherTwists(const State& state, const std::array<int, kLanes>
 }
 
 GROUSER_SIMD Lanes largestOf(const Lanes& largest, const Lanes& value) {
-  // Written so that NaN counts as the largest.
+  // With this comparison, NaN counts as the largest gap.
   return value <= largest ? largest : value;
 }
 
@@ -78,14 +78,14 @@ double largestLane(const Lanes& x) {
   return largest;
 }
 
-/// Sums over the lanes of four numbers.
+/// Sums four numbers over the lanes.
 GROUSER_SIMD Lanes sumsOf(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
   Lanes x[4] = {a, b, c, d};
   base::transpose(x);
   return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/// Rate of an axis of B relative to A: child relative to parent, times the side.
+/// Rate of an axis of B relative to A: rate of the child relative to the parent, times `side`.
 GROUSER_SIMD Lanes axisRate(const LinkLanes& b, int a, const Vec3L& v, const Vec3L& w, const Vec3L& parentV,
                             const Vec3L& parentW) {
   const Vec3L& p = b.frames.p_B;
@@ -161,7 +161,7 @@ GROUSER_SIMD_CLONES void EulerStep::startLinkAxes(const State& state, double dt)
   }
 }
 
-/// The momentum after the new impulses is I w + the gyroscopic part of the previous iterate.
+/// Residual of the momentum: after the new impulses it is I w + the gyroscopic part of the previous iterate.
 void EulerStep::solveAngularVelocity(const Lanes (&inertia)[6], LinkStep& s, int l, double dt) {
   const auto get = [l](const Vec3L& v) { return Vec3d{v.x[l], v.y[l], v.z[l]}; };
   const auto put = [l](Vec3L& v, const Vec3d& value) { v.x[l] = value.x, v.y[l] = value.y, v.z[l] = value.z; };
@@ -438,7 +438,7 @@ GROUSER_SIMD void EulerStep::readAxis(const LinkLanes& b, const LinkStep& s, int
       axis.rate = newRate[l];
       axis.axisForce = axisForce[l];
       axis.driveForce = (law.driven ? s.impulse[r][l] / dt : 0) + law.driveForce;
-      // Most axes have no spring: saves a division.
+      // Most axes have no spring; this saves a division.
       axis.springForce = law.springInverseCompliance == 0
                              ? law.springKnown
                              : law.springKnown - law.springInverseCompliance / dt * newRate[l];

@@ -22,18 +22,18 @@
 ///   J(q) u_new = rate                                    driven rows
 ///   x_2(q_new) - ratio x_1(q_new) = offset               couplings
 ///
-/// That is symplectic Euler with the constraint on positions (SHAKE; Hairer, Lubich and Wanner 2006, VII.1.4): no
-/// drift, no stabilisation term, and the impulses that close the joints are the constraint forces themselves, so that
-/// linear and angular momentum are conserved to round-off and energy has no secular loss. Solved by Newton's method
-/// with the matrix of the velocity problem, factored once a step; the correction of an iteration is dt |w| times the
-/// one before; near singular positions it is helped as in RATTLE (rattle_step.cpp). Soft and driven rows are linear,
-/// are solved once, and are not moved by the corrections.
+/// This is symplectic Euler with constraints on positions (SHAKE; Hairer, Lubich and Wanner 2006, VII.1.4): no drift,
+/// no stabilisation term. The impulses that close the joints are the constraint forces, so that linear and angular
+/// momentum are conserved to round-off and energy has no secular loss. The equations are solved by Newton's method with
+/// the matrix of the velocity problem, factored once per step; each correction is about dt |w| times the previous one.
+/// Near singular positions, the same methods as in RATTLE (rattle_step.cpp) improve convergence. Soft and driven rows
+/// are linear and solved once; corrections do not change them.
 namespace grouser::multibody::detail {
 
 namespace {
 
-/// Iterations before a slow position solve changes phase, and gap ratio above which it is slow: with the matrix of the
-/// start Newton's method reduces a gap by dt |w|, far below a fifth in a reasonable step.
+/// Iterations before a slow position solve changes phase, and gap ratio above which it is slow. With the matrix of the
+/// start of the step, Newton's method reduces a gap by a factor dt |w|, far below a fifth in a reasonable step.
 constexpr int kPatience = 4;
 constexpr double kSlowConvergence = 0.2;
 
@@ -57,11 +57,11 @@ void EulerStep::setFirstResidual(const ConstraintSystem::Part& part, const State
   noteOldMotion(part, state);
 }
 
-/// Gaps of all joints and couplings over -dt. `first`: also residuals of soft and driven axes.
+/// Gaps of all joints and couplings, divided by -dt. `first`: also residuals of soft and driven axes.
 double EulerStep::setGapResidual(const ConstraintSystem::Part& part, const State& state, double dt, bool first) {
   double largest = setLinkGaps(dt, first);
   const double scale = -1 / dt;
-  // Written so that NaN counts as the largest gap.
+  // With this comparison, NaN counts as the largest gap.
   const auto meet = [&](double gap) {
     if (!(std::fabs(gap) <= largest)) largest = std::fabs(gap);
   };
@@ -93,7 +93,7 @@ JointFrames EulerStep::trialFramesOf(int k) const {
   return framesOf(c, trial_[at(c.bodyA)], trial_[at(c.bodyB)]);
 }
 
-/// Row with the largest gap at the end of the step for the current iterate; no constraint if there are only
+/// Row with the largest gap at the end of the step for the current iterate; no constraint if the model has only
 /// couplings.
 EulerStep::OpenRow EulerStep::widestGap() const {
   OpenRow widest;
@@ -128,8 +128,8 @@ void EulerStep::applyCorrection(const ConstraintSystem::Part& part, double dt) {
   for (const int c : part.couplings) couplingImpulse_[at(c)] += x_[at(system_.couplingNode(c))][0];
 }
 
-/// Restarts the solve from the old twist, without rows whose pivot may pass through zero in a rotation of this size.
-/// Returns false, without changes, if there are none.
+/// Restarts the solve from the old twist, without rows with pivots that may pass through zero in such a rotation.
+/// Returns false, without changes, if there are no such rows.
 bool EulerStep::startWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads,
                                      double dt) {
   double turn = 0;
@@ -153,7 +153,7 @@ void EulerStep::solvePart(const ConstraintSystem::Part& part, State& state, cons
   solve.lost = system_.linearise(part, frames_, laws_);
   last_.singularRows += solve.lost;
 
-  // First solve from the old twist: its gap already contains the curvature of the constraints.
+  // First solve, from the old twist; the gap for this twist already contains the curvature of the constraints.
   setFirstResidual(part, state, loads, dt);
   moveLinks(dt);
   setGapResidual(part, state, dt, true);
@@ -204,7 +204,7 @@ bool EulerStep::advance(const ConstraintSystem::Part& part, const State& state, 
   return solve.done || exhausted;
 }
 
-/// All rows, with the matrix of the start of the step: sufficient for nearly every step.
+/// Iterates with all rows and the matrix of the start of the step; sufficient for nearly every step.
 bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& state, const Loads& loads, double dt,
                                PositionSolve& solve) {
   if (solve.done && (solve.lost == 0 || openGap() <= kGapFailure)) return true;
@@ -212,7 +212,7 @@ bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& 
     unpackIterate();
     mixing_.remember(part, solve.gap, newTwist_);
   }
-  // Slow convergence: a singular position is near, or bodies rotate far in a step.
+  // Convergence is slow near a singular position, or if bodies rotate far in a step.
   if (solve.since == kPatience && solve.slow) {
     if (startWithoutWeakRows(part, state, loads, dt))
       solve.enter(Phase::kWithoutWeakRows);
@@ -224,7 +224,7 @@ bool EulerStep::advanceAllRows(const ConstraintSystem::Part& part, const State& 
   return false;
 }
 
-/// Iterates without the weak rows to the inertial motion; from there all rows converge quickly, to the solution
+/// Iterates without the weak rows to the inertial motion; from this iterate all rows converge quickly, to the solution
 /// consistent with inertia.
 void EulerStep::advanceWithoutWeakRows(const ConstraintSystem::Part& part, const State& state, double dt,
                                        PositionSolve& solve) {
@@ -239,7 +239,7 @@ void EulerStep::advanceWithoutWeakRows(const ConstraintSystem::Part& part, const
   solve.enter(Phase::kMixed);
 }
 
-/// Relinearises at the iterate, first at the best one so far.
+/// Relinearises at the current iterate; the first time, at the best iterate so far.
 void EulerStep::relinearise(const ConstraintSystem::Part& part, const State& state, double dt,
                             const PositionSolve& solve) {
   if (solve.since == 0 && std::isfinite(mixing_.bestGap())) {
@@ -258,14 +258,14 @@ void EulerStep::fail(const State& state, double gap, int iterations, double dt) 
   std::ostringstream message;
   message << "multibody step from t = " << state.time << " s";
   if (widest.constraint >= 0)
-    message << ": " << system_.describe(widest.constraint, widest.row) << " stays open by " << widest.gap
+    message << ": " << system_.describe(widest.constraint, widest.row) << " remains open by " << widest.gap
             << " [m or rad]";
   message << " (largest residual " << gap << ") after " << iterations
           << " iterations; the motion is too fast for dt = " << dt << " s: reduce the step, or check the loads";
   throw base::SimulationError(message.str(), base::Cause::fastMotion);
 }
 
-/// Largest gap of all hard rows, including those without a pivot.
+/// Largest gap of all hard rows, including rows without a pivot.
 double EulerStep::openGap() const {
   double largest = 0;
   for (std::size_t k = 0; k < system_.constraints().size(); ++k) {
@@ -294,7 +294,7 @@ void EulerStep::finish(const ConstraintSystem::Part& part, State& state, const L
   for (const int k : system_.offTree()) readConstraint(k, state, dt);
   if (relinearised_) {
     for (const int node : part.bodies) {
-      // The impulses belong to rows of several positions: compute the momentum from the twist.
+      // The impulses act along rows of several positions: compute the momentum from the twist.
       const std::size_t b = at(system_.bodyOf(node));
       const Mat3d I = rotatedInertia(frames_[b].R, model_.bodies()[b].inertia_B);
       state.angularMomentum[b] = I * state.twist[b].w + gyroscopicMomentum(I, state.twist[b].w, dt);
@@ -412,7 +412,7 @@ void EulerStep::step(State& state, const Loads& loads, double dt) {
     std::swap(frames_, trial_);
   else
     system_.place(state.pose, frames_);
-  placed_.clear(); // until the step has succeeded
+  placed_.clear(); // invalid until the step has succeeded
   axisLaws_.evaluate(system_, state, loads, dt, frames_, driveStart_, laws_);
   noteOldLengths(state);
   oldSpin_ = state.angularMomentum;

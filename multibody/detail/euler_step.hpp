@@ -26,7 +26,7 @@ private:
   struct PositionSolve {
     Phase phase = Phase::kAllRows;
     int lost = 0;                    ///< number of rows without a pivot
-    int iterations = 0, since = 0;   ///< total; in the current phase
+    int iterations = 0, since = 0;   ///< number of iterations: total; in the current phase
     double gap = 0, before = 0;      ///< largest gap of the last iteration; of the previous one
     bool done = false, slow = false; ///< result of the last iteration
 
@@ -74,7 +74,7 @@ private:
     Lanes startCos, startSin; ///< cosine and sine of the joint angle before the step
     Lanes spread;             ///< spread of the inertias (spreadOf())
     // Energy ledger.
-    Vec3L gyroLeft;           ///< gyroscopic momentum of the old twist minus that used for the new one
+    Vec3L gyroLeft;           ///< gyroscopic momentum of the old twist minus the one used for the new twist
     Vec3L parentV0, parentW0; ///< twist of the parent before the step
   };
   void startLinks(const State& state, const Loads& loads, double dt);
@@ -94,7 +94,7 @@ private:
     Lanes kinetic, turnover, fall, jointDamping, springDamping, stopDamping;
     Vec3d ground, groundMoment; ///< impulse from immovable bodies on the movable ones
   };
-  /// Velocity of the point p_B of B relative to A, with the angular velocity of B relative to A.
+  /// Velocity of the point p_B of B relative to A, and angular velocity of B relative to A.
   Twist relativeTwist(int k, const std::vector<Twist>& twist) const;
   // Defined in euler_ledger.cpp
   void noteOldMotion(const ConstraintSystem::Part& part, const State& state);

@@ -18,19 +18,19 @@
 ///
 ///   f(q) = J(q)^T lambda,    K u = -d/ds f(q + s u),
 ///
-/// the geometric stiffness of structures under load: a chain link under the tension T turns back with T times its
-/// length [N m/rad]. Both integrators use the directions of f at the beginning of a step. With A the mobility under the
-/// constraints and omega^2 an eigenvalue of A K, a transverse oscillation is therefore stable for steps up to 2 /
-/// omega, as with explicit springs; springs that are implicit along themselves only add mass there.
+/// the geometric stiffness of structures under load. For example, the stiffness against rotation of a chain link under
+/// the tension T is T times its length [N m/rad]. Both integrators use the directions of f at the beginning of a step.
+/// With the mobility A under the constraints and an eigenvalue omega^2 of A K, a transverse oscillation is therefore
+/// stable for steps up to 2 / omega, as with explicit springs; springs implicit along their axis only add mass.
 namespace grouser::multibody::detail {
 
 namespace {
 
-/// Rotation, or displacement over the shortest spring or distance, of the finite difference [rad]: truncation (its
-/// square) and round-off errors stay below 1e-7 of the forces.
+/// Step of the finite difference: rotation, or displacement / shortest spring or distance [rad]. Truncation error (the
+/// square of this step) and round-off are below 1e-7 of the forces.
 constexpr double kTurn = 1e-4;
-/// Power iteration. The estimate increases to the eigenvalue; 1 % accuracy is sufficient.
-constexpr int kIterations = 200, kLeastIterations = 12;
+/// Limits of the power iteration. The estimate increases to the eigenvalue; an accuracy of 1 % is sufficient.
+constexpr int kIterations = 200, kMinIterations = 12;
 constexpr double kSettled = 1e-5;
 
 class GeometricStiffness {
@@ -58,7 +58,7 @@ public:
     double fastest = 0;
     for (const int node : part_.bodies) {
       const double v = norm(linear(x[at(node)]));
-      // Pure translation changes lever arms linearly: any displacement is small enough.
+      // Pure translation changes lever arms linearly, so the displacement need not be small.
       fastest = std::max({fastest, v / shortest_, norm(angular(x[at(node)])), 1e-6 * v});
     }
     motion_ = x;
@@ -166,8 +166,8 @@ void findRowForces(const ConstraintSystem& system, const Model& model, const Con
   }
 }
 
-/// Power iteration u <- A K u. In the norm of kinetic energy A K is symmetric where forces balance, and |A K u| / |u|
-/// grows to the largest of its eigenvalues in size.
+/// Power iteration u <- A K u. In the norm of kinetic energy, A K is symmetric if forces balance, and |A K u| / |u|
+/// increases to the largest absolute eigenvalue.
 double highestGeometricFrequency(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                                  const std::vector<Pose>& poses, const RowForces& forces, std::vector<Vector6>& x,
                                  int& constraint) {
@@ -199,7 +199,7 @@ double highestGeometricFrequency(const ConstraintSystem& system, const Model& mo
     const double now = std::sqrt(stiffness.size2(x));
     const bool settled = now - highest <= kSettled * now;
     highest = std::max(highest, now);
-    if (settled && iteration >= kLeastIterations) break;
+    if (settled && iteration >= kMinIterations) break;
   }
   constraint = stiffness.hardestWorking();
   return highest;

@@ -17,9 +17,9 @@ void findRowForces(const ConstraintSystem& system, const Model& model, const Con
                    const std::vector<Frame>& frames, const State& state, const Loads& loads, const SoftRows& softRows,
                    std::vector<Vector6>& x, RowForces& forces);
 
-/// Largest squared rate [rad2/s2] of the motion due to the geometric stiffness of one part, at the poses of its last
+/// Largest squared rate [rad2/s2] of the motion due to the geometric stiffness of one part, at the poses of the last
 /// linearise(): transverse oscillation of a chain or spring under tension, buckling under compression. `constraint`:
-/// the constraint that contributes most, -1 without forces.
+/// the constraint that contributes most; -1 without forces.
 double highestGeometricFrequency(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                                  const std::vector<Pose>& poses, const RowForces& forces, std::vector<Vector6>& x,
                                  int& constraint);

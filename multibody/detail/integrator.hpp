@@ -9,10 +9,10 @@
 
 namespace grouser::multibody::detail {
 
-/// Gap after all iterations above which the step is too long for the motion [m, rad].
+/// If the gap after all iterations exceeds this value, the step is too long for the motion [m, rad].
 inline constexpr double kGapFailure = 1e-6;
 
-/// Maximum rotation of a body per step [rad]: beyond half a turn its path and joint angles are ambiguous.
+/// Maximum rotation of a body per step [rad]; beyond half a turn, its path and joint angles are ambiguous.
 inline constexpr double kLargestTurn = 3;
 
 /// Throws base::SimulationError if a twist is not finite or rotates the body too far in a step starting at `time`.

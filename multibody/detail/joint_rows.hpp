@@ -10,9 +10,9 @@ namespace grouser::multibody::detail {
 using base::Mat3;
 using base::Vec3;
 
-/// Constraint equations. d = p_B - p_A connects the origins of the two joint frames; x, y, z with index A or B are
-/// their axes; x_A denotes the centre of mass of A (and so on) when subtracted from a point. All in world
-/// components.
+/// Constraint equations in world components. d = p_B - p_A connects the origins of the two joint frames; x, y, z with
+/// index A or B are the axes of these frames. In differences such as p_B - x_A, x_A and x_B denote the centres of
+/// mass of A and B.
 ///
 ///   point row along u_A       C = u_A . d
 ///     rate                    C' = u_A . (v_B + w_B x r_B - v_A) - w_A . ((p_B - x_A) x u_A),      r_B = p_B - x_B
@@ -32,8 +32,8 @@ using base::Vec3;
 ///   axis rows   revolute, cylindrical: angle rate z_A . (w_B - w_A), row 5;
 ///               prismatic (row 5), cylindrical (row 4): point row along z_A.        Drive, spring, damper, coupling.
 ///   point spring  distance l = |d|, n = d / l:  J of a point row along n.                  Row 0.
-///   bushing     points x, y, z (rows 0 to 2); rotation vector phi of R_AB (rows 3 to 5), whose rate in the axes of A
-///   is
+///   bushing     points x, y, z (rows 0 to 2); rotation vector phi of R_AB (rows 3 to 5), with the rate in the axes of
+///               A
 ///                 phi' = Y(phi) w_AB:   J_i: B: [0, R_A Y^T e_i], A: the opposite.       (Y: rotation.hpp)
 enum class ConstraintKind {
   kRevolute,

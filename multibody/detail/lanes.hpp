@@ -3,8 +3,8 @@
 
 #include "base/simd_rows.hpp"
 
-/// Types for four bodies or joints of one kind, one per lane. The formulas are those of base/vec.hpp, with Lanes in
-/// place of double.
+/// Types for four bodies or joints of one kind, one per lane. The formulas are as in base/vec.hpp, with Lanes
+/// instead of double.
 namespace grouser::multibody::detail {
 
 inline constexpr int kLanes = 4;

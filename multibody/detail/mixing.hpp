@@ -11,12 +11,13 @@
 
 namespace grouser::multibody::detail {
 
-/// Near a singular position a row's pivot, relative to its own J M^-1 J^T, is proportional to the squared angle to that
-/// position. Pivot threshold, in units of the usual one, for rows that a rotation [rad] within a step can take through
-/// a singular position.
+/// Pivot threshold, in units of the usual threshold, for rows that a rotation [rad] within a step can move through a
+/// singular position: near such a position, the pivot of a row, relative to its own J M^-1 J^T, is proportional to the
+/// squared angle from the position.
 inline double weakPivotScale(double turn) { return std::max(10 * turn * turn, 1e-6) / Elimination::kPivotTolerance; }
-/// Threshold for rows that can transmit an impulse: a gap of the tolerance allows a deviation of up to its root across
-/// the singular direction, which must be small beside the angle, else the impulse acts on the motion through it.
+/// Pivot threshold for rows that can transmit an impulse. A gap equal to the tolerance allows a deviation of up to its
+/// square root across the singular direction. This must be small compared with the angle from the singular position;
+/// otherwise the impulse changes the motion through this position.
 inline double firmPivotScale(double positionTolerance) {
   return std::max(1.0, 1e2 * positionTolerance / Elimination::kPivotTolerance);
 }
@@ -28,9 +29,9 @@ struct Iterate {
   std::vector<double>& couplingImpulse;        ///< one per coupling
 };
 
-/// Accelerates the position solve of one part if it converges slowly or not at all: near singular positions, where
-/// pivots change in size or sign within a step, and for rotations of about a radian per step. Mixes corrections by
-/// Anderson acceleration (anderson_acceleration.hpp), and keeps the best iterate.
+/// Accelerates the position solve of one part if the solve converges slowly or not at all: near singular positions,
+/// where pivots change in size or sign within a step, and for rotations of about a radian per step. Mixes corrections
+/// by Anderson acceleration (anderson_acceleration.hpp), and stores the best iterate.
 class Mixing {
 public:
   explicit Mixing(const ConstraintSystem& system, const Model& model)

@@ -9,24 +9,24 @@
 
 /// Energy and momentum ledger of a stage of RATTLE (scheme: rattle_step.cpp).
 ///
-/// Energy. The first half kick takes the twist of a body from (v_0, w_0) to the mean twist (v, w) by the impulses p and
-/// T of all forces at q_0, the second from there to (v_1, w_1) by those at q_1; between them the body moves with (v,
-/// w), which turns I along with w and changes neither |v| nor w.I w. With m (v - v_0) = p,
+/// Energy. The first half kick changes the twist of a body from (v_0, w_0) to the mean twist (v, w) by the impulses p
+/// and T of all forces at q_0; the second half kick changes it to (v_1, w_1) by the impulses at q_1. Between the kicks
+/// the body moves with (v, w), which changes neither |v| nor w.I w. With m (v - v_0) = p,
 ///   m (v^2 - v_0^2) / 2 = p.(v_0 + v)/2,
-/// and with the symmetric I_0 of q_0, S_0 the spin of the node and S = S_0 + T the spin between the kicks,
+/// and with the symmetric inertia I_0 at q_0, the spin S_0 of the node and the spin S = S_0 + T between the kicks,
 ///   (w.I_0 w - w_0.I_0 w_0) / 2 = I_0 (w - w_0).(w_0 + w)/2 = T.(w_0 + w)/2 + G.(w_0 + w)/2,
 ///   G = (S_0 - I_0 w_0) - (S - I_0 w):
-/// the work of the torques and that of the gyroscopic terms (S - I_0 w = g(w), rotation.hpp; S_0 = I_0 w_0). The second
-/// kick is the same with I_1, S and S_1. That holds for any h, backward stages too. p and T are the recorded impulses,
-/// S is the state: unrecorded changes of the state appear as a difference of kinetic energy.
+/// the work of the torques and of the gyroscopic terms (S - I_0 w = g(w), rotation.hpp; S_0 = I_0 w_0). The second kick
+/// is analogous with I_1, S and S_1. These equations hold for any h, also for backward stages. p and T are recorded
+/// impulses, but S is a state variable: unrecorded changes of the state appear as a difference of kinetic energy.
 ///
-/// Momentum. p changes x_0 x m v + S by x_0 x p + T, its moment about the origin; the drift adds h v x m v = 0 and does
-/// not change S; likewise the second kick at x_1. Row impulses are opposite forces at one point, with opposite torques:
-/// they cancel between movable bodies, leaving gravity, loads, and rows to immovable bodies, with (F, p_B x F + M) for
-/// the force F at p_B and the torque M.
+/// Momentum. The first kick changes x_0 x m v + S by x_0 x p + T, the moment of its impulses about the origin; the
+/// drift adds h v x m v = 0 and does not change S; the second kick acts likewise at x_1. Row impulses are opposite
+/// forces at one point, with opposite torques, and cancel between movable bodies. The sum therefore consists of
+/// gravity, loads, and rows to immovable bodies, with (F, p_B x F + M) for the force F at p_B and the torque M.
 ///
-/// If the position solve has relinearised, impulses have no single position: the change of momentum itself is recorded.
-/// All forces except gravity and loads count as ground reaction.
+/// If the position solve has relinearised, impulses do not belong to a single position, and the change of momentum
+/// itself is recorded. All forces except gravity and loads then count as ground reaction.
 namespace grouser::multibody::detail {
 
 void RattleStep::give(int k, int row, double impulse) {
@@ -38,7 +38,7 @@ void RattleStep::give(int k, int row, double impulse) {
   stepLedger_.angular += cross(system_.jointFrames(k).p_B, force) + onMovable * system_.rows(k).torque[at(row)];
 }
 
-void RattleStep::bookFirstKick(const Part& part, const State& state, const Loads& loads, double h) {
+void RattleStep::accountFirstKick(const Part& part, const State& state, const Loads& loads, double h) {
   const bool severalPlaces = relinearised_[at(part.index)] != 0;
   for (const int node : part.bodies) {
     const int b = system_.bodyOf(node);

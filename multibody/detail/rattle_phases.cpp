@@ -18,13 +18,13 @@ namespace {
 /// Smallest tolerance of gaps, relative to the coordinates.
 constexpr double kRoundOff = 5e-16;
 
-/// In units of the tolerance: largest stalled gap that counts as round-off, which accumulates over a long loop; and the
-/// gap accepted when no phase is left (1e-12 m or rad by default).
+/// In units of the tolerance: the largest stalled gap that counts as round-off (which accumulates over a long loop),
+/// and the gap accepted if no phase is left (1e-12 m or rad by default).
 constexpr double kNearTolerance = 1e2, kAcceptable = 1e3;
 
-/// Gap ratios of successive iterations. With the matrix of the start Newton's method reduces a gap by h |w|, about 1e-2
-/// in a reasonable step: above a fifth the cause is not curvature, and changing phase costs less than continuing.
-/// Round-off does not even halve it.
+/// Gap ratios of successive iterations. With the matrix of the start of a stage, Newton's method reduces a gap by a
+/// factor h |w|, about 1e-2 in a reasonable step. If the ratio exceeds a fifth, the cause is not curvature, and a
+/// change of phase costs less than further iterations. If it exceeds a half, the gap is round-off.
 constexpr double kSlowIteration = 0.2, kStalled = 0.5;
 
 } // namespace
@@ -48,7 +48,7 @@ void RattleStep::solvePositions(const Part& part, const State& state, const Load
     const int lostHere = solve.since == 0 ? closeWeakRows(part, state, h) : linearise(part, trial_);
     solve.lost = std::max(solve.lost, lostHere);
   }
-  // Includes rows without a pivot.
+  // The gap of all rows, including rows without a pivot.
   if (!(gapOf_[at(part.index)] <= kGapFailure)) fail(part, state, gapOf_[at(part.index)], h);
   last_.maxPositionError = std::max(last_.maxPositionError, gapOf_[at(part.index)]);
   collectMomentum(part, state, loads, h);
@@ -76,7 +76,7 @@ void RattleStep::iterate(const Part& part, const State& state, double h, Positio
   ++solve.iterations, ++solve.since;
   last_.iterations = std::max(last_.iterations, solve.iterations);
 
-  // Slightly above the tolerance and stalled: round-off.
+  // A stalled gap slightly above the tolerance is round-off.
   const bool atRoundOff =
       std::min(solve.best, solve.gap) <= kNearTolerance * solve.tolerance && solve.gap > kStalled * solve.before;
   solve.done = !solve.follow && (solve.gap <= solve.tolerance || atRoundOff);
@@ -103,12 +103,12 @@ bool RattleStep::advance(const Part& part, const State& state, const Loads& load
   }
   if (solve.done) return true;
   if (solve.since < 2 * options_.maxIterations) return false;
-  // If rows have lost their pivot, small gaps may remain; they close after the singular position.
+  // If rows have lost their pivot, small gaps may remain; they close once the singular position is passed.
   if (!(solve.gap <= (solve.lost > 0 ? kGapFailure : kAcceptable * solve.tolerance))) fail(part, state, solve.gap, h);
   return true;
 }
 
-/// All rows, with the matrix of the start of the stage: sufficient for nearly every step.
+/// Iterates with all rows and the matrix of the start of the stage; sufficient for nearly every step.
 bool RattleStep::advanceAllRows(const Part& part, const State& state, const Loads& loads, double h,
                                 PositionSolve& solve) {
   const bool closed = solve.lost == 0 || solve.open <= kNearTolerance * solve.tolerance;
@@ -129,7 +129,7 @@ bool RattleStep::advanceAllRows(const Part& part, const State& state, const Load
   return false;
 }
 
-/// Iterates without the weak rows to the inertial motion; from there all rows converge quickly, to the solution
+/// Iterates without the weak rows to the inertial motion; from this iterate all rows converge quickly, to the solution
 /// consistent with inertia.
 void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) {
   if (!solve.done && solve.since < options_.maxIterations && !(solve.since > 2 && solve.slow)) return;
@@ -142,9 +142,9 @@ void RattleStep::advanceWithoutWeakRows(const Part& part, PositionSolve& solve) 
   solve.enter(Phase::kMixed);
 }
 
-/// Restarts the solve from the old twist, without rows whose pivot may pass through zero in a rotation of this size:
+/// Restarts the solve from the old twist, without rows with pivots that may pass through zero in such a rotation:
 /// near a singular position their impulses would diverge. Their gaps are second order in a motion across the singular
-/// direction, hence small. Returns false, without changes, if there are none.
+/// direction, hence small. Returns false, without changes, if there are no such rows.
 bool RattleStep::startWithoutWeakRows(const Part& part, const State& state, const Loads& loads, double h) {
   double turn = 0;
   for (const int node : part.bodies)
@@ -190,7 +190,7 @@ void RattleStep::fail(const Part& part, const State& state, double gap, double h
   }
   std::ostringstream message;
   message << "multibody step from t = " << state.time << " s";
-  if (worst >= 0) message << ": " << system_.describe(worst, worstRow) << " stays open by " << most << " [m or rad]";
+  if (worst >= 0) message << ": " << system_.describe(worst, worstRow) << " remains open by " << most << " [m or rad]";
   message << " (largest residual " << gap << ") after " << options_.maxIterations
           << " iterations; the motion is too fast for a stage of " << h
           << " s: reduce the step, or check loads, drives and whether the mechanism can reach the driven position";

@@ -10,19 +10,19 @@
 #include <cmath>
 #include <cstddef>
 
-/// First half of a stage of RATTLE (the scheme is in rattle_step.cpp), u and Lambda such that C(q_1) = 0: its unknowns
-/// and residuals. rattle_phases.cpp solves for them.
+/// Unknowns u and Lambda, and residuals, of the first half of a stage of RATTLE, which satisfies C(q_1) = 0 (scheme:
+/// rattle_step.cpp). rattle_phases.cpp solves for the unknowns.
 namespace grouser::multibody::detail {
 
 namespace {
 
-/// Soft rows, in units of the row's own J M^-1 J^T: minimum inverse compliance of a releasing row, so that its impulse
-/// can vanish; and relative change that Newton's method tolerates without a new matrix.
-constexpr double kLeastInverseCompliance = 1e-3, kComplianceChange = 0.05;
+/// Soft rows, in units of the row's own J M^-1 J^T: minimum inverse compliance of a row that loses contact, so that its
+/// impulse can vanish; and relative change that Newton's method tolerates without a new matrix.
+constexpr double kMinInverseCompliance = 1e-3, kComplianceChange = 0.05;
 
-/// Turn of a stage times the spread of the inertia [rad] above which each body's own gyroscopic equation is solved by
-/// Newton's method within the iteration, to round-off: the error of a tolerance would have the same sign in each step
-/// and accumulate. Below, two iterations are more accurate.
+/// Rotation in a stage times the spread of the inertia [rad] above which the gyroscopic equation of each body is solved
+/// by Newton's method within the iteration, to round-off: an error within a tolerance would have the same sign in each
+/// step and accumulate. Below this value, two iterations are more accurate.
 constexpr double kFreeSpin = 1e-7;
 
 } // namespace
@@ -62,10 +62,10 @@ bool RattleStep::updateAxes(const Part& part, double h) {
       AxisLaw& law = laws_[at(a)];
       const double size = system_.rowSize(k, row);
       double now = 0.5 * h * h * meanForce(a, h).slope;
-      if ((law.inverseCompliance != 0 || now != 0) && std::fabs(now) * size < kLeastInverseCompliance)
-        now = kLeastInverseCompliance / size;
-      // A stop first touched within the stage needs its own unknown however soft it is: else it would store energy
-      // without work.
+      if ((law.inverseCompliance != 0 || now != 0) && std::fabs(now) * size < kMinInverseCompliance)
+        now = kMinInverseCompliance / size;
+      // A stop first touched within the stage needs its own unknown, even if it is soft: otherwise it would store
+      // energy without work.
       const bool begins = law.inverseCompliance == 0 && now != 0;
       if (!begins && std::fabs(now - law.inverseCompliance) * size <=
                          kComplianceChange * (1 + std::fabs(law.inverseCompliance) * size))
@@ -96,8 +96,8 @@ void RattleStep::startAxes(const Part& part, const State& state, double h) {
   }
 }
 
-/// Soft rows are predicted along their tangent: a stiff spring must not be evaluated at the position that the node
-/// velocity alone would reach.
+/// Predicts soft rows along their tangent: the force of a stiff spring must not be evaluated at the position that its
+/// axis would reach with the velocity at the node.
 void RattleStep::predictSoftRows(const Part& part, double h) {
   for (const int k : part.constraints)
     for (int a = system_.firstAxis(k); a < system_.firstAxis(k + 1); ++a) {
@@ -211,8 +211,8 @@ void RattleStep::applyCorrection(const Part& part, double h) {
   for (const int c : part.couplings) couplingImpulse_[at(c)] += x_[at(system_.couplingNode(c))][0];
 }
 
-/// Spin after the first half kick: sum of the impulses, so that it is conserved to round-off; after relinearisation
-/// from the mean twist.
+/// Spin after the first half kick: the sum of the impulses, so that spin is conserved to round-off; after a
+/// relinearisation, computed from the mean twist.
 void RattleStep::collectMomentum(const Part& part, const State& state, const Loads& loads, double h) {
   stepLedger_ = {};
   if (relinearised_[at(part.index)]) {
@@ -221,7 +221,7 @@ void RattleStep::collectMomentum(const Part& part, const State& state, const Loa
       const Mat3d I = rotatedInertia(frames_[at(b)].R, model_.bodies()[at(b)].inertia_B);
       spin_[at(node)] = I * mean_[at(b)].w + gyroscopicMomentum(I, mean_[at(b)].w, h);
     }
-    bookFirstKick(part, state, loads, h);
+    accountFirstKick(part, state, loads, h);
     return;
   }
   for (const int node : part.bodies) {
@@ -244,7 +244,7 @@ void RattleStep::collectMomentum(const Part& part, const State& state, const Loa
     give(one.constraint, one.row, -row.ratio * couplingImpulse_[at(c)]);
   }
   for (const int node : part.bodies) spin_[at(node)] += angular(x_[at(node)]);
-  bookFirstKick(part, state, loads, h);
+  accountFirstKick(part, state, loads, h);
 }
 
 } // namespace grouser::multibody::detail

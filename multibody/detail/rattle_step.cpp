@@ -18,25 +18,25 @@
 ///   J(q_1) v_1 = 0                                       determines Mu; imposed rates on driven rows
 ///
 /// RATTLE (Andersen 1983, J. Comput. Phys. 52:24) with the discrete Lagrangian mechanics of the rotation group
-/// (Bou-Rabee and Marsden 2009, Found. Comput. Math. 9:197): order 2, symplectic, time-reversible; both ends meet
-/// positions and velocities; forces between bodies are equal and opposite impulses at one point, so linear and angular
-/// momentum are conserved to round-off.
+/// (Bou-Rabee and Marsden 2009, Found. Comput. Math. 9:197): order 2, symplectic, time-reversible. Both ends satisfy
+/// position and velocity constraints. Forces between bodies are equal and opposite impulses at one point, so linear and
+/// angular momentum are conserved to round-off.
 ///
-/// Along axis rows, with x0, x1 the positions at the ends, act
+/// Forces along axis rows, with positions x0, x1 at the ends:
 ///   explicit springs   in f, at both nodes
 ///   implicit parts     F = -k (x0 + x1)/2 + constant (implicit springs) - c (x1 - x0)/h + stops(x0, x1),
 ///                      an impulse h/2 F along the row of q_0 in the first, of q_1 in the last equation.
-/// The implicit part is the midpoint rule, on the stops a discrete gradient: symmetric in time, stable at any h in the
-/// linear case, and its energy balance is exact along the row. In Newton's method it is a soft row:
+/// The implicit part is the midpoint rule, for stops a discrete gradient: symmetric in time, stable at any h in the
+/// linear case, with an exact energy balance along the row. In Newton's method it is a soft row:
 ///   J du + G dLambda = G (h/2 F - Lambda),   1/G = h^2/2 D,   D = -dF/dx1 = k/2 + c/h + stops.
 ///
-/// Newton's method uses the matrix of q_0 on both sides, though Lambda acts along J(q_0) and gaps close along J(q_1): a
-/// correction is h |w| times the one before. Where a singular position is near or between q_0 and q_1 some pivots have
-/// another size or sign at q_1 and that is too slow or diverges. The solve then starts without those rows, which leads
-/// to the inertial motion, next to the solution (other solutions lie on the branches that meet in the singular
-/// position); then continues with all rows and mixed corrections (mixing.hpp), which solves the same equations. If that
-/// fails (q_0 is nearly singular), the weak rows are closed with the matrix of each iterate, by the smallest
-/// corrections in the norm of kinetic energy. Slow iterations without weak rows are mixed at once.
+/// Newton's method uses the matrix at q_0 on both sides, although Lambda acts along J(q_0) and gaps close along J(q_1);
+/// each correction is h |w| times the previous one. If a singular position is near q_0 and q_1 or between them, some
+/// pivots have another size or sign at q_1, and the iteration is too slow or diverges. The solve then starts without
+/// these rows, which leads to the inertial motion, close to the solution (other solutions are on the branches that meet
+/// in the singular position). It continues with all rows and mixed corrections (mixing.hpp) of the same equations. If
+/// this fails (q_0 is nearly singular), the weak rows are closed with the matrix of each iterate, by the smallest
+/// corrections in the norm of kinetic energy. Slow iterations without weak rows are mixed immediately.
 ///
 /// The first three equations are set up in rattle_position.cpp and solved in rattle_phases.cpp, the last two are solved
 /// in rattle_velocity.cpp.
@@ -46,7 +46,7 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// First halves of the palindromes, the middle last.
+/// First halves of the symmetric sequences gamma_i; the middle stage is last.
 /// Order 4: Suzuki 1990, Phys. Lett. A 146:319. Orders 6, 8: Kahan and Li 1997, Math. Comput. 66:1089 (also Hairer,
 /// Lubich and Wanner 2006, V.3.2).
 const std::vector<double>& halfComposition(int order) {
@@ -62,7 +62,7 @@ const std::vector<double>& halfComposition(int order) {
 
 } // namespace
 
-/// Least omega dt at which the trace of the step's matrix for one oscillator reaches 2 in size, from the compositions
+/// Smallest omega dt at which the absolute trace of the step matrix of an oscillator reaches 2, for the compositions
 /// above.
 double stabilityLimit(int order) { return order == 2 ? 2 : order == 4 ? 2.7209 : order == 6 ? 2.5326 : 3.0964; }
 
@@ -125,7 +125,7 @@ int RattleStep::linearise(const Part& part, const std::vector<Frame>& where) {
   return lost;
 }
 
-/// True if the system still holds the matrix of the end of the previous stage, and this stage can use it.
+/// True if the system still contains the matrix of the end of the previous stage and this stage can use it.
 bool RattleStep::positionsFactored(const Part& part) const {
   if (factored_[at(part.index)] != system_.linearisation(part)) return false;
   for (const int k : part.constraints)

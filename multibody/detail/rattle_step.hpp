@@ -90,9 +90,9 @@ private:
   void finishAxis(int a, State& state, double h);
 
   // Ledger of the kicks (rattle_ledger.cpp).
-  /// Adds an impulse along a row to the vectors of its bodies, and the impulse from an immovable one to the ledger.
+  /// Adds an impulse along a row to the vectors of its bodies, and an impulse from an immovable body to the ledger.
   void give(int k, int row, double impulse);
-  void bookFirstKick(const Part& part, const State& state, const Loads& loads, double h);
+  void accountFirstKick(const Part& part, const State& state, const Loads& loads, double h);
   void bookSecondKick(const Part& part, const Loads& loads, double h);
   struct Kick {
     Twist before, after;
@@ -148,7 +148,7 @@ private:
   std::vector<long long> factored_;                    ///< per part: linearisation at the end of the last stage, or -1
   std::vector<double> gapOf_;                          ///< per part: largest gap at the current iterate
   Mixing mixing_;
-  std::vector<char> drivenThen_; ///< per axis: true if driven in that linearisation
+  std::vector<char> drivenThen_; ///< per axis: true if driven in the linearisation of factored_
 };
 
 /// Stability limit of omega dt [rad] for the composition of an order with explicit springs.

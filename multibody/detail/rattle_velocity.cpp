@@ -16,14 +16,14 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Tolerance of rates relative to the fastest twist: round-off. One pass solves them; more remove errors of small
-/// pivots.
+/// Tolerance of rates relative to the fastest twist (round-off). One pass solves the rates; further passes remove
+/// errors due to small pivots.
 constexpr double kRateRoundOff = 1e-14;
-constexpr int kMostPasses = 4;
+constexpr int kMaxPasses = 4;
 
 } // namespace
 
-/// p_1 = P(u) + h/2 f(q_1) + J^T Mu, J v_1 = rates, solved for v_1 - u and Mu.
+/// Solves p_1 = P(u) + h/2 f(q_1) + J^T Mu, J v_1 = rates for v_1 - u and Mu.
 void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h) {
   factorEnd(part);
   setSecondKick(part, loads, h);
@@ -33,7 +33,7 @@ void RattleStep::solveVelocities(const Part& part, const Loads& loads, double h)
     fastest = std::max({fastest, norm(V.v), norm(V.w)});
   }
   setRateResiduals(part);
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < kMaxPasses; ++pass) {
     system_.solve(part, x_);
     for (const int node : part.bodies) {
       Twist& V = twist_[at(system_.bodyOf(node))];
@@ -62,7 +62,7 @@ void RattleStep::factorEnd(const Part& part) {
   system_.scalePivotThreshold(firmPivotScale(options_.positionTolerance));
   const int lost = linearise(part, trial_);
   system_.scalePivotThreshold(1);
-  // The positions of the next stage need every row with a pivot.
+  // The position solve of the next stage requires every row with a pivot.
   factored_[at(part.index)] = lost == 0 ? system_.linearisation(part) : -1;
 }
 
@@ -138,8 +138,8 @@ double RattleStep::setRateResiduals(const Part& part) {
   return largest;
 }
 
-/// Work over the stage, and the new state. Gravity, springs and stops: the loss of their energies; drives: mean force
-/// times path; dampers: their mean force times path. Loads: in the kicks (rattle_ledger.cpp).
+/// Work over the stage, and the new state. Work of gravity, springs and stops: decrease of their energies; of drives
+/// and dampers: mean force times path. rattle_ledger.cpp computes the work of loads in the kicks.
 void RattleStep::finish(const Part& part, State& state, const Loads& loads, double h) {
   Ledger& ledger = state.ledger;
   for (const int node : part.bodies) {
@@ -183,7 +183,7 @@ void RattleStep::finishAxis(int a, State& state, double h) {
   }
   ledger.driveWork += 0.5 * (s.applied0 + s.applied1) * path;
   if (s.driven) {
-    // Impulse times mean rate in each half: also correct if a law starts with an impact.
+    // Impulse times mean rate in each half; this is also correct if a law starts with an impact.
     const double meanRate = path / h, first = impulse_[at(k)][row] - 0.5 * h * meanForce(a, h).force;
     ledger.driveWork += 0.5 * (first * (startRate_[at(a)] + meanRate) +
                                endImpulse_[at(k)][row] * (meanRate + system_.rateOfAxis(a, twist_)));

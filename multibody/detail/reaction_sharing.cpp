@@ -14,16 +14,16 @@
 #include <utility>
 
 /// J^T W^-2 J is singular: it has no stiffness for free motions of the mechanism. With A = J^T W^-1 and mu = W lambda
-/// the right-hand side b = A mu_0 has no component along those motions, so that Tikhonov's iteration
+/// the right-hand side b = A mu_0 has no component along these motions, so that Tikhonov's iteration
 ///
 ///   (A A^T + epsilon) dy = b - A A^T y,   y <- y + dy
 ///
-/// converges by a factor epsilon / (sigma^2 + epsilon) per iteration, with sigma the singular values of A. Near
-/// singular positions one of them is small, and the error would violate the force balance; a last solve with the
-/// solver's own rows therefore balances J^T (lambda_0 - lambda) exactly.
+/// reduces the error by a factor epsilon / (sigma^2 + epsilon) per iteration, with sigma the singular values of A. Near
+/// singular positions a singular value is small, and the error would violate the force balance; a last solve with the
+/// rows of the solver therefore balances J^T (lambda_0 - lambda) exactly.
 ///
 /// Results are bitwise equal on every machine: Eigen's sparse simplicial factorisation consists of scalar operations in
-/// an order fixed by the pattern, unlike its dense products, whose blocks depend on the cache sizes.
+/// an order fixed by the pattern; blocks of its dense products, in contrast, depend on the cache sizes.
 namespace grouser::multibody::detail {
 
 namespace {
@@ -32,7 +32,7 @@ namespace {
 constexpr double kRegularisation = 1e-10;
 /// The iteration ends at round-off of b, when the residual is no longer halved, or at this limit.
 constexpr double kSharingRoundOff = 1e-15;
-constexpr int kMostIterations = 40;
+constexpr int kMaxIterations = 40;
 
 /// Sets of constraints on common loops.
 class LoopSets {
@@ -55,8 +55,8 @@ private:
   std::vector<int> parent_;
 };
 
-/// Root mean square of the distances between any two of the points [m]: that from their mean, times sqrt(2 n / (n -
-/// 1)).
+/// Root mean square of the distances between any two of the points [m]: root mean square distance from their mean,
+/// times sqrt(2 n / (n - 1)).
 double spacing(const std::vector<Vec3d>& points) {
   const double n = static_cast<double>(points.size());
   Vec3d mean;
@@ -178,13 +178,13 @@ void ReactionSharing::addGroups(const Redundancy& redundancy, double momentLengt
         }
     }
     group->length = momentLength > 0 ? momentLength : spacing(points);
-    // Joints at one point have no lever arm: forces and moments decouple, and any length is valid.
+    // Joints at the same point have no lever arm: forces and moments are independent, and any length is valid.
     if (!(group->length > 0)) group->length = 1;
     groups_.push_back(std::move(group));
   }
 }
 
-/// Rows at the present frames, multipliers of the reactions, and b.
+/// Computes the rows at the current frames, the multipliers of the reactions, and b.
 void ReactionSharing::startGroup(Group& group, const std::vector<JointReaction>& reactions) {
   const double perLength = 1 / group.length;
   group.b.setZero(static_cast<Eigen::Index>(6 * group.nodes.size()));
@@ -215,7 +215,7 @@ void ReactionSharing::solveGroup(Group& group) {
   const double size = group.b.lpNorm<Eigen::Infinity>();
   Eigen::VectorXd left = group.b;
   double before = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < kMostIterations; ++iteration) {
+  for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const double now = left.lpNorm<Eigen::Infinity>();
     if (now <= kSharingRoundOff * size || !(now < 0.5 * before)) break;
     before = now;

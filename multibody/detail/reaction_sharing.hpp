@@ -13,8 +13,8 @@ namespace grouser::multibody::detail {
 /// Reactions of redundantly constrained joints by the minimum-norm solution.
 ///
 /// With redundant rows the reactions J^T lambda = f are not unique: internal forces n with J^T n = 0 may be added
-/// without changing the motion. The solver drops redundant rows, so its lambda_0 is zero there; rigid-body mechanics
-/// does not determine the solution (Wojtyra 2005, Multibody Syst. Dyn. 14:23). This solution minimises
+/// without changing the motion (Wojtyra 2005, Multibody Syst. Dyn. 14:23). The solver drops redundant rows, so that
+/// lambda_0 is zero for these rows. The solution computed here minimises
 ///
 ///   sum over joints of |F|^2 + |M / L|^2         F, M: force, and moment about the joint's point, of its hard rows
 ///
@@ -23,11 +23,11 @@ namespace grouser::multibody::detail {
 ///
 ///   lambda = W^-2 J y,   (J^T W^-2 J) y = J^T lambda_0:
 ///
-/// the reactions of identical, nearly rigid bearings of stiffness 1 in displacement and L^2 in rotation; y is the
-/// displacement of the bodies. L is the spacing of the joints involved: the root mean square of their mutual distances
-/// at the model's poses.
+/// i.e. lambda are the reactions of identical, nearly rigid bearings with stiffness 1 in displacement and L^2 in
+/// rotation; y is the displacement of the bodies. L is the spacing of the joints involved: the root mean square of
+/// their mutual distances at the model's poses.
 ///
-/// For output only: uses its own system and does not change the state.
+/// Intended for output; uses its own system and does not change the state.
 class ReactionSharing {
 public:
   /// `momentLength`: L [m]; 0: the spacing of the joints.

@@ -13,10 +13,10 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Weak rows while closing: pivots below 1e-6 of a row alone.
+/// While constraints are closed, rows with pivots below 1e-6 of the row's own J M^-1 J^T are weak.
 constexpr double kWeakPivot = 1e5;
 
-/// A number in [-1, 1) from a counter (SplitMix64, Steele, Lea and Flood 2014): deterministic on all machines.
+/// Pseudorandom number in [-1, 1) from a counter (SplitMix64, Steele, Lea and Flood 2014), equal on all machines.
 double generic(std::uint64_t counter) {
   std::uint64_t z = (counter + 1) * 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -25,7 +25,7 @@ double generic(std::uint64_t counter) {
   return static_cast<double>(z >> 11) * 0x1p-52 - 1;
 }
 
-/// Works on copies of the poses; all axes are free and no row is soft.
+/// Moves a copy of the mechanism, in which all axes are free and no row is soft.
 class Explorer {
 public:
   Explorer(ConstraintSystem& system, const Model& model)
@@ -47,7 +47,7 @@ public:
   }
 
   /// Moves the fastest link by `angle` [rad] along an admissible velocity: the compatible part of the initial twists in
-  /// attempt 0, a generic one in the others. Returns false if nothing moves.
+  /// attempt 0, a generic velocity in other attempts. Returns false if nothing moves.
   bool perturb(const ConstraintSystem::Part& part, int attempt, double angle) {
     clear(part);
     for (const int node : part.bodies) {
@@ -70,9 +70,9 @@ public:
     return true;
   }
 
-  /// Newton's method on C = 0, factored anew each time. Returns true if converged. Away from C = 0 dependent rows have
-  /// small pivots, which would make the iteration diverge: those below `weak` times the usual threshold are dropped
-  /// (Gauss-Newton with truncated rank).
+  /// Solves C = 0 by Newton's method, with a new factorisation in each iteration. Returns true if converged. Away from
+  /// C = 0 dependent rows have small pivots, which would make the iteration diverge; rows with pivots below `weak`
+  /// times the usual threshold are therefore dropped (Gauss-Newton with truncated rank).
   bool close(const ConstraintSystem::Part& part, double weak) {
     system_.scalePivotThreshold(weak);
     const bool arrived = closeAtThreshold(part);
@@ -143,7 +143,7 @@ Redundancy findRedundantRows(ConstraintSystem& system, const Model& model) {
   for (const auto& part : system.parts()) {
     const int atStart = explorer.factor(part);
     if (atStart == 0) continue;
-    // A singular start has branches, and a motion may stay on a singular one: use the smallest number of rows found.
+    // From a singular start, a motion may stay on a singular branch: use the smallest number of redundant rows found.
     bool explored = false;
     std::vector<std::pair<int, int>> rows;
     for (int attempt = 0; attempt < 4; ++attempt) {

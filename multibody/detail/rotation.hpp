@@ -31,8 +31,8 @@ inline Quat rotationBy(const Vec3d& angle) {
   return {c, f * angle.x, f * angle.y, f * angle.z};
 }
 
-/// beta(s) = (1 - h cot h) / (4 h^2), s = h^2: the factor of the second-order term in the inverse of the derivative of
-/// exp on the rotation group, Y(theta) = 1 - theta x / 2 + beta theta x theta x, h = |theta| / 2.
+/// beta(s) = (1 - h cot h) / (4 h^2) with s = h^2, h = |theta| / 2: the factor of the second-order term in the inverse
+/// derivative of exp on the rotation group, Y(theta) = 1 - theta x / 2 + beta theta x theta x.
 inline double inverseTangentFactor(double s) {
   if (s < 0.01) {
     // (1 - h cot h) / h^2 = 1/3 + h^2/45 + 2 h^4/945 + h^6/4725 + 2 h^8/93555 + ...
@@ -75,8 +75,8 @@ inline Vec3d rotationVector(const Quat& given) {
 /// The body rotates by exp(theta), theta = dt w, with constant w. The discrete Legendre transform of the Lagrangian
 /// dt/2 w.I w on the rotation group (Bou-Rabee and Marsden 2009, Found. Comput. Math. 9:197, with exp as the map) is
 ///   S = I w + 1/2 theta x I w + beta theta x (theta x I w),   beta = (1 - h cot h) / (4 h^2),   h = |theta|/2.
-/// S is the same world vector at the end of the step, after I has rotated; so the update S_new = S_old + dt torque
-/// conserves angular momentum to round-off, is symplectic, and keeps the energy of a fast top bounded for any step
+/// At the end of the step, after I has rotated, S is the same world vector. Therefore the update S_new = S_old + dt
+/// torque conserves angular momentum to round-off, is symplectic, and the energy of a fast top is bounded for any step
 /// size.
 inline Vec3d gyroscopicMomentum(const Mat3d& I_W, const Vec3d& w, double dt) {
   const Vec3d theta = dt * w, y = I_W * w;
@@ -98,8 +98,8 @@ inline double spreadOf(const Mat3d& I) {
 /// Solves S = I w + gyroscopicMomentum(I, w, dt) for w near `guess`, by Newton's method with the derivative at constant
 /// beta:
 ///   dS/dw = I + dt/2 ([w] I - [I w]) + beta dt^2 (w.y + w y^T + w (I w)^T - |w|^2 I - 2 y w^T),   y = I w,
-/// each step halved until the residual decreases. If the moments differ by orders of magnitude, the fixed-point
-/// iteration with I alone diverges even for slow motion.
+/// where each step is halved until the residual decreases. If the moments differ by orders of magnitude, a fixed-point
+/// iteration with I only diverges even for slow motion.
 inline Vec3d angularVelocityOf(const Mat3d& I, const Vec3d& S, const Vec3d& guess, double dt) {
   Vec3d w = guess;
   const auto residual = [&](const Vec3d& v) { return S - (I * v + gyroscopicMomentum(I, v, dt)); };

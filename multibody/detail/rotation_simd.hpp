@@ -6,8 +6,8 @@
 
 namespace grouser::multibody::detail {
 
-/// Rotations of four bodies at a time: the formulas of rotation.hpp for small angles; lanes with larger angles are
-/// computed by rotation.hpp itself.
+/// Rotations of four bodies at a time, by the formulas of rotation.hpp for small angles; lanes with larger angles call
+/// the functions of rotation.hpp.
 
 struct QuatL {
   Lanes w, x, y, z;

@@ -18,13 +18,13 @@ void add(SoftRow& row, const LinearSpring& spring) {
   row.damping += spring.damping;
 }
 
-/// Mean force on one end stop over a stage, in the direction of its overlap; the axis receives the opposite.
+/// Mean force on one end stop over a stage, in the direction of the overlap; the axis receives the opposite force.
 struct StopStage {
   double elastic = 0, damper = 0;
-  double slope = 0; ///< slope of both over x1
+  double slope = 0; ///< derivative of both with respect to x1
 };
 
-/// `over0`, `over1`: overlap at the ends of the stage, on one side or 0.
+/// `over0`, `over1`: overlap with this stop at the start and at the end of the stage, or 0.
 StopStage stopStage(const AxisSpring& spring, double over0, double over1, double dx, double h) {
   const double k = spring.stopStiffness;
   StopStage stop;
@@ -32,7 +32,7 @@ StopStage stopStage(const AxisSpring& spring, double over0, double over1, double
     stop.elastic = 0.5 * k * (over0 + over1);
     stop.slope = 0.5 * k;
   } else {
-    // V(x1) - V(x0) over dx, with one of the ends beyond the limit.
+    // (V(x1) - V(x0)) / dx, if the axis is beyond the limit at one or both ends.
     stop.elastic = 0.5 * k * (over1 * over1 - over0 * over0) / dx;
     stop.slope = (k * over1 - stop.elastic) / dx;
   }

@@ -12,13 +12,13 @@ namespace grouser::multibody::detail {
 struct SoftRow {
   double constant = 0;                        ///< springs: F = constant - stiffness x
   double stiffness = 0;                       ///< [N/m] or [N m/rad]
-  double damping = 0;                         ///< sum over dampers of the joint and springs
+  double damping = 0;                         ///< sum over the dampers of joint and springs
   double jointDamping = 0, springDamping = 0; ///< contributions to `damping`
   double applied0 = 0;                        ///< force drives at the beginning and at the end of the stage
   double applied1 = 0;
   bool stops = false;  ///< has end stops
   bool driven = false; ///< position and rate are imposed
-  double target = 0;   ///< imposed position at the end of the stage (law), or its increment (no law: `relative`)
+  double target = 0;   ///< imposed position at the end of the stage with a law, or its increment without (`relative`)
   bool relative = false;
   double rate = 0;         ///< at the end of the stage
   double acceleration = 0; ///< at the end of the stage
@@ -40,7 +40,7 @@ public:
 
   /// End stops as discrete gradients of their energies V = stopStiffness over^2 / 2, with `over` beyond the limit:
   ///   F = -(V(x1) - V(x0)) / (x1 - x0) - stopDamping (over1 - over0) / h,   0 where F would be adhesive,
-  /// so that over a stage the work of the elastic part is exactly -(V(x1) - V(x0)), for any stage length.
+  /// so that the work of the elastic part in a stage of any length is exactly -(V(x1) - V(x0)).
   ForceAndSlope stops(int axis, double x0, double x1, double h) const;
   /// Force of the stops at a position and rate.
   double stopForce(int axis, double x, double rate) const;

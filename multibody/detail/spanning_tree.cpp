@@ -49,7 +49,7 @@ private:
     return b[0] == body ? b[1] : b[0];
   }
 
-  /// Unreached bodies connected to the bodies of `level`, or to the world by `joints`, each by its strongest joint.
+  /// Finds unreached bodies connected by `joints` to bodies of `level`, or to the world, each by its strongest joint.
   std::vector<int> reach(const std::vector<int>& level, const std::vector<int>& joints, int depth) {
     std::vector<int> next;
     const auto offer = [&](int k, int parent) {
@@ -86,7 +86,7 @@ private:
       if (joints == most) candidates.push_back(b);
     }
     if (candidates.size() < 2 || most < 2) return candidates.empty() ? -1 : candidates.front();
-    // Distances from the joint with the fewest rows in the component of the first candidate.
+    // Compute distances from the joint with the fewest rows in the component of the first candidate.
     std::vector<int> around = component(candidates.front());
     int weakest = jointsOf_[at(candidates.front())].front();
     for (const int b : around)
@@ -107,7 +107,7 @@ private:
     return bodies;
   }
 
-  /// Distance in joints; -1 if not connected.
+  /// Distance as a number of joints; -1 if not connected.
   std::vector<int> distancesFrom(const std::vector<int>& bodies) const {
     std::vector<int> distance(reached_.size(), -1), queue;
     for (const int b : bodies)
@@ -131,7 +131,7 @@ private:
       SpanningTree::Loop loop;
       loop.constraint = k;
       const std::set<int> own(edges_[at(k)].bodies.begin(), edges_[at(k)].bodies.end());
-      // The top is the first body common to all paths from below; the world is common to all.
+      // The top is the first body common to all paths towards the root; the world is common to all paths.
       std::vector<int> met;
       for (const int b : own)
         for (int i = b; i >= 0; i = links[at(i)].parent)
@@ -146,7 +146,7 @@ private:
     }
   }
 
-  /// Deepest tops first; among these the one coupled to the fewest others.
+  /// Orders the loops: deepest tops first; among equals, the loop coupled to the fewest others.
   void orderLoops() {
     std::vector<SpanningTree::Loop>& loops = result_.loops;
     std::vector<std::vector<int>> passing(result_.links.size());
@@ -210,7 +210,7 @@ private:
   const std::vector<ConstraintEdge>& edges_;
   std::vector<std::vector<int>> jointsOf_;
   std::vector<int> worldJoints_;
-  std::vector<char> reached_; ///< 2: in this round
+  std::vector<char> reached_; ///< 2: reached in this round
   SpanningTree result_;
 };
 

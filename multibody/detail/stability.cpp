@@ -45,9 +45,9 @@ std::string springName(const ConstraintSystem& system, const Model& model, int a
   return stiffest ? "spring '" + stiffest->name + "'" : system.describe(a.constraint, a.row);
 }
 
-/// The largest eigenvalue of A K, with K = sum of k j^T j over the springs' rows j and A the mobility that the
-/// constraints leave, by power iteration on the springs' forces: f <- K^1/2 J A J^T K^1/2 f. The Rayleigh quotient
-/// grows towards the eigenvalue; it starts from forces in proportion to each spring's own frequency.
+/// Computes the largest eigenvalue of A K, with K = sum of k j^T j over the rows j of the springs and the mobility A
+/// under the constraints, by power iteration on the forces of the springs: f <- K^1/2 J A J^T K^1/2 f. The Rayleigh
+/// quotient increases towards the eigenvalue. The initial force of each spring is proportional to its own frequency.
 double highestFrequency(const ConstraintSystem& system, const ConstraintSystem::Part& part,
                         const std::vector<double>& stiffness, std::vector<Vector6>& x, int& axis) {
   axis = -1;
@@ -72,7 +72,7 @@ double highestFrequency(const ConstraintSystem& system, const ConstraintSystem::
       g[i] = std::sqrt(stiffness[at(springs[i])]) * system.rowTimes(a.constraint, a.row, x);
     }
   };
-  // Alternating signs and different magnitudes: not orthogonal to the highest mode of springs in series.
+  // Alternating signs and different magnitudes, so that f is not orthogonal to the highest mode of springs in series.
   for (std::size_t i = 0; i < springs.size(); ++i)
     f[i] = (i % 2 == 0 ? 1.0 : -1.0) * (1 + 0.1 * static_cast<double>(i % 7));
   double highest = 0;

@@ -9,8 +9,8 @@
 
 namespace grouser::multibody::detail {
 
-/// Squared highest frequency [rad2/s2] of springs of `stiffness` (one per axis) against the linearised masses of one
-/// part, and the axis that contributes most (-1 without springs).
+/// Squared highest frequency [rad2/s2] of springs with `stiffness` (one value per axis) against the linearised
+/// masses of one part, and the axis that contributes most (-1 without springs).
 double highestFrequency(const ConstraintSystem& system, const ConstraintSystem::Part& part,
                         const std::vector<double>& stiffness, std::vector<Vector6>& x, int& axis);
 

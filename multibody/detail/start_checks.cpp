@@ -19,14 +19,14 @@ namespace grouser::multibody::detail {
 
 namespace {
 
-/// Largest gap of joints in a new model [m, rad].
+/// Largest accepted gap of joints in a new model [m, rad].
 constexpr double kStartGap = 1e-6;
-/// Fraction of its free mobility below which a driven axis counts as determined by others.
+/// A driven axis with less than this fraction of its free mobility counts as determined by other elements.
 constexpr double kFixedAxis = 1e-9;
 
-/// Fraction of its mobility below which an axis counts as locked by couplings: round-off, below any gear reduction.
+/// An axis with less than this fraction of its mobility counts as locked by couplings; gear reductions leave more.
 constexpr double kLockedAxis = 1e-13;
-/// Relative difference of ratios that is attributed to rounded input.
+/// Ratios that differ by less than this relative value count as equal, since input may be rounded.
 constexpr double kSameRatio = 1e-6;
 
 template <class... Words> [[noreturn]] void refuse(const PartName& part, const Words&... words) {
@@ -38,7 +38,7 @@ template <class... Words> [[noreturn]] void refuse(const PartName& part, const W
 /// Returns laws with free axes: hard rows only.
 std::vector<AxisLaw> hardOnly(const ConstraintSystem& system) { return std::vector<AxisLaw>(system.axes().size()); }
 
-/// List of elements besides joints that may lock an axis, for a message.
+/// List, for a message, of elements other than joints that may lock an axis.
 std::string others(const Model& model, const std::string& drive) {
   std::string text;
   for (const Drive& d : model.drives())
@@ -82,11 +82,11 @@ std::string namesOf(const Model& model, const std::vector<int>& couplings) {
   return names;
 }
 
-/// Throws for couplings of `part` that lock an axis which could move without them. `canMove`: of both axes of each,
-/// without couplings.
+/// Throws if couplings of `part` lock an axis that could move without them. `canMove`: for both axes of each coupling,
+/// true if the axis can move without couplings.
 [[noreturn]] void refuseLock(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                              const std::vector<std::pair<bool, bool>>& canMove) {
-  // A ratio that contradicts the previous couplings.
+  // The ratio contradicts the previous couplings.
   for (const int c : part.couplings) {
     const CouplingRow& row = system.couplings()[at(c)];
     const std::optional<Train> train = trainBetween(system.couplings(), row.axis1, row.axis2, c);
@@ -102,7 +102,8 @@ std::string namesOf(const Model& model, const std::vector<int>& couplings) {
     const Coupling& coupling = model.couplings()[at(part.couplings[i])];
     refuse({"coupling", coupling.name}, "the axis of joint '",
            model.joints()[at(canMove[i].first ? coupling.joint2 : coupling.joint1)].name,
-           "' is locked by other joints, and so are the axes coupled to it; remove this coupling, or free that axis");
+           "' is locked by other joints, and therefore also the axes coupled to it; remove this coupling, or free the "
+           "axis");
   }
   const Coupling& first = model.couplings()[at(part.couplings.front())];
   refuse({"coupling", first.name}, "joints '", model.joints()[at(first.joint1)].name, "' and '",
@@ -140,8 +141,8 @@ void checkClosed(const ConstraintSystem& system, const Model& model) {
   }
 }
 
-/// An axis that can move only without the couplings is moved by different amounts by two of them. Mobility: row . y
-/// with y = K^-1 row.
+/// Checks that no axis can move only without the couplings, i.e. that no two couplings impose different motions on it.
+/// The mobility of an axis is row . y with y = K^-1 row.
 void checkCouplings(ConstraintSystem& system, const Model& model) {
   const std::vector<Frame> frames = system.framesOfModel();
   const std::vector<AxisLaw> laws = hardOnly(system);
@@ -196,7 +197,7 @@ std::vector<int> imposingDrives(const ConstraintSystem& system, const Model& mod
   return drives;
 }
 
-/// J M^-1 J^T of an axis between free bodies; y: their momenta from a unit impulse along it.
+/// J M^-1 J^T of an axis between free bodies. y: change of the bodies' momenta by a unit impulse along the axis.
 double freeMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                     const std::vector<Vector6>& y) {
   double free = 0;
@@ -209,8 +210,8 @@ double freeMobility(const ConstraintSystem& system, const Model& model, const Co
   return free;
 }
 
-/// For each drive in order: y_d = K^-1 (row d), with joints and couplings held; row d . y_d minus the share of previous
-/// drives is the mobility of its axis (Cholesky pivot).
+/// Checks the drives in order. With y_d = K^-1 (row d) under the constraints of joints and couplings, row d . y_d minus
+/// the share of previous drives is the mobility of the axis of drive d (Cholesky pivot).
 void checkMobility(const ConstraintSystem& system, const Model& model, const ConstraintSystem::Part& part,
                    const std::vector<int>& drives) {
   const auto axisOf = [&](int d) {
@@ -279,7 +280,7 @@ void checkVelocities(ConstraintSystem& system, const Model& model, double tolera
     twist.push_back({body.v_WB, body.w_WB});
     fastest = std::max({fastest, norm(body.v_WB), norm(body.w_WB)});
   }
-  // Tolerance for input of limited precision.
+  // Add a tolerance for input of limited precision.
   const double allowed = tolerance * std::max(1.0, fastest);
   const std::string remedy =
       "; set velocities that satisfy the constraints, or project them (start velocities: accept)";

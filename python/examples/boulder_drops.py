@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Drops a boulder from several heights: penetration depth against drop height, exponent with error bar.
+"""Drops a boulder from several heights and fits an exponent, with error bar, to penetration depth over drop height.
 
     python/examples/boulder_drops.py [FOLDER] [SEEDS] [PICTURE]      # default: out/boulder_drops, 3 seeds, no picture
 
@@ -47,13 +47,13 @@ def student(free: int) -> float:
 
 
 def expected(height: float, depth: float, solid: float) -> float:
-    """Depth in the experiments [m]; `solid`: solid volume fraction of the bed."""
+    """Penetration depth according to the experiments [m]; `solid`: solid fraction of the bed."""
     ratio = DENSITY / (2650 * solid)
     return 0.14 / numpy.tan(numpy.radians(REPOSE)) * ratio**0.5 * (2 * RADIUS) ** (2 / 3) * (height + depth) ** (1 / 3)
 
 
 def main(folder: str = "out/boulder_drops", seeds: int = 3, picture: str = "", heights=DROP_HEIGHTS) -> numpy.ndarray:
-    """Depths [heights, seeds] [m]."""
+    """Returns the penetration depths [heights, seeds] [m]."""
     scene = grouser.Scene.read(SCENE)
     scene["output"]["plots"] = scene["output"]["picture"] = False
     rows, porosity = [], 0.4

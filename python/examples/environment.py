@@ -38,7 +38,7 @@ class DriveToGoal:
         scene["vehicle.sphere_radius"] = 0.03  # coarse, for speed
         scene["terrain.size"], scene["vehicle.position"] = [9.0, 6.0], [3.0, 0.0]  # room for wrong turns
         self.sim = grouser.Simulation(scene)
-        while self.sim.vehicle.drive_start is None:  # wait until the vehicle is at rest; every episode starts here
+        while self.sim.vehicle.drive_start is None:  # until the vehicle is at rest: start of every episode
             self.sim.step_for(0.02)
         self._folder = tempfile.TemporaryDirectory()
         self._start = Path(self._folder.name) / "start.h5"
@@ -102,7 +102,7 @@ def main(limit: int = 40) -> tuple[float, float]:
     env.close()
     print(f"reward: random {random:.3f} m, rule {ruled:.3f} m, repeated {again:.3f} m")
     if not ruled > random + 0.1 or ruled != again:
-        raise SystemExit("the rule must beat random actions and give the same reward each time")
+        raise SystemExit("the rule must earn more than random actions, and the same reward in each run")
     return random, ruled
 
 

@@ -16,7 +16,7 @@ import grouser  # noqa: E402
 
 
 def heap() -> grouser.Scene:
-    """Forty grains fall onto a plane named ground."""
+    """A scene in which forty grains fall onto a plane named ground."""
     scene = grouser.Scene(name="heap")
     scene["run"] = {"duration": 0.2, "time_step": 1e-4, "output_interval": 0.01, "seed": 1}
     scene["material.sand"] = {"stiffness": 2e4, "restitution": 0.4, "friction": 0.5}

@@ -29,7 +29,7 @@ def scene_of(seed: int) -> grouser.Scene:
                         "material": "sand", "grain_radius": 0.01, "depth": DEPTH}
     scene.add("box", name="plate", position=[SIDE / 2, 0, 0], above_bed=0.001, size=[PLATE, PLATE, 0.02],
               velocity=[0, 0, -0.02], material="steel")
-    half = 5.5 * CELL  # three by three cells below the plate
+    half = 5.5 * CELL  # 11 x 11 cells, the inner 3 x 3 below the plate
     scene["output"] = {"plots": False, "picture": False, "fields_cell": CELL,
                        "fields_low": [SIDE / 2 - half, -half, -DEPTH], "fields_high": [SIDE / 2 + half, half, 0.02]}
     return scene

@@ -20,7 +20,7 @@ import grouser  # noqa: E402
 
 
 def coarsen(scene: grouser.Scene) -> None:
-    """Fewer grains, and a drive of 0.3 s."""
+    """The scene with fewer grains and a drive of 0.3 s."""
     scene["terrain.size"] = [4.2, 2.6]
     scene["terrain.grain_radius"] = 0.05
     scene["terrain.depth"] = 0.2
@@ -35,7 +35,7 @@ def coarsen(scene: grouser.Scene) -> None:
 
 
 def sinkage_by_shoe(run: grouser.Run) -> dict[str, numpy.ndarray]:
-    """{side: [shoes] [m]}: mean over the time in ground contact; NaN for shoes without."""
+    """{side: [shoes] [m]}: mean sinkage while in ground contact; NaN for shoes that never are."""
     means: dict[str, numpy.ndarray] = {}
     for side, series in run.sinkage().items():
         carried = numpy.isfinite(series.value)

@@ -27,7 +27,7 @@ def metres_of(words: numpy.ndarray, unit: float) -> numpy.ndarray:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Bed(Brief):
-    """Grains sorted by id, including fixed ones (rough floor)."""
+    """Grains of a bed, sorted by id, including fixed grains (rough floor)."""
 
     file: Path
     position: numpy.ndarray  #: [n, 3] [m]
@@ -38,7 +38,7 @@ class Bed(Brief):
     fixed: numpy.ndarray  #: [n] True for grains that never move
     contacts: numpy.ndarray  #: [n] number of grains in contact
     time_step: float  #: [s]
-    settled: dict[str, Quantity]  #: settling: time [s], steps, agitation (kinetic energy ratio), heights [m]
+    settled: dict[str, Quantity]  #: end of settling: time [s], steps, agitation (kinetic energy ratio), heights [m]
     structure: dict[str, Quantity]  #: porosity, coordination...; {} if not measured
     scene: str  #: TOML of the run, or the recipe of a cached bed
     commit: str
@@ -65,8 +65,8 @@ def _quantities(group: h5py.Group | None) -> dict[str, Quantity]:
 
 
 def open_bed(path: str | os.PathLike) -> Bed:
-    """Opens a settled bed of the cache (bed-*.h5, named in the line "bed" of a run), a checkpoint.h5, or the checkpoint
-    in a run's folder. FileError for other files, or if the file does not record the unit of positions."""
+    """Opens a settled bed of the cache (bed-*.h5; a run prints its name in the line "bed"), a checkpoint.h5, or the
+    checkpoint in a run's folder. FileError for other files, or if the file does not contain the unit of positions."""
     path = Path(path)
     path = path / "checkpoint.h5" if path.is_dir() else path
     try:
@@ -78,7 +78,7 @@ def open_bed(path: str | os.PathLike) -> Bed:
             raise FileError(f"{path}: contains no grains")
         grains = file["grains"]
         if "unit" not in grains.attrs:
-            raise FileError(f"{path}: no unit of positions: written by an old version; run it again")
+            raise FileError(f"{path}: no unit of positions: an old version wrote the file; run it again")
 
         def column(name: str, missing: float) -> numpy.ndarray:
             values = grains[name][:, 0]
@@ -93,7 +93,7 @@ def open_bed(path: str | os.PathLike) -> Bed:
 
 
 def kept_beds(folder: str | os.PathLike | None = None) -> list[Path]:
-    """Files of cached settled beds, most recently used first: in `folder`, else in the program's cache (GROUSER_CACHE,
+    """Files of cached settled beds, most recently used first, in `folder`; default: the program's cache (GROUSER_CACHE,
     else XDG_CACHE_HOME/grouser, else ~/.cache/grouser)."""
     if folder is None:
         named = os.environ.get("GROUSER_CACHE")

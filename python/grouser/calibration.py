@@ -20,7 +20,7 @@ class Trial:
     name: str  #: name of the folder: "shear_2", "plate_1"
     kind: str  #: "shear" or "plate"
     parameters: dict[str, float | str | bool]  #: material keys, in the units of docs/keys.md
-    measured: dict[str, Estimate]  #: "phi", "c", "K" of shear; "pressure" of the small plate at "sinkage"
+    measured: dict[str, Estimate]  #: shear: "phi", "c", "K"; plate: "pressure" of the small plate at "sinkage"
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +29,8 @@ class Outcome:
 
     what: str  #: "phi", "pressure, small plate"
     wanted: float  #: target, in the unit of `reached`
-    tolerance: float  #: NaN if the value is a result only
-    reached: Estimate  #: with half of the 95 % interval over the tests; NaN for a single test
+    tolerance: float  #: NaN if the value is not a target
+    reached: Estimate  #: mean, with half of the 95 % interval over the tests (NaN for a single test)
     verdict: str  #: "reached", "not reached", "not sought"
 
 
@@ -46,7 +46,7 @@ class Calibration:
         with fields_of(file, "a calibration"):
             self.name: str = self.json["soil"]
             self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
-            self.coarse: bool = self.json["care"] == "coarse"  #: with --quick
+            self.coarse: bool = self.json["care"] == "coarse"  #: True for a search with --quick
             self.status: str = self.json["status"]  #: "searching", "unfinished" (out of time), "finished"
             self.trials: list[Trial] = [
                 Trial(one["name"], one["kind"], one["parameters"] or {},

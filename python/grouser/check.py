@@ -18,12 +18,12 @@ from .sweep import value_of
 
 @dataclass(frozen=True, eq=False)
 class AxisError:
-    """Change of a figure by another step, extent, grain size..."""
+    """Change of a figure if one axis varies: time step, bed extent, grain size..."""
 
     axis: str
-    change: Estimate  #: relative to the unchanged scene, in the figure's unit
+    change: Estimate  #: difference from the unchanged scene, in the figure's unit
     verdict: str  #: "equal", "differs" or "inconclusive"
-    order: float  #: observed order of convergence in the step; else NaN
+    order: float  #: observed order of convergence in the step; NaN if unknown
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,18 +31,18 @@ class CheckFigure:
     """A figure with its error bar."""
 
     name: str
-    bar: Estimate  #: value and error bar of seeds and axes
-    by_seeds: Estimate  #: value and half of the 95 % interval over the seeds
+    bar: Estimate  #: value, with the error bar that combines seeds and axes
+    by_seeds: Estimate  #: value, with half of the 95 % interval over the seeds
     seeds: int
     errors: dict[str, AxisError]  #: by axis
-    inconclusive: bool = False  #: fewer than two teeth, or an error bar larger than the value
+    inconclusive: bool = False  #: the tracks advance by fewer than two sprocket teeth, or the bar exceeds the value
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BarredSeries(Series):
-    """A series with half widths, each of shape [rows]; NaN if unknown. `2 * s` doubles the half widths; `s + t` and
-    `s - t` add them, an upper bound, since errors of one check are not independent. A series without half widths
-    adds none."""
+    """A series with half widths, each of shape [rows]; NaN if unknown. `2 * s` doubles the half widths. `s + t` and
+    `s - t` add the half widths; the sum is an upper bound, since errors of one check are not independent. A series
+    without half widths counts as exact."""
 
     by_seeds: numpy.ndarray = None  #: half width of the 95 % interval over the seeds
     by_step: numpy.ndarray = None  #: half width of the step
@@ -53,7 +53,7 @@ class BarredSeries(Series):
 
 
 class Check:
-    """A check's folder: `check["speed"]` is a CheckFigure; `for figure in check` iterates over all."""
+    """A check's folder: `check["speed"]` is a CheckFigure; `for figure in check` iterates over all figures."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
@@ -92,13 +92,13 @@ class Check:
 
     @property
     def not_run(self) -> dict[str, str]:
-        """{axis: reason for skipping it}"""
+        """{axis that was not varied: reason}"""
         with fields_of(self.folder / "check.json", "a check"):
             return {omitted["axis"]: omitted["why"] for omitted in self.json["not_asked"]}
 
     @property
     def costs(self) -> dict[str, dict]:
-        """{case: wall_s, cpu_s [s], steps}, medians per run."""
+        """{case: {"wall_s": [s], "cpu_s": [s], "steps"}}: medians over the runs of each case."""
         file = self.folder / "costs.json"
         told = read_json(file, "costs of a check")
         with fields_of(file, "costs of a check"):
@@ -106,7 +106,7 @@ class Check:
 
     @cached_property
     def series(self) -> dict[str, BarredSeries]:
-        """{name: series with error bars} of series.csv."""
+        """{name: series with error bars}, from series.csv."""
         file = self.folder / "series.csv"
         rows = read_csv(file)
         columns = {name: numpy.array([value_of(row[name]) for row in rows]) for name in (rows[0] if rows else ())}

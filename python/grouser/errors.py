@@ -8,17 +8,17 @@ from typing import Any
 
 
 class GrouserError(RuntimeError):
-    """The program exited with a code other than 0. `str()` is its message."""
+    """The program exited with a code other than 0. `str(error)` is the message of the program."""
 
     def __init__(self, message: str, exit_code: int, command: list[str], output: str):
         super().__init__(message)
-        self.exit_code = exit_code  #: see docs/commands.md; negative: killed by that signal
+        self.exit_code = exit_code  #: see docs/commands.md; -n if signal n killed the program
         self.command = command  #: list of arguments
-        self.output = output  #: its output so far
+        self.output = output  #: standard output of the program
 
 
 class InputError(GrouserError):
-    """Exit code 2: a scene, an option or a file is wrong; the message names file, line, key, range and remedy."""
+    """Exit code 2: a scene, an option or a file is invalid; the message names file, line, key, range and remedy."""
 
 
 class SimulationError(GrouserError):
@@ -30,7 +30,7 @@ class DeviceError(GrouserError):
 
 
 class StoppedError(GrouserError):
-    """Exit codes 129, 130 and 143: stopped by SIGHUP, SIGINT or SIGTERM; `resume=True` continues."""
+    """Exit codes 129, 130 and 143: SIGHUP, SIGINT or SIGTERM stopped the program; `resume=True` continues the run."""
 
 
 KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: DeviceError, 129: StoppedError,
@@ -38,7 +38,7 @@ KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: De
 
 
 def briefly(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Removes the frames of this package from the tracebacks of its exceptions."""
+    """Decorator that removes the frames of this package from the tracebacks of its exceptions."""
     @wraps(function)
     def called(*given: Any, **options: Any) -> Any:
         try:
@@ -49,4 +49,4 @@ def briefly(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 class FileError(ValueError):
-    """A file or folder is not of the expected kind, damaged or unreadable."""
+    """A file or folder is missing, unreadable, damaged, or not of the expected kind."""

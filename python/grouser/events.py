@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Mobility events: verdicts of a vehicle by level, its limits, and measured figures."""
+"""The results of mobility events: verdicts by level, limits of the vehicle, and measured figures."""
 from __future__ import annotations
 
 import os
@@ -17,8 +17,8 @@ from .series import Estimate, counted, number, split_unit
 class EventRun:
     """One run of an event at a level."""
 
-    verdict: str  #: "go", "no-go", "failed" (not because of the vehicle), "incomplete", "pending"
-    why: str
+    verdict: str  #: "go", "no-go", "failed" (the run failed, not the vehicle), "incomplete", "pending"
+    why: str  #: reason for the verdict
     folder: Path
 
 
@@ -31,16 +31,16 @@ class EventRow:
     level: float  #: NaN for an event without levels
     level_is: str  #: meaning of the level, with its unit
     verdict: str  #: "go", "no-go", "pending"..., as in events.txt
-    why: str  #: reason of the first run that is not a go, else of the first run
+    why: str  #: reason for the verdict of the first run that is not a go, else of the first run
     runs: int  #: number of finished runs
     each: tuple[EventRun, ...]  #: all runs, by seed; empty in files of older versions
-    figures: dict[str, Estimate]  #: means with half of the 95 % interval over the seeds; NaN for one seed
+    figures: dict[str, Estimate]  #: means, with half of the 95 % interval over the seeds; half width NaN for one seed
     overrides: tuple[str, ...]  #: keys of this level, "key=value", applied to `scene`
     scene: str  #: scene of the event
     folder: Path | None  #: folder of the first run
 
     def open(self) -> Run:
-        """The results of its first run. FileError if there are none."""
+        """Opens the results of the first run. FileError if no run has finished."""
         if self.folder is None:
             raise FileError(f"{self.event}: no run has finished")
         return Run(self.folder)
@@ -48,19 +48,19 @@ class EventRow:
 
 @dataclass(frozen=True, eq=False)
 class EventLimit:
-    """The limit of an event, between two levels."""
+    """The limit of a vehicle in an event: it is between two levels."""
 
     event: str
     level_is: str
-    go: float  #: the hardest level that all runs pass; NaN if none
-    no_go: float  #: the easiest level that a run fails; NaN if none
+    go: float  #: the hardest level that all runs pass; NaN if there is no such level
+    no_go: float  #: the easiest level that a run fails; NaN if there is no such level
     reference: str  #: limit expected from geometry and friction
-    agrees: bool | None  #: None if unknown
+    agrees: bool | None  #: True if the verdicts of all levels agree with the reference; None without a reference
 
 
 class Events:
-    """The folder of `grouser events`. `for row in events` iterates over events and levels; `events["step"]` are the
-    rows of one event."""
+    """The folder of `grouser events`. `for row in events` iterates over all events and levels; `events["step"]` returns
+    the rows of one event."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)

@@ -9,37 +9,37 @@ import numpy
 from .series import Quantity
 
 #: Fields in frames of scenes with output.fields_cell: name, (unit, shape of a cell's value, definition).
-FIELDS = {"stress": ("Pa", (3, 3), "mean stress of a cell (Love-Weber), negative in compression"),
-          "strain_rate": ("1/s", (3, 3), "symmetric gradient of the velocity; NaN with too few grains"),
-          "velocity": ("m/s", (3,), "mass-weighted mean of the grains; NaN without grains"),
+FIELDS = {"stress": ("Pa", (3, 3), "mean stress in a cell (Love-Weber), negative in compression"),
+          "strain_rate": ("1/s", (3, 3), "symmetric part of the velocity gradient; NaN with too few grains"),
+          "velocity": ("m/s", (3,), "mass-weighted mean velocity of the grains; NaN without grains"),
           "porosity": ("-", (), "pore volume / total volume"),
           "coordination": ("-", (), "mean number of contacts per grain; NaN without grains"),
-          "mechanical_coordination": ("-", (), "mean number of contacts of grains with two or more")}
-#: Positions of xx, xy, xz, yy, yz, zz in a tensor.
+          "mechanical_coordination": ("-", (), "mean number of contacts of grains with two or more contacts")}
+#: Index of the stored component (xx, xy, xz, yy, yz, zz) for each element of a tensor.
 _PLACES = numpy.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Field(Quantity):
-    """A soil field over time: `value` has the shape [frames, z, y, x], vectors [..., 3], tensors [..., 3, 3]. The
-    centre of cell [k, j, i] is (x[i], y[j], z[k])."""
+    """A soil field over time: `value` has the shape [frames, z, y, x], for vectors [..., 3], for tensors [..., 3, 3].
+    The centre of cell [k, j, i] is (x[i], y[j], z[k])."""
 
     time: numpy.ndarray = None  #: [frames] [s]
-    x: numpy.ndarray = None  #: [nx] centres of the cells [m]
-    y: numpy.ndarray = None  #: [ny] along y
-    z: numpy.ndarray = None  #: [nz] along z
+    x: numpy.ndarray = None  #: [nx] centres of the cells along x [m]
+    y: numpy.ndarray = None  #: [ny] centres of the cells along y [m]
+    z: numpy.ndarray = None  #: [nz] centres of the cells along z [m]
     origin: numpy.ndarray = None  #: [3] lower corner of the grid [m]
-    spacing: numpy.ndarray = None  #: [3] edges of a cell [m]
+    spacing: numpy.ndarray = None  #: [3] edge lengths of a cell [m]
 
     @property
     def cell_volume(self) -> float:
-        """[m3]"""
+        """Volume of a cell [m3]."""
         return float(numpy.prod(self.spacing))
 
 
 def field_of(groups: list, time: numpy.ndarray, name: str, where: object) -> Field:
-    """`groups`: fields of each frame, or None. KeyError if no frame has the field; ValueError if the grids of the
-    frames differ."""
+    """Reads a field. `groups`: fields of each frame, None for a frame without fields. KeyError if no frame has the
+    field; ValueError if the grids of the frames differ."""
     if name not in FIELDS:
         raise KeyError(f"no field {name!r}; fields are {', '.join(FIELDS)}")
     kept = [place for place, group in enumerate(groups) if group is not None]
@@ -51,7 +51,7 @@ def field_of(groups: list, time: numpy.ndarray, name: str, where: object) -> Fie
         group = groups[place]
         if (group["porosity"].shape != first["porosity"].shape or not numpy.array_equal(group["origin"][:], origin)
                 or not numpy.array_equal(group["spacing"][:], spacing)):
-            raise ValueError(f"{where}: frames {kept[0]} and {place} have different grids; read them one by one: "
+            raise ValueError(f"{where}: frames {kept[0]} and {place} have different grids; read single frames: "
                              "run.frames[n].field(name)")
     unit, shape, about = FIELDS[name]
     value = numpy.stack([groups[place][name][:] for place in kept])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""JSON and CSV of results; FileError with file name and position for missing or damaged files."""
+"""Reads JSON and CSV files of results; FileError names the file, and the position of damage."""
 from __future__ import annotations
 
 import csv
@@ -17,7 +17,7 @@ _REMEDY = "run it again or restore the file from a copy"
 
 
 def read_json(file: Path, what: str) -> dict:
-    """FileError with line and column if the file is missing, damaged, or not a JSON dictionary."""
+    """Reads a JSON dictionary. FileError if the file is missing, damaged (with line and column) or not a dictionary."""
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
     except OSError as error:
@@ -39,12 +39,12 @@ def _damaged(place: str, what: str, fault: str) -> str:
 
 @contextmanager
 def fields_of(file: Path, what: str) -> Iterator[None]:
-    """Context for evaluating a table from `file`: FileError if a field is missing or of the wrong type."""
+    """Context in which data from `file` are evaluated: FileError if a field is missing or has the wrong type."""
     try:
         yield
     except FileError:
         raise
-    except KeyError as error:  # h5py: a sentence that contains the name
+    except KeyError as error:  # h5py: the message is a sentence with the name in quotes
         name = (re.findall("'([^']+)'", str(error)) or [error])[-1]
         raise FileError(f"{file}: cannot be read as {what}: {name!r} is missing; damaged or from another version: "
                         f"{_REMEDY}") from error
@@ -54,14 +54,14 @@ def fields_of(file: Path, what: str) -> Iterator[None]:
 
 
 def still_open(file: h5py.File, path: Path) -> h5py.File:
-    """ValueError if the file has been closed."""
+    """Returns the file; ValueError if it has been closed."""
     if not file:
-        raise ValueError(f"{path}: is closed; open it again")
+        raise ValueError(f"{path}: the file is closed; open it again")
     return file
 
 
 def read_csv(file: Path) -> list[dict[str, str]]:
-    """The rows of a CSV file by column name. FileError if it cannot be read."""
+    """Reads the rows of a CSV file as dictionaries by column name. FileError if the file cannot be read."""
     try:
         with open(file, newline="", encoding="utf-8") as text:
             return list(csv.DictReader(text))

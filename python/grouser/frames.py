@@ -23,7 +23,7 @@ UNITS = {"id": "-", "position": "m", "radius": "m", "speed": "m/s", "velocity": 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Mesh(Brief):
-    """Triangles of the parts, or of the ground."""
+    """Triangle mesh of the parts or of the ground."""
 
     vertices: numpy.ndarray  #: [v, 3] in the world [m]
     triangles: numpy.ndarray  #: [t, 3] indices of the vertices
@@ -50,12 +50,12 @@ class Frame:
         return len(self._group["grains/id"]) if "grains" in self._group else 0
 
     def grains(self, name: str) -> numpy.ndarray:
-        """A quantity of all grains, [n] or [n, 3]: the keys of `grouser.UNITS`. KeyError if the frames lack it."""
+        """A quantity of all grains, [n] or [n, 3]. name: a key of `grouser.UNITS`. KeyError if not in the frame."""
         if "grains" not in self._group:
             raise KeyError(f"{self._frames.path}: this frame has no grains")
         grains = self._group["grains"]
         if name not in grains:
-            raise KeyError(f"{self._frames.path}: grains have no {name!r}; they have {', '.join(grains)}")
+            raise KeyError(f"{self._frames.path}: no grain quantity {name!r}; available: {', '.join(grains)}")
         return grains[name][:]
 
     @property
@@ -80,7 +80,7 @@ class Frame:
 
     @property
     def contact_force(self) -> numpy.ndarray:
-        """[n, 3] resultant of all contacts of a grain [N]; NaN in the first frame. KeyError if the frames lack it."""
+        """[n, 3] resultant contact force on each grain [N]; NaN in the first frame. KeyError if not in the frame."""
         return self.grains("contact_force")
 
     @property
@@ -89,12 +89,12 @@ class Frame:
         return "fields" in self._group
 
     def field(self, name: str) -> Field:
-        """A soil field in this frame only, with one row: see Frames.fields()."""
+        """A soil field in this frame, with one row; see Frames.fields()."""
         return field_of([self._group.get("fields")], numpy.array([self.time]), name, self._frames.path)
 
     def soil(self, name: str) -> numpy.ndarray:
-        """Deformable ground in this frame: "position" [v, 3] [m] and "triangles" [t, 3]; at the vertices "sinkage" [m],
-        "pressure", "max_pressure", "shear" [v] and "shear_vector" [v, 3] [Pa]. KeyError if there is none."""
+        """Deformable soil in this frame: "position" [v, 3] [m] and "triangles" [t, 3]; at the vertices "sinkage" [m],
+        "pressure", "max_pressure", "shear" [v] and "shear_vector" [v, 3] [Pa]. KeyError for a scene without it."""
         soil = self._group.get("soil", {})
         if name not in soil:
             raise KeyError(f"{self._frames.path}: this frame has no {name!r} of deformable soil")
@@ -102,13 +102,13 @@ class Frame:
 
     @property
     def poses(self) -> numpy.ndarray:
-        """[parts, 7]: position [m] and orientation (quaternion, scalar first) of each part's frame in the world, in the
-        order of Frames.parts."""
+        """[parts, 7] position [m] and orientation (quaternion, scalar first) of the reference frame of each part in the
+        world, in the order of Frames.parts."""
         return self._group["parts/pose"][:] if "parts" in self._group else numpy.empty((0, 7))
 
     def pose(self, part: str) -> tuple[numpy.ndarray, numpy.ndarray]:
-        """Position [3] [m] and rotation [3, 3] of a part: world = position + rotation @ p for a point p of its
-        frame."""
+        """Position [3] [m] and rotation [3, 3] of a part: world = position + rotation @ p for a point p in the part's
+        reference frame."""
         row = self._group["parts/pose"][self._frames.place_of(part)]
         return row[:3], rotation(row[3:])
 
@@ -178,8 +178,8 @@ class Frames:
         return (self[i] for i in range(len(self)))
 
     def at(self, time: float) -> Frame:
-        """The frame nearest to `time` [s]. ValueError if there are none, or if `time` is more than one interval before
-        the first or after the last."""
+        """The frame nearest to `time` [s]. ValueError if there is no frame, or if `time` is more than one interval
+        before the first or after the last."""
         return self[nearest(self.time, time, "frames", str(self.path))]
 
     @cached_property
@@ -191,13 +191,13 @@ class Frames:
         return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
 
     def place_of(self, part: str) -> int:
-        """Index of a part in `parts`. KeyError lists some names."""
+        """Index of a part in `parts`. KeyError, with examples of names, for an unknown part."""
         if part not in self.parts:
             raise KeyError(f"no part {part!r}; parts are {', '.join(self.parts[:6])}...")
         return self.parts.index(part)
 
     def part(self, name: str) -> Series:
-        """A part over time: [frames, 7], position [m] and orientation (quaternion, scalar first) of its frame."""
+        """Motion of a part: [frames, 7] position [m] and orientation (quaternion, scalar first); see Frame.poses."""
         place = self.place_of(name)
         poses = numpy.array([self._file[frame]["parts/pose"][place] for frame in self._names])
         return Series(poses, "m, -", "position and orientation of a part", name, self.time, self.step,
@@ -205,32 +205,32 @@ class Frames:
 
     def grain(self, id: int, name: str = "position") -> Series:
         """A quantity of one grain over time: [frames] or [frames, 3]; NaN in frames without the grain. KeyError if no
-        frame has it."""
+        frame contains the grain."""
         rows: list[numpy.ndarray | None] = []
         for frame in self:
             at = numpy.flatnonzero(frame.id == id) if len(frame) else ()
             rows.append(frame.grains(name)[at[0]] if len(at) else None)
         there = next((row for row in rows if row is not None), None)
         if there is None:
-            raise KeyError(f"{self.path}: no frame has grain {id}")
+            raise KeyError(f"{self.path}: no frame contains grain {id}")
         values = numpy.array([numpy.full_like(there, numpy.nan, dtype=float) if row is None else row for row in rows])
         return Series(values, UNITS.get(name, ""), "", f"grain {id} {name}", self.time, self.step,
                       ("x", "y", "z") if values.ndim == 2 else ())
 
     def fields(self, name: str) -> Field:
         """A soil field over time: "stress", "strain_rate", "velocity", "porosity", "coordination" or
-        "mechanical_coordination", [frames, z, y, x], vectors [..., 3], tensors [..., 3, 3]. KeyError for an unknown
-        field or a scene without output.fields_cell; ValueError if the grids of the frames differ."""
+        "mechanical_coordination": [frames, z, y, x], for vectors [..., 3], for tensors [..., 3, 3]. KeyError for an
+        unknown field or a scene without output.fields_cell; ValueError if the grids of the frames differ."""
         return field_of([self._file[frame].get("fields") for frame in self._names], self.time, name, self.path)
 
     @property
     def ground(self) -> Mesh | None:
-        """Triangles of rigid ground; None without."""
+        """Triangle mesh of rigid ground; None for a scene without rigid ground."""
         if "ground" not in self._file:
             return None
         return Mesh(self._file["ground/position"][:], self._file["ground/triangles"][:], None)
 
 
 def open_frames(path: str | os.PathLike) -> Frames:
-    """Opens a frames.h5, or that of a run's folder. FileError if it cannot be read."""
+    """Opens frames.h5: path of the file or of a run's folder. FileError if the file cannot be read."""
     return Frames(path)

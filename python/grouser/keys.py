@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Keys of scenes, from the program's tables (`grouser fields`)."""
+"""Checks the keys of scenes against the tables of `grouser fields`."""
 from __future__ import annotations
 
 import difflib
@@ -18,7 +18,7 @@ _ANY = ("NAME", "a|b", "SECTION")  # placeholders for a name in the program's ta
 
 @cache
 def _sections(vehicle: bool = False) -> dict[tuple[str, ...], list[str]]:
-    """{("driver", "table"): its keys}; {} if the program does not answer."""
+    """{("driver", "table"): its keys}; {} if the program cannot be run."""
     try:
         words = [find_program(), "fields", *(["--vehicle"] if vehicle else [])]
         text = subprocess.run(words, capture_output=True, text=True, check=True).stdout
@@ -44,8 +44,8 @@ def _dotted(path: list[str]) -> str:
 
 
 def check(path: list[str], value: Any) -> None:
-    """KeyError with the nearest key for an unknown key of a scene. No check if the program does not answer, nor for
-    keys in lists of a vehicle file."""
+    """Raises KeyError, which names the nearest key, for an unknown key of a scene. Accepts every key if the program
+    cannot be run, and every key in lists of a vehicle file."""
     sections = _sections()
     if not sections or path == ["version"]:
         return
@@ -79,7 +79,7 @@ def _check_leaf(path: list[str], sections: dict[tuple[str, ...], list[str]]) -> 
         """The pattern with its placeholders replaced by the names of the path."""
         return [b if a in _ANY else a for a, b in zip(pattern, section)] if len(pattern) == len(section) else [*pattern]
 
-    # The only key of this name in another section, else a key of this section, else any key.
+    # Suggest the only key of this name in another section, else a key of this section, else any key.
     whole = [_dotted([*named(pattern), k]) for pattern, known in sections.items() for k in known]
     same = [word for word in whole if word.rpartition(".")[2] == key]
     own = [_dotted([*section, k]) for k in here]

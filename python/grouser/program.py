@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calls the program `grouser`: progress as callbacks, errors as exceptions."""
+"""Runs the program `grouser`, reports its progress by callbacks, and raises its errors as exceptions."""
 from __future__ import annotations
 
 import codecs
@@ -24,10 +24,10 @@ _ERROR = "grouser: error: "
 
 @dataclass(frozen=True, eq=False)
 class Progress:
-    """A line of progress of a running program."""
+    """A progress line of a running program."""
 
     what: str  #: phase: "settling", "driving"
-    fraction: float  #: finished part of the phase, 0 to 1
+    fraction: float  #: completed fraction of the phase, 0 to 1
     detail: str  #: "t 1.20 s"
     left: str  #: "about 42 s left"
 
@@ -36,8 +36,8 @@ class Progress:
 
 
 def find_program() -> Path:
-    """Path of the program: environment variable GROUSER_PROGRAM, else build/bin/grouser of the checkout of this
-    package, else the one installed with it, else `grouser` in the PATH. FileNotFoundError if there is none."""
+    """Path of the program: environment variable GROUSER_PROGRAM, else build/bin/grouser in the checkout of this
+    package, else the program installed with the package, else `grouser` in PATH. FileNotFoundError if none exists."""
     given = os.environ.get("GROUSER_PROGRAM")
     here = Path(__file__).resolve().parent
     installed = [up / "bin" / "grouser" for up in here.parents]  # PREFIX/lib/python3/dist-packages/grouser
@@ -53,18 +53,19 @@ def find_program() -> Path:
 
 
 class Job:
-    """A running call of the program. Several may run at the same time.
+    """A running process of the program. Several jobs can run at the same time.
 
-    words: arguments of the program. folder: working directory. progress: callback(Progress) for each line of progress,
-    from another thread; an exception in it stops the call and is raised by `wait()`. environment: additional variables.
-    refused: called on exit code 2. worded: converts the error message.
+    words: arguments of the program. folder: working directory. progress: callback(Progress), called from another thread
+    for each progress line; if it raises an exception, the program stops and `wait()` raises the exception again.
+    environment: additional environment variables. refused: called on exit code 2. worded: function that rewrites the
+    error message.
     """
 
     def __init__(self, words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
                  progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None,
                  refused: Callable[[], None] | None = None, worded: Callable[[str], str] | None = None):
         self.command = [str(find_program()), *(os.fspath(word) for word in words)]
-        self.progress: Progress | None = None  #: the last line of progress
+        self.progress: Progress | None = None  #: the last progress line
         self._tell, self._refused, self._worded = progress, refused, worded
         self._raised: BaseException | None = None  # exception of the callback
         self._lines: list[str] = []
@@ -100,14 +101,14 @@ class Job:
         return list(self._errors)
 
     def stop(self) -> None:
-        """Stops the program; a run writes a checkpoint, and `wait()` then raises StoppedError."""
+        """Stops the program: a run first writes a checkpoint; `wait()` then raises StoppedError."""
         if self.running:
             self._process.terminate()  # background processes ignore SIGINT
 
     def wait(self) -> str:
-        """Waits for the end and returns the standard output. Raises InputError, SimulationError, DeviceError,
-        StoppedError or GrouserError with the program's message and exit code. An exception here (such as Ctrl-C) or
-        in `progress` stops the program first."""
+        """Waits for the end of the program and returns its standard output. Raises InputError, SimulationError,
+        DeviceError, StoppedError or GrouserError with the message and exit code of the program. An exception during the
+        wait (such as Ctrl-C) or in `progress` stops the program before it is raised."""
         try:
             code = self._process.wait()
         except BaseException:
@@ -141,7 +142,7 @@ class Job:
             while True:
                 try:
                     piece = decoder.decode(terminal.read(4096))
-                except OSError:  # the program has closed the pipe
+                except OSError:  # the program has closed its end of the terminal
                     piece = ""
                 *whole, rest = re.split(r"[\r\n]+", rest + piece)
                 for line in whole:
@@ -174,5 +175,5 @@ class Job:
 @briefly
 def call(words: Iterable[str | os.PathLike], folder: str | os.PathLike | None = None,
          progress: Callable[[Progress], None] | None = None, environment: dict[str, str] | None = None) -> str:
-    """Runs the program to its end: `Job(...).wait()`."""
+    """Runs the program and waits for its end; the same as `Job(...).wait()`."""
     return Job(words, folder, progress, environment).wait()

@@ -24,14 +24,14 @@ SIDES = ("left", "right")
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Surface(Brief):
-    """The undisturbed surface of the bed on a grid of nodes, before the vehicle touches it, and the final surface:
-    ruts where `surface.final_height - surface.height` is negative."""
+    """Surface of the bed on a grid of nodes: undisturbed (before the vehicle touches the bed) and final. Ruts are where
+    `surface.final_height - surface.height` is negative."""
 
-    x: numpy.ndarray  #: [columns] of the nodes [m]
-    y: numpy.ndarray  #: [rows] of the nodes [m]
-    height: numpy.ndarray  #: [rows, columns] at (x[column], y[row]) [m]
+    x: numpy.ndarray  #: [columns] x of the nodes [m]
+    y: numpy.ndarray  #: [rows] y of the nodes [m]
+    height: numpy.ndarray  #: [rows, columns] undisturbed height at (x[column], y[row]) [m]
     interpolation: str  #: between nodes: "bilinear", "Catmull-Rom" or "monotone"
-    final_height: numpy.ndarray | None = None  #: [rows, columns] at the end of the run [m]; None if not recorded
+    final_height: numpy.ndarray | None = None  #: [rows, columns] height at the end of the run [m]; None if not recorded
     #: (unfinished run, output.final_surface = false)
 
 
@@ -40,7 +40,7 @@ def text_of(value: object) -> str:
 
 
 def quantity_of(dataset: h5py.Dataset, name: str) -> Quantity:
-    """A dataset with its attributes; a single number has the shape ()."""
+    """A dataset with its unit and definition; a single number has the shape ()."""
     value = dataset[()]
     if value.shape == (1,):
         value = value[0]
@@ -48,10 +48,10 @@ def quantity_of(dataset: h5py.Dataset, name: str) -> Quantity:
 
 
 class Run:
-    """The results in the folder of a run. Data are read on access. A running simulation can be opened, and opened again
-    later.
+    """The results in the folder of a run. Data are read on access. The folder of an unfinished run can be opened too;
+    open it again to read newer rows.
 
-    `run["vehicle.left.slip"]` is a Series; `run.names()` lists them; `run.constants` are the constants.
+    `run["vehicle.left.slip"]` is a Series; `run.names()` lists all series; `run.constants` contains the constants.
     """
 
     def __init__(self, path: str | os.PathLike):
@@ -59,7 +59,7 @@ class Run:
         self.folder: Path = path.parent if path.name == "results.h5" else path
         self.file: Path = self.folder / "results.h5"
         if not self.file.is_file():
-            raise FileError(f"{self.folder}: no results.h5; give the folder of a run")
+            raise FileError(f"{self.folder}: no results.h5; specify the folder of a run")
         try:
             self._opened = h5py.File(self.file, "r", locking=False)
         except OSError as error:
@@ -67,7 +67,7 @@ class Run:
         if "series/time" not in self._opened or "series/step" not in self._opened:
             self._opened.close()
             raise FileError(f"{self.file}: no series; not the results.h5 of a run")
-        # the number of rows differs between quantities only if the program was killed while writing
+        # The number of rows differs between quantities only if the program was killed while it wrote a row.
         self._rows = min(len(group["value"]) for group in self._groups.values()) if self._groups else 0
 
     def close(self) -> None:
@@ -102,7 +102,7 @@ class Run:
         return groups
 
     def names(self, beginning: str = "") -> list[str]:
-        """Names of all series, or of those with a prefix: `run.names("vehicle.left.")`."""
+        """Names of all series, or of the series with a prefix: `run.names("vehicle.left.")`."""
         return [name for name in self._groups if name.startswith(beginning)]
 
     def __contains__(self, name: str) -> bool:
@@ -112,7 +112,7 @@ class Run:
         return iter(self._groups)
 
     def __getitem__(self, name: str) -> Series:
-        """A series by its name, with dots (or slashes). KeyError if the run does not have it."""
+        """A series by its name, with dots or slashes. KeyError if the run does not contain the series."""
         group = self._groups.get(name.replace("/", "."))
         if group is None:
             raise KeyError(f"{self.folder}: no series {name!r}; names() lists all {len(self._groups)}")
@@ -134,18 +134,18 @@ class Run:
         return self._open["series/step"][:self._rows]
 
     def by_shoe(self, name: str) -> dict[str, Series]:
-        """{"left": ..., "right": ...} of a quantity with a value per shoe, each [rows, shoes]: "sinkage",
+        """{"left": ..., "right": ...}, each [rows, shoes], for a quantity with one value per shoe: "sinkage",
         "tension", "pad_height", "ground_pressure", "on_ground". KeyError for a run without a vehicle."""
         return {side: self[f"vehicle.{side}.{name}"] for side in SIDES}
 
     def sinkage(self) -> dict[str, Series]:
-        """{"left": ..., "right": ...}, each [rows, shoes] [m]: NaN for shoes without ground contact. KeyError for a run
-        without a vehicle."""
+        """Sinkage of the shoes {"left": ..., "right": ...}, each [rows, shoes] [m]; NaN for shoes without ground
+        contact. KeyError for a run without a vehicle."""
         return self.by_shoe("sinkage")
 
     @cached_property
     def constants(self) -> dict[str, Quantity]:
-        """{name: Quantity} of all constants: "vehicle.mass", "terrain.bed.porosity", curves such as
+        """{name: Quantity} for all constants: "vehicle.mass", "terrain.bed.porosity"; including curves such as
         "terrain.bed.depth" [n]."""
         constants: dict[str, Quantity] = {}
 
@@ -171,7 +171,7 @@ class Run:
 
     @cached_property
     def scene(self) -> dict:
-        """The resolved scene: all keys with their values, as tomllib reads scene.toml."""
+        """The resolved scene: all keys with their values, as a dict (the contents of scene.toml)."""
         attributes = self._open.attrs
         with fields_of(self.file, "the results of a run"):
             text = text_of(attributes["scene"])
@@ -188,8 +188,8 @@ class Run:
 
     @property
     def status(self) -> str:
-        """"finished", "incomplete" (its vehicle never drove, or fewer than two teeth), "failed", "stopped" or
-        "running"; "unknown" without a manifest."""
+        """"finished", "incomplete" (the vehicle never drove, or its tracks advanced by fewer than two sprocket teeth),
+        "failed", "stopped" or "running"; "unknown" without a manifest."""
         return self.manifest.get("status", "unknown")
 
     @property
@@ -212,10 +212,10 @@ class Run:
         return self.frames.fields(name)
 
     def bed(self) -> Bed:
-        """The grains of the run's checkpoint. FileError if there is none."""
+        """The grains in the run's checkpoint. FileError if the run has no checkpoint."""
         return open_bed(self.folder)
 
 
 def open_run(path: str | os.PathLike) -> Run:
-    """Opens the results of a run: its folder or results.h5. FileError if there are none."""
+    """Opens the results of a run: path of its folder or of results.h5. FileError if there are no results."""
     return Run(path)

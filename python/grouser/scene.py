@@ -34,17 +34,17 @@ def _path_of(key: str) -> list[str]:
             (name, table), = table.items()
             path.append(name)
     except ValueError:
-        raise KeyError(f"{key!r} is no key: expected words separated by dots, in quotes unless they consist of "
-                       "letters, digits, _ and -") from None
+        raise KeyError(f"{key!r} is not a key: expected words separated by dots; quote words with characters other "
+                       "than letters, digits, _ and -") from None
     return path
 
 
 class Scene:
     """A scene as a TOML document: `scene["run.duration"] = 0.5`. docs/keys.md lists all keys. Setting an unknown key
-    raises KeyError; values are checked by the program when the scene is run, planned or checked.
+    raises KeyError; the program checks the values when the scene is run, planned or checked.
 
     document: nested dicts, as read by tomllib; default: an empty scene of version 1. folder: base of relative paths in
-    the scene. name: of its results, and in messages. KeyError for unknown keys.
+    the scene. name: name of the scene in messages. KeyError for unknown keys.
     """
 
     def __init__(self, document: Mapping[str, Any] | None = None, folder: str | os.PathLike = ".", name: str = "scene"):
@@ -60,14 +60,14 @@ class Scene:
 
     @classmethod
     def read(cls, file: str | os.PathLike) -> Scene:
-        """Reads a scene file; its comments are lost. FileError if it is not TOML."""
+        """Reads a scene file without its comments. FileError if the file cannot be read or is not TOML."""
         file = Path(file)
         try:
             document = tomllib.loads(file.read_text(encoding="utf-8-sig"))
         except OSError as error:
             raise FileError(f"{file}: cannot be read: {error.strerror}") from error
         except UnicodeDecodeError as error:
-            raise FileError(f"{file}: is no text in UTF-8; save it as UTF-8") from error
+            raise FileError(f"{file}: not UTF-8 text; save it as UTF-8") from error
         except ValueError as error:
             raise FileError(f"{file}: {error}") from error
         scene = cls(None, file.parent, file.stem)
@@ -80,8 +80,8 @@ class Scene:
         return other
 
     def __getitem__(self, key: str) -> Any:
-        """The value of "section.key", or a whole section. KeyError if the scene does not set it (`Run.scene` contains
-        the defaults too)."""
+        """The value of "section.key", or a whole section. KeyError if the scene does not set this key; defaults are in
+        `Run.scene`."""
         table: Any = self.document
         for word in _path_of(key):
             if not isinstance(table, dict) or word not in table:
@@ -91,8 +91,8 @@ class Scene:
 
     @briefly
     def __setitem__(self, key: str, value: Any) -> None:
-        """Sets "section.key", or a whole section to a dict. KeyError for an unknown key, or if a part of the path is
-        not a section, such as a list ([[grains]], [[plane]]...; use `add()` and `scene["grains"][0]`)."""
+        """Sets the value of "section.key"; a dict sets a whole section. KeyError for an unknown key, or if a part of
+        the path is not a section. For lists ([[grains]], [[plane]]...), use `add()` and `scene["grains"][0]`."""
         *sections, last = path = _path_of(key)
         table: Any = self.document
         for k, word in enumerate(sections):  # report a wrong section before a wrong key
@@ -104,7 +104,7 @@ class Scene:
         table[last] = copy.deepcopy(value)
 
     def __delitem__(self, key: str) -> None:
-        """Removes a key or a section. KeyError if the scene does not have it."""
+        """Removes a key or a section. KeyError if the scene does not contain it."""
         *sections, last = _path_of(key)
         table = self.document
         for k, word in enumerate(sections):
@@ -135,13 +135,13 @@ class Scene:
         return document_text(self.document)
 
     def write(self, file: str | os.PathLike) -> Path:
-        """Writes the scene file, and creates missing folders."""
+        """Writes a scene file; creates missing folders. Returns its path."""
         file = Path(file)
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(self.text(), encoding="utf-8")
         return file
 
-    # These methods write the scene next to the folder of its results, as FOLDER.toml; messages name the scene.
+    # These methods write the scene to OUT.toml, next to the results folder OUT. Messages contain the name of the scene.
 
     @briefly
     def start(self, out: str | os.PathLike, *, force: bool = False, resume: bool | str | os.PathLike = False,
@@ -149,11 +149,11 @@ class Scene:
               progress: Tell = None, environment: dict[str, str] | None = None) -> Job:
         """Starts `grouser run` and returns at once; `Run(out)` opens the results so far.
 
-        out: folder of the results. force: overwrite it. resume: True continues from its checkpoint; a path branches
-        from the checkpoint of another run. until: "rest" ends the run before the vehicle drives. device: "auto", "cpu"
-        or "cuda". threads: CPU threads, 0: all. Defaults of both: as in the scene. hash: print the hash of the final
-        state. cache: reuse settled beds and cut meshes. progress: callback(Progress), from another thread. environment:
-        additional variables.
+        out: folder of the results. force: overwrite this folder. resume: True continues from its checkpoint; a path
+        branches from the checkpoint of another run. until: "rest" ends the run before the vehicle drives. device:
+        "auto", "cpu" or "cuda"; threads: number of CPU threads, 0: all; defaults: as in the scene. hash: print the hash
+        of the final state. cache: reuse settled beds and mesh spheres. progress: callback(Progress), called from
+        another thread. environment: additional environment variables.
         """
         words = [flag for flag, given in (("--force", force), ("--hash", hash), ("--no-cache", not cache)) if given]
         words += _with_file("--resume", resume) + (["--until", until] if until else [])
@@ -161,21 +161,21 @@ class Scene:
 
     @briefly
     def run(self, out: str | os.PathLike, **options: Any) -> Run:
-        """Runs the scene and opens the results; options of `start()`, exceptions of Job.wait()."""
+        """Runs the scene to the end and opens the results. Options: see `start()`; exceptions: see `Job.wait()`."""
         self.start(out, **options).wait()
         return Run(out)
 
     @briefly
     def plan(self, *, probe: bool = False) -> str:
-        """The output of `grouser plan`: features, size, step; with `probe` also the estimated run time. InputError for
-        an invalid scene. Leaves no files."""
+        """Returns the output of `grouser plan`: active features, size, time step; with `probe` also the estimated run
+        time. InputError for an invalid scene. Leaves no files."""
         with tempfile.TemporaryDirectory() as folder:
             file = self.write(Path(folder) / f"{self.name}.toml")
             words = ["plan", file, *([] if probe else ["--no-probe"])]
             return self._worded(Job(words, self.folder, worded=lambda text: self._worded(text, file)).wait(), file)
 
     def _worded(self, text: str, file: Path) -> str:
-        """A message of the program, with the name of the scene instead of the temporary file and line."""
+        """A message of the program, with the name of the scene instead of the scene file and line."""
         return re.sub(re.escape(str(file)) + r"(:\d+)*", lambda _: self._called, text)
 
     @briefly
@@ -183,12 +183,12 @@ class Scene:
               cases: Mapping[str, Mapping[str, Any]] | None = None, jobs: int = 1, force: bool = False,
               from_checkpoint: bool | str | os.PathLike = False, device: str = "", threads: int | None = None,
               progress: Tell = None, environment: dict[str, str] | None = None) -> Sweep:
-        """Runs `grouser sweep` over all combinations; continues an interrupted sweep.
+        """Runs `grouser sweep` over all combinations of values and cases; continues an interrupted sweep.
 
         values: {key: values}, e.g. {"driver.sprocket_speed": [0.5, 1, 2]}; a string or number is a single value. cases:
         {name: {key: value}}, keys that change together. seeds: run.seed from 1 to `seeds` for each combination. jobs:
-        number of parallel runs. from_checkpoint: all runs branch from this checkpoint; True: from one common run until
-        the vehicle is at rest. SimulationError names the failed runs; `Sweep(out)` opens the others.
+        number of parallel runs. from_checkpoint: checkpoint from which all runs branch; True: they branch from a common
+        run that ends when the vehicle is at rest. SimulationError names the failed runs; `Sweep(out)` opens the others.
         """
         words = ["--jobs", str(jobs)]
         for key, several in (values or {}).items():
@@ -205,10 +205,11 @@ class Scene:
     def check(self, out: str | os.PathLike, *, axes: Iterable[str] = (), seeds: int = 8, budget: str = "",
               jobs: int = 1, draws: int = 0, force: bool = False, device: str = "", threads: int | None = None, progress: Tell = None,
               environment: dict[str, str] | None = None) -> Check:
-        """Runs `grouser check`: error bars of all figures; continues an interrupted check.
+        """Runs `grouser check`, which computes error bars for all figures; continues an interrupted check.
 
-        axes: what to vary (["step", "grain_size"], or one string); empty: all. seeds: per case. budget: "90s", "20min",
-        "1.5h"; empty: unlimited. draws: samples of the constants of deformable soil.
+        axes: axes to vary (["step", "grain_size"], or a single string); empty: all. seeds: number of seeds per case.
+        budget: limit of the computing time ("90s", "20min", "1.5h"); empty: unlimited. draws: number of samples of the
+        constants of deformable soil.
         """
         words = ["--jobs", str(jobs), "--seeds", str(seeds)] + (["--draws", str(draws)] if draws else [])
         axes = axes if isinstance(axes, str) else ",".join(axes)
@@ -219,7 +220,8 @@ class Scene:
 
     def _started(self, command: str, out: str | os.PathLike, words: list[str], progress: Tell,
                  environment: dict[str, str] | None) -> Job:
-        """If the program rejects the call, restores the scene file next to an existing folder: that of its results."""
+        """Writes the scene file and starts the command. If the program rejects the call, a folder of existing results
+        keeps its previous scene file."""
         out = Path(out).resolve()
         file = out.parent / f"{out.name}.toml"
         before = _own_text(file)
@@ -250,7 +252,7 @@ def _with_file(option: str, given: bool | str | os.PathLike) -> list[str]:
 
 
 def _own_text(file: Path) -> str | None:
-    """Text of a scene file written by this package; None if there is none. FileError for other files."""
+    """Text of a scene file written by this package; None if the file does not exist. FileError for other files."""
     try:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -264,7 +266,7 @@ def _own_text(file: Path) -> str | None:
 
 
 def _put(file: Path, text: str) -> None:
-    """Writes a file atomically, by renaming a temporary one."""
+    """Writes a file atomically: writes a temporary file, then renames it."""
     new = file.with_name(f".{file.name}.{os.getpid()}")
     try:
         new.write_text(text, encoding="utf-8")
@@ -276,8 +278,9 @@ def _put(file: Path, text: str) -> None:
 @briefly
 def measure_soil(soil: str | os.PathLike, out: str | os.PathLike, options: Iterable[str] = (), *, progress: Tell = None,
                  environment: dict[str, str] | None = None) -> SoilTest:
-    """Runs `grouser soil`: constants of a soil, given by name or by a .toml file. options: further arguments, such as
-    ["--quick", "--jobs", "2"]. SimulationError if tests had an unsound result; `SoilTest(out)` opens the others."""
+    """Runs `grouser soil`, which measures the constants of a soil given by name or by a .toml file. options: further
+    arguments, such as ["--quick", "--jobs", "2"]. SimulationError if a test is invalid; `SoilTest(out)` opens the
+    others."""
     call(["soil", soil, "--out", out, *options], None, progress, environment)
     return SoilTest(out)
 
@@ -286,17 +289,17 @@ def _section(table: Any, path: list[str], key: str) -> dict[str, Any]:
     if isinstance(table, dict):
         return table
     name = ".".join(map(key_text, path))
-    raise KeyError(f"{key}: {name} is no section" +
-                   (f"; a list is changed as scene[{name!r}][0][...]" if isinstance(table, list) else f", but {table!r}"))
+    raise KeyError(f"{key}: {name} is not a section" +
+                   (f"; change a list by scene[{name!r}][0][...]" if isinstance(table, list) else f", but {table!r}"))
 
 
 def _several(values: Any) -> Iterable[Any]:
-    """A string is a single value, not a sequence."""
+    """Values as an iterable; a string is a single value, not a sequence."""
     return values if isinstance(values, Iterable) and not isinstance(values, (str, bytes)) else [values]
 
 
 def _word(value: Any) -> str:
-    """A value on the command line; strings with commas are quoted."""
+    """A value as a word of the command line; strings with commas are quoted."""
     if isinstance(value, str):
         return value_text(value) if "," in value else value
     return value_text(value)

@@ -12,7 +12,7 @@ import numpy
 
 
 class Brief:
-    """repr() of a dataclass: name and fields in one line, shapes of arrays."""
+    """repr() of a dataclass in one line: class name and fields, with the shape of each array."""
 
     def __repr__(self) -> str:
         def text(value: object) -> str:
@@ -24,14 +24,14 @@ class Brief:
 class Quantity:
     """A number or an array with a unit.
 
-    `2 * q`, `q * 2` and `q / 2` keep the unit; `q + r` and `q - r` require equal units, or a plain number if q is
-    dimensionless ("-"); otherwise ValueError names both units. numpy functions use the value: `numpy.mean(q)`,
+    `2 * q`, `q * 2` and `q / 2` keep the unit. `q + r` and `q - r` require equal units (a plain number has the unit
+    "-"); otherwise ValueError names both units. numpy functions use the value: `numpy.mean(q)`,
     `numpy.asarray(q) ** 2`.
     """
 
     value: numpy.ndarray  #: any shape; a single number has the shape ()
-    unit: str  #: "m"; "-": dimensionless; "": not in the file
-    help: str = ""  #: definition, one line
+    unit: str  #: "m"; "-": dimensionless; "": unknown
+    help: str = ""  #: definition, in one line
     name: str = ""  #: with dots, as in timeseries.csv: "vehicle.pitch_radius"
 
     def __array__(self, dtype=None, copy=None) -> numpy.ndarray:
@@ -63,7 +63,7 @@ class Quantity:
     def __iter__(self) -> Iterator:
         return iter(self.value)
 
-    __array_priority__ = 1000  # numpy scalars use q.__rmul__ for 2 * q
+    __array_priority__ = 1000  # a numpy scalar times q calls q.__rmul__
 
     def __mul__(self, factor: float | numpy.ndarray) -> Quantity:
         return self._scaled(factor, numpy.multiply, "*")
@@ -92,7 +92,7 @@ class Quantity:
         return replace(self, value=value, name=name, help="", **(bars or {}))
 
     def _bars(self) -> dict[str, numpy.ndarray]:
-        """Half widths by field name, each of the shape of `value`."""
+        """Half widths by field name, each with the shape of `value`."""
         return {}
 
     def _told(self) -> str:
@@ -121,7 +121,7 @@ class Quantity:
         if left.unit != right.unit:
             raise ValueError(f"{told}: the units differ")
         if isinstance(left, Series) and isinstance(right, Series) and not numpy.array_equal(left.time, right.time):
-            raise ValueError(f"{told}: the rows are of different times")
+            raise ValueError(f"{told}: the rows have different times")
         whole = max(left, right, key=lambda one: (isinstance(one, Series), bool(one._bars())))
         value = function(left.value, right.value)
         if value.shape != numpy.shape(whole.value):
@@ -136,8 +136,8 @@ def _range(value: numpy.ndarray) -> str:
 
 
 def nearest(times: numpy.ndarray, time: float, what: str, where: object) -> int:
-    """Index of the element of `times` nearest to `time` [s]. ValueError if there are none, or if `time` is more than
-    one interval outside; `what`, `where`: for the message."""
+    """Index of the element of `times` nearest to `time` [s]. ValueError, with `what` and `where` in its message, if
+    `times` is empty or `time` is more than one interval before the first or after the last."""
     if len(times) == 0:
         raise ValueError(f"{where}: has no {what}")
     before, behind = (times[1] - times[0], times[-1] - times[-2]) if len(times) > 1 else (1e-9, 1e-9)
@@ -153,11 +153,11 @@ class Series(Quantity):
 
     time: numpy.ndarray = None  #: [rows] [s]
     step: numpy.ndarray = None  #: [rows] [-]
-    labels: tuple[str, ...] = ()  #: column names, e.g. ("x", "y", "z"); empty: none, or one column per shoe
+    labels: tuple[str, ...] = ()  #: column names, e.g. ("x", "y", "z"); empty: one column without name, or one per shoe
 
     def _summary(self) -> str:
-        """Number of rows and time range; for one column first, last, minimum, mean and maximum; for named columns the
-        range of each; for a value per shoe the range of all."""
+        """Number of rows and time range. For one column: first, last, minimum, mean and maximum value. For named
+        columns: the range of each column. For one value per shoe: the range over all shoes."""
         rows = counted(len(self.value), "row")
         if not len(self.value):
             return rows
@@ -180,14 +180,14 @@ class Series(Quantity):
         return rows + (f", {unknown} of {numpy.size(self.value)} are NaN" if unknown else "")
 
     def __getitem__(self, label: str | int | slice) -> Series | numpy.ndarray:
-        """A column by its label: `run["vehicle.position"]["x"]`, as a series of shape [rows]; KeyError lists the
-        labels. `series[10:20]` is a series of these rows, `series[-1]` the last row of `value`."""
+        """A column by its label, as a series of shape [rows]: `run["vehicle.position"]["x"]`; KeyError lists the
+        labels. `series[10:20]` is a series of these rows; `series[-1]` is the last row of `value`."""
         if isinstance(label, slice):
             return self._taken(label)
         if isinstance(label, (int, numpy.integer)):
             return self.value[label]
         if label not in self.labels:
-            raise KeyError(f"{self.name} has no column {label!r}; it has {', '.join(self.labels) or 'none by name'}")
+            raise KeyError(f"{self.name}: no column {label!r}; named columns: {', '.join(self.labels) or 'none'}")
         column = self.value[:, self.labels.index(label)]
         return Series(column, self.unit, self.help, f"{self.name}.{label}", self.time, self.step)
 
@@ -207,7 +207,7 @@ class Series(Quantity):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Estimate:
-    """A value with the half width of its interval (95 % unless stated otherwise)."""
+    """A value with the half width of its confidence interval (95 % unless stated otherwise)."""
 
     value: float  #: NaN if unknown
     half_width: float  #: inf or NaN if unknown
@@ -224,7 +224,7 @@ class Estimate:
 
     @property
     def inconclusive(self) -> bool:
-        """True if the half width exceeds the value: its sign is uncertain."""
+        """True if the half width exceeds the absolute value, so that the sign is uncertain."""
         return abs(self.value) < self.half_width < float("inf")
 
     def __float__(self) -> float:
@@ -239,9 +239,9 @@ class Estimate:
 
 
 def estimate_text(value: float, half: float | None) -> tuple[str, str, int]:
-    """A value and half of its interval as texts, rounded to two digits of the half width; and a common power of ten, 0
-    for none. The second text is "?" for an unknown interval, "" for one below 1e-9 of the value (the runs agree except
-    for rounding)."""
+    """Returns a value and its half width as texts, rounded to two digits of the half width, and their common power of
+    ten (0 if there is none). The second text is "?" for an unknown interval, "" for one below 1e-9 of the value (the
+    runs agree to rounding)."""
     if half is None or not math.isfinite(half) or not math.isfinite(value):
         return f"{value:.4g}", "?" if math.isfinite(value) else "", 0
     if half <= 1e-9 * abs(value):

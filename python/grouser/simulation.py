@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""In-process simulation: step, read and control it from Python."""
+"""In-process simulation that Python code steps, reads and controls."""
 from __future__ import annotations
 
 import importlib.util
@@ -20,7 +20,7 @@ Three = Sequence[float]
 
 def _core() -> ModuleType:
     """The extension module: installed next to this file, else in the checkout's build folder."""
-    # OpenMP reads this when it is loaded: waiting threads spin briefly and then leave the cores to other programs.
+    # GNU OpenMP reads GOMP_SPINCOUNT when it is loaded: idle threads then spin only briefly and free their cores.
     if "OMP_WAIT_POLICY" not in os.environ:
         os.environ.setdefault("GOMP_SPINCOUNT", "5000")
     try:
@@ -66,29 +66,30 @@ def _three(name: str, value: Any) -> list[float]:
 
 
 class Simulation:
-    """Runs a scene in this process. The constructor settles the bed and sets the vehicle down; then call `step()`.
+    """Runs a scene in this process. The constructor settles the bed and places the vehicle; then call `step()`.
 
         with grouser.Simulation("runs/scenes/rigid_control.toml") as sim:
             while sim.time < 2:
                 sim.set_sprocket_speed(2.0 + 4 * (0.5 - sim.vehicle.speed))
                 sim.step(100)
 
-    scene: a Scene or a scene file. folder: where to write results, as `grouser run` does; None: no output. device:
-    "auto", "cpu" or "cuda"; None: as in the scene. threads: number of CPU threads, 0: all cores; None: as in the scene.
-    overwrite: replace existing results in `folder`. cache: reuse settled beds and cut meshes from earlier runs.
-    settling: callback(time [s], kinetic energy ratio) while the bed settles. checkpoint: continue from this file; the
-    scene must match it, except that a branch (another folder, or none) may change the drive and the hitch.
+    scene: a Scene or a scene file. folder: output folder, as of `grouser run`; None: no output. device: "auto", "cpu"
+    or "cuda"; None: as in the scene. threads: number of CPU threads, 0: all cores; None: as in the scene. overwrite:
+    replace existing results in `folder`. cache: reuse settled beds and mesh spheres from earlier runs. settling:
+    callback(time [s], kinetic energy ratio), called while the bed settles. checkpoint: file from which the simulation
+    continues; the scene must be the same, but a branch (another folder, or none) may change the drive and the hitch.
 
-    An input takes effect at the next step and holds until set again or released. Inputs are stored with their steps in
-    checkpoints and results, so `grouser run --replay FOLDER` reproduces the run without this script, with the same
-    state hash, on a CPU or a GPU. Setters raise InputError if the scene does not support the input.
+    An input takes effect at the next step and remains in effect until it is set again or released. Inputs are stored
+    with their steps in checkpoints and results; therefore `grouser run --replay FOLDER` reproduces the run without the
+    script, with the same state hash, on a CPU or a GPU. Setters raise InputError if the scene does not support the
+    input.
 
     `warnings` lists warnings and notes on the scene. The scene's run.duration does not end the simulation. Sprocket and
     engine inputs take effect when the drive starts (`vehicle.drive_start`), after the vehicle has come to rest.
 
-    Several may coexist, each used by one thread at a time. Start processes with multiprocessing's "spawn": a forked one
-    cannot run threads. `step()` releases the GIL; Ctrl-C interrupts it between two steps. Errors are those of the
-    package: InputError, SimulationError, DeviceError.
+    Several simulations can exist at the same time; only one thread at a time may use each of them. Start processes with
+    multiprocessing's "spawn" method: a forked process cannot run the threads of a simulation. `step()` releases the
+    GIL; Ctrl-C interrupts it between two steps. Methods raise InputError, SimulationError and DeviceError.
     """
 
     __slots__ = ("__weakref__", "_run", "_seen", "warnings")
@@ -113,7 +114,7 @@ class Simulation:
         return self
 
     def __exit__(self, kind: Any, value: Any, trace: Any) -> None:
-        """Finishes the run unless an exception was raised, then frees its memory."""
+        """Calls finish() unless the block raised an exception, then close()."""
         if kind is None and self._run.open:
             self.finish()
         self.close()
@@ -131,13 +132,13 @@ class Simulation:
     # Steps.
     @briefly
     def step(self, count: int = 1) -> None:
-        """Takes `count` steps, or fewer if the scene's [stop] ends the run (see `ended`); after that, raises
-        InputError."""
+        """Advances by `count` steps, or by fewer if the scene's [stop] ends the run (see `ended`). InputError if the
+        run has already ended."""
         self._seen = (-1, None)
         self._run.step(_whole("count", count))
 
     def step_for(self, seconds: float) -> None:
-        """Advances by `seconds` > 0, rounded to whole steps, at least one."""
+        """Advances by `seconds` > 0, rounded to a whole number of steps, at least one."""
         if not 0 < seconds <= 1e9:
             raise errors.InputError(f"step_for({seconds}): the time must be in (0, 1e9] s", 2, [], "")
         self.step(max(1, round(seconds / self.time_step)))
@@ -149,7 +150,7 @@ class Simulation:
 
     @property
     def time_step(self) -> float:
-        """[s]"""
+        """Length of a step [s]."""
         return self._run.time_step
 
     @property
@@ -172,24 +173,25 @@ class Simulation:
 
     @property
     def positions(self) -> np.ndarray:
-        """Grain positions sorted by id [m], [grains, 3] float64, read-only. An array that you hold keeps its values;
-        otherwise its buffer is reused after the next step. Copy it to modify values."""
+        """Grain positions sorted by id [m], [grains, 3] float64, read-only. An array keeps its values as long as you
+        keep a reference to it; otherwise its buffer is reused after the next step. To modify values, copy the array."""
         return self._run.positions()
 
     def grains(self) -> SimpleNamespace:
-        """Copies by id: position [m], velocity [m/s], spin [rad/s] ([grains, 3] float32), radius [m], id."""
+        """State of the grains, sorted by id: position [m] (see `positions`), copies of velocity [m/s] and spin [rad/s]
+        ([grains, 3] float32), radius [m], id."""
         return SimpleNamespace(position=self.positions, **self._run.grains())
 
     @property
     @briefly
     def vehicle(self) -> SimpleNamespace:
-        """Current vehicle state, copied: time [s], position of the middle of the sprocket axle line [m], centre of mass
-        of the hull [m] and its velocity [m/s], speed [m/s], heading (from x to y, continuous over turns), pitch (nose
-        up), roll (right side down) [rad], turn_rate (to the left) [rad/s], ground_force, drawbar_pull [N], drive_start
-        [s] (None until known), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque [N m],
-        drive_power [W], speed [m/s], slip [-] (NaN while the sprocket is stopped) and, per shoe: tension, normal_force,
-        shear_force [N], sinkage [m]. Forces, torques, powers and sinkage are means over the last step(), and unknown
-        (zero, NaN) before the first one and after restore().
+        """Copy of the current state of the vehicle: time [s], position (middle of the sprocket axle line) [m], centre
+        (of mass of the hull) [m] and its velocity [m/s], speed [m/s], heading (from x to y, continuous over turns),
+        pitch (nose up), roll (right side down) [rad], turn_rate (to the left) [rad/s], ground_force, drawbar_pull [N],
+        drive_start [s] (None until known), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque
+        [N m], drive_power [W], speed [m/s], slip [-] (NaN while the sprocket is stopped) and, per shoe: tension,
+        normal_force, shear_force [N], sinkage [m]. Torques, powers and forces (except tension) are means over the last
+        step() call; before the first call and after restore() they are unknown (zero or NaN).
         """
         if self._seen[0] != self.steps:
             state = self._run.vehicle()
@@ -201,7 +203,7 @@ class Simulation:
     @property
     @briefly
     def vehicle_mass(self) -> float:
-        """[kg]"""
+        """Mass of the vehicle [kg]."""
         return self._run.vehicle_constants()[0]
 
     @property
@@ -211,19 +213,20 @@ class Simulation:
         return self._run.vehicle_constants()[1]
 
     def bodies(self) -> dict[str, SimpleNamespace]:
-        """Copies by name, of the vehicle or mechanism: mass [kg], position [m], orientation (w, x, y, z, body to
-        world), velocity [m/s], spin [rad/s]."""
+        """Copies of the bodies of a vehicle or mechanism, by name: mass [kg], position [m], orientation (w, x, y, z,
+        body to world), velocity [m/s], spin [rad/s]."""
         return {body["name"]: SimpleNamespace(**body) for body in self._run.bodies()}
 
     def energies(self) -> SimpleNamespace:
-        """Since the first step [J]: kinetic, potential, elastic, dissipated, work, integration_error, residual."""
+        """Energy ledger since the first step [J]: kinetic, potential, elastic, dissipated, work, integration_error,
+        residual."""
         return SimpleNamespace(**self._run.energies())
 
     # Control inputs.
     @briefly
     def set_sprocket_speed(self, left: float, right: float | None = None) -> None:
-        """Sets sprocket speeds [rad/s], forward positive; right defaults to left. With driver.drive = "engine", sets
-        governor speeds."""
+        """Sets sprocket speeds [rad/s], forward positive; right defaults to left. With driver.drive = "engine", the
+        values are governor speeds."""
         self._run.set_sprocket_speed(*_pair(left, right))
 
     @briefly
@@ -233,13 +236,13 @@ class Simulation:
 
     @briefly
     def set_throttle(self, left: float, right: float | None = None) -> None:
-        """-1 to 1: fraction of full-load torque, or of brake torque if it opposes the rotation; requires
-        driver.drive = "engine". Throttle and governor speed are mutually exclusive: the last one set takes
-        effect."""
+        """Sets throttles in [-1, 1]: a fraction of the full-load torque, or of the brake torque if it opposes the
+        rotation. Requires driver.drive = "engine". Throttle and governor speed are mutually exclusive: the last one set
+        takes effect."""
         self._run.set_throttle(*_pair(left, right))
 
     def release_sprockets(self) -> None:
-        """Returns control to the scene's driver."""
+        """Returns control of the sprockets to the scene's driver."""
         self._run.release_sprockets()
 
     @briefly
@@ -257,7 +260,7 @@ class Simulation:
 
     @briefly
     def set_gravity(self, gravity: Three) -> None:
-        """[m/s2]"""
+        """Sets the gravity vector [m/s2]."""
         self._run.set_gravity(_three("gravity", gravity))
 
     def release_gravity(self) -> None:
@@ -265,7 +268,7 @@ class Simulation:
 
     @briefly
     def set_load(self, body: str, force: Three, torque: Three = (0, 0, 0)) -> None:
-        """Force [N] and torque about the centre of mass [N m] on a body, in world axes."""
+        """Applies a force [N] and a torque about the centre of mass [N m] to a body, in world axes."""
         self._run.set_load(body, _three("force", force), _three("torque", torque))
 
     @briefly
@@ -280,7 +283,7 @@ class Simulation:
 
     @briefly
     def restore(self, file: str | os.PathLike) -> None:
-        """Restores the state of a checkpoint of the same scene. Not allowed with an output folder."""
+        """Restores the state from a checkpoint of the same scene. Not supported with an output folder."""
         self._run.restore(Path(file))
         self._seen = (-1, None)
 
@@ -290,11 +293,11 @@ class Simulation:
 
     @briefly
     def finish(self) -> None:
-        """Ends the run: last row, checkpoint, plots and summary (manifest.json) of its folder."""
+        """Ends the run; writes the last row, checkpoint, plots and summary (manifest.json) to the output folder."""
         self._run.finish()
 
     def close(self) -> None:
-        """Frees its memory."""
+        """Closes the simulation and frees its memory."""
         if self._run.open:
             self._run.close()
 

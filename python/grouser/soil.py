@@ -15,18 +15,18 @@ from .series import Brief, Estimate, number
 
 @dataclass(frozen=True, eq=False)
 class Constant:
-    """A soil constant, measured and published."""
+    """Measured and published values of a soil constant."""
 
     measured: Estimate
     published: tuple[tuple[float, str], ...]  #: (value, source), in the unit of the measured value
     span: tuple[float, float] | None  #: range of the published values
-    verdict: str  #: "inside", "outside"...; "-" where not measured
-    inconclusive: str = ""  #: why the measured value is inconclusive, else empty
+    verdict: str  #: "inside", "outside"...; "-" if not measured
+    inconclusive: str = ""  #: reason why the measured value is inconclusive, else empty
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class PlateCurve(Brief):
-    """Pressure over sinkage of one plate on one bed: loading, unloading, reloading."""
+    """Pressure over sinkage of one plate on one bed during loading, holding, unloading and reloading."""
 
     plate: str  #: "small" or "large"
     breadth: float  #: [m]
@@ -38,7 +38,7 @@ class PlateCurve(Brief):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ShearCurve(Brief):
-    """Shear test of one layer under one load."""
+    """Shear test of one sample under one normal load."""
 
     load: float  #: [Pa]
     seed: int
@@ -48,7 +48,7 @@ class ShearCurve(Brief):
 
 
 class SoilTest:
-    """The folder of `grouser soil`: `test["phi"]` is a Constant; constants are n, k_phi, k_c, c, phi, K."""
+    """The folder of `grouser soil`: `test["phi"]` is a Constant. The constants are n, k_phi, k_c, c, phi, K."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
@@ -59,8 +59,8 @@ class SoilTest:
         with fields_of(file, "a soil test"):
             self.name: str = self.json["soil"]
             self.grain_radius: float = self.json["grain_radius_m"]  #: [m]
-            self.coarse: bool = self.json["care"] == "coarse"  #: measured with --quick
-            #: Names of tests repeated with shorter time steps after an unsound result.
+            self.coarse: bool = self.json["care"] == "coarse"  #: True for tests with --quick
+            #: Names of tests that were repeated with shorter time steps because their first result was invalid.
             self.shorter_steps: list[str] = list(self.json.get("tests_with_shorter_steps", []))
             self.constants: dict[str, Constant] = {
                 name: Constant(Estimate(number(one["value"]), number(one["half_width"]), one["unit"], name),
@@ -79,14 +79,14 @@ class SoilTest:
         return self.constants[name]
 
     def plates(self) -> list[PlateCurve]:
-        """Pressure over sinkage, one curve per bed. FileError if there are none."""
+        """Curves of pressure over sinkage, one per plate and bed. FileError if plates.csv is missing."""
         groups = _grouped(read_csv(self.folder / "plates.csv"), ("plate", "breadth [m]", "seed"))
         return [PlateCurve(plate, float(breadth), int(seed), _column(rows, "phase").astype(int),
                            _column(rows, "sinkage [m]"), _column(rows, "pressure [Pa]"))
                 for (plate, breadth, seed), rows in groups.items()]
 
     def shear(self) -> list[ShearCurve]:
-        """Stress over displacement, one curve per sample. FileError if there are none."""
+        """Curves of stress over displacement, one per load and sample. FileError if shear.csv is missing."""
         groups = _grouped(read_csv(self.folder / "shear.csv"), ("load [Pa]", "seed"))
         return [ShearCurve(float(load), int(seed), _column(rows, "displacement [m]"),
                            _column(rows, "shear stress [Pa]"), _column(rows, "normal stress [Pa]"))

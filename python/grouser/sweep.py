@@ -14,7 +14,7 @@ from .files import fields_of, read_csv
 from .run import Run
 from .series import Estimate, Quantity, counted, split_unit
 
-#: Prefix of a reason that lists inconclusive figures; cell text if the reason is in the column "message".
+#: Prefix of a reason followed by the names of inconclusive figures; cell text if the column "message" has the reason.
 _TURNED, _SEE_MESSAGE = "direction of motion changes: ", "see message"
 
 #: Columns of summary.csv between the swept keys and the figures.
@@ -37,19 +37,19 @@ class SweepRun:
     name: str  #: name of the folder
     keys: dict[str, str]  #: {swept key: its value as given}
     status: str  #: "finished", "incomplete", "failed"...
-    message: str  #: why it failed or is incomplete
-    inconclusive: str  #: why its figures are inconclusive (e.g. fewer than two teeth), else ""
+    message: str  #: reason why the run failed or is incomplete
+    inconclusive: str  #: reason why its figures are inconclusive (e.g. fewer than two sprocket teeth), else ""
     figures: dict[str, float]  #: {"sinkage mean": ...}; NaN if missing; units are in Sweep.units
     state_hash: str
     folder: Path
 
     def doubt(self, figure: str) -> str:
-        """Reason why this figure of the run is inconclusive, else ""."""
+        """Reason why a figure of the run is inconclusive, else ""."""
         named = self.inconclusive.removeprefix(_TURNED)
         return "" if named != self.inconclusive and figure not in named.split(", ") else self.inconclusive
 
     def open(self) -> Run:
-        """Its results."""
+        """Opens the results of the run."""
         return Run(self.folder)
 
 
@@ -60,13 +60,13 @@ class SweepMean:
     keys: dict[str, str]  #: {swept key: its value as given}, without the seed
     seeds: int
     mean: Estimate
-    difference: Estimate  #: paired difference to the first combination, in the figure's unit
-    inconclusive: str = ""  #: why the mean is inconclusive (e.g. fewer than two teeth), else ""
+    difference: Estimate  #: difference from the first combination, paired by seed, in the figure's unit
+    inconclusive: str = ""  #: reason why the mean is inconclusive (e.g. fewer than two sprocket teeth), else ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class _OfRuns(Quantity):
-    """A figure of all runs."""
+    """Values of a figure in all runs."""
 
     doubtful: tuple[str, ...] = ()  #: names of the runs with an inconclusive value
 
@@ -81,17 +81,17 @@ class _Means(dict[str, list[SweepMean]]):
 
 
 class Sweep:
-    """The folder of a sweep. `sweep["sinkage mean"]`: that figure of all runs, in the order of `sweep.runs`."""
+    """The folder of a sweep. `sweep["sinkage mean"]` has this figure for all runs, in the order of `sweep.runs`."""
 
     def __init__(self, folder: str | os.PathLike):
         self.folder: Path = Path(folder)
         if self.folder.is_dir() and not (self.folder / "summary.csv").exists():
             run = "; open_run opens the folder of a run" if (self.folder / "results.h5").exists() else ""
-            raise FileError(f"{self.folder}: no summary.csv; give the folder of a sweep{run}")
+            raise FileError(f"{self.folder}: no summary.csv; specify the folder of a sweep{run}")
         rows = read_csv(self.folder / "summary.csv")
         columns = list(rows[0]) if rows else []
         if not rows and (self.folder / "summary.csv").read_text(encoding="utf-8").startswith("run,"):
-            raise FileError(f"{self.folder / 'summary.csv'}: holds no runs")
+            raise FileError(f"{self.folder / 'summary.csv'}: contains no runs")
         if not rows or columns[0] != "run" or any(name not in columns for name in _ABOUT):
             raise FileError(f"{self.folder / 'summary.csv'}: not the summary of a sweep")
         first = columns.index("status")
@@ -113,8 +113,8 @@ class Sweep:
         return f"<grouser.Sweep {told}>"
 
     def __getitem__(self, figure: str) -> Quantity:
-        """[runs] values of a figure, NaN if missing, including inconclusive ones (listed in `doubtful`). KeyError lists
-        the figures."""
+        """[runs] values of a figure, NaN if missing. `doubtful` lists the runs with an inconclusive value. KeyError
+        lists the figures."""
         if figure not in self.units:
             raise KeyError(f"{self.folder}: no figure {figure!r}; figures are {', '.join(self.units)}")
         return _OfRuns(numpy.array([run.figures[figure] for run in self.runs]), self.units[figure], "", figure,
@@ -131,7 +131,7 @@ class Sweep:
     @cached_property
     def means(self) -> dict[str, list[SweepMean]]:
         """{figure: [mean of each combination]} with 95 % intervals over seeds; {} for a sweep without seeds. Figures
-        are named as in `units`: those of summary.csv without their units. KeyError lists them."""
+        have the names in `units`, that is the column names of summary.csv without units. KeyError lists the figures."""
         file = self.folder / "intervals.csv"
         means = _Means()
         if not file.is_file():
@@ -149,5 +149,5 @@ class Sweep:
 
 
 def open_sweep(folder: str | os.PathLike) -> Sweep:
-    """Opens the folder of a sweep. FileError if it has no summary."""
+    """Opens the folder of a sweep. FileError if it has no summary.csv."""
     return Sweep(folder)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes TOML, which Python's tomllib can only read."""
+"""Writes TOML documents (Python's tomllib can only read them)."""
 from __future__ import annotations
 
 import math
@@ -21,7 +21,7 @@ def _string(text: str) -> str:
 
 
 def value_text(value: object) -> str:
-    """A TOML value. Numbers keep full precision; TypeError for other types."""
+    """A value as TOML. Numbers keep full precision. TypeError for types that TOML does not support."""
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
     if isinstance(value, bool):
@@ -44,7 +44,7 @@ def _is_list_of_tables(value: object) -> bool:
 
 
 def document_text(document: dict) -> str:
-    """A whole document, tables as sections: `tomllib.loads(document_text(d)) == d`."""
+    """A document as TOML, with its tables as sections: `tomllib.loads(document_text(d)) == d`."""
     lines: list[str] = []
     _write(document, "", lines)
     return "\n".join(lines).strip() + "\n"

@@ -22,7 +22,7 @@ using grouser::Vec3;
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double), "an array of positions is an array of doubles");
 
-/// Raises the package's exception of this name and exit code for an error of the library.
+/// Sets the Python exception `name` of grouser.errors for an error of the library.
 void raise(const char* name, int code, const char* message) {
   const py::object kind = py::module_::import("grouser.errors").attr(name);
   PyErr_SetObject(kind.ptr(), kind(message, code, py::list(), "").ptr());
@@ -69,7 +69,7 @@ public:
     if (interrupted) throw py::error_already_set();
   }
 
-  /// A view: refilled after a step, unless it is still referenced; then it keeps its values.
+  /// A view of a buffer that is refilled after a step, or replaced if Python still references the old view.
   py::array positions() {
     grouser::Simulation& run = used();
     if (positions_ && filledAt_ == run.steps()) return *positions_;

@@ -5,7 +5,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/placement.hpp"
-#include "runs/support/tell.hpp"
+#include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
 
@@ -33,7 +33,7 @@ double pressedDiameter(const coupling::Simulation& simulation, double padWidth) 
              : simulation.ground().structure->meanDiameter;
 }
 
-/// Preparation of the bed, or of the tile that it is copied from; null without a requested porosity.
+/// Preparation of the bed, or of the tile from which the bed is copied; null without a target porosity.
 const coupling::PreparationSetup* preparationOf(const coupling::GroundSetup& ground) {
   if (!ground.grains || !ground.grains->bed) return nullptr;
   const coupling::BedSetup& bed = *ground.grains->bed;
@@ -58,7 +58,7 @@ std::string bedText(const coupling::Simulation& simulation) {
   if (settled.steps > 0)
     text = fmt::format(
         "settled   in {:.2f} s of simulated time; kinetic energy ratio {:.2g} (mean per grain / (m g radius)){}\n",
-        settled.time, settled.agitation,
+        settled.time, settled.energyRatio,
         settled.friction > 0 ? fmt::format("; prepared with friction {:.4g}", settled.friction) : "");
   if (const std::optional<terrain::BedStructure>& bed = simulation.ground().structure; bed && bed->grains > 0)
     text += fmt::format(
@@ -142,8 +142,8 @@ std::string porosityWarning(const coupling::Simulation& simulation) {
 
 void warnOfTerrain(const scene::Scene& scene) {
   const setup::TerrainRemarks remarks = setup::terrainRemarks(scene);
-  for (const std::string& warning : remarks.warnings) support::tell("WARNING: {}\n", warning);
-  for (const std::string& note : remarks.notes) support::tell("grouser: note: {}\n", note);
+  for (const std::string& warning : remarks.warnings) support::printStderr("WARNING: {}\n", warning);
+  for (const std::string& note : remarks.notes) support::printStderr("grouser: note: {}\n", note);
 }
 
 } // namespace grouser::commands

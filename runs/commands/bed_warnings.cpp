@@ -14,7 +14,7 @@ namespace grouser::commands {
 
 namespace {
 
-constexpr double kLeastCover = 0.5; // smallest share of the floor that loose grains cover without a warning [-]
+constexpr double kMinCover = 0.5; // smallest share of the floor that loose grains cover without a warning [-]
 
 /// Material properties of the scene's bed that bound its porosity.
 BedQuality qualityOf(const scene::Scene& scene) {
@@ -32,12 +32,12 @@ bool hasBed(const scene::Scene& scene) { return scene.terrain && scene.terrain->
 std::vector<std::string> bedWarnings(const BedQuality& bed) {
   std::vector<std::string> warnings;
   const double share = bed.grains > 0 ? static_cast<double>(bed.fixed) / static_cast<double>(bed.grains) : 0;
-  if (share > terrain::kMostFixed)
+  if (share > terrain::kMaxFixed)
     warnings.push_back(
         fmt::format("{:.0f} % of the bed's grains are fixed on its floor ({} of {}), so less than one layer of soil "
                     "can move; raise terrain.depth, use smaller grains, or set terrain.floor_grains = false",
                     100 * share, bed.fixed, bed.grains));
-  else if (bed.cover < kLeastCover)
+  else if (bed.cover < kMinCover)
     warnings.push_back(fmt::format("the bed has {} loose grains, which cover only {:.0f} % of its floor (less than one "
                                    "layer); raise terrain.depth or terrain.layers, or use smaller grains",
                                    bed.grains - bed.fixed, 100 * bed.cover));

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-/// Warnings about beds that are too loose for a packing of spheres, or thinner than one layer.
+/// Warnings about beds that are looser than any random packing of spheres, or thinner than one layer.
 namespace grouser::commands {
 
 struct BedQuality {
-  std::int64_t grains = 0, fixed = 0; ///< grains of the bed, and the fixed ones among them
+  std::int64_t grains = 0, fixed = 0; ///< number of all grains of the bed, and of its fixed grains
   std::int64_t measured = 0;          ///< grains in the porosity measurement; 0: porosity unknown
   double porosity = 0, porosityError = 0;
   bool rollingFriction = false, cohesion = false;
@@ -25,7 +25,7 @@ std::vector<std::string> bedWarnings(const BedQuality& bed);
 /// Warnings about the settled bed of a run; empty without a bed.
 std::vector<std::string> bedWarnings(const scene::Scene& scene, const coupling::Simulation& simulation);
 
-/// Warnings about the bed that a scene will lay.
+/// Warnings about the planned bed of a scene.
 std::vector<std::string> plannedBedWarnings(const scene::Scene& scene);
 
 } // namespace grouser::commands

@@ -44,11 +44,11 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
       ->check(support::positive("a stiffness in N/m"))
       ->capture_default_str();
   CLI::Option* const spread = bed.add_option("--radii-spread", b.radiiSpread,
-                                             "half width of the uniform radius distribution over the mean radius; the "
-                                             "mean grain volume is that of --radius [-]")
+                                             "half width of the uniform radius distribution / mean radius [-]; the "
+                                             "mean grain volume equals that of a grain of --radius")
                                   ->check(support::between(0.0, 0.8))
                                   ->capture_default_str();
-  bed.add_flag("--hertz", b.hertz, "use the Hertz law, with the stiffness of --stiffness at an overlap of 1e-3 radii");
+  bed.add_flag("--hertz", b.hertz, "use the Hertz law; its stiffness is --stiffness at an overlap of 1e-3 radii");
   bed.add_option("--rolling", b.rolling, "coefficient of rolling friction [-]")
       ->check(support::notNegative("a number"))
       ->capture_default_str();
@@ -58,7 +58,7 @@ void addGrains(CLI::App& bed, bench::BedBench& b) {
   bed.add_option("--start", b.start,
                  "read the initial grains from this file (written by --save) instead of using the lattice; one line "
                  "per grain: x, y, z, r [m], vx, vy, vz [m/s], wx, wy, wz [rad/s]; the number of lines must equal "
-                 "--grains, all radii --radius")
+                 "--grains, and all radii must equal --radius")
       ->excludes(floor, spread);
   bed.add_option("--save", b.save, "write the grains to this file after the last batch")
       ->check(support::writableFile("--save"));
@@ -69,7 +69,7 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
   command->ranks = &invocation.ranks;
   bench::BedBench& b = command->bed;
   CLI::App* bed = benches.add_subcommand(
-      "bed", "Benchmark the grains alone: five settled layers in a box, the reference bed for speed comparisons");
+      "bed", "Benchmark grains without a vehicle: five settled layers in a box, the reference bed for speed");
   addGrains(*bed, b);
   bed->add_option("--lanes", b.lanes, "maximum number of contacts per SIMD vector on the CPU: 16, 8, 4 or 1")
       ->check(CLI::IsMember({16, 8, 4, 1}))
@@ -85,10 +85,13 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
       ->capture_default_str();
   bed->add_option("--steps", b.steps, "number of steps per batch; default: about one second of wall time")
       ->check(support::wholeNumber(1));
-  bed->add_option("--batches", b.batches, "timed batches")->check(support::wholeNumber(1, 1000))->capture_default_str();
+  bed->add_option("--batches", b.batches, "number of timed batches")
+      ->check(support::wholeNumber(1, 1000))
+      ->capture_default_str();
   support::addChoice(*bed, "--peer-memory", b.peerMemory,
-                     "direct memory access between the GPUs of one machine: if possible, never, or required");
-  bed->add_flag("--ledger", b.ledger, "include energy accounting, as in runs");
+                     "direct memory access between the GPUs of one machine: auto (if possible), never, or always (an "
+                     "error if it is impossible)");
+  bed->add_flag("--ledger", b.ledger, "include the energy accounting of a run");
   bed->add_flag("--hash", b.hash, "print the hash of the final state");
   addCommon(*bed, *command);
   bed->callback([command, words = invocation.words] {
@@ -97,7 +100,7 @@ void addBed(CLI::App& benches, const Invocation& invocation) {
   });
 }
 
-/// Time in the value of --after, without "drive+".
+/// Time part of the value of --after: "0.5" for "drive+0.5", "0" for "drive".
 std::string timeIn(const std::string& word) {
   if (word == "drive") return "0";
   return word.rfind("drive+", 0) == 0 ? word.substr(6) : word;
@@ -122,13 +125,15 @@ void addStep(CLI::App& benches, const Invocation& invocation) {
   CLI::App* step = benches.add_subcommand("step", "Benchmark the time step of a scene: wall time of each part");
   step->add_option("scene", c.scene, "scene file")->required();
   step->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
-  step->add_option("--steps", c.step.steps, "steps per batch")->check(support::wholeNumber(1))->capture_default_str();
-  step->add_option("--batches", c.step.batches, "timed batches")
+  step->add_option("--steps", c.step.steps, "number of steps per batch")
+      ->check(support::wholeNumber(1))
+      ->capture_default_str();
+  step->add_option("--batches", c.step.batches, "number of timed batches")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   step->add_option_function<std::string>(
           "--after", [command](const std::string& word) { setStart(command->step, word); },
-          "simulated time before the timing starts [s]; drive or drive+T: T seconds after the sprockets start; "
+          "simulated time before the timing starts [s]; drive or drive+TIME: TIME seconds after the sprockets start; "
           "default: when the sprockets have reached full speed")
       ->check(CLI::Validator([](const std::string& word) { return startFault(word); }, "TIME|drive|drive+TIME"));
   addCommon(*step, c);
@@ -144,7 +149,7 @@ void addContacts(CLI::App& benches, const Invocation& invocation) {
   bench::ContactsBench& c = *command;
   c.ranks = &invocation.ranks;
   CLI::App* contacts = benches.add_subcommand(
-      "contacts", "Benchmark contact detection alone over the number of contacts, with sequential Bullet as reference");
+      "contacts", "Benchmark contact detection for several numbers of contacts, with sequential Bullet as reference");
   contacts
       ->add_option("--contacts", c.contacts,
                    "approximate numbers of contacts, counting each pair once, e.g. 1e5,1e6,1e7; default: 3e4 to 1e7 on "
@@ -181,7 +186,7 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
   c.comm = comm;
   CLI::App* multibody = benches.add_subcommand(
       "multibody",
-      "Benchmark the multibody solver alone, on one core: a vehicle, and rings of 46, 92 and 184 track shoes");
+      "Benchmark the multibody solver on one core: a vehicle, and closed rings of 46, 92 and 184 track shoes");
   multibody->add_option("--vehicle", c.vehicle, "vehicle file; default: the light tracked vehicle");
   multibody->add_option("--speed", c.speed, "sprocket speed [rad/s]")
       ->check(support::between(-20.0, 20.0))
@@ -189,8 +194,10 @@ void addMultibody(CLI::App& benches, const base::Comm& comm) {
   multibody->add_option("--time-step", c.timeStep, "time step [s]")
       ->check(support::between(1e-6, 1e-4))
       ->capture_default_str();
-  multibody->add_option("--steps", c.steps, "steps per batch")->check(support::wholeNumber(1))->capture_default_str();
-  multibody->add_option("--batches", c.batches, "timed batches")
+  multibody->add_option("--steps", c.steps, "number of steps per batch")
+      ->check(support::wholeNumber(1))
+      ->capture_default_str();
+  multibody->add_option("--batches", c.batches, "number of timed batches")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   multibody->add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));

@@ -54,18 +54,18 @@ void addCheck(CLI::App& app, const Invocation&) {
   check->add_option("--set", c.options.fixed, kSetHelp)->allow_extra_args(false);
   check
       ->add_option("--seeds", c.options.seeds,
-                   "number of seeds per case, starting with run.seed, if the seed affects the scene; upper limit with "
-                   "--budget or --of; default: 8, or 24 with --of")
+                   "number of seeds per case, counted up from run.seed; with --budget or --of, the maximum number; a "
+                   "scene that does not depend on the seed runs once per case; default: 8, or 24 with --of")
       ->check(support::wholeNumber(2, 1000));
   check
       ->add_option("--bar", c.options.percent,
-                   "tolerance within which values count as equal, and target error bar of --of, in percent of the "
+                   "tolerance within which values count as equal, and target error bar for --of, in percent of the "
                    "value (10 or 10%); default: 5")
       ->transform(support::percentSign())
       ->check(support::positive("a percentage"));
   check
       ->add_option("--of", c.options.figures,
-                   "reduce the error bars of these figures to --bar with the least run time: sinkage, torque, "
+                   "reduce the error bars of these figures to --bar in the shortest run time: sinkage, torque, "
                    "speed, slip, tension, motion_resistance, or any figure listed in check.json")
       ->delimiter(',');
   check
@@ -80,8 +80,8 @@ void addCheck(CLI::App& app, const Invocation&) {
                    "figure; default: 0")
       ->check(support::wholeNumber(0, 1000));
   check->add_option("--budget", c.options.budget,
-                    "limit on the total wall time, e.g. 90s, 20min or 1.5h; runs that do not fit, judged by the "
-                    "duration of the first run, are skipped and listed");
+                    "limit on the total wall time, e.g. 90s, 20min or 1.5h; the duration of the first run is used to "
+                    "estimate which runs would exceed the limit; these are skipped and listed");
   addProcessOptions(
       *check, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
       "folder of the runs and results; default: out/NAME_check");

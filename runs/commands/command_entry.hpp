@@ -8,31 +8,31 @@
 #include <string>
 #include <vector>
 
-/// The commands of the program: each adds itself, with its options, to the command line. A new command is a file
-/// NAME_options.cpp, and a line in allCommands().
+/// Commands of the program: each adds itself and its options to the command line. A new command needs a file
+/// NAME_options.cpp and a line in allCommands().
 namespace grouser::commands {
 
-/// Ranks and command line of the program.
+/// MPI ranks and command line of the program.
 struct Invocation {
   const base::Ranks& ranks;
   std::string words; ///< the whole command line
 };
 
 enum class RankUse {
-  shared,    ///< the ranks do it together
-  firstRank, ///< the first rank does it, the others end
-  refused    ///< an error on several ranks
+  shared,    ///< all ranks work together
+  firstRank, ///< the first rank works, the others exit
+  refused    ///< error if started on several ranks
 };
 
 struct CommandEntry {
   std::string name; ///< the first word of the command line
-  /// Adds the subcommand; its callback does the work, and keeps alive what the options fill.
+  /// Adds the subcommand. Its callback performs the command and keeps the variables of the options alive.
   void (*add)(CLI::App& app, const Invocation& invocation);
   RankUse ranks = RankUse::firstRank;
-  std::string insteadOfRanks{}; ///< where ranks are refused: the end of the error message
+  std::string insteadOfRanks{}; ///< RankUse::refused: end of the error message
 };
 
-/// In the order of `grouser --help`.
+/// All commands, in the order of `grouser --help`.
 std::vector<CommandEntry> allCommands();
 
 constexpr const char* kSetHelp =

@@ -31,8 +31,8 @@
 #include "runs/storage/sphere_cache.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/output_place.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/shell_word.hpp"
-#include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "spheredecomp/decompose.hpp"
 #include "spheredecomp/mesh.hpp"
@@ -54,10 +54,10 @@ void drawAndName(const fs::path& results, const fs::path& folder, const std::vec
   std::string warning;
   for (const fs::path& plot : output::drawPlots(results, folder, names, warning))
     if (verbose) fmt::print("plot      {}\n", plot.string());
-  if (!warning.empty()) support::tell("WARNING: {}\n", warning);
+  if (!warning.empty()) support::printStderr("WARNING: {}\n", warning);
 }
 
-/// Folder of the results: `given` on the command line, or that of the scene.
+/// Results folder: `given` on the command line, or the folder of the scene.
 fs::path folderOf(const scene::Scene& scene, const std::string& given) {
   return !given.empty()                 ? fs::path(given)
          : !scene.output.folder.empty() ? fs::path(scene.output.folder)
@@ -68,7 +68,7 @@ void nameIfThere(const char* what, const fs::path& file) {
   if (fs::exists(file)) fmt::print("{:<9} {}\n", what, file.string());
 }
 
-/// A resumed run writes to the folder of its checkpoint, a branch to another one.
+/// A resumed run writes to the folder of its checkpoint, a branch to a different folder.
 void chooseCheckpoint(const RunCommand& command, const setup::Provenance& provenance, session::RunRequest& options) {
   std::error_code error;
   if (!command.checkpoint.empty() && !fs::is_regular_file(command.checkpoint, error))
@@ -88,12 +88,12 @@ void chooseCheckpoint(const RunCommand& command, const setup::Provenance& proven
   if (!isNamed) options.folder += "_branch";
   if (fs::equivalent(options.folder, home, error))
     throw base::InputError(
-        fmt::format("{}: contains the original run, whose [driver] or [hitch] differs from this scene; to start a "
+        fmt::format("{}: contains the original run; its [driver] or [hitch] differs from this scene; to start a "
                     "branch, set another folder with --out, and the checkpoint with --resume {}",
                     options.folder.string(), options.resume->string()));
 }
 
-/// Wall time of preparation and steps [s], without pictures.
+/// Wall time of preparation and steps [s]; excludes the rendering of pictures.
 double secondsOf(const output::Summary& summary) {
   double seconds = 0;
   for (const char* part : {"wall_preparation_s", "wall_steps_s"})
@@ -204,7 +204,7 @@ void planCommand(const PlanCommand& command) {
   scene::printNotes(scene);
   const base::Exec exec = support::chooseDevice(scene.run.device, scene.run.threads, nullptr);
   const fs::path folder = folderOf(scene, command.folder);
-  // A scene that does not fit is printed, but not laid or run.
+  // If the scene exceeds the resources of this machine, the plan is printed, but nothing is laid or run.
   std::string misfit;
   try {
     forecast::requireFit(scene, exec, folder, true, true, nullptr);
@@ -214,23 +214,23 @@ void planCommand(const PlanCommand& command) {
   try {
     sweeps::checkScene(scene, false);
   } catch (const base::InputError&) {
-    // For a scene that does not fit, this error precedes all others.
+    // If the scene exceeds the resources of this machine, this error precedes all others.
     if (!misfit.empty()) throw base::InputError(misfit);
     throw;
   }
-  for (const std::string& warning : plannedBedWarnings(scene)) support::tell("WARNING: {}\n", warning);
+  for (const std::string& warning : plannedBedWarnings(scene)) support::printStderr("WARNING: {}\n", warning);
   const forecast::CountedGrains counted =
-      forecast::countGrains(scene, setup::chooseTimeStep(scene), misfit.empty() ? forecast::kMostLaid : 0);
+      forecast::countGrains(scene, setup::chooseTimeStep(scene), misfit.empty() ? forecast::kMaxLaid : 0);
   fmt::print("{}", planText(scene, &counted));
   if (command.ranks > 1) fmt::print("{}", sharePlan(scene, command.ranks));
   std::fflush(stdout);
   if (!misfit.empty()) throw base::InputError(misfit);
   if (!command.forecast) return;
-  const auto stage = [](const char* what) { support::tell("plan: {}\n", what); };
-  const forecast::Forecast told =
+  const auto stage = [](const char* what) { support::printStderr("plan: {}\n", what); };
+  const forecast::Forecast predicted =
       forecast::forecastOf(scene, counted, {folder, 1, command.cache, command.probe, stage});
-  fmt::print("{}", forecast::forecastText(told));
-  if (!command.json.empty()) support::writeTextFile(command.json, forecast::forecastJson(told), "--json");
+  fmt::print("{}", forecast::forecastText(predicted));
+  if (!command.json.empty()) support::writeTextFile(command.json, forecast::forecastJson(predicted), "--json");
 }
 
 void spheresCommand(const SpheresCommand& command) {

@@ -77,7 +77,7 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
       ->delimiter(',');
   compare
       ->add_option("--seeds", c.options.seeds,
-                   "number of seeds on granular ground, one run each; other kinds of ground require a single run")
+                   "number of seeds on granular ground, one run each; other kinds of ground need only one run")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
   compare

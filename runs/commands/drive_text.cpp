@@ -11,9 +11,9 @@ namespace grouser::commands {
 
 std::string incompleteText(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth) {
   const coupling::VehicleRig* rig = simulation.vehicle();
-  if (!rig || !setup::asksToDrive(scene)) return {};
+  if (!rig || !setup::commandsDrive(scene)) return {};
   const std::optional<double> start = rig->driveStart();
-  const bool drove = start && *start < simulation.time() && teeth >= setup::kLeastTeeth;
+  const bool drove = start && *start < simulation.time() && teeth >= setup::kMinTeeth;
   if (drove && teeth >= setup::kFewestTeeth) return {};
   const bool waited = simulation.setup().vehicle->driver.rest.has_value();
   const std::string when =

@@ -9,11 +9,11 @@
 
 namespace grouser::commands {
 
-/// Why the run of a vehicle that was to drive tells nothing of its driving: it did not begin, or passed fewer than
-/// setup::kFewestTeeth `teeth`. Empty where it drove, and where the scene does not ask it to.
+/// Reason why a run that should drive its vehicle is incomplete: the vehicle never drove, or advanced by fewer `teeth`
+/// than setup::kFewestTeeth. Empty if the vehicle drove far enough, or if the scene does not drive it.
 std::string incompleteText(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth);
-/// Prints and notes that, before all else that is said of the run; then when the vehicle drove off, and what has ended
-/// the run before its time. A run that `endsAtRest`, as it was asked to, is not to drive.
+/// Prints this reason as a warning and stores it in `summary`; then prints the start of the drive, the condition that
+/// ended the run early, and blows. No warning if the run `endsAtRest`, as requested by --until rest.
 void describeDrive(const scene::Scene& scene, const coupling::Simulation& simulation, double teeth,
                    output::Summary& summary, bool endsAtRest);
 

@@ -21,15 +21,15 @@ void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& de
   events::EventOptions& o = c.options;
   app.add_option("--vehicle", o.vehicle, "name of a built-in vehicle, or a vehicle file (.toml)")
       ->capture_default_str();
-  app.add_option("--soil", o.soil, "rigid, or the name of a soil (`grouser soils`)")->capture_default_str();
+  app.add_option("--soil", o.soil, "rigid, or the name of a soil (see `grouser soils`)")->capture_default_str();
   app.add_option_function<std::string>(
          "--ground", [&o](const std::string& word) { o.ground = base::valueOf<scene::TerrainKind>(word); },
          "kind of ground: rigid, granular, or scm (deformable soil without grains); default: rigid with --soil rigid, "
          "otherwise granular")
       ->check(CLI::IsMember(base::wordsOf<scene::TerrainKind>()));
   app.add_option("--speed", o.speed,
-                 "commanded speed [m/s], doubled in the event acceleration; default: 1.2 for the light vehicle, scaled "
-                 "with the square root of the pitch radius for others")
+                 "commanded speed [m/s], doubled in the event acceleration; default: 1.2 for the light vehicle; for "
+                 "other vehicles this value is scaled with the square root of the pitch radius")
       ->check(support::positive("a speed in metres per second"));
   const events::BedCare &full = events::kFullCare, &quick = events::kQuickCare;
   app.add_option("--seeds", o.seeds,
@@ -66,7 +66,7 @@ void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& de
 void addLevels(CLI::App& app, events::EventOptions& o, const std::string& ofWhich) {
   app.add_option("--levels", o.levels,
                  ofWhich + ", separated by commas: tangents of slopes [-], heights, widths "
-                           "and radii [m]; default: from the vehicle's size and friction")
+                           "and radii [m]; default: computed from the vehicle's size and friction")
       ->delimiter(',');
 }
 
@@ -86,10 +86,10 @@ void addEvents(CLI::App& app, const Invocation& invocation) {
       ->delimiter(',');
   addLevels(*events, c.options, "levels of the single event given by --only");
   addEventRuns(*events, c, "out/events_VEHICLE_SOIL, with scm out/events_VEHICLE_SOIL_scm");
-  events->add_flag("--films", c.films, "make a film of the first run of each level; the frames require disk space");
+  events->add_flag("--films", c.films, "make a film of the first run of each level; its frames need disk space");
   events
       ->add_option("--against", c.against,
-                   "compare with the results folders of other `grouser events` calls, separated by commas, e.g. the "
+                   "results folders of other `grouser events` calls to compare with, separated by commas, e.g. for the "
                    "same soil as granular ground")
       ->delimiter(',');
   events
@@ -109,7 +109,7 @@ void addMap(CLI::App& app, const Invocation& invocation) {
   CLI::App* map = app.add_subcommand(
       "map", "Map go and no-go of a mobility event over its levels and the values of a key, as a table and a picture");
   map->add_option("--event", c.options.only[0],
-                  "mobility event; it must have levels (all except acceleration, pivot_turn and motion_resistance)")
+                  "mobility event with several levels (all except acceleration, pivot_turn and motion_resistance)")
       ->check(CLI::IsMember(base::wordsOf<events::Event>()))
       ->capture_default_str();
   addLevels(*map, c.options, "levels of the event, the first axis");

@@ -5,10 +5,10 @@
 
 namespace grouser::commands {
 
-/// All keys of scene, vehicle and soil files: docs/keys.md, byte for byte.
+/// Text of docs/keys.md: all keys of scene, vehicle and soil files.
 std::string keysDocument();
 
-/// All datasets and attributes of results files: docs/files.md, byte for byte.
+/// Text of docs/files.md: all datasets and attributes of results files.
 std::string filesDocument();
 
 } // namespace grouser::commands

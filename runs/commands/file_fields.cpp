@@ -26,16 +26,16 @@ constexpr const char* kHead =
 
 # Files of results
 
-Datasets and attributes of `results.h5`, `frames.h5` and `checkpoint.h5`, from the tables that write them; a file
-contains those that its scene needs. HDF5; numbers are little-endian. Words in capitals stand for names, words in shapes
-for counts.
-Definitions: [reports.md](reports.md#definitions). Reading from Python: [control.md](control.md).
+Datasets and attributes of the HDF5 files `results.h5`, `frames.h5` and `checkpoint.h5`. A file contains only the
+datasets that apply to its scene. Numbers are little-endian. In paths, words in capitals are placeholders for names; in
+shapes, words are placeholders for numbers.
+For definitions, see [reports.md](reports.md#definitions). To read the files from Python, see [control.md](control.md).
 
 ## results.h5
 
-The group of each time series holds `value`, with the attributes `unit`, `help` and, for vectors, `labels`; its `step`
-and `time` are those of `series`. SIDE is `left` or `right`, NAME the name of a surface, a body or a
-joint. Other datasets have the attributes `unit` and `help`.
+The group of each time series contains the dataset `value`, with the attributes `unit`, `help` and, for vectors,
+`labels`, and links `step` and `time` to the datasets of `series`. SIDE is `left` or `right`; NAME is the name of a
+surface, body or joint. Datasets that are not time series have the attributes `unit` and `help`.
 
 )";
 
@@ -49,9 +49,9 @@ One group per frame, numbered from `000000`. `frames.xdmf` describes the file to
 constexpr const char* kCheckpoint = R"(
 ## checkpoint.h5 and cached beds
 
-The state from which a run resumes ([large_runs.md](large_runs.md#stop-and-resume)), after a header of 512 bytes with a
-checksum. Lists of unnamed numbers are internal to the program. A cached bed (`bed-*.h5`) has the same format, with
-grains and settling data only.
+The file contains the state from which a run resumes ([large_runs.md](large_runs.md#stop-and-resume)), after a header of
+512 bytes with a checksum. Lists of unnamed numbers are internal to the program. A cached bed (`bed-*.h5`) has the same
+format, but contains only grains and settling data.
 
 )";
 

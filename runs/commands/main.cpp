@@ -28,31 +28,31 @@ namespace {
 
 using namespace grouser;
 
-/// Opens closed standard streams, whose descriptors would otherwise go to the next opened file, which would then
-/// receive their output. Output to a closed stderr is lost; results printed to a closed stdout are an error.
+/// Opens closed standard streams. Otherwise the next opened file would get the descriptor of such a stream and receive
+/// its output. Output to a closed stderr is lost; printing results to a closed stdout is an error.
 void occupyStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-/// Threads that wait for each other spin for milliseconds by default; on a machine that is busy with other work too
-/// that makes a step many times slower. The OpenMP library reads its settings when it is loaded, so the program starts
-/// itself again with a short spin, unless the user has chosen.
+/// Waiting OpenMP threads spin for milliseconds by default, which makes a step many times slower on a machine that also
+/// runs other programs. The OpenMP library reads its settings when it is loaded, so the program restarts itself with a
+/// short spin time, unless the user has set these environment variables.
 void waitBriefly(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
   setenv("GOMP_SPINCOUNT", "5000", 1);
-  execv("/proc/self/exe", argv); // returns only if it failed: then the default will do
+  execv("/proc/self/exe", argv); // returns only on failure: then use the default
 }
 
-/// Prints the error and ends all ranks. An error that all ranks find is printed by the first; the others wait a moment
-/// for it to end them.
+/// Prints the error and ends all ranks. The other ranks wait two seconds, so that the first rank prints an error that
+/// all ranks have found, and then ends them.
 int fail(const base::Ranks& ranks, support::FailureKind kind, const std::string& message) {
   const int code = support::exitCode(kind);
   std::fflush(stdout);
   if (!ranks.comm().first()) sleep(2);
   const std::string who = ranks.comm().alone() ? "" : fmt::format("rank {}: ", ranks.comm().rank());
   std::fputs(fmt::format("grouser: error: {}{}\n", who, message).c_str(),
-             stderr); // no throw where it cannot be written
+             stderr); // does not throw if stderr cannot be written
   std::fflush(stderr);
   ranks.abort(code);
   return code;
@@ -81,7 +81,7 @@ int failToPrint(const base::Ranks& ranks) {
   return fail(ranks, support::FailureKind::notWritten, "cannot write to standard output; is the disk full?");
 }
 
-/// The command that resumes the stopped one, or repeats it if it left nothing.
+/// Command that resumes the stopped command, or repeats it if there is no checkpoint.
 std::string nextCommand(const CLI::App& app, std::vector<std::string> words, const base::Ranks& ranks,
                         const support::Stopped& stopped) {
   const CLI::App* command = &app;
@@ -94,14 +94,14 @@ std::string nextCommand(const CLI::App& app, std::vector<std::string> words, con
   };
   if (resumes) std::erase(words, "--force");
   if (resumes && !has("--resume")) words.emplace_back("--resume");
-  // Results of the stopped call block a repetition without --force.
+  // The results of the stopped command prevent its repetition without --force.
   const bool isInTheWay = !resumes && stopped.left() == support::Stopped::Left::work;
   if (isInTheWay && command->get_option_no_throw("--force") && !has("--force")) words.emplace_back("--force");
   if (!ranks.comm().alone()) words.insert(words.begin(), {"mpirun", "-np", std::to_string(ranks.comm().size())});
   return fmt::format("{} with: {}", resumes ? "resume" : "start again", support::shellLine(words));
 }
 
-/// True for commands that run on the first rank only, and for unknown ones.
+/// Returns true for commands that run on the first rank only, and for unknown commands.
 bool isForFirstRank(const std::string& word, const std::vector<commands::CommandEntry>& all) {
   for (const commands::CommandEntry& command : all)
     if (command.name == word) return command.ranks != commands::RankUse::shared;
@@ -121,7 +121,7 @@ void parseAndRun(CLI::App& app, int argc, char** argv, const base::Ranks& ranks)
   addCommands(app, all, {ranks, support::shellLine(words)});
   support::refuseOptionsAsValues(app);
   commands::requireSameCommand(commandOf(words), ranks.comm());
-  if (!ranks.comm().first() && argc > 1 && isForFirstRank(words[1], all)) return; // on failure the first ends all
+  if (!ranks.comm().first() && argc > 1 && isForFirstRank(words[1], all)) return; // rank 0 ends all ranks on failure
   if (const std::string unknown = support::unknownCommand(app, argc, argv); !unknown.empty())
     throw base::InputError(unknown);
   app.parse(argc, argv);
@@ -132,14 +132,14 @@ void parseAndRun(CLI::App& app, int argc, char** argv, const base::Ranks& ranks)
 int main(int argc, char** argv) {
   occupyStandardStreams();
   waitBriefly(argv);
-  // Exceeding the limit of file sizes then gives an error message, as a full disk does, instead of ending by a signal.
+  // A file that exceeds the size limit then causes an error message, like a full disk, instead of a signal.
   std::signal(SIGXFSZ, SIG_IGN);
-  std::signal(SIGCHLD, SIG_DFL); // if ignored, as under some supervisors, exit states of processes are lost
+  std::signal(SIGCHLD, SIG_DFL); // some supervisors ignore SIGCHLD, which loses the exit codes of child processes
   const base::Ranks ranks(argc, argv);
-  // One rank speaks for all.
+  // Only the first rank prints.
   if (!ranks.comm().first() && !std::freopen("/dev/null", "w", stdout))
     return support::exitCode(support::FailureKind::stray);
-  CLI::App app("grouser simulates a tracked vehicle on granular terrain and quantifies its error.", "grouser");
+  CLI::App app("grouser simulates tracked vehicles on soil and computes error bars for its results.", "grouser");
   app.formatter(commands::helpFormatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", support::versionText());
@@ -166,7 +166,7 @@ int main(int argc, char** argv) {
     using Kind = support::FailureKind;
     const support::Failure failure = support::failureOf(std::current_exception());
     if ((failure.kind == Kind::stray || failure.kind == Kind::notWritten) && std::ferror(stdout))
-      return failToPrint(ranks); // fmt throws an exception of its own
+      return failToPrint(ranks); // thrown by fmt
     return fail(ranks, failure.kind, support::textOf(failure, support::shellLine({argv, argv + argc})));
   }
 }

@@ -22,7 +22,7 @@ std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
   return commands;
 }
 
-/// Text in roff, without requests and escapes of its own. A line may break behind a comma of a long list of words.
+/// Escapes text for roff. Allows line breaks after the commas of a long list of words.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -43,7 +43,7 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// Names of an option as the manual prints them, e.g. "-h, --help"; for a positional argument its name, e.g. "scene".
+/// Names of an option in the manual, e.g. "-h, --help", or the name of a positional argument, e.g. "scene".
 std::string namesOf(const CLI::Option& option) {
   if (option.get_positional()) return option.get_name(true);
   std::vector<std::string> names;
@@ -54,17 +54,17 @@ std::string namesOf(const CLI::Option& option) {
 
 bool takesValue(const CLI::Option& option) { return option.get_items_expected_max() > 0; }
 
-/// " INT in 0..1024", " {auto,cpu}": value of an option, after its name; "" for a flag or an argument.
+/// " INT in 0..1024", " {auto,cpu}": type or values of an option, printed after its name; "" for a flag or an argument.
 std::string valueOf(const CLI::Option& option) {
   if (!takesValue(option) || option.get_positional()) return "";
   std::string value = option.get_type_name();
   if (value.empty()) value = "TEXT";
   if (!choicesOf(option).empty()) value = value.substr(value.find('{'));
-  std::replace(value.begin(), value.end(), ':', ' '); // CLI11 joins type and check by it
+  std::replace(value.begin(), value.end(), ':', ' '); // separator of type and check in CLI11
   return " " + value + (option.get_expected_max() == CLI::detail::expected_max_vector_size ? " ..." : "");
 }
 
-/// " (not with --start)": options that an option needs or excludes.
+/// " (not with --start)": options that an option requires or excludes.
 std::string othersText(const char* relation, const std::set<CLI::Option*>& options) {
   std::set<std::string> names;
   for (const CLI::Option* option : options) names.insert(option->get_name());
@@ -79,7 +79,7 @@ std::string descriptionOf(const CLI::Option& option) {
   return text + othersText("only with", option.get_needs()) + othersText("not with", option.get_excludes());
 }
 
-/// Help with the names, values and descriptions of the manual.
+/// Formatter of --help that uses the names, values and descriptions of the manual.
 class HelpFormatter : public CLI::Formatter {
   std::string make_option_name(const CLI::Option* option, bool) const override { return namesOf(*option); }
   std::string make_option_opts(const CLI::Option* option) const override { return valueOf(*option); }
@@ -126,14 +126,14 @@ std::string sectionsOf(const CLI::App& app, const std::string& path, const char*
   return text;
 }
 
-/// A cell of a table in Markdown.
+/// Escapes text for a cell of a Markdown table.
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : text) out += c == '|' ? "\\|" : std::string(1, c);
   return out;
 }
 
-/// Heading, arguments and options of each command below `app` and of its subcommands.
+/// Heading, arguments and options of all commands and subcommands of `app`.
 std::string commandsInMarkdown(const CLI::App& app, const std::string& path) {
   std::string text;
   for (const CLI::App* command : commandsOf(app)) {
@@ -160,7 +160,7 @@ constexpr const char* kEnvironment =
     "ranks and concurrent runs use this and the following GPUs in turn\n.TP\n\\fBGROUSER_SHARE\\fR\nfolder of assets "
     "and plot scripts that replaces the installed one\n";
 
-/// Completions of a command: "run" or "bench bed".
+/// Completions of all options and subcommands of a command such as "run" or "bench bed".
 void addCases(const CLI::App& app, const std::string& path, std::string& text) {
   std::vector<std::string> words;
   for (const CLI::App* command : commandsOf(app)) words.push_back(command->get_name());

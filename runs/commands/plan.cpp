@@ -57,7 +57,7 @@ std::string memoryText(const scene::Scene& scene, double grains) {
   return text;
 }
 
-/// Obstacles in contact with the vehicle.
+/// Obstacles that the vehicle can touch.
 std::string obstaclesLine(const scene::Scene& scene) {
   std::string names;
   for (const coupling::Obstacle& o : setup::obstaclesOf(scene)) names += (names.empty() ? "" : ", ") + o.surface.name;
@@ -79,7 +79,7 @@ std::string whyNothingSticks(const scene::Scene& scene, bool cohere, bool yield)
 std::string stickingLine(const scene::Scene& scene) {
   bool meet = false, cohere = false, yield = false;
   double pull = 0;
-  for (const setup::MeetingPair& p : setup::meetingPairs(scene)) {
+  for (const setup::MaterialPair& p : setup::materialPairs(scene)) {
     if (p.touched == setup::ContactPartner::Kind::grains && p.grain == p.partner) {
       cohere |= p.cohesion > 0;
       yield |= p.law.plastic.pull > 0 || p.law.plastic.pullGrowth > 0 || p.law.plastic.adhesion > 0;
@@ -134,7 +134,7 @@ std::string bedHeightText(const scene::Scene& scene) {
                              : "height unknown before the bed has settled in a run");
 }
 
-/// Settlement of the bed under the tracks over that of an elastic half-space.
+/// Settlement of an elastic layer as deep as the bed under the tracks, over that of an elastic half-space.
 std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
   if (!scene.terrain || !scene.terrain->granular() || !scene.terrain->depth) return "";
   constexpr double kPoisson = 0.25; // Poisson's ratio of loose soil [-]
@@ -149,7 +149,7 @@ std::string depthText(const scene::Scene& scene, const vehicle::VehicleSpec& spe
                      "bed depth", depth, 100 * settles(depth) / whole, 2 * depth, 100 * settles(2 * depth) / whole);
 }
 
-/// Features of the bed; `t` is null without one.
+/// Features of the bed; `t` is null if the scene has no bed.
 std::string bedLines(const scene::Terrain* t, const base::Vec3d& gravity) {
   const std::string none = "no bed";
   const bool random = t && !t->lattice();

@@ -15,7 +15,7 @@ namespace grouser::commands {
 
 std::string fluidText(const scene::Scene& scene, double timeStep) {
   if (!scene.fluid) return {};
-  constexpr double kBytes = 600; // a particle or marker
+  constexpr double kBytes = 600; // memory per particle or marker
   const auto setup = setup::fluidSetup(scene, timeStep);
   const fluid::FluidModel& m = setup->fluid.model;
   const setup::FluidTank tank = setup::fluidTank(scene);
@@ -55,7 +55,7 @@ std::string fluidText(const scene::Scene& scene, double timeStep) {
   for (const coupling::BodyInFluid& b : setup->bodies) gains[b.column] = std::max(gains[b.column], b.gain);
   for (const auto& [column, gain] : gains)
     if (gain > 1)
-      line("  added mass", fmt::format("{}: the fluid near the surface of a body weighs up to {:.3g} times the body; "
+      line("  added mass", fmt::format("{}: the fluid near the body has up to {:.3g} times the mass of the body; "
                                        "its pressure responds within {:.0f} steps",
                                        column, gain, std::ceil(1 + gain)));
   return text;

@@ -15,8 +15,8 @@ namespace grouser::commands {
 
 namespace {
 
-/// Returns true if contacts without grains depend on the material: foundations of bodies, surfaces and ground, or
-/// deformable soil.
+/// Returns true if contacts that do not involve grains depend on the material: elastic foundations of bodies, surfaces
+/// and ground, or deformable soil.
 bool actsWithoutGrains(const scene::Scene& scene, const std::string& material) {
   if (scene.deformable() && scene.terrain->material == material) return true;
   if (!scene.mechanism.touches()) return false;
@@ -48,26 +48,28 @@ std::string soilText(const coupling::ScmSetup& setup, std::size_t width) {
 
 std::string pairsText(const scene::Scene& scene) {
   std::string text, notes;
-  const std::vector<setup::MeetingPair> pairs = setup::meetingPairs(scene);
+  const std::vector<setup::MaterialPair> pairs = setup::materialPairs(scene);
   std::size_t width = 24;
-  const auto nameOf = [](const setup::MeetingPair& p) { return fmt::format("{}: {}, {}", p.what, p.grain, p.partner); };
-  for (const setup::MeetingPair& p : pairs) width = std::max(width, nameOf(p).size());
+  const auto nameOf = [](const setup::MaterialPair& p) {
+    return fmt::format("{}: {}, {}", p.what, p.grain, p.partner);
+  };
+  for (const setup::MaterialPair& p : pairs) width = std::max(width, nameOf(p).size());
   if (!pairs.empty())
     text += fmt::format("\ncontact parameters by material pair\n  {:<{}}  {:<6} {:>11} {:>11} {:>8} {:>8} {:>8}\n  "
                         "{:<{}}  {:<6} {:>11} "
                         "{:>11} {:>8} {:>8} {:>8}\n",
                         "materials", width, "law", "stiffness", "restitution", "friction", "rolling", "cohesion", "",
                         width, "", "N/m or Pa", "-", "-", "-", "J/m2");
-  for (const setup::MeetingPair& p : pairs) {
+  for (const setup::MaterialPair& p : pairs) {
     text += fmt::format("  {:<{}}  {:<6} {:>11.4g} {:>11.4g} {:>8.4g} {:>8.4g} {:>8.4g}\n", nameOf(p), width,
                         p.law.hertz ? "hertz" : "linear", p.stiffness, p.restitution, p.law.friction,
                         p.law.rollingFriction, p.cohesion);
     for (const std::string& off : p.off) notes += fmt::format("  note: {}: {}\n", p.what, off);
   }
   for (const scene::Material& m : scene.materials)
-    if (!actsWithoutGrains(scene, m.name) && std::none_of(pairs.begin(), pairs.end(), [&](const setup::MeetingPair& p) {
-          return p.grain == m.name || p.partner == m.name;
-        }))
+    if (!actsWithoutGrains(scene, m.name) &&
+        std::none_of(pairs.begin(), pairs.end(),
+                     [&](const setup::MaterialPair& p) { return p.grain == m.name || p.partner == m.name; }))
       notes += fmt::format("  note: material.{} has no effect in this scene{}\n", m.name,
                            scene.vehicle && pairs.empty()
                                ? ": the vehicle file defines all contact parameters between vehicle and rigid ground"

@@ -12,7 +12,7 @@ namespace grouser::commands {
 
 namespace {
 
-/// Stable steps of the vehicle's own contacts, the shortest first.
+/// Longest stable steps for the vehicle's own contacts, the shortest first.
 std::string boundsText(const setup::StepLimit& limit) {
   std::vector<setup::StepLimit::Bound> bounds = limit.vehicle;
   std::stable_sort(bounds.begin(), bounds.end(), [](const auto& a, const auto& b) { return a.step < b.step; });
@@ -48,9 +48,8 @@ std::string timeText(const scene::Scene& scene, const setup::StepLimit& limit, d
   if (scene.vehicle) text += boundsText(limit);
   if (grains > 0) text += fmt::format("  {:<24} {:.3g}\n", "grain steps", steps * grains);
   if (contact > 0 && !implicit && step > resolved * 1.0000001)
-    text +=
-        fmt::format("\nWARNING: the time step resolves a contact with only {:.1f} steps; reduce it to {} s or less\n",
-                    contact / step, base::roundedDown(resolved, 4));
+    text += fmt::format("\nWARNING: only {:.1f} time steps per contact; reduce run.time_step to {} s or less\n",
+                        contact / step, base::roundedDown(resolved, 4));
   return text;
 }
 

@@ -9,7 +9,7 @@
 
 namespace grouser::commands {
 
-/// Options of a command whose runs are processes of their own. The fields outlive the command line.
+/// Options of a command that performs each run in a separate process. The variables must outlive the parser.
 struct ProcessOptions {
   int& jobs;
   double& seconds;
@@ -18,10 +18,10 @@ struct ProcessOptions {
   std::optional<int>& threads;
 };
 
-/// Adds --jobs, --seconds, --out, --device, --threads, --resume and --force; `outHelp`: of --out.
+/// Adds --jobs, --seconds, --out, --device, --threads, --resume and --force. `outHelp`: help text of --out.
 void addProcessOptions(CLI::App& app, const ProcessOptions& options, const std::string& outHelp);
 
-/// Adds the overrides of a scene by --device and --threads.
+/// Adds the scene overrides that --device and --threads define.
 void addDeviceOverrides(std::vector<std::string>& overrides, const std::string& device,
                         const std::optional<int>& threads);
 

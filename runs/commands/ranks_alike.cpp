@@ -38,7 +38,7 @@ Fact words(const std::string& commandLine) {
   return {"command line", commandLine.substr(std::min(commandLine.find(' '), commandLine.size()))};
 }
 
-/// `who`: begins the message.
+/// `who`: first word of the message.
 void requireSame(const std::string& who, const std::vector<Fact>& facts, const base::Comm& comm) {
   if (comm.alone()) return;
   for (const Fact& fact : facts) {

@@ -8,16 +8,16 @@
 
 namespace grouser::commands {
 
-/// Throws base::InputError if a rank was started with another command than the first rank, which would cause a
-/// deadlock. `command`: "run", or "bench bed".
+/// Throws base::InputError if a rank was started with a different command than the first rank, because that would cause
+/// a deadlock. `command`: "run", or "bench bed".
 void requireSameCommand(const std::string& command, const base::Comm& comm);
 
-/// Throws base::InputError, naming rank and difference, if a rank has another program, scene or command line than the
-/// first rank: results are reproducible for one program and one scene only. `commandLine`: the program, and its
-/// arguments after the first space.
+/// Throws base::InputError, with rank and difference, if program, scene or command line of a rank differ from those of
+/// the first rank: results are reproducible for one program and one scene only. `commandLine`: the program, a space,
+/// and the arguments.
 void requireAlike(const setup::Provenance& provenance, const std::string& commandLine, const base::Comm& comm);
 
-/// The same for a command without a scene: compares program and command line. `command`: begins the message.
+/// The same for a command without a scene: compares program and command line. `command`: first word of the message.
 void requireSameWords(const std::string& command, const std::string& commandLine, const base::Comm& comm);
 
 } // namespace grouser::commands

@@ -25,7 +25,7 @@ namespace {
 
 constexpr int kSmallest = 16, kLargest = 16384; ///< width and height of a picture [pixels]
 
-/// Frames to paint, ascending.
+/// Indices of the frames to render, ascending.
 std::vector<std::size_t> chosenFrames(const output::FramesReader& reader, const RenderCommand& c) {
   const std::size_t count = reader.count();
   const std::string held = fmt::format("{} contains frames 0 to {}, from t = {:g} s to {:g} s", reader.path().string(),
@@ -36,7 +36,7 @@ std::vector<std::size_t> chosenFrames(const output::FramesReader& reader, const 
   if (!frames.empty() && frames.back() >= count)
     throw base::InputError(fmt::format("--frame {}: {}", frames.back(), held));
   if (!frames.empty()) return frames;
-  // Output times are sums of steps: tolerance for their rounding.
+  // Output times are sums of time steps: the tolerance covers their rounding errors.
   const double hair = 1e-9 * std::max(1.0, std::fabs(reader.time(count - 1)));
   std::size_t inRange = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -95,10 +95,10 @@ fs::path unfinished(const fs::path& picture) {
   return picture.parent_path() / fmt::format(".{}.part", picture.filename().string());
 }
 
-/// The number of cores this rank may use.
+/// Number of CPU cores that this rank may use.
 int coresOf(const RenderCommand& c) { return std::max(1, omp_get_num_procs() / c.comm.size()); }
 
-/// Throws if a picture or the film exists, or cannot be written.
+/// Throws if a picture or the film already exists or cannot be written.
 void checkTargets(const RenderCommand& c, const fs::path& folder, const std::vector<std::size_t>& frames) {
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
@@ -129,7 +129,7 @@ private:
   std::vector<fs::path> pictures_;
 };
 
-/// Paints the share of this rank; its processes share it in turn.
+/// Renders the frames of this rank, divided among its processes.
 void paintShare(const RenderCommand& c, const render::FramePainter& painter, const std::vector<std::size_t>& frames,
                 const fs::path& folder) {
   std::vector<std::size_t> mine;

@@ -18,9 +18,9 @@ struct RenderCommand {
   std::string film;                 ///< film file; empty: none
   double framesPerSecond = 25;      ///< frame rate of the film [1/s]
   std::string color = "depth";      ///< colour quantity, see grainQuantity()
-  std::vector<double> range;        ///< lowest and highest value of the colours; empty: from the file
+  std::vector<double> range;        ///< lower and upper end of the colour scale; empty: from the file
   std::vector<std::string> borders; ///< subdomain borders, see bordersOf()
-  std::string lookAt;               ///< vehicle, all or X,Y,Z [m]; empty: the vehicle where there is one
+  std::string lookAt;               ///< vehicle, all or X,Y,Z [m]; empty: the vehicle if there is one
   std::optional<double> azimuth;    ///< [deg]
   std::optional<double> elevation;  ///< [deg]
   std::optional<double> distance;   ///< [m]
@@ -39,8 +39,8 @@ struct RenderCommand {
 /// Width and height of "1600x900"; throws base::InputError.
 std::pair<int, int> pictureSize(const std::string& text);
 
-/// The ranks share the frames, and the processes of a rank its share. Pictures are put in place by renaming when they
-/// are whole. Throws base::InputError before anything is written, and Stopped after a signal.
+/// Divides the frames among the ranks, and those of a rank among its processes. Complete pictures are renamed to their
+/// final names. Throws base::InputError before any file is written, and Stopped after a signal.
 void renderCommand(const RenderCommand& command);
 
 } // namespace grouser::commands

@@ -13,7 +13,7 @@ namespace {
 void addCamera(CLI::App& render, RenderCommand& c) {
   render.add_option("--look-at", c.lookAt,
                     "camera target: vehicle (the camera follows it), all, or a point X,Y,Z [m]; default: vehicle, or "
-                    "all if the run has none");
+                    "all if the run has no vehicle");
   render
       .add_option("--azimuth", c.azimuth,
                   "azimuth of the camera about the vertical, 0 along +x [deg]; default: -55, or -140 for a vehicle on "
@@ -69,7 +69,7 @@ void addRender(CLI::App& app, const Invocation& invocation) {
       ->capture_default_str();
   render
       ->add_option("--range", c.range,
-                   "lower and upper end of the colour scale [m, m/s or Pa]; default: the range in the file")
+                   "lower and upper end of the colour scale [m, m/s or Pa]; default: range of the values in the file")
       ->expected(2)
       ->type_name("LOW HIGH");
   render

@@ -30,7 +30,7 @@ fs::path temporaryFolder() {
   return folder;
 }
 
-/// Temporary file with the program's data for the scripts.
+/// Temporary file with data of the program for the report scripts.
 class PassedFile {
 public:
   explicit PassedFile(const std::string& text)
@@ -85,7 +85,7 @@ void reportCommand(const ReportCommand& command) {
                                     "--grains",      std::to_string(command.grains),
                                     "--program",     fs::read_symlink("/proc/self/exe").string()};
   if (!command.film.empty()) words.insert(words.end(), {"--film", command.film});
-  const support::StopSignals signals; // from a terminal the script gets them too, and ends
+  const support::StopSignals signals; // a signal from the terminal also ends the script
   const support::CallOutcome outcome = output::callPython(script, words);
   if (const int signal = support::StopSignals::received(); signal && outcome.status != 0)
     throw support::Stopped(signal,
@@ -96,7 +96,7 @@ void reportCommand(const ReportCommand& command) {
     throw base::InputError(support::lastLine(outcome.output));
   if (!outcome.started)
     throw base::InputError(
-        fmt::format("a report needs Python: {}; install python3, python3-numpy and python3-h5py", outcome.output));
+        fmt::format("a report requires Python: {}; install python3, python3-numpy and python3-h5py", outcome.output));
   if (outcome.status == kNotWritten) throw support::NotWritten(support::lastLine(outcome.output));
   if (outcome.status != 0)
     throw std::logic_error(fmt::format("{}: {}", script.string(), support::lastLine(outcome.output)));

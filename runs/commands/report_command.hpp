@@ -6,11 +6,11 @@
 namespace grouser::commands {
 
 struct ReportCommand {
-  std::string folder; ///< results of a run, a sweep, a check or a soil's tests
+  std::string folder; ///< results folder of a run, sweep, check, set of events, soil test or calibration
   std::string file;   ///< HTML page; empty: report.html in the folder
-  std::string film;   ///< film to embed; empty: one in the folder
-  int frames = 60;    ///< maximum number in the 3-D view; 0: no view
-  int grains = 40000; ///< maximum number in the 3-D view
+  std::string film;   ///< film to embed; empty: films in the folder
+  int frames = 60;    ///< maximum number of frames in the 3-D view; 0: no 3-D view
+  int grains = 40000; ///< maximum number of grains in the 3-D view
   bool force = false; ///< overwrite the page
 };
 

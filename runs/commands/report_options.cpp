@@ -16,7 +16,8 @@ void addReport(CLI::App& app, const Invocation&) {
                                    "calibration: figures with error bars, plots, 3-D view, provenance");
   report->add_option("folder", r.folder, "results folder")->required();
   support::addOut(*report, r.file, "file of the report; default: report.html in the folder");
-  report->add_option("--film", r.film, "film to embed; default: a film in the folder, if small enough");
+  report->add_option("--film", r.film,
+                     "film to embed; default: films in the folder, up to 4 MB in total (several runs: 6 MB)");
   report
       ->add_option("--frames", r.frames,
                    "maximum number of frames in the 3-D view, evenly spaced over the run; 0: no 3-D view")
@@ -24,7 +25,7 @@ void addReport(CLI::App& app, const Invocation&) {
       ->capture_default_str();
   report
       ->add_option("--grains", r.grains,
-                   "maximum number of grains in the 3-D view; grains at the bed surface have priority, then those that "
+                   "maximum number of grains in the 3-D view; priority: grains at the bed surface, then grains that "
                    "moved most")
       ->check(support::wholeNumber(1))
       ->capture_default_str();

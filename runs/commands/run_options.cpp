@@ -18,7 +18,9 @@ void addRun(CLI::App& app, const Invocation& invocation) {
   CLI::Option* scene = run->add_option("scene", c.scene, "scene file; `grouser fields` lists its keys");
   run->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
   run->add_option("--device", c.device, "auto, cpu or cuda; default: run.device of the scene");
-  run->add_option("--threads", c.threads, "number of CPU threads; 0: all cores; the results do not depend on it")
+  run->add_option("--threads", c.threads,
+                  "number of CPU threads; 0: all cores; default: run.threads of the scene; the results do not depend "
+                  "on it")
       ->check(support::wholeNumber(0, 1024));
   support::addOut(*run, c.folder, "results folder; default: out/NAME, where NAME is the scene name");
   run->add_option("--steps", c.steps, "stop at this time step, counted after settling")->check(support::wholeNumber(1));
@@ -27,15 +29,15 @@ void addRun(CLI::App& app, const Invocation& invocation) {
       run->add_option(
              "--resume", c.checkpoint,
              "resume from this checkpoint, with results bitwise identical to those of an uninterrupted run; default: "
-             "the checkpoint in the results folder. If keys of the driver or hitch, or the folder, differ, start a "
-             "branch that leaves the original run unchanged (default of --out: out/NAME_branch)")
+             "the checkpoint in the results folder. With a different --out, or different keys of driver or hitch, "
+             "start a branch instead: the original run remains unchanged (default of --out: out/NAME_branch)")
           ->expected(0, 1)
           ->type_name("[FILE]");
   run->add_option("--replay", c.replay,
                   "repeat the run in this folder with its recorded inputs and compare the state hashes")
       ->excludes(scene)
       ->excludes(resume);
-  run->add_option("--until", c.until, "rest: stop before the drive starts, with a checkpoint to branch from")
+  run->add_option("--until", c.until, "rest: stop before the drive starts, and write a checkpoint for branches")
       ->check(CLI::IsMember({"rest"}));
   run->add_flag("!--no-cache", c.cache, "disable the cache of settled beds and sphere sets");
   run->add_flag("--verbose", c.verbose, "also print energy balance, momentum, run time and all files written");
@@ -53,13 +55,13 @@ void addRun(CLI::App& app, const Invocation& invocation) {
 void addSweep(CLI::App& app, const Invocation&) {
   const auto command = std::make_shared<SweepCommand>();
   SweepCommand& c = *command;
-  CLI::App* sweep =
-      app.add_subcommand("sweep", "Run a scene for all combinations of lists of values and summarise the results");
+  CLI::App* sweep = app.add_subcommand(
+      "sweep", "Run a scene for all combinations of values of several keys, and summarise the results");
   sweep->add_option("scene", c.scene, "scene file")->required();
   sweep
       ->add_option(
           "--set", c.lists.sets,
-          "key and its values, e.g. driver.sprocket_speed=0.5,1,2; may be repeated, which runs all combinations")
+          "key and its values, e.g. driver.sprocket_speed=0.5,1,2; repeat it to run all combinations of several keys")
       ->allow_extra_args(false);
   sweep
       ->add_option_function<std::string>(
@@ -83,7 +85,7 @@ void addSweep(CLI::App& app, const Invocation&) {
       sweep
           ->add_option("--from-checkpoint", c.checkpoint,
                        "start all runs as branches from this checkpoint of a vehicle at rest (run --until rest); "
-                       "without FILE, lower the vehicle once per seed in the folder settled")
+                       "without FILE, first settle the vehicle once per seed, in the subfolder settled")
           ->expected(0, 1)
           ->type_name("[FILE]");
   sweep->callback([command, from] {
@@ -102,11 +104,12 @@ void addPlan(CLI::App& app, const Invocation&) {
   plan->add_option("--ranks", p.ranks, "also print how the grains would be distributed over this number of MPI ranks")
       ->check(support::wholeNumber(1, 100'000));
   plan->add_option("--device", p.device, "auto, cpu or cuda; default: run.device of the scene");
-  plan->add_option("--threads", p.threads, "number of CPU threads; 0: all cores")->check(support::wholeNumber(0, 1024));
+  plan->add_option("--threads", p.threads, "number of CPU threads; 0: all cores; default: run.threads of the scene")
+      ->check(support::wholeNumber(0, 1024));
   support::addOut(*plan, p.folder,
                   "results folder of the planned run; default: out/NAME, where NAME is the scene name");
   CLI::Option* without = plan->add_flag("!--no-probe", p.forecast, "skip the run-time prediction");
-  plan->add_flag("--probe", p.probe, "measure the time of every part (up to minutes) and store it for later plans")
+  plan->add_flag("--probe", p.probe, "measure the time of each part (up to minutes) and store it for later plans")
       ->excludes(without);
   plan->add_option("--json", p.json, "also write the predicted time of each part to this file")
       ->excludes(without)

@@ -24,10 +24,10 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/storage/scene_changes.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/stopwatch.hpp"
-#include "runs/support/tell.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -44,7 +44,7 @@ using support::Stopwatch;
 /// CPU time of all threads of this process [s].
 double cpuTime() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// Prints the shares of the ranks.
+/// Prints the number of ranks, their subdomains, grains and ghosts.
 void describeRanks(const coupling::Simulation& simulation) {
   const auto& grains = simulation.ground().grains;
   if (!grains || !grains->distribution()) return;
@@ -105,7 +105,7 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
   if (const coupling::VehicleRig* rig = simulation.vehicle()) {
     const auto isCut = [](const coupling::VehicleParts::SetFigures& f) { return f.spheres > 0; };
     const std::vector<coupling::VehicleParts::SetFigures>& figures = rig->parts().setFigures();
-    fmt::print("vehicle   {:.0f} kg, {} bodies, running-gear contact by {}, {} spheres ({} of {} meshes)\n",
+    fmt::print("vehicle   {:.0f} kg, {} bodies, running-gear contact by {}, {} spheres (for {} of {} meshes)\n",
                rig->assembly().mass, rig->assembly().model.bodies().size(),
                rig->parts().shapes() ? "shapes" : "samples", rig->parts().totalSpheres(),
                std::count_if(figures.begin(), figures.end(), isCut), figures.size());
@@ -118,7 +118,7 @@ void describeBuild(const coupling::Simulation& simulation, const setup::Provenan
   std::fflush(stdout);
 }
 
-/// Maximum share of weight x time that crushing may cut off before loads become unreliable [-].
+/// Loads are unreliable if crushing removes more than this share of the impulse weight x time [-].
 constexpr double kSuspect = 0.01;
 
 /// Prints large overlaps and crushed grains, which do not end a run.
@@ -133,7 +133,7 @@ void describeSqueezed(const coupling::Simulation& simulation, session::Recorder&
     }
     fmt::print("crushing  limited contact forces; impulse removed: {:.4g} N s{}\n",
                summary.figures.at("crushing_cut_impulse"), share);
-    const coupling::TakenOut& gone = simulation.takenOut();
+    const coupling::CrushedGrains& gone = simulation.crushedGrains();
     if (gone.grains > 0)
       fmt::print(
           "crushed   {:g} grains removed: mass {:.4g} kg, energy {:.4g} J, momentum ({:.2g}, {:.2g}, {:.2g}) N s\n",
@@ -142,7 +142,7 @@ void describeSqueezed(const coupling::Simulation& simulation, session::Recorder&
   fmt::print("{}", recorder.squeezed().text());
 }
 
-/// Prints the statistics of the solver of complementarity contacts; without `verbose` only missed steps.
+/// Prints the statistics of the complementarity solver; without `verbose` only steps that exceed the tolerance.
 void describeSolver(const coupling::Simulation& simulation, bool verbose) {
   if (!simulation.ground().grains || !simulation.ground().grains->system().impulses) return;
   const terrain::ImpulseTotals& all = simulation.ground().grains->system().impulses->totals();
@@ -166,7 +166,7 @@ void describeSolver(const coupling::Simulation& simulation, bool verbose) {
                base::counted(all.missed, "step"), all.steps);
 }
 
-/// Steps of a mechanism with error control.
+/// Prints and records the numbers and lengths of the steps of a mechanism with error control.
 void describeSteps(const coupling::Mechanism& mechanism, bool verbose, output::Summary& summary) {
   if (!mechanism.controller()) return;
   const coupling::StepController::Record& r = mechanism.controller()->record();
@@ -179,7 +179,7 @@ void describeSteps(const coupling::Mechanism& mechanism, bool verbose, output::S
   summary.figures["mechanism_step_largest_s"] = r.largest;
 }
 
-/// Steps to the end, with progress on stderr.
+/// Performs the steps up to the end of the run, with progress on stderr.
 void drive(session::RunSession& run) {
   coupling::Simulation& simulation = run.simulation();
   const auto share = [&] { return static_cast<double>(simulation.steps()) / static_cast<double>(run.total()); };
@@ -187,7 +187,7 @@ void drive(session::RunSession& run) {
   const bool mayStop = stop.distance || stop.edge || stop.immobile;
   support::Progress progress("running", simulation.comm().first(), share(),
                              mayStop ? support::Progress::End::limit : support::Progress::End::expected);
-  while (run.goesOn()) {
+  while (run.continues()) {
     run.advance(run.total());
     if (progress.due())
       progress.update(share(), fmt::format("t {:.3f} of {:g} s", simulation.time(),
@@ -197,7 +197,7 @@ void drive(session::RunSession& run) {
   progress.finish(fmt::format("{} step{}", simulation.steps(), simulation.steps() == 1 ? "" : "s"));
 }
 
-/// Compares the end of a repeated run with that of the recorded one. Throws SimulationError where they differ.
+/// Compares the final state of a replay with that of the recorded run. Throws SimulationError if they differ.
 void describeReplay(const session::RecordedRun& recorded, const setup::Provenance& provenance,
                     const std::string& stateHash) {
   if (const auto changes = storage::changedKeys(recorded.scene, provenance.resolved); !changes.empty()) {
@@ -208,7 +208,7 @@ void describeReplay(const session::RecordedRun& recorded, const setup::Provenanc
   if (recorded.stateHash.empty()) {
     fmt::print("WARNING: {} contains no state hash, because that run did not finish; nothing was compared\n",
                recorded.folder.string());
-    fmt::print("replay    {} of {}: its {} steps repeated\n", base::counted(recorded.inputs.size(), "input"),
+    fmt::print("replay    {} of {}: {} steps repeated\n", base::counted(recorded.inputs.size(), "input"),
                recorded.folder.string(), recorded.steps);
     return;
   }
@@ -227,7 +227,7 @@ void describeOrigin(const coupling::Simulation& simulation, const storage::Check
     fmt::print("resumed   at step {}, {:.6g} s\n", simulation.steps(), simulation.time());
 }
 
-/// Records the step of the checkpoint: the wall time covers later steps only.
+/// Records the step at which the run resumed or branched: the wall time covers later steps only.
 void noteOrigin(const storage::Checkpoint& former, bool branch, output::Summary& summary) {
   if (!branch) summary.figures["resumed_at_step"] = static_cast<double>(former.state.steps);
   if (former.branchedFrom) summary.figures["branched_at_step"] = static_cast<double>(former.branchedFrom->step);
@@ -243,9 +243,9 @@ void noteEnd(session::RunSession& run, bool endsAtRest, bool cut) {
 
 /// Prints the notices to stderr.
 void warnOf(const scene::Scene& scene, const coupling::Simulation& simulation) {
-  constexpr const char* kBegin[] = {"WARNING", "WARNING", "grouser: note"};
   for (const setup::Notice& notice : setup::noticesOf(scene, simulation))
-    support::tell("{}: {}\n", kBegin[static_cast<int>(notice.weight)], notice.text);
+    support::printStderr("{}: {}\n", notice.weight == setup::Notice::Weight::note ? "grouser: note" : "WARNING",
+                         notice.text);
 }
 
 /// Throws base::InputError if --until rest has no vehicle to wait for.
@@ -287,7 +287,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
   const double prepared = whole.seconds();
   const std::vector<std::string> ofBed = bedWarnings(scene, simulation);
   if (comm.first())
-    for (const std::string& warning : ofBed) support::tell("WARNING: {}\n", warning);
+    for (const std::string& warning : ofBed) support::printStderr("WARNING: {}\n", warning);
   describeBuild(simulation, provenance, exec, kept);
   if (!former && comm.first()) warnOf(scene, simulation);
   session::RunSession run(simulation, record, options, exec, former.get(), total);
@@ -343,7 +343,7 @@ output::Summary runScene(const scene::Scene& scene, const setup::Provenance& pro
   try {
     return runInFolder(scene, provenance, options, hasFolder);
   } catch (const base::SimulationError&) {
-    // Its files are closed by now.
+    // The files of the run are closed at this point.
     if (hasFolder && scene.output.plots && options.comm().alone())
       session::leavePlots(options.folder, scene.vehicle.has_value());
     throw;

@@ -8,9 +8,9 @@
 
 namespace grouser::commands {
 
-/// Runs a scene, of this provenance, to its end and writes its folder through a RunWriter; the returned summary is also
-/// in the manifest. With `hash` the summary holds the state hash. Leaves a checkpoint at the scene's interval, at the
-/// end, and where SIGINT or SIGTERM stops the run. A failed run leaves files for diagnosis. Throws InputError,
+/// Runs a scene to its end and writes its results folder through a RunWriter. The returned summary is also stored in
+/// the manifest; with `hash` it contains the state hash. Writes a checkpoint at the scene's interval, at the end, and
+/// when SIGINT or SIGTERM stops the run. A failed run leaves files for diagnosis. Throws InputError,
 /// SimulationError, DeviceError, or Stopped.
 output::Summary runScene(const scene::Scene& scene, const setup::Provenance& provenance,
                          const session::RunRequest& options);

@@ -26,8 +26,8 @@ constexpr Line kLines[] = {{"speed", "speed [m/s]", 1, "m/s", ""},
                            {"sinkage", "sinkage mean [m]", 1e3, "mm", ", mean of the shoes in ground contact"},
                            {"torque", "drive torque [N m]", 1, "N m", ", both sprockets"}};
 
-constexpr double kUnsteady = 0.08; ///< half-range of the speed over its mean in the steady part that causes a warning
-constexpr double kSlow = 0.05;     ///< [m/s] mean speed below which it does not
+constexpr double kUnsteady = 0.08; ///< half range of the speed in the steady part over its mean, above which runs warn
+constexpr double kSlow = 0.05;     ///< [m/s] no such warning below this mean speed
 
 /// Warnings that precede the figures of a run.
 std::string warningsOf(const nlohmann::json& run, const std::string& incomplete) {
@@ -39,12 +39,12 @@ std::string warningsOf(const nlohmann::json& run, const std::string& incomplete)
         std::fabs(high + low) > 2 * kSlow && high - low > kUnsteady * std::fabs(high + low))
       text =
           fmt::format("WARNING: the speed varies from {:.3g} to {:.3g} m/s in the steady part, so the means depend on "
-                      "its length; raise driver.drive_ramp or run.duration\n",
+                      "the length of that part; raise driver.drive_ramp or run.duration\n",
                       low, high);
   return text;
 }
 
-/// Error bar of a figure by the last check of the scene; infinite without one.
+/// Error bar of a figure from the last check of the scene; infinite without a check.
 double barOf(const nlohmann::json& run, const char* name) {
   const nlohmann::json& kept = run.at("check");
   if (!kept.is_object()) return base::kInfinity;
@@ -68,10 +68,10 @@ std::string valueOf(const nlohmann::json& run, const Line& line) {
 std::string energyText(const output::Summary& summary) {
   const double converted = summary.figures.at("energy_converted_J");
   if (!(converted > 0)) return {};
-  return fmt::format(
-      "energy    residual {:.0e} and time-integration error {:.2g} % of the absolute work of all forces, {:.3g} J\n",
-      std::fabs(summary.figures.at("energy_residual_J")) / converted,
-      100 * std::fabs(summary.figures.at("integration_error_J")) / converted, converted);
+  return fmt::format("energy    residual {:.0e}, time-integration error {:.2g} %, relative to the absolute work of all "
+                     "forces, {:.3g} J\n",
+                     std::fabs(summary.figures.at("energy_residual_J")) / converted,
+                     100 * std::fabs(summary.figures.at("integration_error_J")) / converted, converted);
 }
 
 std::string driveFiguresText(const std::filesystem::path& folder, const std::filesystem::path& beside,

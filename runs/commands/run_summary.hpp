@@ -8,13 +8,13 @@
 
 namespace grouser::commands {
 
-/// Energy check of a finished run in one line: residual and integration error over the energy converted.
+/// One line on the energy balance of a finished run: residual and integration error over the work of all forces.
 std::string energyText(const output::Summary& summary);
 
-/// Speed, slip, sinkage, and drive torque of a finished run of a vehicle, means over its steady part, a line each, with
-/// error bars if its scene has been checked; empty without a vehicle. `beside`: folder of another run whose figures
-/// stand in a second column; empty: none. A reason why the figures are inconclusive precedes them, unless it has been
-/// printed as `incomplete`.
+/// Figures of a finished run of a vehicle, one per line: means of speed, slip, sinkage and drive torque over the steady
+/// part, with error bars if the scene has been checked. Empty without a vehicle. `beside`: folder of another run to
+/// print in a second column; empty: no second column. A reason why the figures are inconclusive precedes them, unless
+/// it equals `incomplete`, which has already been printed.
 std::string driveFiguresText(const std::filesystem::path& folder, const std::filesystem::path& beside,
                              const std::string& incomplete);
 

@@ -53,9 +53,9 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
     for (int a = 0; a < 3; ++a) size[static_cast<std::size_t>(a)] = high[a] - low[a] + 2 * radius;
   }
   setup::checkLattice(scene, ranks);
-  const std::array<int, 3> shape = contact::latticeShape(ranks, size, setup::wantedSubdomains(scene));
+  const std::array<int, 3> shape = contact::latticeShape(ranks, size, setup::requestedSubdomains(scene));
 
-  // A slave lies within range beyond a border; an inner subdomain has two borders on each axis that is cut.
+  // Slaves are at most `range` outside the border; an inner subdomain has two borders along each divided axis.
   const double range = (2 + scene.run.skin) * radius;
   double grown = 1, all = 1;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -63,7 +63,7 @@ std::string sharePlan(const scene::Scene& scene, int ranks) {
     grown *= 1 + (shape[a] > 2 ? 2 : shape[a] - 1) * std::min(range, size[a]) / width;
     all *= 1 + 2 * (shape[a] - 1) * range / size[a];
   }
-  // No rank has more ghosts than the others have grains.
+  // A rank has at most as many ghosts as the other ranks have grains.
   const double each = grains / ranks, ghosts = std::min(each * (grown - 1), grains - each);
   std::string text = fmt::format("\n{} ranks\n", ranks);
   text += fmt::format("  {:<24} {} x {} x {}\n", "subdomains", shape[0], shape[1], shape[2]);

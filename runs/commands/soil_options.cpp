@@ -19,7 +19,7 @@ namespace {
 
 using virtual_tests::PlanOptions;
 
-/// Options of the plan: one that the user gives keeps its value with --quick.
+/// Options of the plan. An option on the command line keeps its value with --quick.
 class PlanKeys {
 public:
   explicit PlanKeys(PlanOptions& plan) : plan_(plan) {}
@@ -36,7 +36,7 @@ public:
       if (option->count() > 0) taken.*member = user.*member;
     });
   }
-  bool& wide() { return plan_.wide; } ///< --quick has none
+  bool& wide() { return plan_.wide; } ///< false with --quick
   void takeQuick() {
     PlanOptions taken = virtual_tests::coarsePlan();
     for (const auto& given : given_) given(plan_, taken);
@@ -50,7 +50,7 @@ private:
 
 void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--seeds", &PlanOptions::seeds, support::wholeNumber(1, 1000),
-           "number of beds for the small plate, and of samples per shear load");
+           "number of beds for the small plate, and number of samples per shear load");
   keys.add(soil, "--large-seeds", &PlanOptions::largeSeeds, support::wholeNumber(1, 1000),
            "number of beds for the large plate");
   keys.add(soil, "--plate-grains", &PlanOptions::plateGrains, support::between(4, 1000),
@@ -62,13 +62,13 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--depth", &PlanOptions::depth, support::between(0.5, 100), "bed depth [plate widths]");
   keys.add(soil, "--thickness", &PlanOptions::thickness, support::between(3.5, 1000),
            "bed thickness along the strip [mean grain diameters]");
-  keys.add(soil, "--pressure", &PlanOptions::mostPressure, support::between(1e3, 1e7),
+  keys.add(soil, "--pressure", &PlanOptions::greatestPressure, support::between(1e3, 1e7),
            "maximum plate pressure [Pa]; the test ends earlier if the sinkage reaches 0.3 plate widths");
   keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
            "inertial number of the plate tests: (speed / width) d sqrt(density / pressure) [-]");
   keys.add(
       soil, "--plate-waves", &PlanOptions::plateWaves, support::between(1e-4, 10),
-      "maximum wave pressure of the moving plate over the track pressure; limits the plate speed in firm soil [-]");
+      "maximum ratio of the moving plate's wave pressure to the track pressure [-]; limits the speed in firm soil");
   keys.add(soil, "--shear-inertial-number", &PlanOptions::shearInertialNumber, support::between(1e-6, 0.1),
            "inertial number of the shear tests: rate d sqrt(density/stress) [-]");
   keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),
@@ -76,9 +76,9 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--shear-loads", &PlanOptions::loads, support::between(100.0, 1e7),
            "normal stresses of the shear tests [Pa]");
   keys.add(soil, "--steps-per-contact", &PlanOptions::stepsPerContact, support::between(6, 600),
-           "time steps per shortest contact; increased automatically for tests that end as unsound");
+           "number of time steps during the shortest contact; increased automatically after an unsound test");
   keys.add(soil, "--shear-height", &PlanOptions::shearHeight, support::between(0.01, 10),
-           "height of the sheared layer, at least ten grains [m]");
+           "height of the sheared layer [m]; at least ten grain diameters");
   soil.add_flag("!--no-wide", keys.wide(),
                 "skip the small-plate tests on beds of twice the width (--calibrate always skips them)");
 }
@@ -113,15 +113,16 @@ void addSoil(CLI::App& app, const Invocation& invocation) {
   const auto keys = std::make_shared<PlanKeys>(c.plan);
   addPlanOptions(*soil, *keys);
   jobs::addPieceOptions(*soil, c.pieces);
-  soil->add_option("--jobs", c.jobs, "number of concurrent tests (processes), which share --threads")
+  soil->add_option("--jobs", c.jobs, "number of concurrent tests (processes); they share --threads")
       ->check(support::wholeNumber(1, 256))
       ->capture_default_str();
-  soil->add_flag("--quick", c.place.quick, "run a coarse test in minutes: small plates of few grains, pushed fast");
+  soil->add_flag("--quick", c.place.quick,
+                 "run a coarse test in minutes: narrow plates (in grain diameters), high speed");
   soil->add_flag(
       "--fit-scm", c.fitScm,
       "also fit the constants of [scm] (terrain.kind = \"scm\") to the tests, and report the residual of the fit");
   support::addOut(*soil, c.place.folder, "results folder; default: out/soil_NAME, or out/calibrate_NAME");
-  soil->add_flag("--force", c.place.force, "overwrite the results in that folder");
+  soil->add_flag("--force", c.place.force, "overwrite existing results in the results folder");
   soil->callback([command, keys, targets, words = invocation.words] {
     if (command->place.quick) keys->takeQuick();
     doSoil(*command, *targets, words);

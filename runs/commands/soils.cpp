@@ -22,10 +22,10 @@ using scene::SoilQuantity;
 
 namespace {
 
-/// Path of a scene in a folder, which need not exist.
+/// Path of a scene in the folder; the scene need not exist.
 fs::path sceneIn(const fs::path& folder) { return folder / "scene.toml"; }
 
-/// "1.1", "20 to 25": a constant in a unit of `unit` SI units, with the range of its sources.
+/// "1.1", "20 to 25": a constant in units of `unit` SI units, or its range in the literature.
 std::string published(const Soil& soil, SoilQuantity quantity, double unit) {
   const auto found = std::find_if(soil.published.begin(), soil.published.end(),
                                   [&](const scene::PublishedConstant& c) { return c.quantity == quantity; });
@@ -35,7 +35,7 @@ std::string published(const Soil& soil, SoilQuantity quantity, double unit) {
                     : fmt::format("{:.5g}", found->value / unit);
 }
 
-/// "7", "7 to 20": radii at which a soil has been calibrated, or is meant to be used [mm].
+/// "7", "7 to 20": grain radii at which a soil was calibrated, or its default radius [mm].
 std::string radii(const Soil& soil) {
   const auto [least, greatest] = soil.grains.calibratedRadii;
   return least < greatest ? fmt::format("{:g} to {:g}", 1000 * least, 1000 * greatest)
@@ -44,7 +44,7 @@ std::string radii(const Soil& soil) {
 
 std::string state(const Soil& soil) { return soil.head.calibrated ? "calibrated" : "uncalibrated"; }
 
-/// " +- 0.078 - (assumed)", of the constants of the soil contact model; the unit alone of others.
+/// " +- 0.078 - (assumed)" for constants of the soil contact model; only the unit for other constants.
 std::string intervalAndUnit(const std::vector<scene::ContactConstant>& constants, SoilQuantity quantity) {
   for (const scene::ContactConstant& c : constants)
     if (c.quantity == quantity && c.halfWidth() > 0)

@@ -9,7 +9,7 @@ namespace grouser::commands {
 /// Constants of the soils of assets/soils, as the Markdown table of docs/soils.md.
 std::string soilsTable();
 
-/// Soils that a scene in `folder` can use by name, a line each.
+/// Soils that a scene in `folder` can use by name, one per line.
 std::string soilsList(const std::filesystem::path& folder);
 
 /// All data of a soil file. Throws base::InputError for an unknown name or path.

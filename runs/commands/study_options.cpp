@@ -23,7 +23,7 @@ void addStudy(CLI::App& app, const Invocation&) {
       "Compare mechanisms with their exact motion: error, order, drift and CPU time of each integrator and time step");
   std::string names;
   for (const studies::StudyCase& known : studies::studyCases()) names += (names.empty() ? "" : ", ") + known.name;
-  multibody->add_option("--cases", c.cases, "cases, separated by commas, of " + names + "; default: all")
+  multibody->add_option("--cases", c.cases, "run only these cases, separated by commas: " + names + "; default: all")
       ->delimiter(',');
   multibody->add_flag("--stability", c.stability, "measure stable time steps instead, and compare them with theory");
   studies::addPlace(*multibody, c.place, "multibody",
@@ -41,7 +41,7 @@ void addStudy(CLI::App& app, const Invocation&) {
   studies::addGrainStudies(*study, *grains);
   const auto soils = std::make_shared<studies::SoilStudies>();
   studies::addSoilStudies(*study, *soils);
-  study->callback([grains, soils] {}); // keeps alive what those fill
+  study->callback([grains, soils] {}); // keeps the option values alive
 }
 
 } // namespace grouser::commands

@@ -77,7 +77,7 @@ support::Estimate pairedDifference(std::span<const double> a, std::span<const do
 Verdict judge(const support::Estimate& difference, double bar) {
   const double size = std::fabs(difference.value);
   if (size + difference.halfWidth <= bar) return Verdict::equal;
-  return size - difference.halfWidth > bar ? Verdict::differs : Verdict::notShown;
+  return size - difference.halfWidth > bar ? Verdict::differs : Verdict::inconclusive;
 }
 
 std::string verdictText(Verdict verdict) {
@@ -93,7 +93,7 @@ std::string verdictText(Verdict verdict) {
 
 namespace {
 
-/// Whether all seeds agree up to rounding; then no interval is shown.
+/// Returns true if all seeds agree up to rounding; then no interval is printed.
 bool isExact(const support::Estimate& e) { return e.halfWidth <= 1e-9 * std::fabs(e.value); }
 
 } // namespace
@@ -115,8 +115,8 @@ std::string valueText(const support::Estimate& estimate) {
   const double scale = hasWidth ? e.halfWidth : 0.001 * std::fabs(e.value);
   const double size = std::max(std::fabs(e.value), scale);
   const int last = scale > 0 ? static_cast<int>(std::floor(std::log10(scale))) - 1 : -3; // power of the last digit
-  constexpr int kMostDigits = 9;
-  if (size >= 1e6 || (size > 0 && size < 1e-3) || -last > kMostDigits) { // one power of ten for both
+  constexpr int kMaxDigits = 9;
+  if (size >= 1e6 || (size > 0 && size < 1e-3) || -last > kMaxDigits) { // one power of ten for both
     const int power = static_cast<int>(std::floor(std::log10(size)));
     const double unit = std::pow(10.0, power);
     const int digits = std::clamp(power - last, 0, 11);
@@ -127,7 +127,7 @@ std::string valueText(const support::Estimate& estimate) {
                              std::isfinite(e.halfWidth) ? fmt::format("{:.{}f}", e.halfWidth / unit, digits) : "?",
                              power);
   }
-  const int digits = std::clamp(-last, 0, kMostDigits);
+  const int digits = std::clamp(-last, 0, kMaxDigits);
   if (e.halfWidth == 0) return fmt::format("{:.{}f}", e.value, digits);
   return plusMinus(e, digits);
 }

@@ -9,36 +9,36 @@
 /// Statistics of a few seeds: means with intervals, and equality of means within a tolerance.
 namespace grouser::jobs {
 
-/// Mean and half width of its 95 % interval by Student's distribution; infinite for fewer than two values.
+/// Mean and half width of its 95 % confidence interval (Student's t); infinite for fewer than two values.
 support::Estimate interval95(std::span<const double> values);
 /// The same for an interval that misses the mean with probability `miss`, in (0, 1).
 support::Estimate interval(std::span<const double> values, double miss);
-/// Prediction interval: mean, and the half width of the interval that misses one further value with this chance.
+/// Prediction interval: mean, and half width of the interval that misses one further value with probability `miss`.
 support::Estimate predictionInterval(std::span<const double> values, double miss);
 
 /// mean b - mean a with its 95 % half width, for independent samples: Welch's interval with Satterthwaite's degrees of
 /// freedom, rounded down; infinite if either sample has fewer than two values.
 support::Estimate unpairedChange(std::span<const double> a, std::span<const double> b);
-/// The same over mean a; ignores the scatter of mean a.
+/// The same, relative to mean a; ignores the scatter of mean a.
 support::Estimate relativeDifference(std::span<const double> a, std::span<const double> b);
 
 /// mean b - mean a with its 95 % half width, for pairs: a[i] and b[i] have the same seed. Throws std::invalid_argument
-/// if their numbers differ.
+/// if the numbers of values differ.
 support::Estimate pairedChange(std::span<const double> a, std::span<const double> b);
-/// The same over mean a; ignores the scatter of mean a.
+/// The same, relative to mean a; ignores the scatter of mean a.
 support::Estimate pairedDifference(std::span<const double> a, std::span<const double> b);
 
 enum class Verdict {
-  equal,   ///< the whole interval lies within the bar
-  differs, ///< the whole interval lies outside
-  notShown ///< the interval crosses the bar
+  equal,       ///< the whole interval is within [-bar, bar]
+  differs,     ///< the whole interval is outside [-bar, bar]
+  inconclusive ///< the interval contains -bar or bar; text: "inconclusive"
 };
-/// Verdict on a difference, equal if its interval lies in [-bar, bar].
+/// Verdict on a difference: equal if its confidence interval is within [-bar, bar].
 Verdict judge(const support::Estimate& difference, double bar);
 std::string verdictText(Verdict verdict); ///< "equal", "differs", "inconclusive"
 
-/// Whether the half width exceeds the value, so that even its sign is uncertain. False for a single value, which has no
-/// interval.
+/// Returns true if the half width exceeds the value, so that even the sign is uncertain. False for a single value,
+/// which has no interval.
 bool isInconclusive(const support::Estimate& estimate);
 
 /// "12.3 +- 0.4" with `digits` digits after the point; "12.3" if the interval is below 1e-9 of the value, so that

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "2/8"; empty where it is no part.
+/// Parses "2/8"; empty if `text` has a different form.
 std::optional<Part> partOf(const std::string& text) {
   Part part;
   int length = 0;
@@ -43,7 +43,7 @@ void addDeviceOptions(CLI::App& app, std::string& device, int& threads) {
   app.add_option("--device", device, "auto, cpu or cuda")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
       ->capture_default_str();
-  app.add_option("--threads", threads, "number of CPU threads; 0: all cores; the results do not depend on it")
+  app.add_option("--threads", threads, "number of CPU threads; 0: all cores; no effect on results")
       ->check(support::wholeNumber(0, 1024))
       ->capture_default_str();
 }
@@ -61,7 +61,7 @@ void addPieceOptions(CLI::App& app, PieceOptions& o) {
           "PART/PARTS"));
   app.add_option(
          "--seconds", o.seconds,
-         "start no new run that would exceed this wall time [s], judged by the duration of the last run; 0: no limit")
+         "start no new run that would exceed this wall time [s], if the run takes as long as the last one; 0: no limit")
       ->check(support::notNegative("a time in seconds"));
   addDeviceOptions(app, o.device, o.threads);
 }
@@ -77,15 +77,16 @@ void Recipe::keep() const {
   try {
     if (!isThere()) support::replaceTextFile(file_, text_);
   } catch (const support::NotWritten&) {
-    if (!isThere()) throw; // else another part was quicker
+    if (!isThere()) throw; // otherwise a concurrent part has written it
   }
 }
 
 std::size_t Table::column(const std::string& name) const {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw base::InputError(fmt::format(
-        "a table of an earlier call has no column \"{}\": another version wrote it; start again with --force", name));
+    throw base::InputError(fmt::format("a table of an earlier call has no column \"{}\": another program version wrote "
+                                       "the table; repeat the study with --force",
+                                       name));
   return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -122,11 +123,11 @@ Pieces::Pieces(const std::string& study, const StudyPlace& place, const PieceOpt
     throw base::InputError(fmt::format("{}: the runs in this folder were made with different options; use the same "
                                        "options, choose another folder with --out, or overwrite it with --force",
                                        file.string()));
-  const bool goesOn = isAsked || isSame;
-  where.force = place.force || goesOn;
+  const bool continues = isAsked || isSame;
+  where.force = place.force || continues;
   folder_ = beginStudy(study, where);
   if (!isSame) {
-    if (!goesOn) fs::remove_all(folder_ / "runs");
+    if (!continues) fs::remove_all(folder_ / "runs");
     kept.keep();
   }
   fs::create_directories(folder_ / "runs");

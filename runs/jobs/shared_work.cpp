@@ -26,9 +26,9 @@ namespace grouser::jobs {
 
 namespace {
 
-// Output of a child: one letter for each finished piece; on failure the letter of its kind, then the message.
+// Output of a child: one character per finished piece; on failure, a letter for its kind, then the message.
 constexpr char kDone = '.', kFirstKind = 'a';
-constexpr int kPause = 100; ///< between looks at the signals [ms]
+constexpr int kPause = 100; ///< interval between checks for signals [ms]
 
 /// Index of the next piece, shared by all processes.
 class NextPiece {
@@ -50,7 +50,7 @@ private:
   Number* number_ = nullptr;
 };
 
-/// Runs in a child process: takes pieces until none are left, and reports them.
+/// Runs in a child process: processes pieces until none are left, and reports each.
 void doPieces(const support::Descriptor& report, NextPiece& next, std::size_t count,
               const std::function<void(std::size_t)>& work) {
   try {
@@ -67,17 +67,17 @@ void doPieces(const support::Descriptor& report, NextPiece& next, std::size_t co
 /// Reads a report; text after the letters of finished pieces describes a failure. False when the process has ended.
 bool listen(support::ChildProcess& child, std::string& failure, const std::function<void()>& done) {
   std::string report;
-  const bool goesOn = child.read(report);
+  const bool continues = child.read(report);
   for (const char c : report) {
     if (failure.empty() && c == kDone)
       done();
     else
       failure += c;
   }
-  return goesOn;
+  return continues;
 }
 
-/// Throws the error of a process that has ended.
+/// Throws an exception if a process has ended with an error.
 void judge(const support::ProcessEnd& end, const std::string& failure) {
   if (!failure.empty())
     support::rethrow({static_cast<support::FailureKind>(failure[0] - kFirstKind), failure.substr(1)});
@@ -93,7 +93,7 @@ void shareWork(int processes, std::size_t count, const std::function<void(std::s
   const support::StopSignals signals;
   if (processes <= 1) {
     for (std::size_t i = 0; i < count; ++i) {
-      stopStudyIfAsked();
+      stopStudyOnRequest();
       work(i);
       done();
     }
@@ -114,7 +114,7 @@ void shareWork(int processes, std::size_t count, const std::function<void(std::s
     std::vector<pollfd> ends;
     for (const support::ChildProcess& child : children) ends.push_back({child.output(), POLLIN, 0});
     poll(ends.data(), ends.size(), kPause);
-    stopStudyIfAsked();
+    stopStudyOnRequest();
     for (std::size_t k = 0; k < all; ++k) {
       if (ends[k].revents == 0 || listen(children[k], failures[k], oneMore)) continue;
       --running;

@@ -56,7 +56,7 @@ double medianOf(std::vector<double> values) {
   return n == 0 ? 0 : 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-void stopStudyIfAsked() {
+void stopStudyOnRequest() {
   if (const int signal = support::StopSignals::received())
     throw support::Stopped(signal, fmt::format("stopped by {}", support::StopSignals::name(signal)));
 }

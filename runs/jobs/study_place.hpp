@@ -10,23 +10,23 @@
 /// Common parts of studies: series of runs for one question, such as `grouser study` and the virtual soil tests.
 namespace grouser::jobs {
 
-inline constexpr double kGravity = 9.81; ///< in all studies [m/s2]
+inline constexpr double kGravity = 9.81; ///< gravity in all studies [m/s2]
 
 /// Folder and extent of a study.
 struct StudyPlace {
   std::string folder; ///< empty: out/study_NAME
-  bool force = false; ///< overwrite what is in it
-  bool quick = false; ///< a coarse pass in seconds
+  bool force = false; ///< overwrite results in the folder
+  bool quick = false; ///< coarse study that takes seconds
 };
 
-/// Makes the folder and prints the line of machine and commit. Throws InputError where it may not be written.
+/// Makes the folder, and prints a line with machine and commit. Throws InputError if the folder is not writable.
 std::filesystem::path beginStudy(const std::string& name, const StudyPlace& place);
 
 /// Writes study.json: study, machine, commit, compiler, seconds taken and `more`.
 void writeStudyOrigin(const std::filesystem::path& folder, const std::string& name, double seconds,
                       const nlohmann::ordered_json& more);
 
-/// Mean of values, and its standard error from their scatter.
+/// Mean of values, and standard error of the mean from the scatter of the values.
 struct MeanError {
   double mean = 0, error = 0;
 };
@@ -34,6 +34,6 @@ MeanError meanOf(const std::vector<double>& values);
 double medianOf(std::vector<double> values);
 
 /// Throws Stopped after SIGINT, SIGTERM or SIGHUP.
-void stopStudyIfAsked();
+void stopStudyOnRequest();
 
 } // namespace grouser::jobs

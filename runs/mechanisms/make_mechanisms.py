@@ -9,7 +9,7 @@
     bennett            Bennett's linkage, overconstrained but movable
     strand N SAG       a strand of N track links between two rollers 0.667 m apart, sagging by SAG [m]
 
-Without FILE it prints to the terminal. It generated the files in its folder:
+Without FILE, prints the scene to the terminal. These commands generated the files in runs/mechanisms:
     for m in 'fourbar 2' 'fourbar 40' andrews 'ring 46 10' 'chain 100 1e6' 'strand 12 0.01'; do ...; done
 """
 import math
@@ -55,8 +55,8 @@ def rod(name, x, y, along, vx):
 def fourbar(n):
     n = int(n)
     out = head(f"{n} four-bar linkages in a row: {2 * n + 1} uniform rods of 1 m and 1 kg, all joints revolute, started upright with\n"
-               "the couplers at 1 m/s (IFToMM benchmark, problem A02). Every half turn they pass through the position in which\n"
-               "all rods lie on one line and the constraints lose rank.",
+               "the couplers at 1 m/s (IFToMM benchmark, problem A02). Every half turn all rods are\n"
+               "aligned and the constraints lose rank.",
                duration=20 if n <= 40 else 10, time_step="1e-3", gravity=vector(0, -G, 0), output_interval=0.05, frame_interval=0.05)
     out += "\n[output]\nrecord = " + names("upright 0", "coupler 0", "foot 0") + "\n" if n > 2 else ""
     for i in range(n + 1):
@@ -74,7 +74,7 @@ def fourbar(n):
 
 
 def andrews():
-    """Constants and initial state of the IVP test set, with its absolute and relative angles."""
+    """Constants and initial state of the IVP test set, with absolute and relative angles."""
     m = (.04325, .00365, .02373, .00706, .07050, .00706, .05498)
     inertia = (2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7, 1.169e-5, 5.667e-7, 1.912e-5)
     xa, ya, xb, yb, xc, yc, c0 = -.06934, -.00227, -.03635, .03273, .014, .072, 4530
@@ -126,8 +126,8 @@ def ring(n, spin):
     apothem = R * math.cos(math.pi / n)
     T = mass * spin ** 2 * R * math.cos(math.pi / n) / (2 * math.sin(math.pi / n))
     out = head(f"A free ring of {n} track links on hinges, spinning about y at {spin:g} rad/s without gravity. It stays a regular\n"
-               f"polygon; every hinge carries {T:.6f} N. One hinge is spherical, one universal: with revolute hinges only, the\n"
-               "ring would be overconstrained.",
+               f"polygon; the force in each hinge is {T:.6f} N. One hinge is spherical, one universal: with revolute hinges only,\n"
+               "the ring would be overconstrained.",
                duration=10, time_step="1e-3", gravity=vector(0, 0, 0), output_interval=.02, frame_interval=.05)
     out += "\n[output]\nrecord = " + names("link 0", f"link {n // 2}", "pin 0", f"pin {n // 4}") + "\n"
     for i in range(n):
@@ -149,8 +149,8 @@ def ring(n, spin):
 def chain(n, tip):
     n, tip = int(n), float(tip)
     length, mass = .15, 1
-    out = head(f"A hanging chain of {n} links with {tip:g} kg at its end, {tip / mass:g} times a link's mass. At rest the pin above link i carries\n"
-               f"(({n} - i) {mass} kg + {tip:g} kg) g; the first pin {(n * mass + tip) * G:.6g} N. It hangs at rest; the time step is small enough that\n"
+    out = head(f"A hanging chain of {n} links with {tip:g} kg at its end, {tip / mass:g} times a link's mass. At rest, the force in the pin above\n"
+               f"link i is (({n} - i) {mass} kg + {tip:g} kg) g, in the first pin {(n * mass + tip) * G:.6g} N. The time step is small enough that\n"
                "transverse oscillations of the links do not grow.",
                duration=1, time_step=f"{min(1e-3, .05 / math.sqrt(n + tip / mass)):.1g}", gravity=vector(0, 0, -G), output_interval=.01, frame_interval=.1)
     out += "\n[output]\nrecord = " + names("link 0", "tip", "pin 0", f"pin {n // 2}", "tip pin") + "\n"
@@ -166,11 +166,11 @@ def chain(n, tip):
 
 
 def strand(n, sag):
-    """Links at rest between two points: the horizontal force H is the same at each pin, the vertical force decreases by
-    the weight of a link; each link has the direction of the force at its middle. H is found from the span."""
+    """Links at rest between two points: the horizontal force H is equal in all pins, the vertical force decreases by
+    the weight of one link per pin; each link has the direction of the force at its middle. The span determines H."""
     n, sag = int(n), float(sag)
     span, mass = .667, 18.02 * .667 / (.154 * n)
-    # For a given H the shape is a discrete catenary of links of length p; p and H follow from span and sag.
+    # For a given H, the shape is a discrete catenary of links of length p. Span and sag determine p and H.
     def shape(p, H):
         pins = [(-span / 2, 0.0)]
         for i in range(n):
@@ -216,7 +216,7 @@ def bennett():
         y, z = mix(y, math.cos(twist), z, math.sin(twist)), mix(z, math.cos(twist), y, -math.sin(twist))
     gap = max(abs(i - j) for u, v in ((p, pins[0][0]), (z, pins[0][1])) for i, j in zip(u, v))
     assert gap < 1e-12, gap
-    out = head("Bennett's linkage: four links on four hinges whose axes are skew. It has 4 x 5 constraint rows for 3 x 6 degrees of\n"
+    out = head("Bennett's linkage: four links on four hinges with skew axes. It has 4 x 5 constraint rows for 3 x 6 degrees of\n"
                "freedom, three more than a movable mechanism should have, but one degree of freedom remains.",
                duration=5, time_step="1e-3", gravity=vector(0, 0, -G), output_interval=.01)
     for i in range(1, 4):

@@ -16,15 +16,15 @@ Columns<TerrainReading> terrainColumns() {
   c.add("max_overlap", "-", "largest overlap over the grain radius",
         [](const T& t) { return t.ledger.deepestOverlap / t.radius; });
   c.add("squeezed", "-", "grain-grain contacts with overlap above 0.2 of the smaller radius",
-        [](const T& t) { return t.ledger.squeezedPairs; });
+        [](const T& t) { return t.ledger.deepPairs; });
   c.add("squeezed_at_boundaries", "-",
         "contacts of grains with planes, floor and surfaces with overlap above 0.2 grain radius",
-        [](const T& t) { return t.ledger.squeezedAtBoundaries; });
+        [](const T& t) { return t.ledger.deepAtBoundaries; });
   c.add("squeezed_by_parts", "-", "contacts of grains with parts and meshes with overlap above 0.2 grain radius",
-        [](const T& t) { return t.ledger.squeezedByParts; });
+        [](const T& t) { return t.ledger.deepByParts; });
   c.add("part_overlap", "-", "largest overlap with a part or mesh since the last row, over the grain radius",
         [](const T& t) { return t.deepestPartOverlap ? t.deepestPartOverlap->share : base::kNaN; });
-  c.add("part_overlap_by", "-", "index of this part in the root attribute \"parts\"; -1 if none",
+  c.add("part_overlap_by", "-", "index of the part of part_overlap in the root attribute \"parts\"; -1 if none",
         [](const T& t) { return t.deepestPartOverlap ? t.deepestPartOverlap->part : base::kNaN; });
   c.add("capped", "-", "contacts of grains with parts in which the force has reached the crushing force",
         [](const T& t) { return t.ledger.cappedNow; });
@@ -87,7 +87,8 @@ Columns<coupling::GearContacts> gearColumns() {
   c.add("grains_on_idlers", "-", "contacts of grains with idlers", &G::idlers);
   c.add("grains_on_hull", "-", "contacts of grains with the hull", &G::hull);
   c.add("stones", "-", "grains that touch a sprocket, road wheel, roller or idler", &G::stones);
-  c.add("pinched_stones", "-", "grains that touch one of these parts and also a shoe", &G::pinched);
+  c.add("pinched_stones", "-", "grains that touch a shoe and also a sprocket, road wheel, roller or idler",
+        &G::pinched);
   return c;
 }
 
@@ -116,9 +117,7 @@ Columns<coupling::Ledger> ledgerColumns(const LedgerParts& parts) {
   c.add("kinetic", "J", "kinetic energy of grains, vehicle and bodies", &L::kinetic);
   c.add("potential", "J", "potential energy in the field of gravity", &L::potential);
   c.add("elastic", "J", "elastic energy of contacts and springs", &L::elastic);
-  c.add("dissipated", "J",
-        parts.deforms || parts.wet || parts.solved ? "dissipated energy: sum of the nine terms below"
-                                                   : "dissipated energy: sum of the eight terms below",
+  c.add("dissipated", "J", "dissipated energy: sum of the datasets dissipated_*",
         [](const L& l) { return l.dissipated.total(); });
   for (const coupling::DissipationCause& cause : coupling::kDissipationCauses)
     c.add(std::string("dissipated_") + cause.word, "J", cause.help,
@@ -151,8 +150,8 @@ Columns<coupling::Ledger> ledgerColumns(const LedgerParts& parts) {
   c.add("momentum_residual", "N s",
         "momentum residual (rounding): momentum minus impulses of gravity, ground and surfaces", &L::momentumResidual);
   c.add("angular_residual", "N m s",
-        "angular momentum residual (rounding): angular momentum minus moments of these impulses; undefined with "
-        "periodic boundaries",
+        "angular momentum residual (rounding): angular momentum minus moments of the impulses of gravity, ground and "
+        "surfaces; undefined with periodic boundaries",
         &L::angularResidual);
   if (parts.touching)
     c.add("impulse_residual", "N s", "sum of the impulses on vehicle and bed; zero except for rounding",

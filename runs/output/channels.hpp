@@ -16,15 +16,15 @@
 #include <utility>
 #include <vector>
 
-/// Quantities of a time series: one list for writer and reader of results.h5.
+/// Quantities of a time series: one list for both the writer and the reader of results.h5.
 namespace grouser::output {
 
 inline const std::vector<std::string> kAxes = {"x", "y", "z"}; ///< columns of a vector
 
-/// One number a shoe, in the order of the wrap; `side` is "left" or "right".
+/// One number per shoe, in the order along the track; `side`: "left" or "right".
 inline std::string shoeSinkage(const std::string& side) { return "vehicle/" + side + "/sinkage"; }
 
-/// A quantity that another room describes (vehicle::Quantity has the same members).
+/// A quantity defined in another folder of the sources (vehicle::Quantity has the same members).
 template <class Quantity> Channel channelOf(const Quantity& q) { return {q.path, q.unit, q.help, q.width, q.columns}; }
 
 inline void appendTo(std::vector<double>& values, double number) { values.push_back(number); }
@@ -35,14 +35,14 @@ inline void appendTo(std::vector<double>& values, const base::Quat& q) {
   values.insert(values.end(), {q.w, q.x, q.y, q.z});
 }
 
-/// Channels whose values are read from one `Source`: a row gets them in the same order.
+/// Channels with values that are read from one `Source`, in the order in which a row stores them.
 template <class Source> class Columns {
 public:
-  /// `group`: begins all paths, such as "ledger/".
+  /// `group`: start of all paths, such as "ledger/".
   explicit Columns(std::string group = "") : group_(std::move(group)) {}
 
-  /// `read`: a number, vector or quaternion of a source, as a member or a function of it. `columns`: names of a
-  /// vector's components.
+  /// `read`: member of a source, or function of a source, that returns a number, vector or quaternion. `columns`:
+  /// names of the components of a vector.
   template <class Read> void add(const std::string& name, const std::string& unit, const std::string& help, Read read,
                                  std::vector<std::string> columns = kAxes) {
     using Value = std::decay_t<std::invoke_result_t<Read, const Source&>>;
@@ -70,19 +70,19 @@ private:
   std::vector<std::function<void(const Source&, std::vector<double>&)>> readers_;
 };
 
-/// The bed at the time of a row.
+/// State of the bed at the time of a row.
 struct TerrainReading {
   coupling::Ledger ledger;
   double radius{};         ///< radius of the grain model, the unit of overlaps [m]
-  double crushed{};        ///< grains removed since the start
-  std::int64_t rebuilds{}; ///< rebuilds of the neighbour list
+  double crushed{};        ///< number of crushed grains removed since the start
+  std::int64_t rebuilds{}; ///< number of neighbour-list rebuilds
   std::optional<coupling::DeepestPartOverlap> deepestPartOverlap; ///< empty if grains touch no part
 };
-/// State of the bed and its contacts.
+/// Columns of the bed and its contacts.
 Columns<TerrainReading> terrainColumns();
-/// Loads on a rigid surface and power of its drive, under surfaces/NAME. `hasPivot`: also its torque about the pivot.
+/// Loads on a rigid surface and power of its drive, in surfaces/NAME. `hasPivot`: also the torque about its pivot.
 Columns<coupling::Surfaces::Observation> surfaceColumns(const std::string& name, bool hasPivot = false);
-/// The mean force of a vehicle on a surface at rest, under obstacles/NAME.
+/// Mean force of a vehicle on a surface at rest, in obstacles/NAME.
 Columns<base::Vec3d> obstacleColumns(const std::string& name);
 
 struct HitchReading {
@@ -95,10 +95,10 @@ Columns<HitchReading> hitchColumns();
 Columns<coupling::GearContacts> gearColumns();
 /// Features of a scene that add columns to the ledger.
 struct LedgerParts {
-  bool touching = true; ///< vehicle and bed may exchange impulses
-  bool deforms = false; ///< deformable soil, with energies of its own
-  bool wet = false;     ///< the scene has a fluid
-  bool solved = false;  ///< complementarity contacts
+  bool touching = true; ///< whether vehicle and bed can touch
+  bool deforms = false; ///< whether the soil is deformable, which adds its energies
+  bool wet = false;     ///< whether the scene has a fluid
+  bool solved = false;  ///< whether the scene has complementarity contacts
 };
 /// Energy and momentum.
 Columns<coupling::Ledger> ledgerColumns(const LedgerParts& parts = {});

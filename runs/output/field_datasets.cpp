@@ -27,10 +27,10 @@ Numbers ofTensors(const std::vector<terrain::Tensor6>& values) {
   return all;
 }
 
-/// A quantity of each cell: the list of all fields.
+/// A quantity of each cell.
 struct FieldDataset {
   const char* name;
-  std::uint64_t width; ///< 1: scalar, 3: vector, 6: symmetric tensor xx, xy, xz, yy, yz, zz, as XDMF has it
+  std::uint64_t width; ///< 1: scalar, 3: vector, 6: symmetric tensor xx, xy, xz, yy, yz, zz (order of XDMF)
   Numbers (*values)(const SoilFields&);
   const char *unit, *help;
 };
@@ -38,8 +38,8 @@ const FieldDataset kFieldDatasets[] = {
     {"stress", 6, [](const SoilFields& f) { return ofTensors(f.stress); }, "Pa",
      "Love-Weber stress xx, xy, xz, yy, yz, zz, mean over the cell including pores; negative in compression"},
     {"strain_rate", 6, [](const SoilFields& f) { return ofTensors(f.strainRate); }, "1/s",
-     "strain rate xx, xy, xz, yy, yz, zz of a linear velocity field fitted to the grains of the cell; NaN if there are "
-     "too few"},
+     "strain rate xx, xy, xz, yy, yz, zz of a linear velocity field fitted to the grains of the cell; NaN if the cell "
+     "contains too few grains"},
     {"velocity", 3, [](const SoilFields& f) { return ofVectors(f.velocity); }, "m/s",
      "mass-weighted mean velocity of the grains; NaN in a cell without grains"},
     {"porosity", 1, [](const SoilFields& f) { return ofScalars(f.porosity); }, "-",
@@ -91,7 +91,7 @@ void writeFields(support::Hdf5File& file, const std::string& frame, const SoilFi
 std::string fieldsXdmf(const support::Hdf5File& file, const std::string& frame) {
   if (!file.has(frame + kOrigin)) return {};
   const terrain::FieldGrid g = gridIn(file, frame);
-  const auto inXml = [](const base::Vec3d& v) { // z first, as the cells
+  const auto inXml = [](const base::Vec3d& v) { // z first, like the cells
     return fmt::format("<DataItem Dimensions=\"3\" NumberType=\"Float\" Precision=\"8\" Format=\"XML\">{} {} "
                        "{}</DataItem>",
                        v.z, v.y, v.x);

@@ -7,7 +7,7 @@
 
 namespace grouser::output {
 
-/// Components of all vectors in turn, in single precision.
+/// Components of all vectors in sequence, in single precision.
 template <class T> std::vector<float> flat(const std::vector<base::Vec3<T>>& vectors) {
   std::vector<float> numbers;
   numbers.reserve(3 * vectors.size());

@@ -36,7 +36,7 @@ std::string datasetOf(const std::string& frame, const FluidDataset& d) { return 
 } // namespace
 
 std::uint64_t bytesOfFluid(const FluidPoints& fluid) {
-  constexpr std::uint64_t kOwn = 8192, kNumbers = 7; // overhead of HDF5; numbers a particle
+  constexpr std::uint64_t kOwn = 8192, kNumbers = 7; // overhead of HDF5; numbers per particle
   return kOwn + fluid.position.size() * (kNumbers * sizeof(float) + sizeof(std::uint32_t));
 }
 
@@ -90,7 +90,7 @@ std::shared_ptr<const FluidPoints> readFluid(const support::Hdf5File& file, cons
 
 void drawFluid(const FluidPoints& fluid, std::vector<base::Vec3f>& positions, std::vector<float>& radii,
                std::vector<float>& speeds) {
-  constexpr double kRadius = 0.75; // [spacings]; spheres on a lattice then leave no gap
+  constexpr double kRadius = 0.75; // [spacings]; leaves no gaps between spheres on a lattice
   positions.insert(positions.end(), fluid.position.begin(), fluid.position.end());
   radii.insert(radii.end(), fluid.position.size(), static_cast<float>(kRadius * fluid.spacing));
   for (const base::Vec3f& v : fluid.velocity) speeds.push_back(norm(v));

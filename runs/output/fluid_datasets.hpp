@@ -12,18 +12,18 @@
 /// A fluid in frames.h5: /000012/fluid/{position [n, 3], velocity [n, 3], pressure [n]}.
 namespace grouser::output {
 
-/// Upper bound of the size of one frame's fluid in the file [bytes].
+/// Upper bound of the file size of the fluid in one frame [bytes].
 std::uint64_t bytesOfFluid(const FluidPoints& fluid);
-/// `frame`: the group of the frame.
+/// `frame`: group of the frame.
 void writeFluid(support::Hdf5File& file, const std::string& frame, const FluidPoints& fluid);
-/// Particles of a frame's fluid in the file; 0 where it has none.
+/// Number of fluid particles of a frame in the file; 0 if the frame has no fluid.
 std::uint64_t fluidCount(const support::Hdf5File& file, const std::string& frame);
-/// Attributes and geometry of a frame's fluid for frames.xdmf.
+/// Geometry and attributes of the fluid of a frame for frames.xdmf.
 std::string fluidXdmf(const support::Hdf5File& file, const std::string& frame);
-/// Reads a frame's fluid; null if the frame has none. Throws base::InputError if the data are damaged.
+/// Reads the fluid of a frame; null if the frame has no fluid. Throws base::InputError if the data are damaged.
 std::shared_ptr<const FluidPoints> readFluid(const support::Hdf5File& file, const std::string& frame);
 
-/// Adds the particles as spheres for pictures, which overlap so that they hide what lies behind.
+/// Adds the particles to a picture as spheres that overlap, so that the fluid is opaque.
 void drawFluid(const FluidPoints& fluid, std::vector<base::Vec3f>& positions, std::vector<float>& radii,
                std::vector<float>& speeds);
 

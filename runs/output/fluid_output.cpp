@@ -31,7 +31,7 @@ Columns<FluidReading> fluidColumns(const std::vector<coupling::FluidProbePoint>&
   c.add("rebuilds", "-", "rebuilds of the neighbour lists since the start", &F::rebuilds);
   for (std::size_t k = 0; k < probes.size(); ++k)
     c.add("probes/" + probes[k].name, probes[k].level ? "m" : "Pa",
-          probes[k].level ? "fluid level: z of the wire's foot plus its wetted length"
+          probes[k].level ? "fluid level: z of the lower end of the wire plus its wetted length"
                           : "pressure at the probe; 0 if no particles are nearby",
           [k](const F& f) { return f.probes[k]; });
   for (std::size_t k = 0; k < loads.size(); ++k) {

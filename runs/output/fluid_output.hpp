@@ -13,15 +13,15 @@ namespace grouser::output {
 struct FluidReading {
   fluid::FluidTotals totals;
   double mass;                        ///< [kg]
-  std::vector<double> probes;         ///< in the order of the scene [Pa], [m]
+  std::vector<double> probes;         ///< values in the order of the scene [Pa], [m]
   std::vector<fluid::BodyLoad> loads; ///< loads by column of FluidDomain [N], [N m]
   std::int64_t rebuilds;
 };
 
-/// `bodies`: those in the fluid, or null.
+/// `bodies`: bodies in the fluid, or null.
 FluidReading fluidReading(coupling::FluidDomain& fluid, const multibody::State* bodies);
 
-/// `probes`: those of the scene; `loads`: columns of FluidDomain.
+/// `probes`: probes of the scene. `loads`: columns of FluidDomain.
 Columns<FluidReading> fluidColumns(const std::vector<coupling::FluidProbePoint>& probes,
                                    const std::vector<std::string>& loads);
 

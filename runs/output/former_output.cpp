@@ -61,7 +61,7 @@ std::int64_t keptFrames(const fs::path& folder, std::int64_t step, std::int64_t 
   try {
     found = FramesFile::framesUpTo(folder, step);
   } catch (const base::InputError&) {
-    if (count == 0) return 0; // it is made anew
+    if (count == 0) return 0; // a new file is created
   }
   if (found < count)
     throw base::InputError(fmt::format("{}: does not contain the {} frames up to step {} that the checkpoint requires; "

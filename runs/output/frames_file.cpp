@@ -19,7 +19,7 @@ namespace grouser::output {
 
 namespace {
 
-/// Numbers of vertices that are written at a time.
+/// Number of vertex indices that are written at a time.
 constexpr std::size_t kVertexBlock = std::size_t{1} << 20;
 
 using xdmf::attribute, xdmf::geometry, xdmf::grid, xdmf::item, xdmf::triangles;
@@ -31,14 +31,14 @@ std::vector<float> speedsOf(const Frame& frame) {
   return speeds;
 }
 
-/// Quantities of each grain in frames.h5 beside its id: the list of all.
+/// A quantity of each grain in frames.h5, besides its id.
 struct GrainDataset {
   const char* name;                           ///< in the file and in ParaView
-  std::uint64_t width;                        ///< numbers a grain
-  std::vector<float> (*values)(const Frame&); ///< all grains of this rank; none where the frame does not have it
+  std::uint64_t width;                        ///< number of components
+  std::vector<float> (*values)(const Frame&); ///< all grains of this rank; empty if the frame lacks the quantity
   const char *unit, *help;
 };
-constexpr const char* kPosition = "position"; // the points themselves, in ParaView
+constexpr const char* kPosition = "position"; // in ParaView, the points themselves
 const GrainDataset kGrainDatasets[] = {
     {kPosition, 3, [](const Frame& f) { return flat(f.positions); }, "m", "position of the centre"},
     {"radius", 1, [](const Frame& f) { return f.radii; }, "m", "grain radius"},
@@ -49,7 +49,7 @@ const GrainDataset kGrainDatasets[] = {
     {"fixed", 1, [](const Frame& f) { return f.fixed; }, "-", "1 for fixed grains, 0 for others"},
 };
 
-/// Whether such frames have the dataset, on all ranks, even those without grains.
+/// Whether frames of this kind have the dataset; equal on all ranks, including ranks without grains.
 bool hasDataset(std::string_view name, const Frame& frame) {
   return name == "contact_force" ? frame.withContactForces : name != "fixed" || frame.withFixed;
 }
@@ -122,7 +122,7 @@ FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<Fra
     frames.describe(grains, static_cast<std::int64_t>(frames.file_->number(group, "step")),
                     frames.file_->number(group, "time"));
   }
-  // Lists of vertices that removed frames alone have used; one that a kill has cut short is among them.
+  // Removes lists of vertices that only removed frames used, including a list that a killed run left incomplete.
   for (const std::string& list : frames.file_->members("/vertices"))
     if (!counts.contains(list)) frames.file_->remove("/vertices/" + list);
   if (counts.empty() && frames.file_->has("/vertices")) frames.file_->remove("/vertices");
@@ -150,7 +150,7 @@ void FramesFile::add(const Frame& frame) {
   if (file_) writeAllButGrains(frame, group, total);
   if (total > 0 && comm_.alone()) writeGrains(*file_, frame, group);
   if (total > 0 && !comm_.alone()) {
-    file_.reset(); // closed by one, opened by all
+    file_.reset(); // closed by the first rank, then opened by all ranks
     comm_.wait();
     std::optional<support::Hdf5File> shared = support::Hdf5File::openShared(folder_ / "frames.h5", comm_);
     writeGrains(*shared, frame, group);
@@ -167,7 +167,7 @@ void FramesFile::add(const Frame& frame) {
   if (!steps_.empty()) writeXdmf();
 }
 
-/// Upper bound, including HDF5's overhead.
+/// Upper bound of the size of a frame [bytes], including the overhead of HDF5.
 std::uint64_t FramesFile::bytesOf(const Frame& frame, std::uint64_t grains) const {
   constexpr std::uint64_t kOwn = 32768, kAName = 64;
   std::uint64_t aGrain = 2 * sizeof(std::uint32_t); // id and list of vertices
@@ -214,7 +214,7 @@ void FramesFile::writeAllButGrains(const Frame& frame, const std::string& group,
       file_->write(group + "/partition/" + "xyz" [axis], places, { places.size() });
 }
 
-/// The rows of this rank's grains.
+/// Rows of this rank's grains in the datasets.
 void FramesFile::writeGrains(support::Hdf5File& file, const Frame& frame, const std::string& group) const {
   const std::size_t grains = frame.positions.size();
   const auto first = static_cast<std::uint64_t>(comm_.sumBelow(static_cast<std::int64_t>(grains)));
@@ -224,8 +224,8 @@ void FramesFile::writeGrains(support::Hdf5File& file, const Frame& frame, const 
   file.writeRows(at + "/id", first, frame.ids);
 }
 
-/// The list of `grains` vertices, which frames of as many grains share. They are just 0, 1, 2..., but not every reader
-/// generates them.
+/// The list 0, 1, 2... of `grains` vertices, shared by all frames with this number of grains. Not every reader can
+/// generate this list.
 std::string FramesFile::listVertices(std::size_t grains) {
   std::string list = fmt::format("/vertices/{}", grains);
   if (file_->has(list)) return list;
@@ -265,7 +265,7 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
                                attribute("part", "Cell", partTriangles_, 1, "UInt", "/parts/part") +
                                attribute("kind", "Cell", partTriangles_, 1, "UInt", "/parts/kind"));
   if (const std::string soil = soilXdmf(*file_, group); !soil.empty())
-    grids += soil; // in place of the undisturbed ground
+    grids += soil; // replaces the undisturbed ground
   else if (groundTriangles_)
     grids += grid("ground",
                   triangles(groundTriangles_, "/ground/triangles") + geometry(groundVertices_, "/ground/position"));
@@ -279,7 +279,7 @@ void FramesFile::describe(std::size_t grains, std::int64_t step, double time) {
 std::vector<support::FileField> frameFields() {
   const std::string frame = "FRAME/", grains = frame + "grains/";
   std::vector<support::FileField> fields{
-      {"FRAME@time", "float64", "", "s", "time of the frame; FRAME is its number, with six digits or more"},
+      {"FRAME@time", "float64", "", "s", "time of the frame; FRAME is the frame number with at least six digits"},
       {"FRAME@step", "float64", "", "-", "step number of the frame"},
       {grains + "id", "uint32", "[grains]", "-", "identifier of each grain, constant during the run"}};
   for (const GrainDataset& d : kGrainDatasets)
@@ -291,7 +291,7 @@ std::vector<support::FileField> frameFields() {
   const std::vector<support::FileField> others{
       {frame + "parts/pose", "float64", "[parts, 7]", "m, -",
        "position and orientation quaternion (scalar first) of each part in the world frame"},
-      {frame + "parts/pose@columns", "texts", "[7]", "", "names of these seven columns"},
+      {frame + "parts/pose@columns", "texts", "[7]", "", "names of the seven columns"},
       {frame + "parts/position", "float32", "[vertices, 3]", "m", "world positions of the vertices of all parts"},
       {frame + "partition/AXIS", "float64", "[borders]", "m",
        "positions of the borders between subdomains along x, y and z"},

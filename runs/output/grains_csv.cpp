@@ -21,7 +21,7 @@ constexpr const char* kHead = "step,time [s],id,position.x [m],position.y [m],po
                               "velocity.y [m/s],velocity.z [m/s],spin.x [rad/s],spin.y [rad/s],spin.z [rad/s],"
                               "radius [m]\n";
 
-/// The lines up to this step, without the header. A line that was cut short has no end.
+/// The lines up to this step, without the header. An incomplete last line has no line end and is ignored.
 std::string linesUpTo(std::int64_t last, const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string text, line;
@@ -33,7 +33,7 @@ std::string linesUpTo(std::int64_t last, const fs::path& path) {
   return text;
 }
 
-/// Rows of all ranks in the order of the ids, on the first.
+/// Rows of all ranks in the order of the ids, collected on the first rank.
 template <class T> std::vector<T> onFirst(const std::vector<T>& mine, const base::Comm& comm) {
   if (comm.alone()) return mine;
   std::vector<base::Bytes> to(static_cast<std::size_t>(comm.size()));
@@ -48,17 +48,17 @@ template <class T> std::vector<T> onFirst(const std::vector<T>& mine, const base
 
 } // namespace
 
-bool GrainsCsv::isWanted(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval) {
+bool GrainsCsv::isRequested(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval) {
   if (asked) return *asked && grains > 0;
   const double rows = std::floor(duration / outputInterval) + 2;
-  return grains > 0 && grains <= kMostGrains && rows * static_cast<double>(grains) <= static_cast<double>(kMostLines);
+  return grains > 0 && grains <= kMaxGrains && rows * static_cast<double>(grains) <= static_cast<double>(kMaxLines);
 }
 
 GrainsCsv::GrainsCsv(const fs::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm)
     : path_(folder / kGrainsCsvName), comm_(comm) {
   if (!comm_.first()) return;
   support::replaceTextFile(path_,
-                           kHead + (kept ? linesUpTo(*kept, path_) : "")); // a kill loses nothing of the former file
+                           kHead + (kept ? linesUpTo(*kept, path_) : "")); // keeps the former file if the run is killed
   file_.open(path_, std::ios::binary | std::ios::app);
   check();
 }
@@ -68,7 +68,7 @@ void GrainsCsv::add(std::int64_t step, double time, const terrain::Grains& grain
   const auto id = onFirst(mine.id, comm_);
   const auto position = onFirst(mine.position, comm_);
   const auto velocity = onFirst(mine.velocity, comm_), spin = onFirst(mine.spin, comm_);
-  const auto radius = onFirst(mine.radius, comm_); // empty where all are alike
+  const auto radius = onFirst(mine.radius, comm_); // empty if all radii are equal
   if (!comm_.first()) return;
   const double at = base::nearestDecimal(time);
   for (std::size_t i = 0; i < position.size(); ++i) {

@@ -13,20 +13,19 @@ namespace grouser::output {
 
 inline constexpr const char* kGrainsCsvName = "grains.csv";
 
-/// Every grain at every output time as text, for scenes small enough to be looked at grain by grain: step, time [s],
-/// id, position [m], velocity [m/s], spin [rad/s] and radius [m]. Reals are written so that they read back to the same
-/// bits.
+/// All grains at all output times as text, for small scenes: step, time [s], id, position [m], velocity [m/s], spin
+/// [rad/s] and radius [m]. Real numbers have enough digits to be read back bitwise identical.
 class GrainsCsv {
 public:
-  /// Limits above which the file is written only on request.
-  static constexpr std::int64_t kMostGrains = 1000, kMostLines = 1'000'000;
-  static constexpr double kLineBytes = 220; ///< approximate upper bound
-  /// Whether a run of `grains`, those that are poured in later among them, writes the file. `asked`:
+  /// Limits above which the file is written only if requested.
+  static constexpr std::int64_t kMaxGrains = 1000, kMaxLines = 1'000'000;
+  static constexpr double kLineBytes = 220; ///< approximate upper bound of the length of a line
+  /// Whether a run writes the file. `grains`: number of grains, including those from sources. `asked`:
   /// output.grains_csv.
-  static bool isWanted(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval);
+  static bool isRequested(std::optional<bool> asked, std::int64_t grains, double duration, double outputInterval);
 
-  /// Starts a new file, or continues it: then lines after the last `kept` row of the time series [its step; -1: none]
-  /// are removed. Throws support::NotWritten. On several ranks all of them have one, and the first writes.
+  /// Creates a new file. With `kept`, continues an existing file and removes lines after this step, that of the last
+  /// kept row (-1: no row). Throws support::NotWritten. Each rank has an object; only the first rank writes.
   GrainsCsv(const std::filesystem::path& folder, std::optional<std::int64_t> kept, const base::Comm& comm);
 
   void add(std::int64_t step, double time, const terrain::Grains& grains);

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kName = "manifest.json";
-/// Reserved space after it [bytes], so that the final message can be written on a full disk.
+/// Reserved space at the end of the file [bytes], so that the final message can be written on a full disk.
 constexpr std::uint64_t kRoom = 16384;
 
 std::string now() {
@@ -37,7 +37,7 @@ nlohmann::ordered_json filesIn(const fs::path& folder) {
   return files;
 }
 
-/// Soils of the materials, by material.
+/// Soils by material.
 std::string soilsOf(const setup::Provenance& provenance) {
   nlohmann::ordered_json soils = nlohmann::ordered_json::object();
   for (const auto& use : provenance.soils)

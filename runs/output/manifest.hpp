@@ -20,8 +20,8 @@ public:
   void note(const std::string& key, const std::string& text) { notes_[key] = text; }
   void add(const Summary& summary) { summary_ = summary; }
 
-  /// Writes the file, with the current files of the folder, by renaming. On a full disk the status of a failed or
-  /// stopped run is written over the existing file.
+  /// Replaces the file atomically, with a list of the current files of the folder. On a full disk, writes the status of
+  /// a failed or stopped run into the existing file.
   void write(RunStatus status) const;
 
 private:
@@ -29,12 +29,12 @@ private:
   std::string scene_, started_;
   std::vector<std::string> overrides_;
   std::string inputs_; ///< setup::inputsOf()
-  std::string soils_;  ///< soils of the scene's materials, as JSON
+  std::string soils_;  ///< soils used by the materials of the scene, as JSON
   std::map<std::string, std::string> notes_;
   Summary summary_;
 };
 
-/// Updates the list of files in the manifest of `folder`, after plots have been drawn.
+/// Updates the list of files in the manifest of `folder`, e.g. after plotting.
 void listFiles(const std::filesystem::path& folder);
 
 } // namespace grouser::output

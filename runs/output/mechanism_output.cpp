@@ -58,16 +58,16 @@ std::string driveUnit(multibody::DriveKind kind, bool turning) {
   return turning ? "N m" : "N";
 }
 
-/// Maximum initial impulse energy / kinetic energy that counts as round-off of the input [-].
+/// Initial impulse energy / kinetic energy below which the impulse is attributed to rounding of the input [-].
 constexpr double kBlowShown = 1e-6;
-/// Redundant rows that are named before "and ... more" [-].
+/// Number of redundant constraints printed before "and ... more".
 constexpr std::size_t kRowsShown = 8;
 
-/// Shares of a mechanism's size: thickness of the bars from a centre to the joints, edge of the cube at the centre,
-/// smallest and largest edge of a free body without a box [-].
-constexpr double kBar = 0.015, kCentre = 0.035, kLeastEdge = 0.02, kGreatestEdge = 0.5;
+/// Relative to the size of a mechanism [-]: thickness of the bars from a centre to the joints, edge of the cube at the
+/// centre, smallest and largest edge of a free body without a box.
+constexpr double kBar = 0.015, kCentre = 0.035, kMinEdge = 0.02, kMaxEdge = 0.5;
 
-/// Adds a box of edges `size` about `centre`, its axes the columns of `R`.
+/// Adds a box with edge lengths `size` and centre `centre`; its axes are the columns of `R`.
 void addBox(base::TriangleMesh& mesh, const Vec3d& centre, const base::Mat3d& R, const Vec3d& size) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (int i = 0; i < 8; ++i) {
@@ -93,7 +93,7 @@ void addShape(base::TriangleMesh& mesh, const coupling::BodyShape& s) {
   for (const std::uint32_t i : shape.indices) mesh.indices.push_back(first + i);
 }
 
-/// Edges of the uniform box of a body's mass and principal inertia along its axes [m].
+/// Edge lengths of the homogeneous box with the mass and principal inertia of a body [m].
 Vec3d boxOf(const multibody::Body& body, double least, double greatest) {
   const auto& I = body.inertia_B.m;
   const auto edge = [&](double a, double b, double c) {
@@ -102,7 +102,7 @@ Vec3d boxOf(const multibody::Body& body, double least, double greatest) {
   return {edge(I[0][0], I[1][1], I[2][2]), edge(I[1][1], I[0][0], I[2][2]), edge(I[2][2], I[0][0], I[1][1])};
 }
 
-/// Diagonal of the box around all centres and joints at the start [m].
+/// Diagonal of the bounding box of all centres and joints at the start [m].
 double sizeOf(const multibody::Model& model) {
   Vec3d low{1e300, 1e300, 1e300}, high = -low;
   const auto take = [&](const Vec3d& p) { low = base::min(low, p), high = base::max(high, p); };
@@ -113,7 +113,7 @@ double sizeOf(const multibody::Model& model) {
   return size > 0 ? size : 1;
 }
 
-/// The columns of one mechanism, kind by kind.
+/// Columns of one mechanism: bodies, joints, springs, bushings, drives, couplings.
 class MechanismColumns {
 public:
   MechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
@@ -127,13 +127,13 @@ public:
 private:
   using Reading = MechanismReading;
 
-  /// Calls add(i, "bodies/NAME/", part) for the parts of a kind that are recorded.
+  /// Calls add(i, "bodies/NAME/", part) for the recorded parts of one kind.
   template <class Part, class Add>
   void forKept(const std::vector<Part>& parts, std::size_t from, const char* group, const Add& add) {
     for (std::size_t i = from; i < parts.size(); ++i)
       if (isKept(record_, parts[i].name)) add(i, fmt::format("{}/{}/", group, parts[i].name), parts[i]);
   }
-  /// A number or vector that is computed in a step: NaN before the first.
+  /// Adds a number or vector that is computed during a step: NaN before the first step.
   template <class Read>
   void addOfStep(const std::string& path, const std::string& unit, const std::string& help, Read read) {
     columns_.add(path, unit, help, [read](const Reading& r) {
@@ -175,9 +175,11 @@ private:
                         "force of the first body on the second, including springs and drives on the axis, excluding "
                         "couplings; world components",
                         [i](const Reading& r) { return r.reactions[i].force; });
-              addOfStep(path + "torque", "N m",
-                        "torque of the first body on the second about the joint, with the same contributions",
-                        [i](const Reading& r) { return r.reactions[i].torque; });
+              addOfStep(
+                  path + "torque", "N m",
+                  "torque of the first body on the second about the joint, including springs and drives on the axis, "
+                  "excluding couplings; world components",
+                  [i](const Reading& r) { return r.reactions[i].torque; });
               for (const NamedAxis& a : axesOf(joint)) addAxis(static_cast<int>(i), path + a.prefix, a);
             });
   }
@@ -220,7 +222,7 @@ private:
                 [=](const Reading& r) { return bushing(r).torque; });
       columns_.add(path + "translation", "m", "displacement, in the bushing's axes on the first body",
                    [=](const Reading& r) { return bushing(r).translation; });
-      columns_.add(path + "rotation", "rad", "rotation vector, in the same axes",
+      columns_.add(path + "rotation", "rad", "rotation vector, in the bushing's axes on the first body",
                    [=](const Reading& r) { return bushing(r).rotation; });
     });
   }
@@ -287,7 +289,7 @@ Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const 
 Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names) {
   Columns<std::vector<double>> columns("bodies/");
   for (std::size_t p = 0; p < names.size(); ++p)
-    columns.add(names[p] + "/grain_mass", "kg", "mass of the grains whose centres are in the box of probe_size",
+    columns.add(names[p] + "/grain_mass", "kg", "mass of the grains with centres in the box of probe_size",
                 [p](const std::vector<double>& masses) { return masses[p]; });
   return columns;
 }
@@ -337,8 +339,7 @@ std::vector<FramePart> mechanismParts(const coupling::MechanismSetup& setup) {
       if (j.bodyB == static_cast<int>(b)) ends.push_back(j.frame_B.position);
     }
     const bool isSmall = !ends.empty() || body.fixed || body.point;
-    const Vec3d fallback =
-        isSmall ? Vec3d{1, 1, 1} * (kCentre * size) : boxOf(body, kLeastEdge * size, kGreatestEdge * size);
+    const Vec3d fallback = isSmall ? Vec3d{1, 1, 1} * (kCentre * size) : boxOf(body, kMinEdge * size, kMaxEdge * size);
     const std::optional<Vec3d>& box = setup.boxes[b - setup.ofVehicle.bodies];
     for (const coupling::BodyShape& s : setup.shapes)
       if (s.body == b) addShape(part.mesh, s);

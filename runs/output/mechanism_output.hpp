@@ -11,25 +11,25 @@
 /// Output of a mechanism.
 namespace grouser::output {
 
-/// A mechanism, or the bodies beside a vehicle, at the time of a row. Loads on its bodies are computed in a step, and
-/// NaN before the first.
+/// A mechanism, or the bodies besides a vehicle, at the time of a row. Loads on the bodies are computed during a step
+/// and are NaN before the first step.
 struct MechanismReading {
   explicit MechanismReading(const coupling::BodiesInContact& bodies, const coupling::Mechanism::Drift& drift = {});
   explicit MechanismReading(const coupling::Mechanism& m) : MechanismReading(m, m.drift()) {}
   const coupling::BodiesInContact& mechanism;
   std::vector<multibody::JointReaction> reactions;
   multibody::Totals now;
-  coupling::Mechanism::Drift drift;  ///< zero for bodies beside a vehicle
+  coupling::Mechanism::Drift drift;  ///< zero for bodies besides a vehicle
   std::vector<base::Vec3d> contacts; ///< [body] [N]
 };
-/// `record`: names of the bodies, joints, springs and drives that are written; empty: all.
-/// `touching`: [body] whether contacts act on it. `ofVehicle`: parts of a vehicle with which the model begins; they
-/// have no columns, nor has the mechanism as a whole then.
+/// `record`: names of the bodies, joints, springs and drives to write; empty: all. `touching`: [body] whether contacts
+/// act on it. `ofVehicle`: numbers of vehicle parts at the start of the model; these parts have no columns, and with a
+/// vehicle, the mechanism as a whole has no columns either.
 Columns<MechanismReading> mechanismColumns(const multibody::Model& model, const std::vector<bool>& touching,
                                            const std::vector<std::string>& record,
                                            const multibody::PartCounts& ofVehicle = {});
 
-/// Mass of the grains in the probes of bodies, `names` those of the bodies; the source has the masses [kg].
+/// Columns for the mass of the grains in the probes of bodies. `names`: names of the bodies. Source: masses [kg].
 Columns<std::vector<double>> probeColumns(const std::vector<std::string>& names);
 
 /// "RATTLE of order 2, springs implicit".
@@ -38,8 +38,8 @@ std::string integratorText(const multibody::SolverOptions& options);
 /// Lines about the size of a mechanism: bodies, joints, degrees of freedom, redundant constraints.
 std::string mechanismSize(const coupling::Mechanism& mechanism);
 
-/// Each body as its shapes, or a box and thin bars to its joints, for pictures and ParaView; without those of a
-/// vehicle.
+/// Meshes of all bodies, except those of a vehicle, for pictures and ParaView: the shapes of a body, or else a box with
+/// thin bars to its joints.
 std::vector<FramePart> mechanismParts(const coupling::MechanismSetup& setup);
 
 } // namespace grouser::output

@@ -3,7 +3,7 @@
 
 namespace grouser::output {
 
-/// Names of the options that messages recommend: those of the command line, or of the library.
+/// Names of options in messages: on the command line, or in the library.
 struct OptionNames {
   const char* out = "--out";
   const char* force = "--force";

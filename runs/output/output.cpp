@@ -28,13 +28,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Rows of a channel that are allotted at a time: a compromise between long and short runs.
+/// Number of rows by which a dataset grows: a compromise between long and short runs.
 constexpr int kChunkRows = 64;
 
-/// Overhead of HDF5 when a dataset grows by so many rows: nodes of its chunk tree [bytes].
+/// Overhead of HDF5 when a dataset grows by this number of rows: nodes of the chunk tree [bytes].
 constexpr std::uint64_t kTreeBytes = 8192;
 
-/// Files of a run; other files in its folder are left alone.
+/// Files of a run; other files in the folder are not changed.
 constexpr const char* kFiles[] = {"results.h5",
                                   "timeseries.csv",
                                   "frames.h5",
@@ -62,12 +62,12 @@ fs::path prepared(fs::path folder, const RunWriter::Options& options, support::F
     throw base::InputError(fmt::format("{}: cannot create the folder ({}); choose another with {}", folder.string(),
                                        error.message(), options.names.out));
   claimFolder(lock, folder, options.names);
-  checkOutputFolder(folder, options.force, options.names); // another run may have written to it meanwhile
+  checkOutputFolder(folder, options.force, options.names); // another run may have written to it since the first check
   for (const char* name : kFiles) fs::remove(folder / name, error);
   return folder;
 }
 
-/// "vehicle/body/position" as the start of a column's name.
+/// Start of a column name for a path such as "vehicle/body/position".
 std::string dotted(std::string path) {
   for (char& c : path)
     if (c == '/') c = '.';
@@ -94,7 +94,7 @@ void claimFolder(support::FileLock& lock, const fs::path& folder, const OptionNa
                     folder.string(), names.out));
 }
 
-/// The rows of a run in results.h5 and timeseries.csv, and the manifest: written by one rank.
+/// Rows of a run in results.h5 and timeseries.csv, and the manifest; only the first rank writes them.
 struct RunWriter::Series {
   support::FileLock lock; ///< lock on the folder of a new run; a resumed run already has one
   fs::path folder;
@@ -110,7 +110,7 @@ struct RunWriter::Series {
   std::optional<support::GrowingDataset> inputs; ///< created with the first input
   std::size_t inputsWritten = 0;                 ///< [numbers]
 
-  /// Name of a new file while former rows are copied into it, so that a kill loses no rows.
+  /// Name of a new file while kept rows are copied into it, so that killing the run loses no rows.
   fs::path atFirst(const char* name) const { return folder / (std::string(name) + (options.former ? ".part" : "")); }
 
   Series(const fs::path& where, const setup::Provenance& provenance, std::vector<Channel> list, const Options& given)
@@ -151,7 +151,7 @@ struct RunWriter::Series {
     writeCsvRow(row);
   }
 
-  /// H5MD's layout: each quantity is a group of step, time and value; step and time are one dataset under many names.
+  /// Layout of H5MD: each quantity is a group with step, time and value; step and time are links to shared datasets.
   void makeSeries() {
     steps = results.growing("/series/step", support::NumberType::Int64, 0, kChunkRows);
     times = results.growing("/series/time", support::NumberType::Float64, 0, kChunkRows);
@@ -170,7 +170,7 @@ struct RunWriter::Series {
     results.flush();
   }
 
-  /// Data other than series.
+  /// Creates the data other than series.
   void array(const ResultConstant& what, const std::vector<double>& numbers, const std::vector<std::uint64_t>& shape) {
     results.write(std::string("/") + what.path, numbers, shape);
     describe(what);
@@ -220,7 +220,7 @@ struct RunWriter::Impl {
   Impl(const fs::path& where, const setup::Provenance& provenance, std::vector<Channel> channels, Options given)
       : folder(where), options(std::move(given)) {
     if (options.comm.first()) series = std::make_unique<Series>(where, provenance, std::move(channels), options);
-    options.comm.wait(); // the folder is there now
+    options.comm.wait(); // now the folder exists
     if (options.former) rows = static_cast<std::int64_t>(options.former->rows.size());
   }
 };
@@ -242,9 +242,9 @@ RunWriter::RunWriter(fs::path folder, const setup::Provenance& provenance, std::
   try {
     impl_ = std::make_unique<Impl>(folder, provenance, std::move(channels), std::move(options));
   } catch (const base::InputError&) {
-    throw; // before anything was touched
+    throw; // no file has been changed yet
   } catch (...) {
-    takeBack(); // the disk is full: incomplete files are of no use
+    takeBack(); // the disk is full: remove the incomplete files
     throw;
   }
   if (const std::optional<int> rank = support::rankNotSeeing(folder, impl_->options.comm); rank && *rank > 0) {
@@ -372,7 +372,7 @@ void RunWriter::abandon(const std::string& reason, base::Cause cause) {
   try {
     impl_->series->manifest.write(RunStatus::failed);
   } catch (const std::exception&) {
-    // The disk may be full. The user gets the error that ended the run, not this one.
+    // The disk may be full. The user needs the error that ended the run, not this one.
   }
 }
 

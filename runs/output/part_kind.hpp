@@ -7,16 +7,16 @@
 
 namespace grouser::output {
 
-/// Kind of a part in pictures, which sets its colour. The words are stored in frames.h5.
+/// Kind of a part in pictures; determines its colour. frames.h5 contains the words.
 enum class PartKind {
-  other, ///< also in files from other programs
+  other, ///< also used for files from other programs
   chassis,
   shoe,
   sprocket,
   roadWheel,
   roller,
   idler,
-  surface, ///< rigid surface in a scene of grains
+  surface, ///< rigid surface in a scene with grains
   fixed,   ///< fixed body of a mechanism; the kinds below are its free bodies
   body0,
   body1,
@@ -26,7 +26,7 @@ enum class PartKind {
   body5
 };
 
-/// Kinds of a mechanism's free bodies, in turn.
+/// Kinds of the free bodies of a mechanism, used in rotation.
 inline constexpr PartKind kBodyKinds[] = {PartKind::body0, PartKind::body1, PartKind::body2,
                                           PartKind::body3, PartKind::body4, PartKind::body5};
 

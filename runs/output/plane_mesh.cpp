@@ -11,7 +11,7 @@ using base::Vec3d;
 namespace {
 
 struct HalfSpace {
-  Vec3d normal; ///< unit
+  Vec3d normal; ///< unit vector
   double offset;
 };
 
@@ -27,8 +27,8 @@ std::vector<Vec3d> clipped(const std::vector<Vec3d>& polygon, const HalfSpace& h
   return kept;
 }
 
-constexpr double kFloor = 0.9;      ///< z of the normal of a plane that is a floor, at least
-constexpr double kFarOverRoom = 12; ///< extent of a floor beyond the room, outside all camera views
+constexpr double kFloor = 0.9;      ///< minimum z of the normal of a floor
+constexpr double kFarOverRoom = 12; ///< extent of a floor beyond the drawn box / box diagonal; outside all views
 
 bool isFloor(const setup::DrawnPlanes::Plane& plane) { return plane.normal.z > kFloor; }
 

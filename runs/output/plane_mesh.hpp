@@ -6,15 +6,15 @@
 
 namespace grouser::output {
 
-/// The planes of a scene as triangles, for pictures: of each the polygon that borders the room between all of them,
-/// within a box around the grains. Empty without planes; those that move or have a name are left out.
+/// Planes of a scene as triangles, for pictures: for each plane, the polygon that bounds the space between all planes,
+/// within a box around the grains. Excludes planes that move or have a name; empty if there are no other planes.
 base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn);
-/// One of them, where it is at the start.
+/// Mesh of one plane at its initial position.
 base::TriangleMesh planeMesh(const setup::DrawnPlanes& drawn, std::size_t plane);
 
-/// Planes that face up, extended up to the other planes, so that pictures show a floor and not a patch.
+/// Planes that face up, extended to the other planes, so that pictures show a whole floor.
 base::TriangleMesh floorMesh(const setup::DrawnPlanes& drawn);
-/// One of them; where it does not face up, as planeMesh().
+/// Mesh of one such plane; for a plane that does not face up, the same as planeMesh().
 base::TriangleMesh floorMesh(const setup::DrawnPlanes& drawn, std::size_t plane);
 
 } // namespace grouser::output

@@ -2,8 +2,8 @@
 #include "runs/output/plots.hpp"
 
 #include "runs/support/locations.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/program_call.hpp"
-#include "runs/support/tell.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,10 @@ namespace grouser::output {
 
 namespace {
 
-// Debian's Python, with packages python3-matplotlib and python3-h5py; another may precede it on the PATH.
+// Python of Debian, with the packages python3-matplotlib and python3-h5py; the PATH may begin with another Python.
 constexpr const char* kPython = "/usr/bin/python3";
 
-/// Runs a script of runs/plots/. False, with a `warning`, on failure.
+/// Runs a script of runs/plots/. Returns false and sets `warning` on failure.
 bool draw(const std::string& name, const std::vector<std::string>& arguments, std::string& warning) {
   const std::filesystem::path script = support::shareFolder() / "runs" / "plots" / name;
   warning.clear();
@@ -55,7 +55,7 @@ void drawPicture(const std::string& script, const std::vector<std::filesystem::p
   words.push_back(file.string());
   std::string warning;
   if (!draw(script, words, warning))
-    support::tell("WARNING: {}\n", warning);
+    support::printStderr("WARNING: {}\n", warning);
   else if (std::filesystem::exists(file, error))
     fmt::print("plot      {}\n", file.string());
 }

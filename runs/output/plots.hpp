@@ -9,27 +9,27 @@
 
 namespace grouser::output {
 
-/// The plots that runs/plots/ can draw from a results.h5.
+/// Plots that the scripts in runs/plots/ can draw from results.h5.
 inline const std::vector<std::string> kAllPlots = {"shoe_heights", "sinkage",   "surface", "bed",
                                                    "drive",        "mechanism", "ledger",  "figure"};
 
-/// Draws `names` as NAME.png into `folder` by Python and matplotlib, and returns the files drawn; a plot whose
-/// quantities the results lack is omitted. If Python or a package is missing, nothing is drawn, and `warning` names the
+/// Draws the plots `names` with Python and matplotlib as NAME.png in `folder`, and returns the files. Omits a plot if
+/// the results lack its quantities. If Python or a package is missing, draws nothing, and `warning` names the missing
 /// package.
 std::vector<std::filesystem::path> drawPlots(const std::filesystem::path& results, const std::filesystem::path& folder,
                                              const std::vector<std::string>& names, std::string& warning);
 
-/// Draws by `script` of runs/plots/ what `inputs` hold into `file`, in place of a former one, and prints its name; on
-/// stderr a warning where it could not be drawn. Silent if there is nothing to draw.
+/// Calls `script` of runs/plots/ with `inputs` to draw `file`, replacing an existing file, and prints the file name; on
+/// failure, prints a warning to stderr. Prints nothing if there is nothing to draw.
 void drawPicture(const std::string& script, const std::vector<std::filesystem::path>& inputs,
                  const std::filesystem::path& file);
 
-/// Runs a Python script with these words and waits for it. The scripts in share end with kMissingPackage where
-/// something is not installed, and say what on their last line.
+/// Runs a Python script with these arguments and waits for it. The installed scripts exit with kMissingPackage if a
+/// package is missing, and print its name on the last line.
 support::CallOutcome callPython(const std::filesystem::path& script, const std::vector<std::string>& words);
 inline constexpr int kMissingPackage = 3;
 
-/// Runs a Python script with these words. False, with a `warning`, on failure.
+/// Runs a Python script with these arguments. Returns false and sets `warning` on failure.
 bool runScript(const std::filesystem::path& script, const std::vector<std::string>& words, std::string& warning);
 
 } // namespace grouser::output

@@ -16,58 +16,58 @@ namespace grouser::terrain {
 struct SoilFields;
 }
 
-/// Output of a run as plain data: rows of the time series, frames of the pictures, and the summary.
+/// Output of a run as plain data: rows of the time series, frames, and the summary.
 namespace grouser::output {
 
-/// The surface of the ground before a vehicle touched it, on a grid of nodes.
+/// Surface of the ground before contact with the vehicle, on a grid of nodes.
 struct UndisturbedSurface {
   std::vector<double> x, y;   ///< node coordinates [m]
   std::vector<double> height; ///< heights [y, x], row by row [m]
   std::string interpolation;  ///< interpolation between nodes: "bilinear", "Catmull-Rom" or "monotone"
 };
 
-/// One quantity of the time series. `path` is its group in results.h5 and, with dots, its column in timeseries.csv.
-/// A quantity with `width` above 1 has that many numbers per row (one per shoe, or three for a vector).
+/// One quantity of the time series. `path`: group in results.h5 and, with dots instead of slashes, column in
+/// timeseries.csv. `width`: number of values per row (e.g. one per shoe, or three for a vector).
 struct Channel {
   std::string path; ///< "vehicle/left/sinkage"
-  std::string unit; ///< "m"; "-" where dimensionless
+  std::string unit; ///< "m"; "-" if dimensionless
   std::string help;
   int width = 1;
-  /// Names of the columns in timeseries.csv: "x","y","z". Empty: a wide channel is in results.h5 only.
+  /// Names of the columns in timeseries.csv: "x","y","z". Empty with `width` > 1: not in timeseries.csv.
   std::vector<std::string> columns;
 };
 
-/// The numbers of one output time, in the order of the channels, each channel's `width` numbers in turn.
+/// Numbers of one output time: `width` numbers per channel, in the order of the channels.
 struct Row {
   std::int64_t step{};
   double time{}; ///< [s]
   std::vector<double> values;
 };
 
-/// A rigid part for the pictures: a mesh, drawn once for each frame at the pose of that frame.
+/// A rigid part in pictures: a mesh that is drawn in each frame at the pose of that frame.
 struct FramePart {
   std::string name; ///< "left shoe 12"
   PartKind kind{};
-  base::TriangleMesh mesh; ///< body frame
+  base::TriangleMesh mesh; ///< in the body frame
 };
 
-/// Deformable soil in a frame: triangles, and values at their vertices.
+/// Deformable soil in a frame: triangles, and values at the vertices.
 struct SoilSurface {
-  base::TriangleMesh mesh;                  ///< world
+  base::TriangleMesh mesh;                  ///< in the world frame
   std::vector<float> sinkage;               ///< below the undisturbed surface [m]
-  std::vector<float> pressure, maxPressure; ///< present value, and the maximum since the start [Pa]
-  std::vector<base::Vec3f> shear;           ///< present shear stress on the soil [Pa]
+  std::vector<float> pressure, maxPressure; ///< current value, and maximum since the start [Pa]
+  std::vector<base::Vec3f> shear;           ///< current shear stress on the soil [Pa]
 };
 
 /// Particles of a fluid in a frame.
 struct FluidPoints {
   std::vector<base::Vec3f> position, velocity; ///< [m], [m/s]
   std::vector<float> pressure;                 ///< [Pa]
-  double spacing{};                            ///< initial distance [m]
+  double spacing{};                            ///< initial particle spacing [m]
 };
 
-/// The grains and parts at one time; on several ranks this rank's block of the grains. All arrays of grains have the
-/// same length.
+/// Grains and parts at one time; with several ranks, the grains of this rank. All arrays of grains have the same
+/// length.
 struct Frame {
   std::int64_t step{};
   double time{};                       ///< [s]
@@ -85,7 +85,7 @@ struct Frame {
   std::shared_ptr<const terrain::SoilFields> fields; ///< fields of the soil, the same on all ranks; may be null
   std::shared_ptr<const SoilSurface> soil;  ///< surface of deformable ground, the same on all ranks; may be null
   std::shared_ptr<const FluidPoints> fluid; ///< fluid particles, the same on all ranks; may be null
-  /// Borders between subdomains along x, y and z, ascending [m]. All empty: one subdomain.
+  /// Positions of the borders between subdomains along x, y and z, ascending [m]. All empty: one subdomain.
   std::array<std::vector<double>, 3> borders;
 };
 
@@ -94,8 +94,8 @@ struct Summary {
   std::int64_t steps{};
   double simulatedTime{};                ///< [s]
   double wallTime{};                     ///< [s]
-  std::string stateHash;                 ///< hexadecimal; empty where not taken
-  std::string incomplete;                ///< why the vehicle did not drive, or drove too little; empty: complete
+  std::string stateHash;                 ///< hexadecimal; empty if not computed
+  std::string incomplete;                ///< reason why the vehicle did not drive, or drove too little; empty: complete
   std::map<std::string, double> figures; ///< other figures: "particle steps per second"
 };
 

@@ -3,7 +3,7 @@
 
 namespace grouser::output {
 
-/// A number of the whole run.
+/// A number that applies to the whole run.
 struct ResultConstant {
   const char *path, *unit, *help;
 };

@@ -17,7 +17,7 @@ namespace {
 
 using support::FileField;
 
-/// A mechanism with all kinds of parts, whose series include those of any mechanism.
+/// A mechanism with all kinds of parts, so that its series include those of any mechanism.
 multibody::Model modelOfAll() {
   using namespace multibody;
   Model model;
@@ -56,7 +56,7 @@ multibody::Model modelOfAll() {
   return model;
 }
 
-/// "joints/both/force" as "joints/NAME/force".
+/// Converts "joints/both/force" to "joints/NAME/force".
 std::string withoutName(const std::string& path) {
   constexpr const char* kKinds[] = {"bodies/", "joints/", "springs/", "bushings/", "drives/", "couplings/"};
   const bool hasName = std::any_of(std::begin(kKinds), std::end(kKinds), [&](auto k) { return path.starts_with(k); });
@@ -71,12 +71,12 @@ std::string shapeOf(const Channel& c) {
   return c.columns.empty() ? "[rows, shoes]" : fmt::format("[rows, {}]", c.width);
 }
 
-/// Adds `one` to `all`, unless it is there.
+/// Adds `one` to `all`, unless `all` already contains it.
 void addWords(std::string& all, const char* between, const std::string& one) {
   if ((between + all + between).find(between + one + between) == std::string::npos) all += between + one;
 }
 
-/// One line for all quantities of a path: "rad or m" where their units differ.
+/// One line for all quantities with this path: "rad or m" if the units differ.
 void add(std::vector<FileField>& fields, const Channel& c) {
   const std::string path = withoutName(c.path) + "/value";
   const auto same = std::find_if(fields.begin(), fields.end(), [&](const FileField& f) { return f.path == path; });
@@ -100,7 +100,7 @@ std::vector<FileField> resultFields() {
       {"/@machine", "text", "", "", "processor, cores, memory, system"},
       {"/@scene", "text", "", "", "the resolved scene, TOML"},
       {"/@state_hash", "text", "", "", "final state hash, 16 hexadecimal digits; empty without run --hash"},
-      {"/@branched_from", "text", "", "", "of a branch: checkpoint, step and state hash at its start"},
+      {"/@branched_from", "text", "", "", "branches only: checkpoint, step and state hash at the start of the branch"},
       {"/@soil_contact", "text", "", "", "parts of the vehicle with soil contact: \"all\" or \"shoes\""},
       {"/@parts", "texts", "", "", "part names; terrain/part_overlap_by is an index into this list, from 0"},
       {"/@deepest_in_a_part", "text", "", "", "maximum overlap of a grain with a part, and its part and time"},

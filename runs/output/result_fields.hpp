@@ -7,7 +7,7 @@
 
 #include <vector>
 
-/// Contents of results.h5 beside its series: tables for writing and describing it.
+/// Contents of results.h5 besides the series: tables that are used to write and to describe the file.
 namespace grouser::output {
 
 inline constexpr ResultConstant kPitchRadius{"vehicle/pitch_radius", "m", "teeth x pitch / (2 pi)"};
@@ -27,21 +27,21 @@ inline constexpr BedConstant kBedConstants[] = {
     {{"terrain/bed/order", "-", "fraction of grains in crystalline arrangement"}, &BedStructure::order},
     {{"terrain/bed/mean_diameter", "m", "mean grain diameter (by number)"}, &BedStructure::meanDiameter},
     {{"terrain/bed/settled_height", "m", "mean height of the undisturbed surface"}, &BedStructure::settledHeight},
-    {{"terrain/bed/thickness", "m", "mean bed thickness: mean height of that surface above the floor"},
+    {{"terrain/bed/thickness", "m", "mean bed thickness: mean height of the surface above the floor"},
      &BedStructure::thickness},
 };
 
-/// Numbers of the bed over a distance or a depth.
+/// Quantities of the bed as functions of distance or depth.
 struct BedCurve {
   ResultConstant curve;
   std::vector<double> terrain::BedStructure::*member;
 };
 inline constexpr BedCurve kBedCurves[] = {
     {{"terrain/bed/distance", "mean diameters", "distance between the centres of two grains"}, &BedStructure::distance},
-    {{"terrain/bed/radial_distribution", "-", "radial distribution function at that distance"},
+    {{"terrain/bed/radial_distribution", "-", "radial distribution function at each distance"},
      &BedStructure::radialDistribution},
     {{"terrain/bed/depth", "m", "depth below the undisturbed surface"}, &BedStructure::depth},
-    {{"terrain/bed/porosity_at_depth", "-", "porosity at that depth"}, &BedStructure::porosityAtDepth},
+    {{"terrain/bed/porosity_at_depth", "-", "porosity at each depth"}, &BedStructure::porosityAtDepth},
 };
 
 /// Undisturbed surface [m].
@@ -60,7 +60,7 @@ inline constexpr ResultConstant kInputs{
     "one row per input: step before which it was set, kind (index into the attribute kinds), target (track: 0 left, 1 "
     "right; body: its index), 1 if the input was released, six values in the unit of the kind"};
 
-/// All fields of results.h5. For each series the dataset `value`, beside which are `step` and `time`.
+/// All fields of results.h5; of each series only the dataset `value`, which has `step` and `time` beside it.
 std::vector<support::FileField> resultFields();
 
 } // namespace grouser::output

@@ -5,19 +5,19 @@
 
 namespace grouser::output {
 
-inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that stopped before its drive
+inline constexpr const char* kUntilRest = "--until rest"; ///< `ended_by` of a run that stopped before the drive
 
 /// Status of a run in its manifest and in the summary of a sweep.
 enum class RunStatus {
   pending, ///< run of a sweep that has not started
   running,
   finished,
-  incomplete, ///< ended, but its vehicle never drove, or drove too little for figures
+  incomplete, ///< ended, but the vehicle never drove, or drove too little for valid figures
   failed,
   stopped ///< stopped by a signal; can be resumed
 };
 
-/// Whether a run has reached its end without a fault.
+/// Whether a run has ended without an error.
 constexpr bool hasEnded(RunStatus status) { return status == RunStatus::finished || status == RunStatus::incomplete; }
 
 } // namespace grouser::output

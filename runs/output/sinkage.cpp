@@ -20,7 +20,7 @@ namespace grouser::output {
 
 namespace {
 
-constexpr int kMostShoes = 10000; // in a range, so that a typing error does not fill the memory
+constexpr int kMaxShoes = 10000; // maximum length of a range, so that a typing error does not fill the memory
 
 struct Track {
   std::string side;
@@ -62,7 +62,7 @@ Tracks readSinkage(const std::filesystem::path& results, const std::string& chos
   return read;
 }
 
-/// A whole number at the front of `text`, which it is taken from; empty where there is none.
+/// Removes a whole number from the front of `text` and returns it; empty if there is none.
 std::optional<int> takeNumber(std::string_view& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -90,7 +90,7 @@ std::vector<int> shoesNamed(const std::string& list) {
       if (!end) refuse("has a range without an end");
       last = *end;
       if (last < *first) refuse("has a descending range");
-      if (last - *first > kMostShoes) refuse("exceeds the number of shoes of any track");
+      if (last - *first > kMaxShoes) refuse("exceeds the number of shoes of any track");
     }
     for (int s = *first; s <= last; ++s) shoes.push_back(s);
     if (rest.empty()) break;

@@ -16,7 +16,7 @@ namespace {
 
 using Numbers = std::vector<float>;
 
-/// A quantity of each vertex: the list of all.
+/// A quantity of each vertex.
 struct SoilDataset {
   const char* name;
   std::uint64_t width; ///< 1: scalar, 3: vector

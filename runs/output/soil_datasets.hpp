@@ -9,17 +9,17 @@
 #include <string>
 #include <vector>
 
-/// Deformable soil in frames.h5: /000012/soil/{position [v, 3], triangles [t, 3], sinkage [v], pressure [v], ...},
-/// compressed, since most of the surface is plane and unloaded.
+/// Deformable soil in frames.h5: /000012/soil/{position [v, 3], triangles [t, 3], sinkage [v], pressure [v], ...};
+/// compressed, because most of the surface is plane and unloaded.
 namespace grouser::output {
 
-/// Upper bound of the size of one frame's soil in the file [bytes].
+/// Upper bound of the file size of the soil in one frame [bytes].
 std::uint64_t bytesOfSoil(const SoilSurface& soil);
-/// `frame`: the group of the frame.
+/// `frame`: group of the frame.
 void writeSoil(support::Hdf5File& file, const std::string& frame, const SoilSurface& soil);
-/// XML of a frame's soil for frames.xdmf; empty if the frame has none.
+/// XML of the soil of a frame for frames.xdmf; empty if the frame has no soil.
 std::string soilXdmf(const support::Hdf5File& file, const std::string& frame);
-/// Reads a frame's soil; null if the frame has none. Throws base::InputError if the data are damaged.
+/// Reads the soil of a frame; null if the frame has no soil. Throws base::InputError if the data are damaged.
 std::shared_ptr<const SoilSurface> readSoil(const support::Hdf5File& file, const std::string& frame);
 
 /// For docs/files.md; `frame`: "FRAME/".

@@ -15,9 +15,9 @@ namespace {
 using coupling::GroundFields;
 using coupling::SoilNode;
 
-constexpr std::uint64_t kMostNodes = 4'000'000; ///< maximum number of nodes of a map
-constexpr double kSectionLength = 0.5;          ///< length of rut over which a section is averaged [m]
-constexpr double kBeside = 0.3;                 ///< width of undisturbed soil on each side of the rut in a section [m]
+constexpr std::uint64_t kMaxNodes = 4'000'000; ///< maximum number of nodes of a map
+constexpr double kSectionLength = 0.5;         ///< length of the rut over which the cross section is averaged [m]
+constexpr double kBeside = 0.3;                ///< width of undisturbed soil on each side of the rut in a section [m]
 
 double sinkageAt(const GroundFields& fields, std::int32_t i, std::int32_t j) {
   const auto at =
@@ -43,7 +43,7 @@ void addMaps(SoilResult& result, const GroundFields& fields) {
     ++stride;
     result.columns = static_cast<std::uint64_t>((iMax - iMin) / stride + 1);
     result.rows = static_cast<std::uint64_t>((jMax - jMin) / stride + 1);
-  } while (result.columns * result.rows > kMostNodes);
+  } while (result.columns * result.rows > kMaxNodes);
   const auto lengthOf = [&](std::int64_t nodes) { return static_cast<double>(nodes) * fields.spacing; };
   result.origin = {lengthOf(iMin), lengthOf(jMin)}, result.spacing = {lengthOf(stride)};
   for (const SoilMapField& map : kSoilMaps) (result.*map.member).assign(result.columns * result.rows, 0);

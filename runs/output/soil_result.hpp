@@ -10,11 +10,11 @@
 
 namespace grouser::output {
 
-/// Deformable soil at the end of a run: maps over the touched area, and a section of the rut.
+/// Deformable soil at the end of a run: maps of the touched area, and a cross section of the rut.
 struct SoilResult {
   scm::SoilConstants constants;
   std::vector<double> origin;  ///< x, y of the first node [m]
-  std::vector<double> spacing; ///< node spacing of the maps: the soil's, or a multiple of it for large areas [m]
+  std::vector<double> spacing; ///< node spacing of the maps [m]: that of the soil, or a multiple for large areas
   std::uint64_t columns{}, rows{};
   std::vector<float> sinkage, pressure, shear, maxPressure; ///< [rows, columns] [m], [Pa]
   std::vector<double> sectionOffset, sectionSinkage;        ///< [m]
@@ -32,24 +32,26 @@ inline constexpr SoilMapField kSoilMaps[] = {
       "column "
       "i at x = origin[0] + i spacing"},
      &SoilResult::sinkage},
-    {{"terrain/soil/pressure", "Pa", "final pressure on the soil, at the same nodes"}, &SoilResult::pressure},
-    {{"terrain/soil/shear", "Pa", "magnitude of the final shear stress on the soil, at the same nodes"},
+    {{"terrain/soil/pressure", "Pa", "final pressure on the soil, at the nodes of terrain/soil/sinkage"},
+     &SoilResult::pressure},
+    {{"terrain/soil/shear", "Pa",
+      "magnitude of the final shear stress on the soil, at the nodes of terrain/soil/sinkage"},
      &SoilResult::shear},
-    {{"terrain/soil/max_pressure", "Pa", "maximum pressure since the start, at the same nodes"},
+    {{"terrain/soil/max_pressure", "Pa", "maximum pressure since the start, at the nodes of terrain/soil/sinkage"},
      &SoilResult::maxPressure},
 };
 
-/// Other numbers of the soil.
+/// Numbers of the soil other than maps.
 struct SoilLine {
   ResultConstant line;
-  const char* shape; ///< shape as text for docs/files.md
+  const char* shape; ///< shape of the dataset, for docs/files.md
   std::vector<double> SoilResult::*member;
 };
 inline constexpr SoilLine kSoilLines[] = {
     {{"terrain/soil/origin", "m", "x and y of the first node of the maps of deformable soil"},
      "[2]",
      &SoilResult::origin},
-    {{"terrain/soil/spacing", "m", "node spacing of these maps"}, "[1]", &SoilResult::spacing},
+    {{"terrain/soil/spacing", "m", "node spacing of the maps of deformable soil"}, "[1]", &SoilResult::spacing},
     {{"terrain/soil/section_offset", "m",
       "lateral offset from the centreline of the vehicle in the rut profile, positive to the left"},
      "[n]",
@@ -82,7 +84,8 @@ inline constexpr SoilConstantField kSoilConstants[] = {
     {{"terrain/soil/unit_weight", "N/m3", "unit weight of the soil"}, &scm::SoilConstants::unitWeight},
 };
 
-/// `position` and unit vector `heading` of the vehicle. Empty maps if no soil was touched.
+/// `position`, `heading`: position of the vehicle and unit vector along its heading. Maps are empty if the vehicle
+/// touched no soil.
 SoilResult soilResult(const coupling::GroundFields& fields, const base::Vec3d& position, const base::Vec3d& heading);
 
 } // namespace grouser::output

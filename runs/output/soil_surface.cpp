@@ -11,32 +11,32 @@ namespace {
 
 using coupling::GroundFields;
 using coupling::SoilNode;
-using Place = std::pair<std::int32_t, std::int32_t>; ///< j, i: of a node, or of the lower corner of a cell
+using Place = std::pair<std::int32_t, std::int32_t>; ///< indices j, i of a node, or of the lower corner of a cell
 
-constexpr std::int32_t kBlock = 4; ///< nodes along a cell that is cut at node spacing
-constexpr int kReliefCells = 128;  ///< cells along the longer side of the terrain at least, for its undisturbed relief
+constexpr std::int32_t kBlock = 4; ///< node intervals along the edge of a block that is divided at node spacing
+constexpr int kReliefCells = 128;  ///< minimum number of cells along the longer side of the terrain, for its relief
 
 void sortUnique(std::vector<Place>& places) {
   std::sort(places.begin(), places.end());
   places.erase(std::unique(places.begin(), places.end()), places.end());
 }
 
-/// The quotient rounded down; `size` > 0.
+/// Quotient rounded down; `size` > 0.
 std::int32_t floorDivide(std::int32_t node, std::int32_t size) {
   return node >= 0 ? node / size : -((size - 1 - node) / size);
 }
 std::int32_t blockOf(std::int32_t node) { return floorDivide(node, kBlock); }
 
-/// A square of `size` nodes along a side with its lower corner at node (i, j).
+/// A square with `size` node intervals per side and its lower corner at node (i, j).
 struct Cell {
   std::int32_t i, j, size;
 };
 
-/// Cuts the terrain into cells: a quadtree whose smallest cells hold the touched nodes.
+/// Divides the terrain into cells: a quadtree with the smallest cells at the touched nodes.
 class Cells {
 public:
   Cells(const GroundFields& fields, const terrain::Rectangle& area) : h_(fields.spacing), area_(area) {
-    // The squares around a touched node, and one more on each side, so that normals of a rut's edge are right.
+    // Blocks around a touched node, plus one more block on each side, for correct normals at the edges of ruts.
     for (const SoilNode& node : fields.nodes)
       for (const std::int32_t j : {node.j - 2, node.j + 1})
         for (const std::int32_t i : {node.i - 2, node.i + 1}) fine_.emplace_back(blockOf(j), blockOf(i));
@@ -45,7 +45,7 @@ public:
     const auto at = [&](double place) { return static_cast<std::int32_t>(std::floor(place / h_)); };
     std::int32_t size = kBlock;
     while (h_ * size < std::max(area.width(), area.length())) size *= 2;
-    // Cells are aligned with multiples of their size, as the blocks are.
+    // Like blocks, cells are aligned to multiples of their size.
     const auto down = [size](std::int32_t node) { return floorDivide(node, size); };
     for (std::int32_t j = down(at(area.yMin)); j <= down(at(area.yMax)); ++j)
       for (std::int32_t i = down(at(area.xMin)); i <= down(at(area.xMax)); ++i) cut({i * size, j * size, size});
@@ -88,7 +88,7 @@ private:
   std::vector<Cell> leaves_;
 };
 
-/// The vertices of all cells, for the corners of their triangles.
+/// Vertices of all cells; they are the corners of the triangles.
 class Vertices {
 public:
   explicit Vertices(const Cells& cells) {
@@ -107,7 +107,8 @@ public:
   std::uint32_t number(std::int32_t i, std::int32_t j) const {
     return static_cast<std::uint32_t>(std::lower_bound(byRow_.begin(), byRow_.end(), Place{j, i}) - byRow_.begin());
   }
-  /// Around a cell, counter-clockwise from its lower corner: its corners and what its neighbours have between them.
+  /// Vertices around a cell, counter-clockwise from its lower corner: its corners, and corners of neighbours in
+  /// between.
   std::vector<std::uint32_t> around(const Cell& c) const {
     std::vector<std::uint32_t> ring;
     const std::int32_t right = c.i + c.size, top = c.j + c.size;
@@ -118,7 +119,7 @@ public:
            at != sorted.end() && *at <= Place{line, to}; ++at)
         found.push_back(isColumn ? number(line, at->second) : number(at->second, line));
       if (backwards) std::reverse(found.begin(), found.end());
-      ring.insert(ring.end(), found.begin(), found.end() - 1); // the last one begins the next side
+      ring.insert(ring.end(), found.begin(), found.end() - 1); // the last vertex is the first of the next side
     };
     side(byRow_, c.j, c.i, right, false, false), side(byColumn_, right, c.j, top, true, false);
     side(byRow_, top, c.i, right, false, true), side(byColumn_, c.i, c.j, top, true, true);

@@ -7,9 +7,9 @@
 
 namespace grouser::output {
 
-/// Deformable soil as triangles with values at their vertices: at node spacing where soil has been loaded or moved, and
-/// in cells that grow with the distance from there elsewhere. The triangles cover the terrain without gaps, so that
-/// their number grows with the touched ground and not with the terrain.
+/// Deformable soil as triangles with values at the vertices: at node spacing where the soil has been loaded or moved;
+/// elsewhere in cells that grow with the distance from this area. The triangles cover the terrain without gaps; their
+/// number depends on the touched area, not on the size of the terrain.
 SoilSurface soilSurface(const coupling::GroundFields& fields, const terrain::HeightField& undisturbed);
 
 } // namespace grouser::output

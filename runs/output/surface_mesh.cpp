@@ -38,7 +38,7 @@ TriangleMesh boxMesh(const Vec3d& half) {
   return mesh;
 }
 
-/// `tip`: radius of the upper end, `radius` that of the lower one.
+/// `tip`: radius of the upper end. `radius`: radius of the lower end.
 TriangleMesh roundMesh(double radius, double tip, double half, bool hollow) {
   constexpr int kSides = 64;
   TriangleMesh mesh;
@@ -59,7 +59,7 @@ TriangleMesh roundMesh(double radius, double tip, double half, bool hollow) {
   return mesh;
 }
 
-/// Rings of latitude, pushed apart along z by the segment.
+/// Circles of latitude of a sphere, with the two halves moved apart along z by the length of the segment.
 TriangleMesh capsuleMesh(double radius, double half) {
   constexpr int kSides = 48, kRings = 12; // each cap has kRings rings
   TriangleMesh mesh;
@@ -110,7 +110,7 @@ TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::Surfa
   TriangleMesh mesh = endless ? floorMesh(planes, surface.number) : planeMesh(planes, surface.number);
   for (Vec3d& v : mesh.vertices) {
     v = surface.start.toBody(v);
-    if (surface.aboveBed) v.z = 0; // its height was unknown when it was drawn
+    if (surface.aboveBed) v.z = 0; // its height was unknown when the mesh was created
   }
   return mesh;
 }

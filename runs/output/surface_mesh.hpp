@@ -7,11 +7,11 @@
 
 namespace grouser::output {
 
-/// A box, cylinder, tube or capsule in its own frame; empty of a plane.
+/// Mesh of a box, cylinder, tube or capsule in its own frame; empty for a plane.
 base::TriangleMesh shapeMesh(const contact::SurfaceGeometry& shape);
 
-/// A surface as triangles in its own frame, for pictures; counter-clockwise from where grains are seen: a hollow
-/// cylinder shows its inside. `endless`: a floor extends to the horizon.
+/// A surface as triangles in its own frame, for pictures; counter-clockwise as seen from the side of the grains: a
+/// hollow cylinder shows its inside. `endless`: floors extend to the horizon.
 base::TriangleMesh surfaceMesh(const setup::DrawnPlanes& planes, const coupling::SurfaceSetup& surface,
                                bool endless = false);
 

@@ -6,17 +6,17 @@
 #include <cstdint>
 #include <string>
 
-/// Pieces of frames.xdmf.
+/// Elements of frames.xdmf.
 namespace grouser::output::xdmf {
 
-/// A <DataItem> that points into frames.h5.
+/// A <DataItem> that refers to a dataset in frames.h5.
 inline std::string item(const std::string& shape, const char* type, int bytes, const std::string& dataset) {
   return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" Endian=\"Little\" Format=\"HDF\">"
                      "frames.h5:{}</DataItem>",
                      shape, type, bytes, dataset);
 }
 
-/// Nothing without content.
+/// Empty if there is no content.
 inline std::string grid(const char* name, const std::string& content) {
   return content.empty()
              ? ""
@@ -28,7 +28,7 @@ inline std::string geometry(std::size_t vertices, const std::string& dataset) {
                      item(fmt::format("{} 3", vertices), "Float", 4, dataset));
 }
 
-/// `width`: 1 of a scalar, 3 of a vector.
+/// `width`: 1 for a scalar, 3 for a vector.
 inline std::string attribute(const char* name, const char* centre, std::size_t count, std::uint64_t width,
                              const char* type, const std::string& dataset) {
   const std::string shape = width == 1 ? fmt::format("{}", count) : fmt::format("{} {}", count, width);

@@ -15,7 +15,7 @@ DOUBTFUL = {"markerfacecolor": "none"}
 AXES = {"depth": ("s", "C1"), "width": ("D", "C2"), "floor": ("v", "C3"), "grain_size": ("^", "C4"),
         "spheres": ("P", "C5"), "precision": ("*", "C6"), "node_spacing": ("h", "C7"), "parameter": ("X", "C8")}
 MOST = 6
-LEAST = 5e-3  # fraction of the value; smaller errors are drawn at the lower edge
+LEAST = 5e-3  # relative error; smaller errors are drawn at the lower edge
 
 
 def share(number, value):

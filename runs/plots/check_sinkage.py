@@ -28,7 +28,7 @@ def surface_of(results):
     smooth = smooth == "Catmull-Rom"
 
     def along(nodes, v):
-        """Index of the node below v, and the weights of four nodes."""
+        """Index of the nearest node below v, and the interpolation weights of four nodes."""
         n, u = len(nodes), (v - nodes[0]) / (nodes[1] - nodes[0])
         if not smooth:
             u = min(max(u, 0.0), n - 1.0)

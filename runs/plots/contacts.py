@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of `grouser bench contacts`: contacts.py FIGURES.json FILE.png
 
-Time of a search and contacts per second over the number of contacts, with those of Bullet if available.
+Search time and contacts found per second over the number of contacts; with curves of Bullet if available.
 """
 import json
 

@@ -66,7 +66,7 @@ def save(figure, path, dpi):
 
 
 def legend_above(axes, columns=3, size=8):
-    """A legend above the axes with each label once; none without labels."""
+    """Adds a legend above the axes with each label once; no legend without labels."""
     lines, labels = axes.get_legend_handles_labels()
     once = dict(zip(labels, lines))
     if once:
@@ -74,7 +74,7 @@ def legend_above(axes, columns=3, size=8):
 
 
 def legend_below(figure, axes):
-    """One legend for all panels, below them; none without labels."""
+    """Adds one legend for all panels, below the panels; no legend without labels."""
     entries = {}
     for one in axes:
         entries.update(zip(*reversed(one.get_legend_handles_labels())))
@@ -108,7 +108,7 @@ def numbers(path):
 
 
 def runs(folder, pattern):
-    """Tables of a study's runs whose names match `pattern`, sorted: [(groups of the match, rows)]."""
+    """Tables of those runs of a study that have names matching `pattern`, sorted: [(groups of the match, rows)]."""
     named = ((re.fullmatch(pattern, file.stem), file) for file in sorted(pathlib.Path(folder).glob("*.csv")))
     return [(match.groups(), numbers(file)) for match, file in named if match]
 

@@ -31,7 +31,7 @@ def plot(run):
         if series.finite(joints):
             tension.fill_between(run.time, joints.min(axis=1), joints.max(axis=1), color=colour, alpha=0.2, linewidth=0)
             tension.plot(run.time, numpy.mean(joints, axis=1), color=colour, linewidth=width,
-                         label=f"{side} track: mean and range over its pin joints")
+                         label=f"{side}: mean (line) and range (band) of its pins")
         drive_torque = run.get(f"vehicle/{side}/drive_torque")
         if drive_torque is not None:
             torque.plot(run.time, drive_torque, color=colour, linewidth=width, label=f"{side} sprocket")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mobility map: map.py MAP.json FILE.png
 
-Go or no-go of an event over its level and the values of a key. Cells: mean speed over commanded speed. Band: limit
+Go or no-go of an event over its levels and the values of a key. Cells: mean speed / commanded speed. Band: limit
 between go and no-go. Dashed line: upper bound by the closed form.
 """
 import json

@@ -52,7 +52,7 @@ def plot(run):
     if gap.get_legend_handles_labels()[0]:
         gap.set_ylabel("maximum joint error\nper output interval")
         drawing.legend_above(gap)
-    else:  # closed to the last bit
+    else:  # joint errors below rounding
         gap.remove()
     for axis in (energy, rest, *([gap] if gap.figure else [])):
         axis.set_xlabel("time [s]")

@@ -7,7 +7,7 @@ MISSING = 3  # exit status; the program prints the last line of the script uncha
 
 
 def require(*names):
-    """Exits if one of these packages is missing; the last line names the package to install."""
+    """Exits if one of these packages is missing; prints the package to install as last line."""
     for name in names:
         try:
             importlib.import_module(name)

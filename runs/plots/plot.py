@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   with NAME of shoe_heights, sinkage, surface, bed, drive,
-ledger, mechanism, figure. Plots without data in the results are omitted.
+"""Plots of a run: plot.py RESULTS.h5 FOLDER NAME...   NAME: one of shoe_heights, sinkage, surface, bed, drive,
+ledger, mechanism, figure. Omits plots if the results lack the data.
 """
 import pathlib
 

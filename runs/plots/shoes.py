@@ -8,7 +8,7 @@ import series
 
 
 def last_contact(on_ground):
-    """(first row, last row) of the longest run of True that ends before the last row; None if there is none."""
+    """(first row, last row) of the longest sequence of True that ends before the last row; None if there is none."""
     best, begin = None, None
     for row, on in enumerate(on_ground):
         if on and begin is None:
@@ -27,8 +27,8 @@ def picked_up(heights, stretch, rows):
 
 
 def choose_four(heights, sinkage):
-    """The four consecutive shoes of a track with the longest ground contact that are then picked up by the sprocket; if
-    none is picked up, those with the longest ground contact."""
+    """Four consecutive shoes of a track: those with the longest ground contact among the shoes that then move up to the
+    sprocket; if no shoe moves up, those with the longest ground contact."""
     best = None
     for side, values in sinkage.items():
         rows, count = values.shape
@@ -73,7 +73,7 @@ def heights(run):
     margin = max(0.003, 0.6 * float(numpy.ptp(level)))
     low, high = level.min() - margin, level.max() + margin
     all_heights = pads[side][:, four]
-    # A close-up if the total height range is much larger than that in ground contact.
+    # Adds a close-up if the total height range is much larger than the range in ground contact.
     has_close = float(numpy.nanmax(all_heights) - numpy.nanmin(all_heights)) > 2 * (high - low)
     panels = figure.subplots(1 + has_close, 1, sharex=True, squeeze=False)[:, 0]
     whole = panels[0]

@@ -2,8 +2,8 @@
 """Single shoes over time: single_shoes.py RESULTS.h5 [CONTROL.h5] SHOES FILE.png   SHOES: 10,11,12; for one track
 left:10,11,12
 
-Pad heights and sinkage over time; those of a control run in grey behind them, shifted in time so that the sprockets of
-both runs start together.
+Pad heights and sinkage over time. Curves of a control run are grey, in the background, and shifted in time so that the
+sprockets of both runs start together.
 """
 import packages
 

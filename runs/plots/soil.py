@@ -12,7 +12,7 @@ import drawing
 
 
 def draw_plates(axis, table, soil):
-    """Loading of each test from its own origin (thin lines), and k z^n of each plate."""
+    """Loading of each test from the fitted origin of that test (thin lines), and k z^n of each plate."""
     curves = {}
     for row in table:
         sinkage = float(row["sinkage [m]"]) - float(row["origin [m]"])

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of the column collapse study: study_collapse.py COLLAPSE.csv FILE.png
 
-Run-out and deposit height over the aspect ratio of the column, one point per column, the scaling laws of channels as
-lines with 15 % bands.
+Run-out and deposit height over the aspect ratio of the column, one point per column; scaling laws of channel
+experiments as lines with 15 % bands.
 """
 import drawing
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of the feature cost study: study_features.py FEATURES.csv FILE.png
 
-Added time per grain and step of each feature, with its interval, and added memory per grain.
+Added time per grain and step of each feature, with interval, and added memory per grain.
 """
 import drawing
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of the precision study: study_precision.py TOUCH.csv DRIFT.csv MACROSCOPIC.csv FILE.png
 
-Wrong contact decisions over the configurations; distance between the same grains of two runs; difference of single and
-double precision over its standard error.
+Wrong contact decisions over the configurations; distance between the same grains in two runs; difference between single
+and double precision / standard error of this difference.
 """
 import drawing
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of the bed preparation study: study_preparation.py PREPARATION.csv FILE.png
 
-Porosity of the bed over the target porosity, with its interval; contacts per grain over porosity.
+Porosity of the bed over the target porosity, with intervals; contacts per grain over porosity.
 """
 import drawing
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of the stability study with random scenes: study_random_stability.py RANDOM.csv FILE.png
 
-One point per scene: automatic step, automatic step at the minimum number of steps per contact, and step limit, over the
-longest step without blow-up (left) and without alarm (right), versus the smallest restitution.
+One point per scene, over the smallest restitution: automatic step, automatic step at the minimum number of steps per
+contact, and step limit, each divided by the longest step without blow-up (left) or without alarm (right).
 """
 import drawing
 

@@ -2,7 +2,7 @@
 """Plot of the time-step stability study: study_stability.py STABILITY.csv LIMITS.csv FILE.png
 
 One panel per case: step in units of 1 / sqrt(k / m) over damping ratio; stable (blue) and unstable (red) runs, with the
-predicted limit and the bound of calm that the automatic step keeps.
+predicted limit and the calm step, which bounds the automatic step.
 """
 import drawing
 
@@ -26,7 +26,7 @@ def draw(*paths):
         zeta = [float(r["zeta [-]"]) for r in of]
         axis.plot(zeta, [float(r["predicted limit [1/sqrt(k/m)]"]) for r in of], color="black", label="predicted limit")
         axis.plot(zeta, [float(r["calm [1/sqrt(k/m)]"]) for r in of], color="black", linestyle="--",
-                  label="bound of calm")
+                  label="calm step")
         axis.set_title(name, fontsize=9)
         axis.set_ylim(0, 2.4)
         axis.tick_params(labelsize=7)

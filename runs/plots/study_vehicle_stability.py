@@ -3,8 +3,8 @@
 
 One panel per map. Points: sound (blue), stopped by a guard for the right (orange square) or a wrong cause (purple
 diamond), silently wrong (red cross), scattering like neighbouring steps (green triangle), wrong with a warning about
-impacts (olive triangle), rejected before the run (grey x). Lines: predicted limits. On a logarithmic axis, 0 is drawn
-at the left end.
+impacts (olive triangle), rejected before the run (grey x). Lines: predicted limits. Logarithmic axes show 0 at their
+left end.
 """
 import itertools
 import math

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The undisturbed surface, or its change by the vehicle: a map with the path of the vehicle, and a section along x."""
+"""The undisturbed surface, or its change by the vehicle: a map with the vehicle's path, and a section along x."""
 import numpy
 
 import drawing
 
 LEFT, MAP, BAR = 0.9, 6.0, 1.1  # [inch] across
-BELOW, SECTION, GAP, ABOVE = 0.9, 1.7, 0.25, 0.4  # up
+BELOW, SECTION, GAP, ABOVE = 0.9, 1.7, 0.25, 0.4  # [inch] upwards
 
 
 def layout(wide, high):
-    """A figure with a map of `wide` x `high`, true to scale, a section below it with the same x axis, and a colour
+    """A figure with a map of `wide` x `high` to scale, a section below the map with the same x axis, and a colour
     bar."""
     height = min(9.0, max(0.6, MAP * high / wide))
     width = min(MAP, height * wide / high)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a sweep: sweep.py SUMMARY.csv|INTERVALS.csv FILE.png
 
-Sinkage, slip, torque and tension over the first swept key, one line per combination of the others; with INTERVALS.csv
-error bars (half of the 95 % interval over the seeds to either side).
+Sinkage, slip, torque, tension and, if there is one, drawbar pull over the first swept key, one line per combination of
+the other keys; with INTERVALS.csv also error bars (95 % intervals over the seeds).
 """
 import math
 
@@ -15,8 +15,13 @@ PANELS = (
     ("drive torque, both sprockets [N m]", 1, (("drive torque [N m]", "-", ""),)),
     ("track tension [N]", 1, (("tension mean [N]", "-", "mean"), ("tension peak [N]", "--", "peak"))),
 )
+# Added if a vehicle pulls a load or is held by a hitch.
+PULL_PANELS = (
+    ("drawbar pull [N]", 1, (("drawbar pull [N]", "-", ""),)),
+    ("motion resistance [N]", 1, (("motion resistance [N]", "-", ""),)),
+)
 NOTE = "Means over the steady part"
-OF_OTHER_FIGURES = "direction of motion changes: "  # prefix of a reason that applies to none of these panels
+OF_OTHER_FIGURES = "direction of motion changes: "  # prefix of a reason that does not apply to these panels
 
 
 def number(text):
@@ -52,7 +57,7 @@ def is_doubtful(row):
 
 
 def curves(keys, rows):
-    """[(label, rows)]: one for each combination of all keys but the first."""
+    """[(label, rows)]: one entry for each combination of all keys except the first."""
     found = {}
     for values, figures in rows:
         found.setdefault(values[1:], []).append((values, figures))
@@ -60,7 +65,7 @@ def curves(keys, rows):
 
 
 def note(rows, seeds):
-    """Caption: the values shown, and the marks of inconclusive ones."""
+    """Caption: the values shown, and the marks of inconclusive values."""
     shown = [figures[column] for _, figures in rows for _, _, columns in PANELS for column, _, _ in columns if column in figures]
     text = NOTE + (" of each run" if not seeds else ", with 95 % intervals over the seeds"
                    if any(math.isfinite(half) for _, half, _ in shown) else ", without intervals: one seed each")
@@ -75,9 +80,10 @@ def draw(path):
     words = list(dict.fromkeys(values[0] for values, _ in rows))
     numeric = all(number(word) is not None for word in words)
     place = {word: number(word) if numeric else index for index, word in enumerate(words)}  # text: evenly spaced
-    figure = drawing.Figure(figsize=(8.0, 6.5))
-    panels = figure.subplots(2, 2, sharex=True).flatten()
-    for axis, (label, factor, columns) in zip(panels, PANELS):
+    shown = PANELS + (PULL_PANELS if any(figures.get("drawbar pull [N]", (0,))[0] != 0 for _, figures in rows) else ())
+    figure = drawing.Figure(figsize=(8.0, 3.25 * len(shown) / 2))
+    panels = figure.subplots(len(shown) // 2, 2, sharex=True).flatten()
+    for axis, (label, factor, columns) in zip(panels, shown):
         for index, (name, some) in enumerate(curves(keys, rows)):
             for column, style, part in columns:
                 found = sorted((place[values[0]], factor * figures[column][0], factor * figures[column][1], figures[column][2])
@@ -95,7 +101,7 @@ def draw(path):
         if not numeric:
             axis.set_xticks(range(len(words)), words)
             axis.margins(x=0.15)
-    for axis in panels[2:]:
+    for axis in panels[-2:]:
         axis.set_xlabel(keys[0])
     panels[0].invert_yaxis()
     figure.suptitle(note(rows, seeds), fontsize=9)

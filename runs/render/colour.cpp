@@ -16,7 +16,7 @@ Colour srgb(int red, int green, int blue) {
 }
 
 std::array<std::uint8_t, 3> toSrgb(const Colour& colour) {
-  // 255 levels do not show the steps of 4096.
+  // 4096 steps are finer than the 255 levels of a picture.
   static const std::array<std::uint8_t, 4097> kCurve = [] {
     std::array<std::uint8_t, 4097> curve;
     for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -37,7 +37,7 @@ Colour groundColour() { return srgb(168, 152, 128); }
 
 namespace {
 
-/// Colour at `value`, 0 to 1, of a map of evenly spaced points; clamped.
+/// Colour at `value` in a map of evenly spaced points; `value` is clamped to 0 to 1.
 template <std::size_t kPoints> Colour mapped(const int (&map)[kPoints][3], float value) {
   constexpr int kLast = static_cast<int>(kPoints) - 1;
   const float x = kLast * std::clamp(value, 0.0f, 1.0f);

@@ -7,16 +7,16 @@
 
 namespace grouser::render {
 
-/// Throws base::InputError if the file name is not that of a film, the folder does not exist, or ffmpeg is not
+/// Throws base::InputError if the file name has no ending of a film, the folder does not exist, or ffmpeg is not
 /// installed.
 void checkFilm(const std::filesystem::path& film);
 
-/// Checks for ffmpeg only; the message begins with `word`, an option with its value.
+/// Checks only whether ffmpeg is installed; the message begins with `word`, an option with its value.
 void checkFilmProgram(const std::string& word);
 
-/// Makes a film (H.264; MP4, MKV or MOV by the file name) of PNG pictures of equal size, in this order, with ffmpeg.
-/// The complete file is renamed into place. Throws support::NotWritten with the message of ffmpeg, base::DeviceError if
-/// the machine is out of processes.
+/// Makes a film (H.264; MP4, MKV or MOV according to the file name) from PNG pictures of equal size with ffmpeg.
+/// Renames the complete file to its final name. Throws support::NotWritten with the message of ffmpeg, or
+/// base::DeviceError if no process can be started.
 void makeFilm(const std::vector<std::filesystem::path>& pictures, double framesPerSecond,
               const std::filesystem::path& film);
 

@@ -26,7 +26,7 @@ std::vector<output::StoredFrame> samplesOf(const output::FramesReader& reader) {
   return samples;
 }
 
-/// Blends a picture of the ground into the complete picture.
+/// Blends a picture of the ground with the complete picture.
 void blend(Image& all, const Image& ground) {
   constexpr int kVehiclePercent = 30;
   for (std::size_t k = 0; k < all.rgb.size(); ++k)
@@ -74,7 +74,7 @@ void FramePainter::placeCamera(const std::vector<output::StoredFrame>& samples) 
   for (const output::StoredFrame& frame : samples) {
     for (const base::Vec3f& v : frame.partVertices) all.push_back({v.as<double>(), 0});
     if (!frame.positions.empty())
-      for (const Ball& ball : seenGrains(frame.positions, frame.radii)) all.push_back(ball);
+      for (const Ball& ball : visibleGrains(frame.positions, frame.radii)) all.push_back(ball);
   }
   for (const Vec3d& v : reader_.ground().vertices) all.push_back({v, 0});
   const bool isMechanism = !samples.front().partVertices.empty() && samples.front().positions.empty();
@@ -139,7 +139,7 @@ Image FramePainter::paint(std::size_t index) const {
   const Camera camera = cameraOf(frame);
   Image image = render(scene, camera, options_.view.width, options_.view.height);
   if (ground_.hasRange() && frame.soil) {
-    // Stresses act under the vehicle: it is transparent.
+    // The vehicle is transparent, because the stresses act below it.
     scene.meshes.erase(scene.meshes.begin(), scene.meshes.end() - 1);
     blend(image, render(scene, camera, options_.view.width, options_.view.height));
   }
@@ -155,7 +155,7 @@ Image FramePainter::paint(std::size_t index) const {
     std::vector<Colour> scale;
     for (int i = 0; i < 256; ++i) scale.push_back(colours_->scaleColour(i / 255.0));
     ValueRange ends = colours_->range();
-    // Depth grows downwards.
+    // Depth increases downwards.
     if (options_.quantity == GrainQuantity::Depth)
       std::reverse(scale.begin(), scale.end()), std::swap(ends.low, ends.high);
     drawScale(image, *font_, colours_->title(), ends.low, ends.high, scale);

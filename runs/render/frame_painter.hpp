@@ -14,7 +14,7 @@ namespace grouser::render {
 
 enum class LookAt {
   Vehicle, ///< camera follows the hull
-  All,     ///< grains, ground and parts of all frames, except a few strays
+  All,     ///< grains, ground and parts of all frames, except a few distant grains
   Point
 };
 
@@ -33,14 +33,14 @@ struct FrameView {
 struct PaintOptions {
   FrameView view;
   GrainQuantity quantity = GrainQuantity::Depth;
-  GroundQuantity ground = GroundQuantity::Soil; ///< other than Soil: the vehicle is transparent
+  GroundQuantity ground = GroundQuantity::Soil; ///< the vehicle is transparent, except with Soil
   std::optional<ValueRange> range;
   Borders borders; ///< borders for files without them
   bool labels = true;
 };
 
-/// Paints frames of a file, all with the same colours and the same camera, fixed or following the vehicle. A picture
-/// depends only on the file and the options, not on the set of painted frames or the process.
+/// Renders frames of a file, all with the same colours and the same camera, which is fixed or follows the vehicle. A
+/// picture depends only on the file and the options, not on the set of rendered frames or the process.
 class FramePainter {
 public:
   /// Throws base::InputError if the file lacks the data for these options.
@@ -51,7 +51,7 @@ public:
 private:
   void placeCamera(const std::vector<output::StoredFrame>& samples);
   Camera cameraOf(const output::StoredFrame& frame) const;
-  /// Centre of the hull.
+  /// Centre of the hull in a frame.
   base::Vec3d hull(const output::StoredFrame& frame) const;
   const Borders& bordersOf(const output::StoredFrame& frame) const;
 

@@ -23,7 +23,7 @@ const std::vector<std::pair<std::string, GrainQuantity>> kQuantities = {{"depth"
 constexpr float kEmpty = -std::numeric_limits<float>::infinity();
 constexpr std::size_t kValuesTaken = 200000; ///< maximum number of values per sampled frame, for the colour range
 
-// Colours of two subdomains and of spanning grains in the source paper.
+// Colours of two subdomains and of spanning grains as in the source paper.
 Colour evenColour() { return srgb(240, 240, 238); }
 Colour oddColour() { return srgb(72, 74, 78); }
 Colour spanningColour() { return srgb(206, 34, 30); }
@@ -108,7 +108,7 @@ BedTop::BedTop(const output::StoredFrame& frame) {
     yMin = std::min(yMin, p.y), yMax = std::max(yMax, p.y);
   }
   const float radius = *std::max_element(frame.radii.begin(), frame.radii.end());
-  // A distant stray must not make the grid huge.
+  // A single distant grain must not make the grid huge.
   const double most = 4.0 * static_cast<double>(frame.positions.size()) + 64, dx = xMax - xMin, dy = yMax - yMin;
   edge_ = std::max(4.0 * double{radius}, 1e-9);
   while ((dx / edge_ + 1) * (dy / edge_ + 1) > most) edge_ *= 2;
@@ -123,7 +123,7 @@ BedTop::BedTop(const output::StoredFrame& frame) {
     float& top = at(static_cast<int>((p.x - xMin_) / edge_), static_cast<int>((p.y - yMin_) / edge_));
     top = std::max(top, p.z + frame.radii[i]);
   }
-  // From filled to empty cells, nearest first.
+  // Fills empty cells from the nearest filled cells.
   std::vector<std::pair<int, int>> front;
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column)

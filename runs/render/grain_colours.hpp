@@ -16,8 +16,8 @@ enum class GrainQuantity {
   Depth,     ///< depth of its centre below the bed surface of the first frame [m]
   Speed,     ///< [m/s]
   Subdomain, ///< subdomain of its centre
-  Role,      ///< in an even or odd subdomain, or spanning (the sphere crosses a border)
-  White      ///< none
+  Role,      ///< grain of an even or odd subdomain, or spanning (the sphere crosses a border)
+  White      ///< all grains white
 };
 
 /// Parses "depth", "speed", "subdomain", "role", "white"; throws base::InputError for other words.
@@ -31,16 +31,16 @@ Borders bordersOf(const std::vector<std::string>& words);
 
 /// Lattice indices of the subdomain of a point; points on a border belong to the upper one.
 std::array<int, 3> subdomainAt(const Borders& borders, const base::Vec3f& p_W);
-/// Whether a sphere crosses a border (touching does not count).
+/// Whether a sphere crosses a border; returns false if it only touches the border.
 bool spans(const Borders& borders, const base::Vec3f& p_W, float radius);
 
-/// The surface of the bed from the grains of one frame: the highest grain top in square cells of four radii; empty
-/// cells are filled from their neighbours.
+/// Surface of the bed, from the grains of one frame: the highest grain top in square cells four radii wide; empty cells
+/// are filled from their neighbours.
 class BedTop {
 public:
   BedTop() = default;
   explicit BedTop(const output::StoredFrame& frame);
-  /// Height [m]; 0 without grains.
+  /// Height of the surface [m]; 0 without grains.
   double height(double x, double y) const;
 
 private:
@@ -53,17 +53,17 @@ struct ValueRange {
   double low = 0, high = 1;
 };
 
-/// Colours of grains, the same for all frames.
+/// Colours of grains, equal for all frames.
 class GrainColours {
 public:
-  /// `range` of depth or speed; default: from `samples` without the lowest and highest hundredth.
+  /// `range`: range of depth or speed; default: that of `samples` without the lowest and highest hundredth.
   GrainColours(GrainQuantity quantity, const output::StoredFrame& first,
                const std::vector<output::StoredFrame>& samples, std::optional<ValueRange> range);
 
   GrainQuantity quantity() const { return quantity_; }
   bool hasRange() const { return quantity_ == GrainQuantity::Depth || quantity_ == GrainQuantity::Speed; }
   const ValueRange& range() const { return range_; }
-  /// "depth [m]"
+  /// Title of the colour scale: "depth [m]".
   std::string title() const;
   /// The colour at a position of the range, 0 to 1.
   Colour scaleColour(double place) const;

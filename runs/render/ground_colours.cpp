@@ -12,8 +12,8 @@ struct Shown {
   const char* word;
   GroundQuantity quantity;
   const char* title;
-  double scale;      ///< displayed value / SI value
-  double leastRange; ///< [m or Pa]
+  double scale;    ///< displayed value / SI value
+  double minRange; ///< [m or Pa]
 };
 constexpr Shown kShown[] = {{"sinkage", GroundQuantity::Sinkage, "sinkage [mm]", 1e3, 1e-6},
                             {"pressure", GroundQuantity::Pressure, "pressure [kPa]", 1e-3, 1},
@@ -47,7 +47,7 @@ GroundColours::GroundColours(GroundQuantity quantity, const std::vector<output::
                              std::optional<ValueRange> range)
     : quantity_(quantity) {
   if (!hasRange()) return;
-  range_ = range.value_or(ValueRange{0, shownOf(quantity).leastRange});
+  range_ = range.value_or(ValueRange{0, shownOf(quantity).minRange});
   if (range) return;
   for (const output::StoredFrame& frame : samples)
     for (std::size_t v = 0; frame.soil && v < frame.soil->sinkage.size(); ++v) {

@@ -22,7 +22,7 @@ enum class GroundQuantity {
 /// Parses "sinkage", "pressure" or "shear"; empty for other words.
 std::optional<GroundQuantity> groundQuantity(const std::string& word);
 
-/// Colours of deformable soil, the same for all frames.
+/// Colours of deformable soil, equal for all frames.
 class GroundColours {
 public:
   explicit GroundColours(GroundQuantity quantity = GroundQuantity::Soil) : quantity_(quantity) {}

@@ -14,7 +14,7 @@
 namespace grouser::render {
 
 void writePng(const Image& image, const std::filesystem::path& path) {
-  // The library's file functions do not report a full disk.
+  // The file functions of the image library do not report a full disk.
   std::ofstream file(path, std::ios::binary);
   const auto take = [](void* to, void* bytes, int count) {
     static_cast<std::ofstream*>(to)->write(static_cast<const char*>(bytes), count);

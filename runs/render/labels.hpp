@@ -12,7 +12,7 @@
 /// Text and colour scales on a finished picture. Sizes are proportional to the height of the picture.
 namespace grouser::render {
 
-/// DejaVu Sans, which is embedded in the program at build time.
+/// Font DejaVu Sans, embedded in the program at build time.
 class Font {
 public:
   Font();
@@ -30,18 +30,18 @@ private:
   std::unique_ptr<Data> data_;
 };
 
-/// A line of text in the upper left corner.
+/// Draws a line of text in the upper left corner.
 void drawCaption(Image& image, const Font& font, const std::string& text);
 
-/// A vertical colour scale at the right with round tick labels. `colours` from bottom to top, at the values `bottom`
-/// and `top`; either may be the higher one.
+/// Draws a vertical colour scale with round tick labels at the right. `colours`: from bottom to top. `bottom`, `top`:
+/// values at the ends; either may be larger.
 void drawScale(Image& image, const Font& font, const std::string& title, double bottom, double top,
                const std::vector<Colour>& colours);
 
-/// A scale bar of round length in the lower left corner, about a sixth of the picture wide. `perMetre`: pixels.
+/// Draws a scale bar of round length in the lower left corner, about 1/6 of the picture wide. `perMetre`: [pixels/m].
 void drawLength(Image& image, const Font& font, double perMetre);
 
-/// Legend of colours in the upper right corner.
+/// Draws a legend of colours in the upper right corner.
 void drawLegend(Image& image, const Font& font, const std::string& title,
                 const std::vector<std::pair<Colour, std::string>>& entries);
 

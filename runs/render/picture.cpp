@@ -16,10 +16,10 @@ using base::Vec3d;
 
 namespace {
 
-constexpr double kVehicleTight = 0.8; ///< visible fraction of the bounding ball
-constexpr double kWholeBed = 2.6;     ///< ratio of distances up to which the picture shows the whole bed
-constexpr double kBackground = 6;     ///< size ratio above which a surface is background and ignored by the camera
-constexpr double kFlat = 0.2;         ///< height over radius of parts that lie flat [-]
+constexpr double kVehicleTight = 0.8; ///< visible fraction of the bounding sphere
+constexpr double kWholeBed = 2.6;     ///< ratio of camera distances up to which the picture shows the whole bed
+constexpr double kBackground = 6;     ///< size ratio above which the camera ignores a surface as background
+constexpr double kFlat = 0.2;         ///< maximum height / radius of flat parts [-]
 constexpr double kAspect = 16.0 / 9;
 constexpr int kScaleColours = 256;
 
@@ -52,13 +52,13 @@ Colour partColour(output::PartKind kind) {
 
 namespace {
 
-/// Colour of grains or fluid particles at a position of the range of heights, 0 to 1.
+/// Colour of grains or fluid particles at a position in the range of heights, 0 to 1.
 Colour grainColour(const output::Frame& frame, float place) {
   return frame.fluid ? heightColour(place) : soilColour(place);
 }
 
-/// Lowest height and range of the colours, without the lowest and highest hundredth, so that single thrown grains do
-/// not matter.
+/// Lowest height and range of the colours, without the lowest and highest hundredth, so that single thrown grains have
+/// no effect.
 std::pair<float, float> heightScale(const output::Frame& frame) {
   std::vector<float> heights;
   for (const base::Vec3f& p : frame.positions) heights.push_back(p.z);
@@ -69,7 +69,7 @@ std::pair<float, float> heightScale(const output::Frame& frame) {
 
 } // namespace
 
-std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii) {
+std::vector<Ball> visibleGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii) {
   const std::size_t count = positions.size(), cut = count / 100;
   Vec3d low, high;
   for (int k = 0; k < 3; ++k) {
@@ -102,7 +102,7 @@ Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, d
 
 namespace {
 
-/// Includes the corners of surfaces that are not background, starting from the smallest.
+/// Adds the corners of surfaces that are not background, starting with the smallest surface.
 std::vector<Ball> withSurfaces(std::vector<Ball> seen, std::vector<std::vector<Vec3d>> surfaces) {
   const auto radiusOf = [](const std::vector<Vec3d>& corners) {
     Box box;
@@ -166,14 +166,14 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
     scene.meshes.push_back({ground, {}, groundColour(), false, {}});
   Camera camera;
   std::vector<Ball> seen;
-  if (!frame.positions.empty()) seen = seenGrains(frame.positions, frame.radii);
+  if (!frame.positions.empty()) seen = visibleGrains(frame.positions, frame.radii);
   if (!vehicle.empty()) {
     if (frame.soil) seen = cornersOf(scene.meshes.back().mesh);
     const double azimuth = frame.soil ? kRutAzimuth : kAzimuth;
     const double elevation = frame.soil ? kRutElevation : liesFlat(vehicle) ? kFlatElevation : kVehicleElevation;
     camera = cameraOnParts(vehicle, azimuth, elevation, kAspect);
     if (frame.soil) camera.eye = camera.target + (camera.eye - camera.target) * kRutDistance;
-    // A bed of a few vehicle lengths is shown whole; a larger one fills the picture.
+    // The picture shows a bed of a few vehicle lengths completely; a larger bed fills the picture.
     if (!seen.empty()) {
       for (const base::Vec3f& v : vehicle) seen.push_back({v.as<double>(), 0});
       const Camera whole = cameraAround(seen, azimuth, elevation, kAspect);

@@ -15,19 +15,19 @@ inline constexpr double kRutElevation = 24, kRutAzimuth = -140, kRutDistance = 1
 
 Colour partColour(output::PartKind kind);
 
-/// The grains of a picture of the bed, without strays: grains whose distance from the middle 98 % of the grains on any
-/// axis exceeds the width of these; none with less than 100 grains.
-std::vector<Ball> seenGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii);
+/// Grains of a picture of the bed, without distant grains: a grain is distant if along any axis its distance from the
+/// middle 98 % of the grains exceeds the width of these 98 %. With less than 100 grains, all grains.
+std::vector<Ball> visibleGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii);
 
-/// Whether parts spread in the horizontal plane only, as a mechanism that moves in x and y does.
+/// Whether the parts extend in the horizontal plane only, e.g. a mechanism that moves along x and y.
 bool liesFlat(const std::vector<base::Vec3f>& vertices);
 
-/// A camera filled by the parts; their farthest corners may be outside.
+/// Camera in which the parts fill the picture; their farthest corners may be outside.
 Camera cameraOnParts(const std::vector<base::Vec3f>& vertices, double azimuth, double elevation, double aspect);
 
-/// Picture of a frame: grains coloured by height, parts by kind, filled by the vehicle or else by all grains except
-/// strays; seen from the front right above. Aspect ratio 16:9. `labels`: time, height scale of the grains, and a scale
-/// bar at the distance of the camera's target; none in pictures narrower than kNarrowestLabelled.
+/// Picture of a frame, seen from the front right above: grains coloured by height, parts by kind. The vehicle fills the
+/// picture, or else all grains except distant ones. Aspect ratio 16:9. `labels`: time, height scale of the grains, and
+/// a scale bar at the distance of the camera's target; no labels in pictures narrower than kNarrowestLabelled.
 Image drawFrame(const output::Frame& frame, const std::vector<output::FramePart>& parts,
                 const base::TriangleMesh& ground, int width, bool labels = true);
 inline constexpr int kNarrowestLabelled = 480; // [pixels]

@@ -18,7 +18,7 @@ using detail::View;
 
 namespace {
 
-constexpr int kSubpixels = 2; ///< per pixel and axis
+constexpr int kSubpixels = 2; ///< number of samples per pixel and axis
 constexpr int kShadowPixels = 2048;
 constexpr int kOcclusionTaps = 16;
 constexpr float kNear = 0.002f;                          ///< near plane / distance of the target
@@ -131,7 +131,7 @@ std::vector<float> openness(const Surfaces& s, float reach) {
   return open;
 }
 
-/// Mean over the 4 x 4 pattern, pixels of similar depth only.
+/// Mean over the 4 x 4 pattern, including only pixels of similar depth.
 float smoothed(const Surfaces& s, const std::vector<float>& open, int column, int row, float reach) {
   const float depth = s.depth[s.index(column, row)];
   float sum = 0, count = 0;
@@ -164,7 +164,7 @@ Colour background(int row, int height) {
   return kZenith * (1 - t) + kHorizon * t;
 }
 
-/// Range of ambient occlusion: a few grains, or a fraction of the visible size.
+/// Reach of ambient occlusion: a few grain radii, or a fraction of the visible size.
 float occlusionReach(const RenderScene& scene, const Ball& ball) {
   float grain = 0;
   for (const RenderSphere& s : scene.spheres) grain = std::max(grain, s.radius);
@@ -193,7 +193,7 @@ Camera cameraAround(const std::vector<Ball>& balls, double azimuth, double eleva
   const Vec3d right = normalized(cross(camera.up, towardsEye)), up = cross(towardsEye, right);
   const double tanUp = base::tan(0.5 * camera.fieldOfView * base::kPi / 180) / kMargin, tanRight = tanUp * aspect;
   camera.target = (low + high) * 0.5;
-  // A ball at (x, z), z towards the eye, lies within the half angle a of an eye at distance d where
+  // A ball at (x, z), z towards the eye, is within the half angle a of an eye at distance d if
   // |x| cos a + r <= (d - z) sin a.
   double distance = 0;
   for (const Ball& b : balls) {

@@ -16,7 +16,7 @@ struct Camera {
   double fieldOfView = 35;                        ///< vertical [deg]
 };
 
-/// A camera that shows the whole sphere, from `azimuth` [deg] about z (0 is +x) and `elevation` [deg] above the
+/// Camera that shows the whole sphere, from `azimuth` [deg] about z (0 along +x) and `elevation` [deg] above the
 /// horizon.
 Camera cameraTowards(const base::Vec3d& centre, double radius, double azimuth, double elevation, double aspect);
 
@@ -25,11 +25,10 @@ struct Ball {
   double radius{};    ///< [m]
 };
 
-/// The nearest camera that targets the middle of `balls` and shows all of them with a margin. `balls` must not be
-/// empty.
+/// Nearest camera that targets the middle of `balls` and shows all of them with a margin. `balls` must not be empty.
 Camera cameraAround(const std::vector<Ball>& balls, double azimuth, double elevation, double aspect);
 
-/// The scene as seen by the camera, four samples per pixel.
+/// Picture of the scene as seen by the camera, with four samples per pixel.
 Image render(const RenderScene& scene, const Camera& camera, int width, int height);
 
 } // namespace grouser::render

@@ -18,10 +18,10 @@ struct RenderSphere {
 
 struct RenderMesh {
   base::TriangleMesh mesh;
-  base::Pose pose; ///< X_WB
+  base::Pose pose; ///< pose of the body in the world, X_WB
   Colour colour;
   bool oneSided = false; ///< invisible from behind: the near wall of a container does not hide its contents
-  std::vector<Colour> vertexColours = {}; ///< per vertex, instead of `colour`; empty: one colour
+  std::vector<Colour> vertexColours = {}; ///< colours of the vertices, instead of `colour`; empty: one colour
 };
 
 struct RenderScene {

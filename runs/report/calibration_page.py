@@ -40,7 +40,7 @@ def aim(wanted, tolerance, name):
 
 
 def doubt(outcome):
-    """Reservation about a verdict, which considers the value only, not its error bar."""
+    """Note on a verdict, because the verdict considers only the value, not its error bar."""
     bar = outcome.reached.half_width
     if outcome.verdict != "reached" or bar <= outcome.tolerance:
         return ""
@@ -53,7 +53,7 @@ def targets(found):
                  with_bar(o.reached.value, bar_of(o.reached), "", f"{o.what} reached"), esc(o.reached.unit),
                  f"<strong>{esc(VERDICTS.get(o.verdict, o.verdict))}</strong>{doubt(o)}"] for o in found.outcomes]
         return table(["quantity", "target \u00b1 tolerance", "result \u00b1 error bar", "unit", "verdict"], rows,
-                     "Error bar: half of the 95 % interval over the tests. Reached: the value is within the "
+                     "Error bar: half width of the 95 % interval over the tests. Reached: the value is within the "
                      "tolerance. The large plate is validation only, not part of the search.", numeric=(1, 2))
     aims = [*found.json["targets"]]
     if pressure := found.json.get("pressure"):
@@ -61,7 +61,7 @@ def targets(found):
     rows = [[f"<em>{esc(one['quantity'])}</em>", esc(MEANING.get(one["quantity"], "")),
              aim(one["wanted"], math.nan if one["tolerance"] is None else one["tolerance"], one["quantity"]), esc(one["unit"])] for one in aims]
     return table(["quantity", "definition", "target \u00b1 tolerance", "unit"], rows,
-                 "Quantities without tolerance are compared only, or define the sinkage of the pressure target.",
+                 "Quantities without tolerance are only compared, or define the sinkage of the pressure target.",
                  numeric=(2,))
 
 
@@ -76,7 +76,7 @@ def state(found):
 
 
 def varied(found):
-    """Material keys that differ between trials, and those that do not."""
+    """Material keys that differ between trials, and keys that are equal in all trials."""
     keys = list(dict.fromkeys(key for trial in found for key in trial.parameters))
     values = {key: {trial.parameters.get(key) for trial in found} for key in keys}
     return [key for key in keys if len(values[key]) > 1], [key for key in keys if len(values[key]) == 1]
@@ -100,7 +100,7 @@ def trials_table(found, program):
     headings = ["trial", *(f"{key.replace('_', ' ')} [{units[key]}]" for key in changed),
                 *(f"{words} [{unit_of[name]}]" for name, words in there)]
     sinkages = {round(trial.measured["sinkage"].value, 9) for trial in found if "sinkage" in trial.measured}
-    words = "In chronological order; \u00b1 half of the 95 % interval over the seeds."
+    words = "In chronological order; \u00b1 half width of the 95 % interval over the seeds."
     if len(sinkages) == 1:
         words += f" Pressure of the small plate at a sinkage of {number(sinkages.pop(), 'mm', 'sinkage')}."
     told = facts([(key.replace("_", " "), parameter(found.trials[0].parameters[key], units[key], f"all {key}"))
@@ -110,13 +110,13 @@ def trials_table(found, program):
 
 
 def over_trials(found, value):
-    """(trial numbers, `value` of each), for trials that have one."""
+    """(trial numbers, `value` of each), for trials that have this value."""
     points = [(k + 1, value(trial)) for k, trial in enumerate(found)]
     return zip(*[(k, v) for k, v in points if v is not None]) if any(v is not None for _, v in points) else ((), ())
 
 
 def search_plots(made, found, program):
-    """Measured and changed quantities over the number of the trial."""
+    """Plots of measured and changed quantities over the trial number."""
     inner, wanted, count = [], wanted_of(found), len(found)
     across = [0.5, count + 0.5]
     for name, words in MEASURED:
@@ -124,11 +124,11 @@ def search_plots(made, found, program):
         if not numbers:
             continue
         curves = [("measured", list(numbers), [v.value for v in values], [bar_of(v) or 0.0 for v in values])]
-        told = "Bars: 95 % over the seeds."
+        told = "Bars: 95 % intervals over the seeds."
         if name in wanted:
             aim, tolerance = wanted[name]
             curves.append(("wanted", across, [aim] * 2, [tolerance or 0.0] * 2))
-            told += " Band: tolerance." if tolerance else " Compared only, not a target."
+            told += " Band: tolerance." if tolerance else " Only compared, not a target."
         title = f"{name}: {MEANING[name]}" if name == words else words[:1].upper() + words[1:]
         inner.append(made.plot(title, "trial [-]", f"{words} [{values[0].unit}]", curves, told, marks=["measured"],
                                whole=True))
@@ -163,7 +163,7 @@ def measured_plates(made, found):
         drawn = [(f"bed {seed}", *map(list, zip(*line))) for seed, line in lines.items()]
         drawn.append(("measured", list(means), [m for m, _ in means.values()], [d for _, d in means.values()]))
         plots.append(made.plot(f"Plate of {1e3 * float(diameter):g} mm", "sinkage [mm]", "pressure [kPa]", drawn,
-                               "Measured: mean of the tests, bars: one standard deviation.", marks=["measured"],
+                               "Measured: mean of the tests; bars: one standard deviation.", marks=["measured"],
                                whole=True))
     return f'<div class="plots">{"".join(plots)}</div>'
 

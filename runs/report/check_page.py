@@ -12,7 +12,7 @@ import run_page
 from grouser.series import counted
 from page import esc, facts, figure_with_bar, folded, number, table, term, with_bar
 
-MOST_FIGURES = 24  # headline figures first; the rest is folded
+MOST_FIGURES = 24  # maximum number shown, headline figures first; the others are folded
 VERDICTS = {"not shown": "inconclusive"}  # page text by verdict of check.json
 
 
@@ -32,7 +32,7 @@ def headlines(check):
 
 
 def main_figures(check):
-    """The headline figures, or all if there are none."""
+    """The headline figures, or all figures if no headline figures exist."""
     return [figure for figure in check if figure.name in headlines(check)] or list(check)
 
 
@@ -47,8 +47,9 @@ def figures(check):
         for figure in check]
     headings = ["figure", "value and 95 % error bar", "unit", "bar of the seeds", "seeds",
                 *(a.replace("_", " ") for a in axes)]
-    words = (f"The error bar combines seeds and all axes run. Further columns: change by each axis, \u00b1 half of its "
-             f"95 % interval, and whether that is within {number(check.json.get('bar_percent'))} % of the value.")
+    words = ("The error bar combines the seeds and all axes that were run. Further columns: change by each axis, \u00b1 "
+             "half width of its 95 % interval, and whether the change is within "
+             f"{number(check.json.get('bar_percent'))} % of the value.")
     words += definitions.note({figure.name: [figure.bar.value] for figure in check})
     first = [row for is_headline, row in rows if is_headline][:MOST_FIGURES]
     rest = [row for _, row in rows if row not in first]
@@ -58,7 +59,7 @@ def figures(check):
 
 
 def goals(check):
-    """Error bars requested by --of, and the largest part of each."""
+    """Error bars requested by --of, and the largest contribution to each."""
     rows = []
     for one in check.json.get("of", []):
         name, unit = grouser.series.split_unit(one["figure"])
@@ -115,7 +116,7 @@ def bands(made, check):
         more, cut = run_page.within([(name, ends, s)], low - reach, high + reach)
         inner.append(made.plot(name, "time [s]", f"{name.rpartition('.')[2].replace('_', ' ')} [{s.unit}]",
                                [(name, s.time[rows], s.value[rows], half[rows])],
-                               f"Band: 95 %, seeds and step as far as they were run.{cut}{note}", **more))
+                               f"Band: 95 % interval from seeds and time step, if they were run.{cut}{note}", **more))
     return f'<div class="plots">{"".join(inner)}</div>'
 
 
@@ -131,12 +132,12 @@ def costs(made, check):
                      number(c.get("steps")), esc("; ".join(case["overrides"])), esc(case.get("message", ""))])
     inner = cheapest(check) + table(
         ["case", "description", "status", "wall time [s]", "CPU time [s]", "steps", "changed keys", "message"], rows,
-        "Median per run of each case.", numeric=(3, 4, 5))
+        "Medians over the runs of each case.", numeric=(3, 4, 5))
     return inner + error_over_time(made, check, cost)
 
 
 def cheapest(check):
-    """Cheapest settings for error bars of 10, 5 and 1 %, and the total wall time of their runs."""
+    """Cheapest settings for error bars of 10, 5 and 1 %, and the total wall time of the runs they require."""
     file = check.folder / "costs.json"
     told = grouser.files.read_json(file, "costs of a check").get("cheapest", [])
     percents = list(dict.fromkeys(key for row in told for key in row if key != "figure"))
@@ -145,21 +146,22 @@ def cheapest(check):
     def cell(row, percent):
         one = row.get(percent)
         if not one:
-            return "none of those run"
+            return "none of the tested settings"
         seeds = f", {counted(one['seeds'], 'seed')}" if check.json.get("seeds_matter") else ""
         name = f"{row['figure']} {percent}"
         return f"{esc(one['case'].replace('_', ' '))}{seeds}: {number(one['wall_s'], 's', name, 3)}"
     rows = [[esc(grouser.series.split_unit(row["figure"])[0]), *(cell(row, percent) for percent in percents)]
             for row in told]
     return table(["figure", *(f"error bar {percent}" for percent in percents)], rows,
-                 "Cheapest settings for each error bar (percent of the value), and the total wall time of their runs.")
+                 "Cheapest settings for each error bar (percent of the value), and the total wall time of the runs "
+                 "they require.")
 
 
 def error_over_time(made, check, cost):
     """Error bar of the time step over wall time, one curve per figure."""
     drawn, names = [], {figure.name for figure in main_figures(check)}
     for one in check.json["figures"]:
-        if grouser.series.split_unit(one["name"])[0] not in names:  # such as figures that differ only by rounding
+        if grouser.series.split_unit(one["name"])[0] not in names:  # e.g. figures that differ only by rounding
             continue
         value = one["value"]
         points = sorted((cost[name]["wall_s"], 100 * abs(bar / value)) for name, bar in
@@ -173,7 +175,7 @@ def error_over_time(made, check, cost):
 
 def runs_of(check, case):
     """Folders of the finished runs of a case."""
-    plain = check.folder / case["name"]  # without seeds
+    plain = check.folder / case["name"]  # folder of a case without seeds
     return [plain if plain.is_dir() and not seeded.is_dir() else seeded for run in case["runs"]
             if run.get("status", "finished") in ("finished", "incomplete")
             for seeded in [check.folder / f"{case['name']},seed={run['seed']}"]]

@@ -10,11 +10,11 @@ MOST_LISTED = 10
 def open_whole(folder):
     """The run in a folder. FileError if one of its files is missing or unreadable."""
     if not folder.is_dir():
-        raise grouser.FileError(f"{folder}: the folder is missing; run it again or restore it from a copy")
+        raise grouser.FileError(f"{folder}: the folder is missing; repeat the run or restore the folder from a copy")
     missing = [name for name in NEEDED if not (folder / name).is_file()]
     if missing:
-        raise grouser.FileError(f"{folder}: {' and '.join(missing)} missing; run it again or restore the files from a "
-                                "copy")
+        raise grouser.FileError(f"{folder}: {' and '.join(missing)} missing; repeat the run or restore the files from "
+                                "a copy")
     try:
         (folder / "scene.toml").read_text(encoding="utf-8")
     except ValueError as error:
@@ -41,7 +41,7 @@ def damaged(file):
 
 
 def without_frames(run):
-    """Why a run has no frames; "" if it has some."""
+    """Reason why a run has no frames; "" if it has frames."""
     if run.frames is not None and len(run.frames):
         return ""
     if not run.scene.get("output", {}).get("frames", True):
@@ -51,7 +51,7 @@ def without_frames(run):
 
 
 def fault_of(folder):
-    """Message about missing or damaged files of a finished run; "" if there are none."""
+    """Message about missing or damaged files of a finished run; "" if all files are intact."""
     try:
         with open_whole(folder) as run:
             why = without_frames(run)

@@ -24,8 +24,8 @@ FIGURES = {
     "motion resistance": ("motion resistance", "gross traction - net thrust along the ground: soil resistance, losses "
                           "in the running gear, inertia of rotating parts; undefined in a pivot turn"),
     "drive work": ("drive work", "work of all drives up to the end of the run"),
-    "integration error": ("integration error", "energy lost by time integration until the end (negative: gained)"),
-    "impulse residual": ("impulse residual", "impulse on the vehicle minus its change of momentum: rounding"),
+    "integration error": ("integration error", "energy lost by time integration during the run (negative: gained)"),
+    "impulse residual": ("impulse residual", "impulse on the vehicle minus its change of momentum (rounding error)"),
     "pull over weight": ("pull over weight", "drawbar pull / weight of the vehicle"),
     "mu W": ("mu W", "friction coefficient x weight of the vehicle: maximum friction force"),
     "rate of turn": ("rate of turn", "rate of turn of the hull about the vertical, left positive"),
@@ -47,7 +47,7 @@ ABOVE_SURFACE = "Negative sinkage: the grousers hold the pads above the undistur
 
 
 def note(figures):
-    """Note on surprising values of {figure: its values}; "" if there are none."""
+    """Note on unexpected values of {figure: values}; "" if all values are as expected."""
     return f" {ABOVE_SURFACE}" if any(value < 0 for value in figures.get("sinkage mean", ())) else ""
 
 

@@ -19,7 +19,7 @@ def known(value):
 
 
 def causes(row):
-    """Verdict and reason of each run, one line per run; of the whole row in files without verdicts of single runs."""
+    """Verdict and reason of each run, one line per run; of the whole row if the file has no verdicts of single runs."""
     more = [f"{row[what]} {what}" for what in ("failed", "incomplete", "pending") if row.get(what)]
     if not row.get("each"):
         return esc("; ".join([row["why"], *more] if row["why"] else more))
@@ -39,7 +39,7 @@ def verdicts(rows):
     lines = [[esc(row["title"]), level_of(row), esc(row["level_is"]), f"<strong>{esc(row['verdict'])}</strong>",
               causes(row)] for row in rows]
     return table(["event", "level", "meaning of the level", "verdict", "runs and reasons"], lines,
-                 "Go 2/3: two of three runs pass (they differ by the seed of the bed). Partly: some pass, some fail.",
+                 "2/3: two of three runs (beds with different seeds) pass. Partly: some runs pass, others fail.",
                  numeric=(1,))
 
 
@@ -49,8 +49,8 @@ def limits(found, titles):
               "" if limit["agrees"] is None else "agrees" if limit["agrees"] else "does not agree"] for limit in found]
     return table(["event", "meaning of the level", "hardest go", "easiest no-go", "expected (geometry, friction)",
                   "agreement"], lines,
-                 "Hardest go: all runs pass at this and all easier levels. Easiest no-go: at least one run fails. "
-                 "None: no such level was run.", numeric=(2, 3)) if lines else ""
+                 "Hardest go: all runs pass at this level and at all easier levels. Easiest no-go: at least one run "
+                 "fails at this level. None: no such level was run.", numeric=(2, 3)) if lines else ""
 
 
 def by_event(rows):
@@ -83,9 +83,9 @@ def figures(rows, drawn):
         across = [f"{row['level']:g}" if row["level"] is not None else "measured" for row in of]
         seeds = sorted({figure["runs"] for row in of for figure in row["figures"]})
         told = f"Levels: {esc(level)}. " if level else ""
-        what = "interval of 95 % of further draws of the constants, from" if drawn else "95 % interval over"
-        told += f"\u00b1 half of the {what} {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
-            "One run each: no error bars."
+        what = "95 % prediction interval for one more draw of the constants, from" if drawn else "95 % interval over"
+        told += f"\u00b1 half width of the {what} {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
+            "One run per level: no error bars."
         told += definitions.note({grouser.series.split_unit(figure["name"])[0]: [known(figure["mean"])]
                                   for row in of for figure in row["figures"]})
         inner.append(f"<h3>{esc(title)}</h3>" + table(["figure", "unit", *across], lines, told,
@@ -105,9 +105,9 @@ def plots(made, rows):
     for (_, title, level, name), points in curves.items():
         if len(points) > 1:
             levels, means, halves = (list(column) for column in zip(*sorted(points)))
-            told = "Mean over the runs of a level; bar: 95 % interval (if several runs)."
+            told = "Mean over the runs of a level; bars: 95 % intervals, if there are several runs."
             if not any(map(math.isfinite, halves)):
-                told = "One point per level; no error bars: one run each."
+                told = "One point per level, without error bars: one run per level."
             columns = [levels, means, [half if math.isfinite(half) else math.nan for half in halves]]
             across = level if "[" in level else f"{level} [-]"
             plain = grouser.series.split_unit(name)[0]
@@ -118,7 +118,7 @@ def plots(made, rows):
 
 
 def runs_of(folder, row):
-    """Folders of the runs of a level with a verdict; in files without these, the folder of the picture."""
+    """Folders of the runs with a verdict at a level; if the file lists no runs, the folder of the picture."""
     told = [run["run"] for run in row.get("each", []) if run["verdict"] != "failed"]
     return [folder / name for name in told or [row.get("picture", "").rpartition("/")[0]] if name]
 
@@ -134,7 +134,7 @@ def page(folder, options):
     coarse = '<p class="bad">WARNING: coarse settings (<code>--quick</code>).</p>' if events.get("quick") else ""
     made.section("figures", "Go or no-go", coarse + verdicts(rows) + left_out)
     made.section("limits", "Limits", limits(events.get("limits", []), {row["event"]: row["title"] for row in rows}))
-    made.section("pictures", "Pictures", "".join(  # one below the other: they are wide
+    made.section("pictures", "Pictures", "".join(  # in a column, because they are wide
         pages.picture(folder / name, words) for name, words in (("pictures.png", "All events"),
                                                                 ("events.png", "Figures over the levels"),
                                                                 ("drawbar.png", "Drawbar pull over slip"))))

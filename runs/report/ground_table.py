@@ -9,7 +9,7 @@ UNSHOWN = ("steady from", "teeth passed", "integration error", "impulse residual
 
 
 def section(folder):
-    """HTML; empty if the folder holds no comparison."""
+    """HTML; empty if the folder contains no comparison."""
     file = folder / "compare.json"
     if not file.is_file():
         return ""
@@ -24,12 +24,12 @@ def section(folder):
                   for g in compared["variants"] if g["wall_time_s"] is not None])
     means = table(["figure", *variants], [[esc(row["figure"]), *(cell(mean["mean"], mean["half_width"]) for mean in row["means"])]
                                          for row in rows],
-                  "Means over the steady part, \u00b1 half of the 95 % interval over the seeds (if several).",
+                  "Means over the steady part, \u00b1 half width of the 95 % interval over the seeds (if several).",
                   numeric=range(1, 1 + len(variants)))
     pairs = [[esc(row["figure"]), f"{esc(d['to'])} \u2212 {esc(d['from'])}", cell(d["change"], d["half_width"]), esc(d["verdict"])]
              for row in rows for d in row["differences"]]
-    words = (f"Equal: the 95 % interval lies within {compared['bar_percent']:g} % of the larger mean; differs: "
-             "outside; inconclusive: otherwise.")
+    words = (f"Equal: the 95 % interval is within {compared['bar_percent']:g} % of the larger mean; differs: "
+             "the interval is outside; inconclusive: otherwise.")
     return told + means + folded("Differences", table(["figure", "variants", "difference", "verdict"], pairs, words, numeric=(2,)),
                                  opened=True)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The frame of a report: sections, tables, plots, and the self-contained HTML file."""
+"""Framework of a report: sections, tables, plots, and the self-contained HTML file."""
 import base64
 import html
 import json
@@ -45,7 +45,7 @@ def shown(value, digits=5):
     if abs(value) < NOTHING:
         return "0"
     text = f"{value:.{digits}g}"
-    if "e" in text and 1e-4 <= abs(value) < 1e6:  # digits beyond those requested are zeros
+    if "e" in text and 1e-4 <= abs(value) < 1e6:  # digits beyond the requested ones are zeros
         text = f"{float(text):.0f}"
     if "e" not in text:
         return text.replace("-", "\u2212")
@@ -218,7 +218,7 @@ class Page:
 
     @staticmethod
     def script(text):
-        """Text of a script for inlining: without closing tags and source map references."""
+        """Text of a script for inlining, without closing tags and source map references."""
         lines = (line for line in text.split("\n") if not line.startswith("//# sourceMappingURL"))
         return "\n".join(lines).replace("</script", "<\\/script").replace("<!--", "<\\!--")
 
@@ -240,9 +240,9 @@ def licences(named):
 
 
 def thinned(count, most=MOST_ROWS):
-    """The rows of `count` that a curve shows, and a note about it."""
+    """Indices of the rows, out of `count`, that a curve shows, and a note if rows are omitted."""
     every = max(1, math.ceil(count / most))
     rows = numpy.arange(0, count, every)
     if count and rows[-1] != count - 1:
         rows = numpy.append(rows, count - 1)
-    return rows, "" if every == 1 else f" Every {every}th of {count} rows is drawn."
+    return rows, "" if every == 1 else f" The plot shows every {every}th of {count} rows."

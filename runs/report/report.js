@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Unpacks the arrays of the page, draws the plots with dygraphs, and handles their keys.
+// Unpacks the arrays of the page, draws the plots with dygraphs, and handles keyboard input of the plots.
 "use strict";
 
 const report = { arrays: {}, plots: [], space: null, ready: false };
@@ -9,7 +9,7 @@ report.palette = {
   light: ["#0072b2", "#c44e00", "#007a58", "#a8457d", "#7a6000", "#1a1a1a", "#3b6fd8"],
   dark: ["#56b4e9", "#f09a3e", "#2bc79a", "#e78fc0", "#f0e442", "#ffffff", "#9db8ff"],
 };
-// One fewer than the colours, so that more combinations of colour and dash differ.
+// One dash pattern fewer than colours, so that more curves differ in colour or dash.
 report.dashes = [null, [7, 3], [2, 2], [9, 3, 2, 3], [12, 4], [5, 2, 2, 2, 2, 2]];
 
 report.isDark = function () {

@@ -29,12 +29,12 @@ KINDS = (("check.json", "check"), ("events.json", "series of events"), ("calibra
 
 
 def kind_of(folder):
-    """Kind of results in a folder, by its main file; None if there is none."""
+    """Kind of results in a folder, by its main file; None if the folder has no main file."""
     return next((kind for file, kind in KINDS if (folder / file).is_file()), None)
 
 
 def instead(folder):
-    """Advice for a folder without results: subfolders that have some, or the expected files."""
+    """Advice for a folder without results: subfolders with results, or the expected files."""
     try:
         there = sorted(inner for inner in folder.iterdir() if inner.is_dir() and kind_of(inner))
     except OSError as error:
@@ -43,8 +43,8 @@ def instead(folder):
         return "results.h5 of this run is missing; run it again or restore the file from a copy"
     if there:
         more = f" and {len(there) - 3} more" if len(there) > 3 else ""
-        return (f"use a subfolder: {', '.join(str(inner) for inner in there[:3])}{more} (sweeps, checks, events and "
-                "soil tests get their own page once their tables are written)")
+        return (f"use a subfolder: {', '.join(str(inner) for inner in there[:3])}{more} (the page of a sweep, "
+                "check, set of events or soil test requires that its tables have been written)")
     return f"expected one of {', '.join(file for file, _ in KINDS)}"
 
 
@@ -79,7 +79,7 @@ def put(text, file):
 
 
 def check_places(options):
-    """Checks the options before anything is read."""
+    """Checks the options before any file is read."""
     import run_page
     if not options.page.parent.is_dir():
         end(WRONG, f"--out {options.page}: folder {options.page.parent} does not exist; create it or choose another")
@@ -106,15 +106,15 @@ def make(options):
     try:
         import grouser
     except ImportError:
-        end(packages.MISSING, "the Python package grouser is missing; it is installed with the program: set "
-                              "PYTHONPATH to its folder")
+        end(packages.MISSING, "the Python package grouser, installed with the program, is missing; set PYTHONPATH to "
+                              "the folder that contains it")
     check_places(options)
     try:
         kind = kind_of(options.folder)
     except OSError as error:
-        end(WRONG, f"{options.folder}: cannot be read: {error.strerror}; fix this or choose another folder")
+        end(WRONG, f"{options.folder}: cannot be read: {error.strerror}; correct this, or choose another folder")
     if kind is None:
-        end(WRONG, f"{options.folder}: holds no results; {instead(options.folder)}")
+        end(WRONG, f"{options.folder}: contains no results; {instead(options.folder)}")
     try:
         options.figures = json.loads(options.figures.read_text(encoding="utf-8")) if options.figures else {}
         text = contents(options.folder, kind, options).html()

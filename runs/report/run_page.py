@@ -20,7 +20,7 @@ from grouser.series import counted
 from page import NOTHING, esc, exact, facts, figure_with_bar, folded, number, run_name, table, term
 
 LARGEST_FILM = 4e6  # maximum size of embedded films [bytes]; larger ones are only listed
-MOST_BESIDE = 4  # ledgers side by side
+MOST_BESIDE = 4  # maximum number of ledgers side by side
 FILMS = {".mp4": "video/mp4", ".webm": "video/webm", ".mov": "video/mp4", ".gif": "image/gif"}
 #: Signatures of film files: (offset, bytes).
 BEGINNINGS = ((4, b"ftyp"), (4, b"moov"), (4, b"mdat"), (4, b"wide"), (0, b"\x1aE\xdf\xa3"), (0, b"GIF8"))
@@ -56,7 +56,7 @@ LEDGER = ("drive_work", "kinetic", "potential", "elastic", "dissipated", "dissip
           "integration_error", "residual", "turnover")
 ENDINGS = {unit: unit for unit in ("s", "m", "J", "kg")}  # unit by name ending in manifest.json
 #: First words of the warning about a run that has not finished, by status.
-ENDED = {"running": "WARNING: this run is still running or was killed; the page shows what it has written so far.",
+ENDED = {"running": "WARNING: this run is still running or was killed; the page shows the data written so far.",
          "incomplete": "WARNING: this run is incomplete:", "failed": "WARNING: this run failed:",
          "stopped": "WARNING: this run was stopped before its end; --resume continues it."}
 #: Quantities with a value per shoe: title, label of y, name, whether only shoes in ground contact count.
@@ -85,22 +85,22 @@ def short(name):
 
 
 def meanings(columns):
-    """Definitions of the curves: "speed: of the hull at this track; ..."."""
+    """Definitions of the curves: "speed: speed of the hull at this track; ..."."""
     told = {}
     for _, _, series in columns:
-        # The help refers to the rows below it in the results.
-        help_ = re.sub(r"sum of the (eight|nine|\w+ \w+) below", "total dissipation", series.help)
+        # This help text refers to other rows of results.h5, in older files to the rows below it.
+        help_ = re.sub(r"sum of the ((eight|nine|\w+ \w+) below|datasets dissipated_\*)", "total dissipation", series.help)
         told.setdefault(re.sub(r"^(left|right) ", "", short(series.name)), help_)
     return "; ".join(f"{what}: {help_}" for what, help_ in told.items())
 
 
 def within(columns, low, high):
-    """Axis range without values far beyond [low, high], and a note about it."""
+    """Axis range that excludes values far beyond [low, high], and a note if values are excluded."""
     values = numpy.concatenate([values[numpy.isfinite(values)] for _, values, _ in columns])
     if values.min() >= low and values.max() <= high:
         return {}, ""
     return {"range": [max(low, values.min()), min(high, values.max())]}, \
-        f" Drawn from {low:g} to {high:g}; values range from {values.min():.3g} to {values.max():.3g}."
+        f" The axis covers {low:g} to {high:g}; values range from {values.min():.3g} to {values.max():.3g}."
 
 
 def tracks_of(run, name):
@@ -144,7 +144,8 @@ def curves(made, run):
             of = "shoes in ground contact" if in_contact else "pin joints"
             below = name == "sinkage" and any((curve[2] < 0).any() for curve in drawn)
             figures.append(made.plot(title, "time [s]", axis, drawn, f"{series.help}; line: mean over the {of} of a "
-                                     f"track, band: their range.{' ' + definitions.ABOVE_SURFACE if below else ''}{note}",
+                                     "track; band: minimum to maximum."
+                                     f"{' ' + definitions.ABOVE_SURFACE if below else ''}{note}",
                                      about=f"{series.help}; {IN_CONTACT}" if in_contact else series.help))
     for group in ("surfaces", "obstacles"):
         for name in run.names(group + "."):
@@ -185,23 +186,23 @@ def any_series(made, run):
               f'<span id="any-help">{esc(shown["help"])}</span></div>{figure}')
     return chosen + folded("Statistics of all series", table(
         ["series", "unit", "first", "last", "minimum", "mean", "maximum", "definition"], lines,
-        "Over all rows of results.h5; vectors by component.", numeric=range(2, 7)))
+        "Over all rows of results.h5; one line per component of a vector.", numeric=range(2, 7)))
 
 
 def part_caption(run, since):
-    """Caption: the part of the run that the figures cover. since: its start [s]; None: no steady part."""
+    """Caption: the part of the run that the figures cover. since: start of this part [s]; None: no steady part."""
     end = run.manifest.get("simulated_time_s", run.time[-1] if len(run.time) else 0.0)
     planned = run.scene.get("run", {}).get("duration", end)
     if since is None:
-        words = "Values at the end and over the whole run: this run has no steady part."
+        words = "Values at the end and over the whole run, because this run has no steady part."
     elif since >= end:
-        words = f"Values at the end and over the whole run: it ended before the steady part, which would start at " \
+        words = "Values at the end and over the whole run: the run ended before the steady part, which would start at " \
                 f"{number(since, 's', 'steady from')}."
     else:
-        words = (f"Means and extremes since {number(since, 's', 'steady from')}, as in the summary of a sweep; work, "
-                 "errors and values \u201cat the end\u201d are those of the last row.")
+        words = (f"Means and extremes from {number(since, 's', 'steady from')} on, as in the summary of a sweep; work, "
+                 "errors and values \u201cat the end\u201d are from the last row.")
     by, step = run.manifest.get("ended_by"), end / max(1, run.manifest.get("steps", 1))
-    if by or end < planned - 1.001 * step:  # the last step may end before the duration of the scene
+    if by or end < planned - 1.001 * step:  # the last step may end before run.duration
         words += f" The run ended at {number(end, 's', 'end')}, before the {number(planned, 's', 'duration')} of its scene"
         words += f", by {esc(by)}." if by else "."
     return words
@@ -213,7 +214,7 @@ def why_ended(manifest):
 
 
 def figures(run, options):
-    """Figures of the steady part, with the error bars of the last check of this scene if there is one."""
+    """Figures of the steady part, with the error bars of the last check of this scene, if any."""
     told = options.figures
     check = told.get("check") or {}
     barred = {figure["name"]: figure for figure in check.get("check", {}).get("figures", [])}
@@ -291,12 +292,13 @@ def switches(manifest):
     rows = []
     for line in manifest.get("switches", "").split("\n"):
         word, what, why = line[2:7].strip(), line[7:33].strip(), line[33:].strip()
-        if len(line) > 33 and line[32:34].strip():  # no column between them
+        if len(line) > 33 and line[32:34].strip():  # no column boundary here
             what, why = line[7:].strip(), ""
         if what:
             rows.append([f'<span class="{word}">{word}</span>' if word else "", esc(what), esc(why)])
     if not rows:
-        return "<p>Not recorded by the version of this run; <code>grouser plan</code> lists features of a scene.</p>"
+        return "<p>The version that wrote this run did not record its features; <code>grouser plan</code> lists the " \
+               "features of a scene.</p>"
     return table(["", "feature", "reason or method"], rows, "Features that are off use neither memory nor time.")
 
 
@@ -328,7 +330,7 @@ def provenance(run):
 
 
 def wall_time(manifest):
-    """Wall time of all steps, extrapolated for a resumed run, which measures only its last part."""
+    """Wall time of all steps; extrapolated for a resumed run, which measures only the steps since its resume."""
     if "wall_time_s" not in manifest:
         return ""
     steps, before = manifest.get("steps", 0), manifest.get("figures", {}).get("resumed_at_step", 0)
@@ -343,7 +345,7 @@ def number_text(value):
 
 
 def is_film(file):
-    """Whether a browser can show the file, by its name and first bytes."""
+    """Whether a browser can show the file, according to its name and first bytes."""
     if file.suffix.lower() not in FILMS or not file.is_file():
         return False
     with open(file, "rb") as opened:
@@ -352,7 +354,7 @@ def is_film(file):
 
 
 def films(folders, options, most=LARGEST_FILM):
-    """The films in the folders, or the one named: embedded up to `most` bytes, the others listed by name."""
+    """The films in the folders, or the film of --film: embedded up to `most` bytes in total; others listed by name."""
     files = [options.film] if options.film else [f for folder in folders for f in sorted(folder.iterdir())
                                                  if is_film(f)]
     shown, beside, taken = [], [], 0

@@ -4,10 +4,10 @@ import numpy
 
 from page import esc, number
 
-WIDTH, HEIGHT = 760.0, 260.0  # [px] of a section at most
-#: Colours from low to high: viridis, at equal steps.
+WIDTH, HEIGHT = 760.0, 260.0  # maximum size of a section [px]
+#: Colours from low to high: viridis, equally spaced.
 RAMP = numpy.array([[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]], dtype=float)
-#: Title, unit, field, definition, and the scalar drawn from its value [..., cells].
+#: Title, unit, field, definition, and function from field values [..., cells] to the scalar that is drawn.
 SECTIONS = (
     ("Mean stress in the soil", "Pa", "stress", "pressure (a third of the trace), positive in compression",
      lambda value: -numpy.trace(value, axis1=-2, axis2=-1) / 3),

@@ -14,7 +14,7 @@ MOST_PIXELS = 1600  # maximum width and height of a map
 
 def png(colours):
     """A picture of [rows, columns, 3] bytes as a data URI."""
-    import matplotlib.image  # no other page needs it
+    import matplotlib.image  # only this page requires it
     file = io.BytesIO()
     matplotlib.image.imsave(file, numpy.ascontiguousarray(colours, dtype=numpy.uint8), format="png",
                             metadata={"Software": None})
@@ -22,7 +22,7 @@ def png(colours):
 
 
 class Soil:
-    """Maps of deformable soil at the end of a run; along and across the heading, from the middle of the sprocket
+    """Maps of deformable soil at the end of a run, along and across the heading, from the middle of the sprocket
     axle."""
 
     def __init__(self, run):
@@ -41,7 +41,7 @@ class Soil:
         self.across = north * math.cos(heading) - east * math.sin(heading)
 
     def track(self, side):
-        """Whether each node lies on this side of the vehicle."""
+        """Whether each node is on this side of the vehicle."""
         return self.across > 0 if side == "left" else self.across < 0
 
     def profile(self, name, nodes):
@@ -95,7 +95,7 @@ def road_wheels(run, side):
 
 
 def peaks(along, pressure, wheels):
-    """Maximum pressure around each road wheel, up to halfway to its neighbours."""
+    """Maximum pressure around each road wheel, within half the distance to its neighbours."""
     edges = [-math.inf, *((a + b) / 2 for a, b in zip(wheels, wheels[1:])), math.inf]
     found = [pressure[(along >= low) & (along < high)] for low, high in zip(edges, edges[1:])]
     return [float(values.max()) for values in found if len(values)]
@@ -118,7 +118,7 @@ def pressures(made, run, soil):
         rows[-1].append(number(sum(found) / len(found), "", f"{side} mean maximum pressure") if found else "none")
     if not curves:
         return "", ""
-    words = ("Pressure on the soil at the end of the run, mean over the width of a track, without damping. Distance "
+    words = ("Pressure on the soil at the end of the run, mean over the width of a track, without damping. Distance: "
              "from the middle of the sprocket axle, forward positive.")
     caption = ("Mean maximum pressure: mean over the road wheels of the maximum under each"
                f"{'' if run.frames else '; requires output.frames = true'}.")

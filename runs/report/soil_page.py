@@ -27,7 +27,7 @@ def constants(soil):
                      with_bar(c.measured.value, known(c.measured.half_width), "", name), esc(c.measured.unit), span,
                      esc(f"inconclusive: {c.inconclusive}" if c.inconclusive else c.verdict), sources])
     return table(["constant", "definition", "measured", "unit", "published", "verdict", "sources"], rows,
-                 "\u00b1 half of the 95 % interval over the tests.", numeric=(2,))
+                 "\u00b1 half width of the 95 % interval over the tests.", numeric=(2,))
 
 
 def plate_plots(made, soil):
@@ -93,7 +93,7 @@ def details(soil):
     rows = []
     for test in soil.json.get("tests", []):
         p = test["porosity"]
-        # Quantities that a test does not record are 0 in the file.
+        # In the file, 0 means that a test does not record the quantity.
         rows.append([esc(test["name"]), str(test["tests"]),
                      with_bar(p["value"], p["half_width"], "", test["name"] + " porosity"),
                      *(number(test[what]) if test[what] else "" for what in ("grains", "steps", "seconds"))])
@@ -102,12 +102,12 @@ def details(soil):
 
 
 #: Further measured quantities, by key of soil.json.
-BESIDE = {"k": "modulus of the plate", "k_n": "exponent that belongs to this modulus",
+BESIDE = {"k": "modulus of the plate", "k_n": "exponent fitted together with this modulus",
           "k_at_published_n": "modulus of the plate with the published n",
           "n_alone": "exponent fitted to this plate only",
           "goodness": "goodness of fit", "origin": "depth of the fit's origin below the mean surface",
           "line_begins_at": "start of the line fitted for the bedding, fraction of the maximum pressure",
-          "n_from_first_contact": "exponent of this plate from the first contact, without the bedding correction",
+          "n_from_first_contact": "exponent of this plate, fitted from first contact, without bedding correction",
           "k_u": "unloading stiffness", "k_reloading": "reloading stiffness",
           "unloaded_from": "pressure before unloading", "peak_phi": "phi at the peak", "peak_c": "c at the peak",
           "peak_over_residual": "peak over residual strength", "janosi_misfit": "misfit of 1 - exp(-j / K)"}
@@ -134,14 +134,14 @@ def beside(soil):
     if isinstance(j.get("track_sinkage"), dict):
         add("track", "sinkage by Bekker's equation at 47.5 kPa, width 0.28 m", j["track_sinkage"], "track sinkage")
     return folded("Further measurements", table(
-        ["test", "quantity", "measured", "unit"], rows, "\u00b1 half of the 95 % interval over the tests (if "
+        ["test", "quantity", "measured", "unit"], rows, "\u00b1 half width of the 95 % interval over the tests (if "
         "several).", numeric=(2,)), opened=True) if rows else ""
 
 
 def add_tests(made, soil, provenance=()):
     """Adds the sections of a soil's tests; `provenance`: facts listed before those of the tests."""
     folder, j = soil.folder, soil.json
-    care = '<p class="bad">Coarse: measured with <code>--quick</code>.</p>' if soil.coarse else ""
+    care = '<p class="bad">WARNING: coarse settings (<code>--quick</code>).</p>' if soil.coarse else ""
     made.section("figures", "Constants", care + constants(soil) + beside(soil))
     inner = present(plate_plots, made, soil) + present(shear_plots, made, soil)
     made.section("plots", "Plots", f'<div class="plots">{"".join(inner)}</div>' if inner else "")

@@ -10,9 +10,9 @@ import grouser
 import page as pages
 from grouser.series import counted
 
-PLACES = 12e6  # maximum number of grain positions, all frames of a run together: most of the page's size
-LARGEST = 10e6  # bytes of a page up to which another run is added; e-mail accepts 15 MB
-CODES = 65535  # codes of a coordinate; the last one marks absent grains
+PLACES = 12e6  # maximum number of grain positions in all frames of a run; determines most of the page size
+LARGEST = 10e6  # page size up to which another run is added [bytes]; e-mail accepts 15 MB
+CODES = 65535  # number of codes of a coordinate; the last code marks absent grains
 
 
 def chosen_frames(count, most):
@@ -20,7 +20,7 @@ def chosen_frames(count, most):
 
 
 def at_surface(position, radius):
-    """[n] Whether each grain is near the top of its column (two diameters wide) or at a side of the bed."""
+    """[n] Whether each grain is near the top of its column, two diameters wide, or at a side of the bed."""
     width = 4 * float(numpy.median(radius))
     low, high = position.min(axis=0), position.max(axis=0)
     cell = numpy.floor((position[:, :2] - low[:2]) / width).astype(int)
@@ -48,7 +48,7 @@ def chosen_grains(first, last, most):
 
 
 def whole_grains(frame):
-    """Grains of a frame with finite position, radius and speed, and the number of the others."""
+    """Grains of a frame with finite position, radius and speed, and the number of other grains."""
     if not len(frame):
         return SimpleNamespace(id=numpy.empty(0, int), position=numpy.empty((0, 3)), radius=numpy.empty(0),
                                speed=numpy.empty(0), lost=0)
@@ -103,8 +103,8 @@ def shapes_of(frames):
 
 
 def is_before_grains(corners, places):
-    """Whether a part with these corners would hide the grains: a tenth of them lie in its bounding box (drum,
-    container), or it is a wall, thin along x or y and half as long and as high as the bed."""
+    """Whether a part with these corners would hide the grains: its bounding box contains a tenth of them (drum,
+    container), or the part is a wall: thin along x or y, and at least half as long and as high as the bed."""
     low, high = corners.min(axis=0), corners.max(axis=0)
     if numpy.mean(((places > low) & (places < high)).all(axis=1)) > 0.1:
         return True
@@ -145,7 +145,7 @@ def add_grains(made, name, drawn, middle, data):
     codes = numpy.full(places.shape, CODES, dtype=numpy.uint16)
     codes[there] = ((places - low) / unit).round()[there].astype(numpy.uint16)
     codes = codes.transpose(0, 2, 1).copy()
-    codes[1:] = codes[1:] - codes[:-1]  # modulo 65536; grains at rest become zeros, which pack well
+    codes[1:] = codes[1:] - codes[:-1]  # modulo 65536; zeros for grains at rest, which compress well
     fastest = float(drawn["speed"].max())
     moved = numpy.linalg.norm(drawn["places"] - drawn["places"][0], axis=2)
     most_moved = float(numpy.nanquantile(moved, 0.99)) if numpy.isfinite(moved).any() else 0.0
@@ -182,7 +182,7 @@ class AtEnd:
 
 
 def frames_of(run):
-    """Source of the 3-D view of a run, number of its frames, and a description; (None, 0, "") if there is none."""
+    """Source of the 3-D view of a run, number of its frames, and a description; (None, 0, "") without frames."""
     if run.frames is not None and len(run.frames):
         return run.frames, len(run.frames), f"of {counted(len(run.frames), 'frame')}"
     try:
@@ -208,7 +208,7 @@ def data_of(made, run, place, options, places):
         return None
     corners = None if poses is None else numpy.concatenate([frames[k].parts.vertices for k in (picked[0], picked[-1])])
     low, high = box_of(None if drawn is None else drawn["places"], corners, None if ground is None else ground.vertices)
-    reach = 0.0 if drawn is None else float(drawn["radius"].max())  # the box contains only the centres of grains
+    reach = 0.0 if drawn is None else float(drawn["radius"].max())  # the box contains the centres of grains only
     low, high = low - reach, high + reach
     middle = 0.5 * (low + high)
     name = f"space{place}"
@@ -238,15 +238,15 @@ def data_of(made, run, place, options, places):
 def words_of(shown, frames, count, total, lost):
     words = f"{shown} {frames}"
     if total:
-        left_out = "" if count == total else " (those at the surface and sides first, then those that moved most)"
-        words += f"; {count} of {total} grains{left_out}; positions to 1/65534 of the bed's extent"
+        left_out = "" if count == total else " (priority: grains at the surface and sides, then grains that moved most)"
+        words += f"; {count} of {total} grains{left_out}; positions rounded to 1/65534 of the bed size"
     if lost:
         words += f"; up to {lost} grains of a frame omitted: position, radius or speed is not finite"
     return words + "."
 
 
 def section(made, runs, options):
-    """HTML of the 3-D view of one or several runs, whose data it adds to the page up to a size limit. A reason if no
+    """HTML of the 3-D view of one or several runs; adds their data to the page up to a size limit. The reason if no
     run can be shown; "" if --frames is 0. FileError on the page of a run with damaged frames."""
     if options.frames == 0:
         return ""
@@ -258,11 +258,11 @@ def section(made, runs, options):
             continue
         try:
             data = data_of(made, run, place, options, PLACES if len(runs) == 1 else PLACES / 4)
-        except (OSError, KeyError, RuntimeError) as error:  # h5py's
+        except (OSError, KeyError, RuntimeError) as error:  # raised by h5py
             fault = damage.damaged(run.folder / "frames.h5")
             if made.kind == "run":
                 raise fault from error
-            damage.warn(made, {run.folder.name: str(fault)}, " It is not in the 3-D view.")
+            damage.warn(made, {run.folder.name: str(fault)}, " This run is not in the 3-D view.")
             continue
         if data:
             spaces.append(data)
@@ -297,7 +297,7 @@ def frame_html(spaces, left, grains, vehicle):
 <input type="range" id="space-frame" min="0" max="0" value="0" aria-label="frame">
 <button id="space-home">Reset view</button>{follow}</div>
 <div class="controls">{colours}</div>
-<figcaption><span id="space-words"></span> The white bar is the scale. <span id="space-keys" class="keys">Drag: rotate,
+<figcaption><span id="space-words"></span> The white bar shows the scale. <span id="space-keys" class="keys">Drag: rotate,
 wheel: zoom, right button: pan. Keys, with the view in focus: <kbd>Space</kbd> play and pause, <kbd>,</kbd>
 <kbd>.</kbd> step, <kbd>Home</kbd> <kbd>End</kbd> first and last frame, arrows rotate, <kbd>+</kbd> <kbd>&minus;</kbd>
 zoom, <kbd>0</kbd> reset.</span></figcaption></figure>"""

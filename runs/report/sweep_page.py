@@ -20,9 +20,9 @@ from grouser.series import counted
 from page import esc, facts, figure_with_bar, folded, number, run_name, table, term
 
 MOST_CURVES = 7
-MOST_SPACES = 16  # runs in the list of the 3-D view
+MOST_SPACES = 16  # maximum number of runs in the list of the 3-D view
 MOST_LEDGERS = 100
-MOST_FILMS = 6e6  # bytes
+MOST_FILMS = 6e6  # maximum total size of embedded films [bytes]
 
 
 def text_of(keys):
@@ -48,7 +48,7 @@ def follows(sweep, name):
 
 
 def lively(sweep):
-    """Figures with values that change; last those that depend only on the varied keys."""
+    """Figures with values that change; figures that depend only on the varied keys come last."""
     found = []
     for name in sweep.units:
         values = sweep[name].value
@@ -59,7 +59,7 @@ def lively(sweep):
 
 
 def varied(sweep):
-    """The key on the x axis of the plots: the first one with several numeric values, except the seed."""
+    """The key on the x axis of the plots: the first key with several numeric values, except the seed."""
     for key in sweep.keys:
         values = sweep.values(key)
         if key != "run.seed" and values.dtype.kind == "f" and len(set(values)) > 1:
@@ -68,7 +68,7 @@ def varied(sweep):
 
 
 def unit_of(key, program):
-    """The unit of a scene key from the program's tables; "-" if it has none or the program does not answer."""
+    """The unit of a scene key from the program's tables; "-" if the key has no unit or the program does not answer."""
     words = key.split(".")
     section, asked = (words[1], ["--vehicle"]) if words[0] == "spec" else (words[0], [])
     try:
@@ -104,7 +104,7 @@ def across_of(sweep, program):
 
 def curves_of(sweep, name, place, curve):
     """{curve: sorted points} of a figure: means over the seeds with error bars, or one point per run; and the number of
-    points omitted because too little was driven."""
+    points omitted because the vehicle drove too little."""
     groups, left_out = {}, 0
     for mean in sweep.means.get(name, []):
         half = mean.mean.half_width
@@ -126,8 +126,8 @@ def plots(made, sweep, program):
     if across is None:
         return ""
     axis, place, curve, words = across
-    told = "Mean over the seeds; bar: 95 % interval." if sweep.means else \
-        "One point per run; no error bars: one run each."
+    told = "Means over the seeds; bars: 95 % intervals." if sweep.means else \
+        "One point per run, without error bars: one run per combination."
     inner, hidden = [], []
     for name in lively(sweep):
         groups, left_out = curves_of(sweep, name, place, curve)
@@ -139,11 +139,11 @@ def plots(made, sweep, program):
             alone = sum(math.isnan(half) for _, _, _, *halves in drawn for half in (halves[0] if halves else ()))
             more = f" No error bar for {counted(alone, 'point')} with only one finished seed." if alone else ""
             more += f" {len(groups) - MOST_CURVES} more combinations in the table." if len(groups) > MOST_CURVES else ""
-            more += f" Omitted as inconclusive: {counted(left_out, 'point')}." if left_out else ""
+            more += f" {counted(left_out, 'inconclusive point')} omitted." if left_out else ""
             label = definitions.label(name)
             inner.append(made.plot(label[:1].upper() + label[1:], axis, f"{label} [{sweep.units[name]}]", drawn,
                                    told + words + more, marks=True, whole=bool(words), about=definitions.definition(name)))
-    note = f"<p>Not drawn, all values inconclusive: {', '.join(hidden)}.</p>" if hidden else ""
+    note = f"<p>Not drawn because all values are inconclusive: {', '.join(hidden)}.</p>" if hidden else ""
     return note + (f'<div class="plots">{"".join(inner)}</div>' if inner else "")
 
 
@@ -156,10 +156,10 @@ def means_table(sweep):
     combinations = [m.keys for m in sweep.means[names[0]]]
     def half(estimate):
         return estimate.half_width if math.isfinite(estimate.half_width) else None
-    words = "Means over the seeds, \u00b1 half of the 95 % interval."
+    words = "Means over the seeds, \u00b1 half width of the 95 % interval."
     words += definitions.note({name: [m.mean.value for m in sweep.means[name]] for name in names})
     if max(m.seeds for m in sweep.means[names[0]]) == 2:
-        words += " With two seeds this is 12.7 standard errors; use three or more."
+        words += " With two seeds, the half width is 12.7 standard errors; use three or more seeds."
     if len(combinations) <= 6:
         rows = [[term(n), esc(sweep.units[n]), *(figure_with_bar(m.mean.value, half(m.mean), "", f"{n} {text_of(m.keys)}",
                                                                          bool(m.inconclusive))
@@ -176,7 +176,7 @@ def means_table(sweep):
 
 
 def runs_table(sweep, faults):
-    """`faults`: {run: fault of its files}."""
+    """`faults`: {run: message about missing or damaged files}."""
     def message(run):
         fault = faults.get(run.name)
         doubt = f"Inconclusive: {run.inconclusive}" if run.inconclusive and run.inconclusive != run.message else ""
@@ -209,19 +209,19 @@ def opened(folders):
 
 
 def faults_of(folders):
-    """{run: fault of its files} for runs with missing or damaged files."""
+    """{run: message} for runs with missing or damaged files."""
     return {folder.name: fault for folder in folders if (fault := damage.fault_of(folder))}
 
 
 def first_whole(groups):
-    """From each group of run folders the first undamaged one, or else the first; and the faults of all folders."""
+    """From each group of run folders, the first undamaged folder, or else the first; and the faults of all folders."""
     faults = faults_of([folder for group in groups for folder in group])
     return [next((folder for folder in group if folder.name not in faults), group[0]) for group in groups if group], faults
 
 
 def add_runs(made, folders, options, words):
-    """Adds films, 3-D view and ledgers of the runs, and active features, scene and provenance of the first one.
-    `folders`: those of the runs; `words`: describes the selection."""
+    """Adds films, 3-D view and ledgers of the runs, and active features, scene and provenance of the first run.
+    `folders`: folders of the runs; `words`: describes the selection."""
     with contextlib.ExitStack() as stack:
         runs = [stack.enter_context(run) for run in itertools.islice(opened(folders), MOST_LEDGERS)]
         made.section("films", "Films", films(folders, options))

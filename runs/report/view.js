@@ -2,7 +2,7 @@
 // The 3-D view of grains and parts over time, with three.js: spheres are points shaded as spheres.
 "use strict";
 
-const kAbsent = 65535; // code of a coordinate: the grain is not in that frame
+const kAbsent = 65535; // code of a coordinate if the grain is absent from the frame
 const kColours = [[0.27, 0.0, 0.33], [0.23, 0.32, 0.55], [0.13, 0.57, 0.55], [0.37, 0.79, 0.38], [0.99, 0.91, 0.15]];
 
 function colourOf(share, out, at) {
@@ -90,7 +90,7 @@ class Space {
   addGrains(g) {
     const codes = report.arrays[g.places];
     const [frames, , count] = codes.shape;
-    // Frames are stored as differences from the previous one.
+    // Each frame is stored as the difference from the previous frame.
     for (let i = 3 * count; i < codes.length; ++i) codes[i] += codes[i - 3 * count];
     this.grains = { codes, count, frames, speed: report.arrays[g.speed], ...g };
     this.grains.speed = report.arrays[g.speed];

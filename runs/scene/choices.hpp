@@ -22,14 +22,14 @@ enum class FillForm { lattice, random, file };
 /// Contact method of grains, [run].
 enum class ContactMethod {
   penalty,        ///< springs and dashpots, explicit in time
-  complementarity ///< impulses of all contacts, solved for simultaneously
+  complementarity ///< impulses of all contacts, solved simultaneously
 };
 
 /// Ground of [terrain].
 enum class TerrainKind {
   granular,
   rigid,
-  scm ///< deformable soil, the soil contact model
+  scm ///< deformable soil (soil contact model)
 };
 
 /// [scm]: source of the constants that the section omits.
@@ -42,20 +42,20 @@ enum class Arrangement { random, lattice };
 enum class ChassisMount {
   free,
   fixed,
-  guided, ///< it moves along, rises and pitches
-  level   ///< it moves along and rises
+  guided, ///< can move along its heading, heave and pitch
+  level   ///< can move along its heading and heave
 };
 
 /// Tracks of [vehicle].
 enum class Tracks {
   both,
-  single ///< in the middle of the hull, as on a test rig
+  single ///< one track in the middle of the hull, as on a test rig
 };
 
 /// Parts of [vehicle] with soil contact.
 enum class SoilContact {
   all,  ///< every part but the hull
-  shoes ///< nothing of the inner running gear: no wheel, sprocket, idler or roller
+  shoes ///< no wheel, sprocket, idler or roller
 };
 
 /// Axes of the world.
@@ -64,7 +64,7 @@ enum class Axis { x, y, z };
 /// Surface of a body.
 enum class ShapeKind { sphere, box, cylinder, capsule, cone, mesh };
 
-/// Placement of a surface in a scene whose bed settles: the bed is laid around it, or settles without it.
+/// Time of placement of a surface in a scene with a settling bed, which settles around surfaces placed before.
 enum class PlacedWhen { before, afterSettling };
 
 } // namespace grouser::scene
@@ -176,7 +176,7 @@ template <> struct EnumWords<multibody::JointType> {
                                          {E::kCylindrical, "cylindrical"}, {E::kFixed, "fixed"},
                                          {E::kDistance, "distance"}};
 };
-/// kOnly has no word: it stands for a section that names no axis.
+/// kOnly has no word, since it represents a section without the axis key.
 template <> struct EnumWords<multibody::JointAxis> {
   using E = multibody::JointAxis;
   static constexpr EnumWord<E> list[] = {{E::kAngle, "angle"}, {E::kSlide, "slide"}};

@@ -16,11 +16,12 @@ constexpr double kFarthest = 1e4; // [m]
 
 base::Table<Fluid> fluidTable() {
   using S = Fluid;
-  base::Table<S> t("fluid", "Weakly compressible particle fluid (SPH) in a tank with solid walls; it acts on planes, "
-                            "boxes, cylinders, meshes, rigid terrain and bodies with shapes");
+  base::Table<S> t("fluid", "Weakly compressible particle fluid (SPH) in a tank with solid walls; the fluid acts on "
+                            "planes, boxes, cylinders, meshes, rigid terrain and bodies with shapes");
   t.add("spacing", &S::spacing, "m", "initial particle spacing").required().atLeast(1e-5).atMost(10);
   t.add("dimensions", &S::dimensions, "",
-        "number of dimensions, 2 or 3; with 2 the fluid is in the plane y = 0, with masses and forces per metre")
+        "number of dimensions, 2 or 3; with 2, the fluid is confined to the plane y = 0, and masses and forces are per "
+        "metre of width")
       .atLeast(2)
       .atMost(3);
   t.add("tank_low", &S::tankLow, "m",
@@ -35,16 +36,18 @@ base::Table<Fluid> fluidTable() {
       .atLeast(-kFarthest)
       .atMost(kFarthest);
   t.add("density", &S::density, "kg/m3", "fluid density at zero pressure").atLeast(1).atMost(1e5);
-  t.add("viscosity", &S::viscosity, "Pa s", "dynamic viscosity; above 0: no slip along walls (Morris operator)")
+  t.add("viscosity", &S::viscosity, "Pa s",
+        "dynamic viscosity (Morris operator); with values above 0, the fluid does not slip along walls")
       .atLeast(0)
       .atMost(1e6);
   t.add("sound_speed", &S::soundSpeed, "m/s",
-        "numerical speed of sound, at least 10 times that of the flow; default: 10 max(expected_speed, sqrt(maximum "
-        "pressure at rest / density))")
+        "numerical speed of sound, which should be at least 10 times the maximum flow speed; default: 10 "
+        "max(expected_speed, sqrt(maximum pressure at rest / density))")
       .above(0)
       .atMost(1e4);
   t.add("expected_speed", &S::expectedSpeed, "m/s",
-        "maximum flow speed; default: sqrt(2 g depth), or the speed of a [[fluid.box]] if larger")
+        "expected maximum flow speed; default: sqrt(2 g depth), or twice the track speed of a vehicle if larger; the "
+        "initial speed of a [[fluid.box]] replaces smaller values")
       .above(0)
       .atMost(1e3);
   t.add("smoothing", &S::smoothing, "-", "smoothing length / spacing").atLeast(1.2).atMost(2);
@@ -64,7 +67,7 @@ base::Table<Fluid> fluidTable() {
 
 base::Table<FluidBox> fluidBoxTable() {
   using S = FluidBox;
-  base::Table<S> t("[fluid.box]", "Box that is initially filled with fluid, with hydrostatic pressure");
+  base::Table<S> t("[fluid.box]", "Box that is initially filled with fluid at hydrostatic pressure");
   t.add("low", &S::low, "m", "lower corner").required().atLeast(-kFarthest).atMost(kFarthest);
   t.add("high", &S::high, "m", "upper corner").required().atLeast(-kFarthest).atMost(kFarthest);
   t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e3).atMost(1e3);
@@ -76,15 +79,16 @@ base::Table<FluidProbe> fluidProbeTable() {
   base::Table<S> t("[fluid.probe]", "Probe that records pressure or level of the fluid in each row of the time series");
   t.add("name", &S::name, "", "name of the column in the results").required();
   t.add("kind", &S::kind, "",
-        "pressure at the position, or level on a vertical wire from there: its z plus the wetted length");
-  t.add("position", &S::position, "m", "position of the probe; for a level, the foot of the wire on the ground")
+        "measured quantity: pressure at the position, or level: z of the position plus the wetted length of a vertical "
+        "wire that starts there");
+  t.add("position", &S::position, "m", "position of the probe; for a level, the lower end of the wire")
       .required()
       .atLeast(-kFarthest)
       .atMost(kFarthest);
   return t;
 }
 
-/// Refuses sections that exclude a fluid.
+/// Throws InputError for sections that are incompatible with a fluid.
 void checkNeighbours(const Section& section, const Scene& scene) {
   const bool grains = !scene.grains.empty() || !scene.fills.empty() || !scene.sources.empty();
   if (grains || (scene.terrain && scene.terrain->granular()))

@@ -24,22 +24,22 @@ enum class FluidProbeKind { pressure, level };
 struct FluidProbe {
   std::string name;
   FluidProbeKind kind = FluidProbeKind::pressure;
-  base::Vec3d position; ///< [m]; of a level the foot of its vertical line
+  base::Vec3d position; ///< [m]; for a level: lower end of the wire
   bool operator==(const FluidProbe&) const = default;
 };
 
 /// [fluid]
 struct Fluid {
   double spacing = 0; ///< [m]
-  int dimensions = 3; ///< 2: the plane y = 0, per metre
+  int dimensions = 3; ///< 2: plane y = 0, quantities per metre of width
   std::optional<base::Vec3d> tankLow,
       tankHigh;                         ///< [m] inner faces; empty: the terrain's borders, from its lowest point
   bool lid = false;                     ///< the tank is closed above
-  std::optional<double> level;          ///< [m] up to which the tank is filled
+  std::optional<double> level;          ///< [m] z of the initial free surface; empty: boxes only
   double density = 1000, viscosity = 0; ///< [kg/m3], [Pa s]
   std::optional<double> soundSpeed;     ///< [m/s]
-  std::optional<double> expectedSpeed;  ///< [m/s] for the sound speed; empty: sqrt(2 g depth)
-  double smoothing = 1.3;               ///< [-] of the spacing
+  std::optional<double> expectedSpeed;  ///< [m/s]; determines the sound speed; empty: see setup::fluidModel()
+  double smoothing = 1.3;               ///< [-] smoothing length / spacing
   double artificialViscosity = 0.02, diffusion = 0.1; ///< [-]
   double shifting = 0;                                ///< [-]
   std::vector<FluidBox> boxes;

@@ -24,7 +24,7 @@ struct Column {
   const char *name, *unit;
   double least, most;
 };
-constexpr double kFar = std::numeric_limits<double>::max(); // positions have separate limits, from the grains' radii
+constexpr double kFar = std::numeric_limits<double>::max(); // positions have separate limits, from the grain radii
 constexpr std::array<Column, 10> kColumns{{{"x", "m", -kFar, kFar},
                                            {"y", "m", -kFar, kFar},
                                            {"z", "m", -kFar, kFar},
@@ -64,8 +64,8 @@ TextField trimmed(std::string_view line, std::size_t from, std::size_t to) {
   return {line.substr(from, to - from), from};
 }
 
-/// The fields between commas or semicolons, each with one before and behind it; or else between blanks and tabs, where
-/// two tabs in a row are an empty field of a table.
+/// Splits a line at commas or semicolons if it contains any, otherwise at blanks and tabs. Two tabs in a row enclose an
+/// empty field, which is an error as between two commas.
 std::vector<TextField> fieldsOf(const TextLine& line) {
   const std::string_view text = line.text;
   std::vector<TextField> fields;
@@ -104,7 +104,7 @@ bool isHeader(const std::vector<TextField>& fields) {
   std::string_view word = fields[0].text;
   if (word.size() > 1 && word[0] == '"') word.remove_prefix(1);
   const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  double ignored = 0; // "nan" and "inf" are no names
+  double ignored = 0; // "nan" and "inf" are numbers, not column names
   return isLetter(word[0]) && std::from_chars(word.data(), word.data() + word.size(), ignored).ec != std::errc();
 }
 
@@ -114,7 +114,7 @@ std::string lowerCase(std::string_view text) {
   return lower;
 }
 
-/// Number of columns that the header names. Between blanks a unit may be a field of its own: "x [m]".
+/// Returns the number of columns in the header. With blanks as separators, a unit may be a separate field: "x [m]".
 std::size_t readHeader(const TextLine& line, const std::vector<TextField>& fields) {
   std::size_t column = 0;
   for (std::size_t k = 0; k < fields.size(); ++k) {
@@ -185,7 +185,7 @@ std::string textOf(const std::string& file) {
 std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill) {
   const std::string all = textOf(file);
   std::vector<Grain> grains;
-  std::optional<std::size_t> header, width; // number of columns that it names; of the first grain
+  std::optional<std::size_t> header, width; // numbers of columns in the header and in the line of the first grain
   int number = 0;
   for (std::size_t from = 0; from < all.size();) {
     const std::size_t end = std::min(all.find_first_of("\r\n", from), all.size());

@@ -34,9 +34,11 @@ Table<GrainFill> fillTable() {
   using S = GrainFill;
   Table<S> t("[grains]", "A set of grains: a lattice, a random fill of a box, or a file of positions and radii");
   t.add("form", &S::form, "", "lattice or random (in a box), or file (one grain per line)");
-  t.add("low", &S::low, "m", "lower corner of the box that fully contains the grains; not with form = \"file\"");
+  t.add("low", &S::low, "m",
+        "lower corner of the box that contains all grains completely; not allowed with form = \"file\"");
   t.add("high", &S::high, "m", "upper corner of the box");
-  t.add("radius", &S::radius, "m", "grain radius, or minimum radius if radius_to is set; not with form = \"file\"")
+  t.add("radius", &S::radius, "m",
+        "grain radius, or minimum radius if radius_to is set; not allowed with form = \"file\"")
       .above(0)
       .atMost(1e3);
   t.add("radius_to", &S::radiusTo, "m",
@@ -45,24 +47,25 @@ Table<GrainFill> fillTable() {
       .atMost(1e3);
   t.add("spacing", &S::spacing, "-", "lattice spacing, in units of the maximum grain radius").atLeast(2).atMost(100);
   t.add("jitter", &S::jitter, "-",
-        "random displacement from the lattice sites, as a fraction of the gap between grains")
+        "maximum random displacement from the lattice sites along each axis / half the gap between grains")
       .atLeast(0)
       .atMost(1);
   t.add("number", &S::number, "-", "number of grains of a random fill").atLeast(1).atMost(1e8);
   t.add("file", &S::file, "",
         "text file with one grain per line: x, y, z, r [m], optionally vx, vy, vz [m/s], then wx, wy, wz [rad/s], and "
-        "optionally a header with these names; searched for in the scene's folder, the working folder, the assets "
+        "optionally a header with these names; searched for in the scene's folder, the working folder and the assets "
         "folder");
-  t.add("velocity", &S::velocity, "m/s", "initial velocity; with form = \"file\", that of lines without a velocity")
+  t.add("velocity", &S::velocity, "m/s", "initial velocity; with form = \"file\", only for lines without a velocity")
       .atLeast(-1e4)
       .atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "initial angular velocity; with form = \"file\", that of lines without one")
+  t.add("spin", &S::spin, "rad/s",
+        "initial angular velocity; with form = \"file\", only for lines without an angular velocity")
       .atLeast(-1e6)
       .atMost(1e6);
   t.add("material", &S::material, "", "name of the material").required();
   t.add("above_bed", &S::aboveBed, "m",
         "gap between the lowest point of these grains and the highest grain below them after the bed has settled; all "
-        "are raised or lowered together")
+        "grains of the section are raised or lowered together")
       .atLeast(0)
       .atMost(1e4);
   return t;
@@ -71,13 +74,13 @@ Table<GrainFill> fillTable() {
 Table<Source> sourceTable() {
   using S = Source;
   Table<S> t("[source]", "Source of grains that enter during the run at random positions in a box");
-  t.add("low", &S::low, "m", "lower corner of the box for the initial centre positions").required();
+  t.add("low", &S::low, "m", "lower corner of the box in which the centres of new grains are placed").required();
   t.add("high", &S::high, "m", "upper corner of the box").required();
   t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e4).atMost(1e4);
   t.add("spin", &S::spin, "rad/s", "initial angular velocity").atLeast(-1e6).atMost(1e6);
   t.add("radius", &S::radius, "m", "radius of each grain").above(0).atMost(10).required();
   t.add("material", &S::material, "", "name of the material").required();
-  t.add("number", &S::number, "-", "number of grains per entry").atLeast(1).atMost(1e6);
+  t.add("number", &S::number, "-", "number of grains that enter at the same time").atLeast(1).atMost(1e6);
   t.add("every", &S::every, "s", "time between two entries").above(0).required();
   t.add("start", &S::start, "s", "time of the first entry").atLeast(0);
   t.add("total", &S::total, "-", "total number of grains").atLeast(1).atMost(1e8).required();

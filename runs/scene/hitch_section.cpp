@@ -27,24 +27,28 @@ Table<Hitch> hitchTable() {
   t.add("start", &S::start, "s", "delay of the load after the start of the drive").atLeast(0).atMost(1e5);
   t.add("ramp", &S::ramp, "s", "ramp duration of a constant force, or of the carriage speed").atLeast(0).atMost(1e3);
   t.add("force", &S::force, "N",
-        "force on the hull, positive backwards; with kind = \"ramp\" the initial force, default: 0")
+        "force on the hull, positive backwards; for kind = \"ramp\": initial force, default: 0")
       .atLeast(-1e8)
       .atMost(1e8);
-  t.add("rate", &S::rate, "N/s", "rate of change of the force with kind = \"ramp\"").atLeast(-1e8).atMost(1e8);
+  t.add("rate", &S::rate, "N/s", "for kind = \"ramp\": rate of change of the force").atLeast(-1e8).atMost(1e8);
   t.add("mass", &S::mass, "kg", "mass of the sled").above(0).atMost(1e7);
   t.add("friction", &S::friction, "-", "friction coefficient between sled and ground").atLeast(0).atMost(10);
-  t.add("length", &S::length, "m", "length of the rope of the sled, initially taut; default: 3").above(0).atMost(1e3);
+  t.add("length", &S::length, "m", "length of the sled rope, which is initially taut; default: 3").above(0).atMost(1e3);
   t.add("slip", &S::slip, "-",
         "track slip imposed by the carriage: hull speed = (1 - slip) x sprocket speed x pitch radius; negative values "
         "push the vehicle")
       .atLeast(-10)
       .atMost(10);
   t.add("stiffness", &S::stiffness, "N/m",
-        "stiffness of the rope (sled) or bar (carriage); \"auto\": natural frequency of 10 Hz with the hull (and sled)")
+        "stiffness of the rope (sled) or bar (carriage); \"auto\": stiffness for an oscillation of the hull (and sled) "
+        "at 10 Hz")
       .above(0)
       .atMost(1e12)
       .orWord("auto");
-  t.add("damping_ratio", &S::dampingRatio, "-", "damping ratio of this oscillation").atLeast(0).atMost(2);
+  t.add("damping_ratio", &S::dampingRatio, "-",
+        "damping ratio of the oscillation of the hull (and sled) on the rope or bar")
+      .atLeast(0)
+      .atMost(2);
   return t;
 }
 

@@ -28,7 +28,7 @@ void addPlasticity(Table<Material>& t) {
   using S = Material;
   t.add("plasticity", &S::plasticity, "-",
         fmt::format("eepa, eepa_linear, luding: lambda = 1 - k1/k2 with loading stiffness k1 and unloading stiffness "
-                    "k2 (for luding its maximum); default: {}",
+                    "k2 (luding: maximum of k2); default: {}",
                     brief(S::kPlasticity)))
       .atLeast(0)
       .atMost(0.99);
@@ -43,8 +43,8 @@ void addPlasticity(Table<Material>& t) {
       .atLeast(0.5)
       .atMost(6);
   t.add("plastic_depth", &S::plasticDepth, "-",
-        fmt::format("luding: phi_f; beyond an overlap of phi_f 2 R_eff / lambda the unloading stiffness is constant; "
-                    "default: {}",
+        fmt::format("luding: plasticity depth phi_f; at overlaps above phi_f 2 R_eff / lambda, the unloading stiffness "
+                    "is constant; default: {}",
                     brief(S::kPlasticDepth)))
       .above(0)
       .atMost(1);
@@ -60,13 +60,14 @@ void addSoil(Table<Material>& t) {
   using S = Material;
   t.leaveOutEmpty();
   t.add("soil", &S::soil, "",
-        "soil name (`grouser soils`) or path of a soil file; its values, scaled to the grain size of the scene, are "
-        "the defaults of the keys below");
+        "soil name (see `grouser soils`) or path of a soil file; the values of the file, scaled to the grain size of "
+        "the scene, are the defaults of the keys below");
   t.add("soil_hash", &S::soilHash, "",
-        "hash of the soil file, written to the resolved scene; a run prints a note if the file has changed since");
+        "hash of the soil file, which grouser writes to resolved scenes; a run prints a note if the file now has a "
+        "different hash");
   t.add("grain_radius", &S::grainRadius, "m",
         "grain radius to which stiffness and cohesion of the soil are scaled; default: terrain.grain_radius of a bed "
-        "of this material, otherwise the common radius of its grains")
+        "of this material, otherwise the common radius of all grains of this material")
       .above(0)
       .atMost(10);
 }
@@ -77,13 +78,14 @@ Table<Material> materialTable() {
   using S = Material;
   Table<S> t("material.NAME", "Material; other sections refer to it by NAME");
   addSoil(t);
-  t.add("density", &S::density, "kg/m3", "density of the solid").atLeast(1e-3).atMost(1e5);
+  t.add("density", &S::density, "kg/m3", "density of the solid, not bulk density").atLeast(1e-3).atMost(1e5);
   t.add(
       "law", &S::law, "",
       "contact law: linear (springs) or hertz (Hertz-Mindlin); elastic-plastic with adhesion: eepa (based on Hertz), "
       "eepa_linear and luding (based on linear springs); all with dashpots and Coulomb friction (docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m",
-        fmt::format("linear, eepa_linear, luding: normal stiffness k of a contact (during virgin loading); default: {}",
+        fmt::format("linear, eepa_linear, luding: normal stiffness k of a contact between two bodies of this material "
+                    "(eepa_linear, luding: during virgin loading); default: {}",
                     brief(S::kStiffness)))
       .atLeast(1e-3)
       .atMost(1e12);
@@ -104,8 +106,8 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(1e9);
   t.add("attraction", &S::attraction, "",
-        "whether the dashpot may cause a tensile force while surfaces separate; otherwise it cancels at most "
-        "the spring force (to model cohesion, use cohesion)");
+        "whether the dashpot may cause a tensile force while surfaces separate; otherwise the sum of spring and "
+        "dashpot force is at least 0 (to model cohesion, set cohesion)");
   t.add("friction", &S::friction, "-", "Coulomb friction coefficient").atLeast(0).atMost(10);
   static_assert(S::kTangentialStiffnessRatio == 2.0 / 7, "as the help says");
   t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
@@ -128,14 +130,15 @@ Table<Material> materialTable() {
       .atLeast(0)
       .atMost(1);
   t.add("cohesion", &S::cohesion, "J/m2",
-        "work of adhesion w (twice the surface energy for equal surfaces): contacts have the adhesive force 2 pi w "
-        "R_eff (DMT); 0: no cohesion")
+        "work of adhesion w (twice the surface energy for equal surfaces): each contact has the constant adhesive "
+        "force 2 pi w R_eff (DMT); 0: no cohesion")
       .atLeast(0)
       .atMost(1e6);
   t.add("adhesion_radius", &S::adhesionRadius, "m",
-        "reference grain radius of cohesion and surface_energy: in other contacts they scale with R_eff, so that the "
-        "tensile strength does not depend on grain size; for two materials, the geometric mean, or the only value set; "
-        "default: no scaling, so coarse grains have a lower tensile strength")
+        "grain radius for which cohesion and surface_energy are given; for other grains, grouser scales both with "
+        "R_eff, so that the tensile strength of a bed does not depend on grain size; two materials use the geometric "
+        "mean of their values, or the only value set; default: no scaling, so that coarser beds have a lower tensile "
+        "strength")
       .above(0)
       .atMost(10);
   addPlasticity(t);
@@ -157,7 +160,7 @@ namespace {
 Table<ContactPair> contactTable() {
   using S = ContactPair;
   Table<S> t("contact.\"a|b\"",
-             "Contact parameters of the material pair a, b, which override the mixing rule (twice the stiffnesses in "
+             "Contact parameters of the material pair a, b, that override the mixing rule (twice the stiffnesses in "
              "series, minimum of friction and restitution, geometric mean of cohesion; docs/contact_law.md)");
   t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
   t.add("restitution", &S::restitution, "-",
@@ -224,7 +227,7 @@ void completeLaw(const Section& section, Material& m) {
 /// A material with its name and the values of its soil. Throws InputError for invalid names.
 Material beginMaterial(const Section& section, const std::string& name, Scene& scene) {
   if (name.find('|') != std::string::npos)
-    section.fail("", "contains | in its name, which separates the materials of a pair; choose another name");
+    section.fail("", "has a name with |, which separates the two materials of a contact; choose another name");
   if (const std::string fault = support::nameFault(name); !fault.empty()) section.fail("", fault);
   const Soil* soil = soilOf(section, name, scene);
   Material m = soil ? materialOf(*soil, section) : Material{};
@@ -257,13 +260,14 @@ void checkContact(const Section& section, ContactPair& pair, const Scene& scene)
   checkDampingKeys(section, pair);
   for (const char* key : {"stiffness", "damping"})
     if (section.has(key) && scene.material(pair.first).hertzian())
-      section.fail(key, "requires law = \"linear\", but this pair uses hertz; remove it");
+      section.fail(
+          key, "requires law = \"linear\", \"eepa_linear\" or \"luding\", but this pair uses hertz or eepa; remove it");
   const bool yields = scene.material(pair.first).yields() && scene.material(pair.second).yields();
   if (pair.plasticity && !yields)
     section.fail("plasticity", "requires two materials with law eepa, eepa_linear or luding; remove it");
   if (pair.surfaceEnergy && (!yields || scene.material(pair.first).law == contact::LawKind::luding))
     section.fail("surface_energy", "requires two materials with law eepa or eepa_linear; remove it");
-  if (scene.contact(pair.first, pair.second)) section.fail("", "is defined twice, in both orders; remove one");
+  if (scene.contact(pair.first, pair.second)) section.fail("", "is defined twice (as a|b and b|a); remove one");
 }
 
 } // namespace

@@ -19,29 +19,29 @@ using base::Table;
 Table<BodySection> bodyTable() {
   using S = BodySection;
   Table<S> t("[body]", "Rigid body of a mechanism");
-  t.add("name", &S::name, "", "name of the body for joints and springs; \"world\" is reserved for the ground")
+  t.add("name", &S::name, "", "name that joints and springs use for the body; \"world\" is reserved for the ground")
       .required();
   t.add("mass", &S::mass, "kg",
-        "mass; default with shapes: volume times density; required without shapes unless the body is fixed")
+        "mass; default: density times volume of the shapes; required if the body has no shapes and is not fixed")
       .above(0)
       .atMost(1e12);
   t.add("density", &S::density, "kg/m3",
-        "density of the shapes, instead of mass; mass and inertia are sums over the shapes, with overlaps counted "
-        "twice; default: density of the material")
+        "density of the shapes, instead of mass; mass and inertia are sums over the shapes, so that the common volume "
+        "of overlapping shapes counts twice; default: density of the material")
       .above(0)
       .atMost(1e6);
   t.add("inertia", &S::inertia, "kg m2",
         "moments of inertia about the centre of mass in the body axes: xx, yy, zz, optionally also the matrix entries "
-        "xy, xz, yz; default: those of a uniform box, or of uniform shapes");
+        "xy, xz, yz; default: moments of the uniform box, or of the uniform shapes");
   t.add("box", &S::box, "m",
         "edge lengths of the box that represents the body in pictures; default: from mass and inertia")
       .above(0)
       .atMost(1e5);
   t.add("position", &S::position, "m", "initial position of the centre of mass").atLeast(-1e6).atMost(1e6);
-  t.add("axis", &S::axis, "-", "axis of the rotation from the world axes to the initial orientation; requires angle");
-  t.add("angle", &S::angle, "deg", "angle of this rotation, right-handed").atLeast(-3600).atMost(3600);
+  t.add("axis", &S::axis, "-", "axis of the rotation from the world axes to the initial body axes; requires angle");
+  t.add("angle", &S::angle, "deg", "angle of the rotation about axis, right-handed").atLeast(-3600).atMost(3600);
   t.add("orientation", &S::orientation, "-",
-        "unit quaternion w, x, y, z from body to world, instead of axis and angle");
+        "initial orientation as a unit quaternion w, x, y, z (body to world), instead of axis and angle");
   t.add("velocity", &S::velocity, "m/s", "initial velocity of the centre of mass, world components");
   t.add("spin", &S::spin, "rad/s", "initial angular velocity, world components");
   t.add("fixed", &S::fixed, "", "whether the body is fixed in the world");
@@ -50,7 +50,7 @@ Table<BodySection> bodyTable() {
         "springs only");
   t.add("material", &S::material, "", "name of the material of the shapes; required with [[body.shape]]");
   t.add("probe_size", &S::probe, "m",
-        "edge lengths of a box in the body frame; the mass of the grains whose centres are inside is recorded as "
+        "edge lengths of a box in the body frame; the mass of all grains with centres inside this box is recorded as "
         "grain_mass")
       .above(0)
       .atMost(1e5);
@@ -60,29 +60,29 @@ Table<BodySection> bodyTable() {
 
 Table<ShapeSection> shapeTable() {
   using S = ShapeSection;
-  Table<S> t("[body.shape]", "Contact surface of the preceding [[body]]; a body may have several");
+  Table<S> t("[body.shape]", "Contact shape of the preceding [[body]]; a body may have several shapes");
   t.add("kind", &S::kind, "", "kind of shape: sphere, box, cylinder, capsule, cone or mesh").required();
   t.add("size", &S::size, "m", "edge lengths of a box").above(0).atMost(1e5);
   t.add("radius", &S::radius, "m", "radius of a sphere, cylinder or capsule, or of the base of a cone")
       .above(0)
       .atMost(1e5);
   t.add("tip_radius", &S::tipRadius, "m", "tip radius of a truncated cone; default: 0").atLeast(0).atMost(1e5);
-  t.add("length", &S::length, "m", "length of a cylinder or cone, or of a capsule excluding its caps")
+  t.add("length", &S::length, "m", "length of a cylinder, height of a cone, or length of a capsule without its caps")
       .above(0)
       .atMost(1e5);
   t.add("file", &S::file, "",
-        "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder, "
-        "the assets folder");
-  t.add("scale", &S::scale, "m", "unit of length of a mesh file; default: 1").above(0).atMost(1e6);
+        "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder "
+        "and the assets folder");
+  t.add("scale", &S::scale, "m", "length of one unit of the mesh file; default: 1").above(0).atMost(1e6);
   t.add("sphere_radius", &S::sphereRadius, "m",
-        fmt::format(
-            "radius of the spheres that represent a mesh in contacts; default: {} of its diagonal, or less if spheres "
-            "would protrude by more than a fiftieth of the smallest grain radius or of the smallest thickness",
-            MeshSection::kShareOfDiagonal))
+        fmt::format("radius of the spheres that represent a mesh in contacts; default: {} of the mesh's diagonal, or "
+                    "less if spheres would protrude from the mesh by more than a fiftieth of the smallest grain radius "
+                    "or of the smallest thickness",
+                    MeshSection::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("position", &S::position, "m",
-        "position of the centre in the body frame (of a cone: half-way up; of a mesh: the origin of the file)")
+        "position of the centre in the body frame (cone: point at half its height; mesh: origin of the file)")
       .atLeast(-1e5)
       .atMost(1e5);
   t.add("axis", &S::axis, "-",
@@ -99,27 +99,27 @@ Table<JointSection> jointTable() {
   Table<S> t(
       "[joint]",
       "Joint between two bodies; joint coordinates describe the motion of the second body relative to the first");
-  t.add("name", &S::name, "", "name of the joint for springs and drives").required();
+  t.add("name", &S::name, "", "name that springs, drives and couplings use for the joint").required();
   t.add("type", &S::type, "",
         "type of joint and its free motion: revolute (one rotation), spherical (all rotations), universal (two "
-        "rotations), prismatic (a translation), cylindrical (rotation and translation), fixed (none), distance (all at "
-        "a constant distance)");
+        "rotations), prismatic (a translation), cylindrical (rotation and translation), fixed (none), distance (all "
+        "motions at a constant distance of two points)");
   t.add("bodies", &S::bodies, "", "names of the two bodies, e.g. [\"world\", \"rod\"]").required();
   t.add("point", &S::point, "m", "initial position of the joint in the world");
   t.add("axis", &S::axis, "-",
-        "initial axis of rotation or translation in the world; of a universal joint, the axis of the first body");
+        "initial axis of rotation or translation in the world; for a universal joint, the axis of the first body");
   t.add("second_axis", &S::secondAxis, "-", "axis of the second body of a universal joint, perpendicular to axis");
   t.add("point_a", &S::pointA, "m",
         "position of the joint in the frame of the first body, instead of point; requires point_b");
   t.add("point_b", &S::pointB, "m", "position of the joint in the frame of the second body");
   t.add("axis_a", &S::axisA, "-", "axis in the frame of the first body, instead of axis; requires axis_b");
-  t.add("axis_b", &S::axisB, "-", "axis in the frame of the second body; of a universal joint, the second axis");
+  t.add("axis_b", &S::axisB, "-", "axis in the frame of the second body; for a universal joint, the second axis");
   t.add("length", &S::length, "m",
         "distance between point_a and point_b of a distance joint; default: the initial distance")
       .above(0)
       .atMost(1e5);
   t.add("damping", &S::damping, "N m s/rad or N s/m",
-        "damping of the free axis; of a cylindrical joint, damping of its rotation")
+        "damping of the free axis; for a cylindrical joint, damping of the rotation")
       .atLeast(0);
   t.add("slide_damping", &S::slideDamping, "N s/m", "damping of the translation of a cylindrical joint").atLeast(0);
   t.add("limits", &S::limits, "rad or m", "positions of the lower and upper end stop on the free axis");
@@ -135,18 +135,21 @@ Table<SpringSection> springTable() {
   using S = SpringSection;
   Table<S> t("[spring]", "Spring and damper between two points, or on the free axis of a joint");
   t.add("name", &S::name, "", "name in results and messages").required();
-  t.add("bodies", &S::bodies, "", "names of the two connected bodies; or use joint");
+  t.add("bodies", &S::bodies, "",
+        "names of the two connected bodies; to connect them along a joint axis, set joint instead");
   t.add("point_a", &S::pointA, "m", "end point on the first body, in its frame; default: (0, 0, 0)");
-  t.add("point_b", &S::pointB, "m", "end point on the second body, in its frame");
+  t.add("point_b", &S::pointB, "m", "end point on the second body, in its frame; default: (0, 0, 0)");
   t.add("joint", &S::joint, "",
-        "name of a revolute, prismatic or cylindrical joint on whose axis the spring acts, instead of bodies");
-  t.add("acts_on", &S::actsOn, "", "axis of a cylindrical joint");
+        "name of a revolute, prismatic or cylindrical joint, instead of bodies; the spring acts on the free axis of "
+        "the joint");
+  t.add("acts_on", &S::actsOn, "", "for a cylindrical joint: the axis to act on");
   t.add("stiffness", &S::stiffness, "N/m or N m/rad", "stiffness of the spring").atLeast(0);
   t.add("damping", &S::damping, "N s/m or N m s/rad", "damping coefficient; any value is stable (implicit integration)")
       .atLeast(0);
-  t.add("preload", &S::preload, "N or N m", "force at free_position; positive pushes the bodies apart");
+  t.add("preload", &S::preload, "N or N m", "force at free_position; positive values push the bodies apart");
   t.add("free_position", &S::freePosition, "m or rad",
-        "length, or position of the joint axis, at which the force equals preload; default: the initial one");
+        "length of the spring, or position of the joint axis, at which the force equals preload; default: the initial "
+        "value");
   t.add("limits", &S::limits, "rad or m", "positions of the lower and upper end stop on the axis of a joint");
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "stiffness of the end stops; required with limits")
       .atLeast(0);
@@ -158,40 +161,41 @@ Table<SpringSection> springTable() {
 
 Table<BushingSection> bushingTable() {
   using S = BushingSection;
-  Table<S> t("[bushing]",
-             "Elastic bushing: springs and dampers between two bodies in all six directions, initially unloaded");
+  Table<S> t(
+      "[bushing]",
+      "Elastic bushing: springs and dampers between two bodies in all six degrees of freedom, initially unloaded");
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("bodies", &S::bodies, "", "names of the two bodies").required();
   t.add("point", &S::point, "m", "initial position of the centre in the world").required();
   t.add("axis", &S::axis, "-", "initial direction of the bushing's z axis in the world; default: the world axes");
-  t.add("stiffness", &S::stiffness, "N/m", "along the bushing's x, y, z").atLeast(0);
-  t.add("damping", &S::damping, "N s/m", "along the bushing's x, y, z").atLeast(0);
-  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "about the bushing's x, y, z").atLeast(0);
-  t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "about the bushing's x, y, z").atLeast(0);
+  t.add("stiffness", &S::stiffness, "N/m", "stiffness along the bushing's x, y, z").atLeast(0);
+  t.add("damping", &S::damping, "N s/m", "damping along the bushing's x, y, z").atLeast(0);
+  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "stiffness about the bushing's x, y, z").atLeast(0);
+  t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "damping about the bushing's x, y, z").atLeast(0);
   return t;
 }
 
 Table<DriveSection> driveTable() {
   using S = DriveSection;
-  Table<S> t("[drive]", "Motor on a free axis of a joint: the sum of value, polynomial, sine and table over time; the "
-                        "results contain its torque or force and its power");
+  Table<S> t("[drive]", "Motor on a free axis of a joint; imposes the sum of value, polynomial, sine and table as a "
+                        "function of time; the results contain the torque or force and the power of the motor");
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("joint", &S::joint, "", "name of a revolute, prismatic or cylindrical joint").required();
-  t.add("acts_on", &S::actsOn, "", "axis of a cylindrical joint");
+  t.add("acts_on", &S::actsOn, "", "for a cylindrical joint: the axis to act on");
   t.add("imposes", &S::imposes, "",
-        "prescribed quantity: speed or position of the axis, or its torque (for a translation its force)");
+        "prescribed quantity: speed or position of the axis, or torque on the axis (for a translation, force)");
   t.add("value", &S::value, "rad/s, rad, N m or m/s, m, N", "constant value");
   t.add("polynomial", &S::polynomial, "unit of value / s^i",
         "coefficients c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
-  t.add("amplitude", &S::amplitude, "as value", "amplitude of a sine");
+  t.add("amplitude", &S::amplitude, "as value", "amplitude of the sine");
   t.add("frequency", &S::frequency, "Hz", "frequency of the sine").atLeast(0).atMost(1e6);
   t.add("phase", &S::phase, "deg", "phase of the sine at t = 0").atLeast(-3600).atMost(3600);
   t.add("time", &S::time, "s",
-        "times of the table, in increasing order; a repeated time makes a jump (not for position)")
+        "times of the table, in increasing order; a repeated time defines a jump (not allowed for position)")
       .atLeast(0);
   t.add("values", &S::values, "as value",
-        "values of the table; interpolated linearly for speed and torque, and by a smooth spline that starts and ends "
-        "at rest for position; constant outside");
+        "values of the table; speed and torque are interpolated linearly, position by a smooth spline that starts and "
+        "ends at rest; before and after the table, the value is constant");
   return t;
 }
 
@@ -201,8 +205,9 @@ Table<CouplingSection> couplingTable() {
                            "ratio x position of the first + offset");
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("joints", &S::joints, "", "names of the two joints").required();
-  t.add("ratio", &S::ratio, "-, m/rad or rad/m", "ratio: motion of the second axis / motion of the first").required();
-  t.add("offset", &S::offset, "rad or m", "offset; default: from the initial positions");
+  t.add("ratio", &S::ratio, "-, m/rad or rad/m", "motion of the second axis / motion of the first axis").required();
+  t.add("offset", &S::offset, "rad or m",
+        "offset in this equation; default: the value that the initial positions imply");
   t.add("acts_on", &S::actsOn, "", "axis of each joint, required for cylindrical joints, e.g. [\"angle\", \"slide\"]");
   return t;
 }
@@ -272,9 +277,10 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
   if (body.density && body.fixed) section.fail("density", "[kg/m3] has no effect on a fixed body; remove it");
   if (body.shapes.empty()) return;
   if (body.point)
-    section.fail("point", "has no inertia, but [[body.shape]] requires it; remove point, and set inertia or box");
+    section.fail("point", "makes the body a point mass without inertia, but [[body.shape]] requires inertia; remove "
+                          "point, and set inertia or box");
   if (body.material.empty())
-    section.fail("material", "is missing, but [[body.shape]] requires it; set the name of a material");
+    section.fail("material", "is missing, but a body with [[body.shape]] requires it; set the name of a material");
   requireMaterial(scene, section, "material", body.material);
   if (!body.mass && !body.fixed && !body.density) body.density = scene.material(body.material).density;
   if (scene.run.tolerance)
@@ -282,20 +288,20 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
                "applies to mechanisms without contacts only; remove it, or the shapes of the bodies");
 }
 
-/// Contact forces are constant over a step. Symplectic Euler applies them as those of grains; RATTLE would move bodies
-/// by them twice, and a stiff contact would gain energy in each step.
+/// Contact forces are constant over a step. Symplectic Euler applies them to bodies as to grains. RATTLE would move
+/// bodies twice by the same forces, so that a stiff contact would gain energy in each step.
 void setIntegrator(const Section& root, Scene& scene) {
   if (scene.vehicle && !scene.mechanism.empty()) scene.run.integrator = multibody::Integrator::kSymplecticEuler;
   if (!scene.mechanism.touches()) return;
-  constexpr std::size_t kMostShapes = 255; // 8-bit index in a grain's list of parts
+  constexpr std::size_t kMaxShapes = 255; // 8-bit index in a grain's list of parts
   std::size_t shapes = 0;
   const std::vector<Section> bodies = root.list("body");
   for (std::size_t b = 0; b < bodies.size(); ++b)
-    if ((shapes += scene.mechanism.bodies[b].shapes.size()) > kMostShapes)
-      bodies[b].fail("shape", fmt::format("exceeds the maximum of {} shapes in a scene; use fewer", kMostShapes));
+    if ((shapes += scene.mechanism.bodies[b].shapes.size()) > kMaxShapes)
+      bodies[b].fail("shape", fmt::format("exceeds the maximum of {} shapes in a scene; use fewer", kMaxShapes));
   if (root.section("run").has("integrator") && scene.run.integrator == multibody::Integrator::kRattle)
     root.section("run").fail("integrator", "makes stiff contacts of bodies gain energy; set \"symplectic_euler\", or "
-                                           "remove the key (it is the default with [[body.shape]])");
+                                           "remove the key (with [[body.shape]], \"symplectic_euler\" is the default)");
   scene.run.integrator = multibody::Integrator::kSymplecticEuler;
 }
 

@@ -34,21 +34,21 @@ struct ShapeSection {
 /// [[body]]
 struct BodySection {
   std::string name;
-  std::optional<double> mass;      ///< [kg]; empty: mass of its shapes, or a fixed body
-  std::optional<double> density;   ///< [kg/m3] density of its shapes; empty: mass is given
+  std::optional<double> mass;      ///< [kg]; empty: computed from the shapes, or the body is fixed
+  std::optional<double> density;   ///< [kg/m3] density of the shapes; empty: mass is given
   std::vector<double> inertia;     ///< xx, yy, zz (, xy, xz, yz) [kg m2]; empty: from the box, else from its shapes
   std::optional<base::Vec3d> box;  ///< [m] edges of the drawn box; it sets the inertia unless given
   base::Vec3d position;            ///< [m] centre of mass
   std::optional<base::Vec3d> axis; ///< axis of the body's rotation by `angle`
   std::optional<double> angle;     ///< [deg]
-  std::vector<double> orientation; ///< quaternion w, x, y, z instead; empty: not given
+  std::vector<double> orientation; ///< quaternion w, x, y, z, instead of axis and angle; empty: not given
   base::Vec3d velocity, spin;      ///< [m/s], [rad/s], world components
   bool fixed = false;
   bool point = false;               ///< a mass without extent
   std::string material;             ///< contact material of its shapes
   std::vector<ShapeSection> shapes; ///< empty: no contacts
   std::optional<base::Vec3d> probe; ///< [m] edges of the box in which the grain mass is recorded
-  base::Vec3d probePosition;        ///< [m] centre of that box in the body's frame
+  base::Vec3d probePosition;        ///< [m] centre of the probe box in the body's frame
   bool operator==(const BodySection&) const = default;
 };
 
@@ -57,11 +57,11 @@ struct JointSection {
   std::string name;
   multibody::JointType type = multibody::JointType::kRevolute;
   std::vector<std::string> bodies;
-  std::optional<base::Vec3d> point, axis, secondAxis;      ///< world, at the start
+  std::optional<base::Vec3d> point, axis, secondAxis;      ///< initial, in the world frame
   std::optional<base::Vec3d> pointA, pointB, axisA, axisB; ///< each in the frame of its body
   std::optional<double> length;                            ///< length of a distance joint [m]
   double damping = 0, slideDamping = 0;
-  std::optional<std::array<double, 2>> limits; ///< [rad] or [m] from the start
+  std::optional<std::array<double, 2>> limits; ///< [rad] or [m] from the initial position
   double stopStiffness = 0, stopDamping = 0;
   bool operator==(const JointSection&) const = default;
 };
@@ -72,9 +72,9 @@ struct SpringSection {
   std::vector<std::string> bodies;
   std::optional<base::Vec3d> pointA, pointB; ///< each in its body's frame [m]
   std::string joint;
-  std::optional<multibody::JointAxis> actsOn; ///< empty: the only one
+  std::optional<multibody::JointAxis> actsOn; ///< empty: the only axis of the joint
   double stiffness = 0, damping = 0, preload = 0;
-  std::optional<double> freePosition; ///< length [m], or axis position [m] or [rad]; empty: as at the start
+  std::optional<double> freePosition; ///< length [m], or axis position [m] or [rad]; empty: initial value
   std::optional<std::array<double, 2>> limits;
   double stopStiffness = 0, stopDamping = 0;
   bool operator==(const SpringSection&) const = default;
@@ -84,8 +84,8 @@ struct SpringSection {
 struct BushingSection {
   std::string name;
   std::vector<std::string> bodies;
-  base::Vec3d point;               ///< world, at the start [m]
-  std::optional<base::Vec3d> axis; ///< its z axis in the world frame; empty: the world's axes
+  base::Vec3d point;               ///< initial position in the world frame [m]
+  std::optional<base::Vec3d> axis; ///< z axis of the bushing in the world frame; empty: the world's axes
   base::Vec3d stiffness, damping, rotationStiffness, rotationDamping;
   bool operator==(const BushingSection&) const = default;
 };
@@ -93,7 +93,7 @@ struct BushingSection {
 /// [[drive]]: the sum of the given terms.
 struct DriveSection {
   std::string name, joint;
-  std::optional<multibody::JointAxis> actsOn; ///< empty: the only one
+  std::optional<multibody::JointAxis> actsOn; ///< empty: the only axis of the joint
   multibody::DriveKind imposes = multibody::DriveKind::kSpeed;
   std::optional<double> value;
   std::vector<double> polynomial;
@@ -139,7 +139,7 @@ struct MechanismSections {
                          [](const ShapeSection& s) { return s.kind == ShapeKind::mesh; });
     });
   }
-  /// Returns true without any section of a mechanism.
+  /// Returns true if the scene has no section of a mechanism.
   bool hasNoParts() const {
     return bodies.empty() && joints.empty() && springs.empty() && bushings.empty() && drives.empty() &&
            couplings.empty();
@@ -147,7 +147,7 @@ struct MechanismSections {
   bool operator==(const MechanismSections&) const = default;
 };
 
-/// Calls `f` for each kind with its key in a file, in an order in which each refers to earlier ones only.
+/// Calls `f` with the key and the list of each kind of section. Sections refer only to kinds that come earlier.
 template <class Sections, class F> void forEachKind(Sections& s, F f) {
   f("body", s.bodies), f("joint", s.joints), f("spring", s.springs), f("bushing", s.bushings);
   f("drive", s.drives), f("coupling", s.couplings);

@@ -36,10 +36,10 @@ LoadedMesh loadMesh(const base::Section& section, const std::string& file, doubl
                  fmt::format("[m] is above {} m, half of the mesh's longest side; lower it, or correct scale",
                              base::roundedDown(0.5 * longest, 4)));
   if (const double points = spheredecomp::latticePoints(triangles, loaded.sphereRadius);
-      !(points <= spheredecomp::kMostLatticePoints))
+      !(points <= spheredecomp::kMaxLatticePoints))
     section.fail("sphere_radius", fmt::format("[m] for a mesh of {:.4g} x {:.4g} x {:.4g} m requires {:.2g} lattice "
                                               "points, more than {:.0e}; raise it, or correct scale",
-                                              size.x, size.y, size.z, points, spheredecomp::kMostLatticePoints));
+                                              size.x, size.y, size.z, points, spheredecomp::kMaxLatticePoints));
   if (centred) {
     loaded.middle = (low + high) * 0.5;
     for (base::Vec3d& v : triangles.vertices) v -= loaded.middle;

@@ -24,13 +24,13 @@ Table<Output> outputTable() {
   t.add("contact_forces", &S::contactForces, "", "add the resultant contact force on each grain to the frames");
   t.add("shoe_forces", &S::shoeForces, "", "add ground force and shear force on each track shoe to results.h5");
   t.add("gear_contacts", &S::gearContacts, "",
-        "add the number of grain contacts of each vehicle part, and grains caught in the running gear, to each row; "
-        "requires a pass over all these contacts");
+        "add the number of grain contacts of each vehicle part, and the number of grains caught in the running gear, "
+        "to each row; each row then costs a pass over all contacts of parts");
   t.add("final_surface", &S::finalSurface, "",
         "add the final bed surface (ruts) of a run with a vehicle to results.h5");
-  t.add(
-       "grains_csv", &S::grainsCsv, "",
-       "write grains.csv with all grains at each output time; \"auto\": if there are at most 1000 grains and 1e6 lines")
+  t.add("grains_csv", &S::grainsCsv, "",
+        "write grains.csv with all grains at each output time; \"auto\": only if there are at most 1000 grains and 1e6 "
+        "lines")
       .orWord("auto");
   t.add("picture", &S::picture, "", "write picture.png with vehicle and bed at the end of the run");
   t.add("picture_width", &S::pictureWidth, "px", "width of the picture").atLeast(64).atMost(8192);
@@ -41,7 +41,7 @@ Table<Output> outputTable() {
   t.add("fields_low", &S::fieldsLow, "m",
         "lower corner of the box divided into cells; default: the initial bounding box of the grains, extended upwards "
         "by one cell");
-  t.add("fields_high", &S::fieldsHigh, "m", "upper corner of this box");
+  t.add("fields_high", &S::fieldsHigh, "m", "upper corner of the box divided into cells");
   t.add("plots", &S::plots, "", "draw plots of the time series (requires Python with matplotlib)");
   return t;
 }
@@ -64,7 +64,7 @@ Table<PlotSection> plotTable() {
   t.add("y_offset", &S::yOffset, "as the axis", "offset added to y_scale times y");
   t.add("y_from_start", &S::yFromStart, "", "subtract the first value of each y before scaling");
   t.add("y_range", &S::yRange, "as the axis", "axis limits; default: the range of the values");
-  t.add("levels", &S::levels, "as the axis", "heights of dashed reference lines");
+  t.add("levels", &S::levels, "as the axis", "y values of dashed horizontal reference lines");
   t.add("level_labels", &S::levelLabels, "", "legend labels of the reference lines");
   return t.leaveOutEmpty();
 }
@@ -119,7 +119,7 @@ void checkFields(const Section& section, const Output& output) {
     if (!((*output.fieldsHigh)[a] > (*output.fieldsLow)[a]))
       section.fail("fields_high", fmt::format("[m] is not above fields_low along {}; raise it", "xyz"[a]));
   if (output.fieldsCell && !output.frames)
-    section.fail("fields_cell", "requires frames.h5, which frames = false disables; remove one of them");
+    section.fail("fields_cell", "requires frames.h5, which frames = false disables; remove one of the two keys");
 }
 
 void checkOutput(const Section& section, Output& output, const Scene& scene) {

@@ -19,7 +19,7 @@ void addContactKeys(Table<RunSettings>& t) {
         "contact method of grains: penalty (springs and dashpots, explicit time steps), or complementarity (impulses "
         "with Coulomb friction, solved simultaneously with time steps of about a millisecond)");
   t.add("residual", &S::residual, "m/s",
-        "velocity tolerance of the complementarity solver per step; \"auto\": 0.01 of the speed that gravity adds per "
+        "tolerance of the complementarity solver, as a velocity; \"auto\": 0.01 times the speed that gravity adds per "
         "step")
       .above(0)
       .atMost(10)
@@ -36,25 +36,25 @@ Table<RunSettings> runTable() {
   t.add("time_step", &S::timeStep, "s",
         "time step; \"auto\": duration of the shortest contact / steps_per_contact (1e-4 s without grains), at most "
         "half the largest step at which beds come to rest, 0.2 of the Rayleigh time of hertz grains, 0.1 s and the "
-        "duration; for mechanisms from their oscillation periods; a set step may be up to the stability limit")
+        "duration; for mechanisms, from their oscillation periods; given steps must not exceed the stability limit")
       .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");
   t.add("steps_per_contact", &S::stepsPerContact, "-",
-        "number of steps per shortest contact with time_step = \"auto\": with 20, 10, 6 steps the error of "
-        "restitutions above 0.3 is at most 0.035, 0.07, 0.12 and on average -0.01, -0.02, -0.03; the other limits of "
-        "\"auto\" scale in proportion, up to the largest step at which beds come to rest")
+        "for time_step = \"auto\": number of steps per shortest contact; with 20, 10, 6 steps, restitutions above 0.3 "
+        "have errors of at most 0.035, 0.07, 0.12 (mean: -0.01, -0.02, -0.03); the other limits of \"auto\" scale in "
+        "proportion, up to the largest step at which beds come to rest")
       .atLeast(kFewestStepsPerContact)
       .atMost(1000);
   t.add("tolerance", &S::tolerance, "m/s or rad/s",
-        "error tolerance per second of position and orientation of the bodies for adaptive steps, instead of "
-        "time_step; only for mechanisms with integrator_order = 2 of rattle and implicit springs")
+        "tolerance for adaptive steps, instead of time_step: maximum error of body positions and orientations per "
+        "second of simulated time; only for mechanisms with rattle, integrator_order = 2 and implicit springs")
       .atLeast(1e-12)
       .atMost(1);
   t.add("steps_per_period", &S::stepsPerPeriod, "-",
         "minimum number of steps per period, revolution or ramp of drives and moving surfaces, per table interval, per "
-        "revolution of a body, per oscillation of vehicle springs, and per two bounces at an end stop; larger steps "
-        "are an error, and a body that rotates too fast ends the run")
+        "revolution of a body, per oscillation of vehicle springs, and per two bounces at an end stop; a larger time "
+        "step is an error, and a body that rotates too fast during the run ends the run")
       .atLeast(2)
       .atMost(1e6);
   t.add("gravity", &S::gravity, "m/s2", "gravitational acceleration").atLeast(-1000).atMost(1000);
@@ -67,14 +67,14 @@ Table<RunSettings> runTable() {
   t.add("seed", &S::seed, "-", "seed of the random number generator").atLeast(0);
   t.add("device", &S::device, "", "device for the grains; \"auto\": a GPU if available");
   t.add("precision", &S::precision, "",
-        "precision of the grain forces; with either, results are bitwise identical on all machines");
+        "precision of the grain forces; with either precision, results are bitwise identical on all machines");
   addContactKeys(t);
   t.add("impact_speed", &S::impactSpeed, "m/s",
         "maximum expected impact speed, used to choose and check the time step of hertz materials; with "
-        "complementarity, \"auto\" moves a grain of this speed by 0.08 of its diameter per step")
+        "complementarity, the \"auto\" step moves a grain of this speed by at most 0.08 of its diameter")
       .above(0)
       .atMost(1e4);
-  t.add("threads", &S::threads, "-", "number of CPU threads; 0: all cores; the results do not depend on it")
+  t.add("threads", &S::threads, "-", "number of CPU threads; 0: all cores; no effect on results")
       .atLeast(0)
       .atMost(1024);
   t.add("integrator", &S::integrator, "",
@@ -94,8 +94,8 @@ Table<RunSettings> runTable() {
       .orWord("auto");
   t.add("skin", &S::skin, "-", "skin distance of the neighbour lists, in grain radii").above(0).atMost(2);
   t.add("max_overlap", &S::maxOverlap, "-",
-        "maximum overlap in grain radii, above which the run stops; \"auto\": 0.5 between grains, 0.8 at planes, floor "
-        "and surfaces, 0.2 for entering grains; at parts and meshes always 1, at which a grain passes through")
+        "overlap in grain radii above which the run ends; \"auto\": 0.5 between grains, 0.8 at planes, floor and "
+        "surfaces, 0.2 for entering grains; at parts and meshes always 1 (grains with more overlap pass through)")
       .above(0)
       .atMost(1)
       .orWord("auto");
@@ -114,15 +114,15 @@ Table<Complementarity> complementarityTable() {
         "friction law: coulomb, or associated (convex relaxation, in which sliding surfaces separate at friction times "
         "their sliding speed)");
   t.add("compliance", &S::compliance, "",
-        "compliance of contacts: law (springs and dashpots of the materials, implicit in time) or rigid (none; "
-        "overlaps are corrected at the speed recovery)");
+        "compliance of contacts: law (springs and dashpots of the materials, implicit in time) or rigid (no "
+        "compliance; overlaps are reduced at most at the speed recovery)");
   t.add("iterations", &S::iterations, "-", "maximum number of iterations per step; steps that reach it are reported")
       .atLeast(1)
       .atMost(100'000);
   t.add("recovery", &S::recovery, "m/s", "maximum speed at which overlapping rigid contacts separate")
       .atLeast(0)
       .atMost(100);
-  t.add("strict", &S::strict, "", "whether the run ends at a step whose residual exceeds run.residual");
+  t.add("strict", &S::strict, "", "whether a step with a residual above run.residual ends the run with an error");
   return t;
 }
 
@@ -142,10 +142,10 @@ void checkIntervals(const Section& section, const RunSettings& run) {
     section.fail("time_step", fmt::format("[s] is above the duration of {} s; lower it", run.duration));
   if (run.outputInterval < *run.timeStep)
     section.fail("output_interval",
-                 fmt::format("[s] is below the time step of {} s; raise it to at least that", *run.timeStep));
+                 fmt::format("[s] is below the time step of {} s; raise it to at least this step", *run.timeStep));
   if (run.frameInterval < *run.timeStep)
     section.fail("frame_interval",
-                 fmt::format("[s] is below the time step of {} s; raise it to at least that", *run.timeStep));
+                 fmt::format("[s] is below the time step of {} s; raise it to at least this step", *run.timeStep));
 }
 
 void checkOrder(const Section& run, const RunSettings& settings) {

@@ -30,7 +30,7 @@ namespace grouser::scene {
 
 struct Soil; // soil.hpp
 
-/// Steps of the shortest contact; `grouser study impact` measures their effect.
+/// Default and minimum number of steps per shortest contact; `grouser study impact` measures their effect.
 inline constexpr double kStepsPerContact = 20, kFewestStepsPerContact = 6;
 
 /// [run]
@@ -38,7 +38,7 @@ struct RunSettings {
   double duration = 0;             ///< [s] simulated time after the bed has settled
   std::optional<double> timeStep;  ///< [s]; empty: chosen by setup::chooseTimeStep()
   std::optional<double> tolerance; ///< [m/s, rad/s] error tolerance of a mechanism's steps; empty: fixed steps
-  double stepsPerContact = kStepsPerContact; ///< [-] steps of the shortest contact, for the automatic step
+  double stepsPerContact = kStepsPerContact; ///< [-] steps per shortest contact, for the automatic step
   double stepsPerPeriod =
       20; ///< [-] minimum number of steps per period, turn or gap of a prescribed quantity, and per turn of a body
   base::Vec3d gravity{0, 0, -9.81};
@@ -53,7 +53,7 @@ struct RunSettings {
   ContactMethod contact = ContactMethod::penalty; ///< method for contacts of grains
   std::optional<double> residual;                 ///< [m/s] tolerance of complementarity contacts; empty: 0.01 g dt
   int threads = 0;                                ///< 0: all
-  /// Integrator of mechanisms; the next two apply to rattle.
+  /// Integrator of mechanisms; the next two members apply to rattle only.
   multibody::Integrator integrator = multibody::Integrator::kRattle;
   int integratorOrder = 2; ///< 2, 4, 6, 8
   multibody::Springs springs = multibody::Springs::kImplicit;
@@ -77,7 +77,7 @@ struct Complementarity {
   bool operator==(const Complementarity&) const = default;
 };
 
-/// [material.NAME]; after loading with all values of its law.
+/// [material.NAME]. After loading, all values that its law uses are set.
 struct Material : contact::MaterialProperties {
   std::string name;
   std::string soil;                  ///< absolute path of the soil file after loading; empty: no soil
@@ -98,7 +98,7 @@ struct Grain {
   double radius = 0;
   std::string material;
   bool fixed = false;
-  std::optional<double> aboveBed{}; ///< [m] height of its lowest point over the settled bed; replaces position z
+  std::optional<double> aboveBed{}; ///< [m] gap between its lowest point and the settled bed; replaces position z
   bool operator==(const Grain&) const = default;
 };
 
@@ -114,14 +114,14 @@ struct GrainFill {
   std::optional<std::string> file;      ///< absolute path after loading
   base::Vec3d velocity, spin;
   std::string material;
-  std::optional<double> aboveBed; ///< [m] height of the lowest point over the settled bed
+  std::optional<double> aboveBed; ///< [m] gap between the lowest point and the settled bed
   std::vector<Grain> fromFile;    ///< grains of the file, read when the scene is loaded
   double smallestRadius() const;
   double largestRadius() const;
   bool operator==(const GrainFill&) const = default;
 };
-/// Grains of a text file with lines "x, y, z, r" [m], "x, y, z, r, vx, vy, vz" [m/s], or also "wx, wy, wz" [rad/s]; the
-/// section has the defaults. Throws InputError with the number of an invalid line.
+/// Grains of a text file with lines "x, y, z, r" [m], "x, y, z, r, vx, vy, vz" [m/s], or also "wx, wy, wz" [rad/s]. The
+/// section provides values for missing columns. Throws InputError with the number of an invalid line.
 std::vector<Grain> readGrainFile(const std::string& file, const GrainFill& fill);
 
 /// [[source]]: grains that enter during the run.
@@ -167,7 +167,7 @@ struct Terrain {
   std::optional<std::array<double, 2>> tile; ///< [m] x, y; settle a piece of this size, then fill the terrain with it
   double settleTimeLimit = 3.0;
   double settleKineticEnergy = 1e-4;      ///< [-] mean kinetic energy per grain / (m g radius)
-  std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain / its weight; empty: no limit
+  std::optional<double> settleForceRatio; ///< [-] mean resultant force on a grain / grain weight; empty: no limit
   bool cache = true;                      ///< use the cache of settled beds
   bool granular() const { return kind == TerrainKind::granular; }
   bool deformable() const { return kind == TerrainKind::scm; }
@@ -179,7 +179,7 @@ struct Terrain {
   static constexpr double kPoured = 0.41;                                ///< expected porosity of a poured bed [-]
 };
 
-/// [scm]: constants of a deformable soil. Empty ones come from the soil file.
+/// [scm]: constants of a deformable soil. Empty constants come from the soil file.
 struct Scm {
   SoilConstantsFrom constants = SoilConstantsFrom::published;
   int constantsDraw = 0; ///< sample of the soil file's constants within their intervals; 0: nominal
@@ -193,7 +193,7 @@ struct Scm {
   std::optional<double> reposeAngle;        ///< [deg]; empty: published, or phi
   std::optional<double> bulkDensity;        ///< [kg/m3]; empty: published, or of the soil's grains
   std::optional<double> nodeSpacing;        ///< [m]; empty: a quarter of the length of a shoe
-  double deepest = 0.5;                     ///< [m]
+  double deepest = 0.5;                     ///< [m] maximum sinkage
   bool operator==(const Scm&) const = default;
 };
 
@@ -207,11 +207,11 @@ struct Vehicle {
   std::optional<double> sphereRadius;            ///< [m] sphere radius of the parts; empty: kSphereRadius or finer
   double sphereRefinement = 1;                   ///< [-] divisor of all sphere radii and their limits
   std::string material; ///< contact material of the parts; empty: the grains' material with the friction of the spec
-  double adhesion = 0;  ///< [-] pull of parts without a material / pull of a wall of the grains' material
+  double adhesion = 0;  ///< [-] adhesive force of parts without a material / that of a wall of the grains' material
   ChassisMount chassis = ChassisMount::free;
   Tracks tracks = Tracks::both;
   SoilContact soilContact = SoilContact::all; ///< parts in contact with grains
-  std::vector<vehicle::SpecKey> specKeys;     ///< [spec.SECTION]: keys of the vehicle file with other values
+  std::vector<vehicle::SpecKey> specKeys;     ///< [spec.SECTION]: keys that replace values of the vehicle file
   std::optional<vehicle::GearContactModel> gearContactModel; ///< empty: shapes, if the vehicle file has them
   std::optional<double> hullSphereRadius;                    ///< [m]; empty: 0.02 or sphereRadius, the larger one
   std::optional<bool> hullTouches; ///< whether the hull has contacts; empty: see setup::hullTouches()
@@ -329,7 +329,7 @@ struct Output {
   bool operator==(const Output&) const = default;
 };
 
-/// [parallel]: division of grains among ranks. Results are bitwise independent of it.
+/// [parallel]: division of grains among ranks. It changes no bit of the results.
 struct Parallel {
   std::optional<base::Vec3d> subdomains;   ///< number along x, y, z; 0: free; empty: automatic
   std::vector<double> cutsX, cutsY, cutsZ; ///< [m] initial positions of the cut planes; empty: automatic
@@ -372,7 +372,7 @@ struct Scene {
   [[noreturn]] void fail(const std::string& list, std::size_t number, const std::string& key,
                          const std::string& message) const;
   [[noreturn]] void failMaterial(const std::string& name, const std::string& key, const std::string& message) const;
-  /// "scene.toml:14: source.0", for failures of the simulation that come from there.
+  /// "scene.toml:14: source.0", for messages of simulation errors that an entry of [[list]] causes.
   std::string placeOf(const std::string& list, std::size_t number) const;
 
   std::string name() const { return file.stem().string(); }
@@ -380,7 +380,7 @@ struct Scene {
   bool deformable() const { return terrain && terrain->deformable(); }
   /// The material `name`, which exists after loading.
   const Material& material(const std::string& name) const;
-  /// The override of a pair, in either order; null if there is none.
+  /// The [contact] section of two materials, in either order; null if there is none.
   const ContactPair* contact(const std::string& a, const std::string& b) const;
 };
 

@@ -9,7 +9,7 @@
 #include "runs/scene/soil.hpp"
 #include "runs/scene/soil_calibration.hpp"
 #include "runs/support/locations.hpp"
-#include "runs/support/tell.hpp"
+#include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
 
@@ -80,17 +80,18 @@ std::string unsettledWarning(const Scene& scene) {
   const Terrain& t = *scene.terrain;
   if (t.lattice() || !(t.porosity || scene.vehicle)) return "";
   return fmt::format("terrain.settle_time_limit = 0: the bed is not settled, so the grains fall as a loose column at "
-                     "the start of the run{}{}; set a settling time, e.g. {:g}",
+                     "the start of the run{}{}; set a time limit for settling, e.g. {:g}",
                      t.porosity ? fmt::format(", without terrain.porosity = {:g}", *t.porosity) : "",
                      scene.vehicle ? ", under the vehicle" : "", Terrain{}.settleTimeLimit);
 }
 
 void printNotes(const Scene& scene) {
   if (!scene.document) return;
-  for (const std::string& warning : soilWarnings(scene)) support::tell("WARNING: {}\n", warning);
-  if (const std::string warning = unsettledWarning(scene); !warning.empty()) support::tell("WARNING: {}\n", warning);
-  for (const std::string& note : scene.document->notes()) support::tell("grouser: note: {}\n", note);
-  for (const std::string& note : soilNotes(scene)) support::tell("grouser: note: {}\n", note);
+  for (const std::string& warning : soilWarnings(scene)) support::printStderr("WARNING: {}\n", warning);
+  if (const std::string warning = unsettledWarning(scene); !warning.empty())
+    support::printStderr("WARNING: {}\n", warning);
+  for (const std::string& note : scene.document->notes()) support::printStderr("grouser: note: {}\n", note);
+  for (const std::string& note : soilNotes(scene)) support::printStderr("grouser: note: {}\n", note);
 }
 
 std::string resolvedToml(const Scene& scene) {

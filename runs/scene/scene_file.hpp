@@ -18,10 +18,10 @@ Scene readScene(const std::filesystem::path& file, const std::vector<std::string
 Scene readSceneText(std::string_view text, const std::filesystem::path& file,
                     const std::vector<std::string>& overrides = {});
 
-/// Warning for a random bed that is not settled; empty where there is none, or nothing depends on it.
+/// Warning about a random bed that does not settle; empty if there is none, or if nothing depends on the settled bed.
 std::string unsettledWarning(const Scene& scene);
 
-/// Prints warnings and notes on the scene to stderr, a line each, such as keys with a new name.
+/// Prints warnings and notes on the scene to stderr, one per line, e.g. about renamed keys.
 void printNotes(const Scene& scene);
 
 /// The scene with every default filled in, as TOML that loads to the same scene.

@@ -9,36 +9,43 @@ namespace {
 base::Table<Scm> scmTable() {
   using S = Scm;
   base::Table<S> t("scm", "Deformable soil (terrain.kind = \"scm\"): p = (k_c / b + k_phi) z^n under a loaded area "
-                          "whose smaller side is b, tau = (c + p tan phi) (1 - exp(-j / K)). Constants not set in this "
+                          "with the smaller side b; tau = (c + p tan phi) (1 - exp(-j / K)). Constants not set in this "
                           "section come from the soil file of terrain.material");
   t.add("constants", &S::constants, "",
-        "source of constants not set here: published values, or virtual tests of the soil's grains");
+        "source of the constants not set here: published (values of the literature) or measured (virtual tests of the "
+        "soil's grains)");
   t.add("constants_draw", &S::constantsDraw, "",
-        "number n >= 1 of a random sample of the constants not set here, drawn within their intervals; 0: nominal "
+        "number (at least 1) of a random sample of the constants not set here, drawn from their intervals; 0: nominal "
         "values")
       .atLeast(0)
       .atMost(1'000'000);
   t.add("n", &S::n, "-", "sinkage exponent").above(0).atMost(3);
-  t.add("k_c", &S::kc, "N/m^(n+1)", "cohesive modulus of deformation; k_c / b + k_phi must be above 0 for a shoe");
-  t.add("k_phi", &S::kphi, "N/m^(n+2)", "frictional modulus");
+  t.add("k_c", &S::kc, "N/m^(n+1)",
+        "cohesive modulus of deformation; k_c / b + k_phi must be above 0 for the width b of a shoe");
+  t.add("k_phi", &S::kphi, "N/m^(n+2)", "frictional modulus of deformation");
   t.add("c", &S::cohesion, "Pa", "cohesion").atLeast(0).atMost(1e7);
   t.add("phi", &S::frictionAngle, "deg", "angle of internal friction").atLeast(0).atMost(60);
   t.add("K", &S::shearDisplacement, "m", "shear displacement modulus").above(0).atMost(1);
   t.add("unloading_stiffness", &S::unloadingStiffness, "N/m3",
-        "constant k_0 of the unloading slope k_0 + A_u z, whose minimum is elastic_ratio max(1, n) p / z")
+        "constant k_0 of the unloading slope k_0 + A_u z; the slope is at least elastic_ratio max(1, n) p / z")
       .atLeast(-1e12)
       .atMost(1e12);
-  t.add("unloading_growth", &S::unloadingGrowth, "N/m4", "A_u").atLeast(0).atMost(1e13);
-  t.add("elastic_ratio", &S::elasticRatio, "-", "minimum of the unloading slope / secant slope p / z of loading")
+  t.add("unloading_growth", &S::unloadingGrowth, "N/m4", "coefficient A_u of the unloading slope k_0 + A_u z")
+      .atLeast(0)
+      .atMost(1e13);
+  t.add("elastic_ratio", &S::elasticRatio, "-",
+        "minimum unloading slope / (max(1, n) p / z), where p / z is the secant slope of loading")
       .atLeast(1)
       .atMost(1e3);
   t.add("damping", &S::damping, "Pa s/m",
-        "damping R: pressure per compression speed; shear stress R K ds/dt (at most 1 % of the strength)")
+        "damping R: pressure per compression speed, and shear stress R K ds/dt with s = j / K (at most 1 % of the "
+        "shear strength)")
       .atLeast(0)
       .atMost(1e7);
   t.add("slip_sinkage", &S::slipSinkage, "-",
-        "sinkage per shear displacement at constant pressure; default: 3 z / L with the sinkage z at the mean pressure "
-        "of the vehicle and its track-ground contact length L (Lyasko's rule at small slip), or 0 without a vehicle")
+        "sinkage per shear displacement at constant pressure; default: 3 z / L, with the sinkage z at the mean ground "
+        "pressure of the vehicle and the track-ground contact length L (Lyasko's rule at small slip), or 0 without a "
+        "vehicle")
       .atLeast(0)
       .atMost(1);
   t.add("maximum_slip_sinkage", &S::maximumSlipSinkage, "m", "maximum slip sinkage; default: the grouser height")
@@ -61,7 +68,7 @@ base::Table<Scm> scmTable() {
         "grid spacing; default: a quarter of the shoe length, or an eighth of the smallest body")
       .above(0)
       .atMost(1);
-  t.add("largest_sinkage", &S::deepest, "m", "maximum sinkage (range of the tabulated z^n)").above(0).atMost(10);
+  t.add("largest_sinkage", &S::deepest, "m", "maximum sinkage (range in which z^n is tabulated)").above(0).atMost(10);
   return t;
 }
 

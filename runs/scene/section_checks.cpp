@@ -113,12 +113,12 @@ void checkPeriodic(const Section& section, const Scene& scene) {
     const auto& domain = *domains[a];
     const std::string key = std::string("domain_") + "xy"[a];
     if (domain && !run.periodic[a])
-      section.fail(
-          key,
-          fmt::format("[m] has no effect without periodic boundaries along {}; remove it, or set run.periodic there",
-                      "xy"[a]));
+      section.fail(key, fmt::format("[m] has no effect without periodic boundaries along {}; remove it, or set "
+                                    "run.periodic to true along this axis",
+                                    "xy"[a]));
     if (domain && scene.terrain)
-      section.fail(key, "[m] is incompatible with [terrain], whose borders are the periodic boundaries; remove it");
+      section.fail(key, "[m] is incompatible with [terrain], since the borders of the terrain are the periodic "
+                        "boundaries; remove it");
     if (domain && !((*domain)[1] > (*domain)[0])) section.fail(key, "[m] must be [min, max]; put the lower side first");
     if (run.periodic[a] && !domain && !scene.terrain)
       section.fail("periodic", fmt::format("requires positions of the boundaries along {}; set run.{} = [from, to] [m]",
@@ -163,7 +163,7 @@ void checkSomethingMoves(const Scene& scene) {
 
 namespace {
 
-/// A material that only an override names is a mistyped name.
+/// Rejects a material that only an override defines: its name is probably mistyped.
 void checkMaterialsOfOverrides(const Section& root, const Scene& scene) {
   std::vector<std::string> names;
   for (const auto& [name, section] : root.named("material"))
@@ -171,7 +171,7 @@ void checkMaterialsOfOverrides(const Section& root, const Scene& scene) {
   for (const auto& [name, section] : root.named("material"))
     if (section.origin() == "--set")
       section.fail("", names.empty()
-                           ? fmt::format("is not a material of {}, which has none", scene.file.string())
+                           ? fmt::format("is not a material of {}, which defines no materials", scene.file.string())
                            : fmt::format("is not a material of {}; did you mean {}? (materials: {})",
                                          scene.file.string(), base::nearestWord(name, names), fmt::join(names, ", ")));
 }

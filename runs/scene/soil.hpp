@@ -40,7 +40,7 @@ struct SoilHead {
   bool calibrated = false; ///< whether [material] is calibrated with a bevameter run
 };
 
-/// [bed]: grain size for which [material] holds.
+/// [bed]: grain size for which [material] is valid.
 struct SoilGrains {
   double radius = 0;                       ///< [m] median radius
   double radiusSpread = Terrain::kSpread;  ///< [-] spread, uniform by number
@@ -88,9 +88,9 @@ struct Soil {
 /// Reads a soil's file. Throws base::InputError with file, line, key, value, range and remedy.
 Soil readSoil(const std::filesystem::path& file);
 
-/// Path of the soil file that a scene calls `word`: a name stands for soils/NAME.toml, a word with a slash or .toml is
-/// a path; both are searched for in the scene's folder, the current one and assets/. Empty if there is none; `tried`:
-/// the searched paths.
+/// Path of the soil file that `word` means in a scene: a name means soils/NAME.toml, a word with a slash or .toml is a
+/// path. Both are searched for in the scene's folder, the current folder and assets/. Empty if there is no such file;
+/// `tried` receives the searched paths.
 std::filesystem::path findSoil(const std::string& word, const std::filesystem::path& scene,
                                std::vector<std::filesystem::path>& tried);
 
@@ -102,18 +102,18 @@ std::string soilHint(const std::string& word, const std::filesystem::path& scene
 
 /// Soils of a scene: one for each material that is a soil, in the order of the materials.
 std::vector<support::SoilUse> soilUses(const Scene& scene);
-/// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times its own, cohesion [J/m2] 3; uncalibrated"; only
-/// name, file and hash if not `isGranular`.
+/// "lete_sand: /.../lete_sand.toml (0123...), grains of 14 mm, 2 times the soil's grain radius, cohesion [J/m2] 3;
+/// uncalibrated"; only name, file and hash if not `isGranular`.
 std::string soilLine(const support::SoilUse& use, bool isGranular = true);
 
-/// Notes on the scene's soils, a line each.
+/// Notes on the scene's soils, one per line.
 std::vector<std::string> soilNotes(const Scene& scene);
 
 /// Returns true if material `name` is a soil and `key` comes from the soil's file, so that it scales with the radius of
 /// the scene's grains.
 bool goesWithGrains(const Scene& scene, const std::string& name, const std::string& key);
 
-/// Power of the grains' radius with which a key of a soil's [material] scales.
+/// Exponent k if a key of a soil's [material] is proportional to (grain radius)^k; 0 for keys that do not scale.
 int radiusPowerOf(const std::string& key);
 
 /// All keys of a soil's file with unit, default, range and meaning, as Markdown.

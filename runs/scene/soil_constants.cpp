@@ -17,12 +17,12 @@ namespace {
 
 using Q = SoilQuantity;
 
-constexpr double kNormal95 = 1.959964; // half width of a 95 % interval over the standard deviation
-constexpr double kMostDeviations = 3;
+constexpr double kNormal95 = 1.959964; // half width of a 95 % interval / standard deviation
+constexpr double kMaxDeviations = 3;
 
-/// ASSUMED standard deviations over the value [-], for constants whose source has no interval. No source was found for
-/// them: they are about half of what `grouser soil` accepts as equal to a table of soils (n 15 %, phi 2 degrees, K 30
-/// %). Those of k_c and k_phi follow from n and kPressureDeviation.
+/// ASSUMED standard deviation / value [-], for constants without an interval in their source. No publication was found
+/// for these values; they are about half of the deviation from a table of soils that `grouser soil` accepts (n 15 %,
+/// phi 2 degrees, K 30 %). The deviations of k_c and k_phi follow from n and kPressureDeviation.
 double assumedDeviation(SoilQuantity quantity) {
   switch (quantity) {
   case Q::exponent:
@@ -42,7 +42,7 @@ double lengthOf(double a, double b) { return std::sqrt(a * a + b * b); }
 double tangent(double degrees) { return base::tan(degrees * base::kPi / 180); }
 double degrees(double tangent) { return base::atan(tangent) * 180 / base::kPi; }
 
-/// Standard deviation over the value, from the half width of a 95 % interval.
+/// Standard deviation / value, from the half width of a 95 % interval.
 double deviationOf(SoilQuantity quantity, double value, double halfWidth) {
   if (quantity == Q::frictionAngle)
     return value > 0 ? (tangent(value + halfWidth) - tangent(value - halfWidth)) / (2 * kNormal95 * tangent(value)) : 0;
@@ -72,7 +72,7 @@ std::optional<double> referenceSinkage(const std::vector<ContactConstant>& const
 /// Standard deviation of the logarithm of a quantity with this deviation of its value.
 double logDeviation(double deviation) { return std::sqrt(base::log(1 + deviation * deviation)); }
 
-/// Grain radius with the most measured constants; the smallest of several.
+/// Grain radius with the most measured constants; the smallest if several have as many.
 double measuredRadius(const Soil& soil) {
   std::map<double, int> constants;
   for (const ReachedConstant& r : soil.reached)
@@ -96,14 +96,14 @@ std::optional<ContactConstant> measured(const Soil& soil, SoilQuantity quantity,
   return ContactConstant{quantity, found->value, deviationOf(quantity, found->value, found->halfWidth), false};
 }
 
-/// Normal number of a sample and a constant, by Box and Muller's formula.
+/// Standard normal number of a sample for a constant, by Box and Muller's formula.
 double normal(int number, SoilQuantity quantity) {
   constexpr std::uint64_t kPurpose = base::purpose("scm.constants");
   const auto id = static_cast<std::uint64_t>(std::find(kContactQuantities.begin(), kContactQuantities.end(), quantity) -
                                              kContactQuantities.begin());
   const auto seed = static_cast<std::uint64_t>(number);
   const double u = 1 - base::uniform(seed, kPurpose, id, 0), v = base::uniform(seed, kPurpose, id, 1);
-  return std::clamp(std::sqrt(-2 * base::log(u)) * base::cos(2 * base::kPi * v), -kMostDeviations, kMostDeviations);
+  return std::clamp(std::sqrt(-2 * base::log(u)) * base::cos(2 * base::kPi * v), -kMaxDeviations, kMaxDeviations);
 }
 
 } // namespace

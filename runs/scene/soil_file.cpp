@@ -59,25 +59,28 @@ Table<PublishedConstant> publishedTable() {
   using S = PublishedConstant;
   Table<S> t("[published]", "Published constant of the soil; one section per constant");
   t.add("quantity", &S::quantity, "",
-        "p = (k_c / b + k_phi) z^n under a plate of width b; tau = (c + p tan phi) (1 - exp(-j / K))")
+        "constant in p = (k_c / b + k_phi) z^n under a plate of width b, or in tau = (c + p tan phi) (1 - exp(-j / K))")
       .required();
-  t.add("value", &S::value, "", "value in unit").atLeast(-kWidest).atMost(kWidest).required();
+  t.add("value", &S::value, "", "value, in the unit of the key unit").atLeast(-kWidest).atMost(kWidest).required();
   t.add("unit", &S::unit, "", "unit of the quantity: N/m^(n+1), N/m^(n+2), Pa, deg, m, kg/m3 or -").required();
   t.add("source", &S::source, "", "author, year and location in the publication").required();
-  t.add("low", &S::low, "", "minimum over several sources").atLeast(-kWidest).atMost(kWidest);
-  t.add("high", &S::high, "", "maximum over several sources").atLeast(-kWidest).atMost(kWidest);
+  t.add("low", &S::low, "", "minimum of the values of several sources").atLeast(-kWidest).atMost(kWidest);
+  t.add("high", &S::high, "", "maximum of the values of several sources").atLeast(-kWidest).atMost(kWidest);
   return t;
 }
 
 Table<ReachedConstant> reachedTable() {
   using S = ReachedConstant;
-  Table<S> t("[reached]", "Constant measured with [material]; one section per constant");
+  Table<S> t("[reached]", "Constant measured in virtual tests with [material]; one section per constant");
   t.add("quantity", &S::quantity, "", "as in [[published]]").required();
-  t.add("value", &S::value, "", "value in unit").atLeast(-kWidest).atMost(kWidest).required();
-  t.add("half_width", &S::halfWidth, "", "half width of its 95 % interval").atLeast(0).atMost(kWidest).required();
+  t.add("value", &S::value, "", "value, in the unit of the key unit").atLeast(-kWidest).atMost(kWidest).required();
+  t.add("half_width", &S::halfWidth, "", "half width of the 95 % confidence interval of value")
+      .atLeast(0)
+      .atMost(kWidest)
+      .required();
   t.add("unit", &S::unit, "", "as in [[published]]").required();
   t.add("grain_radius", &S::grainRadius, "m", "grain radius of the measurement").above(0).atMost(10).required();
-  t.add("command", &S::command, "", "command that measured it").required();
+  t.add("command", &S::command, "", "command that measured the constant").required();
   return t;
 }
 

@@ -17,12 +17,12 @@ using base::Section;
 
 namespace {
 
-/// A material's name and its place in the file.
+/// A material's name, and the place in the file that mentions it.
 struct Mention {
   std::string name, origin;
 };
 
-/// All names of materials in a scene, in the file's order of kinds.
+/// All material names that a scene mentions, section by section.
 std::vector<Mention> mentionedMaterials(const Section& root) {
   std::vector<Mention> all;
   const auto addKey = [&](const Node& section, const char* key) {
@@ -53,10 +53,11 @@ bool isOfAnyLaw(const std::string& key) {
   return std::find(std::begin(kAny), std::end(kAny), key) != std::end(kAny);
 }
 
-/// "grains of 14 mm".
+/// "14 mm".
 std::string millimetres(double radius) { return fmt::format("{:.4g} mm", 1000 * radius); }
 
-/// Radius of a material's grains, first of all that of a bed [m]. Throws InputError if they have no common radius.
+/// Radius of a material's grains [m]; the radius of a bed has precedence. Throws InputError if they have no common
+/// radius.
 double radiusOfGrains(const Scene& scene, const Material& m) {
   const auto& t = scene.terrain;
   if (t && t->granular() && t->material == m.name) return *t->grainRadius;
@@ -71,9 +72,10 @@ double radiusOfGrains(const Scene& scene, const Material& m) {
   }
   for (const Source& s : scene.sources)
     if (s.material == m.name) radii.push_back(s.radius);
-  const std::string remedy = fmt::format(
-      "but the soil's stiffness and cohesion depend on it; add grain_radius = {:g} to [material.{}] with soil = \"{}\"",
-      radii.empty() ? scene.soils.at(m.name)->grains.radius : radii.front(), m.name, scene.soils.at(m.name)->name);
+  const std::string remedy = fmt::format("but the soil's stiffness and cohesion depend on the grain radius; add "
+                                         "grain_radius = {:g} to [material.{}] with soil = \"{}\"",
+                                         radii.empty() ? scene.soils.at(m.name)->grains.radius : radii.front(), m.name,
+                                         scene.soils.at(m.name)->name);
   if (radii.empty())
     scene.failMaterial(m.name, "grain_radius", "[m] is missing: the scene has no grains of this soil, " + remedy);
   const auto [least, greatest] = std::minmax_element(radii.begin(), radii.end());
@@ -102,9 +104,9 @@ void supplySoils(base::Document& document, const fs::path& scene) {
   for (const Mention& mention : mentionedMaterials(document.root())) {
     const Node* materials = document.root().node().find("material");
     const Node* own = materials ? materials->find(mention.name) : nullptr;
-    if (own && own->origin != "--set") continue; // the scene has its own
+    if (own && own->origin != "--set") continue; // the scene file has its own section
     if (mention.name.find('/') != std::string::npos || findSoil(mention.name, scene, tried).empty()) continue;
-    // Sections that stand in overrides alone are taken for mistyped names.
+    // A section that only overrides define counts as a mistyped name.
     const std::string origin = mention.origin == "--set" ? "--set, as a material" : mention.origin;
     document.supply("material", mention.name, "soil", mention.name, origin);
   }

@@ -23,7 +23,7 @@ std::string calibratedSizes(const Soil& soil) {
   return least < greatest ? fmt::format("{} to {}", millimetres(least), millimetres(greatest)) : millimetres(least);
 }
 
-/// Returns true if a material has other values than its soil, scaled to its grains.
+/// Returns true if values of a material differ from those of its soil, scaled to the grain radius of the material.
 bool isChanged(const Material& m, const Soil& soil) {
   constexpr double kRounding = 1e-9;
   const base::Table<Material> table = detail::materialTable();
@@ -43,36 +43,37 @@ bool isCalibrated(const Material& m, const Soil& soil) {
   return soil.head.calibrated && isCalibratedSize(soil.grains.calibratedRadii, *m.grainRadius) && !isChanged(m, soil);
 }
 
-/// Note if the bed's grains differ from the radius of the material.
+/// Adds a note if the bed's grain radius differs from that of the material.
 void noteGrains(const Scene& scene, const Material& m, std::vector<std::string>& notes) {
   const double radius = *m.grainRadius;
   const auto& t = scene.terrain;
   if (t && t->granular() && t->material == m.name && std::fabs(*t->grainRadius - radius) > 1e-9 * radius)
-    notes.push_back(fmt::format("material.{}: scaled to grains of {} (grain_radius), but the bed's grains have {}",
-                                m.name, millimetres(radius), millimetres(*t->grainRadius)));
+    notes.push_back(
+        fmt::format("material.{}: scaled to grains of {} (grain_radius), but the grains of the bed have a radius of {}",
+                    m.name, millimetres(radius), millimetres(*t->grainRadius)));
 }
 
-/// Note if the soil file has changed since the scene was written.
+/// Adds a note if the soil file has changed since the scene was written.
 void noteChange(const Scene& scene, const Material& m, const Soil& soil, std::vector<std::string>& notes) {
   for (const auto& [name, section] : scene.document->root().named("material")) {
     const base::Node* hash = name == m.name ? section.node().find("soil_hash") : nullptr;
     const auto* text = hash ? std::get_if<std::string>(&hash->value) : nullptr;
     if (text && *text != soil.hash)
-      notes.push_back(fmt::format("{}: material.{}.soil_hash = \"{}\" differs from that of {}, {}: the soil file has "
-                                  "changed; check the values in the scene",
+      notes.push_back(fmt::format("{}: material.{}.soil_hash = \"{}\" differs from the hash of {}, {}: the soil file "
+                                  "has changed; check the values in the scene",
                                   hash->origin, m.name, *text, soil.file.string(), soil.hash));
   }
 }
 
-/// Note if a bed is too shallow for the soil's porosity.
+/// Adds a note if a bed is too shallow to reach the soil's porosity.
 void notePorosity(const Scene& scene, std::vector<std::string>& notes) {
   const auto& t = scene.terrain;
   if (!t || !t->granular() || t->lattice() || t->porosity || t->settleTimeLimit == 0) return;
   const auto soil = scene.soils.find(t->material);
   if (soil != scene.soils.end() && soil->second->grains.porosity)
-    notes.push_back(fmt::format(
-        "terrain: the bed is too shallow to be prepared with the porosity of the soil {}, {:g}; it is used as poured",
-        soil->second->name, *soil->second->grains.porosity));
+    notes.push_back(fmt::format("terrain: the bed is too shallow to be prepared with the porosity of the soil {}, "
+                                "{:g}; the bed keeps the porosity as poured",
+                                soil->second->name, *soil->second->grains.porosity));
 }
 
 } // namespace
@@ -103,8 +104,8 @@ std::string soilLine(const support::SoilUse& use, bool isGranular) {
   if (!isGranular) return name;
   std::string values;
   for (const auto& [key, value] : use.scaled) values += fmt::format(", {} {:.6g}", key, value);
-  return fmt::format("{}, grains of {}, {:.4g} times the soil's{}; {}", name, millimetres(use.grainRadius), use.scale,
-                     values,
+  return fmt::format("{}, grains of {}, {:.4g} times the soil's grain radius{}; {}", name, millimetres(use.grainRadius),
+                     use.scale, values,
                      use.calibrated                                 ? "calibrated"
                      : std::fabs(use.scale - 1) > kCalibratedWithin ? "scaled, not calibrated at this size"
                                                                     : "uncalibrated");
@@ -116,11 +117,11 @@ std::vector<std::string> soilWarnings(const Scene& scene) {
     if (m.soil.empty()) continue;
     const Soil& soil = *scene.soils.at(m.name);
     if (!soil.head.calibrated || isCalibratedSize(soil.grains.calibratedRadii, *m.grainRadius)) continue;
-    warnings.push_back(fmt::format(
-        "material.{}: the soil {} is calibrated for grains of {}, not {} ({:.3g} times the soil's); parameters are "
-        "scaled, not calibrated at this size; measure them: grouser soil {} --grain-radius {:g}",
-        m.name, soil.name, calibratedSizes(soil), millimetres(*m.grainRadius), *m.grainRadius / soil.grains.radius,
-        soil.name, *m.grainRadius));
+    warnings.push_back(fmt::format("material.{}: the soil {} is calibrated for grains of {}, not {} ({:.3g} times the "
+                                   "soil's grain radius); parameters are scaled, not calibrated at this size; to "
+                                   "measure the soil constants, run: grouser soil {} --grain-radius {:g}",
+                                   m.name, soil.name, calibratedSizes(soil), millimetres(*m.grainRadius),
+                                   *m.grainRadius / soil.grains.radius, soil.name, *m.grainRadius));
   }
   return warnings;
 }

@@ -37,7 +37,8 @@ template <class S> void addSurface(Table<S>& t) {
                          "centre of rotation, which moves with velocity; default: centre of the surface");
   t.template add<Vector>("amplitude", &S::amplitude, "m", "amplitude vector of a sinusoidal oscillation");
   t.template add<Number>("frequency", &S::frequency, "Hz", "frequency of the oscillation").above(0).atMost(1e5);
-  t.template add<Number>("phase", &S::phase, "deg", "phase of the sine at the start; -90 starts at rest")
+  t.template add<Number>("phase", &S::phase, "deg",
+                         "phase of the sine at the start; with -90, the surface starts at rest")
       .atLeast(-360)
       .atMost(360);
   t.template add<Number>("start", &S::start, "s", "start time of velocity, spin and oscillation")
@@ -46,11 +47,11 @@ template <class S> void addSurface(Table<S>& t) {
   t.template add<Number>("until", &S::until, "s", "end time of velocity, spin and oscillation").above(0).atMost(1e5);
   t.template add<std::optional<Axis>>(
       "free", &S::free, "",
-      "axis along which the surface moves freely from the start under load, forces of the grains and weight, in "
+      "axis along which the surface moves freely under load, grain forces and weight from the start of the run, in "
       "addition to velocity, spin and amplitude (e.g. a wheel under load, or a plate that is pulled or turned)");
   t.template add<Number>("mass", &S::mass, "kg", "mass of a free surface; required with free").above(0).atMost(1e12);
   t.template add<Number>("load", &S::load, "N",
-                         "force on a free surface along its axis; along z, negative presses down")
+                         "force on a free surface along the free axis; along z, negative values press down")
       .atLeast(-1e12)
       .atMost(1e12);
   t.template add<Number>("load_ramp", &S::loadRamp, "s", "duration of the load's ramp from 0; default: 0")
@@ -63,7 +64,7 @@ template <class S> void addSurface(Table<S>& t) {
       "surfaces");
   t.template add<Number>("above_bed", &S::aboveBed, "m",
                          "gap between the surface and the highest grain below it after the bed has settled; replaces "
-                         "the z coordinate in this section")
+                         "the z coordinate of position or point")
       .atLeast(0)
       .atMost(1e4);
 }
@@ -71,9 +72,10 @@ template <class S> void addSurface(Table<S>& t) {
 /// Initial orientation of a surface; `from`: the reference axes.
 template <class S> void addTurn(Table<S>& t, const std::string& from) {
   t.add("axis", &S::axis, "-",
-        "rotation axis of the initial orientation, relative to the " + from + " axes; requires angle");
-  t.add("angle", &S::angle, "deg", "angle of this rotation, right-handed").atLeast(-3600).atMost(3600);
-  t.add("orientation", &S::orientation, "-", "unit quaternion w, x, y, z, instead of axis and angle");
+        "axis of the rotation to the initial orientation, relative to the " + from + " axes; requires angle");
+  t.add("angle", &S::angle, "deg", "angle of the rotation about axis, right-handed").atLeast(-3600).atMost(3600);
+  t.add("orientation", &S::orientation, "-",
+        "initial orientation as a unit quaternion w, x, y, z, instead of axis and angle");
 }
 
 Table<Plane> planeTable() {
@@ -87,7 +89,7 @@ Table<Plane> planeTable() {
 
 Table<BoxSection> boxTable() {
   using S = BoxSection;
-  Table<S> t("[box]", "Solid rigid box for contact with grains, fixed or moving");
+  Table<S> t("[box]", "Rigid solid box, fixed or moving");
   t.add("position", &S::position, "m", "position of the centre").required();
   t.add("size", &S::size, "m", "edge lengths along x, y, z before rotation").above(0).atMost(1e5).required();
   addTurn(t, "world's");
@@ -97,7 +99,7 @@ Table<BoxSection> boxTable() {
 
 Table<CylinderSection> cylinderTable() {
   using S = CylinderSection;
-  Table<S> t("[cylinder]", "Rigid cylinder for contact with grains, fixed or moving: solid with flat ends, or hollow");
+  Table<S> t("[cylinder]", "Rigid cylinder, fixed or moving; solid with flat ends, or hollow");
   t.add("position", &S::position, "m", "position of the centre").required();
   t.add("axis", &S::axis, "-", "direction of the axis; any non-zero length");
   t.add("radius", &S::radius, "m", "radius").above(0).atMost(1e5).required();
@@ -110,24 +112,24 @@ Table<CylinderSection> cylinderTable() {
 
 Table<MeshSection> meshTable() {
   using S = MeshSection;
-  Table<S> t("[mesh]", "Rigid mesh for contact with grains, fixed or moving, converted to spheres");
+  Table<S> t("[mesh]", "Rigid mesh, fixed or moving; spheres represent it in contacts with grains");
   t.add("file", &S::file, "",
-        "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder, "
-        "the assets folder")
+        "closed mesh with outward normals (OBJ, STL, PLY...); searched for in the scene's folder, the working folder "
+        "and the assets folder")
       .required();
-  t.add("scale", &S::scale, "m", "length unit of the file").above(0).atMost(1e6);
+  t.add("scale", &S::scale, "m", "length of one unit of the file").above(0).atMost(1e6);
   t.add("position", &S::position, "m", "position of the file's origin, the reference point of loads");
   addTurn(t, "file's");
   t.add("sphere_radius", &S::sphereRadius, "m",
-        fmt::format("radius of the spheres that represent the mesh (they round its edges); default: {} of the "
-                    "diagonal, or less if spheres would protrude by more than a fiftieth of the smallest grain radius, "
-                    "or of a quarter of a vehicle's pitch",
+        fmt::format("radius of the spheres that represent the mesh (they round the edges of the mesh); default: {} of "
+                    "the diagonal, or less if spheres would protrude by more than a fiftieth of the smallest grain "
+                    "radius, or of a quarter of the track pitch of a vehicle",
                     S::kShareOfDiagonal))
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("sphere_refinement", &S::sphereRefinement, "-",
         "divisor of the sphere radius, and of the permitted protrusion if the radius is automatic; grouser check "
-        "doubles it in its finer case")
+        "doubles this divisor in its finer case")
       .atLeast(1)
       .atMost(16);
   addSurface(t);

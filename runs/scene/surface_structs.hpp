@@ -20,15 +20,15 @@ struct SurfaceSection {
   std::string material;
   std::optional<base::Vec3d> velocity;    ///< [m/s]
   std::optional<base::Vec3d> spin;        ///< [rad/s]
-  std::optional<base::Vec3d> pivot;       ///< [m] that it turns about; empty: its own centre
-  std::optional<base::Vec3d> amplitude;   ///< [m] of an oscillation along this vector
-  std::optional<double> frequency, phase; ///< [Hz], [deg] of that oscillation
-  std::optional<double> start, until;     ///< [s] between which all this takes place
-  std::optional<Axis> free;               ///< along which forces move it
-  std::optional<double> loadRamp;         ///< [s] over which the load comes on
+  std::optional<base::Vec3d> pivot;       ///< [m] centre of rotation; empty: centre of the surface
+  std::optional<base::Vec3d> amplitude;   ///< [m] amplitude vector of an oscillation
+  std::optional<double> frequency, phase; ///< [Hz], [deg] of the oscillation
+  std::optional<double> start, until;     ///< [s] start and end of the prescribed motion
+  std::optional<Axis> free;               ///< axis along which forces move the surface
+  std::optional<double> loadRamp;         ///< [s] ramp duration of the load
   std::optional<double> mass, load;       ///< [kg], [N] of a free surface
-  std::optional<PlacedWhen> placed;       ///< beside a bed that settles first
-  std::optional<double> aboveBed;         ///< [m] of its lowest point over the settled bed
+  std::optional<PlacedWhen> placed;       ///< time of placement in scenes with a settling bed
+  std::optional<double> aboveBed;         ///< [m] gap between its lowest point and the settled bed
   bool operator==(const SurfaceSection&) const = default;
 
   bool moves() const { return velocity || spin || amplitude || free; }
@@ -38,22 +38,22 @@ struct SurfaceSection {
 struct Plane : SurfaceSection {
   base::Vec3d point, normal{0, 0, 1};
   bool operator==(const Plane&) const = default;
-  /// Returns true if it has no motion and no name, and is there from the start, like the walls of a bed.
+  /// Returns true if the plane is fixed, has no name, and exists from the start, like the walls of a bed.
   bool isWall() const { return !moves() && !name && !aboveBed && placed != PlacedWhen::afterSettling; }
 };
 
 /// [[box]]
 struct BoxSection : SurfaceSection {
-  base::Vec3d position, size; ///< [m] of its centre; edges
+  base::Vec3d position, size; ///< [m] centre; edge lengths
   std::optional<base::Vec3d> axis;
-  std::optional<double> angle;                    ///< [deg] with axis: how its edges are turned from the world's axes
-  std::optional<std::vector<double>> orientation; ///< w, x, y, z instead
+  std::optional<double> angle;                    ///< [deg] rotation about `axis` from the world's axes
+  std::optional<std::vector<double>> orientation; ///< w, x, y, z, instead of axis and angle
   bool operator==(const BoxSection&) const = default;
 };
 
 /// [[cylinder]]
 struct CylinderSection : SurfaceSection {
-  base::Vec3d position, axis{0, 0, 1}; ///< [m] of its centre; direction
+  base::Vec3d position, axis{0, 0, 1}; ///< [m] centre; direction
   double radius = 0, length = 0;       ///< [m]
   bool hollow = false;                 ///< a pipe without thickness, open at both ends
   bool operator==(const CylinderSection&) const = default;
@@ -63,25 +63,25 @@ struct CylinderSection : SurfaceSection {
 struct LoadedMesh {
   std::shared_ptr<const spheredecomp::MeshQuery> query;
   double sphereRadius{}; ///< as given, or by default [m]
-  std::string note;      ///< on how it was read; empty: nothing
+  std::string note;      ///< changes that were made on reading; empty: none
   base::Vec3d middle;    ///< centre of the bounding box in the file [m]; set for bodies
   bool operator==(const LoadedMesh&) const { return true; } // the file name is compared
 };
 
 /// [[mesh]]
 struct MeshSection : SurfaceSection {
-  /// Default sphere radius: the mesh's diagonal over this.
+  /// Default sphere radius: diagonal of the mesh / this number.
   static constexpr double kRadiiInDiagonal = 40;
   static constexpr const char* kShareOfDiagonal = "a fortieth";
 
   std::string file;     ///< absolute path after loading
-  double scale = 1;     ///< metres a unit of the file
-  base::Vec3d position; ///< [m] of the file's origin
+  double scale = 1;     ///< metres per unit of the file
+  base::Vec3d position; ///< [m] position of the file's origin
   std::optional<base::Vec3d> axis;
   std::optional<double> angle;                    ///< [deg]
   std::optional<std::vector<double>> orientation; ///< w, x, y, z
-  std::optional<double> sphereRadius;             ///< [m]; empty: chosen for what touches the mesh
-  double sphereRefinement = 1;                    ///< [-] divides it, and an automatic one's limits
+  std::optional<double> sphereRadius;             ///< [m]; empty: automatic
+  double sphereRefinement = 1; ///< [-] divisor of the sphere radius, and of the limits of an automatic one
   LoadedMesh loaded;
   bool operator==(const MeshSection&) const = default;
 };

@@ -5,7 +5,7 @@
 
 namespace grouser::scene {
 
-/// Keys of [terrain] that only a bed of grains has, besides those of its sieves.
+/// Keys of [terrain] that apply to beds of grains only, except the keys of a sieve curve.
 inline constexpr std::array kBedKeys = {"grain_radius",  "layers",   "depth",      "tile",       "radius_distribution",
                                         "radius_spread", "porosity", "fine_depth", "coarsening", "coarsest_radius",
                                         "spacing",       "jitter",   "packing"};

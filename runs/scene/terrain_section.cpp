@@ -21,8 +21,8 @@ namespace {
 using base::Section;
 using base::Table;
 
-constexpr double kLeastPeriod = 12;     // minimum tile edge / radius [-]
-constexpr double kLeastForPorosity = 3; // minimum depth / diameter [-]
+constexpr double kMinPeriod = 12;     // minimum tile edge / radius [-]
+constexpr double kMinForPorosity = 3; // minimum depth / diameter [-]
 
 /// Keys of the initial arrangement of a bed's grains.
 void addArrangement(Table<Terrain>& t) {
@@ -36,8 +36,8 @@ void addArrangement(Table<Terrain>& t) {
       .atMost(10);
   t.add("depth", &S::depth, "m", "depth of the bed; required for a random arrangement").above(0).atMost(1e3);
   t.add("radius_distribution", &S::radiusDistribution, "",
-        "random: size distribution: single, uniform or lognormal by number (lognormal truncated at two standard "
-        "deviations of ln r), or sieve by mass (sieve_size, sieve_passing); default: uniform");
+        "random: grain-size distribution, which is single, uniform or lognormal by number (lognormal: truncated at two "
+        "standard deviations of ln r), or sieve by mass (sieve_size, sieve_passing); default: uniform");
   t.add("radius_spread", &S::radiusSpread, "-",
         fmt::format("uniform: half width / grain_radius; lognormal: standard deviation of ln r; default: {:g}, or for "
                     "uniform radii the value of the soil if the bed material is a soil",
@@ -48,10 +48,10 @@ void addArrangement(Table<Terrain>& t) {
   t.add("sieve_passing", &S::sievePassing, "-", "sieve: mass fraction that passes each opening, from 0 to 1")
       .atLeast(0)
       .atMost(1);
-  t.add(
-       "porosity", &S::porosity, "-",
-       "random: target porosity of the settled bed; a small bed is used to find the settling friction that produces "
-       "it, and the friction is reset after settling; default: porosity of the soil if it has one, otherwise as poured")
+  t.add("porosity", &S::porosity, "-",
+        "random: target porosity of the settled bed; grouser finds, with a small bed, the grain friction that produces "
+        "this porosity, and uses it only during settling; default: porosity of the soil if it has one, otherwise as "
+        "poured")
       .atLeast(0.2)
       .atMost(0.7);
   t.add("fine_depth", &S::fineDepth, "m",
@@ -72,7 +72,8 @@ void addArrangement(Table<Terrain>& t) {
       .above(2)
       .atMost(10);
   t.add("jitter", &S::jitter, "-",
-        fmt::format("lattice: random initial displacement, as a fraction of the gap between grains; default: {:g}",
+        fmt::format("lattice: maximum random initial displacement along each axis / about half the gap between grains; "
+                    "default: {:g}",
                     S::kJitter))
       .atLeast(0)
       .atMost(1);
@@ -86,8 +87,8 @@ Table<Terrain> terrainTable() {
   using S = Terrain;
   Table<S> t("terrain", "Ground from a height-map image: a bed of grains, rigid ground or deformable soil");
   t.add("heightmap", &S::heightmap, "",
-        "PNG, 8 or 16 bit; row 0 is the far edge (largest y), each pixel is a grid point; searched for in the "
-        "scene's folder, the working folder, the assets folder")
+        "PNG, 8 or 16 bit; row 0 is the far edge (largest y), each pixel is a grid point; searched for in the scene's "
+        "folder, the working folder and the assets folder")
       .required();
   t.add("size", &S::size, "m", "extent in x, from 0, and in y, centred at 0").above(0).atMost(1e5).required();
   t.add("height_range", &S::heightRange, "m", "heights of black and white pixels, [min, max]")
@@ -103,7 +104,7 @@ Table<Terrain> terrainTable() {
   t.add("material", &S::material, "",
         "material of the grains or the ground; for deformable soil, the soil file with its constants")
       .required();
-  t.add("ground_material", &S::groundMaterial, "", "material of floor and walls; default: that of the bed");
+  t.add("ground_material", &S::groundMaterial, "", "material of floor and walls; default: value of material");
   addArrangement(t);
   t.add("tile", &S::tile, "m",
         "size in x, y of a tile that settles with periodic boundaries and is then copied over the terrain; requires a "
@@ -113,7 +114,8 @@ Table<Terrain> terrainTable() {
   t.add("floor_grains", &S::floorGrains, "",
         "whether the floor is covered with fixed grains; on a smooth floor the lowest grains roll freely");
   t.add("walls", &S::walls, "", "whether vertical walls along the edges of the map confine the bed");
-  t.add("wall_friction", &S::wallFriction, "-", "friction coefficient of the walls; with 0 they carry no weight")
+  t.add("wall_friction", &S::wallFriction, "-",
+        "friction coefficient of the walls; with 0, the walls carry no weight of the bed")
       .atLeast(0)
       .atMost(10);
   t.add("settle_time_limit", &S::settleTimeLimit, "s",
@@ -122,19 +124,22 @@ Table<Terrain> terrainTable() {
       .atLeast(0)
       .atMost(1e4);
   t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-",
-        "settling criterion: mean kinetic energy per grain (translational only in random beds) / (m g radius)")
+        "settling criterion: maximum of the mean kinetic energy per grain (random beds: translational only) / (m g "
+        "radius)")
       .above(0)
       .atMost(1e3);
   t.add("settle_force_ratio", &S::settleForceRatio, "-",
-        "additional settling criterion: mean resultant force on a grain / its weight; \"none\": kinetic energy only")
+        "additional settling criterion: maximum of the mean resultant force on a grain / weight of the grain; "
+        "\"none\": kinetic energy only")
       .above(0)
       .atMost(1e3)
       .orWord("none");
-  t.add("cache", &S::cache, "", "store the settled bed and reuse stored beds; the results are bitwise identical");
+  t.add("cache", &S::cache, "",
+        "store the settled bed, and reuse stored beds; results with and without cache are bitwise identical");
   return t;
 }
 
-/// Sieve curve, and its median radius.
+/// Checks the sieve curve, and sets grain_radius to its median.
 void checkSieves(const Section& section, Terrain& t) {
   for (const auto& [key, values] : {std::pair{"sieve_size", &t.sieveSize}, {"sieve_passing", &t.sievePassing}})
     if (values->empty())
@@ -214,21 +219,21 @@ void checkGrading(const Section& section, const Terrain& t) {
 }
 
 void checkRandomDepth(const Section& section, const Terrain& t) {
-  const double largest = bedRadii(t).largest(), least = kLeastForPorosity * 2 * *t.grainRadius;
+  const double largest = bedRadii(t).largest(), least = kMinForPorosity * 2 * *t.grainRadius;
   if (*t.depth < largest)
     section.fail("depth", fmt::format("[m] is less than the largest grain radius; set at least {:.4g}", largest));
   if (t.porosity && *t.depth < (1 - 1e-9) * least)
     section.fail("porosity", fmt::format("[-] requires a bed depth of at least {:g} grain diameters of {:g} m, but the "
                                          "depth is {:g} m; set depth = {:.3g}, or remove porosity",
-                                         kLeastForPorosity, 2 * *t.grainRadius, *t.depth, least));
+                                         kMinForPorosity, 2 * *t.grainRadius, *t.depth, least));
 }
 
-/// Sets radius_spread and porosity of a random bed from its soil where the scene omits them.
+/// Sets radius_spread and porosity of a random bed from its soil if the scene omits them.
 void takeFromSoil(const Section& section, Terrain& t, const Soil& soil) {
   if (t.lattice()) return;
   const bool uniform = t.radiusDistribution.value_or(terrain::RadiusLaw::uniform) == terrain::RadiusLaw::uniform;
   if (uniform && !section.has("radius_spread")) t.radiusSpread = soil.grains.radiusSpread;
-  const bool deepEnough = t.depth && t.grainRadius && *t.depth >= (1 - 1e-9) * kLeastForPorosity * 2 * *t.grainRadius;
+  const bool deepEnough = t.depth && t.grainRadius && *t.depth >= (1 - 1e-9) * kMinForPorosity * 2 * *t.grainRadius;
   if (!section.has("porosity") && deepEnough && t.settleTimeLimit > 0) t.porosity = soil.grains.porosity;
 }
 
@@ -245,11 +250,11 @@ void checkBed(const Section& section, Terrain& t, const Scene& scene) {
                  fmt::format("[m] is less than the diameter of a grain of radius {:.4g} m{}; set at least {}", radius,
                              t.sieveSize.empty() ? "" : ", the median of sieve_size", base::roundedUp(2 * radius, 4)));
   if (!t.lattice()) checkRandomDepth(section, t);
-  if (t.tile && std::min((*t.tile)[0], (*t.tile)[1]) < kLeastPeriod * radius)
+  if (t.tile && std::min((*t.tile)[0], (*t.tile)[1]) < kMinPeriod * radius)
     section.fail(
         "tile",
         fmt::format("[m] is less than {} grain radii, so grains would touch their own images; set at least {:g}",
-                    kLeastPeriod, kLeastPeriod * radius));
+                    kMinPeriod, kMinPeriod * radius));
   if (std::min(t.size[0], t.size[1]) < 4 * radius)
     section.fail("size", fmt::format("[m] is less than two diameters of grains of radius {} m; enlarge it", radius));
 }

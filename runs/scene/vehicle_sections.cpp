@@ -22,11 +22,12 @@ Table<Vehicle> vehicleTable() {
   using S = Vehicle;
   Table<S> t("vehicle", "Tracked vehicle");
   t.add("spec", &S::spec, "",
-        "vehicle file (keys: grouser fields --vehicle); searched for in the scene's folder, the working folder, the "
+        "vehicle file (keys: grouser fields --vehicle); searched for in the scene's folder, the working folder and the "
         "assets folder")
       .required();
   t.add("position", &S::position, "m",
-        "initial x and y of the point midway between the sprockets; \"auto\": at the near end of the terrain")
+        "initial x and y of the point midway between the sprockets; \"auto\": rear of the vehicle at the border of the "
+        "terrain, middle across the heading")
       .atLeast(-1e6)
       .atMost(1e6)
       .orWord("auto");
@@ -43,7 +44,8 @@ Table<Vehicle> vehicleTable() {
       .atMost(1)
       .orWord("auto");
   t.add("sphere_refinement", &S::sphereRefinement, "-",
-        "divisor of all sphere radii and of automatic protrusion limits; grouser check doubles it in its finer case")
+        "divisor of all sphere radii and of automatic protrusion limits; grouser check doubles this divisor in its "
+        "finer case")
       .atLeast(1)
       .atMost(16);
   t.add("material", &S::material, "",
@@ -52,7 +54,8 @@ Table<Vehicle> vehicleTable() {
         "the vehicle file defines all contact parameters");
   t.add("adhesion", &S::adhesion, "-",
         "adhesive force between parts without a material and cohesive grains, relative to a wall of the soil material "
-        "(whose force is 4 times that between equal grains, or twice without adhesion_radius); 0: no adhesion")
+        "(the adhesive force of such a wall is 4 times that between equal grains, or twice if adhesion_radius is not "
+        "set); 0: no adhesion")
       .atLeast(0)
       .atMost(1);
   t.add("chassis", &S::chassis, "",
@@ -60,10 +63,10 @@ Table<Vehicle> vehicleTable() {
         "pitch); level (guided without pitch)");
   t.add("tracks", &S::tracks, "",
         "number of tracks: both, or single (one track in the middle of the hull, as on a test rig; requires chassis = "
-        "\"guided\", \"level\" or \"fixed\"). The hull mass is unchanged; results are those of the left track");
+        "\"guided\", \"level\" or \"fixed\"). The hull mass is unchanged; in results, this track is the left one");
   t.add("soil_contact", &S::soilContact, "",
         "parts of the vehicle with soil contact: all (the hull if hull_touches) or shoes only, which prevents grains "
-        "from being pinched between running gear and track; stated in all results")
+        "from being pinched between running gear and track; all results state this setting")
       .formerly("soil_meets");
   t.add("gear_contact_model", &S::gearContactModel, "",
         "contact geometry of shoes with wheels, sprocket, rigid ground and obstacles: \"shapes\" (dimensions in "
@@ -87,7 +90,7 @@ Table<Driver> driverTable() {
   Table<S> t("driver", "Sprocket drive and start sequence (track tension, weight, drive)");
   t.add("drive", &S::drive, "",
         "type of sprocket drive: speed (imposed, at any torque), torque (imposed), or engine (engines of the vehicle "
-        "file, whose governors control the speeds)");
+        "file with governors that control the speeds)");
   t.add("sprocket_speed", &S::sprocketSpeed, "rad/s",
         "speed of both sprockets, positive forward; default: 0 if no speed is set")
       .atLeast(-100)
@@ -101,7 +104,7 @@ Table<Driver> driverTable() {
   t.add("right_torque", &S::rightTorque, "N m", "torque on the right sprocket; requires left_torque")
       .atLeast(-1e7)
       .atMost(1e7);
-  t.add("tension_ramp", &S::tensionRamp, "s", "ramp duration of the idler springs (track tension)")
+  t.add("tension_ramp", &S::tensionRamp, "s", "ramp duration of the idler spring forces (track tension)")
       .atLeast(0)
       .atMost(1e3);
   t.add("weight_ramp", &S::weightRamp, "s",
@@ -127,7 +130,7 @@ Table<Driver> driverTable() {
       .above(0)
       .atMost(0.5);
   t.add("rest_time_limit", &S::restTimeLimit, "s",
-        "maximum time after weight_ramp until the vehicle is at rest; otherwise the run ends")
+        "time limit after weight_ramp; a vehicle that is not at rest by then ends the run with an error")
       .above(0)
       .atMost(1e4);
   return t;
@@ -136,22 +139,22 @@ Table<Driver> driverTable() {
 Table<SpeedTable> speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of constant speeds; interpolated linearly");
-  t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time makes a jump")
+  t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time defines a jump")
       .atLeast(0)
       .required();
-  t.add("left", &S::left, "rad/s", "left sprocket at these times").atLeast(-100).atMost(100).required();
-  t.add("right", &S::right, "rad/s", "right sprocket at these times").atLeast(-100).atMost(100).required();
+  t.add("left", &S::left, "rad/s", "speed of the left sprocket at these times").atLeast(-100).atMost(100).required();
+  t.add("right", &S::right, "rad/s", "speed of the right sprocket at these times").atLeast(-100).atMost(100).required();
   return t;
 }
 
 Table<TorqueTable> torqueTable() {
   using S = TorqueTable;
   Table<S> t("driver.torques", "Sprocket torques over time, instead of constant torques; interpolated linearly");
-  t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time makes a jump")
+  t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time defines a jump")
       .atLeast(0)
       .required();
-  t.add("left", &S::left, "N m", "left sprocket at these times").atLeast(-1e7).atMost(1e7).required();
-  t.add("right", &S::right, "N m", "right sprocket at these times").atLeast(-1e7).atMost(1e7).required();
+  t.add("left", &S::left, "N m", "torque on the left sprocket at these times").atLeast(-1e7).atMost(1e7).required();
+  t.add("right", &S::right, "N m", "torque on the right sprocket at these times").atLeast(-1e7).atMost(1e7).required();
   return t;
 }
 
@@ -180,9 +183,9 @@ Table<Course> courseTable() {
       .atMost(1e3)
       .orWord("auto");
   t.add("speed_gain", &S::speedGain, "-", "proportional gain for the speed error").atLeast(0).atMost(100);
-  t.add("speed_integral", &S::speedIntegral, "1/s", "integral gain for this error").atLeast(0).atMost(1e3);
+  t.add("speed_integral", &S::speedIntegral, "1/s", "integral gain for the speed error").atLeast(0).atMost(1e3);
   t.add("turn_gain", &S::turnGain, "-", "proportional gain for the yaw-rate error").atLeast(0).atMost(100);
-  t.add("turn_integral", &S::turnIntegral, "1/s", "integral gain for this error").atLeast(0).atMost(1e3);
+  t.add("turn_integral", &S::turnIntegral, "1/s", "integral gain for the yaw-rate error").atLeast(0).atMost(1e3);
   t.add("max_sprocket_speed", &S::maxSprocketSpeed, "rad/s", "maximum sprocket speed in closed loop")
       .above(0)
       .atMost(100)
@@ -197,12 +200,13 @@ Table<Stop> stopTable() {
       .above(0)
       .atMost(1e6);
   t.add("edge", &S::edge, "m",
-        "minimum distance of a shoe (its middle) from the edge of the terrain; default: the run ends with an error if "
-        "a shoe leaves the terrain")
+        "minimum distance between the middle of a shoe and the edge of the terrain; default: the run ends with an "
+        "error if a shoe leaves the terrain")
       .atLeast(0)
       .atMost(1e6);
   t.add("immobile", &S::immobile, "s",
-        "maximum time with a hull speed below a twentieth of the speed of the driven tracks; default: no limit")
+        "maximum time in which the hull moves slower than a twentieth of the speed of the driven tracks; default: no "
+        "limit")
       .above(0)
       .atMost(1e5);
   return t;
@@ -290,7 +294,7 @@ void checkCourse(const Section& section, Course& c, const Scene& scene) {
 }
 
 void checkDriver(const Section& section, Driver& d, const Scene& scene) {
-  constexpr double kTyped = 1e-9; // [s]: 0.1 and 0.2 are 0.3
+  constexpr double kTyped = 1e-9; // [s] rounding tolerance, since 0.1 + 0.2 differs from 0.3
   if (!scene.vehicle)
     section.fail("", "has no effect without a vehicle; add a section [vehicle], or remove this section");
   if (d.left.has_value() != d.right.has_value())
@@ -315,13 +319,13 @@ template <class Sides> void checkSides(const Section& section, Sides& table, con
     section.fail(table.left.size() != n ? "left" : "right",
                  fmt::format("[{}] must have as many entries as time ({}); correct the lists", unit, n));
   if (const std::size_t i = multibody::firstOutOfOrder(table.time, true); i > 0)
-    section.fail("time", fmt::format("[s] must increase, but does not at entry {}; sort it", i));
+    section.fail("time", fmt::format("[s] must increase, but does not at entry {}; sort the list", i));
 }
 
 void checkSpeeds(const Section& section, SpeedTable& table, const Scene&) { checkSides(section, table, "rad/s"); }
 void checkTorqueTable(const Section& section, TorqueTable& table, const Scene&) { checkSides(section, table, "N m"); }
 
-/// [spec.SECTION]: keys of the vehicle file. Reading that file checks their combinations.
+/// [spec.SECTION]: keys of the vehicle file. Reading the vehicle file checks their combinations.
 void readSpecKeys(const Section& root, Scene& scene) {
   if (!root.has("spec")) return;
   const Section spec = root.section("spec");

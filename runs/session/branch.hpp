@@ -8,8 +8,8 @@
 
 namespace grouser::session {
 
-/// Makes the checkpoint of another run the start of this one. The scene, compiled to `setup`, may have another driver
-/// and hitch. Rows and frames start here. All ranks call it. Throws base::InputError.
+/// Makes the checkpoint of another run the start of this run. The scene, compiled to `setup`, may have a different
+/// driver and hitch. Rows and frames start anew. All ranks call it. Throws base::InputError.
 void branch(storage::Checkpoint& former, const setup::Provenance& provenance, const coupling::SimulationSetup& setup,
             const RunRequest& request);
 

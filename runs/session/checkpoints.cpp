@@ -12,8 +12,8 @@ namespace grouser::session {
 
 namespace {
 
-constexpr int kRememberPause = 200;                ///< multiple of the time it takes: half a percent of a run
-constexpr std::size_t kMostRemembered = 2'000'000; ///< grains: half a gigabyte
+constexpr int kRememberPause = 200;               ///< pause / time to copy the state: half a percent of a run
+constexpr std::size_t kMaxRemembered = 2'000'000; ///< grains: half a gigabyte
 
 } // namespace
 
@@ -47,7 +47,7 @@ void Checkpoints::write(const coupling::Simulation& simulation, output::RunWrite
 void Checkpoints::remember(const coupling::Simulation& simulation, const output::RunWriter& writer) {
   const auto& grains = simulation.ground().grains;
   if (!simulation.comm().alone() || sinceRemembered_.seconds() < pause_) return;
-  if (grains && grains->count() > kMostRemembered) return;
+  if (grains && grains->count() > kMaxRemembered) return;
   const support::Stopwatch saving;
   good_ = simulation.save();
   goodRows_ = writer.rows(), goodFrames_ = writer.frames();
@@ -59,7 +59,7 @@ void Checkpoints::writeRemembered(const coupling::Simulation& simulation, output
   try {
     writer.sync();
   } catch (const support::NotWritten&) {
-    // The failure may be that of these files. The rows up to here are complete.
+    // These files may be the cause of the failure. The rows up to here are complete.
   }
   describe(simulation, goodRows_, goodFrames_);
   checkpoint_.state = std::move(*good_);

@@ -17,11 +17,11 @@ public:
   explicit DriveRecord(const std::vector<output::Channel>& channels);
   void add(const output::Row& row);
 
-  /// Teeth passed by the track that passed more, counting both directions [-].
+  /// Larger number of teeth passed by a track, both directions counted [-].
   double teeth() const { return std::max(passed_[0], passed_[1]); }
 
 private:
-  std::array<std::optional<std::size_t>, 2> at_; ///< places in a row, left and right
+  std::array<std::optional<std::size_t>, 2> at_; ///< column indices in a row, left and right
   std::array<double, 2> last_{}, passed_{};
   bool begun_ = false;
 };

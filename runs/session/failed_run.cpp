@@ -40,7 +40,7 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message, ba
                       {"phase", "settling"},
                       {"switches", options_.switches}};
   output::RunWriter writer(options_.folder, provenance_, {}, options);
-  writer.abandon(message, cause); // first of all, should the rest fail
+  writer.abandon(message, cause); // first, in case the rest fails
   if (!bed) return;
   output::Frame frame;
   frame.step = bed->steps(), frame.time = static_cast<double>(bed->steps()) * bed->model().timeStep;
@@ -49,7 +49,7 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message, ba
   writer.frame(frame);
   if (output_.picture)
     render::writePng(render::drawFrame(frame, {}, {}, output_.pictureWidth), options_.folder / "picture.png");
-  writer.abandon(message, cause); // with all files
+  writer.abandon(message, cause); // again, with all files
 }
 
 void leavePlots(const std::filesystem::path& folder, bool ofVehicle) {

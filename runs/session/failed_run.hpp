@@ -10,16 +10,16 @@
 #include <filesystem>
 #include <string>
 
-/// Output of a failed run, for diagnosis. Nothing here throws: the error that ended the run is the one reported.
+/// Output of a failed run, for diagnosis. Nothing here throws, so that the user gets the error that ended the run.
 namespace grouser::session {
 
 /// Output of a bed that failed to settle: a folder with the error in its manifest, and the bed as a frame and a
-/// picture. Several ranks write the manifest only, since the error may be on some of them.
+/// picture. On several ranks, only the manifest is written, since the error may have occurred on some ranks only.
 class FailedBed {
 public:
   FailedBed(const coupling::GroundSetup& ground, const setup::RecordSetup& record, const RunRequest& options,
             const base::Exec& exec);
-  /// `bed`: its current state; null if lost. Only the first call has an effect.
+  /// `bed`: current state of the bed; null if lost. Only the first call has an effect.
   void leave(const terrain::Grains* bed, const std::string& message, base::Cause cause);
 
 private:
@@ -33,7 +33,7 @@ private:
   bool left_ = false;
 };
 
-/// Plots the rows of a run, whose files are closed, and lists the plots in the manifest.
+/// Plots the rows of a run with closed files, and lists the plots in the manifest.
 void leavePlots(const std::filesystem::path& folder, bool ofVehicle);
 
 } // namespace grouser::session

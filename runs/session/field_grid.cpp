@@ -55,11 +55,11 @@ std::optional<terrain::FieldGrid> fieldGridOf(const setup::OutputSetup& output, 
     if (periodic[a])
       box.low[static_cast<int>(a)] = (*periodic[a])[0], box.high[static_cast<int>(a)] = (*periodic[a])[1];
   terrain::FieldGrid grid = terrain::fieldGrid(box.low, box.high, edge, periodic);
-  if (kept && grid.cells == kept->cells) grid.cell = kept->cell; // bitwise the same
-  if (static_cast<double>(grid.count()) > setup::kMostFieldCells)
-    throw base::InputError(fmt::format("output.fields_cell = {} [m] makes {} cells around the grains, at most {:g} are "
-                                       "supported; use larger cells, or a box: fields_low, fields_high",
-                                       edge, grid.count(), setup::kMostFieldCells));
+  if (kept && grid.cells == kept->cells) grid.cell = kept->cell; // bitwise identical to the cell of earlier frames
+  if (static_cast<double>(grid.count()) > setup::kMaxFieldCells)
+    throw base::InputError(fmt::format("output.fields_cell = {} [m] results in {} cells around the grains, but at most "
+                                       "{:g} are supported; use larger cells, or a box: fields_low, fields_high",
+                                       edge, grid.count(), setup::kMaxFieldCells));
   return grid;
 }
 

@@ -9,9 +9,9 @@
 
 namespace grouser::session {
 
-/// Grid of the soil fields; empty if the scene has none. Its box is that of the scene, else that of the frames in
-/// `former`, the folder of a resumed run, else the box around all grains, to periodic boundaries, one cell higher for
-/// heaps. All ranks call it. Throws InputError for too many cells.
+/// Grid of the soil fields; empty if the scene has none. The box of the grid is given in the scene, or in the frames of
+/// a resumed run (folder `former`), or it contains all grains, extends to periodic boundaries, and is one cell higher
+/// for heaps. All ranks call it. Throws InputError for too many cells.
 std::optional<terrain::FieldGrid> fieldGridOf(const setup::OutputSetup& output, const terrain::Grains& grains,
                                               const terrain::PeriodicBoundaries& periodic,
                                               const std::optional<std::filesystem::path>& former);

@@ -39,7 +39,7 @@ void noteCrushing(coupling::Simulation& simulation, output::Summary& summary) {
     summary.figures["crushing_cut_over_weight"] =
         cut / (rig->assembly().mass * norm(simulation.setup().gravity) * simulation.time());
   summary.figures["crushing_cut_impulse"] = cut;
-  const coupling::TakenOut& gone = simulation.takenOut();
+  const coupling::CrushedGrains& gone = simulation.crushedGrains();
   summary.figures["crushed_grains"] = gone.grains, summary.figures["crushed_mass_kg"] = gone.mass;
   summary.figures["crushed_energy_J"] = gone.energy;
 }

@@ -5,7 +5,7 @@
 
 namespace grouser::session {
 
-/// Adds the final figures of bed, drive, ground blows, crushing and squeezed grains to the run's summary.
+/// Adds the final figures of bed, drive, ground impacts, crushing and large overlaps to the run's summary.
 void noteFigures(RunSession& run, output::Summary& summary);
 
 } // namespace grouser::session

@@ -12,11 +12,11 @@ class Fluid;
 
 namespace grouser::session {
 
-/// The rigid surface as triangles, for pictures.
+/// Triangles of the rigid surface, for pictures.
 base::TriangleMesh groundMesh(const terrain::HeightField& field);
 
-/// Puts the grains of this rank into the frame. `contactForces`: whether frames have them, `known`: whether a step has
-/// computed them; NaN otherwise.
+/// Puts the grains of this rank into the frame. `contactForces`: whether frames have contact forces; `known`: whether a
+/// step has computed them (otherwise NaN).
 void addGrains(output::Frame& frame, const terrain::Grains& grains, bool contactForces, bool known);
 
 /// All particles of a fluid.

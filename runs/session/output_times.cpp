@@ -75,7 +75,7 @@ OutputTimes timeOutput(coupling::Simulation& simulation, const setup::RecordSetu
     recorder.writer().finish({});
   }
   if (!plots) return times;
-  // Its file is closed by now, as where a run draws them.
+  // The results file is closed here, as when a run draws plots.
   std::string warning;
   const Stopwatch one;
   if (!output::drawPlots(files / "results.h5", folder, {"ledger"}, warning).empty()) times.plot = one.seconds();

@@ -15,8 +15,8 @@ struct OutputTimes {
   double plot = 0; ///< a plot, including the start of Python [s]; 0 if plots are unavailable
   double frameBytes = 0, checkpointBytes = 0;
 };
-/// Writes rows, frames and a checkpoint of the simulation into `folder`, which is created and removed, draws a plot if
-/// `plots`, and times each of them. May step the simulation.
+/// Measures the times to write rows, frames and a checkpoint of the simulation, and to draw a plot if `plots`, in
+/// `folder`, which is created and removed. May step the simulation.
 OutputTimes timeOutput(coupling::Simulation& simulation, const setup::RecordSetup& record, const base::Exec& exec,
                        const std::filesystem::path& folder, bool plots);
 

@@ -6,9 +6,9 @@
 #include "runs/session/signal_watch.hpp"
 #include "runs/storage/scene_changes.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stopwatch.hpp"
-#include "runs/support/tell.hpp"
 
 #include <fmt/format.h>
 
@@ -33,12 +33,13 @@ std::unique_ptr<storage::Checkpoint> formerRun(const setup::Provenance& provenan
       storage::checkSameScene(*former, *request.resume, provenance, request.names.resume);
   if (changes.any() && !request.branch)
     throw base::InputError(
-        fmt::format("{}: [{}] differs from that of the run in {}; choose another folder for the branch with --out",
+        fmt::format("{}: [{}] differs from the run in {}; choose another folder for the branch with --out",
                     provenance.file.string(), changes.driver ? "driver" : "hitch", request.folder.string()));
   if (former->commit != support::buildInfo().commit && request.comm().first())
-    support::tell("WARNING: {} was written by commit {}, this program is {}; results are bitwise identical only if "
-                  "both have the same physics\n",
-                  request.resume->string(), former->commit, support::buildInfo().commit);
+    support::printStderr(
+        "WARNING: {} was written by commit {}, but this program is commit {}; results are bitwise identical "
+        "only if both commits compute the same physics\n",
+        request.resume->string(), former->commit, support::buildInfo().commit);
   return former;
 }
 
@@ -63,7 +64,7 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
   std::unique_ptr<support::Progress> settling;
   std::optional<support::Stopwatch> begun;
   FailedBed failed(setup.ground, record, request, exec);
-  coupling::SettleProgress settle = [&](double time, double agitation) {
+  coupling::SettleProgress settle = [&](double time, double energyRatio) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
       throw support::Stopped(
           signal,
@@ -71,9 +72,9 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
           support::Stopped::Left::nothing);
     if (!settling)
       settling = std::make_unique<support::Progress>("settling", comm.first(), 0, support::Progress::End::limit);
-    if (time > 0 && !begun) begun.emplace(); // before, it waits for another run
+    if (time > 0 && !begun) begun.emplace(); // at time 0, it may wait for another run
     if (begun) kept.settling = begun->seconds();
-    settling->update(time / limit, fmt::format("t {:.2f} s, kinetic energy ratio {:.2g}", time, agitation));
+    settling->update(time / limit, fmt::format("t {:.2f} s, kinetic energy ratio {:.2g}", time, energyRatio));
   };
   settle.failed = [&](const terrain::Grains& bed, const std::string& message, base::Cause cause) {
     failed.leave(&bed, message, cause);

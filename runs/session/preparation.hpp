@@ -12,7 +12,7 @@
 #include <memory>
 #include <optional>
 
-/// From a compiled scene to a simulation that can be stepped: settled, or resumed.
+/// From a compiled scene to a simulation that is ready to step: settled or resumed.
 namespace grouser::session {
 
 /// Caches of settled beds and sphere sets; empty: not used.
@@ -21,7 +21,7 @@ struct Caches {
   std::optional<storage::SphereCache> spheres;
   double settling = 0; ///< wall time of settling; 0 for a cached bed [s]
 };
-/// The user's caches, if the request allows them. `beds`: whether the scene's bed may be kept (terrain.cache).
+/// The user's caches, if the request allows caches. `beds`: whether the scene's bed may be cached (terrain.cache).
 Caches cachesOf(bool beds, const RunRequest& request);
 
 /// Reads the checkpoint of a run to be resumed and compares the scenes; null for a run from the start.

@@ -13,7 +13,7 @@
 #include "runs/render/picture.hpp"
 #include "runs/session/field_grid.hpp"
 #include "runs/session/frame_of.hpp"
-#include "runs/support/tell.hpp"
+#include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
 
@@ -85,23 +85,23 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   const std::int64_t step = former->state.steps;
   w.metadata["resumed_from_step"] = std::to_string(step);
   w.former = output::FormerOutput{};
-  // One rank reads and rewrites them, and broadcasts what it keeps.
+  // One rank reads and rewrites the files, and broadcasts the numbers of kept rows and frames.
   if (w.comm.first()) {
     try {
       output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
-      // The last frame stays if no step is left, since its contact forces are lost.
+      // If no step is left, the last frame is kept, since its contact forces cannot be recomputed.
       if (w.frames) kept.frames = output::keptFrames(options.folder, step, former->frames, step == total);
       w.former = std::move(kept);
     } catch (const base::InputError& error) {
       if (!options.force) throw;
-      support::tell("WARNING: {}\n", error.what());
+      support::printStderr("WARNING: {}\n", error.what());
     }
   }
   w.former->frames = w.comm.gatherValue(w.former->frames).front();
   return w;
 }
 
-/// All grains, on the first rank.
+/// Frame with all grains, on the first rank.
 output::Frame gathered(const output::Frame& mine, const base::Comm& comm) {
   if (comm.alone()) return mine;
   output::Frame whole = mine;
@@ -167,13 +167,13 @@ void Recorder::begin(const RunRequest& options, const storage::Checkpoint* forme
   for (const output::Row& row : writer_.formerRows()) squeezed_.add(row), drive_.add(row);
   if (const auto& grains = simulation_.ground().grains;
       grains &&
-      output::GrainsCsv::isWanted(record_.output.grainsCsv,
-                                  static_cast<std::int64_t>(grains->count()) + setup.ground.grains->sources.total(),
-                                  record_.run.duration, record_.run.outputInterval))
+      output::GrainsCsv::isRequested(record_.output.grainsCsv,
+                                     static_cast<std::int64_t>(grains->count()) + setup.ground.grains->sources.total(),
+                                     record_.run.duration, record_.run.outputInterval))
     grainsCsv_.emplace(options.folder, former ? std::optional(writer_.keptUpTo()) : std::nullopt, options.comm());
 }
 
-/// Obstacles that are not drawn as surfaces of the grains.
+/// Obstacles that pictures do not already contain as surfaces.
 std::vector<coupling::Obstacle> Recorder::drawnObstacles() const {
   return simulation_.ground().grains ? std::vector<coupling::Obstacle>{} : simulation_.setup().ground.obstacles;
 }
@@ -190,7 +190,7 @@ void Recorder::finalSurface() {
   if (!record_.output.finalSurface || !simulation_.vehicle() || !simulation_.actingGround()) return;
   const std::vector<double> heights = simulation_.actingGround()->surfaceNow();
   const auto undisturbed = undisturbedSurface(simulation_.ground());
-  // All ranks find the same. Removed grains must not have changed the nodes.
+  // All ranks get the same result. Removed grains must not have changed the nodes.
   if (undisturbed && !heights.empty() && heights.size() == undisturbed->height.size())
     writer_.finalSurface(heights, undisturbed->x.size());
   if (const auto fields = simulation_.actingGround()->fieldsNow()) {
@@ -205,7 +205,7 @@ void Recorder::frame() {
   if (record_.output.frames) writer_.frame(frameWithFields());
 }
 
-/// Fields come last: they may sort the grains, which loses the forces of the last step.
+/// Fields come last: computing them may sort the grains, which discards the forces of the last step.
 output::Frame Recorder::frameWithFields() {
   output::Frame frame = currentFrame();
   if (fieldGrid_) frame.fields = std::make_shared<terrain::SoilFields>(fieldsOf(simulation_, *fieldGrid_));
@@ -223,7 +223,7 @@ void Recorder::lastFrame() {
 output::Frame Recorder::currentFrame() const {
   output::Frame frame;
   frame.step = simulation_.steps(), frame.time = simulation_.time();
-  // Forces of the last step: unknown before the first, and after grains were removed.
+  // Forces of the last step are unknown before the first step and after grains were removed.
   if (const auto& grains = simulation_.ground().grains)
     addGrains(frame, *grains, record_.output.contactForces,
               simulation_.steps() > begunAt_ && grains->system().arrays.knowsFormerMotion());

@@ -27,12 +27,12 @@ public:
 
   void row();
   void frame();
-  /// Frame of a run that failed in the current step, unless that step has one. Grains without bodies may be some steps
-  /// ahead of the simulation's count.
+  /// Frame of a run that failed in the current step, unless this step has one. In scenes without bodies, grains may be
+  /// some steps ahead of the step count.
   void lastFrame();
   /// Final surface of the ground, if a vehicle has changed it.
   void finalSurface();
-  /// picture.png of the present state.
+  /// Draws picture.png of the current state.
   void picture(int width);
 
   output::RunWriter& writer() { return writer_; }

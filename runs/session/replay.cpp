@@ -26,7 +26,7 @@ RecordedRun recordedRun(const std::filesystem::path& folder) {
 std::int64_t Replay::apply(coupling::Simulation& simulation, std::int64_t most) {
   std::vector<coupling::Input> due;
   for (; next_ < inputs_.size() && inputs_[next_].step <= simulation.steps(); ++next_)
-    if (inputs_[next_].step == simulation.steps()) // a run that goes on from a checkpoint has the earlier ones
+    if (inputs_[next_].step == simulation.steps()) // a resumed run has already applied earlier inputs
       due.push_back(inputs_[next_]);
   if (!due.empty()) simulation.set(due);
   return next_ < inputs_.size() ? std::min(most, inputs_[next_].step - simulation.steps()) : most;

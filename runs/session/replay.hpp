@@ -12,7 +12,7 @@
 
 namespace grouser::session {
 
-/// Recorded inputs and end of a run that is to be repeated, from its folder.
+/// Recorded inputs and final state hash of a run, from its folder, for a replay.
 struct RecordedRun {
   std::filesystem::path folder;
   std::vector<coupling::Input> inputs; ///< in the order of their steps
@@ -20,15 +20,15 @@ struct RecordedRun {
   std::string stateHash;               ///< final hash; empty if not recorded
   std::string scene;                   ///< resolved scene as TOML
 };
-/// Reads results.h5 of a run's folder. Throws base::InputError where there is none.
+/// Reads results.h5 in the folder of a run. Throws base::InputError if there is none.
 RecordedRun recordedRun(const std::filesystem::path& folder);
 
-/// Sets recorded inputs at their steps.
+/// Applies recorded inputs at their steps.
 class Replay {
 public:
   Replay() = default;
   explicit Replay(std::vector<coupling::Input> inputs) : inputs_(std::move(inputs)) {}
-  /// Sets the inputs due before the next step. Returns the number of steps until the next input, at most `most`.
+  /// Applies the inputs due before the next step. Returns the number of steps until the next input, at most `most`.
   std::int64_t apply(coupling::Simulation& simulation, std::int64_t most);
 
 private:

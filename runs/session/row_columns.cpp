@@ -54,7 +54,7 @@ RowColumns::RowColumns(coupling::Simulation& simulation, const setup::OutputSetu
   if (grains)
     add(output::terrainColumns(), [&s = simulation](const Now& now) {
       const terrain::Grains& bed = *s.ground().grains;
-      return output::TerrainReading{now.ledger, bed.model().radius, s.takenOut().grains, bed.system().rebuilds,
+      return output::TerrainReading{now.ledger, bed.model().radius, s.crushedGrains().grains, bed.system().rebuilds,
                                     s.deepestPartOverlap()};
     });
   addSurfaces();

@@ -17,13 +17,13 @@ public:
   RowColumns(coupling::Simulation& simulation, const setup::OutputSetup& output);
 
   const std::vector<output::Channel>& channels() const { return channels_; }
-  /// The numbers of all channels now. All ranks call it.
+  /// The current values of all channels. All ranks call it.
   output::Row row() const;
 
 private:
-  /// Data for several groups of columns, measured once a row.
+  /// Data for several groups of columns, measured once per row.
   struct Now {
-    vehicle::Observation vehicle; ///< where there is one
+    vehicle::Observation vehicle; ///< in scenes with a vehicle
     coupling::Ledger ledger;
   };
   using Append = std::function<void(const Now&, std::vector<double>&)>;
@@ -32,7 +32,7 @@ private:
   void addProbes();
   void addSurfaces();
   void add(const std::vector<output::Channel>& channels, Append append);
-  /// Columns whose source `find` finds for each row.
+  /// Adds columns; `find` returns their source for each row.
   template <class Source, class Find> void add(const output::Columns<Source>& columns, Find find) {
     add(columns.channels(),
         [columns, find](const Now& now, std::vector<double>& values) { columns.append(find(now), values); });

@@ -38,12 +38,12 @@ void RunSession::begin() {
   checkpoints_.remember(simulation_, writer());
 }
 
-bool RunSession::goesOn() const {
+bool RunSession::continues() const {
   const coupling::VehicleRig* rig = simulation_.vehicle();
   return simulation_.steps() < total_ && !(rig && !rig->ended().empty()) && !(untilRest_ && isAtRest());
 }
 
-/// Upper bound: a waiting driver is checked again at the next check of the vehicle.
+/// Number of steps to the drive. While the driver waits for rest: number of steps to the next check of the vehicle.
 std::int64_t RunSession::stepsToDrive() const {
   constexpr double kRounding = 1e-6; // [steps]
   const std::optional<double> start = simulation_.vehicle()->driveStart();
@@ -88,20 +88,20 @@ void RunSession::noteSteps(std::int64_t tried) {
 }
 
 void RunSession::end() {
-  simulation_.checkEnergy(); // the end may fall between two checks
+  simulation_.checkEnergy(); // the end may be between two regular checks
   replay_.apply(simulation_, 0);
   writeInputs(); // inputs that were set after the last step belong to the state
-  // Before the last row: a run resumed from this checkpoint does not have that row.
+  // Written before the last row, since a run that resumes from this checkpoint does not contain that row.
   checkpoints_.write(simulation_, writer());
-  // The end is always written, even between the intervals.
+  // The final state is always written, even between output times.
   if (simulation_.steps() % rowEvery_ != 0) recorder_.row();
   if (simulation_.steps() % frameEvery_ != 0) recorder_.frame();
   recorder_.finalSurface();
 }
 
-/// After a fault: writes the state before it as a checkpoint, and the current state as frame and picture.
+/// After a fault: writes the state before the fault as a checkpoint, and the current state as frame and picture.
 void RunSession::leaveState() {
-  if (!simulation_.comm().alone()) return; // the fault may be on some ranks only
+  if (!simulation_.comm().alone()) return; // the fault may have occurred on some ranks only
   try {
     checkpoints_.writeRemembered(simulation_, writer());
     recorder_.lastFrame();

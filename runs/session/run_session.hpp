@@ -14,25 +14,26 @@
 
 namespace grouser::session {
 
-/// A simulation and its results folder: rows, frames and checkpoints at their times, and the end of the run. All ranks
-/// have one and make the same calls.
+/// A simulation and its results folder: writes rows, frames and checkpoints at their times, and ends the run. Each rank
+/// has a RunSession, and all ranks make the same calls.
 class RunSession {
 public:
-  /// `simulation` and `record` outlive it. `former`: the checkpoint that the run goes on or branches from, or null;
-  /// `total`: the step at which it ends. Makes the folder.
+  /// `simulation` and `record` must outlive it. `former`: checkpoint that the run resumes or branches from, or null;
+  /// `total`: last step of the run. Makes the folder.
   RunSession(coupling::Simulation& simulation, const setup::RecordSetup& record, const RunRequest& request,
              const base::Exec& exec, const storage::Checkpoint* former, std::int64_t total);
 
-  /// Sets these inputs at their steps from now on.
+  /// From now on, applies these inputs at their steps.
   void replay(std::vector<coupling::Input> inputs) { replay_ = Replay(std::move(inputs)); }
-  /// The first row and frame of a run that does not go on from a checkpoint.
+  /// Writes the first row and frame of a run that does not resume from a checkpoint.
   void begin();
-  /// Whether steps are left before the end, a condition of [stop], or the start of the drive if the request ends there.
-  bool goesOn() const;
-  /// Whether the next step is the first of the drive, or a later one.
+  /// Returns true if steps are left before the end, a condition of [stop], or the start of the drive if the request
+  /// ends there.
+  bool continues() const;
+  /// Returns true if the next step is the first step of the drive or a later one.
   bool isAtRest() const { return simulation_.vehicle() && stepsToDrive() == 0; }
-  /// At least one step, at most `most`, none beyond the next row, frame or checkpoint, and writes what is due then.
-  /// Throws Stopped where a signal has come, with a checkpoint left.
+  /// Takes at least one and at most `most` steps, up to the next row, frame or checkpoint, and writes due output. After
+  /// a signal, writes a checkpoint and throws Stopped.
   void advance(std::int64_t most);
   /// Checks the energy, and writes the last checkpoint, row, frame and surface.
   void end();
@@ -43,8 +44,8 @@ public:
     writer().stop(reason);
   }
 
-  /// Calls `write`. An exception leaves in the folder the state before the fault as a checkpoint, the current state as
-  /// frame and picture, and the message in the manifest. Rethrows with the checkpoint's name in the message.
+  /// Calls `write`. After an exception, writes the state before the fault as a checkpoint, the current state as frame
+  /// and picture, and the message in the manifest, then rethrows with the name of the checkpoint in the message.
   template <class Write> void record(const Write& write);
 
   coupling::Simulation& simulation() { return simulation_; }

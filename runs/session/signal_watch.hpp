@@ -10,8 +10,8 @@
 
 namespace grouser::session {
 
-/// Signals received by any rank. All ranks must stop at the same step, so they exchange signals, often enough to
-/// respond within 0.2 s, since launchers that forward an interrupt kill after one second.
+/// Signals received by any rank. All ranks must stop at the same step, so they exchange signals often enough to respond
+/// within 0.2 s: launchers that forward an interrupt kill the ranks after one second.
 class SignalWatch {
 public:
   explicit SignalWatch(const base::Comm& comm) : comm_(comm) {}
@@ -23,8 +23,8 @@ public:
     std::uint64_t all[] = {static_cast<std::uint64_t>(support::StopSignals::received()),
                            static_cast<std::uint64_t>(1e9 * perStep) + 1};
     comm_.maximum(all, 2);
-    constexpr std::uint64_t kWithin = 200'000'000, kMost = 100; // [ns], steps
-    last_ = step, next_ = step + static_cast<std::int64_t>(std::clamp<std::uint64_t>(kWithin / all[1], 1, kMost));
+    constexpr std::uint64_t kWithin = 200'000'000, kMax = 100; // [ns], steps
+    last_ = step, next_ = step + static_cast<std::int64_t>(std::clamp<std::uint64_t>(kWithin / all[1], 1, kMax));
     asked_ = {};
     return static_cast<int>(all[0]);
   }

@@ -26,7 +26,7 @@ void SqueezedRecord::add(const output::Row& row) {
     if (at) of = std::max(of, row.values[*at]);
   };
   most(pairs, pairsAt_), most(atBoundaries, boundariesAt_), most(byParts, partsAt_);
-  if (!shareAt_ || !byAt_ || !(row.values[*shareAt_] > share)) return; // NaN where there are no parts
+  if (!shareAt_ || !byAt_ || !(row.values[*shareAt_] > share)) return; // NaN without parts
   share = row.values[*shareAt_], time = row.time;
   const auto part = static_cast<std::size_t>(row.values[*byAt_]);
   by = part < parts_.size() ? parts_[part] : fmt::format("part {}", part);

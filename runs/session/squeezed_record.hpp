@@ -22,7 +22,7 @@ public:
   double pairs = 0, atBoundaries = 0, byParts = 0;
   /// Largest overlap with a part, in radii; 0 without contact.
   double share = 0, time = 0;
-  std::string by; ///< that part
+  std::string by; ///< name of this part
 
   /// Lines to print; empty without such overlaps and without contacts of parts.
   std::string text() const;
@@ -30,7 +30,7 @@ public:
   std::string deepest() const;
 
 private:
-  std::optional<std::size_t> pairsAt_, boundariesAt_, partsAt_, shareAt_, byAt_; ///< places in a row
+  std::optional<std::size_t> pairsAt_, boundariesAt_, partsAt_, shareAt_, byAt_; ///< column indices in a row
   std::vector<std::string> parts_;
 };
 

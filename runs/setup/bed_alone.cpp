@@ -36,7 +36,7 @@ scene::Scene sceneOfBed(scene::Scene scene) {
   }
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
   const auto removeLater = [&](coupling::SurfaceKind kind, auto& sections) {
-    for (std::size_t k = surfaces.size(); k-- > 0;) // last ones first, so that the other indices stay valid
+    for (std::size_t k = surfaces.size(); k-- > 0;) // in reverse order, so that the remaining indices stay valid
       if (const SceneSurface& s = surfaces[k]; s.kind == kind && s.placedLater)
         sections.erase(sections.begin() + static_cast<std::ptrdiff_t>(s.number));
   };

@@ -11,12 +11,12 @@ namespace grouser::setup {
 /// Returns true if grains, meshes or surfaces are placed on the settled bed.
 bool isPutOnBed(const scene::Scene& scene);
 
-/// The scene reduced to its bed: terrain and surfaces in it from the start, without anything placed later. The bed
-/// settles bit by bit as in a scene with only these, and with the time step of that scene.
+/// The scene reduced to its bed: terrain and surfaces placed before settling. The bed of the full scene settles bitwise
+/// identically to the bed of this scene, with the time step of this scene.
 scene::Scene sceneOfBed(scene::Scene scene);
 
-/// bedOrigin() of the bed that a run of this scene settles and stores; empty if it settles or stores none. Throws
-/// InputError if its height-map cannot be read.
+/// bedOrigin() of the bed that a run of this scene settles and caches; empty if the run settles or caches no bed.
+/// Throws InputError if the height-map cannot be read.
 std::string originOfBed(const scene::Scene& scene);
 
 } // namespace grouser::setup

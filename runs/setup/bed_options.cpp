@@ -44,7 +44,7 @@ struct SteepPlace {
 };
 
 SteepPlace steepestInCell(const terrain::HeightFieldView& surface, int i, int j) {
-  constexpr int kParts = 4; // with the cell's corners and the middles of its sides, where single pixels are steepest
+  constexpr int kParts = 4; // includes corners and side midpoints of the cell, where single pixels are steepest
   SteepPlace worst{};
   for (int b = 0; b <= kParts; ++b)
     for (int a = 0; a <= kParts; ++a) {
@@ -57,7 +57,7 @@ SteepPlace steepestInCell(const terrain::HeightFieldView& surface, int i, int j)
   return worst;
 }
 
-/// Difference between highest and lowest pixel within `reach` of a cell [m].
+/// Height difference [m] between the highest and the lowest pixel within the distance `reach` [m] of a cell.
 double riseAbout(const terrain::HeightFieldView& surface, int i, int j, double reach) {
   const int across = static_cast<int>(std::min<double>(reach / surface.dx, surface.columns)),
             along = static_cast<int>(std::min<double>(reach / surface.dy, surface.rows));
@@ -70,7 +70,7 @@ double riseAbout(const terrain::HeightFieldView& surface, int i, int j, double r
   return highest - lowest;
 }
 
-/// The steepest edge that grains can be pressed through: steeper than 63 degrees, and higher than a tenth of a radius.
+/// The steepest edge through which grains can be pressed: steeper than 63 degrees and higher than a tenth of a radius.
 std::optional<SteepPlace> steepestEdge(const terrain::HeightField& surface, double smallestRadius) {
   constexpr double kSteep = 2; // [-]
   const double least = 0.1 * smallestRadius;
@@ -110,7 +110,7 @@ TerrainRemarks terrainRemarks(const scene::Scene& scene) {
   if (!scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return remarks;
   if (const std::optional<SteepPlace> edge = steepestEdge(surfaceOf(scene, map), bedOptions(scene).smallestRadius()))
     remarks.warnings.push_back(
-        fmt::format("the floor below the bed follows {}, whose slope is {:.3g} m/m ({:.0f} degrees) at ({:.4g}, "
+        fmt::format("the floor below the bed follows {}, which has a slope of {:.3g} m/m ({:.0f} degrees) at ({:.4g}, "
                     "{:.4g}) m; such steep edges can let grains through during settling; set terrain.floor = \"flat\", "
                     "or spread the edge over more pixels",
                     name, edge->slope, base::atan2(edge->slope, 1.0) * 180 / base::kPi, edge->x, edge->y));

@@ -11,16 +11,16 @@
 
 namespace grouser::setup {
 
-/// The ground's surface from the height-map. Throws InputError if that cannot be read.
+/// The ground surface from the height-map. Throws InputError if the height-map cannot be read.
 terrain::HeightField readSurface(const scene::Scene& scene);
 
-/// The rigid floor under grains, at any height: the ground, or below a bed its shape or a plane, for which the
-/// height-map is not read. Empty without terrain.
+/// The rigid floor under grains, with an arbitrary height offset: rigid ground, or under a bed its surface or a plane
+/// (without reading the height-map). Empty without terrain.
 std::optional<terrain::HeightField> floorShape(const scene::Scene& scene);
 
 /// Warnings and notes on a valid height-map.
 struct TerrainRemarks {
-  std::vector<std::string> warnings; ///< edges so steep that a bed may not settle on them: place and slope
+  std::vector<std::string> warnings; ///< steep edges through which grains may pass during settling
   std::vector<std::string> notes;    ///< colour, transparent pixels
 };
 TerrainRemarks terrainRemarks(const scene::Scene& scene);

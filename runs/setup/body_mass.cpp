@@ -43,11 +43,11 @@ base::Pose poseOf(const scene::ShapeSection& s) {
 
 namespace {
 
-/// Inertia of a solid of revolution about z: moments across and along the axis.
+/// Inertia of a solid of revolution about z, from the moments of inertia about a transverse axis and about z.
 Mat3d round(double across, double along) { return Mat3d::diagonal({across, across, along}); }
 
-/// Moments of V = pi int a^2 dz over the height, where the radius a falls linearly from R to r:
-/// I_z = pi/2 int a^4 dz, I_x about the base = I_z / 2 + pi int a^2 z^2 dz.
+/// Moments of V = pi int a^2 dz over the height; the radius a decreases linearly from R to r: I_z = pi/2 int a^4 dz,
+/// I_x about the base = I_z / 2 + pi int a^2 z^2 dz.
 SolidMoments momentsOfCone(double R, double r, double h) {
   const double squares = R * R + R * r + r * r, volume = kPi * h / 3 * squares;
   const double height = h / 4 * (R * R + 2 * R * r + 3 * r * r) / squares; // height of the centroid above the base
@@ -56,7 +56,7 @@ SolidMoments momentsOfCone(double R, double r, double h) {
   return {volume, {0, 0, height - h / 2}, round(atBase - volume * height * height, along)};
 }
 
-/// Parallel-axis term of a unit mass whose centre lies `d` from the reference point.
+/// Parallel-axis term of a unit mass with its centre at the distance `d` from the reference point.
 Mat3d steiner(const Vec3d& d) {
   Mat3d m{};
   for (int i = 0; i < 3; ++i)
@@ -92,7 +92,7 @@ SolidMoments momentsOf(const contact::SurfaceGeometry& g) {
   const double cylinder = kPi * r * r * l; // volume
   double volume = cylinder, across = cylinder / 12 * (3 * r * r + l * l), along = cylinder / 2 * r * r;
   if (g.shape == SurfaceShape::capsule) {
-    // Two hemispheres, whose centres lie 3/8 r beyond the ends of the cylinder.
+    // Two hemispheres; their centres of mass are 3/8 r beyond the ends of the cylinder.
     const double caps = 4.0 / 3 * kPi * r * r * r;
     volume += caps, along += caps * 0.4 * r * r, across += caps * (0.4 * r * r + l * l / 4 + 3.0 / 8 * l * r);
   }

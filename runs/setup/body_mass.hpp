@@ -13,8 +13,8 @@ struct ShapeSection;
 
 namespace grouser::setup {
 
-/// Geometry of a shape of a [[body]], of a mesh its bounding box, and the pose X_BS of the shape's frame S in the
-/// body's frame.
+/// Geometry of a shape of a [[body]] (mesh: its bounding box), and pose X_BS of the shape's frame S in the body's
+/// frame.
 contact::SurfaceGeometry geometryOf(const scene::ShapeSection& shape);
 base::Pose poseOf(const scene::ShapeSection& shape);
 
@@ -37,8 +37,8 @@ double massOf(const scene::BodySection& body);
 /// Returns true if shells of a closed mesh overlap or nest. momentsOf() counts their common volume twice.
 bool shellsOverlap(const spheredecomp::MeshQuery& mesh);
 
-/// All shapes of a body in its frame, about their common centre (Huygens-Steiner). Where shapes overlap, the overlap
-/// counts for each.
+/// All shapes of a body in its frame, about their common centre (Huygens-Steiner). The common volume of overlapping
+/// shapes counts for each shape.
 SolidMoments momentsOf(const scene::BodySection& body);
 
 } // namespace grouser::setup

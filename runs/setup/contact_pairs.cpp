@@ -13,7 +13,7 @@ ContactPairs::ContactPairs(const scene::Scene& scene) : kinds(grainKinds(scene))
   const auto& terrain = scene.terrain;
   if (terrain && terrain->granular() && terrain->walls)
     partners.push_back({Kind::bedWalls, terrain->groundMaterial, "a wall of the terrain", 0, terrain->wallFriction});
-  std::size_t next = 0; // surface; moving and named planes are the first of them
+  std::size_t next = 0; // index of the surface; moving and named planes come first
   const auto addSurface = [&] {
     const SceneSurface& s = surfaces[next];
     partners.push_back({Kind::surface, s.section.material, s.name, next++});

@@ -13,21 +13,21 @@ namespace grouser::setup {
 
 /// A contact partner of grains.
 struct ContactPartner {
-  /// Planes that move or have a name are surfaces, as are boxes, cylinders and meshes.
+  /// surface: planes that move or have a name, boxes, cylinders and meshes.
   enum class Kind { grains, bedWalls, plane, surface, floor, vehicle, body };
   Kind kind{};
-  std::string material;             ///< empty: the grain's own, of a vehicle without one
-  std::string name;                 ///< "the floor", "box drum"; of grains their material
+  std::string material;             ///< empty: the grain's material (vehicle without a material)
+  std::string name;                 ///< "the floor", "box drum"; grains: their material
   std::size_t number = 0;           ///< plane, body: index in the scene; surface: index into `surfaces`
-  std::optional<double> friction{}; ///< replaces that of the materials [-]
+  std::optional<double> friction{}; ///< replaces the friction of the materials [-]
 
   const std::string& materialAgainst(const std::string& grain) const { return material.empty() ? grain : material; }
-  /// Share of a grain's own mass and radius that counts in a contact with it [-]: half among equal grains.
+  /// Effective mass / grain mass in a contact with this partner [-], likewise for the radius: half for equal grains.
   double share() const { return kind == Kind::grains ? 0.5 : 1; }
 };
 
-/// The kinds of grains of a scene and all partners that they can touch. All lists of laws, contacts and materials in
-/// contact are based on it.
+/// The kinds of grains of a scene and all their possible contact partners. All lists of laws, contacts and materials in
+/// contact are based on this struct.
 struct ContactPairs {
   GrainKinds kinds;
   std::vector<SceneSurface> surfaces;

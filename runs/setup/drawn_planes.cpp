@@ -13,7 +13,7 @@ using base::Vec3d;
 
 namespace {
 
-/// Corners of a box around initial grains, the planes' points and cylinders, with a margin.
+/// Corners of a box that contains initial grains, cylinders and the points of planes, with a margin.
 std::pair<Vec3d, Vec3d> room(const scene::Scene& scene) {
   std::vector<Vec3d> points;
   double margin = 0;

@@ -11,12 +11,12 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// The planes of a scene, which are unbounded, and the box in which pictures show them.
+/// The (unbounded) planes of a scene, and the box to which pictures clip them.
 struct DrawnPlanes {
   struct Plane {
     base::Vec3d normal; ///< unit
-    double offset{};    ///< normal . x on it [m]
-    bool wall{};        ///< without motion and name
+    double offset{};    ///< normal . x for points x of the plane [m]
+    bool wall{};        ///< fixed, without a name
   };
   std::vector<Plane> planes; ///< in the order of the file
   base::Vec3d low, high;     ///< [m]

@@ -21,7 +21,7 @@ bool anyIsNot0(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double v) { return v != 0; });
 }
 
-/// Distance of the outer track over that of the hull on a circle [-].
+/// Distance of the outer track / distance of the hull on a circle [-].
 double outerTrack(const scene::Driver& driver, const vehicle::VehicleSpec& spec) {
   if (!driver.course || !driver.course->radius) return 1;
   return 1 + spec.trackOffset / std::fabs(*driver.course->radius);
@@ -35,7 +35,7 @@ double rampOf(const scene::Scene& scene) {
 
 } // namespace
 
-bool asksToDrive(const scene::Scene& scene) {
+bool commandsDrive(const scene::Scene& scene) {
   if (!scene.vehicle) return false;
   const scene::Driver& d = scene.driver;
   if (d.course) return d.course->speed != 0;
@@ -43,7 +43,7 @@ bool asksToDrive(const scene::Scene& scene) {
   return anyIsNot0(d.speeds().left) || anyIsNot0(d.speeds().right);
 }
 
-double teethAsked(const scene::Scene& scene, bool steady) {
+double requestedTeeth(const scene::Scene& scene, bool steady) {
   const scene::Driver& d = scene.driver;
   const double time = scene.run.duration - d.driveBegins();
   if (!(time > 0)) return 0;
@@ -77,22 +77,21 @@ std::string longerDriveRemedy(const scene::Scene& scene) {
 }
 
 std::string shortDriveWarning(const scene::Scene& scene) {
-  if (!asksToDrive(scene)) return {};
-  const double teeth = teethAsked(scene);
+  if (!commandsDrive(scene)) return {};
+  const double teeth = requestedTeeth(scene);
   if (teeth >= kFewestTeeth) {
-    if (teethAsked(scene, true) >= 1) return {};
+    if (requestedTeeth(scene, true) >= 1) return {};
     return fmt::format("the steady part of the drive covers less than one sprocket tooth (the ramp ends at {:.4g} s{}, "
                        "the run ends at {:g} s), so means over steady motion are inconclusive; {}",
                        scene.driver.driveBegins() + rampOf(scene), scene.driver.driveStart ? "" : " at the earliest",
                        scene.run.duration, longerDriveRemedy(scene));
   }
-  return fmt::format("the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; {}",
-                     teeth >= kLeastTeeth ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
-                     scene.driver.driveBegins(), scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,
-                     teeth >= kLeastTeeth
-                         ? fmt::format(", and results from fewer than {:g} teeth are inconclusive", kFewestTeeth)
-                         : "",
-                     longerDriveRemedy(scene));
+  return fmt::format(
+      "the vehicle {} (its sprockets start at {:.4g} s{}, the run ends at {:g} s){}; {}",
+      teeth >= kMinTeeth ? fmt::format("drives at most {:.2g} teeth", teeth) : "never drives",
+      scene.driver.driveBegins(), scene.driver.driveStart ? "" : " at the earliest", scene.run.duration,
+      teeth >= kMinTeeth ? fmt::format(", and results from fewer than {:g} teeth are inconclusive", kFewestTeeth) : "",
+      longerDriveRemedy(scene));
 }
 
 } // namespace grouser::setup

@@ -7,25 +7,24 @@
 
 namespace grouser::setup {
 
-/// Teeth that a track must pass before means over them count: torque, speed and slip ripple with each tooth [-].
+/// Minimum number of passed teeth for valid means [-]: torque, speed and slip ripple with each tooth.
 inline constexpr double kFewestTeeth = 2;
 
-/// Below this a vehicle counts as not driven: its ramp has just begun [-].
-inline constexpr double kLeastTeeth = 0.01;
+/// Number of passed teeth below which a vehicle counts as not driven, since its ramp has just begun [-].
+inline constexpr double kMinTeeth = 0.01;
 
-/// Returns true if the driver turns the sprockets. A vehicle that only settles, or is towed by its hitch, need not
-/// drive.
-bool asksToDrive(const scene::Scene& scene);
+/// Returns true if the driver turns the sprockets. A vehicle that only settles or is towed does not drive.
+bool commandsDrive(const scene::Scene& scene);
 
-/// Teeth that pass the faster sprocket by the end of the run [-] with the earliest start; infinite with torques.
+/// Teeth that pass the faster sprocket by the end of the run [-] with the earliest start; infinite for given torques.
 /// `steady`: only those after the drive ramp.
-double teethAsked(const scene::Scene& scene, bool steady = false);
+double requestedTeeth(const scene::Scene& scene, bool steady = false);
 
 /// The setting that lets a vehicle drive farther, as the end of a message.
 std::string longerDriveRemedy(const scene::Scene& scene);
 
-/// Warns before a run whose vehicle cannot pass kFewestTeeth in its duration, or none in steady motion; empty where it
-/// can.
+/// Warning if the vehicle cannot pass kFewestTeeth within the duration of the run, or not one tooth in steady motion;
+/// otherwise empty.
 std::string shortDriveWarning(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -26,11 +26,11 @@ void checkFields(const scene::Scene& scene, const coupling::GroundSetup& ground)
     return static_cast<double>(n[0]) * n[1] * n[2];
   };
   double larger = *o.fieldsCell;
-  while (cellsOf(larger) > kMostFieldCells) larger *= 1.1;
+  while (cellsOf(larger) > kMaxFieldCells) larger *= 1.1;
   if (larger > *o.fieldsCell)
     fail(fmt::format(
         "[m] divides the box into {:.3g} cells, but at most {:g} are supported; use {:.2g} m or more, or a smaller box",
-        cellsOf(*o.fieldsCell), kMostFieldCells, 1.05 * larger));
+        cellsOf(*o.fieldsCell), kMaxFieldCells, 1.05 * larger));
 }
 
 } // namespace grouser::setup

@@ -21,7 +21,7 @@ using contact::SurfaceShape;
 
 namespace {
 
-/// Midpoints of n equal parts of [-half, half], about a spacing each.
+/// Midpoints of equal parts of [-half, half], each about `spacing` long.
 std::vector<double> partsOf(double half, double spacing) {
   const auto n = std::max(1, static_cast<int>(std::lround(2 * half / spacing)));
   std::vector<double> middles;
@@ -39,7 +39,7 @@ std::vector<Vec3d> boxPoints(const Vec3d& half, double spacing, int flat) {
   return points;
 }
 
-/// Points on circles about the z axis, a spacing apart from the wall inwards and around.
+/// Points on circles about the z axis; circles and points on them are about `spacing` apart.
 std::vector<Vec3d> discPoints(double radius, double spacing) {
   std::vector<Vec3d> points;
   for (double r = radius - 0.5 * spacing; r > 0.25 * spacing; r -= spacing) {
@@ -60,7 +60,7 @@ std::vector<Vec3d> cylinderPoints(const Vec3d& half, double spacing, int flat) {
   return points;
 }
 
-/// Points of spheres, each on a spiral of equal areas.
+/// Points of concentric spheres, on each along a spiral with equal areas per point.
 std::vector<Vec3d> spherePoints(double radius, double spacing) {
   const double turn = base::kPi * (3 - std::sqrt(5.0)); // golden angle
   std::vector<Vec3d> points;
@@ -83,8 +83,8 @@ std::vector<Vec3d> pointsOf(const coupling::BodyShape& s, double spacing, int fl
   return boxPoints(halfExtent(s.shape), spacing, flat);
 }
 
-/// Axis of a shape's frame that is parallel to y, the direction without extent of a two-dimensional fluid; -1: no axis
-/// is.
+/// Axis (0, 1, 2) of a shape's frame that is parallel to y, the normal of the plane of a two-dimensional fluid; -1:
+/// none.
 int axisAcross(const coupling::BodyShape& s, const base::Pose& pose) {
   const Vec3d across = transposedTimes(pose.orientation.matrix(), Vec3d{0, 1, 0});
   for (int a = 0; a < 3; ++a) {
@@ -95,7 +95,7 @@ int axisAcross(const coupling::BodyShape& s, const base::Pose& pose) {
   return -1;
 }
 
-/// Mesh of a part, moved so that its bounding box is centred at the origin. `centre`: centre of that box in the part's
+/// Mesh of a part, moved so that its bounding box is centred at the origin. `centre`: centre of the box in the part's
 /// frame.
 coupling::BodyMesh partMesh(const std::string& file, Vec3d& centre) {
   base::TriangleMesh mesh = spheredecomp::importMesh(file);
@@ -139,7 +139,7 @@ void addMarkers(coupling::BodyInFluid& in, const multibody::Body& body,
       in.markers.push_back(p_B);
       if (distanceFrom(*shapes[k], p) > -dx) shifting += face, turning += face * norm2(p_B);
     }
-  // Half a spacing of fluid in front of each outermost marker moves with the body; twice that as a bound.
+  // Fluid within half a spacing of each outermost marker moves with the body; twice this mass is a bound.
   const double ghost = 2 * 0.5 * model.density * dx;
   const auto& I = body.inertia_B.m;
   if (!body.fixed)

@@ -39,7 +39,7 @@ double depthOf(const scene::Scene& scene) {
   return depth;
 }
 
-/// Distance from everything solid at rest, negative inside [m].
+/// Distance from the nearest solid at rest, negative inside [m].
 fluid::Distance solids(const scene::Scene& scene, const FluidTank& tank) {
   Vec3d low = tank.low, high = tank.high;
   if (scene.fluid->dimensions == 2) low.y = -base::kInfinity, high.y = base::kInfinity;
@@ -64,7 +64,7 @@ bool within(const Vec3d& p, const Vec3d& low, const Vec3d& high, bool plane) {
   return true;
 }
 
-/// Particles below the level, then of each box, outside solids, bodies and earlier particles.
+/// Particles below the level, then particles of each box; none inside solids, bodies or regions filled before.
 std::vector<fluid::FluidParticle> particlesOf(const scene::Scene& scene, const fluid::FluidModel& model,
                                               const FluidTank& tank, const fluid::Distance& free) {
   const scene::Fluid& fluid = *scene.fluid;
@@ -86,8 +86,8 @@ std::vector<fluid::FluidParticle> particlesOf(const scene::Scene& scene, const f
   return all;
 }
 
-/// Moves a position closer to a body than half a spacing out to that distance, along the gradient of the distance: the
-/// lattice fills all space around a body, and its first particles would otherwise touch markers.
+/// Moves a position that is less than half a spacing from a body to that distance, along the gradient of the distance:
+/// otherwise the lattice particles next to a body would touch its markers.
 void keepOff(const StartingBodies& bodies, const fluid::FluidModel& model, Vec3d& place) {
   const double near = 0.5 * model.spacing, probe = 0.01 * model.spacing;
   const auto distance = [&](const Vec3d& p) { return bodies.fromBodies(p, model.spacing); };
@@ -107,8 +107,8 @@ fluid::StepLimits limitsOf(const fluid::FluidModel& model) {
   return fluid::stepLimits(model, 0.1 * model.soundSpeed, norm(model.gravity));
 }
 
-/// Longest step of the fluid whose loads may hold for several steps of the bodies [s]. The pressure beside a body of
-/// `gain` times its mass of fluid answers to its speed within a spacing over the sound speed and the gain.
+/// Longest fluid step with loads that may stay constant over several steps of the bodies [s]. If a body moves `gain`
+/// times its mass of fluid, pressure responds to its speed within spacing / (sound speed x gain).
 double longestStep(const fluid::FluidModel& model, const std::vector<coupling::BodyInFluid>& bodies) {
   double longest = limitsOf(model).least();
   for (const coupling::BodyInFluid& b : bodies)
@@ -116,10 +116,10 @@ double longestStep(const fluid::FluidModel& model, const std::vector<coupling::B
   return longest;
 }
 
-/// A particle nearer to a marker than this is repelled [spacings].
-constexpr double kLeastDistance = 0.85;
+/// Particles closer to a marker than this are repelled [spacings].
+constexpr double kMinDistance = 0.85;
 
-/// Markers of the vehicle where it stands at the start [m].
+/// Markers of the vehicle in its initial pose [m].
 std::vector<Vec3d> markersAtStart(const StartingBodies& bodies, const std::vector<coupling::BodyInFluid>& inFluid) {
   std::vector<Vec3d> all;
   for (const coupling::BodyInFluid& b : inFluid)
@@ -149,12 +149,12 @@ fluid::FluidModel fluidModel(const scene::Scene& scene) {
   const double fall = norm(m.gravity) * depthOf(scene);
   double fastest = 0;
   for (const scene::FluidBox& box : fluid.boxes) fastest = std::max(fastest, norm(box.velocity));
-  const double ofTrack = scene.vehicle ? 2 * greatestTrackSpeed(scene) : 0; // its upper run over the ground
+  const double ofTrack = scene.vehicle ? 2 * greatestTrackSpeed(scene) : 0; // upper track run over the ground
   const double usual = std::max(std::sqrt(2 * fall), ofTrack);
   const double expected = std::max(fluid.expectedSpeed.value_or(usual), fastest);
   m.soundSpeed = fluid.soundSpeed.value_or(fluid::soundSpeedFor(expected, fluid.density * fall, fluid.density));
-  constexpr double kLeast = 4; // compression at the bottom 6 %, Mach number a quarter
-  const double least = kLeast * std::max(std::sqrt(fall), fastest);
+  constexpr double kMin = 4; // 6 % compression at the bottom, or a Mach number of 1/4
+  const double least = kMin * std::max(std::sqrt(fall), fastest);
   if (m.soundSpeed < least || !(m.soundSpeed > 0))
     scene.fail("fluid", fluid.soundSpeed ? "sound_speed" : "expected_speed",
                fmt::format("[m/s] results in a sound speed of {:.4g} m/s, too low for this depth and flow speed; use "
@@ -180,7 +180,7 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
   setup.bodies = bodies.inFluid(scene, m), setup.chassis = bodies.chassis();
   setup.stepsPerStep = std::max(1, static_cast<int>(longestStep(m, setup.bodies) / timeStep + 1e-9));
   m.timeStep = setup.stepsPerStep * timeStep;
-  // Between the parts of a vehicle there is no room to move particles; those that touch are omitted.
+  // Particles between the parts of a vehicle cannot be moved away; particles that touch parts are omitted.
   const fluid::Distance free = [&](const Vec3d& p) {
     const double d = solid(p), dx = m.spacing;
     if (d < 0 || bodies.empty()) return d;
@@ -191,7 +191,7 @@ std::optional<coupling::FluidDomainSetup> fluidSetup(const scene::Scene& scene, 
     for (fluid::FluidParticle& p : setup.fluid.particles) keepOff(bodies, m, p.position);
   if (bodies.chassis())
     setup.fluid.particles = fluid::awayFrom(std::move(setup.fluid.particles), markersAtStart(bodies, setup.bodies),
-                                            kLeastDistance * m.spacing);
+                                            kMinDistance * m.spacing);
   if (setup.fluid.particles.empty())
     scene.fail(
         "fluid", "",

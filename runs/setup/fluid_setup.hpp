@@ -12,13 +12,13 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Tank of a scene's fluid: inner faces as the scene has them [m].
+/// Inner faces of the tank of a scene's fluid [m].
 struct FluidTank {
   base::Vec3d low, high;
 };
 
-/// Model of the fluid of a scene with [fluid], with the given sound speed or that from depth and speed; without a time
-/// step. Throws InputError for a sound speed that is too low.
+/// Fluid model of a scene with [fluid], without a time step; the sound speed is as given, or follows from depth and
+/// flow speed. Throws InputError for a sound speed that is too low.
 fluid::FluidModel fluidModel(const scene::Scene& scene);
 
 /// Limits of its time step [s].

@@ -20,7 +20,7 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
   constexpr double kHeavy = 20; // [grain masses]; the dashpot is then 2.5 % too strong
   const ContactPairs pairs(scene);
   const GrainKinds::Kind* heaviest = nullptr;
-  double grain = 0; // its mass [kg]
+  double grain = 0; // mass of the heaviest grain [kg]
   for (const GrainKinds::Kind& kind : pairs.kinds.kinds)
     if (const double mass = base::sphereMass(scene.material(kind.material).density, kind.largest); mass > grain)
       grain = mass, heaviest = &kind;

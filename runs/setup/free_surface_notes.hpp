@@ -8,11 +8,11 @@
 
 namespace grouser::setup {
 
-/// Notes on free surfaces and bodies so light that grains rebound from them with less than the given restitution, since
-/// damping depends on the grain's mass only: the actual restitution, and the required mass.
+/// Notes on light free surfaces and bodies, with the actual restitution and the required mass: since damping depends
+/// only on the grain mass, grains rebound from them with less than the given restitution.
 std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene);
 
-/// Lists what bodies with shapes pass through; empty where there is nothing else.
+/// Lists the objects that bodies with shapes pass through; empty if there are none.
 std::string bodyContactsNote(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -21,7 +21,7 @@ namespace {
 std::string nameOf(const ContactPairs& pairs, const std::string& grain, const ContactPartner& p) {
   if (p.kind == ContactPartner::Kind::grains)
     return p.material == grain ? "grain on grain of '" + grain + "'"
-                               : "grain of '" + grain + "' among those of '" + p.material + "'";
+                               : "grain of '" + grain + "' on grain of '" + p.material + "'";
   return pairs.isPlane(p) ? "grain on a plane of '" + p.material + "'" : "grain on " + p.name;
 }
 
@@ -33,7 +33,7 @@ double depthOf(const GrainContact& c, double speed) {
 double depthUnder(double force, const GrainContact& c) {
   return base::pow(force / (c.law.stiffness * std::sqrt(c.effectiveRadius)), 2.0 / 3);
 }
-/// Maximum overlap with its dashpot over that without [-]: c_n = 2 beta sqrt(k_n m), k_n = (3/2) stiffness a.
+/// Maximum overlap with dashpot / without dashpot [-]: c_n = 2 beta sqrt(k_n m), k_n = (3/2) stiffness a.
 double depthShare(const contact::ContactLaw& law) {
   return contact::hertzDepthShare(0.5 * law.rootDamping / std::sqrt(1.5 * law.stiffness));
 }
@@ -43,7 +43,7 @@ double depthShare(const contact::ContactLaw& law) {
 std::vector<GrainContact> grainContacts(const scene::Scene& scene, const ContactPairs& pairs, GrainSize size) {
   std::vector<GrainContact> contacts;
   const double speed = scene.run.impactSpeed;
-  // Load on the lowest grains of a heap as high as wide, over their mass [N/kg]; force chains bear twice as much.
+  // Load on the lowest grains of a heap as high as wide / grain mass [N/kg]; twice the mean, because of force chains.
   const bool hertz = std::any_of(scene.materials.begin(), scene.materials.end(),
                                  [](const scene::Material& m) { return m.hertzian(); });
   const double heap =
@@ -57,7 +57,7 @@ std::vector<GrainContact> grainContacts(const scene::Scene& scene, const Contact
       if (p.kind == ContactPartner::Kind::bedWalls) continue; // as stiff as the floor
       const std::string &other = p.materialAgainst(material), name = nameOf(pairs, material, p);
       const bool amongGrains = p.kind == ContactPartner::Kind::grains;
-      // The same as against an earlier partner, under another name.
+      // The same contact as with an earlier partner, under another name.
       const auto same = std::find_if(contacts.begin(), contacts.end(), [&](const GrainContact& c) {
         return c.material == material && c.other == other && c.amongGrains == amongGrains;
       });

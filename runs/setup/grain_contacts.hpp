@@ -20,8 +20,8 @@ struct GrainContact {
   double effectiveMass = 0, effectiveRadius = 0; ///< effective mass [kg] and radius [m] of the contact
   /// Maximum stiffness: for a Hertz contact in an elastic impact at run.impact_speed.
   contact::Coefficients<double> coefficients{};
-  /// Relevant stiffness / maximum stiffness [-]: damped impact or load under a heap as high as wide, the stiffer one; 1
-  /// for a linear contact.
+  /// Relevant stiffness / maximum stiffness [-]: the larger one of a damped impact and of the load under a heap as high
+  /// as wide; 1 for a linear contact.
   double softer = 1;
   double rollingStiffness = 0, rollingDamping = 0; ///< [N m/rad], [N m s/rad]
   double duration = 0;                             ///< duration of the undamped contact [s]

@@ -7,8 +7,8 @@
 
 namespace grouser::setup {
 
-/// Number of grains of a scene, including those that enter later and fixed ones of the floor; for a random bed within
-/// some per mille. Reads the height-map, since hills may need more.
+/// Number of grains of a scene, including later and fixed floor grains; for a random bed within a few per mille. Reads
+/// the height-map, since hills may require more grains.
 std::int64_t plannedGrains(const scene::Scene& scene);
 
 /// Grains of the bed of a scene that has one.

@@ -18,7 +18,7 @@ using base::Vec3d;
 constexpr std::uint64_t kPurpose = base::purpose("grains.block");
 constexpr int kTries = 2000; // attempts to find a free position for one grain
 
-/// Uniform random numbers of one grain of one block.
+/// Uniform random numbers for one grain of a [[grains]] section.
 struct Dice {
   std::uint64_t seed, block, id, next = 0;
   double operator()() { return base::uniform(seed, kPurpose + block, id, next++); }
@@ -32,10 +32,10 @@ scene::Grain grainAt(const scene::GrainFill& b, const Vec3d& position, double ra
   return {position, b.velocity, b.spin, radius, b.material};
 }
 
-/// Maximum shift of a lattice grain along each axis [m]: grains never touch at the start.
+/// Maximum shift of a lattice grain along each axis [m]; shifted grains do not touch.
 double latticeShift(const scene::GrainFill& b) { return 0.5 * b.jitter * (b.spacing - 2) * b.largestRadius(); }
 
-/// Places of a lattice along each axis: shifted grains too stay whole inside the box.
+/// Number of lattice sites along each axis; shifted grains, too, are completely inside the box.
 base::Vec3<std::int64_t> latticeCount(const scene::GrainFill& b) {
   const double pitch = b.spacing * b.largestRadius();
   base::Vec3<std::int64_t> count;
@@ -62,7 +62,7 @@ void addLattice(const scene::GrainFill& b, std::uint64_t seed, std::uint64_t blo
       }
 }
 
-/// Places grains one after the other, each at the first free one of its random positions.
+/// Places grains sequentially, each at the first free position among its random positions.
 void addRandom(const scene::Scene& scene, const scene::GrainFill& b, std::uint64_t seed, std::uint64_t block,
                std::vector<scene::Grain>& out) {
   const double edge = 2 * b.largestRadius();

@@ -15,9 +15,9 @@ struct GrainKinds {
   std::vector<std::string> material; ///< materials of grains, in the order of the file
   struct Kind {
     std::string material;
-    double smallest, largest; ///< radii of that material [m]
+    double smallest, largest; ///< radii of grains of this material [m]
   };
-  std::vector<Kind> kinds; ///< one a material
+  std::vector<Kind> kinds; ///< one per material
 
   bool any() const { return !material.empty(); }
   bool manyRadii() const { return smallest != largest; }
@@ -29,10 +29,10 @@ GrainKinds grainKinds(const scene::Scene& scene);
 /// Returns true if grains crush against parts of a vehicle or meshes.
 bool crushes(const scene::Scene& scene, const GrainKinds& kinds);
 
-/// Grains of [[grain]] and [[grains]] in the order of the file, which is that of their ids. Throws InputError if there
-/// is no room for all.
+/// Grains of [[grain]] and [[grains]] in the order of the file, which is the order of their ids. Throws InputError if a
+/// random fill does not fit into its box.
 std::vector<scene::Grain> placedGrains(const scene::Scene& scene);
-/// Number of those, without placing them.
+/// Number of these grains, without placing them.
 std::int64_t placedCount(const scene::Scene& scene);
 std::int64_t placedCount(const scene::GrainFill& block);
 

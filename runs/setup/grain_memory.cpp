@@ -36,18 +36,18 @@ double fieldBytes(const terrain::GrainLayout& layout) {
   return static_cast<double>(terrain::GrainFields(layout).bytesPerGrain());
 }
 
-/// Share of the grains of a bed at its floor or its walls: a layer of one diameter at each. 1 without a bed.
+/// Fraction of the grains of a bed at its floor or walls: one layer of a diameter at each. 1 without a bed.
 double shareAtBoundaries(const scene::Scene& scene) {
   if (!scene.terrain || !scene.terrain->granular()) return 1;
   const scene::Terrain& t = *scene.terrain;
   const double depth = t.depth ? *t.depth : t.layers.value_or(1) * *t.spacing * *t.grainRadius;
-  double layers = 1 / depth; // a unit of length
+  double layers = 1 / depth; // per unit of length
   for (std::size_t a = 0; a < 2; ++a)
     if (t.walls && !scene.run.periodic[a]) layers += 2 / t.size[a];
   return std::min(1.0, 2 * *t.grainRadius * layers);
 }
 
-/// Bytes of a grain that may touch a boundary: index, load, and springs.
+/// Bytes per grain that may touch a boundary: index, load, and springs.
 double bytesAtBoundaries(const Traits& traits) {
   const auto springs =
       static_cast<double>(traits.layout.boundaries * traits.layout.historyWidth() + 3 * traits.layout.places);
@@ -61,7 +61,7 @@ double bytesAtBoundaries(const Traits& traits) {
 
 KernelTraits kernelTraits(const scene::Scene& scene, const ContactPairs& pairs) {
   const bool parts = scene.vehicle || !scene.meshes.empty() || scene.mechanism.touches();
-  std::optional<terrain::HeightField> anyFloor; // features do not depend on its shape
+  std::optional<terrain::HeightField> anyFloor; // features do not depend on the shape of the floor
   if (scene.terrain) anyFloor = terrain::HeightField::flat({0, 1, 0, 1}, 0);
   const Traits traits = traitsOf(scene, pairs, anyFloor);
   return {traits.features | (parts ? terrain::kLoads : 0u), traits.model};

@@ -6,14 +6,14 @@
 
 namespace grouser::setup {
 
-/// Device memory per grain of a scene by purpose [bytes]: the fields of terrain::GrainFields, and the lists of a
-/// settled bed, before anything is allocated.
+/// Device memory per grain of a scene by purpose [bytes]: fields of terrain::GrainFields, and lists of a settled bed.
+/// Known before any memory is allocated.
 struct GrainMemory {
   double state{};      ///< grain fields: positions, velocities and spins of this step and the next, and others
   double lists{};      ///< neighbour lists
   double history{};    ///< springs and rolling angles of contacts between grains
   double boundaries{}; ///< contacts with planes and floor, and their history
-  double rebuild{};    ///< additional, while the lists are rebuilt
+  double rebuild{};    ///< additional memory while the lists are rebuilt
   double total() const { return state + lists + history + boundaries; }
   double most() const { return total() + rebuild; }
 };

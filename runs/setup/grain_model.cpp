@@ -42,7 +42,7 @@ namespace {
 /// A rigid contact partner of grains.
 struct Boundary {
   const std::string& material;
-  std::optional<double> friction; ///< replaces that of the materials [-]
+  std::optional<double> friction; ///< replaces the friction of the materials [-]
 };
 /// Walls, floor and surfaces except meshes, in the order of the grains' boundaries.
 std::vector<Boundary> boundariesOf(const Surroundings& around) {
@@ -83,7 +83,7 @@ terrain::GrainModel grainModel(const scene::Scene& scene, const GrainKinds& kind
       (scene.terrain && scene.terrain->granular() && scene.terrain->floorGrains) ||
       std::any_of(scene.grains.begin(), scene.grains.end(), [](const scene::Grain& g) { return g.fixed; });
 
-  // With one mass, damping is a constant; with several it depends on each contact's mass.
+  // If all grains have one mass, damping is a constant; otherwise it depends on the effective mass of each contact.
   const auto mass = [&](double share) { return kinds.many() ? std::nullopt : std::optional(share * model.mass); };
   model.law = pairLaw(scene, first, first, mass(0.5));
   const std::vector<Boundary> all = boundariesOf(surroundings);

@@ -27,7 +27,7 @@ struct Surroundings {
 };
 
 /// Walls and floor of the terrain, planes and surfaces, in the order of the grains' boundaries. `bedWalls`: rectangle
-/// between the walls of a bed.
+/// enclosed by the walls of a bed.
 Surroundings surroundingsOf(const scene::Scene& scene, const ContactPairs& pairs,
                             const std::optional<terrain::HeightField>& floor, const terrain::Rectangle& bedWalls);
 

@@ -52,7 +52,8 @@ public:
                               limit_, scene::radiiText(*scene_.terrain)));
   }
 
-  /// A grain must not touch two images of another: three cells of the search must fit between periodic boundaries.
+  /// A grain must not touch two images of another grain: three cells of the neighbour search must fit between periodic
+  /// boundaries.
   void sides() const {
     const terrain::PeriodicBoundaries sides = periodicBoundaries(scene_);
     const double least = 3 * (2 * kinds_.largest + scene_.run.skin * kinds_.smallest);
@@ -72,11 +73,11 @@ public:
   }
 
   void boundaries() const {
-    constexpr std::size_t kMost = 32; // bits of a mask
+    constexpr std::size_t kMax = 32; // bits of a mask
     std::size_t walls = 0;
     if (scene_.terrain && scene_.terrain->granular() && scene_.terrain->walls)
       walls = (scene_.run.periodic[0] ? 0u : 2u) + (scene_.run.periodic[1] ? 0u : 2u);
-    const std::size_t floor = floorPlaces(kMost - std::min(kMost, walls + surfaces()));
+    const std::size_t floor = floorPlaces(kMax - std::min(kMax, walls + surfaces()));
     std::string others;
     if (floor > 0) others = ", including floor and walls of the terrain";
     if (floor > 1)
@@ -84,11 +85,11 @@ public:
     std::size_t count = floor + walls;
     const auto add = [&](const char* list, std::size_t sections) {
       count += sections;
-      if (count > kMost)
+      if (count > kMax)
         scene_.fail(list, sections - 1, "",
                     fmt::format("is one of {} or more planes, boxes and cylinders{}; grains support at most {}; remove "
                                 "some, or combine several in one [[mesh]]{}",
-                                count, others, kMost,
+                                count, others, kMax,
                                 floor > 1 && scene_.terrain->granular() ? ", or set terrain.floor = \"flat\"" : ""));
     };
     add("plane", scene_.planes.size()), add("box", scene_.boxes.size()), add("cylinder", scene_.cylinders.size());
@@ -96,38 +97,39 @@ public:
 
   /// Ids are 32-bit numbers.
   void ids() const {
-    constexpr double kMostGrains = 4e9;
+    constexpr double kMaxGrains = 4e9;
     for (std::size_t k = 0; k < scene_.fills.size(); ++k) {
       const scene::GrainFill& b = scene_.fills[k];
       if (b.form != scene::FillForm::lattice) continue;
       double grains = 1; // may exceed an integer
       for (int a = 0; a < 3; ++a) grains *= ((*b.high)[a] - (*b.low)[a]) / (b.spacing * b.largestRadius()) + 1;
-      if (grains > kMostGrains)
+      if (grains > kMaxGrains)
         scene_.fail("grains", k, "radius",
                     fmt::format("[m] results in a lattice of about {:.3g} grains, more than the maximum {:g}; use "
                                 "larger grains or a smaller box",
-                                grains, kMostGrains));
+                                grains, kMaxGrains));
     }
   }
 
 private:
   std::size_t surfaces() const { return scene_.planes.size() + scene_.boxes.size() + scene_.cylinders.size(); }
-  /// Contacts that a grain may have with the floor. Reads its height-map only if there is no `room` for the maximum.
+  /// Maximum number of contacts of a grain with the floor. Reads the height-map only if `room` is below the general
+  /// maximum.
   std::size_t floorPlaces(std::size_t room) const {
-    if (!scene_.terrain || room >= terrain::Feet::kMost) return scene_.terrain ? 1 : 0;
+    if (!scene_.terrain || room >= terrain::Feet::kMax) return scene_.terrain ? 1 : 0;
     terrain::Boundaries around;
     around.floor = floorShape(scene_);
     return static_cast<std::size_t>(around.floorPlaces(kinds_.largest));
   }
   void radius(const char* list, std::size_t k, const char* key, double smallest) const {
-    constexpr double kSmallest = 1e-12; // [m]; no unit of positions resolves 1e-8 of a much smaller radius
+    constexpr double kSmallest = 1e-12; // [m]; for much smaller radii, no unit of positions resolves 1e-8 radii
     if (smallest < kSmallest)
       scene_.fail(
           list, k, key,
           fmt::format("[m] results in a grain radius of {:g} m, below the minimum {:g} m; check the unit (metres)",
                       smallest, kSmallest));
-    constexpr double kLeast = 1e-3; // radius / largest radius [-]; see terrain::Grains
-    if (smallest < kLeast * kinds_.largest)
+    constexpr double kMin = 1e-3; // radius / largest radius [-]; see terrain::Grains
+    if (smallest < kMin * kinds_.largest)
       scene_.fail(list, k, key,
                   fmt::format("[m] results in a grain radius of {:g} m, less than 0.001 of the largest, {:g} m; raise "
                               "it, or lower the largest",

@@ -38,7 +38,8 @@ terrain::PartitionOptions partitionOf(const scene::Scene& scene, const GrainKind
   return partitionOptions(scene, base::positionScale(2 * kinds.largest));
 }
 
-/// The terrain without its grains. Empty where it has none.
+/// Reads the terrain into `ground`, without placing grains. Returns the plan of a bed of grains; empty for other
+/// terrain.
 std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, coupling::GroundSetup& ground,
                                             SizeChecks sizes) {
   if (!scene.terrain) return {};
@@ -60,12 +61,12 @@ std::optional<terrain::BedPlan> readTerrain(const scene::Scene& scene, coupling:
   return plan;
 }
 
-/// A level piece of the bed as a separate scene, with vertical gravity and the bed only. `layers`: layers of a lattice;
-/// `depth`: depth of a random bed [m].
+/// A level piece of the bed as a separate scene, without anything else and with vertical gravity. `layers`: layers of a
+/// lattice; `depth`: depth of a random bed [m].
 scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, const std::array<double, 2>& size) {
   scene::Scene piece = scene;
   piece.run.periodic = {true, true};
-  piece.run.gravity = {0, 0, -norm(scene.run.gravity)}; // nothing would hold a piece under inclined gravity
+  piece.run.gravity = {0, 0, -norm(scene.run.gravity)}; // a periodic piece would slide under inclined gravity
   piece.grains.clear(), piece.fills.clear(), piece.sources.clear();
   piece.planes.clear(), piece.boxes.clear(), piece.cylinders.clear(), piece.meshes.clear();
   removeVehicle(piece), piece.mechanism = {}, piece.parallel = {};
@@ -83,7 +84,7 @@ scene::Scene pieceScene(const scene::Scene& scene, int layers, double depth, con
   return piece;
 }
 
-/// Message for an error that occurs later.
+/// Returns the message of the error that `fail` throws, for an error that may occur later.
 template <class Fail> std::string messageOf(const Fail& fail) {
   try {
     fail();
@@ -106,8 +107,8 @@ coupling::TileSetup tileSetup(const scene::Scene& scene, const terrain::HeightFi
   coupling::TileSetup tile;
   tile.periodic = scene.run.periodic, tile.terrainSize = t.size;
   tile.walls = plan.walls, tile.floorHeight = floor.lowest;
-  // Between periodic boundaries whole tiles must fit; between walls whole cells of a lattice in a tile, and walls cut
-  // the last one.
+  // Between periodic boundaries, whole tiles must fit. Between walls, a tile must contain whole lattice cells, and
+  // walls cut the last tile.
   const double cell = t.spacing.value_or(0) * radius;
   for (std::size_t a = 0; a < 2; ++a) {
     const double wanted = std::min((*t.tile)[a], t.size[a]);
@@ -164,7 +165,7 @@ coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, 
   bed.material = kinds.indexOf(t.material);
   bed.settle = {t.settleTimeLimit, t.settleKineticEnergy, t.settleForceRatio, t.lattice()};
   bed.cache = t.cache;
-  if (isPutOnBed(scene)) return bed; // sceneOfBed() has the other settings
+  if (isPutOnBed(scene)) return bed; // then sceneOfBed() determines the settings
   if (bed.cache) bed.origin = bedOrigin(scene, timeStep);
   if (t.tile) bed.tile = tileSetup(scene, surface, plan, timeStep);
   if (random) bed.densest = terrain::randomClosePacking(random->radii) + kCrystal;
@@ -172,7 +173,7 @@ coupling::BedSetup bedSetup(const scene::Scene& scene, const GrainKinds& kinds, 
   return bed;
 }
 
-/// Contact laws between each grain material and the parts: of a vehicle, meshes or bodies.
+/// Contact laws between each grain material and the parts of a vehicle, meshes or bodies.
 contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds& kinds, double grainMass) {
   contact::GrainPartMaterials all;
   const std::optional<VehicleSurface> ofSoil = vehicleSurface(scene);
@@ -182,7 +183,7 @@ contact::GrainPartMaterials partLaws(const scene::Scene& scene, const GrainKinds
   else if (parts.empty() && !scene.meshes.empty())
     parts = {scene.meshes.front().material};
   if (parts.empty()) return all;
-  // With one mass, damping is a constant; with several it depends on each contact's mass.
+  // If all grains have one mass, damping is a constant; otherwise it depends on the effective mass of each contact.
   const std::optional<double> mass = kinds.many() ? std::nullopt : std::optional(grainMass);
   for (std::size_t p = 0; p < parts.size(); ++p)
     for (const std::string& soil : kinds.material) {

@@ -17,9 +17,9 @@ namespace grouser::setup {
 /// without a vehicle or without bodies.
 std::optional<vehicle::Assembly> vehicleOf(const scene::Scene& scene);
 
-/// [body of `model`] whether joints, springs or bushings connect it to the vehicle, also through other bodies; `model`
-/// begins with the parts of `vehicle`. Throws InputError where a joint connects such a body, and so the vehicle, to the
-/// world or to a fixed body.
+/// For each body of `model`: true if joints, springs or bushings connect it to the vehicle, directly or through other
+/// bodies. `model` begins with the parts of `vehicle`. Throws InputError if a joint connects such a body, and thus the
+/// vehicle, to the world or to a fixed body.
 std::vector<bool> hitchedBodies(const scene::Scene& scene, const multibody::Model& model,
                                 const vehicle::Assembly& vehicle);
 

@@ -28,7 +28,7 @@ bool fits(int ranks, const std::array<int, 3>& wanted) {
 
 } // namespace
 
-std::array<int, 3> wantedSubdomains(const scene::Scene& scene) {
+std::array<int, 3> requestedSubdomains(const scene::Scene& scene) {
   const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
   std::array<int, 3> wanted{};
   for (int a = 0; a < 3; ++a) {
@@ -47,12 +47,12 @@ contact::PartitionOptions partitionOptions(const scene::Scene& scene, const base
   // A plane beyond the range of positions is moved to its limit.
   for (std::vector<double>& planes : partition.cuts)
     for (double& place : planes) place = std::clamp(place, -scale.limit(), scale.limit());
-  partition.subdomains = wantedSubdomains(scene);
+  partition.subdomains = requestedSubdomains(scene);
   return partition;
 }
 
 void checkLattice(const scene::Scene& scene, int ranks) {
-  const std::array<int, 3> wanted = wantedSubdomains(scene);
+  const std::array<int, 3> wanted = requestedSubdomains(scene);
   if (ranks == 1 || fits(ranks, wanted)) return;
   const std::vector<double>* cuts[] = {&scene.parallel.cutsX, &scene.parallel.cutsY, &scene.parallel.cutsZ};
   for (std::size_t a = 0; a < 3; ++a)
@@ -60,14 +60,14 @@ void checkLattice(const scene::Scene& scene, int ranks) {
       scene.fail("parallel", std::string("cuts_") + "xyz"[a],
                  fmt::format("[m] results in {} subdomains along {}, but a lattice [{}, {}, {}] (0: any number up to "
                              "{}) cannot have one subdomain for each of {} ranks; {}",
-                             wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], contact::kMostSubdomainsAnAxis,
-                             ranks, kRemedy));
+                             wanted[a], "xyz"[a], wanted[0], wanted[1], wanted[2], contact::kMaxSubdomainsAnAxis, ranks,
+                             kRemedy));
   if (scene.parallel.subdomains)
     scene.fail("parallel", "subdomains",
                fmt::format("does not result in {} subdomains, one per rank; {}", ranks, kRemedy));
   throw base::InputError(fmt::format("{}: {} ranks cannot be arranged in a lattice with at most {} subdomains along "
                                      "each axis; use a different number of ranks (mpirun -np)",
-                                     scene.file.string(), ranks, contact::kMostSubdomainsAnAxis));
+                                     scene.file.string(), ranks, contact::kMaxSubdomainsAnAxis));
 }
 
 } // namespace grouser::setup

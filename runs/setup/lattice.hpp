@@ -8,8 +8,8 @@
 
 namespace grouser::setup {
 
-/// Subdomains along x, y and z that the scene sets, by numbers or by planes between them; 0: any number.
-std::array<int, 3> wantedSubdomains(const scene::Scene& scene);
+/// Numbers of subdomains along x, y and z that the scene sets, directly or by planes; 0: any number.
+std::array<int, 3> requestedSubdomains(const scene::Scene& scene);
 
 /// Options of [parallel], without communicator. `scale`: positions of the distributed elements.
 contact::PartitionOptions partitionOptions(const scene::Scene& scene, const base::PositionScale& scale);

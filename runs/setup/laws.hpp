@@ -13,7 +13,7 @@ struct Scene;
 namespace grouser::setup {
 
 /// The law between two materials of a scene: contact::mixedLaw() with [contact."a|b"]. Throws InputError at the key if
-/// the materials are incompatible. Restitutions must have passed restitution_check.hpp.
+/// the materials are incompatible. Call checkRestitutions() first.
 contact::ContactLaw pairLaw(const scene::Scene& scene, const std::string& a, const std::string& b,
                             std::optional<double> effectiveMass);
 

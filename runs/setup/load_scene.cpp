@@ -21,7 +21,7 @@ using base::Section;
 
 namespace {
 
-/// Throws the error of a part with its location in the file, if the file has the part.
+/// Throws the error of a part with the location of the part in the file, if the file contains it.
 void failAtPart(const Section& root, const multibody::PartError& error) {
   const multibody::PartName& part = error.part();
   for (const Section& section : root.list(part.kind)) {
@@ -31,7 +31,7 @@ void failAtPart(const Section& root, const multibody::PartError& error) {
   }
 }
 
-/// Checks the mechanism as a whole: joints that do not close, drives that contradict each other through a loop.
+/// Checks the mechanism as a whole: joints must close, and drives in a loop must not contradict each other.
 void checkWhole(const Section& root, const multibody::Model& model, const scene::Scene& scene) {
   try {
     const multibody::Solver solver(model, solverOptions(scene.run));
@@ -41,7 +41,7 @@ void checkWhole(const Section& root, const multibody::Model& model, const scene:
   }
 }
 
-/// Runs `check`; an error names the location of its key.
+/// Runs `check`, and adds the location of the key to its errors.
 template <class Check> void withPlace(const Section& section, const Check& check) {
   try {
     check();
@@ -82,7 +82,7 @@ void rejectUnusedSurface(const Section& section, const scene::Scene& scene, cons
                        : "has no effect without grains; remove it");
 }
 
-/// Checks that surfaces have an effect, unique names, and room for grains.
+/// Checks that surfaces have an effect, that their names are unique, and that grains fit into hollow cylinders.
 void checkSurfaces(const Section& root, const ContactPairs& pairs, const scene::Scene& scene) {
   const GrainKinds& kinds = pairs.kinds;
   std::map<std::string, std::string> places; // section by name

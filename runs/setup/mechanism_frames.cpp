@@ -16,11 +16,11 @@ using multibody::JointType;
 
 namespace {
 
-/// Tolerance of joint frames given in both bodies, at the start [m, rad].
+/// Tolerance of the initial difference between joint frames given in both bodies [m, rad].
 constexpr double kStartGap = 1e-6;
 std::string text(const Vec3d& v) { return fmt::format("({:.7g}, {:.7g}, {:.7g})", v.x, v.y, v.z); }
 
-/// Direction given for a key, not zero.
+/// Returns the direction given for a key. Throws SectionFault if it is missing or zero.
 Vec3d direction(const char* key, const std::optional<Vec3d>& v) {
   if (!v)
     throw support::SectionFault(key, "[-] is missing, but this type of joint requires it; add it, e.g. [0, 0, 1]");
@@ -32,7 +32,7 @@ bool hasAxis(JointType type) {
   return type != JointType::kSpherical && type != JointType::kFixed && type != JointType::kDistance;
 }
 
-/// Both frames from point and axis in the world.
+/// Both frames, from point and axis in the world frame.
 JointFrames placedInWorld(const scene::JointSection& j) {
   for (const auto& [key, given] : {std::pair{"point_a", j.pointA.has_value()},
                                    {"point_b", j.pointB.has_value()},
@@ -56,7 +56,7 @@ JointFrames placedInWorld(const scene::JointSection& j) {
   return {X, X};
 }
 
-/// Both frames from points and axes in the bodies, which must coincide.
+/// Both frames, from points and axes in the body frames, which must coincide at the start.
 JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (!j.pointA)
     throw support::SectionFault("point_a",
@@ -100,7 +100,7 @@ JointFrames placedInBodies(const scene::JointSection& j, const Pose& X_WA, const
   return {X, {p_A + slide * z, X.orientation}};
 }
 
-/// Frames of a distance joint: two points without directions.
+/// Frames of a distance joint: two points, with the orientations of the bodies.
 JointFrames placedAtEnds(const scene::JointSection& j, const Pose& X_WA, const Pose& X_WB) {
   if (j.point)
     throw support::SectionFault("point",

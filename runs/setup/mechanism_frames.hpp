@@ -6,12 +6,12 @@
 
 namespace grouser::setup {
 
-/// Initial frames of a joint in the world, of its first and of its second body.
+/// Initial frames of a joint on its first and second body, in the world frame.
 struct JointFrames {
   base::Pose A, B;
 };
 
-/// Frames from keys in the world, or from keys in the bodies, which must coincide. Throws SectionFault.
+/// Frames from keys in the world frame, or from keys in the body frames, which must coincide. Throws SectionFault.
 JointFrames placeJoint(const scene::JointSection& joint, const base::Pose& X_WA, const base::Pose& X_WB);
 
 } // namespace grouser::setup

@@ -26,8 +26,8 @@ using multibody::JointType;
 
 namespace {
 
-/// The centre of the shapes may lie beside the origin of the body's frame, its centre of mass, by this share of the
-/// size of the body [-]: that of positions typed with a few digits.
+/// Permitted offset of the centre of the shapes from the origin of the body's frame (the centre of mass), relative to
+/// the body's size [-]; positions are typed with a few digits.
 constexpr double kCentred = 1e-3;
 
 /// Volume, centre and inertia of the shapes at unit density.
@@ -35,10 +35,11 @@ SolidMoments shapesMoments(const scene::BodySection& b) {
   for (std::size_t k = 0; k < b.shapes.size(); ++k)
     if (const auto& query = b.shapes[k].loaded.query; query && shellsOverlap(*query))
       throw support::SectionFault(
-          "", fmt::format("cannot derive mass or inertia from the mesh of shape.{}, whose shells overlap or nest, so "
-                          "that their common volume counts twice; merge the shells, reverse the inner shell of a "
-                          "hollow mesh, or set mass and inertia",
-                          k));
+          "",
+          fmt::format(
+              "has overlapping or nested shells in the mesh of shape.{}, so mass and inertia would count their common "
+              "volume twice; merge the shells, reverse the inner shell of a hollow mesh, or set mass and inertia",
+              k));
   const SolidMoments m = momentsOf(b);
   double size = 0;
   for (const scene::ShapeSection& s : b.shapes)
@@ -52,7 +53,7 @@ SolidMoments shapesMoments(const scene::BodySection& b) {
   return m;
 }
 
-/// `moments`: of the shapes where mass or inertia depends on them; otherwise empty, of zero volume.
+/// `moments`: moments of the shapes if mass or inertia depends on them; otherwise of zero volume.
 Mat3d inertiaOf(const scene::BodySection& b, const SolidMoments& moments, double mass) {
   const std::vector<double>& i = b.inertia;
   if (i.size() == 3) return Mat3d::diagonal({i[0], i[1], i[2]});
@@ -72,7 +73,7 @@ Mat3d inertiaOf(const scene::BodySection& b, const SolidMoments& moments, double
   return Mat3d::diagonal({m * (e.y * e.y + e.z * e.z), m * (e.x * e.x + e.z * e.z), m * (e.x * e.x + e.y * e.y)});
 }
 
-/// Sum of all terms of a drive over time.
+/// Sum of all terms of a drive, as a function of time.
 multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   multibody::TimeLaw law;
   law.polynomial = d.polynomial;
@@ -91,16 +92,17 @@ multibody::TimeLaw lawOf(const scene::DriveSection& d) {
   const bool jumps = d.imposes != multibody::DriveKind::kPosition;
   if (const std::size_t i = multibody::firstOutOfOrder(d.time, jumps); i > 0)
     throw support::SectionFault("time",
-                                fmt::format("[s] must increase, but does not at entry {}; sort it{}", i,
+                                fmt::format("[s] must increase, but does not at entry {}; sort the list{}", i,
                                             !jumps && d.time[i] == d.time[i - 1] ? " (a position cannot jump)" : ""));
-  // A kink in a position would be an impact.
+  // A position needs a smooth table: a kink would be an impact.
   (d.imposes == multibody::DriveKind::kPosition ? law.table : law.ramps) = {d.time, d.values};
   if (law.empty())
     throw support::SectionFault("", "has no value; set value, polynomial, amplitude, or time with values");
   return law;
 }
 
-/// Adds to the model. An error of the model becomes a fault of the section, at its key if that is one of `keys`.
+/// Adds an element to the model. An error of the model becomes a SectionFault, at the key of the error if `keys`
+/// contains it.
 template <class Add> int addChecked(const std::vector<std::string>& keys, Add add) {
   try {
     return add();
@@ -214,7 +216,7 @@ void MechanismBuilder::add(const scene::JointSection& j) {
   joint.frame_A = multibody::compose(multibody::inverse(X_WA), placed.A);
   joint.frame_B = multibody::compose(multibody::inverse(X_WB), placed.B);
   if (j.type == JointType::kDistance) {
-    // Exactly the points that were given.
+    // Uses exactly the given points.
     joint.frame_A.position = j.pointA.value_or(Vec3d{}), joint.frame_B.position = j.pointB.value_or(Vec3d{});
     const double apart = norm(placed.B.position - placed.A.position);
     if (j.length && !(std::fabs(apart - *j.length) <= 1e-6 * *j.length))

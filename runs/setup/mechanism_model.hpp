@@ -19,7 +19,7 @@ struct Assembly;
 /// Builds the multibody model from the sections of a scene file.
 namespace grouser::setup {
 
-/// Adds sections and checks each against the earlier ones. Throws SectionFault.
+/// Adds sections, and checks each one against the earlier sections. Throws SectionFault.
 class MechanismBuilder {
 public:
   MechanismBuilder() = default;
@@ -35,11 +35,11 @@ public:
   const multibody::Model& model() const { return model_; }
 
 private:
-  // Indices by name; "world" is multibody::kWorld. `key` is where the name stands.
+  // Indices by name; "world" is multibody::kWorld. `key`: key that contains the name.
   int body(const std::string& key, const std::string& name) const;
   int joint(const std::string& key, const std::string& name) const;
   std::pair<int, int> twoBodies(const std::vector<std::string>& names) const;
-  /// The axis of a joint, by name or as its only one.
+  /// The named axis of a joint, or its only axis.
   multibody::JointAxis axis(int index, const std::string& key, std::optional<multibody::JointAxis> named) const;
   base::Pose pose(int index) const;
   void checkName(const std::string& kind, const std::string& name);
@@ -54,8 +54,8 @@ private:
 /// `vehicle`: the model begins with its parts; may be null.
 multibody::Model buildModel(const scene::MechanismSections& sections, const vehicle::Assembly* vehicle = nullptr);
 
-/// Throws SectionFault, for key "" of joint `index`, where the initial velocities of its two bodies violate the joint
-/// by more than 1e-5 of their size.
+/// Throws SectionFault, with key "", if the initial velocities of the two bodies of joint `index` violate the joint by
+/// more than 1e-5 of their magnitude.
 void checkStartVelocity(const multibody::Model& model, int index);
 
 } // namespace grouser::setup

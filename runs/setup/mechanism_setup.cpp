@@ -23,16 +23,16 @@ namespace grouser::setup {
 
 namespace {
 
-/// Steps per period or turn with "auto" [-], and its largest step [s].
+/// Steps per period or revolution for "auto" [-], and its maximum step [s].
 constexpr double kStepsPerPeriod = 100, kLongestStep = 1e-3;
-/// The same for oscillations on taut joints, few of which move much: 1 / 6.4 of the largest stable step, which leaves
-/// room for forty times the initial tension [-].
+/// Steps per oscillation on taut joints [-]; few of these have large amplitudes. The step is 1 / 6.4 of the largest
+/// stable step, so the tension may become forty times the initial tension.
 constexpr double kStepsPerTensionSwing = 20;
-/// The same for a bounce off an end stop (half an oscillation), as for a contact of grains [-].
+/// Steps per bounce off an end stop (half an oscillation), as for a contact of grains [-].
 constexpr double kStepsPerBounce = 20;
 /// Number of steps above which a note names the spring that requires them [-].
 constexpr double kManySteps = 1e6;
-/// Steps are printed and typed with some digits: 20 steps to a millionth are 20 [-].
+/// Relative tolerance of step numbers [-], since steps are printed and typed with a few digits.
 constexpr double kDigits = 1e-6;
 
 /// A mechanism at its start.
@@ -42,13 +42,13 @@ struct Start {
         loads(multibody::makeLoads(setup.model)), solver(setup.model, setup.solver) {
     coupling::beginMotion(setup, solver, state, loads);
   }
-  /// Shortest period of all springs and bushings against the masses [s]; infinite without any.
+  /// Shortest oscillation period of the masses on springs and bushings [s]; infinite without them.
   double shortestSwing(std::string* spring) {
     return 2 * base::kPi / solver.stabilityLimit() * solver.stableStep(state, loads, spring);
   }
   /// Shortest duration of a bounce off an end stop [s].
   double shortestBounce() { return base::kPi / solver.stopRate(state, loads); }
-  /// Longest step for which the dampers brake without a change of sign [s]; infinite where any step does.
+  /// Longest step at which no damper reverses a velocity [s]; infinite if all steps are allowed.
   double longestDamped(std::string* damper = nullptr) {
     if (setup.solver.integrator != multibody::Integrator::kRattle) return std::numeric_limits<double>::infinity();
     return 2 / solver.dampingRate(state, loads, damper);
@@ -62,10 +62,10 @@ struct Start {
   multibody::Solver solver;
 };
 
-/// The step of "auto", and that without springs and dampers [s].
+/// The step of "auto", and the steps that "auto" would have without springs or without dampers [s].
 struct AutomaticStep {
   double step = 0, withoutSprings = 0, withoutDampers = 0;
-  double swing = 0;           ///< shortest of the springs [s]
+  double swing = 0;           ///< shortest period of the springs [s]
   double decay = 0;           ///< time constant of the strongest damper [s]
   std::string spring, damper; ///< "spring 'bar'"
 };
@@ -73,7 +73,7 @@ struct AutomaticStep {
 AutomaticStep automaticStep(const scene::Scene& scene) {
   Start start(scene);
   double shortest = kStepsPerPeriod * kLongestStep;
-  // Each gets kStepsPerPeriod steps, or as many as the scene requires.
+  // Each period gets kStepsPerPeriod steps, or more if the scene requires more.
   const double ofTurns = std::min(1.0, kStepsPerPeriod / scene.run.stepsPerPeriod);
   for (const multibody::Twist& V : start.state.twist)
     shortest = std::min(shortest, ofTurns * 2 * base::kPi / norm(V.w));
@@ -83,11 +83,11 @@ AutomaticStep automaticStep(const scene::Scene& scene) {
   shortest = std::min(shortest, kStepsPerPeriod / kStepsPerBounce * start.shortestBounce());
   AutomaticStep automatic;
   automatic.swing = start.shortestSwing(&automatic.spring);
-  // Rows fall on whole steps.
+  // The output interval is a whole number of steps.
   const double row = scene.run.outputInterval;
   const auto shareOfRow = [row](double time) { return row / std::ceil(kStepsPerPeriod * row / time); };
   automatic.decay = 0.5 * start.longestDamped(&automatic.damper);
-  // Dampers: half the limit, as for grains.
+  // Dampers: half the step limit, as for grains.
   const double decays = kStepsPerPeriod * automatic.decay;
   automatic.withoutSprings = shareOfRow(std::min(shortest, decays));
   automatic.withoutDampers = shareOfRow(std::min(shortest, automatic.swing));
@@ -95,22 +95,22 @@ AutomaticStep automaticStep(const scene::Scene& scene) {
   return automatic;
 }
 
-/// The largest fraction of the output interval of which frame interval and duration are multiples [s]; a thousandth of
-/// it if there is none.
+/// The output interval divided by the smallest integer for which frame interval and duration are multiples of the
+/// result [s]; a thousandth of the interval if there is no such integer up to 1000.
 double outputStep(const scene::RunSettings& run) {
   const auto fits = [](double time, double step) {
     const double steps = time / step;
     return std::fabs(steps - std::round(steps)) <= 1e-6;
   };
-  constexpr int kMostShares = 1000;
+  constexpr int kMaxShares = 1000;
   int shares = 1;
-  while (shares < kMostShares &&
+  while (shares < kMaxShares &&
          !(fits(run.frameInterval, run.outputInterval / shares) && fits(run.duration, run.outputInterval / shares)))
     ++shares;
   return run.outputInterval / shares;
 }
 
-/// Throws InputError where a body turns too far in a step at the start.
+/// Throws InputError if a body initially rotates too far in a step.
 void checkTurns(const scene::Scene& scene, const multibody::Model& model, const multibody::State& state, double step) {
   const double most = largestTurn(scene.run);
   for (std::size_t b = 0; b < state.twist.size(); ++b)
@@ -123,7 +123,7 @@ void checkTurns(const scene::Scene& scene, const multibody::Model& model, const 
                       base::roundedDown(most / rate, 4)));
 }
 
-/// Throws InputError where a bounce off an end stop, half an oscillation, has too few steps.
+/// Throws InputError if a bounce off an end stop (half an oscillation) has too few steps.
 void checkStops(const scene::Scene& scene, Start& start, double step) {
   std::string stop;
   const double rate = start.solver.stopRate(start.state, start.loads, &stop);
@@ -138,18 +138,18 @@ void checkStops(const scene::Scene& scene, Start& start, double step) {
                   base::roundedDown(automaticStep(scene).step, 4)));
 }
 
-/// Throws InputError where a damper would reverse a velocity in every step instead of braking it.
+/// Throws InputError if a damper would reverse a velocity in every step.
 void checkDampers(const scene::Scene& scene, Start& start, double step) {
-  if (scene.run.integratorOrder > 2) return; // the solver refuses these, at shorter steps
+  if (scene.run.integratorOrder > 2) return; // here the solver itself has a lower step limit for dampers
   std::string damper;
   const double most = start.longestDamped(&damper);
   if (step <= most * (1 + kDigits)) return;
-  scene.fail("run", "time_step",
-             fmt::format("[s] is too long for the damper of {}: its time constant is {:.3g} s, and with rattle "
-                         "velocities change sign in every step longer than {} s; set that or less (\"auto\": {} s), a "
-                         "weaker damper, or run.integrator = \"symplectic_euler\", which integrates dampers implicitly",
-                         damper, 0.5 * most, base::roundedDown(most, 4),
-                         base::roundedDown(automaticStep(scene).step, 4)));
+  scene.fail(
+      "run", "time_step",
+      fmt::format("[s] is too long for the damper of {}: its time constant is {:.3g} s, and with rattle velocities "
+                  "change sign in every step longer than {} s; set this limit or less (\"auto\": {} s), use a weaker "
+                  "damper, or set run.integrator = \"symplectic_euler\", which integrates dampers implicitly",
+                  damper, 0.5 * most, base::roundedDown(most, 4), base::roundedDown(automaticStep(scene).step, 4)));
 }
 
 } // namespace
@@ -161,7 +161,7 @@ multibody::SolverOptions solverOptions(const scene::RunSettings& run) {
   options.springs = run.springs;
   options.positionTolerance = run.constraintTolerance.value_or(0);
   options.exactGyroscopics = true;
-  // Scenes give velocities with a few digits; loading has checked that they fit.
+  // Velocities in scenes have a few digits; loading has checked that they satisfy the joints.
   options.startVelocities = multibody::StartVelocities::kAccept;
   return options;
 }
@@ -176,7 +176,7 @@ std::vector<std::string> shapeMaterials(const scene::Scene& scene) {
 
 namespace {
 
-/// Foundations of the shapes on each other, on the surfaces at rest and on rigid terrain.
+/// Winkler foundations of the shapes in contact with each other, with fixed surfaces and with rigid terrain.
 coupling::FoundationTable foundationsOf(const scene::Scene& scene) {
   coupling::FoundationTable table;
   table.materials = shapeMaterials(scene);
@@ -272,29 +272,29 @@ double mechanismTimeStep(const scene::Scene& scene) {
 
 namespace {
 
-/// Note on a spring whose oscillation a given step does not resolve, which is no error.
+/// Note on a spring with an oscillation that the given step does not resolve; this is not an error.
 std::string unresolvedSpring(const scene::Scene& scene) {
   Start start(scene);
   std::string spring;
   const double swing = start.shortestSwing(&spring), steps = swing / *scene.run.timeStep;
   if (steps >= scene.run.stepsPerPeriod * (1 - kDigits)) return "";
   const bool euler = scene.run.integrator == multibody::Integrator::kSymplecticEuler;
-  return fmt::format("{}: {} has a period of {:.3g} s, {:.3g} steps of run.time_step = {:g} s; {}; to resolve the "
-                     "oscillation, set it to {} s or less",
+  return fmt::format("{}: {} has a period of {:.3g} s, i.e. {:.3g} steps of run.time_step = {:g} s; {}; to resolve the "
+                     "oscillation, set the step to {} s or less",
                      scene.file.string(), spring, swing, steps, *scene.run.timeStep,
-                     euler ? "symplectic_euler is stable but damps it"
+                     euler ? "symplectic_euler is stable but damps the oscillation"
                      : scene.run.springs == multibody::Springs::kImplicit
                          ? "implicit springs are stable but oscillate too slowly"
                          : "explicit springs are stable but oscillate too fast",
                      base::roundedDown(swing / scene.run.stepsPerPeriod, 4));
 }
 
-/// Note on a damper that makes "auto" choose very many steps.
+/// Note on a damper that makes the step of "auto" very short.
 std::string damperNote(const scene::Scene& scene, const AutomaticStep& a) {
-  return fmt::format(
-      "{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because the damper of {} has a time constant of {:.3g} "
-      "s; run.integrator = \"symplectic_euler\" integrates dampers implicitly and is stable at run.time_step = {:.4g}",
-      scene.file.string(), a.step, scene.run.duration / a.step, a.damper, a.decay, a.withoutDampers);
+  return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s (the run takes {:.3g} steps), because the damper of {} "
+                     "has a time constant of {:.3g} s; run.integrator = \"symplectic_euler\" integrates dampers "
+                     "implicitly and is stable at run.time_step = {:.4g}",
+                     scene.file.string(), a.step, scene.run.duration / a.step, a.damper, a.decay, a.withoutDampers);
 }
 
 } // namespace
@@ -321,8 +321,9 @@ std::string springStepNote(const scene::Scene& scene) {
     remedy = fmt::format("run.springs = \"implicit\" allows run.time_step = {:.4g}, which resolves everything except "
                          "this oscillation (the spring acts as a rigid link)",
                          a.withoutSprings);
-  return fmt::format("{}: run.time_step = \"auto\" is {:.4g} s, {:.3g} steps, because {} has a period of {:.3g} s; {}",
-                     scene.file.string(), a.step, steps, a.spring, a.swing, remedy);
+  return fmt::format(
+      "{}: run.time_step = \"auto\" is {:.4g} s (the run takes {:.3g} steps), because {} has a period of {:.3g} s; {}",
+      scene.file.string(), a.step, steps, a.spring, a.swing, remedy);
 }
 
 std::string tensionStepWarningAtStart(const scene::Scene& scene, double timeStep) {

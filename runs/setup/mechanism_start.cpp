@@ -14,7 +14,7 @@ using multibody::JointType;
 
 namespace {
 
-/// Relative tolerance of initial velocities at a joint [-]: numbers typed with six digits.
+/// Relative tolerance of initial velocities at a joint [-], for numbers typed with six digits.
 constexpr double kStartRate = 1e-5;
 
 struct Motion {
@@ -31,7 +31,7 @@ Motion motionOf(const multibody::Model& model, int body) {
 
 std::string shortText(const Vec3d& v) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z); }
 
-/// The part of `v` that is perpendicular to the unit vector `z`.
+/// The component of `v` perpendicular to the unit vector `z`.
 Vec3d beside(const Vec3d& v, const Vec3d& z) { return v - dot(v, z) * z; }
 
 } // namespace
@@ -72,7 +72,7 @@ void checkStartVelocity(const multibody::Model& model, int index) {
     break;
   }
   }
-  // Sizes of what is added up in a velocity, so that round-off is none of a mistake.
+  // Magnitude of the terms of each velocity: differences within their round-off are no error.
   const auto size = [&](const Motion& m) { return norm(m.v) + norm(m.w) * norm(p - m.X_WB.position); };
   const double speed = size(A) + size(B), spin = norm(A.w) + norm(B.w);
   const auto bodies = [&] {

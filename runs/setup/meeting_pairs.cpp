@@ -19,7 +19,7 @@ namespace grouser::setup {
 
 namespace {
 
-/// Sentences on parameters of one material that the mixing rule sets to 0.
+/// Sentences about parameters of one material that have no effect, since the mixing rule sets them to 0.
 std::vector<std::string> switchedOff(const scene::Material& a, const scene::Material& b,
                                      const contact::ContactLaw& law) {
   std::vector<std::string> sentences;
@@ -36,7 +36,7 @@ std::vector<std::string> switchedOff(const scene::Material& a, const scene::Mate
   return sentences;
 }
 
-/// Pairs of a kind of grains and a partner material, one per combination of names.
+/// Pairs of a grain kind and a partner material; one per combination of names.
 class MeetingPairs {
 public:
   explicit MeetingPairs(const scene::Scene& scene) : scene_(scene) {}
@@ -45,7 +45,8 @@ public:
            const std::string& what, double share, const std::optional<VehicleSurface>& surface = {}) {
     if (!seen_.insert({kind.material, partner, what}).second) return;
     const double mass = share * base::sphereMass(scene_.material(kind.material).density, kind.smallest);
-    MeetingPair pair{kind.material, partner, touched, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
+    MaterialPair pair{
+        kind.material, partner, touched, what, pairLaw(scene_, kind.material, partner, mass), 0, 0, 0, {}};
     if (surface) pair.law = surface->with(pair.law);
     pair.stiffness = pair.law.hertz ? 0.75 * pair.law.stiffness : pair.law.stiffness;
     pair.restitution = contact::restitutionOf(pair.law, mass, mass);
@@ -54,17 +55,17 @@ public:
     pair.off = switchedOff(scene_.material(kind.material), scene_.material(partner), pair.law);
     pairs_.push_back(std::move(pair));
   }
-  std::vector<MeetingPair> take() { return std::move(pairs_); }
+  std::vector<MaterialPair> take() { return std::move(pairs_); }
 
 private:
   const scene::Scene& scene_;
   std::set<std::vector<std::string>> seen_;
-  std::vector<MeetingPair> pairs_;
+  std::vector<MaterialPair> pairs_;
 };
 
 } // namespace
 
-std::vector<MeetingPair> meetingPairs(const scene::Scene& scene) {
+std::vector<MaterialPair> materialPairs(const scene::Scene& scene) {
   using Kind = ContactPartner::Kind;
   const ContactPairs all(scene);
   const std::vector<GrainKinds::Kind>& kinds = all.kinds.kinds;

@@ -10,18 +10,18 @@
 namespace grouser::setup {
 
 /// Contact parameters of a grain and a partner, from the mixing rule, [contact] and the vehicle file.
-struct MeetingPair {
+struct MaterialPair {
   std::string grain, partner; ///< materials
   ContactPartner::Kind touched{};
   std::string what;             ///< "grain on grain", "grain on the floor", "grain on box drum"
-  contact::ContactLaw law;      ///< for the smallest grains of that material
+  contact::ContactLaw law;      ///< law of the smallest grains of this material
   double stiffness{};           ///< linear k [N/m]; hertz: effective modulus E_eff [Pa]
   double restitution{};         ///< from law and damping [-]
   double cohesion{};            ///< energy of adhesion [J/m2]
-  std::vector<std::string> off; ///< sentences on parameters of one material that the pair lacks
+  std::vector<std::string> off; ///< sentences about parameters without effect in this pair
 };
 
-/// Each pair once, in the order of the materials in the file; partners of one material and kind in one.
-std::vector<MeetingPair> meetingPairs(const scene::Scene& scene);
+/// Each pair once, in the order of the materials in the file; partners with the same material and kind form one pair.
+std::vector<MaterialPair> materialPairs(const scene::Scene& scene);
 
 } // namespace grouser::setup

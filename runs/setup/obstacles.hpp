@@ -11,11 +11,12 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// Planes, boxes, cylinders and meshes of a scene at rest.
+/// Fixed planes, boxes, cylinders and meshes of a scene.
 std::vector<coupling::SurfaceSetup> surfacesAtRest(const scene::Scene& scene);
 
 /// These surfaces as obstacles of vehicle, bodies and fluid; empty without a vehicle, bodies with shapes or a fluid.
-/// Friction is that of vehicle.material and the surface's material if given, else friction_ground of the vehicle file.
+/// Friction follows from vehicle.material and the surface's material; without vehicle.material it is friction_ground of
+/// the vehicle file.
 std::vector<coupling::Obstacle> obstaclesOf(const scene::Scene& scene);
 
 /// Returns true if the hull of the scene's vehicle has contacts.

@@ -46,7 +46,7 @@ void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain
     }
     for (std::size_t k = 0; k < scene.sources.size(); ++k) {
       const double low = scene.sources[k].low[axis], high = scene.sources[k].high[axis];
-      // It may fill the period: random positions never reach the upper boundary.
+      // The box may fill the whole period, since random positions never reach the upper boundary.
       if (!(low >= from && (high < to || (low < high && high <= to))))
         scene.fail("source", k, low < from ? "low" : "high", outside(low, high));
     }

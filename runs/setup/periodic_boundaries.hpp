@@ -18,8 +18,8 @@ terrain::PeriodicBoundaries periodicBoundaries(const scene::Scene& scene);
 /// Throws InputError for the first grain or source that is not between the periodic boundaries.
 void checkBetweenSides(const scene::Scene& scene, const std::vector<scene::Grain>& grains);
 
-/// Boxes, cylinders and meshes have no images, so none may start where grains would touch one: see
-/// coupling::faultAtBoundaries(). Throws InputError.
+/// Throws InputError for a box, cylinder or mesh so close to a periodic boundary that grains would touch its image:
+/// surfaces have no images (coupling::faultAtBoundaries()).
 void checkSurfacesBetweenSides(const scene::Scene& scene, const ContactPairs& pairs);
 
 /// Throws InputError unless `surface` is level along the periodic directions.

@@ -30,7 +30,7 @@ constexpr double kBorder = 0.02; // [m] margin of the default position
 /// Extent of the vehicle about its origin at a heading [m].
 terrain::Rectangle footprint(const vehicle::VehicleSpec& spec, double heading) {
   const vehicle::Wrap wrap = vehicle::wrapTrack(spec);
-  // A shoe extends half a pitch and its grousers beyond its middle in any orientation.
+  // In any orientation, a shoe extends at most half a pitch plus its grousers beyond its middle.
   const double reach = 0.5 * spec.shoe.pitch + spec.shoe.grouserHeight - spec.shoe.padBottom;
   double rear = 1e300, front = -1e300;
   for (int i = 0; i < spec.shoe.count; ++i) {
@@ -48,7 +48,7 @@ terrain::Rectangle footprint(const vehicle::VehicleSpec& spec, double heading) {
   return r;
 }
 
-/// Coordinate of the origin along one axis: the rear at the border, facing inwards, else centred.
+/// Coordinate of the origin along one axis: rear at the border, facing inwards, along the heading; otherwise centred.
 double along(double direction, double low, double high, double areaLow, double areaHigh) {
   if (direction > 0.5) return areaLow - low + kBorder;
   if (direction < -0.5) return areaHigh - high - kBorder;
@@ -97,7 +97,7 @@ void checkParts(const scene::Scene& scene) {
     scene.fail("run", "gravity",
                "[m/s2] must point down for a free vehicle; set z below 0, or vehicle.chassis = \"fixed\"");
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
-  const double radius = scene.vehicle->sphereRadius.value_or(0); // an automatic one fits each part
+  const double radius = scene.vehicle->sphereRadius.value_or(0); // an automatic radius fits each part
   const auto read = [&](const char* section, const std::string& name) {
     try {
       return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
@@ -125,10 +125,10 @@ void checkParts(const scene::Scene& scene) {
       scene.fail("vehicle", "sphere_radius",
                  fmt::format("[m] is above {} m, half of the longest side of {}; lower it",
                              base::roundedDown(0.5 * longest, 4), name));
-    if (const double points = spheredecomp::latticePoints(mesh, radius); !(points <= spheredecomp::kMostLatticePoints))
+    if (const double points = spheredecomp::latticePoints(mesh, radius); !(points <= spheredecomp::kMaxLatticePoints))
       scene.fail("vehicle", "sphere_radius",
                  fmt::format("[m] for {} requires {:.2g} lattice points, more than {:.0e}; raise it", name, points,
-                             spheredecomp::kMostLatticePoints));
+                             spheredecomp::kMaxLatticePoints));
   }
   if (const std::optional<double> coarse = scene.vehicle->hullSphereRadius) {
     const auto [low, high] = spheredecomp::bounds(meshes.chassis);
@@ -138,10 +138,10 @@ void checkParts(const scene::Scene& scene) {
                  fmt::format("[m] is above {} m, half of the longest side of {}; lower it",
                              base::roundedDown(0.5 * longest, 4), spec.chassis.mesh));
     if (const double points = spheredecomp::latticePoints(meshes.chassis, *coarse);
-        !(points <= spheredecomp::kMostLatticePoints))
+        !(points <= spheredecomp::kMaxLatticePoints))
       scene.fail("vehicle", "hull_sphere_radius",
                  fmt::format("[m] for {} requires {:.2g} lattice points, more than {:.0e}; raise it", spec.chassis.mesh,
-                             points, spheredecomp::kMostLatticePoints));
+                             points, spheredecomp::kMaxLatticePoints));
   }
   for (const auto& faultOf : {vehicle::meshFault, vehicle::massFault, vehicle::hullFault})
     if (const std::optional<vehicle::SpecFault> fault = faultOf(spec, meshes))

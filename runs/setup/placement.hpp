@@ -12,18 +12,19 @@ struct Scene;
 
 namespace grouser::setup {
 
-/// The vehicle file of the scene, with the scene's keys; a single track is in the middle. Throws InputError.
+/// The vehicle of the scene: its vehicle file with overrides of [spec]; a single track is in the middle. Throws
+/// InputError.
 vehicle::VehicleSpec vehicleSpec(const scene::Scene& scene);
 
-/// The scene's terrain in the plane; empty without one.
+/// Horizontal extent of the scene's terrain; empty without terrain.
 std::optional<terrain::Rectangle> terrainArea(const scene::Scene& scene);
 
-/// Position as given; else in the middle across its heading, with its rear at the terrain's border. Needs no bed yet.
-/// Throws InputError if the vehicle is not completely on the terrain.
+/// Position as given, otherwise centred across the heading with the rear at the terrain's border. Does not require the
+/// bed. Throws InputError if the vehicle is not completely on the terrain.
 coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::VehicleSpec& spec);
 
-/// Checks that the parts' meshes exist and fit vehicle.sphere_radius. Throws InputError before a bed settles; the
-/// conversion to spheres checks the same, but without the place in the scene.
+/// Checks that the parts' meshes exist and are compatible with vehicle.sphere_radius. Throws InputError before a bed
+/// settles; the later conversion to spheres makes the same checks, but without the place in the scene.
 void checkParts(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -22,16 +22,16 @@ using support::hashOfFile;
 
 namespace {
 
-/// Returns true if grains or their partners other than the vehicle and bodies have this material: these affect the
-/// layout.
+/// Returns true if grains or contact partners other than vehicle and bodies have this material, so that it affects the
+/// bed.
 bool isOfBed(const ContactPairs& pairs, const std::string& material) {
   return std::any_of(pairs.partners.begin(), pairs.partners.end(), [&](const ContactPartner& p) {
     return p.material == material && p.kind != ContactPartner::Kind::vehicle && p.kind != ContactPartner::Kind::body;
   });
 }
 
-/// Surfaces rest while a bed settles: it depends on their positions and materials, not on later motion and names. A
-/// plane that counts as a surface remains one.
+/// Surfaces are at rest while a bed settles: the bed depends on their positions and materials, not on their later
+/// motion and names. A plane that counts as a surface remains a surface.
 void bringToRest(scene::SurfaceSection& s, bool named) {
   const std::string material = s.material;
   s = {};
@@ -39,13 +39,13 @@ void bringToRest(scene::SurfaceSection& s, bool named) {
   if (named) s.name = "surface";
 }
 
-/// Copies the run settings that change a settled bed and leaves the others at their defaults: duration, output,
-/// machine, skin of the neighbour list (changes no bit), mechanisms, and the inputs of the automatic time step, since
-/// the key contains the step.
+/// Copies the run settings that affect a settled bed. Others keep their defaults: duration, output, machine, skin of
+/// the neighbour list (changes no bit), mechanisms, and inputs of the automatic time step (bedOrigin() contains the
+/// step).
 scene::RunSettings settingsOfBed(const scene::RunSettings& run) {
   scene::RunSettings bed;
   bed.gravity = run.gravity, bed.seed = run.seed, bed.precision = run.precision;
-  bed.maxOverlap = run.maxOverlap; // a bed that passed another limit would fail
+  bed.maxOverlap = run.maxOverlap; // with a different limit, settling could fail
   bed.periodic = run.periodic, bed.domainX = run.domainX, bed.domainY = run.domainY;
   return bed;
 }
@@ -61,14 +61,14 @@ std::vector<scene::Source> sourcesOfBed(const std::vector<scene::Source>& source
   return bed;
 }
 
-/// The scene without anything that cannot affect the bed. Anything not removed here counts: a new key of a scene can
-/// make two beds of one, but never one of two (except keys of [run], see above).
+/// The scene without anything that cannot affect the bed. Everything not removed here counts: a new key may split one
+/// cached bed into two, but never merges two different beds (except keys of [run], see settingsOfBed()).
 scene::Scene bedAlone(scene::Scene scene) {
   scene.run = settingsOfBed(scene.run);
   const ContactPairs pairs(scene);
   std::erase_if(scene.materials, [&](const scene::Material& m) { return !isOfBed(pairs, m.name); });
   for (scene::Material& m : scene.materials) {
-    m.soil.clear(), m.soilHash.clear(), m.grainRadius.reset(); // values count
+    m.soil.clear(), m.soilHash.clear(), m.grainRadius.reset(); // only the values count
     m.crushingStrength.reset();                                // acts between grains and parts only
   }
   std::erase_if(scene.contacts,
@@ -120,7 +120,7 @@ std::string inputsOf(const scene::Scene& scene) {
 std::string bedOrigin(const scene::Scene& scene, double timeStep) {
   scene::Scene bed = bedAlone(scene);
   const std::string inputs = inputsOf(bed);
-  bed.terrain->heightmap.clear(); // its bytes count, not its name
+  bed.terrain->heightmap.clear(); // the bytes count, not the file name
   return fmt::format("program {}\ntime step {:a}\n{}{}", support::programHash(), timeStep, inputs,
                      scene::resolvedToml(bed));
 }

@@ -23,12 +23,12 @@ struct Provenance {
 };
 Provenance provenanceOf(const scene::Scene& scene);
 
-/// A line for each file that the scene names: its key and a hash of its bytes. Throws InputError if one cannot be read.
+/// One line per file that the scene names, with key and hash of the bytes. Throws InputError if a file cannot be read.
 std::string inputsOf(const scene::Scene& scene);
 
-/// Everything that determines the bits of a settled bed, as text: the parts of the scene that affect it with all their
-/// values, the bytes of the height-map, the time step, and the running program. The program is identified by a hash of
-/// its file, since version and commit do not include uncommitted changes and the compiler.
+/// Everything that determines the bits of a settled bed, as text: all values of the relevant parts of the scene, the
+/// bytes of the height-map, the time step, and a hash of the program file (version and commit do not reflect
+/// uncommitted changes and the compiler).
 std::string bedOrigin(const scene::Scene& scene, double timeStep);
 
 } // namespace grouser::setup

@@ -21,7 +21,7 @@ struct RunSetup {
 /// A column that [[output.plot]] draws.
 struct PlottedColumn {
   std::string column; ///< "bodies.cone.position.z"
-  std::string place;  ///< its key in messages: "scene.toml:14: output.plot.0.x"
+  std::string place;  ///< place of the key, for messages: "scene.toml:14: output.plot.0.x"
 };
 
 /// Output of a run.

@@ -16,13 +16,13 @@ namespace grouser::setup {
 
 namespace {
 
-/// The damping of this one is 500 times the critical one.
-constexpr double kLeastRestitution = 1e-6;
+/// Minimum restitution; it requires 500 times the critical damping.
+constexpr double kMinRestitution = 1e-6;
 
-/// The limit of the step if every restitution were possible.
+/// Step limit [s] of a scene with the minimum restitution.
 double stepAtLeastRestitution(scene::Scene scene) {
   const auto raise = [](std::optional<double>& restitution) {
-    if (restitution) restitution = std::max(*restitution, kLeastRestitution);
+    if (restitution) restitution = std::max(*restitution, kMinRestitution);
   };
   for (scene::Material& m : scene.materials) raise(m.restitution);
   for (scene::ContactPair& p : scene.contacts) raise(p.restitution);
@@ -35,11 +35,11 @@ void checkPair(const scene::Scene& scene, const std::string& nameA, const std::s
   if ((a.attraction && b.attraction) || (pair && pair->damping)) return;
   const bool given = pair && pair->restitution;
   const scene::Material& least = b.restitution.value_or(1) < a.restitution.value_or(1) ? b : a;
-  if ((given ? *pair->restitution : least.restitution.value_or(1)) >= kLeastRestitution) return;
+  if ((given ? *pair->restitution : least.restitution.value_or(1)) >= kMinRestitution) return;
   const std::string message = fmt::format(
       "[-] is below {:g}, the minimum without attraction, and would require time steps of {} s or less; raise it, set "
       "attraction = true in {} (0 then means critical damping), or set run.contact = \"complementarity\"",
-      kLeastRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
+      kMinRestitution, base::roundedDown(stepAtLeastRestitution(scene), 3),
       &a == &b ? "material." + a.name : fmt::format("material.{} and material.{}", a.name, b.name));
   if (given && scene.document)
     for (const auto& [name, section] : scene.document->root().named("contact"))

@@ -5,9 +5,9 @@
 
 namespace grouser::setup {
 
-/// Dashpots that do not pull let surfaces separate at some speed, however strong they are: a restitution below 1e-6
-/// requires attraction, with which 0 is critical damping. Throws InputError at the key, with the step that the minimum
-/// requires. Call before any law is made. Complementarity contacts accept 0.
+/// Without attraction, surfaces separate at some speed even with strong dashpots, so a restitution below 1e-6 requires
+/// attraction, where 0 means critical damping. Throws InputError at the key, with the step that the minimum requires.
+/// Call before any law is made. Complementarity contacts accept 0.
 void checkRestitutions(const scene::Scene& scene);
 
 } // namespace grouser::setup

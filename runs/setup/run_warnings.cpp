@@ -16,10 +16,10 @@ std::vector<Notice> noticesOf(const scene::Scene& scene, const coupling::Simulat
   const auto add = [&notices](Notice::Weight weight, std::string text) {
     if (!text.empty()) notices.push_back({weight, std::move(text)});
   };
-  add(severe, shortDriveWarning(scene));
+  add(warning, shortDriveWarning(scene));
   for (const std::string& text : vehicleWarnings(scene)) add(warning, text);
   for (const spheredecomp::CutReport& cut : coupling::cutReports(simulation))
-    add(severe, spheredecomp::protrusionWarning(cut));
+    add(warning, spheredecomp::protrusionWarning(cut));
   for (const std::string& text : meshNotes(scene)) add(note, text);
   for (const std::string& text : freeSurfaceNotes(scene)) add(note, text);
   add(warning, bodyContactsNote(scene));

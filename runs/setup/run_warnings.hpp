@@ -11,7 +11,7 @@ namespace grouser::setup {
 
 /// Warning or note on a valid scene.
 struct Notice {
-  enum class Weight { severe, warning, note } weight;
+  enum class Weight { warning, note } weight;
   std::string text;
 };
 std::vector<Notice> noticesOf(const scene::Scene& scene, const coupling::Simulation& simulation);

@@ -32,7 +32,7 @@ std::optional<coupling::FreeSurface> freedomOf(const scene::SurfaceSection& s) {
   return free;
 }
 
-/// Default: surfaces at rest are part of the bed, moving ones are placed later; beds settle without meshes.
+/// Default: fixed surfaces are placed before the bed settles, moving surfaces and meshes after settling.
 bool isPlacedLater(const scene::Scene& scene, const scene::SurfaceSection& s, coupling::SurfaceKind kind) {
   if (!scene.terrain || !scene.terrain->granular()) return false;
   if (s.placed) return *s.placed == scene::PlacedWhen::afterSettling;

@@ -15,7 +15,7 @@ struct SceneSurface : coupling::SurfaceSetup {
 
   std::string list() const { return std::string(base::wordOf(kind)); } ///< "box" of [[box]]
 };
-/// Planes that move or have a name, boxes, cylinders, meshes: in this order, and in that of the file.
+/// Planes that move or have a name, then boxes, cylinders and meshes; each kind in the order of the file.
 std::vector<SceneSurface> surfacesOf(const scene::Scene& scene);
 
 } // namespace grouser::setup

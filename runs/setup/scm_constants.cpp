@@ -49,14 +49,20 @@ std::optional<double> ScmConstants::published(SoilQuantity quantity) const {
   return found ? std::optional(found->value) : std::nullopt;
 }
 
-double ScmConstants::value(const std::optional<double>& given, SoilQuantity quantity) const {
-  if (given) return *given;
+double ScmConstants::value(SoilQuantity quantity) const {
   if (const ContactConstant* c = scene::findConstant(used_, quantity)) return c->value;
-  const std::string word(base::wordOf(quantity));
-  const std::string why = soil_
-                              ? fmt::format("the soil {} has no {} {}", soil_->name, base::wordOf(scm_.constants), word)
-                              : fmt::format("the soil file {} does not exist", scene_.terrain->material);
-  scene_.fail("terrain", "kind", fmt::format("requires scm.{} [{}]: {}; add it to [scm]", word, unitOf(quantity), why));
+  std::vector<std::string> keys, words;
+  for (const SoilQuantity q : scene::kContactQuantities) {
+    if (scene::findConstant(used_, q)) continue;
+    words.emplace_back(base::wordOf(q));
+    keys.push_back(fmt::format("scm.{} [{}]", words.back(), unitOf(q)));
+  }
+  const std::string why =
+      soil_ ? fmt::format("the soil {} has no {} {}", soil_->name, base::wordOf(scm_.constants), fmt::join(words, ", "))
+            : fmt::format("the soil file {} does not exist", scene_.terrain->material);
+  scene_.fail(
+      "terrain", "kind",
+      fmt::format("requires {}: {}; add {} to [scm]", fmt::join(keys, ", "), why, keys.size() > 1 ? "them" : "it"));
 }
 
 std::string ScmConstants::text() const {

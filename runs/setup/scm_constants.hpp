@@ -17,10 +17,10 @@ public:
 
   const scene::Scm& section() const { return scm_; }
   const scene::Soil* soil() const { return soil_; } ///< soil of the terrain's material; null without a soil file
-  /// A published constant of the soil file; empty without.
+  /// A published constant of the soil file; empty if it has none.
   std::optional<double> published(scene::SoilQuantity quantity) const;
-  /// `given`: the key of [scm]. Throws base::InputError if neither the scene nor the soil file has the constant.
-  double value(const std::optional<double>& given, scene::SoilQuantity quantity) const;
+  /// Throws base::InputError with all missing constants if neither the scene nor the soil file has this one.
+  double value(scene::SoilQuantity quantity) const;
   /// Constants of the scene or the soil file: values in use, nominal values, intervals, one per line.
   std::string text() const;
 

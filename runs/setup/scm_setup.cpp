@@ -17,9 +17,9 @@ using scene::SoilQuantity;
 
 namespace {
 
-/// [scm] bulk_density, or that of the soil [kg/m3].
+/// [scm] bulk_density, or the bulk density of the soil [kg/m3].
 double bulkDensity(const ScmConstants& constants) {
-  constexpr double kUsual = 1600, kPorosity = 0.4; // without a soil file, or its porosity
+  constexpr double kUsual = 1600, kPorosity = 0.4; // without a soil file, or without porosity in it
   if (constants.section().bulkDensity) return *constants.section().bulkDensity;
   if (const auto published = constants.published(SoilQuantity::bulkDensity)) return *published;
   const scene::Soil* soil = constants.soil();
@@ -34,7 +34,7 @@ double lyaskoSlipSinkage(const scm::SoilConstants& soil, const vehicle::VehicleS
   return 3 * soil.sinkageUnder(pressure, breadth) / length;
 }
 
-/// Default spacing of nodes under bodies [m]: an eighth of the smallest width in contact.
+/// Default node spacing under bodies [m]: an eighth of the smallest width of a shape.
 double spacingUnder(const std::vector<coupling::BodyShape>& shapes) {
   double least = base::kInfinity;
   for (const coupling::BodyShape& s : shapes) {
@@ -46,7 +46,7 @@ double spacingUnder(const std::vector<coupling::BodyShape>& shapes) {
   return least;
 }
 
-/// Throws InputError where the soil has no strength under a width b [m].
+/// Throws InputError if the soil has no bearing capacity under a width b [m].
 void requireStrength(const scene::Scene& scene, const scm::SoilConstants& soil, double b, const std::string& under) {
   if (soil.modulusAt(b) > 0) return;
   scene.fail("terrain", "kind",
@@ -63,13 +63,13 @@ std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
   const scene::Scm& s = constants.section();
   coupling::ScmSetup setup;
   scm::SoilConstants& soil = setup.soil;
-  soil.exponent = constants.value(s.n, SoilQuantity::exponent);
-  soil.kc = constants.value(s.kc, SoilQuantity::cohesiveModulus);
-  soil.kphi = constants.value(s.kphi, SoilQuantity::frictionalModulus);
-  soil.cohesion = constants.value(s.cohesion, SoilQuantity::cohesion);
-  const double phi = constants.value(s.frictionAngle, SoilQuantity::frictionAngle);
+  soil.exponent = constants.value(SoilQuantity::exponent);
+  soil.kc = constants.value(SoilQuantity::cohesiveModulus);
+  soil.kphi = constants.value(SoilQuantity::frictionalModulus);
+  soil.cohesion = constants.value(SoilQuantity::cohesion);
+  const double phi = constants.value(SoilQuantity::frictionAngle);
   soil.friction = base::tan(phi * base::kPi / 180);
-  soil.shearDisplacement = constants.value(s.shearDisplacement, SoilQuantity::shearModulus);
+  soil.shearDisplacement = constants.value(SoilQuantity::shearModulus);
   soil.unloadingStiffness = s.unloadingStiffness, soil.unloadingGrowth = s.unloadingGrowth;
   soil.elasticRatio = s.elasticRatio, soil.damping = s.damping;
   const double gravity = norm(scene.run.gravity);

@@ -12,7 +12,7 @@ struct Scene;
 namespace grouser::setup {
 
 /// Deformable soil of a scene; empty for other terrain. Throws base::InputError if a constant is missing, if the soil
-/// has no bearing capacity under a shoe, or if the scene has parts that it does not support.
+/// has no bearing capacity under a shoe, or if the scene has parts that deformable soil does not support.
 std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene);
 
 } // namespace grouser::setup

@@ -19,7 +19,7 @@ coupling::SimulationSetup simulationSetup(const scene::Scene& scene, int ranks, 
   coupling::SimulationSetup setup;
   checkRestitutions(scene);
   checkComplementarity(scene);
-  // Before the step, which would be wrong for parts that do not fit their meshes.
+  // Before the time step is chosen, which requires valid parts.
   if (scene.vehicle) checkParts(scene);
   setup.timeStep = chooseTimeStep(scene);
   setup.gravity = scene.run.gravity;

@@ -45,7 +45,7 @@ void checkBedSize(const scene::Scene& scene) {
   double solid = t.size[0] * t.size[1] * t.depth.value_or(0) * (1 - t.porosity.value_or(scene::Terrain::kPoured));
   if (t.layers)
     solid = t.size[0] * t.size[1] * *t.layers * volume / (*t.spacing * *t.grainRadius * *t.spacing * *t.grainRadius);
-  const double grains = t.coarsening ? 0 : solid / volume; // for a graded bed the bed plan checks
+  const double grains = t.coarsening ? 0 : solid / volume; // for a graded bed, planBed() checks the size
   const double memory = memoryOfMachine();
   if (grains * bytes > memory || grains > 4e9)
     scene.fail("terrain", scene::radiiKey(t),

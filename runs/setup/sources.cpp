@@ -30,7 +30,7 @@ coupling::Sources sourcesOf(const scene::Scene& scene, const GrainKinds& kinds, 
 }
 
 void checkSources(const scene::Scene& scene, const GrainKinds& kinds) {
-  constexpr double kAllAtOnce = 1e300; // a time step [s] that starts all sources
+  constexpr double kAllAtOnce = 1e300; // a time step [s] so long that all sources start in the first step
   sourcesOf(scene, kinds, kAllAtOnce).enteringAt(0);
 }
 

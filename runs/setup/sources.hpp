@@ -14,7 +14,7 @@ struct GrainKinds;
 /// Sources of a scene, with their times in steps.
 coupling::Sources sourcesOf(const scene::Scene& scene, const GrainKinds& kinds, double timeStep);
 
-/// Throws base::InputError at the source whose grains do not fit into its box without overlap.
+/// Throws base::InputError at a source with grains that do not fit into its box without overlap.
 void checkSources(const scene::Scene& scene, const GrainKinds& kinds);
 
 } // namespace grouser::setup

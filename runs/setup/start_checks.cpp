@@ -21,9 +21,9 @@ using base::Vec3d;
 
 namespace {
 
-constexpr std::size_t kMostChecked = 1'000'000; // maximum number of checked grains from sources
+constexpr std::size_t kMaxChecked = 1'000'000; // maximum number of checked grains from sources
 
-/// Cells of one largest diameter along one axis, in a ring between periodic boundaries.
+/// Search cells along one axis, each as long as the largest diameter; periodic boundaries make them a ring.
 struct CellsAlong {
   double from = 0, width;
   std::int64_t ring = 0; ///< cells between periodic boundaries; 0: walls or nothing
@@ -42,7 +42,7 @@ struct CellsAlong {
 /// "at (1, 2, 3) m".
 std::string at(const Vec3d& p) { return fmt::format("at ({:.6g}, {:.6g}, {:.6g}) m", p.x, p.y, p.z); }
 
-/// Section that places a grain: [[grain]], [[grains]], [[source]].
+/// Kind of section that places a grain: [[grain]], [[grains]], [[source]].
 enum class Setter { grain, grains, source };
 
 /// A grain to be placed, and its section.
@@ -56,7 +56,7 @@ struct Ball {
   bool fixed{};         ///< part of the ground: may overlap walls, the floor and other fixed grains
 };
 
-/// Places grains one after the other and checks each for overlaps.
+/// Places grains sequentially, and checks each for overlaps.
 class Placing {
 public:
   Placing(const scene::Scene& scene, const Surroundings& around, double largest)
@@ -85,7 +85,7 @@ public:
     }
     placeAmongBalls(ball);
   }
-  /// Removes the grains placed so far: they have moved by the time later grains enter.
+  /// Removes the grains placed so far, since they move before later grains enter.
   void forgetBalls() { balls_.clear(), cells_.clear(); }
 
 private:
@@ -147,7 +147,7 @@ private:
   std::map<Cell, std::vector<std::size_t>> cells_;
 };
 
-/// Places [[grain]] and [[grains]] in the order of their ids, except entries with above_bed: they are checked after the
+/// Places [[grain]] and [[grains]] in the order of their ids, except grains with above_bed, which are checked after the
 /// bed has settled.
 void placeStarting(const scene::Scene& scene, const std::vector<scene::Grain>& grains, Placing& placing) {
   std::size_t id = 0;
@@ -169,7 +169,7 @@ void checkStart(const scene::Scene& scene, const GrainKinds& kinds, const std::v
   placeStarting(scene, grains, placing);
   const coupling::Sources sources = sourcesOf(scene, kinds, timeStep);
   std::size_t checked = 0;
-  for (auto step = sources.nextEntry(0); step && checked < kMostChecked; step = sources.nextEntry(*step + 1)) {
+  for (auto step = sources.nextEntry(0); step && checked < kMaxChecked; step = sources.nextEntry(*step + 1)) {
     const double time = static_cast<double>(*step) * timeStep;
     if (time > scene.run.duration) break;
     if (*step > 0) placing.forgetBalls();

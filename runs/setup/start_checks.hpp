@@ -6,10 +6,10 @@
 
 namespace grouser::setup {
 
-/// Throws InputError for grains whose initial overlap, or overlap when they enter from a source, with each other, a
-/// plane, the terrain or a surface exceeds run.max_overlap, as far as this is known before the run. Surfaces are at
-/// their prescribed position when a grain enters; free surfaces are checked at the start only. `grains`: all of
-/// [[grain]] and [[grains]].
+/// Throws InputError for grains that at the start, or when they enter from a source, overlap each other, a plane, the
+/// terrain or a surface by more than run.max_overlap, as far as this is known before the run. Surfaces are at their
+/// prescribed position when a grain enters; free surfaces are checked at the start only. `grains`: all of [[grain]] and
+/// [[grains]].
 void checkStart(const scene::Scene& scene, const GrainKinds& kinds, const std::vector<scene::Grain>& grains,
                 const Surroundings& around, double timeStep);
 

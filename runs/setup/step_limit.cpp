@@ -39,16 +39,16 @@ constexpr double kLongestOfAll = 0.1;
 
 /// Limit up to which no contact creates energy.
 ///
-/// Springs: twelve neighbours are 8 k / m together (Gershgorin). An impact may take half of its own limit: beyond, one
-/// that ends between two steps returns more than it brought; of two grains (2 k / m) that is 8 k / m too, of their slip
-/// (7 k_t / m) 28 k_t / m: 30 for what the two do to each other, 25 where k_t grows with the contact (Hertz).
+/// Springs: twelve neighbours together count as 8 k / m (Gershgorin). The step of an impact is at most half its own
+/// limit, since an impact that ends between two steps may otherwise gain energy. Its springs thus count four times: two
+/// grains (2 k / m) as 8 k / m; their slip (7 k_t / m) as 28 k_t / m, with the coupling of both 30, for Hertz 25.
 ///
-/// Dashpots: forces f at contacts that close at rates a change the kinetic energy in a step by f^T G f dt^2 / 2 - f a
-/// dt with G = B^T M^-1 B. Forces that only push, f >= 0, add up to 2.25 sum f^2 on each grain: of unit normals 60
-/// degrees apart that is the most of (sum f n)^2 (one, and five around it). A contact has two sides: 4.5 c / m.
-/// Dashpots that pull too are modes: 5.9 c / m in random beds (`grouser study stability`), 6.5 here, 8 in a crystal.
-/// Friction adds what its own dashpot asks for or Coulomb's limit allows, (mu f)^2: of spheres that turn alike 10 / 3 m
-/// a contact, three of which stick at a time; rolling resistance as much.
+/// Dashpots: forces f in contacts with closing speeds a change the kinetic energy per step by f^T G f dt^2 / 2 - f a dt
+/// with G = B^T M^-1 B. Repulsive forces (f >= 0) on a grain satisfy (sum f n)^2 <= 2.25 sum f^2, if the unit normals n
+/// are at least 60 degrees apart (maximum: one and five around it). A contact acts on two grains: 4.5 c / m. Dashpots
+/// that also pull form modes: 5.9 c / m in random beds (`grouser study stability`), 6.5 here, 8 in a crystal. Friction
+/// adds the smaller of its own dashpot and Coulomb's limit, (mu f)^2: 10 / 3 m per contact of spheres that rotate in
+/// the same sense, for three sticking contacts at a time. Rolling resistance adds the same.
 void considerEnergy(StepLimit& limit, const GrainContact& c) {
   const double share = c.amongGrains ? 1 : 0.5, inertia = 0.4 * c.mass * c.radius * c.radius;
   const double k = c.coefficients.normalStiffness, d = c.coefficients.damping;
@@ -60,28 +60,28 @@ void considerEnergy(StepLimit& limit, const GrainContact& c) {
     dashpots += share * 10 * std::min(c.coefficients.tangentialDamping, c.law.friction * c.law.friction * d) / c.mass;
   }
   dashpots += share * 10 * std::min(c.rollingDamping, arm * arm * d) / inertia;
-  // All springs of a Hertz contact scale with the root of its overlap, all dashpots with the root of that.
+  // Springs of a Hertz contact are proportional to overlap^(1/2), dashpots to overlap^(1/4).
   consider(limit, c.softer * springs, std::sqrt(c.softer) * dashpots, c.name);
 }
 
 /// Limit up to which all modes of non-sliding contacts decay.
 void considerModes(StepLimit& limit, const GrainContact& c) {
-  // Springs that stick let spheres turn alike at 10/3 k_t / m for each contact: eight of those, for a bed with friction
-  // has four or five. Hertz contacts are not all as deep at once as the one of that impact: four. Between two bodies
-  // that do not give way: 2 k / m and 5 k_t / m.
+  // Spheres that stick to each other rotate in the same sense, with 10/3 k_t / m per contact. Eight contacts are
+  // assumed; grains of a bed with friction have four or five. For Hertz four, since not all contacts are as deep at
+  // once as in the impact of run.impact_speed. Between two fixed bodies: 2 k / m and 5 k_t / m.
   const bool among = c.amongGrains;
   const double normal = (among ? 8 : 2) / c.mass;
   const double turning = (!among ? 5 : 10.0 / 3 * (c.law.hertz ? 4 : 8)) / c.mass;
   considerCalm(limit, normal * c.coefficients.normalStiffness, normal * c.coefficients.damping);
   if (c.law.friction > 0)
     considerCalm(limit, turning * c.coefficients.tangentialStiffness, turning * c.coefficients.tangentialDamping);
-  // Rolling springs act on angles: as the normal ones, with the moment of inertia for the mass.
+  // Rolling springs act on angles: as normal springs, with the moment of inertia instead of the mass.
   const double rolling = (among ? 8 : 2) / (0.4 * c.mass * c.radius * c.radius);
   considerCalm(limit, rolling * c.rollingStiffness, rolling * c.rollingDamping);
 }
 
-/// Maximum number of grains on a surface: a dense layer on its largest face or on `face` [m2]; all on a plane.
-double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g, double radius, double face = 0) {
+/// Maximum number of grains on a surface: a dense layer on its largest face or on `face` [m2]; on a plane, all grains.
+double maxTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g, double radius, double face = 0) {
   const Vec3d h = g.shape == contact::SurfaceShape::plane ? Vec3d{} : halfExtent(g);
   double area = 4 * std::max({h.x * h.y, h.x * h.z, h.y * h.z});
   const auto all = static_cast<double>(std::max<std::int64_t>(1, plannedGrains(scene)));
@@ -90,7 +90,7 @@ double mostTouching(const scene::Scene& scene, const contact::SurfaceGeometry& g
   return std::clamp(std::max(area, face) / (2 * std::sqrt(3.0) * radius * radius), 1.0, all);
 }
 
-/// Limit for free surfaces, on the springs of all grains that they may touch.
+/// Limit for free surfaces on the contact springs of all grains that can touch them.
 void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs) {
   for (const SceneSurface& s : pairs.surfaces) {
     if (!s.section.free) continue;
@@ -98,43 +98,43 @@ void considerFreeSurfaces(StepLimit& limit, const scene::Scene& scene, const Con
       const double mass = base::sphereMass(scene.material(material).density, radius);
       const contact::ContactLaw law = pairLaw(scene, material, s.section.material, mass);
       const auto c = contact::stiffest(law, mass, radius, scene.run.impactSpeed);
-      const double springs = 1 / mass + mostTouching(scene, s.geometry, radius) / *s.section.mass;
+      const double springs = 1 / mass + maxTouching(scene, s.geometry, radius) / *s.section.mass;
       considerBoth(limit, c.normalStiffness * springs, c.damping * springs,
                    fmt::format("{} of {:g} kg on up to {:.0f} grains", s.name, *s.section.mass,
-                               mostTouching(scene, s.geometry, radius)),
+                               maxTouching(scene, s.geometry, radius)),
                    fmt::format("raise {}.{}.mass", s.list(), s.number));
     }
   }
 }
 
 /// Lower bound of the smallest principal moment of inertia [kg m2].
-double leastInertia(const base::Mat3d& inertia) {
+double minInertia(const base::Mat3d& inertia) {
   const auto& I = inertia.m;
   if (I[0][1] == 0 && I[0][2] == 0 && I[1][2] == 0) return std::min({I[0][0], I[1][1], I[2][2]});
   const double trace = I[0][0] + I[1][1] + I[2][2];
   const double determinant = I[0][0] * (I[1][1] * I[2][2] - I[1][2] * I[1][2]) -
                              I[0][1] * (I[0][1] * I[2][2] - I[1][2] * I[0][2]) +
                              I[0][2] * (I[0][1] * I[1][2] - I[1][1] * I[0][2]);
-  return 4 * determinant / (trace * trace); // the product of the other two is at most a quarter of trace^2
+  return 4 * determinant / (trace * trace); // the product of the two larger moments is at most trace^2 / 4
 }
 
-/// A body on the springs of all grains that its shapes may touch at once: a dense layer on both sides of the largest
-/// face of each, at the grains' centres. Springs all over a face shift it by sum k / m and turn it by sum k r^2 / I,
-/// with r^2 a third of the largest.
+/// Limit for a body on the springs of all grains that its shapes can touch at once: a dense layer on both sides of the
+/// largest face of each shape, at the distance of the grain centres. Springs all over a face contribute sum k / m to
+/// translation and sum k r^2 / I to rotation, with a mean r^2 of a third of the largest.
 void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPairs& pairs,
                     const coupling::MechanismSetup& mechanism) {
   for (std::size_t b = 0; b < scene.mechanism.bodies.size(); ++b) {
     const std::size_t index = mechanism.ofVehicle.bodies + b;
     const multibody::Body& body = mechanism.model.bodies()[index];
     if (body.fixed) continue;
-    const double inertia = leastInertia(body.inertia_B);
+    const double inertia = minInertia(body.inertia_B);
     for (const auto& [material, radius, largest] : pairs.kinds.kinds) {
       double touching = 0, turning = 0;
       for (const coupling::BodyShape& s : mechanism.shapes) {
         if (s.body != index) continue;
         const Vec3d reach = halfExtent(s.shape) + Vec3d{radius, radius, radius};
         const double most =
-            2 * mostTouching(scene, {contact::SurfaceShape::box, reach}, radius, s.mesh ? 0.5 * s.mesh->facingArea : 0);
+            2 * maxTouching(scene, {contact::SurfaceShape::box, reach}, radius, s.mesh ? 0.5 * s.mesh->facingArea : 0);
         touching += most;
         turning += most * (norm2(s.pose_B.position) + norm2(reach) / 3) / inertia;
       }
@@ -150,11 +150,11 @@ void considerBodies(StepLimit& limit, const scene::Scene& scene, const ContactPa
   }
 }
 
-/// [body] Factor of a contact's springs for bodies that give way on the other side, too: 1 on what is fixed; 2 where
-/// another mechanism, bodies that joints tie, or its own may press; 4 between two others (Gershgorin).
+/// [body] Factor on the springs of contacts, since the other side may move too: 1 if all partners are fixed; 2 if
+/// partners belong to one group of jointed bodies; 4 for two or more groups (Gershgorin).
 std::vector<double> sidesPressed(const coupling::MechanismSetup& mechanism, const coupling::ContactParts& parts) {
   const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
-  std::vector<std::size_t> group(bodies.size()); // [body] smallest index among the bodies that joints tie to it
+  std::vector<std::size_t> group(bodies.size()); // [body] smallest index among the bodies that joints connect to it
   for (std::size_t b = 0; b < bodies.size(); ++b) group[b] = b;
   for (const multibody::Joint& j : mechanism.model.joints()) {
     if (j.bodyA == multibody::kWorld || j.bodyB == multibody::kWorld) continue;
@@ -173,8 +173,8 @@ std::vector<double> sidesPressed(const coupling::MechanismSetup& mechanism, cons
   return sides;
 }
 
-/// A body on the foundation under one of its shapes, which lies on its largest face or, where it is round, as deep as
-/// kDeep of its radius: springs K A that shift it by 1 / m and turn it by r^2 / I.
+/// Limit for a body on the Winkler foundation K under one of its shapes, with the area A of the largest face, or of an
+/// overlap of kDeep radii if the shape is round: K A / m for translation, K A r^2 / I for rotation.
 void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coupling::MechanismSetup& mechanism) {
   constexpr double kDeep = 0.01; // [radius]
   coupling::ContactParts parts;
@@ -198,7 +198,7 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
       if (soil && static_cast<int>(other) == mechanism.foundations.ground)
         law.modulus = soil->stiffest(2 * std::min({half.x, half.y, half.z})),
         law.relaxation = soil->soil.damping / law.modulus;
-      const double stiffness = law.modulus * area * (1 / body.mass + arm2 / leastInertia(body.inertia_B));
+      const double stiffness = law.modulus * area * (1 / body.mass + arm2 / minInertia(body.inertia_B));
       rate = std::max(rate, stiffness), decay = std::max(decay, stiffness * law.relaxation);
     }
     springs[s.body] = std::max(springs[s.body], sides[s.body] * rate);
@@ -270,14 +270,14 @@ double overlapUnderWeight(const contact::ContactLaw& law, double weight, double 
   scene.failMaterial(soft.name, "stiffness", "[N/m] " + wanted(*soft.stiffness));
 }
 
-/// Throws InputError where the overlap of a grain at rest exceeds the limit of the run.
+/// Throws InputError if the overlap of a grain at rest exceeds run.max_overlap.
 void checkSoftness(const scene::Scene& scene, const ContactPairs& pairs) {
   const double gravity = norm(scene.run.gravity), most = scene.run.entryOverlap();
   if (gravity == 0) return;
   for (const GrainContact& c : grainContacts(scene, pairs, GrainSize::largest)) {
     const double sinks = overlapUnderWeight(c.law, c.mass * gravity, c.effectiveRadius) / c.radius;
     if (sinks <= most) continue;
-    // A hundredth more than what is needed, so that the number holds as it is printed.
+    // One percent more than required, so that the rounded number in the message suffices.
     const double times = 1.01 * (c.law.hertz ? std::sqrt(sinks / most) : 1) * sinks / most;
     failStiffness(scene, scene.material(c.material), scene.material(c.other), times,
                   fmt::format("is too low: the weight of a grain of radius {:g} m causes an overlap of {:.3g} radii "
@@ -286,7 +286,7 @@ void checkSoftness(const scene::Scene& scene, const ContactPairs& pairs) {
   }
 }
 
-/// Twice the limits that "auto" keeps: half of what makes the lattice of particles unstable.
+/// Twice the limits of "auto", i.e. half the step at which the lattice of particles becomes unstable.
 void checkFluidStep(const scene::Scene& scene) {
   const fluid::StepLimits limits = fluidStepLimits(scene);
   if (!(*scene.run.timeStep > 2 * limits.least())) return;
@@ -361,7 +361,7 @@ double chooseTimeStep(const scene::Scene& scene) {
   automatic = std::min(automatic, resolvingStep(timeScales(scene), scene.run.stepsPerPeriod));
   if (!scene.mechanism.empty() && !scene.vehicle) automatic = std::min(automatic, mechanismTimeStep(scene));
   if (scene.fluid) automatic = std::min(automatic, fluidStepLimits(scene).least());
-  // The limits of run.time_step also hold for "auto".
+  // The range of run.time_step also limits "auto".
   automatic = std::min({automatic, kLongestOfAll, scene.run.duration});
   if (!scene.run.timeStep) return automatic;
   checkGivenStep(scene, limit, automatic);
@@ -370,11 +370,11 @@ double chooseTimeStep(const scene::Scene& scene) {
 
 namespace {
 
-/// Keeps allowed values round numbers where their factors are.
+/// Rounding tolerance, so that exact multiples of a limit remain allowed.
 constexpr double kRounding = 1 + 1e-12;
 
-/// Largest distance of a point of a surface from its rotation axis, without parts that rotation maps onto themselves
-/// [m]; 0 for planes, which are unbounded.
+/// Largest distance of a point of a surface from the rotation axis [m], except points of surfaces of revolution about
+/// it; 0 for planes, which are unbounded.
 double leverOf(const SceneSurface& s) {
   const Vec3d& h = s.geometry.half;
   const Vec3d turning = base::normalized(*s.section.spin);
@@ -396,7 +396,7 @@ void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, doubl
   const coupling::MechanismSetup mechanism = mechanismSetup(scene);
   double smallest = base::kInfinity;
   if (pairs.kinds.any()) smallest = pairs.kinds.smallest;
-  for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, coupling::leastFeature(s));
+  for (const coupling::BodyShape& s : mechanism.shapes) smallest = std::min(smallest, coupling::minFeature(s));
   const double most = kRounding * 0.5 * smallest / timeStep;
   for (const coupling::BodyShape& s : mechanism.shapes) {
     const std::size_t section = s.body - mechanism.ofVehicle.bodies;
@@ -413,10 +413,10 @@ void checkBodySpeeds(const scene::Scene& scene, const ContactPairs& pairs, doubl
 
 void checkSurfaceSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double timeStep) {
   const bool implicit = hasComplementarity(scene);
-  const double share = implicit ? terrain::GrainModel::kMostWaySolved : 0.5;
+  const double share = implicit ? terrain::GrainModel::kMaxWaySolved : 0.5;
   const double most = kRounding * share * pairs.kinds.smallest / timeStep;
   for (const SceneSurface& s : pairs.surfaces) {
-    // A plane is felt by its motion along its normal alone: a belt may be as quick as it likes.
+    // Only the motion of a plane along its normal counts: a belt may have any speed.
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
     const auto across = [&](const std::optional<Vec3d>& v) {
       return !v ? 0.0 : plane ? std::fabs(dot(*v, base::normalized(scene.planes[s.number].normal))) : norm(*v);
@@ -444,7 +444,7 @@ void checkSpeeds(const scene::Scene& scene, const ContactPairs& pairs, double ti
   checkSurfaceSpeeds(scene, pairs, timeStep);
   checkBodySpeeds(scene, pairs, timeStep);
   const bool implicit = hasComplementarity(scene);
-  const double most = kRounding * (implicit ? terrain::GrainModel::kMostWaySolved : 0.5 * scene.run.skin) *
+  const double most = kRounding * (implicit ? terrain::GrainModel::kMaxWaySolved : 0.5 * scene.run.skin) *
                       pairs.kinds.smallest / timeStep;
   const std::string beyond = implicit ? "moves a grain by more than 0.4 of the smallest radius"
                                       : "moves a grain by more than half the skin distance";

@@ -19,7 +19,7 @@ struct StepLimit {
     std::string what; ///< "shoe on rigid ground under a road wheel"
   };
   double step = std::numeric_limits<double>::infinity(); ///< longest step at which no contact creates energy
-  std::string what;                                      ///< contact that sets it: "grain on the floor"
+  std::string what;                                      ///< contact that sets this limit: "grain on the floor"
   std::string remedy;                                    ///< "lower its stiffness"
   /// Longest step at which all modes of sticking contacts decay. Between calm and step, strong dashpots make grains at
   /// rest vibrate within the limits of Coulomb friction and of contacts without tension.
@@ -41,7 +41,7 @@ inline void considerCalm(StepLimit& limit, double stiffness, double damping) {
   if (stiffness > 0 || damping > 0) limit.calm = std::min(limit.calm, contact::stableStepOfMode(stiffness, damping));
 }
 
-/// Lowers both limits, step and calm: for a mode of linear springs, whose forces have no bound.
+/// Lowers both limits, step and calm, for a mode of linear springs with unbounded forces.
 inline void considerBoth(StepLimit& limit, double stiffness, double damping, const std::string& what,
                          const std::string& remedy) {
   consider(limit, stiffness, damping, what, remedy);

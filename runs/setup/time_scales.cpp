@@ -33,7 +33,7 @@ Fail failsIn(const scene::Scene& scene, const std::string& section, const std::s
   return [&scene, section, key](const std::string& message) { scene.fail(section, key, message); };
 }
 
-/// The smallest gap between two different times of a table that begins before `end`.
+/// Adds the smallest gap between two different times of a table, among gaps that begin before `end`.
 void addTable(std::vector<TimeScale>& scales, const std::vector<double>& times, double end, const Fail& fail) {
   double smallest = std::numeric_limits<double>::infinity();
   std::size_t at = 0;
@@ -53,8 +53,8 @@ void addRamp(std::vector<TimeScale>& scales, double time, const Fail& fail) {
   if (time > 0) scales.push_back({time, false, fmt::format("the ramp of {:.4g} s", time), "s", fail});
 }
 
-/// Returns true if rotation changes the place of a surface: not for a rod about its own axis, nor for a plane about its
-/// normal.
+/// Returns true if rotation changes the region that a surface occupies, unlike a rod about its own axis or a plane
+/// about its normal.
 bool turnMoves(const SceneSurface& s) {
   const Vec3d& spin = *s.section.spin;
   const Vec3d axis = rotate(s.start.orientation, {0, 0, 1});
@@ -90,7 +90,7 @@ void addDrives(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   }
 }
 
-/// Turn of the smallest wheel at the speed of a course.
+/// Adds a revolution of the smallest wheel at the speed of a course.
 void addCourseTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   const double speed = std::fabs(scene.driver.course->speed);
   if (speed == 0) return;
@@ -102,7 +102,7 @@ void addCourseTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
             });
 }
 
-/// Fastest rotation prescribed by the driver, of the sprockets or of the smallest wheel in the track.
+/// Adds the fastest rotation that the driver prescribes: of a sprocket, or of the smallest wheel in the track.
 void addTurns(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (scene.driver.course) return addCourseTurns(scales, scene);
   const scene::SpeedTable table = scene.driver.speeds();
@@ -148,8 +148,8 @@ void addDriver(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   addTable(scales, d.table->time, scene.run.duration - d.driveBegins(), atTable);
 }
 
-/// Oscillations of the vehicle's springs and stops with their own parts only; attached masses make them slower. The
-/// solver integrates them implicitly: stable at any step size, damped where not resolved.
+/// Adds oscillations of the vehicle's springs and stops with the mass of their own parts only; attached masses make
+/// oscillations slower. Integration is implicit: stable at any step, but unresolved oscillations are damped.
 void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (!scene.vehicle) return;
   const vehicle::SpecSource file = scene.vehicle->source();
@@ -162,11 +162,11 @@ void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
                         vehicle::refuse(file, {section, key, message});
                       }});
   };
-  // About the pivot: the arm, and the mass of the wheel at its end.
+  // Moment of inertia about the pivot: arm, and mass of the wheel at its end.
   const double arm = s.arm.inertia.y + s.arm.mass * 0.25 * s.arm.length * s.arm.length +
                      s.roadWheel.mass * s.arm.length * s.arm.length;
   if (s.arm.suspension == vehicle::Suspension::sprung) add("arm", "stiffness", "N m/rad", s.arm.stiffness, arm);
-  // The governor on the inertia of engine and sprocket, without contact of teeth and track.
+  // Governor with the inertia of engine and sprocket, without the track.
   if (s.engine && scene.driver.drive == vehicle::SprocketDrive::engine)
     add("engine", "droop", "rad/s", vehicle::governorSlope(*s.engine) * vehicle::governorSlope(*s.engine),
         (s.engine->inertia + s.sprocket.inertia.y) * (s.engine->inertia + s.sprocket.inertia.y));
@@ -174,7 +174,7 @@ void addVehicle(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   add("idler", "stop_stiffness", "N/m", s.idler.stopStiffness, s.idler.carrierMass + s.idler.mass);
 }
 
-/// Oscillation of the hull on its hitch, which is explicit.
+/// Adds the oscillation of the hull on its hitch, which is integrated explicitly.
 void addHitch(std::vector<TimeScale>& scales, const scene::Scene& scene) {
   if (!scene.vehicle || !scene.hitch) return;
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
@@ -211,7 +211,7 @@ double resolvingStep(const std::vector<TimeScale>& scales, double stepsPerPeriod
 }
 
 void checkTimeScales(const scene::Scene& scene, double timeStep) {
-  // Steps are printed and typed with some digits: 20 steps to a millionth are 20.
+  // Relative tolerance of step numbers, since steps are printed and typed with a few digits.
   constexpr double kDigits = 1e-6;
   const double wanted = scene.run.stepsPerPeriod;
   for (const TimeScale& s : timeScales(scene)) {

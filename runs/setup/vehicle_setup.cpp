@@ -31,7 +31,7 @@ vehicle::CourseOptions courseOptions(const scene::Course& c, const vehicle::Vehi
 vehicle::DriverOptions driverOptions(const scene::Driver& d, const vehicle::VehicleSpec& spec) {
   vehicle::DriverOptions options;
   options.tensionRamp = d.tensionRamp, options.weightRamp = d.weightRamp;
-  // Rounding may put the sum of the ramps above the given start.
+  // Because of rounding, the sum of the ramps may exceed the given start.
   options.driveStart = std::max(d.driveBegins(), d.tensionRamp + d.weightRamp);
   options.driveRamp = d.rampOfDrive(), options.changeRamp = d.rampOfChange();
   if (!d.driveStart) options.rest = vehicle::RestBounds{d.restSpeed, d.restLoad, d.restTimeLimit};
@@ -104,7 +104,7 @@ coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
   setup.stop = {scene.stop.distance, scene.stop.edge, scene.stop.immobile};
   setup.driver = driverOptions(scene.driver, setup.spec);
   if (scene.hitch) setup.hitch = hitchOptions(*scene.hitch, setup.spec);
-  // A vehicle that is fixed or weightless has no ground force.
+  // Without ground force (hull fixed, no terrain or no gravity), there is no check for rest.
   if (setup.fixChassis || !setup.onTerrain || base::norm(scene.run.gravity) == 0) setup.driver.rest.reset();
   return setup;
 }

@@ -15,10 +15,9 @@ namespace grouser::setup {
 
 namespace {
 
-/// The idler on the tangential springs of all shoes on half of its circumference: all of them turn it, half of them
-/// shift it either way, and each has its own shoe. A strand with tension T presses a shoe by T pitch / radius, with the
-/// overlap of considerPressedShoe(). Where friction sticks, the mode vibrates beyond its limit as far as Coulomb's
-/// limit allows.
+/// Limit for the idler on the tangential springs of all shoes on half of its circumference: all springs rotate it, half
+/// shift it along each axis, and each spring moves its shoe. A track tension T presses a shoe with T pitch / radius;
+/// for the overlap see considerPressedShoe(). At longer steps, sticking contacts vibrate within Coulomb's limit.
 void considerIdler(StepLimit& limit, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
   if (c.frictionInside <= 0) return;
@@ -39,7 +38,7 @@ bool meetsSoilOnly(const scene::Scene& scene) {
   return scene.deformable() && obstaclesOf(scene).empty() && !scene.mechanism.touches();
 }
 
-/// The foundation between parts: shoes on rigid ground, and wheels on shoes.
+/// Limits of the foundation between parts: shoes on rigid ground, and wheels on shoes.
 void considerParts(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
   // A shoe on its whole pad: the maximum stiffness of the foundation. No wheel presses a whole pad.
@@ -47,7 +46,7 @@ void considerParts(StepLimit& limit, const scene::Scene& scene, const vehicle::V
   if (!meetsSoilOnly(scene))
     considerBoth(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
                  "lower contact.foundation_modulus in vehicle.spec");
-  // A wheel with an overlap of 1 mm with the plate, far more than its weight causes.
+  // A wheel that overlaps the plate by 1 mm, far more than weight causes.
   constexpr double kDeep = 1e-3; // [m]
   const auto wheel = [&](const char* name, double mass, double radius) {
     const double area = 4 * s.shoe.padHalfWidth * std::sqrt(2 * radius * kDeep);
@@ -66,10 +65,10 @@ bool hasRigidGround(const scene::Scene& scene) {
   return (scene.terrain && !scene.terrain->granular()) || !obstaclesOf(scene).empty();
 }
 
-/// A shoe between rigid ground and a wheel. The highest mode of both springs is at most the sum of that of the ground
-/// (whole pad, translation and rotation) and that of the wheel on the shoe's end (Weyl). The wheel's overlap follows
-/// from its share of the weight, F = 4/3 modulus width sqrt(2 R) depth^(3/2). docs/evidence/vehicle_stability.md
-/// records the limits that `grouser study stability --scene vehicle` finds.
+/// Limit for a shoe between rigid ground and a wheel. The highest mode with both springs is at most the sum of the
+/// highest modes with the ground only (whole pad, translation and rotation) and with the wheel on the shoe's end only
+/// (Weyl). The wheel's overlap follows from its share of the weight, F = 4/3 modulus width sqrt(2 R) depth^(3/2).
+/// docs/evidence/vehicle_stability.md records the limits that `grouser study stability --scene vehicle` finds.
 void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
   if (!hasRigidGround(scene)) return;
   const vehicle::ContactSpec& c = s.contact;

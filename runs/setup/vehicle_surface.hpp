@@ -8,16 +8,16 @@
 
 namespace grouser::setup {
 
-/// Contact parameters of vehicle parts without a material, which take the material of what they touch.
+/// Contact parameters of vehicle parts without a material; they have the material of their contact partner.
 struct VehicleSurface {
   double friction{}; ///< [-] friction_ground of the vehicle file
-  double adhesion{}; ///< [-] vehicle.adhesion: of the pull that a wall of the soil's own material has on its grains
+  double adhesion{}; ///< [-] vehicle.adhesion: adhesive force / that of a wall of the soil material
 
-  /// `law`: of the soil with itself.
+  /// `law`: law between grains of the soil.
   contact::ContactLaw with(contact::ContactLaw law) const;
 };
 
-/// Empty without a vehicle, and where vehicle.material is given.
+/// Empty without a vehicle, or if vehicle.material is given.
 std::optional<VehicleSurface> vehicleSurface(const scene::Scene& scene);
 
 } // namespace grouser::setup

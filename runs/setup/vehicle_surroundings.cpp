@@ -21,27 +21,27 @@ using base::Vec3d;
 
 namespace {
 
-/// Spacing of the points at which a surface is searched [m].
+/// Spacing of the points of a surface that are checked [m].
 constexpr double kCell = 0.1;
-/// Height above the ground [m] below which a surface is no obstacle.
+/// Height above the ground [m]; lower surfaces are no obstacles.
 constexpr double kFree = 0.05;
 /// Maximum search distance without terrain [m].
 constexpr double kFarthest = 100;
 
-/// Region that a vehicle covers, or may cover, along its heading from its position.
+/// Region that a vehicle covers, or can cover while driving, along its heading from its position.
 struct Corridor {
   double rear, front, half; ///< [m]
-  double height;            ///< over the ground [m]
+  double height;            ///< above the ground [m]
 };
 
 /// Point at which a vehicle reaches the end of the terrain.
 struct Edge {
   double way;  ///< distance from the start [m]
   double time; ///< arrival [s]
-  bool ahead;  ///< else behind
+  bool ahead;  ///< false: behind the vehicle
 };
 
-/// Surfaces that move, which act on grains only.
+/// Moving surfaces, which have contact with grains only.
 std::vector<SceneSurface> movingSurfaces(const scene::Scene& scene) {
   std::vector<SceneSurface> moving;
   for (const SceneSurface& s : surfacesOf(scene))
@@ -75,7 +75,7 @@ public:
       if (table.left[i] != table.right[i]) return true;
     return false;
   }
-  /// Maximum travel in the whole run, without slip [m].
+  /// Maximum distance without slip in the whole run [m].
   double farthest() const {
     const scene::SpeedTable table = scene_.driver.speeds();
     double fastest = 0;
@@ -90,7 +90,8 @@ public:
     const double way = speed * std::max(0.0, scene_.run.duration - scene_.driver.driveBegins());
     return std::min(way, ground_ ? ground_->area().width() + ground_->area().length() : kFarthest);
   }
-  /// Point at which it leaves the terrain, driven straight, without slip and ramp; empty if it does not.
+  /// Point at which the vehicle leaves the terrain if it drives straight, without slip and ramp; empty if it stays on
+  /// it.
   std::optional<Edge> edge() const {
     const auto area = terrainArea(scene_);
     const scene::SpeedTable table = scene_.driver.speeds();
@@ -108,7 +109,7 @@ public:
     }
     return {};
   }
-  /// Region that it may cover driving straight ahead and back.
+  /// Region that the vehicle can cover when it drives straight ahead and back.
   Corridor way() const {
     const scene::SpeedTable table = scene_.driver.speeds();
     bool ahead = false, back = false;
@@ -126,7 +127,7 @@ public:
   bool meets(const SceneSurface& s, const Corridor& c) const {
     const base::Pose pose = placeOf(s);
     const bool plane = s.geometry.shape == terrain::SurfaceShape::plane;
-    // Planes are checked at the corners, other surfaces by balls on a lattice.
+    // Planes are checked at the corners of the corridor, other surfaces with balls on a lattice.
     const double cell = plane ? 1e300 : kCell, radius = plane ? 0 : 0.87 * kCell;
     const double reach = plane ? 1e300 : sizeOf(s) + radius + c.height;
     const int nx = cellsOf(c.front - c.rear, cell), ny = cellsOf(2 * c.half, cell), nz = cellsOf(c.height, cell);
@@ -163,7 +164,7 @@ private:
     };
     return std::min(along(place_.x, c, area.xMin, area.xMax), along(place_.y, s, area.yMin, area.yMax)) - reach;
   }
-  /// Initial pose; surfaces with above_bed are at about that height above the bed's surface.
+  /// Initial pose; surfaces with above_bed are assumed at this height above the surface of the bed.
   base::Pose placeOf(const SceneSurface& s) const {
     base::Pose pose = s.start;
     if (!s.aboveBed || !ground_) return pose;

@@ -7,8 +7,8 @@
 #include "runs/storage/checkpoint.hpp"
 #include "runs/storage/kept_frictions.hpp"
 #include "runs/support/file_lock.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/shared_folder.hpp"
-#include "runs/support/tell.hpp"
 
 #include <chrono>
 #include <fmt/format.h>
@@ -28,10 +28,10 @@ constexpr double kBytesPerGrain = 400; // maximum file size, except for beds wit
 constexpr auto kLook = std::chrono::milliseconds(200); // polling interval for the lock of another run
 
 void warn(const base::Comm& comm, const std::string& message) {
-  if (comm.first()) support::tell("WARNING: {}; continuing without it\n", message);
+  if (comm.first()) support::printStderr("WARNING: {}; continuing without it\n", message);
 }
 
-/// Broadcasts the answer of the first rank.
+/// Returns the `answer` of the first rank on all ranks.
 bool agreed(const base::Comm& comm, bool answer) { return comm.maximumOf(comm.first() && answer ? 1 : 0) != 0; }
 bool allOf(const base::Comm& comm, bool answer) { return comm.maximumOf(answer ? 0 : 1) == 0; }
 
@@ -52,7 +52,7 @@ std::optional<coupling::SettleReport> BedCache::find(const std::string& origin) 
     if (open.text("/", "scene") != origin) return {};
     return readSettled(open);
   } catch (const std::exception&) {
-    return {}; // a run reports its error
+    return {}; // the run reports the error
   }
 }
 
@@ -74,24 +74,24 @@ coupling::SettledGround BedCache::settle(const coupling::GroundSetup& setup, con
   const bool usable =
       agreed(comm, comm.first() && files_.writable()) && !support::rankNotSeeing(folder, comm).has_value();
   if (!usable) warn(comm, fmt::format("{}: cannot cache settled beds in this folder", folder.string()));
-  // If several runs need one bed, the first settles it, with its tile and all trials of the preparation.
+  // If several runs need the same bed, the first run settles it, including its tile and all preparation trials.
   support::FileLock lock;
   if (usable) {
     const fs::path name = support::KeptFiles::lockOf(file);
-    for (bool told = false; !agreed(comm, comm.first() && lock.take(name)); told = true) {
-      if (!told && comm.first()) support::tell("waiting for another run that is settling the same bed\n");
+    for (bool announced = false; !agreed(comm, comm.first() && lock.take(name)); announced = true) {
+      if (!announced && comm.first()) support::printStderr("waiting for another run that is settling the same bed\n");
       progress(0, 0);
       std::this_thread::sleep_for(kLook);
     }
     if (std::optional<coupling::SettledGround> kept = taken()) return std::move(*kept);
   }
-  // Ranks with different cached frictions would differ in their communication.
+  // Cached frictions only on one rank: with different caches, ranks would communicate differently.
   const KeptFrictions frictions(files_);
   const KeptFrictions* const found = comm.alone() ? &frictions : nullptr;
   coupling::SettledGround settled{coupling::buildGround(setup, exec, comm, progress, found), {}};
   const terrain::Grains& grains = *settled.ground.grains;
   const bool fits = files_.fits(kBytesPerGrain * static_cast<double>(grains.count()));
-  if (!fits) lock.release(); // others need not wait
+  if (!fits) lock.release(); // so that other runs do not wait
   settled.report = coupling::settle(*setup.grains->bed, settled.ground, progress, found);
   const double settledIn = seconds();
   const bool kept = usable && fits && keep(file, made, grains, settled.report, comm);
@@ -116,7 +116,7 @@ std::optional<coupling::SettledGround> BedCache::reuse(const fs::path& file, con
     if (!found.empty()) damage.assign(found.begin(), found.end());
   Checkpoint bed;
   if (damage.empty()) {
-    // Another run may have deleted the file meanwhile: then all ranks settle.
+    // Another run may have deleted the file in the meantime; then all ranks settle.
     bool good = true;
     std::optional<support::Hdf5File> open;
     try {
@@ -152,7 +152,7 @@ bool BedCache::keep(const fs::path& file, const std::string& origin, const terra
   try {
     writeState(fresh, kBedFile, bed, comm);
   } catch (const std::exception& e) {
-    if (!comm.alone()) throw; // the other ranks may wait within writeState(): only an error ends them
+    if (!comm.alone()) throw; // other ranks may wait in writeState(); only an error ends them
     warn(comm, e.what());
     return false;
   }

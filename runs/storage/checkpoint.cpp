@@ -31,7 +31,7 @@ template <> struct Layout<terrain::Crossings> { using Number = std::int32_t; };
 template <class T> struct Layout<base::Vec3<T>> { using Number = T; };
 template <> struct Layout<std::uint64_t> { using Number = std::uint32_t; };
 template <> struct Layout<terrain::GrainLayout> { using Number = std::int64_t; };
-template <> struct Layout<coupling::TakenOut> { using Number = double; };
+template <> struct Layout<coupling::CrushedGrains> { using Number = double; };
 template <> struct Layout<coupling::SurfaceState> { using Number = double; };
 template <> struct Layout<fluid::SavedParticle> { using Number = double; };
 template <> struct Layout<contact::PatchState> { using Number = double; };
@@ -39,7 +39,7 @@ template <> struct Layout<contact::PatchSums> { using Number = std::int64_t; };
 
 template <class Archive, class Settled> void exchangeSettled(Archive& archive, Settled& s) {
   archive("/settled/time", s.time);
-  archive("/settled/agitation", s.agitation);
+  archive("/settled/agitation", s.energyRatio);
   archive("/settled/steps", s.steps);
   archive("/settled/friction", s.friction);
   archive("/settled/highest", s.highest);
@@ -56,8 +56,8 @@ template <class Archive, class State> void exchangeContacts(Archive& archive, co
   each("/impulse_on_parts", s.impulseOnParts), each("/angular_on_parts", s.angularOnParts);
 }
 
-/// The list of stored data and their names; the grains' columns have their own. `archive` writes or reads. On several
-/// ranks all data are equal, except grains and contacts, of which each rank has its block of rows.
+/// The list of stored data and their names; the columns of grains have a separate list. `archive` writes or reads. On
+/// several ranks, all data are equal except grains and contacts: each rank has a block of their rows.
 template <class Archive, class State> void exchange(Archive& archive, State& s) {
   archive("/steps", s.steps);
   archive("/ledger_at_start", s.ledgerAtStart);
@@ -107,7 +107,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
         [&](const char* name, auto& column) { archive.perContact(path(name).c_str(), column, g.contacts); });
     archive("/grains/skin", g.skin);
     archive("/grains/rebuilds", g.rebuilds);
-    archive("/grains/books", g.books);
+    archive("/grains/books", g.energySums);
   }
   if (archive.present("/surfaces", s.surfaces)) {
     archive("/surfaces/states", s.surfaces->surfaces);
@@ -126,7 +126,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
     archive("/vehicle/driver", v.driver);
     archive("/vehicle/asked", v.asked);
     archive("/vehicle/hitch", v.hitch);
-    archive("/vehicle/hitch_books", v.hitchBooks);
+    archive("/vehicle/hitch_books", v.hitchSums);
     archive("/vehicle/applied_work", v.appliedWork);
     exchangeContacts(archive, "/vehicle", v.contacts);
     archive("/vehicle/ground_forces", v.groundForces);
@@ -158,7 +158,7 @@ template <class T> std::vector<T> recordsOf(const std::vector<typename Layout<T>
   return records;
 }
 
-/// Total rows of each dataset that the ranks share.
+/// Counts the rows of each dataset that the ranks share, over all ranks.
 class RowCounter {
 public:
   explicit RowCounter(const base::Comm& comm) : comm_(comm) {}
@@ -233,7 +233,7 @@ public:
       throw base::InputError(fmt::format("{}: {} must be a single record", file_.path().string(), name));
     one = records.front();
   }
-  /// This rank's block of grains; some fields have several rows a grain, some none.
+  /// This rank's block of grains; fields may have several rows per grain or none.
   template <class T> void perGrain(const char* name, std::vector<T>& rows, std::int64_t total) {
     const std::uint64_t all = rowsOf<T>(name), grains = static_cast<std::uint64_t>(total);
     const std::uint64_t each = grains > 0 ? all / grains : 0;
@@ -383,7 +383,7 @@ void writeCheckpoint(const fs::path& path, const Checkpoint& checkpoint, const b
 
 namespace {
 
-/// HDF5 opens only files whose checksum is right.
+/// Checks the checksum before HDF5 opens the file.
 support::Hdf5File openedCheckpoint(const fs::path& path, const base::Comm& comm) {
   if (comm.first()) checkStateFile(path, kCheckpointFile);
   comm.wait();

@@ -17,14 +17,14 @@ inline constexpr const char* kCheckpointName = "checkpoint.h5";
 inline constexpr const char* kCheckpointFile = "checkpoint";
 inline constexpr const char* kBedFile = "settled bed";
 
-/// Length scales of a grain file, for readers without the scene.
+/// Length scales of the stored grains, for readers without the scene.
 struct GrainLengths {
   double unit{};   ///< unit of positions [m]
   double radius{}; ///< radius of the largest grain [m]
 };
 GrainLengths lengthsOf(const terrain::Grains& grains);
 
-/// State of another run, from which a run branched.
+/// State of another run from which this run branched.
 struct BranchPoint {
   std::string file;         ///< the checkpoint, absolute
   std::int64_t step{};      ///< step of the checkpoint
@@ -45,13 +45,12 @@ struct Checkpoint {
   coupling::SimulationState state;
 };
 
-/// Replaces the file atomically: the former one stays intact on failure, or if the program is killed.
-/// Throws support::NotWritten.
-/// All ranks call it, each with its rows of the grains; all return when the file is complete.
+/// Replaces the file atomically: the former file stays intact on failure, or if the program is killed. Throws
+/// support::NotWritten. All ranks call it, each with its rows of the grains; all return when the file is complete.
 void writeCheckpoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
 
-/// Throws base::InputError if the file is missing, foreign, from another version, truncated or damaged.
-/// Each rank gets its rows; the number of ranks may differ from that of the writing run.
+/// Throws base::InputError if the file is missing, truncated, damaged, of another kind or of another version. Each rank
+/// gets its rows; the number of ranks may differ from that of the writing run.
 Checkpoint readCheckpoint(const std::filesystem::path& path, const base::Comm& comm = {});
 
 /// Reads scene, inputs and commit only. All ranks call it.
@@ -59,15 +58,15 @@ Checkpoint readOrigin(const std::filesystem::path& path, const base::Comm& comm 
 /// All ranks call it, each with its rows.
 BranchPoint branchPoint(const std::filesystem::path& path, const Checkpoint& checkpoint, const base::Comm& comm = {});
 
-/// Parts of these functions. `kind` is one of the kinds above; readState() requires a file that passed
-/// checkStateFile(), which one rank calls for all.
+/// Parts of the functions above. `kind` is one of the kinds above. readState() requires a file that has passed
+/// checkStateFile(), which one rank calls for all ranks.
 void writeState(const std::filesystem::path& path, const char* kind, const Checkpoint& checkpoint,
                 const base::Comm& comm);
 void checkStateFile(const std::filesystem::path& path, const char* kind);
 Checkpoint readState(const support::Hdf5File& file, const base::Comm& comm);
 coupling::SettleReport readSettled(const support::Hdf5File& file); ///< settling data of the bed
 
-/// A dataset of such a file: [rows, width] numbers.
+/// A dataset of a state file: [rows, width] numbers.
 struct StoredField {
   std::string path;  ///< "grains/spin"
   std::string type;  ///< "float32"

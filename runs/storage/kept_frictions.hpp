@@ -6,8 +6,8 @@
 
 namespace grouser::storage {
 
-/// Cache of preparation frictions for beds of given porosity, one small file each: beds of one soil share it, whatever
-/// their size and seed. With a damaged file or a read-only folder the trials are repeated.
+/// Cache of preparation frictions for beds of given porosity, in one small file each. Beds of one soil share a file,
+/// independently of size and seed. If a file is damaged or the folder is read-only, the trials are repeated.
 class KeptFrictions final : public coupling::FoundFrictions {
 public:
   explicit KeptFrictions(support::KeptFiles files) : files_(std::move(files)) {}

@@ -19,7 +19,7 @@ std::vector<std::string> linesOf(const std::string& text) {
   return lines;
 }
 
-/// Keys that do not affect the state, or whose files are compared by content.
+/// Returns true for keys that do not affect the state, or that name files compared by content.
 bool isFree(const std::string& key) {
   constexpr const char* kFree[] = {
       "run.duration",      "run.output_interval", "run.frame_interval", "run.checkpoint_interval",
@@ -30,7 +30,8 @@ bool isFree(const std::string& key) {
          std::find(std::begin(kFree), std::end(kFree), key) != std::end(kFree);
 }
 
-/// "section.key" and value of a resolved scene, in its order; the sections of a list are numbered.
+/// "section.key" and value for all keys of a resolved scene, in the order of the scene; sections of a list are
+/// numbered.
 std::vector<std::pair<std::string, std::string>> entriesOf(const std::string& resolved) {
   std::vector<std::pair<std::string, std::string>> entries;
   std::map<std::string, int> count;

@@ -5,9 +5,9 @@
 #include "base/error.hpp"
 #include "runs/support/file_lock.hpp"
 #include "runs/support/not_written.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/sealed_file.hpp"
 #include "runs/support/stopwatch.hpp"
-#include "runs/support/tell.hpp"
 
 #include <chrono>
 #include <cstring>
@@ -25,7 +25,7 @@ constexpr auto kSpheres = support::KeptFiles::Kind::spheres;
 constexpr const char* kSetFile = "kept sphere set";
 constexpr int kSetFileVersion = 2;
 constexpr auto kSpheresLook = std::chrono::milliseconds(20); // polling interval for the lock of another program
-constexpr double kPatience = 120;                            // [s]; after this time both programs compute the set
+constexpr double kPatience = 120; // maximum waiting time [s]; then both programs compute the set
 
 // File contents after the seal: length of the origin, origin, figures, spheres, all as in memory.
 static_assert(std::is_trivially_copyable_v<base::SetSphere> && sizeof(base::SetSphere) == 10 * sizeof(double),
@@ -50,7 +50,7 @@ void SphereCache::write(const fs::path& path, const std::string& origin, const F
   if (!out) throw support::notWritten(path);
 }
 
-/// Throws if the bytes have another origin.
+/// Throws if the bytes have a different origin or are truncated.
 SphereCache::Found SphereCache::parsed(const std::string& bytes, const std::string& origin) {
   const char *at = bytes.data(), *end = at + bytes.size();
   const auto take = [&](void* to, std::size_t count) {
@@ -83,7 +83,7 @@ std::optional<SphereCache> SphereCache::ofUser(const base::Comm& comm) {
 }
 
 base::SphereSet SphereCache::cut(const coupling::PartCut& part, spheredecomp::Protrusion* protrusion) {
-  // The plain cut, if accurate enough, is the same for all contacts of the part.
+  // The plain conversion, if accurate enough, serves all contacts of the part.
   if (part.limit && part.limit->automatic) {
     coupling::PartCut plain = part;
     plain.limit->automatic = false;
@@ -103,7 +103,7 @@ base::SphereSet SphereCache::cut(const coupling::PartCut& part, spheredecomp::Pr
   support::FileLock lock;
   const bool usable = found || files_.writable();
   if (!found && usable) {
-    // If several programs need one set, the first computes it.
+    // If several programs need the same set, the first computes it.
     while (!lock.take(support::KeptFiles::lockOf(file)) && clock.seconds() < kPatience)
       std::this_thread::sleep_for(kSpheresLook);
     found = find(file, origin);
@@ -131,11 +131,11 @@ std::optional<SphereCache::Found> SphereCache::find(const fs::path& file, const 
     support::KeptFiles::noteUse(file);
     return found;
   } catch (const std::exception& e) {
-    if (!fs::is_regular_file(file, error)) return {}; // deleted meanwhile by a program that frees disk space
+    if (!fs::is_regular_file(file, error)) return {}; // another program has deleted it to free disk space
     const std::string what = e.what();                // begins with the file name for a damaged seal
-    support::tell("WARNING: {}{}; continuing without it\n",
-                  what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
-    fs::remove(file, error); // reported once
+    support::printStderr("WARNING: {}{}; continuing without it\n",
+                         what.rfind(file.string(), 0) == 0 ? "" : file.string() + ": ", what);
+    fs::remove(file, error); // so that the warning appears only once
     return {};
   }
 }
@@ -155,7 +155,7 @@ bool SphereCache::keep(const fs::path& file, const std::string& origin, const Fo
 std::string SphereCache::summary(const base::Comm& comm) const {
   std::int64_t counts[] = {taken_, cut_, kept_};
   double times[] = {taking_, cutting_};
-  comm.sum(counts, 3), comm.maximum(times, 2); // the ranks work side by side
+  comm.sum(counts, 3), comm.maximum(times, 2); // ranks work in parallel, so times are maxima
   const auto [taken, cut, kept] = counts;
   const std::string folder = files_.folder().string();
   std::string text =

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-/// Cache of sphere sets of parts: making them takes seconds, and most runs share parts.
+/// Cache of sphere sets of parts: computing them takes seconds, and most runs share parts.
 namespace grouser::storage {
 
-/// Sphere sets in the user's cache folder, and the origin of those of this run.
+/// Sphere sets in the user's cache folder, and statistics on the sets of this run.
 class SphereCache final : public coupling::SphereSets {
 public:
   explicit SphereCache(support::KeptFiles files) : files_(std::move(files)) {}
@@ -20,23 +20,23 @@ public:
   /// The user's cache; see KeptFiles::ofUser().
   static std::optional<SphereCache> ofUser(const base::Comm& comm = {});
 
-  /// The set of decompose(), bit for bit, from the cache, or else made and cached. Waits while another program makes
-  /// the same set. Errors of the folder or its files do not end a run: a damaged file is a warning. Throws as
-  /// decompose(). With a limit as decomposeWithin(), whose measurement goes to `protrusion`.
+  /// Returns a set bitwise identical to decompose(), from the cache, or computed and then cached. Waits while another
+  /// program computes the same set. Errors of the folder or its files do not end a run; a damaged file causes a
+  /// warning. Throws like decompose(). With a limit, like decomposeWithin(), and `protrusion` receives the measured
+  /// values.
   base::SphereSet cut(const coupling::PartCut& part, spheredecomp::Protrusion* protrusion = nullptr) override;
 
-  /// Thrown by cut() after lookUpOnly(), instead of cutting.
+  /// Exception of cut() after lookUpOnly() for a set that is not cached.
   struct NotKept {};
   void lookUpOnly() { lookUpOnly_ = true; }
 
-  /// One line: origin of the sets of all ranks, and time taken. Empty without sets. All ranks
-  /// call it.
+  /// One line: source of the sets of all ranks (cache or conversion), and time. Empty without sets. All ranks call it.
   std::string summary(const base::Comm& comm = {}) const;
-  /// Time that this rank has spent on sets that were not cached [s].
+  /// Time that this rank has spent on computing sets [s].
   double cutting() const { return cutting_; }
-  /// Sets that this rank has found in the cache.
+  /// Number of sets that this rank has found in the cache.
   int found() const { return taken_; }
-  /// Sets that this rank has made and written to the cache.
+  /// Number of sets that this rank has computed and written to the cache.
   int saved() const { return kept_; }
 
 private:

@@ -39,7 +39,7 @@ std::string processorText() {
 
 BuildInfo buildInfo() { return {GROUSER_VERSION, kCommit, compilerText(), GROUSER_CUDA_VERSION, GROUSER_FLAGS}; }
 
-/// Eight bytes a word: a program of 100 MB takes 0.05 s.
+/// Reads words of eight bytes; a program file of 100 MB takes 0.05 s.
 std::string programHash() {
   static const std::string hash = [] {
     const std::string own = ownFile().string();

@@ -87,7 +87,7 @@ ChildProcess::ChildProcess(const std::function<void(const Descriptor&)>& work, c
 
 ChildProcess::~ChildProcess() {
   if (process_ < 0) return;
-  input_.close(), output_.close(); // it may wait for either
+  input_.close(), output_.close(); // the child may wait for input or for a reader of its output
   if (endSignal_ != 0) kill(process_, endSignal_);
   while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
@@ -101,7 +101,7 @@ void ChildProcess::start(int endSignal, const Environment& environment, const st
   if (process_ > 0) return;
   [&]() noexcept {
     prctl(PR_SET_PDEATHSIG, endSignal);
-    if (getppid() != parent) _exit(1); // it has ended before
+    if (getppid() != parent) _exit(1); // the parent has already ended
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     act();
   }();
@@ -109,9 +109,9 @@ void ChildProcess::start(int endSignal, const Environment& environment, const st
 }
 
 bool ChildProcess::read(std::string& text) {
-  const bool goesOn = output_.read(text);
-  if (!goesOn) output_.close();
-  return goesOn;
+  const bool continues = output_.read(text);
+  if (!continues) output_.close();
+  return continues;
 }
 
 void ChildProcess::terminate() {

@@ -5,9 +5,9 @@
 
 namespace grouser::support {
 
-/// A CSV cell, quoted if it contains a comma, a quote or a line break, which becomes a space.
+/// A CSV cell, quoted if it contains a comma, a quote or a line break. A line break becomes a space.
 std::string csvCell(const std::string& text);
-/// Nine digits; empty where it is no finite number.
+/// A number with nine digits; empty if it is not finite.
 std::string csvCell(double value);
 
 } // namespace grouser::support

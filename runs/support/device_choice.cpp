@@ -14,7 +14,7 @@ namespace grouser::support {
 
 namespace {
 
-constexpr int kMostGpus = 1 << 20; ///< far more than a machine has, far less than an int holds
+constexpr int kMaxGpus = 1 << 20; ///< far more than any machine has; sums do not overflow an int
 
 /// Value of kFirstGpu; 0 if it is unset or empty.
 int firstGpu() {
@@ -23,10 +23,10 @@ int firstGpu() {
   const std::string_view text = given;
   int first = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), first);
-  if (error != std::errc() || end != text.data() + text.size() || first < 0 || first > kMostGpus)
+  if (error != std::errc() || end != text.data() + text.size() || first < 0 || first > kMaxGpus)
     throw base::InputError(
         fmt::format("{} = '{}' must be the index of a visible CUDA device, from 0 to {}; correct or unset it",
-                    kFirstGpu, text, kMostGpus));
+                    kFirstGpu, text, kMaxGpus));
   return first;
 }
 

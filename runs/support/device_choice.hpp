@@ -10,7 +10,7 @@
 namespace grouser::support {
 
 enum class DeviceChoice {
-  automatic, ///< the GPU where there is one
+  automatic, ///< GPU if available
   cpu,
   cuda
 };
@@ -18,16 +18,16 @@ enum class DeviceChoice {
 /// The device that a value of --device names. Throws InputError if the value is unknown.
 DeviceChoice deviceChoice(const std::string& word);
 
-/// Environment variable that gives the first GPU a process uses, as an index from 0 among the GPUs visible to CUDA
+/// Environment variable with the first GPU that a process uses, as an index from 0 among the GPUs visible to CUDA
 /// (CUDA_VISIBLE_DEVICES, ordered by CUDA_DEVICE_ORDER).
 constexpr const char* kFirstGpu = "GROUSER_GPU";
 
-/// GPU, of `gpus` (> 0), of a rank of this host: (kFirstGpu, or 0 if unset, + `rankOnHost`) modulo `gpus`. Throws
-/// InputError for an invalid value of the variable.
+/// Index of the GPU, out of `gpus` (> 0), for a rank of this host: (value of kFirstGpu or 0, + `rankOnHost`) modulo
+/// `gpus`. Throws InputError for an invalid value of the variable.
 int gpuOf(int rankOnHost, int gpus);
 
 /// Value of kFirstGpu for concurrent child process number `place`, counted from 0: children use the GPUs in turn,
-/// starting with that of this process. Throws as gpuOf().
+/// starting with the GPU of this process. Throws like gpuOf().
 std::string firstGpuOf(int place);
 
 /// Device of a run; `threads` 0: all cores. Ranks of one host use its GPUs in turn and share its cores. Throws

@@ -17,12 +17,12 @@ namespace grouser::support {
 
 namespace {
 
-/// 0, or why not.
+/// Reserves space. Returns 0, or the errno of the failure.
 int makeRoom(int file, std::uint64_t bytes) {
   struct stat now {};
   if (fstat(file, &now) != 0) return errno;
   const auto size = static_cast<std::uint64_t>(now.st_size);
-  // The kernel does not count space allotted behind the end towards this limit.
+  // The kernel does not count space allocated beyond the end of the file towards this limit.
   struct rlimit limit {};
   if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY && size + bytes > limit.rlim_cur)
     return EFBIG;
@@ -30,7 +30,7 @@ int makeRoom(int file, std::uint64_t bytes) {
   do {
     status = fallocate(file, FALLOC_FL_KEEP_SIZE, now.st_size, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
   } while (status == EINTR);
-  // Other errors mean a file system that cannot allot beforehand: there writing finds out.
+  // Other errors mean that the file system cannot preallocate; then only writing detects a full disk.
   return status == ENOSPC || status == EDQUOT || status == EFBIG ? status : 0;
 }
 

@@ -6,11 +6,11 @@
 
 namespace grouser::support {
 
-/// Makes sure that the file can grow by `bytes`, without making it longer: allots them on the disk behind its end,
-/// where the file system can, and compares with the limit to the size of files (ulimit -f). So a full disk is detected
-/// before the first byte of a block is written. Throws NotWritten with the file's name.
+/// Ensures that the file can grow by `bytes`: preallocates them beyond its end if the file system supports this, and
+/// checks the limit of file sizes (ulimit -f). A full disk is thus detected before the first byte of a block is
+/// written. The file does not become longer. Throws NotWritten with the file's name.
 void requireRoom(const std::filesystem::path& path, std::uint64_t bytes);
-/// The same for an open file, which may have been renamed; `path` is for the message.
+/// The same for an open file, which may have been renamed; `path`: name for the message.
 void requireRoom(int file, const std::filesystem::path& path, std::uint64_t bytes);
 
 } // namespace grouser::support

@@ -6,7 +6,7 @@
 
 namespace grouser::support {
 
-/// Why a call ends early.
+/// Reason for the early end of a call.
 enum class FailureKind {
   stray,      ///< an unexpected exception: a bug, or a fault of the system
   input,      ///< base::InputError
@@ -22,7 +22,7 @@ struct Failure {
 
 /// Classifies an exception.
 Failure failureOf(const std::exception_ptr& error);
-/// Throws the exception of that kind; a stray one as std::runtime_error.
+/// Throws an exception of this kind; for kind stray, std::runtime_error.
 [[noreturn]] void rethrow(const Failure& failure);
 
 /// Exit code of the program for this failure; docs/commands.md lists them.

@@ -7,10 +7,10 @@
 
 namespace grouser::support {
 
-/// 16 hexadecimal digits of a hash of its bytes.
+/// Hash of the bytes of `text`, as 16 hexadecimal digits.
 std::string hashOfText(std::string_view text);
 
-/// The same of a file's bytes. Throws base::InputError where it cannot be read.
+/// The same for the bytes of a file. Throws base::InputError if the file cannot be read.
 std::string hashOfFile(const std::filesystem::path& path);
 
 } // namespace grouser::support

@@ -7,13 +7,13 @@
 
 namespace grouser::support {
 
-/// Held by one program at a time; given back when it is destroyed, or when the program ends in whatever way.
+/// Lock that one program holds at a time; released on destruction, or when the program ends for any reason.
 class FileLock {
 public:
-  /// True when the lock of this file or folder is now held, or where it cannot be locked at all: some file systems
-  /// cannot. False while another holds it. A file is made where it is missing.
+  /// Tries to lock this file or folder. Returns false if another program holds the lock; true if it is acquired, or if
+  /// the file system does not support locks. Creates a missing file.
   bool take(const std::filesystem::path& path);
-  /// Gives it back before the end of this object.
+  /// Releases the lock before this object is destroyed.
   void release() { file_.close(); }
 
 private:

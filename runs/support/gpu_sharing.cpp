@@ -33,17 +33,17 @@ bool isAskedFor() {
   return variable("GROUSER_MPS") == "1" && variable(kPipes).empty() && !areNumbered && !fs::exists(kUsualPipe, error);
 }
 
-/// An empty folder of this process alone; empty where none can be made.
+/// Creates a temporary folder for this process only. Returns an empty path if it cannot be created.
 fs::path ownFolder() {
   std::error_code error;
   std::string pattern = (fs::temp_directory_path(error) / "grouser_mps_XXXXXX").string();
   return error || !mkdtemp(pattern.data()) ? fs::path() : fs::path(pattern);
 }
 
-/// Whether the service has come up: it makes a pipe named `control`.
+/// Waits for the service to start: it then creates a pipe named `control`. Returns false if it does not start.
 bool comesUp(ChildProcess& service, const fs::path& folder) {
-  constexpr int kMostWaits = 100;
-  for (int wait = 0; wait < kMostWaits && !service.ended(); ++wait) {
+  constexpr int kMaxWaits = 100;
+  for (int wait = 0; wait < kMaxWaits && !service.ended(); ++wait) {
     std::error_code error;
     if (fs::exists(folder / "control", error)) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -61,7 +61,7 @@ GpuSharing::GpuSharing(bool wanted) {
     control.log = folder_ / "service.log";
     service_ = std::make_unique<ChildProcess>(control);
     if (!comesUp(*service_, folder_)) service_.reset();
-  } catch (const base::DeviceError&) { // no such program: processes take turns, as they do without it
+  } catch (const base::DeviceError&) { // program missing: processes use the GPU in turns
     service_.reset();
   }
 }

@@ -8,16 +8,16 @@
 
 namespace grouser::support {
 
-/// NVIDIA's Multi-Process Service, for as long as this object lives: with it kernels of several processes run side by
-/// side on a GPU, and without it in turns. A bed of some ten thousand grains fills a small part of a large GPU.
+/// Runs NVIDIA's Multi-Process Service during the lifetime of this object: with it, kernels of several processes run
+/// concurrently on a GPU, otherwise in turns. A bed of some ten thousand grains uses a small part of a large GPU.
 ///
-/// It starts where GROUSER_MPS is 1, for this call alone, with pipes in a folder of its own, and is asked to end with
-/// this object. It is not started where its program is not on the PATH (it comes with the driver), where the user runs
-/// the service already (CUDA_MPS_PIPE_DIRECTORY is set, or it listens in its usual place), or where
-/// CUDA_VISIBLE_DEVICES names GPUs by number, which the service would count anew.
+/// The service starts if GROUSER_MPS is 1, for this call only, with pipes in its own folder, and ends with this object.
+/// It does not start if its program (part of the driver) is not on the PATH, if the user already runs the service
+/// (CUDA_MPS_PIPE_DIRECTORY is set, or the default pipe exists), or if CUDA_VISIBLE_DEVICES contains GPU numbers, since
+/// the service would number GPUs differently.
 ///
-/// Processes that share a GPU in this way also share a fault of it: one that fails there ends the others. A signal to
-/// the whole group, such as Ctrl-C, reaches the service too; runs may then end before their last checkpoint.
+/// Processes that share a GPU also share its faults: if one process fails on the GPU, the others end too. A signal to
+/// the whole group, such as Ctrl-C, also reaches the service; runs may then end before their last checkpoint.
 class GpuSharing {
 public:
   /// `wanted`: whether several processes will use a GPU at the same time.
@@ -27,7 +27,7 @@ public:
   GpuSharing& operator=(const GpuSharing&) = delete;
 
   bool runs() const { return service_ != nullptr; }
-  /// Variables by which client processes find the service; empty if none runs.
+  /// Variables that client processes need to find the service; empty if the service does not run.
   Environment environment() const;
 
 private:

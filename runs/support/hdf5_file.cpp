@@ -21,7 +21,7 @@ static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 namespace {
 
-/// Lock on the HDF5 library, whose parallel build is not thread-safe.
+/// Lock on the HDF5 library, since its parallel build is not thread-safe.
 class Turn {
 public:
   Turn() : held_(library()) {}
@@ -96,9 +96,9 @@ hid_t stringType() {
   return type;
 }
 
-/// Call before the first use of the library. Disables HDF5's error output, since errors become exceptions, and its
-/// cleanup at exit. HDF5 1.10 keeps a file that it could not write (full disk) and crashes on it at exit; our files are
-/// closed before.
+/// Call before the first use of the library. Disables the error output of HDF5, since errors become exceptions, and its
+/// cleanup at exit: HDF5 1.10 keeps a file that it could not write (full disk) and crashes at exit. All files are
+/// closed earlier.
 void quiet() {
   [[maybe_unused]] static const herr_t once = H5dont_atexit();
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
@@ -153,7 +153,7 @@ Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlo
   quiet();
   const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
   H5Pset_userblock(creation, userBlock);
-  // The oldest file format has no "open for writing" mark: a file that a killed program left stays readable.
+  // The oldest file format has no "open for writing" flag, so files of killed programs remain readable.
   const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
   if (file < 0) throw failure(path, "create the file; another program may have opened it");
   return {file, path};
@@ -199,7 +199,7 @@ Hdf5File& Hdf5File::operator=(Hdf5File&& other) noexcept {
 }
 
 Hdf5File::~Hdf5File() {
-  // Closing a shared file is collective; after an error other ranks may not close it.
+  // Closing a shared file is collective; after an error, other ranks may not reach this call.
   if (shared_ && std::uncaught_exceptions() > 0) return;
   const Turn turn;
   if (file_ >= 0) H5Fclose(file_);
@@ -287,7 +287,8 @@ void Hdf5File::reserveNumbers(const std::string& dataset, NumberType type, const
 
 namespace {
 
-/// Rows [first, first + count) of a dataset: its space with these selected, and one of just their shape.
+/// Rows [first, first + count) of a dataset: the file dataspace with these rows selected, and a memory dataspace of
+/// their shape.
 struct RowSelection {
   Handle file, memory;
   RowSelection(hid_t dataset, std::uint64_t first, std::uint64_t count)

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-/// A thin owner of HDF5 handles. One process writes or reads a file; the rows of a dataset can also be written by all
-/// ranks together. Several threads may use different files. Failures throw; HDF5's own error stack is kept off the
-/// terminal.
+/// Thin wrappers of HDF5 handles. One process writes or reads a file, or all ranks write rows of a dataset together.
+/// Several threads may use different files. Failures throw exceptions; HDF5 prints no errors.
 namespace grouser::support {
 
 /// Number types that go into a file; always stored little-endian.
@@ -23,7 +22,7 @@ template <> struct NumberTypeOf<std::int64_t> { static constexpr NumberType valu
 template <> struct NumberTypeOf<std::int32_t> { static constexpr NumberType value = NumberType::Int32; };
 template <> struct NumberTypeOf<std::uint32_t> { static constexpr NumberType value = NumberType::UInt32; };
 
-/// A dataset that grows by rows of `width` numbers: shape [rows, width], or [rows] where width is 0.
+/// A dataset that grows by rows of `width` numbers: shape [rows, width], or [rows] if width is 0.
 class GrowingDataset {
 public:
   GrowingDataset() = default;
@@ -47,15 +46,15 @@ private:
 
 class Hdf5File {
 public:
-  /// Creates or replaces the file, with room for `userBlock` bytes of others before HDF5's own (0, 512, 1024...).
+  /// Creates or replaces the file, with a user block of `userBlock` bytes before the HDF5 data (0, 512, 1024...).
   /// Throws NotWritten with the path.
   static Hdf5File create(const std::filesystem::path& path, std::size_t userBlock = 0);
-  /// Opens for reading. Throws base::InputError where it is missing or no HDF5 file.
+  /// Opens a file for reading. Throws base::InputError if the file is missing or not an HDF5 file.
   static Hdf5File open(const std::filesystem::path& path);
   /// The same for reading and writing.
   static Hdf5File openToChange(const std::filesystem::path& path);
-  /// Opens for writing, on all ranks of `comm` at once, a file that this run has written and closed; on several ranks
-  /// for writeRows() alone. Throws NotWritten with the path.
+  /// Opens a file that this run has written and closed, for writing on all ranks of `comm`; on several ranks for
+  /// writeRows() only. Throws NotWritten with the path.
   static Hdf5File openShared(const std::filesystem::path& path, const base::Comm& comm);
   Hdf5File(Hdf5File&& other) noexcept;
   Hdf5File& operator=(Hdf5File&& other) noexcept;
@@ -63,41 +62,42 @@ public:
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Intermediate groups are created as needed, here and below.
+  /// Creates a group. This and the following functions create missing parent groups.
   void makeGroup(const std::string& group);
   void attribute(const std::string& object, const std::string& name, const std::string& value);
   void attribute(const std::string& object, const std::string& name, double value);
   void attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values);
 
-  /// `compressed`: without loss, by zlib, which HDF5's readers have.
+  /// `compressed`: lossless compression with zlib, which HDF5 readers support.
   template <class T> void write(const std::string& dataset, const std::vector<T>& numbers,
                                 const std::vector<std::uint64_t>& shape, bool compressed = false) {
     writeNumbers(dataset, numbers.data(), NumberTypeOf<T>::value, shape, compressed);
   }
-  /// A dataset whose rows come later, with room for all of them on the disk.
+  /// Creates a dataset and allocates disk space for all its rows, which are written later.
   template <class T> void reserve(const std::string& dataset, const std::vector<std::uint64_t>& shape) {
     reserveNumbers(dataset, NumberTypeOf<T>::value, shape);
   }
-  /// Rows from `first` on of a dataset that is there; in a shared file all ranks call it, each with its own rows.
+  /// Writes rows, starting at `first`, of an existing dataset. In a shared file, all ranks call it, each with its own
+  /// rows.
   template <class T> void writeRows(const std::string& dataset, std::uint64_t first, const std::vector<T>& numbers) {
     writeRowNumbers(dataset, first, numbers.data(), numbers.size(), NumberTypeOf<T>::value);
   }
-  /// `chunkRows` rows are allotted at a time.
+  /// Creates a growing dataset with chunks of `chunkRows` rows.
   GrowingDataset growing(const std::string& dataset, NumberType type, int width, int chunkRows);
-  /// A second name for an object.
+  /// Adds a second name (hard link) to an object.
   void link(const std::string& existing, const std::string& name);
   void remove(const std::string& object);
-  /// Everything written so far is on disk after this: a killed program leaves a readable file.
+  /// Flushes everything written so far, so that the file is readable even if the program is killed.
   void flush();
   friend void requireRoom(const Hdf5File& file, std::uint64_t bytes);
 
   bool has(const std::string& object) const;
   /// Names in a group, without its path; empty if the group is missing.
   std::vector<std::string> members(const std::string& group) const;
-  /// Shape and numbers of a dataset, converted to double. Throws base::InputError where there is none.
+  /// Shape and numbers (converted to double) of a dataset. Throws base::InputError if the dataset is missing.
   std::vector<std::uint64_t> shape(const std::string& dataset) const;
   std::vector<double> numbers(const std::string& dataset) const;
-  /// Numbers of a dataset that was written as the same type, to the bit. Throws base::InputError.
+  /// Numbers of a dataset that was written with the same type, bitwise identical. Throws base::InputError.
   template <class T> std::vector<T> read(const std::string& dataset) const {
     std::uint64_t count = 1;
     for (const std::uint64_t n : shape(dataset)) count *= n;
@@ -105,7 +105,7 @@ public:
     readNumbers(dataset, values.data(), NumberTypeOf<T>::value, count);
     return values;
   }
-  /// `count` rows from `first` on, as read() does all.
+  /// Reads `count` rows, starting at `first`, like read().
   template <class T>
   std::vector<T> readRows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
     std::vector<T> values;
@@ -116,9 +116,9 @@ public:
     readRowNumbers(dataset, first, count, values.data(), NumberTypeOf<T>::value);
     return values;
   }
-  /// Empty where there is no such attribute.
+  /// A text attribute; empty if it is missing.
   std::string text(const std::string& object, const std::string& name) const;
-  /// NaN where there is no such attribute.
+  /// A numerical attribute; NaN if it is missing.
   double number(const std::string& object, const std::string& name) const;
   std::vector<std::string> texts(const std::string& object, const std::string& name) const;
 

@@ -7,7 +7,8 @@
 
 namespace grouser::support {
 
-/// JSON as text, indented by so many blanks; -1: in one line. Bytes of names of files that are no UTF-8 become U+FFFD.
+/// JSON as text, indented by `indent` blanks; -1: on one line. Bytes that are not UTF-8, e.g. in file names, become
+/// U+FFFD.
 template <class Json> std::string jsonText(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }

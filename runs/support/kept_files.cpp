@@ -31,7 +31,7 @@ constexpr std::array<KindName, 5> kKindNames{{{"bed-", ".h5"},
                                               {"check-", ".json"},
                                               {"times-", ".json"}}}; // by Kind
 
-/// Empty if the cache is off.
+/// Path of the cache folder; empty if the cache is disabled.
 std::string folderOfUser() {
   if (const char* set = std::getenv("GROUSER_CACHE")) return set;
   if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return (fs::path(set) / "grouser").string();
@@ -83,11 +83,11 @@ bool KeptFiles::put(const fs::path& fresh, const fs::path& file) const {
 }
 
 void KeptFiles::noteUse(const fs::path& file) {
-  std::error_code error; // another run may delete it just now
+  std::error_code error; // another run may delete the file at the same time
   fs::last_write_time(file, fs::file_time_type::clock::now(), error);
 }
 
-/// Deletes own files only.
+/// Deletes only files that this program writes.
 void KeptFiles::deleteOldest(const fs::path& except) const {
   struct Entry {
     fs::file_time_type time;

@@ -9,10 +9,10 @@
 
 namespace grouser::support {
 
-/// The JSON object that is kept for this origin, whose member "of" is the origin; null if there is none, or if the file
-/// is damaged. Throws nothing.
+/// The cached JSON object for this origin; its member "of" is the origin. Null if there is none or the file is damaged.
+/// Does not throw.
 nlohmann::json keptJson(const KeptFiles& files, KeptFiles::Kind kind, const std::string& origin);
-/// Keeps an object with this origin as its member "of". A folder or file that cannot be written is not reported.
+/// Caches an object with this origin as its member "of". Ignores a folder or file that cannot be written.
 void keepJson(const KeptFiles& files, KeptFiles::Kind kind, const std::string& origin, nlohmann::json object);
 
 } // namespace grouser::support

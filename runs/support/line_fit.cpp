@@ -16,8 +16,8 @@ namespace grouser::support {
 
 namespace {
 
-/// Probability that |t| of Student's distribution is below tan(angle) sqrt(freedom). Source: M. Abramowitz and I.
-/// Stegun, Handbook of Mathematical Functions (1964), 26.7.3 and 26.7.4.
+/// Probability that |t| < tan(angle) sqrt(freedom) for Student's distribution. Source: M. Abramowitz and I. Stegun,
+/// Handbook of Mathematical Functions (1964), 26.7.3 and 26.7.4.
 double studentWithin(int freedom, double angle) {
   const double c = base::cos(angle), s = base::sin(angle);
   const bool odd = freedom % 2 == 1;

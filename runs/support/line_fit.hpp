@@ -14,12 +14,12 @@ struct Estimate {
 /// y = intercept + slope x by least squares, with the covariance of both: s^2 (X^T X)^-1, where s^2 is the sum of the
 /// squared residuals over the degrees of freedom.
 struct LineFit {
-  int points = 0; ///< 0: no line; two points give a line without an error
+  int points = 0; ///< 0: no line; 2: line without an error
   double intercept = 0, slope = 0;
   double interceptVariance = 0, slopeVariance = 0, covariance = 0;
 
   bool hasError() const { return points >= 3; }
-  /// Estimates with Student's distribution of points - 2 degrees of freedom; for lines with an error.
+  /// Estimates with Student's distribution with points - 2 degrees of freedom. Only for lines with an error.
   Estimate slopeEstimate() const;
   Estimate interceptEstimate() const;
   /// Value of the line at `x`.
@@ -31,15 +31,14 @@ private:
   Estimate withConfidence(double value, double variance) const;
 };
 
-/// Both of one length. Where all x are equal, or there are fewer than two, there is no line.
+/// `x` and `y` have the same length. No line if all x are equal, or for fewer than two points.
 LineFit fitLine(std::span<const double> x, std::span<const double> y);
-/// Fit of the logarithms; points with a number that is not positive are omitted. The slope is the exponent of a power
-/// law.
+/// Line fit of the logarithms; omits points with a value of 0 or less. The slope is the exponent of a power law.
 LineFit fitPower(std::span<const double> x, std::span<const double> y);
 
 /// Two-sided 95 % quantile of Student's distribution, `freedom` >= 1.
 double student95(int freedom);
-/// The same for any chance `miss` that a number lies beyond it, in (0, 1); that of 0.05 is student95().
+/// The same for an interval that misses with probability `miss`, in (0, 1); student95() is student(freedom, 0.05).
 double student(int freedom, double miss);
 
 } // namespace grouser::support

@@ -37,11 +37,11 @@ fs::path shareFolder() {
     fs::path beside = program.parent_path().parent_path() / "share" / "grouser";
     if (fs::is_directory(beside, error)) return beside;
   }
-  // A module lies in a folder such as PREFIX/lib/python3/dist-packages/grouser.
+  // A module is in a folder such as PREFIX/lib/python3/dist-packages/grouser.
   if (const fs::path own = fs::absolute(ownFile(), error); own != "/proc/self/exe")
     for (fs::path folder = own.parent_path(); folder != folder.parent_path(); folder = folder.parent_path())
       if (fs::is_directory(folder / "share" / "grouser", error)) return folder / "share" / "grouser";
-  // A program of one's own, built against an installed library, lies anywhere.
+  // A user's program that links an installed library may be in any folder.
   if (installedShare && fs::is_directory(installedShare, error)) return installedShare;
   for (const char* installed : {"/usr/local/share/grouser", "/usr/share/grouser"})
     if (!fs::is_directory(GROUSER_SHARE_FOLDER, error) && fs::is_directory(installed, error)) return installed;
@@ -58,7 +58,7 @@ fs::path findInput(const std::string& name, const fs::path& scene, std::vector<f
   if (name.empty()) return {};
   const fs::path wanted = name;
   std::error_code error;
-  // An absolute path stands for itself under every folder.
+  // An absolute path is the same for every folder.
   for (const fs::path& folder : inputFolders(scene))
     if (const fs::path place = (folder / wanted).lexically_normal();
         std::find(tried.begin(), tried.end(), place) == tried.end())
@@ -75,7 +75,7 @@ std::string nearestFileHint(const fs::path& wanted, const std::vector<fs::path>&
   std::vector<fs::path> all = {fs::absolute(wanted, error).parent_path()};
   all.insert(all.end(), folders.begin(), folders.end());
   fs::path best;
-  int least = 1 + static_cast<int>(stem.size() / 3); // above which it is another word
+  int least = 1 + static_cast<int>(stem.size() / 3); // maximum number of edits for a similar name
   for (const fs::path& folder : all)
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
       if (!isBare && entry.path().extension() != wanted.extension()) continue;

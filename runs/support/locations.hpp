@@ -7,26 +7,25 @@
 
 namespace grouser::support {
 
-/// The folder that holds assets/ and runs/plots/: GROUSER_SHARE of the environment if set, else beside the program
-/// (../share/grouser) or beside the shared module of this code, else that of the installed library, else the source
-/// folder that the program was built from, else, where that is gone, /usr/local/share/grouser or /usr/share/grouser.
+/// The folder with assets/ and runs/plots/, the first of: GROUSER_SHARE of the environment; ../share/grouser relative
+/// to the program, or share/grouser near the shared module of this code; folder of the installed library; the source
+/// folder; /usr/local/share/grouser or /usr/share/grouser.
 std::filesystem::path shareFolder();
 /// Sets the share folder of the installed library that the program links.
 void setInstalledShare(const char* folder);
 /// File of this code: a shared module (.so), or "/proc/self/exe" for a program.
 std::filesystem::path ownFile();
 
-/// Search folders of a scene's files: its own, the current one, assets/.
+/// Search folders for files of a scene: the scene's folder, the current folder, assets/.
 std::vector<std::filesystem::path> inputFolders(const std::filesystem::path& scene);
 
-/// The file that a scene means by `name`: an absolute path, or relative to one of the folder of `scene`, the current
-/// folder, assets/. Empty where there is none; `tried` then lists the places looked at, each once; none for an empty
-/// name.
+/// The file that a scene refers to by `name`: an absolute path, or a path relative to the folder of `scene`, the
+/// current folder or assets/. Empty if not found; `tried` then lists the searched paths (no paths for an empty name).
 std::filesystem::path findInput(const std::string& name, const std::filesystem::path& scene,
                                 std::vector<std::filesystem::path>& tried);
 
-/// Hint for a missing file: "did you mean FILE? ", the file of the same name, or of the most similar one, in its
-/// own folder or in one of `folders`. Empty where none is similar.
+/// Hint for a missing file: "did you mean FILE? ", with the file of the same or the most similar name in its own folder
+/// or in one of `folders`. Empty if no name is similar.
 std::string nearestFileHint(const std::filesystem::path& wanted, const std::vector<std::filesystem::path>& folders);
 
 } // namespace grouser::support

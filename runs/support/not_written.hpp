@@ -13,8 +13,8 @@ public:
   using std::runtime_error::runtime_error;
 };
 
-/// "out/drive/picture.png: could not be written; is the disk full?", or another cause found from the folder.
-/// `what`: what failed, such as "could not be written (No space left on device)".
+/// "out/drive/picture.png: could not be written; is the disk full?", or the cause that the folder indicates. `what`:
+/// the failed operation, such as "could not be written (No space left on device)".
 NotWritten notWritten(const std::filesystem::path& file, const std::string& what = "could not be written");
 
 /// Renames a completely written file to its final path. Throws NotWritten on failure.

@@ -17,7 +17,7 @@ namespace grouser::support {
 
 namespace {
 
-/// The number that is the whole of `text`.
+/// The number that `text` consists of; empty if it is not a number.
 template <class T> std::optional<T> numberIn(std::string_view text) {
   if (text.starts_with('+')) text.remove_prefix(1);
   T value{};
@@ -98,7 +98,7 @@ CLI::Validator between(double low, double high) {
   return check(fmt::format("a number in [{:g}, {:g}]", low, high), fmt::format("in {:g}..{:g}", low, high),
                [low, high](const std::string& text) {
                  const auto x = numberIn<double>(text);
-                 return x && *x >= low && *x <= high; // nan is in no range
+                 return x && *x >= low && *x <= high; // false for nan
                });
 }
 
@@ -137,16 +137,21 @@ std::string unknownCommand(const CLI::App& app, int argc, const char* const* arg
 }
 
 std::string nearestOptionHint(const CLI::App& app, int argc, const char* const* argv) {
+  const auto all = [](const CLI::App*) { return true; };
   const CLI::App* level = &app;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i], option = word.substr(0, word.find('='));
     if (!word.starts_with("--")) {
       if (level->get_require_subcommand_min() > 0)
-        for (const CLI::App* sub : level->get_subcommands([](const CLI::App*) { return true; }))
+        for (const CLI::App* sub : level->get_subcommands(all))
           if (sub->get_name() == word) level = sub;
       continue;
     }
     if (level->get_option_no_throw(option)) continue;
+    std::vector<std::string> owners;
+    for (const CLI::App* sub : app.get_subcommands(all))
+      if (sub->get_option_no_throw(option)) owners.push_back(sub->get_name());
+    if (!owners.empty()) return fmt::format("; {} is an option of: {}", option, fmt::join(owners, ", "));
     std::vector<std::string> names;
     for (const CLI::Option* o : level->get_options())
       for (const std::string& name : o->get_lnames()) names.push_back("--" + name);

@@ -18,7 +18,7 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high = std::numeric_li
 /// A finite number above 0; `what` names it and its unit: "a length in metres".
 CLI::Validator positive(const std::string& what);
 
-/// For transform(): "10%" and "10 %" are 10.
+/// For transform(): converts "10%" and "10 %" to 10.
 CLI::Validator percentSign();
 
 /// A finite number of at least 0.
@@ -27,13 +27,13 @@ CLI::Validator notNegative(const std::string& what);
 /// A finite number in [low, high].
 CLI::Validator between(double low, double high);
 
-/// For transform() of an option that names a file of a run: replaces a folder by the file of this name in it.
+/// For transform() of an option that names a file of a run: replaces a folder by the path of `file` in it.
 CLI::Validator orItsFolder(const std::string& file);
 
 /// Checks that the file named by an option can be written, before any work.
 CLI::Validator writableFile(const std::string& option);
 
-/// An option that takes one of the words of an enum; help shows its default.
+/// Adds an option that accepts one of the words of an enum; help shows the default.
 template <base::HasWords E>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const std::string& help) {
   const auto take = [&choice](const std::string& word) { choice = *base::valueOf<E>(word); };
@@ -42,17 +42,18 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, E& choice, const 
       ->default_str(std::string(base::wordOf(choice)));
 }
 
-/// The output option, with the same two names in every command.
+/// Adds the output option, with the same two names in every command.
 CLI::Option* addOut(CLI::App& app, std::string& place, const std::string& help);
 
 /// Error message for an unknown command or subcommand, with the nearest name. Empty if all are known.
 std::string unknownCommand(const CLI::App& app, int argc, const char* const* argv);
 
-/// Hint for the first word that begins with "--" and is no option of its command: "; did you mean --threads?". Empty
-/// without such a word or a similar option.
+/// Hint for the first word that begins with "--" but is not an option of its command: the other commands with this
+/// option, or "; did you mean --threads?". Empty if there is no such word or no similar option.
 std::string nearestOptionHint(const CLI::App& app, int argc, const char* const* argv);
 
-/// Makes every option of the commands below `app` reject the name of another option as its value: the value is missing.
+/// Makes all options of `app` and its subcommands reject the name of another option as value: then the value is
+/// missing.
 void refuseOptionsAsValues(CLI::App& app);
 
 } // namespace grouser::support

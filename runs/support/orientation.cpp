@@ -13,7 +13,7 @@ using base::Quat;
 using base::Vec3d;
 
 namespace {
-/// Quaternions are typed with a few digits: their length may be off 1 by this.
+/// Tolerance of the length of quaternions, which are typed with a few digits.
 constexpr double kQuaternionLength = 1e-3;
 } // namespace
 

@@ -19,18 +19,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kRoomForNames = 128; ///< characters for names of files in a folder, and of their folders
+constexpr std::size_t kRoomForNames = 128; ///< characters reserved for names of files and subfolders
 
 [[noreturn]] void refuse(const fs::path& place, const std::string& why, const std::string& option) {
   throw base::InputError(fmt::format("{}: {}; choose another with {}", place.string(), why, option));
 }
 
-/// 0, or the errno of writing a small file in this folder. Leaves nothing there.
+/// Tries to write a small file in this folder. Returns 0 or errno. Leaves no file.
 int writeFault(const fs::path& folder) {
   std::string made = (folder / ".grouser-XXXXXX").string();
   if (!::mkdtemp(made.data())) return errno;
   const std::string file = made + "/try";
-  constexpr std::array<char, 512> kBlock{}; // less than the least limit to the size of files (ulimit -f)
+  constexpr std::array<char, 512> kBlock{}; // less than the smallest limit of file sizes (ulimit -f)
   const int out = ::open(file.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
   int fault = out < 0 ? errno : 0;
   if (out >= 0 && ::write(out, kBlock.data(), kBlock.size()) != static_cast<ssize_t>(kBlock.size()))
@@ -79,7 +79,7 @@ void requireFolder(const fs::path& folder, const std::string& option) {
              option);
   if (whole.string().size() + kRoomForNames > PATH_MAX)
     refuse(folder,
-           fmt::format("the path has {} bytes, so paths of its files exceed the system limit of {}",
+           fmt::format("the path has {} bytes, so paths of files in this folder exceed the system limit of {}",
                        whole.string().size(), PATH_MAX),
            option);
   const int fault = writeFault(there);

@@ -11,7 +11,7 @@
 namespace grouser::support {
 
 namespace {
-constexpr int kBetweenLooks = 100; ///< between looks at the signals [ms]
+constexpr int kBetweenLooks = 100; ///< interval between checks for signals [ms]
 }
 
 CallOutcome callProgram(const std::vector<std::string>& words, const Environment& environment) {
@@ -22,7 +22,7 @@ CallOutcome callProgram(const std::vector<std::string>& words, const Environment
     while (child.output() >= 0) {
       pollfd end{child.output(), POLLIN, 0};
       poll(&end, 1, kBetweenLooks);
-      // A signal to this process is meant for the other too, which has received it if it came from a terminal.
+      // A signal to this process also ends the child. From a terminal, the child has received the signal as well.
       if (StopSignals::received()) child.terminate();
       if (end.revents != 0) child.read(outcome.output);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/progress.hpp"
 
-#include "runs/support/tell.hpp"
+#include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -25,7 +25,7 @@ Progress::Progress(std::string what, bool shown, double from, End end)
       next_(start_ + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause))) {}
 
 Progress::~Progress() {
-  if (open_) tell("\n");
+  if (open_) printStderr("\n");
 }
 
 bool Progress::due() const { return shown_ && Clock::now() >= next_; }
@@ -40,10 +40,10 @@ void Progress::update(double fraction, const std::string& detail) {
   const std::string text = line(what_, fraction, left_.at(elapsed), detail, end_);
   if (terminal_) {
     clearLine();
-    tell("{}", text);
+    printStderr("{}", text);
     open_ = true;
   } else {
-    tell("{}\n", text);
+    printStderr("{}\n", text);
   }
   std::fflush(stderr);
 }
@@ -60,11 +60,11 @@ void Progress::finish(const std::string& detail) {
   if (!shown_) return;
   clearLine();
   const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
-  tell("{}: {}, took {}\n", what_, detail, duration(elapsed));
+  printStderr("{}: {}, took {}\n", what_, detail, duration(elapsed));
 }
 
 void Progress::clearLine() {
-  if (open_) tell("\r\033[K");
+  if (open_) printStderr("\r\033[K");
   open_ = false;
 }
 

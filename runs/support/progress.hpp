@@ -9,31 +9,31 @@
 
 namespace grouser::support {
 
-/// Progress with time left, on stderr: one line rewritten in place on a terminal, a plain line every few seconds
-/// elsewhere.
+/// Progress with remaining time, on stderr: on a terminal one line that is updated in place, otherwise a new line every
+/// few seconds.
 class Progress {
 public:
-  /// Kind of the work's end: its expected place, or a limit that it may not reach.
+  /// Meaning of fraction 1: the expected end of the work, or a limit that it may not reach.
   enum class End { expected, limit };
 
-  /// `shown`: false keeps it silent, on ranks whose work another one reports. `from`: fraction done before, 0 to 1.
+  /// `shown`: false on ranks that print nothing, since another rank reports. `from`: fraction done before, 0 to 1.
   explicit Progress(std::string what, bool shown = true, double from = 0, End end = End::expected);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// `fraction` done, 0 to 1; `detail` such as "t 1.20 s". Cheap to call every step: it looks at the clock only.
+  /// `fraction` done, 0 to 1; `detail` such as "t 1.20 s". May be called every step: usually it only reads the clock.
   void update(double fraction, const std::string& detail);
-  /// True when the next update would print; lets the caller leave out making the detail.
+  /// Returns true if the next update would print, so that callers can skip computing `detail`.
   bool due() const;
-  /// A line of result on stdout, beside the progress on stderr.
+  /// Prints a line with a result on stdout, without disturbing the progress on stderr.
   void note(const std::string& line);
-  /// The last line, with the time taken.
+  /// Prints the last line, with the elapsed time.
   void finish(const std::string& detail);
 
   /// "42 s", "3 min 05 s", "2 h 10 min".
   static std::string duration(double seconds);
-  /// The text of one line. `left` [s]; empty: unknown.
+  /// Text of one progress line. `left`: remaining time [s]; empty: unknown.
   static std::string line(const std::string& what, double fraction, std::optional<double> left,
                           const std::string& detail, End end = End::expected);
 
@@ -45,7 +45,7 @@ private:
   bool shown_, terminal_;
   End end_;
   TimeLeft left_;
-  bool open_ = false; ///< a line without its end stands on the terminal
+  bool open_ = false; ///< the line on the terminal is not yet terminated
   Clock::time_point start_, next_;
 };
 

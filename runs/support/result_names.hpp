@@ -6,8 +6,8 @@
 
 namespace grouser::support {
 
-/// Error message for a user's name that results files cannot hold: with a control character, or a slash, which
-/// separates HDF5 groups. Empty for a valid name.
+/// Error message for a user's name that results files do not support: it is empty, or contains a control character or a
+/// slash (separator of HDF5 groups). Empty for a valid name.
 inline std::string nameFault(const std::string& name) {
   if (name.empty()) return "is an empty name; set a name";
   const auto isControl = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };

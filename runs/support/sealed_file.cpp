@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A file whose faults name it.
+/// A file with error messages that contain its path.
 class NamedFile : public Descriptor {
 public:
   NamedFile(const fs::path& path, int flags) : Descriptor(path, flags), path_(path) {}
@@ -45,8 +45,8 @@ struct Measure {
   std::string checksum;
 };
 
-/// Length and checksum of all behind the seal, which is added to `contents` where that is given. Eight bytes a word;
-/// the last is filled up with zeros.
+/// Length and checksum of everything after the seal; `contents`, if given, receives these bytes. Words of eight bytes;
+/// zeros complete the last word.
 Measure measure(const NamedFile& file, std::string* contents = nullptr) {
   Measure m;
   base::StateHash hash;
@@ -132,7 +132,7 @@ void writeSealed(const fs::path& path, const char* kind, int version,
     fs::remove(part, error);
     throw;
   }
-  syncFile(fs::absolute(path).parent_path()); // the name itself
+  syncFile(fs::absolute(path).parent_path()); // makes the new name durable
   comm.wait();
 }
 

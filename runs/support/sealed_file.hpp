@@ -8,27 +8,26 @@
 #include <functional>
 #include <string>
 
-/// Atomic files: written under another name, sealed with length and checksum, and renamed. A program killed at any time
-/// leaves the former file unchanged.
+/// Atomic files: written under a temporary name, sealed with length and checksum, then renamed. If the program is
+/// killed at any time, the former file remains unchanged.
 namespace grouser::support {
 
-/// Bytes at the start of a file that the seal takes; the writer leaves them free. HDF5 calls this a user block.
+/// Bytes at the start of a file that are reserved for the seal (user block of HDF5).
 inline constexpr std::size_t kSealBytes = 512;
 
-/// Calls `write` with the name of a file to be made beside `path`, seals what it wrote as `kind` of `version`, and
-/// flushes it to the disk before it takes `path`'s place. Throws NotWritten, with `path` as it was, when any of
-/// it fails. On several ranks all of them write, and one seals; all return when the file is in place.
+/// Calls `write` with the name of a new file beside `path`, seals this file as `kind` of `version`, flushes it to the
+/// disk, and then renames it to `path`. On failure, throws NotWritten and leaves `path` unchanged. On several ranks,
+/// all ranks write and one rank seals; all return after the rename.
 void writeSealed(const std::filesystem::path& path, const char* kind, int version,
                  const std::function<void(const std::filesystem::path& part)>& write, const base::Comm& comm = {});
 
-/// Reads the whole file and throws base::InputError unless it is a `kind` of `version`, as long and with every bit as
-/// it was written.
+/// Reads the whole file. Throws base::InputError unless it is a `kind` of `version` with the right length and checksum.
 void checkSeal(const std::filesystem::path& path, const char* kind, int version);
 
-/// As checkSeal(); returns the contents after the seal.
+/// Like checkSeal(); returns the contents after the seal.
 std::string readSealed(const std::filesystem::path& path, const char* kind, int version);
 
-/// Waits until what was written to a file is on the disk.
+/// Waits until all data written to a file are on the disk.
 void syncFile(const std::filesystem::path& path);
 
 } // namespace grouser::support

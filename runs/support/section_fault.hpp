@@ -8,7 +8,7 @@
 
 namespace grouser::support {
 
-/// Error in one key of a section; the reader of the file adds place and value of the key.
+/// Error in one key of a section; the code that reads the file adds place and value of the key.
 class SectionFault : public base::InputError {
 public:
   SectionFault(std::string key, const std::string& message) : InputError(message), key_(std::move(key)) {}

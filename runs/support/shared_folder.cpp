@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto kPatience = std::chrono::seconds(5); ///< for a file system that tells other hosts with a delay
+constexpr auto kPatience = std::chrono::seconds(5); ///< some file systems show new files to other hosts with a delay
 constexpr auto kLook = std::chrono::milliseconds(20);
 
 bool reads(const fs::path& file, const std::string& words) {
@@ -31,7 +31,7 @@ bool reads(const fs::path& file, const std::string& words) {
 
 std::optional<int> rankNotSeeing(const fs::path& folder, const base::Comm& comm) {
   if (comm.alone()) return std::nullopt;
-  // A name that no file system remembers as missing, and words that no other file holds.
+  // A unique name, which no file system has cached as missing, and unique contents.
   const auto now = std::chrono::system_clock::now().time_since_epoch().count();
   const std::string words = comm.broadcast(fmt::format("{:x}-{:x}", now, ::getpid()));
   const fs::path sign = folder / (".seen-by-all-ranks-" + words);

@@ -11,8 +11,8 @@ struct SoilUse {
   std::string material;
   std::string soil, file, hash;
   bool calibrated = false;
-  double grainRadius = 0;                 ///< [m] to which the soil is scaled
-  double scale = 1;                       ///< [-] over the radius of the soil's file
+  double grainRadius = 0;                 ///< [m] grain radius to which the soil is scaled
+  double scale = 1;                       ///< [-] grainRadius / grain radius of the soil file
   std::map<std::string, double> scaled{}; ///< values scaled with the radius, by key and unit: "cohesion [J/m2]"
 };
 

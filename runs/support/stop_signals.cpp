@@ -19,7 +19,7 @@ extern "C" void keepSignal(int signal) { signalReceived = signal; }
 } // namespace
 
 StopSignals::StopSignals() {
-  if (watchers++ > 0) return; // nested: keeps the signal that the outer object received
+  if (watchers++ > 0) return; // nested: does not reset the signal that the outer object received
   signalReceived = 0;
   struct sigaction action {};
   action.sa_handler = keepSignal;

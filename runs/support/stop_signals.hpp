@@ -6,11 +6,11 @@
 
 namespace grouser::support {
 
-/// A signal has stopped the run, with all files complete. Exit code 128 + signal: 129, 130 or 143. The program adds to
-/// the message the command that resumes or repeats the run.
+/// A signal has stopped the run; all files are complete. The exit code is 128 + signal: 129, 130 or 143. The program
+/// adds the command that resumes or repeats the run to the message.
 class Stopped : public std::runtime_error {
 public:
-  /// Whether the stopped call has left results to continue.
+  /// Whether the stopped call has left results that can be continued.
   enum class Left { work, nothing };
   Stopped(int signal, const std::string& message, Left left = Left::work)
       : std::runtime_error(message), signal_(signal), left_(left) {}
@@ -22,8 +22,8 @@ private:
   Left left_;
 };
 
-/// While an object of this kind lives, the first SIGINT, SIGTERM or SIGHUP is kept for the run to act on at the end of
-/// its step. A second one ends the program at once, as ever. They may be nested; not for threads.
+/// During the lifetime of a StopSignals object, the first SIGINT, SIGTERM or SIGHUP is stored, so that the run can stop
+/// at the end of its step. A second signal ends the program at once. Objects may be nested. Not thread-safe.
 class StopSignals {
 public:
   StopSignals();

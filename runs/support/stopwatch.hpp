@@ -5,7 +5,7 @@
 
 namespace grouser::support {
 
-/// Wall time since it was made.
+/// Measures the wall time since its construction.
 class Stopwatch {
 public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

@@ -26,7 +26,7 @@ void writeTextFile(const fs::path& path, const std::string& text, const std::str
   file.close();
   if (file) return;
   std::error_code error;
-  if (fs::is_regular_file(path, error)) fs::remove(path, error); // and no device, such as /dev/full
+  if (fs::is_regular_file(path, error)) fs::remove(path, error); // does not delete a device such as /dev/full
   throw notWritten(path, "could not be written completely");
 }
 
@@ -47,7 +47,7 @@ void replaceTextFile(const fs::path& path, const std::string& text, std::uint64_
 }
 
 void overwriteTextFile(const fs::path& path, const std::string& text) {
-  // Not truncated first, to keep its space on the disk.
+  // The file is not truncated first, to keep its space on the disk.
   std::fstream file(path, std::ios::binary | std::ios::in | std::ios::out);
   file << text;
   file.close();

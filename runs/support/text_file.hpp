@@ -7,14 +7,13 @@
 
 namespace grouser::support {
 
-/// Writes a whole text file. Throws base::InputError where it cannot be opened, naming `option` as the way to another
-/// place, and NotWritten where writing fails, as on a full disk: then no partial file is left.
+/// Writes a whole text file. Throws base::InputError if it cannot be opened, with `option` as the option that selects
+/// another file, and NotWritten if writing fails, e.g. on a full disk; then no partial file is left.
 void writeTextFile(const std::filesystem::path& path, const std::string& text, const std::string& option);
 
-/// Writes a text file of a run under another name (path + ".part") and puts it in place by renaming: whoever reads
-/// `path` finds the former file or the new one, whole. Throws NotWritten, with `path` as it was, where that
-/// fails.
-/// With `room` [bytes] the new file can grow by so much even when the disk is full.
+/// Writes a text file of a run as path + ".part" and renames it, so that readers of `path` find either the former or
+/// the new file, complete. On failure, throws NotWritten and leaves `path` unchanged. `room` [bytes]: space that the
+/// new file reserves to grow even when the disk is full.
 void replaceTextFile(const std::filesystem::path& path, const std::string& text, std::uint64_t room = 0);
 
 /// For a full disk: overwrites the existing file within its allotted space. A kill in the middle leaves neither text.

@@ -6,15 +6,15 @@
 namespace grouser::support {
 
 double TimeLeft::window(double elapsed) {
-  constexpr double kShortest = 20, kShare = 0.2; // s, of the time spent: work in few pieces needs a long look
+  constexpr double kShortest = 20, kShare = 0.2; // [s], [elapsed time]; work in few large pieces needs a long window
   return std::max(kShortest, kShare * elapsed);
 }
 
 void TimeLeft::add(double elapsed, double fraction) {
-  constexpr double kSamples = 64; // in a window
+  constexpr double kSamples = 64; // maximum number in a window
   if (fraction <= samples_.back().fraction) return;
   const double width = window(elapsed);
-  // Samples that come faster take the place of the one before.
+  // Samples that arrive faster replace the previous sample.
   if (samples_.size() > 2 && elapsed - samples_[samples_.size() - 2].time < width / kSamples) samples_.pop_back();
   samples_.push_back({elapsed, fraction});
   while (samples_.size() > 2 && samples_[1].time <= elapsed - width) samples_.pop_front();

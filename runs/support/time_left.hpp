@@ -6,26 +6,26 @@
 
 namespace grouser::support {
 
-/// Estimates the remaining time of a task from its rate over the last fifth of the time spent so far, and so follows
-/// changes of the machine's load.
+/// Estimates the remaining time of a task from its rate during the last fifth of the elapsed time, so that the estimate
+/// follows changes of the machine's load.
 class TimeLeft {
 public:
-  /// `fraction`: share done before this call, such as by the run that is resumed.
+  /// `fraction`: fraction done before, e.g. by the run that is resumed.
   explicit TimeLeft(double fraction = 0) : samples_{{0, fraction}} {}
 
-  /// Fraction of the work done at `elapsed` since the start [s], which never decreases.
+  /// Adds the fraction of the work done at `elapsed`, the time since the start [s]; the fraction must not decrease.
   void add(double elapsed, double fraction);
-  /// Remaining time at `elapsed` [s], [s]. Empty before the first progress, when it is overdue, and after a pause as
-  /// long as the window of the rate.
+  /// Remaining time [s] at the time `elapsed` [s]. Empty before the first progress, if the task is overdue, and after a
+  /// pause as long as the window of the rate.
   std::optional<double> at(double elapsed) const;
 
 private:
   struct Sample {
     double time, fraction;
   };
-  static double window(double elapsed); ///< interval of the rate [s]
+  static double window(double elapsed); ///< averaging interval of the rate [s]
 
-  std::deque<Sample> samples_; ///< samples of the window, and the last before it
+  std::deque<Sample> samples_; ///< samples in the window, and the last sample before it
 };
 
 } // namespace grouser::support

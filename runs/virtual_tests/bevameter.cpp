@@ -7,9 +7,9 @@
 #include "runs/jobs/shared_work.hpp"
 #include "runs/support/device_choice.hpp"
 #include "runs/support/not_written.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
-#include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/preparation.hpp"
 #include "runs/virtual_tests/scm_fit.hpp"
@@ -28,9 +28,9 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kPorosityNoted = 0.01; // larger deviations cause a warning
+constexpr double kPorosityNoted = 0.01; // a larger deviation of the bed from the soil's porosity causes a warning
 
-/// The device, chosen by the process that uses it.
+/// The computing device; each process chooses its own when it first needs one.
 class Device {
 public:
   explicit Device(const jobs::PieceOptions& options, int jobs) : options_(options), threads_(options.threads) {
@@ -47,8 +47,8 @@ private:
   std::optional<base::Exec> exec_;
 };
 
-/// Finds the preparation unless it is stored, and applies it. `part`: of this call, as concurrent parts all search for
-/// it.
+/// Finds the settling friction for the soil's porosity, or reads it if it is stored, and adds it to the plan. `part`:
+/// the --part of this call; it names a folder of its own, because concurrent parts all search for the friction.
 void prepare(TestPlan& plan, jobs::Pieces& pieces, Device& device, int jobs, std::string part) {
   if (!plan.soil.porosity) return;
   const std::string name = plan.preparationName();
@@ -63,51 +63,52 @@ void prepare(TestPlan& plan, jobs::Pieces& pieces, Device& device, int jobs, std
       try {
         pieces.keep(name, trials);
       } catch (const support::NotWritten&) {
-        if (!pieces.has(name)) throw; // else another part was faster, with the same result
+        if (!pieces.has(name)) throw; // else another part has already stored the same result
       }
       std::filesystem::remove_all(folder);
     };
-    // In a child process if others follow: no process may be forked after threads have started.
+    // Runs in a child process if more child processes follow: no process may fork after it has started threads.
     jobs::shareWork(jobs > 1 ? 2 : 1, 1, work, [] {});
-    progress.finish("friction for the porosity found");
+    progress.finish("found the settling friction");
   }
   const std::vector<double> trial = nearestTrial(pieces.read(name).rows, *plan.soil.porosity);
   plan.grains.preparationFriction = trial[0];
   if (std::fabs(trial[1] - *plan.soil.porosity) > kPorosityNoted)
-    support::tell("WARNING: the beds have a porosity of {:.4f}, the closest value to that of the soil ({:g}) which "
-                  "these grains can reach; change bed.porosity or bed.radius_spread of the soil\n",
-                  trial[1], *plan.soil.porosity);
+    support::printStderr(
+        "WARNING: the closest porosity that beds of these grains reach is {:.4f}, but the soil file requires "
+        "{:g}; change bed.porosity or bed.radius_spread\n",
+        trial[1], *plan.soil.porosity);
   fmt::print("          settling friction {:.4g}, resulting porosity {:.4f}\n", trial[0], trial[1]);
 }
 
 void printHead(const TestPlan& plan) {
   const TestedSoil& s = plan.soil;
   fmt::print("          {}{}\n", s.title.empty() ? s.name : s.title,
-             plan.options.coarse ? "; coarse settings (--quick): small plates of few grains, pushed fast" : "");
-  fmt::print("          grains of {:g} mm +- {:g} %, plates of {:g} and {:g} d ({:.3g} and {:.3g} m), shear under {} "
-             "loads; {}, {} for the large plate\n",
+             plan.options.coarse ? "; coarse settings (--quick): plates only a few grains wide, pushed fast" : "");
+  fmt::print("          grain diameter d = {:g} mm +- {:g} %; plate widths {:g} and {:g} d ({:.3g} and {:.3g} m); "
+             "{} shear loads; {}, {} for the large plate\n",
              2e3 * s.grainRadius, 100 * s.spread, plan.small.strip.breadth, plan.large.strip.breadth,
              plan.breadth(TestKind::small), plan.breadth(TestKind::large), plan.options.loads.size(),
              base::counted(plan.options.seeds, "seed"), plan.options.largeSeeds);
   if (!s.isCalibrated())
-    fmt::print("          note: parameters are scaled from grains of {:g} mm; they are calibrated for radii of {:g} to "
-               "{:g} mm\n",
+    fmt::print("          note: contact parameters are scaled from a grain diameter of {:g} mm; they are calibrated "
+               "for radii of {:g} to {:g} mm\n",
                2e3 * s.fileRadius, 1e3 * s.calibratedFrom, 1e3 * s.calibratedTo);
   std::fflush(stdout);
 }
 
 constexpr auto kAgain = "_shorter_steps"; // folder suffix of a repeated test
 
-/// Performs a test, and repeats it with shorter steps if it fails, e.g. by an unstable contact in one of many samples.
-/// Empty at the time limit; the next call then starts with shorter steps.
+/// Performs a test, and repeats it with shorter steps if it fails, e.g. because one contact becomes unstable. Empty if
+/// the time limit is reached before the repetition; the next call then starts with the shorter steps.
 std::optional<jobs::Table> soundTest(const TestPlan& plan, const PlannedTest& test, jobs::Pieces& pieces,
                                      const base::Exec& exec,
-                                     const std::function<void(double, const std::string&)>& tell) {
+                                     const std::function<void(double, const std::string&)>& report) {
   const std::filesystem::path shorter = noteFile(pieces, test, TestNote::shorterSteps);
   if (!std::filesystem::exists(shorter)) {
     const std::filesystem::path folder = pieces.begin(test.name);
     try {
-      return doTest(plan, test, folder, folder.parent_path(), exec, tell);
+      return doTest(plan, test, folder, folder.parent_path(), exec, report);
     } catch (const base::SimulationError& e) {
       support::replaceTextFile(shorter, e.what());
     }
@@ -116,7 +117,7 @@ std::optional<jobs::Table> soundTest(const TestPlan& plan, const PlannedTest& te
   TestPlan again = plan;
   again.grains.stepsPerContact *= kShorterSteps;
   const std::filesystem::path folder = pieces.begin(test.name + kAgain);
-  return doTest(again, test, folder, folder.parent_path(), exec, tell);
+  return doTest(again, test, folder, folder.parent_path(), exec, report);
 }
 
 } // namespace
@@ -130,7 +131,7 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
     if (pieces.due(test.name)) due.push_back(&test);
     all += test.cost;
   }
-  if (jobs > 1 && options.seconds <= 0) longestFirst(due); // with a time limit short ones may still fit
+  if (jobs > 1 && options.seconds <= 0) longestFirst(due); // not with a time limit, which short tests may still meet
   support::Progress progress("testing");
   const auto there = [&] {
     double sum = 0;
@@ -138,29 +139,29 @@ int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& opti
     return sum / all;
   };
   const double before = there();
-  // Relative to the work of this call, for the remaining time.
+  // Completed share of the work of this call, from which the remaining time is estimated.
   const auto share = [&](double now) { return before < 1 ? (now - before) / (1 - before) : 1; };
   const auto work = [&](std::size_t i) {
     const PlannedTest& test = *due[i];
     if (!pieces.inTime(test.name)) return;
     const std::filesystem::path unsound = noteFile(pieces, test, TestNote::unsound);
     const double now = there();
-    const auto tell = [&](double done, const std::string& phase) {
+    const auto report = [&](double done, const std::string& phase) {
       if (jobs == 1) progress.update(share(now + done * test.cost / all), test.name + ", " + phase);
     };
     try {
-      const std::optional<jobs::Table> done = soundTest(plan, test, pieces, device.exec(), tell);
+      const std::optional<jobs::Table> done = soundTest(plan, test, pieces, device.exec(), report);
       if (!done) return;
       pieces.keep(test.name, *done);
     } catch (const base::SimulationError& e) {
-      support::replaceTextFile(unsound, e.what()); // the others continue
+      support::replaceTextFile(unsound, e.what()); // the other tests continue
       return;
     }
     const std::filesystem::path runs = pieces.folder() / "runs";
     std::filesystem::remove_all(runs / test.name), std::filesystem::remove_all(runs / (test.name + kAgain));
     std::filesystem::remove(unsound);
   };
-  // A single test also runs in a child process: no process can be forked after CUDA has started in this one.
+  // With --jobs, even a single test runs in a child process, because no process can fork after it has started CUDA.
   jobs::shareWork(jobs > 1 ? std::clamp(static_cast<int>(due.size()), 2, jobs) : 1, due.size(), work,
                   [&] { progress.update(share(there()), jobs > 1 ? "several tests in parallel" : "test finished"); });
   int missing = 0;

@@ -10,9 +10,9 @@
 namespace grouser::virtual_tests {
 
 struct SoilCommand {
-  std::string soil;       ///< a name, or a file that ends in .toml
-  double grainRadius = 0; ///< [m]; 0: the file's
-  jobs::StudyPlace place; ///< folder empty: out/soil_NAME; quick: coarse
+  std::string soil;       ///< name of a soil, or a file that ends in .toml
+  double grainRadius = 0; ///< [m]; 0: radius in the soil file
+  jobs::StudyPlace place; ///< an empty folder means out/soil_NAME; quick: coarse settings
   jobs::PieceOptions pieces;
   int jobs = 1; ///< concurrent tests
   PlanOptions plan;
@@ -20,9 +20,9 @@ struct SoilCommand {
 };
 void soilCommand(const SoilCommand& command);
 
-/// Performs the missing tests of a plan, `jobs` at a time, after finding the preparation of their beds, which it adds
-/// to the plan. Returns the number of tests still missing. A failed test is repeated with shorter steps; if it fails
-/// again it leaves a note, and the others continue (test_notes.hpp).
+/// Finds the settling friction of the beds, adds it to the plan, and performs the missing tests, `jobs` at a time.
+/// Returns the number of tests that are still missing. Repeats a failed test with shorter steps; if the test fails
+/// again, writes a note (test_notes.hpp) and continues with the other tests.
 int doTests(TestPlan& plan, jobs::Pieces& pieces, const jobs::PieceOptions& options, int jobs);
 
 } // namespace grouser::virtual_tests

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser soil --calibrate`: fits shear strength, then pressure and sinkage, then measures all constants; or fits
-// measured curves of plates (curve_calibration.cpp).
+// `grouser soil --calibrate`: fits the shear strength, then the pressure at the target sinkage, and measures all
+// constants; or fits measured pressure-sinkage curves (curve_calibration.cpp).
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/math.hpp"
@@ -27,11 +27,11 @@ namespace {
 
 using support::Estimate;
 
-constexpr double kAngleSlope = 12;      // initial slope [deg] per unit of the strength path
-constexpr double kStiffnessSlope = 0.5; // initial slope of ln pressure over ln stiffness
-constexpr double kStiffer = 100;        // maximum stiffness over that of the start
+constexpr double kAngleSlope = 12;      // initial estimate of the slope of phi [deg] over the strength path
+constexpr double kStiffnessSlope = 0.5; // initial estimate of the slope of ln pressure over ln stiffness
+constexpr double kStiffer = 100;        // maximum stiffness / initial stiffness
 constexpr double kDeepest = 0.05;       // [d] maximum overlap at the greatest pressure
-constexpr double kBeds = 0.75;          // tensile strength over w / r with adhesion at all contacts (Rumpf 1962)
+constexpr double kBeds = 0.75;          // tensile strength / (w / r), with adhesion at all contacts (Rumpf 1962)
 
 class Calibration {
 public:
@@ -55,13 +55,13 @@ public:
 private:
   void search() {
     seekStrength();
-    // Stiffness changes friction slightly: check phi and c again, which costs nothing if they hold, as the final tests
-    // are the same.
+    // The stiffness slightly changes phi and c, so check both again. If they are still within tolerance, this costs
+    // nothing, because the final tests reuse these shear tests.
     if (seekStiffness()) seekStrength();
     finish();
   }
 
-  /// Performs the wanted tests of the present soil in their own folder.
+  /// Performs the wanted tests of the present soil in the folder `name`.
   TestPlan tested(const std::string& name, const CalibrationTrials::Wanted& wanted, SoilResults& results,
                   const CalibrationTrials::WhenDone& whenDone = {}) {
     PlanOptions options = command_.plan;
@@ -69,7 +69,7 @@ private:
     return trials_.tested(soil_, name, options, wanted, results, whenDone);
   }
 
-  /// Fits friction and rolling friction to phi, and cohesion to c, simultaneously.
+  /// Simultaneously fits friction and rolling friction to phi, and the adhesion to c.
   void seekStrength() {
     const auto phi = targets_.wanted.find(Quantity::frictionAngle), c = targets_.wanted.find(Quantity::cohesion);
     const bool seeksPhi = phi != targets_.wanted.end(), seeksC = c != targets_.wanted.end();
@@ -78,12 +78,12 @@ private:
     const StrengthPoint start{wayOf(numberOf(soil_, "rolling_friction", 0)), numberOf(soil_, pullKey(), 0)};
     std::optional<StrengthSearch::Target> angle, cohesion;
     if (seeksPhi) angle = {phi->second, targets_.angleTolerance, kAngleSlope};
-    // Strength [Pa] per adhesion energy [J/m2].
+    // Expected slope of the cohesion c [kPa] over the adhesion energy [J/m2].
     const double slope = 1e-3 * kBeds / soil_.grainRadius * base::tan((seeksPhi ? phi->second : 30) * base::kPi / 180);
     if (seeksC) cohesion = {c->second, targets_.cohesionTolerance, slope};
     StrengthSearch search(angle, cohesion, start);
-    bool goesOn = true;
-    while (goesOn) {
+    bool continues = true;
+    while (continues) {
       setStrength(search.at(), mu);
       SoilResults r;
       const std::string name = fmt::format("shear_{}", ++shearTrials_);
@@ -96,7 +96,7 @@ private:
                  soil_.friction, numberOf(soil_, "rolling_friction", 0), pullKey(), search.at().pull,
                  jobs::valueText(foundAngle), jobs::valueText(foundCohesion),
                  jobs::valueText(r.measured.at(Quantity::shearModulus)));
-      goesOn = search.tried(foundAngle.value, foundCohesion.value);
+      continues = search.tried(foundAngle.value, foundCohesion.value);
     }
     setStrength(search.nearest(), mu);
   }
@@ -107,16 +107,16 @@ private:
     if (point.pull > 0 || numberOf(soil_, pullKey(), -1) >= 0) setNumber(soil_, pullKey(), point.pull);
   }
 
-  /// Key of the adhesion: cohesion, or surface_energy if the start has only that.
+  /// Key of the adhesion: cohesion, or surface_energy if [start] sets only surface_energy.
   std::string pullKey() const {
     const bool isAlone = numberOf(soil_, "surface_energy", -1) >= 0 && numberOf(soil_, "cohesion", -1) < 0;
     return isAlone ? "surface_energy" : "cohesion";
   }
   std::string springKey() const { return soil_.young > 0 ? "young" : "stiffness"; }
 
-  /// Minimum stiffness for the overlap limit [N/m] or [Pa].
+  /// Minimum stiffness [N/m] or Young's modulus [Pa] that satisfies the overlap limit.
   double softest() const {
-    const double d = 2 * soil_.grainRadius, p = command_.plan.mostPressure;
+    const double d = 2 * soil_.grainRadius, p = command_.plan.greatestPressure;
     if (soil_.young == 0) return p * d / kDeepest;
     // F = p d^2 = 4/3 E* sqrt(d / 4) overlap^(3/2), E* = E / 2 / (1 - nu^2).
     const double overlap = kDeepest * d;
@@ -125,7 +125,7 @@ private:
 
   /// Fits the stiffness to the pressure of the small plate at the target sinkage. Returns true if it changed.
   bool seekStiffness() {
-    if (!targets_.wantsSinkage()) return false;
+    if (!targets_.requestsSinkage()) return false;
     const double start = numberOf(soil_, springKey(), 0), least = std::min(start, softest());
     double stiffness = start;
     std::vector<Trial> trials;
@@ -143,7 +143,7 @@ private:
       record_.plate(name, soil_, pressure, sinkageOf(done, TestKind::small));
       trials.push_back({base::log(stiffness), base::log(pressure.value)});
       stiffnesses[trials.back().x] = stiffness;
-      fmt::print("          {} {:.4g}: {} kPa, target {:g} kPa\n", springKey(), stiffness,
+      fmt::print("          {} {:.4g}: pressure {} kPa, target {:g} kPa\n", springKey(), stiffness,
                  jobs::valueText({1e-3 * pressure.value, 1e-3 * pressure.halfWidth}), 1e-3 * kTrackPressure);
       const std::optional<double> next = nextTrial(trials, wanted, std::log1p(targets_.stiffnessTolerance),
                                                    base::log(least), base::log(kStiffer * start), kStiffnessSlope);
@@ -163,7 +163,7 @@ private:
     return targets_.sinkageAt(targets_.breadth.value_or(plan.breadth(kind)));
   }
 
-  /// Mean pressure of a plate at the target sinkage [Pa]; final pressure if the curve ends before.
+  /// Mean pressure of a plate at the target sinkage [Pa], or the final pressure if the curve ends before that sinkage.
   Estimate pressureThere(const TestPlan& plan, const jobs::Pieces& pieces, TestKind kind) const {
     const double z = sinkageOf(plan, kind);
     const double window = std::max(0.05 * z, 2e-3 * plan.breadth(kind));
@@ -189,7 +189,7 @@ private:
       if (q == Quantity::frictionAngle) tolerance = targets_.angleTolerance;
       all.push_back({symbolOf(q), unitOf(q), wanted, tolerance, found->second});
     }
-    if (!targets_.wantsSinkage()) return all;
+    if (!targets_.requestsSinkage()) return all;
     const double p = 1e-3 * kTrackPressure, within = targets_.stiffnessTolerance * p;
     all.push_back({"pressure, small plate", "kPa", p, within, {1e-3 * small.value, 1e-3 * small.halfWidth}});
     all.push_back({"validation, large plate", "kPa", p, within, {1e-3 * large.value, 1e-3 * large.halfWidth}});
@@ -203,7 +203,7 @@ private:
         "final", [](const PlannedTest&) { return true; }, r,
         [&](const TestPlan& all, const jobs::Pieces& pieces) {
           reportSoil(all, pieces, 0);
-          if (!targets_.wantsSinkage()) return;
+          if (!targets_.requestsSinkage()) return;
           small = pressureThere(all, pieces, TestKind::small), large = pressureThere(all, pieces, TestKind::large);
         });
     const std::vector<TargetOutcome> found = outcomes(r, small, large);
@@ -214,7 +214,8 @@ private:
     support::writeTextFile(folder_ / "calibration.txt", text, "--out");
     const std::string file = soil_.name + ".toml";
     support::replaceTextFile(
-        folder_ / file, soilFileText(soil_, fmt::format("Calibrated by `{}` ({} care).", call, plan.care()), r, call));
+        folder_ / file,
+        soilFileText(soil_, fmt::format("Calibrated by `{}` ({} settings).", call, plan.care()), r, call));
     record_.ended(found, file, "final");
     fmt::print("soil      {}\n", (folder_ / file).string());
   }
@@ -251,7 +252,7 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
   text += fmt::format("calibrated_radii = [{0}, {0}]\n", base::toToml(soil.grainRadius));
   for (const auto& [q, e] : reached.measured) {
     if (const std::string doubt = doubtOf(q, e); !doubt.empty()) {
-      text += fmt::format("\n# {} = {} {} omitted because inconclusive: {}\n", symbolOf(q), jobs::valueText(e),
+      text += fmt::format("\n# {} = {} {} is omitted because it is inconclusive: {}\n", symbolOf(q), jobs::valueText(e),
                           unitOf(q), doubt);
       continue;
     }
@@ -266,15 +267,15 @@ std::string soilFileText(const TestedSoil& soil, const std::string& description,
 void calibrateCommand(const CalibrationCommand& command) {
   if (!command.pieces.part.empty())
     throw base::InputError(
-        "--part: incompatible with --calibrate, which runs its trials in sequence; use --jobs instead");
+        "--part: incompatible with --calibrate, because each trial depends on the previous ones; use --jobs instead");
   CalibrationTargets targets = readTargets(command.targets, command.grainRadius);
   const std::filesystem::path folder = command.place.folder.empty()
                                            ? std::filesystem::path("out") / ("calibrate_" + targets.start.name)
                                            : std::filesystem::path(command.place.folder);
-  const bool goesOn =
+  const bool continues =
       command.pieces.resume || (!command.place.force && CalibrationRecord(command, targets, folder).isOfThisCall());
-  output::checkOutputFolder(folder, command.place.force || goesOn);
-  if (!goesOn) removeTrials(folder);
+  output::checkOutputFolder(folder, command.place.force || continues);
+  if (!continues) removeTrials(folder);
   const support::StopSignals signals;
   Calibration(command, std::move(targets), folder).run();
 }

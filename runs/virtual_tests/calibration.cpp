@@ -14,12 +14,12 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kLeastWay = -1, kMostWay = 2;                                 // range of the path of Strength
-constexpr double kMostRolling = 0.5, kMostFriction = 1, kLeastFriction = 0.01; // [-] ranges of Strength
-constexpr double kMiddle = 0.1; // minimum distance of a trial from the ends of its interval, over its width
-constexpr double kSame = 0.1;   // over the equivalent of the tolerance: closer trials bring no information
-constexpr double kSlopes = 5;   // maximum ratio of measured to expected slope, either way
-constexpr std::size_t kMostTrials = 8;
+constexpr double kMinWay = -1, kMaxWay = 2;                                // range of the path of Strength
+constexpr double kMaxRolling = 0.5, kMaxFriction = 1, kMinFriction = 0.01; // [-] ranges of Strength
+constexpr double kMiddle = 0.1; // minimum distance of a trial from both ends of its interval / interval width
+constexpr double kSame = 0.1;   // minimum change of a parameter / change that shifts the result by the tolerance
+constexpr double kSlopes = 5;   // measured slopes are limited to 1/5 to 5 times the expected slope
+constexpr std::size_t kMaxTrials = 8;
 
 struct TargetKeys {
   std::optional<double> n, kc, kphi, k, b, c, phi, shearModulus, repose, bulkDensity;
@@ -35,8 +35,8 @@ base::Table<TargetKeys> targetTable() {
   t.add("n", &T::n, "-", "sinkage exponent").above(0).atMost(5);
   t.add("k_c", &T::kc, "kN/m^(n+1)", "cohesive modulus; may be negative");
   t.add("k_phi", &T::kphi, "kN/m^(n+2)", "frictional modulus");
-  t.add("k", &T::k, "kN/m^(n+2)", "k_c / b + k_phi at plate width b, instead of k_c and k_phi").above(0);
-  t.add("b", &T::b, "m", "plate width of k").above(0).atMost(100);
+  t.add("k", &T::k, "kN/m^(n+2)", "k_c / b + k_phi for plate width b; replaces k_c and k_phi").above(0);
+  t.add("b", &T::b, "m", "plate width for which k is given").above(0).atMost(100);
   t.add("c", &T::c, "kPa", "cohesion").atLeast(0).atMost(1000);
   t.add("phi", &T::phi, "deg", "angle of internal friction").above(0).atMost(60);
   t.add("K", &T::shearModulus, "mm", "shear deformation modulus; reported but not fitted").above(0);
@@ -83,7 +83,7 @@ void checkTogether(const base::Section& section, const TargetKeys& k) {
 
 } // namespace
 
-bool CalibrationTargets::wantsSinkage() const { return k || wanted.contains(Quantity::frictionModulus); }
+bool CalibrationTargets::requestsSinkage() const { return k || wanted.contains(Quantity::frictionModulus); }
 
 double CalibrationTargets::kAt(double b) const {
   return k ? *k : wanted.at(Quantity::cohesionModulus) / b + wanted.at(Quantity::frictionModulus);
@@ -138,7 +138,7 @@ CalibrationTargets readTargets(const std::filesystem::path& file, double grainRa
 
 namespace {
 
-/// Slope from `from` to the nearest other trial, limited around the expected one, as trials scatter.
+/// Slope from `from` to the nearest other trial; limited to a range around `expected`, because trials scatter.
 double slopeNear(const std::vector<Trial>& trials, const Trial& from, double expected) {
   const Trial* next = nullptr;
   for (const Trial& t : trials)
@@ -151,8 +151,8 @@ double slopeNear(const std::vector<Trial>& trials, const Trial& from, double exp
 
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope) {
-  if (trials.empty() || trials.size() >= kMostTrials) return {};
-  const Trial *below = nullptr, *above = nullptr; // nearest trials on each side
+  if (trials.empty() || trials.size() >= kMaxTrials) return {};
+  const Trial *below = nullptr, *above = nullptr; // the nearest trial on each side of the target
   for (const Trial& t : trials) {
     if (std::fabs(t.y - wanted) <= tolerance) return {};
     if (t.y < wanted && (!below || t.x > below->x)) below = &t;
@@ -164,7 +164,7 @@ std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted,
     const double x = below->x + (above->x - below->x) * std::clamp(share, kMiddle, 1 - kMiddle);
     return above->x - below->x < same ? std::nullopt : std::optional<double>(x);
   }
-  // All on one side, or reversed by scatter: continue from the outermost.
+  // All trials are on one side of the target, or scatter has reversed their order: extrapolate from the outermost one.
   const Trial& from = below ? *below : *above;
   const double x = std::clamp(from.x + (wanted - from.y) / slopeNear(trials, from, slope), low, high);
   if (std::fabs(x - from.x) < same) return {};
@@ -187,9 +187,9 @@ double StrengthSearch::farOff(const Done& trial) const {
   return std::max(std::fabs(trial.off[0]), std::fabs(trial.off[1]));
 }
 
-/// Broyden's update: the smallest change of the slopes that reproduces the last step, limited, as trials scatter.
+/// Broyden's update: the smallest change of the slopes that reproduces the last step; limited, because trials scatter.
 void StrengthSearch::learn(const Done& before, const Done& now) {
-  constexpr double kMostAcross = 0.8;
+  constexpr double kMaxAcross = 0.8;
   const Two way{now.x[0] - before.x[0], now.x[1] - before.x[1]};
   const double square = way[0] * way[0] + way[1] * way[1];
   if (square == 0) return;
@@ -200,19 +200,19 @@ void StrengthSearch::learn(const Done& before, const Done& now) {
     for (std::size_t column = 0; column < 2; ++column) slopes_[row][column] += missed * way[column] / square;
     slopes_[row][row] = std::clamp(slopes_[row][row], 1 / kSlopes, kSlopes);
     double& across = slopes_[row][1 - row];
-    across = std::clamp(across, -kMostAcross * slopes_[row][row], kMostAcross * slopes_[row][row]);
+    across = std::clamp(across, -kMaxAcross * slopes_[row][row], kMaxAcross * slopes_[row][row]);
   }
 }
 
 StrengthSearch::Two StrengthSearch::stepFrom(const Done& trial) const {
-  constexpr double kMostOfWay = 0.4, kMostUnits = 10; // per step; for the pull also its present value
+  constexpr double kMaxOfWay = 0.4, kMaxUnits = 10; // limits of a step; the pull may also change by its present value
   const auto& s = slopes_;
   const double determinant = s[0][0] * s[1][1] - s[0][1] * s[1][0];
   Two step{(trial.off[0] * s[1][1] - trial.off[1] * s[0][1]) / determinant,
            (trial.off[1] * s[0][0] - trial.off[0] * s[1][0]) / determinant};
-  const double mostPull = std::max(kMostUnits, trial.x[1]);
-  step[0] = std::clamp(step[0], -kMostOfWay / unit_[0], kMostOfWay / unit_[0]);
-  step[1] = std::clamp(step[1], -mostPull, mostPull);
+  const double maxPull = std::max(kMaxUnits, trial.x[1]);
+  step[0] = std::clamp(step[0], -kMaxOfWay / unit_[0], kMaxOfWay / unit_[0]);
+  step[1] = std::clamp(step[1], -maxPull, maxPull);
   for (std::size_t k = 0; k < 2; ++k)
     if (!targets_[k]) step[k] = 0;
   return step;
@@ -225,9 +225,9 @@ bool StrengthSearch::tried(double angle, double cohesion) {
   if (targets_[1]) trial.off[1] = (targets_[1]->wanted - cohesion) / targets_[1]->tolerance;
   if (!trials_.empty()) learn(trials_.back(), trial);
   trials_.push_back(trial);
-  if (farOff(trial) <= 1 || trials_.size() >= kMostTrials) return false;
+  if (farOff(trial) <= 1 || trials_.size() >= kMaxTrials) return false;
   const Two step = stepFrom(trial);
-  next_ = {fourDigits(std::clamp(was.way + step[0] * unit_[0], kLeastWay, kMostWay)),
+  next_ = {fourDigits(std::clamp(was.way + step[0] * unit_[0], kMinWay, kMaxWay)),
            fourDigits(std::max(0.0, was.pull + step[1] * unit_[1]))};
   const double moved = std::max(std::fabs(next_.way - was.way) / unit_[0], std::fabs(next_.pull - was.pull) / unit_[1]);
   return moved >= kSame;
@@ -240,11 +240,11 @@ StrengthPoint StrengthSearch::nearest() const {
 }
 
 Strength strengthAt(double way, double startFriction) {
-  if (way < 0) return {std::max(kLeastFriction, startFriction * (1 + way)), 0};
-  if (way <= 1) return {startFriction, kMostRolling * way};
-  return {startFriction + std::max(0.0, kMostFriction - startFriction) * (way - 1), kMostRolling};
+  if (way < 0) return {std::max(kMinFriction, startFriction * (1 + way)), 0};
+  if (way <= 1) return {startFriction, kMaxRolling * way};
+  return {startFriction + std::max(0.0, kMaxFriction - startFriction) * (way - 1), kMaxRolling};
 }
 
-double wayOf(double rollingFriction) { return std::min(1.0, rollingFriction / kMostRolling); }
+double wayOf(double rollingFriction) { return std::min(1.0, rollingFriction / kMaxRolling); }
 
 } // namespace grouser::virtual_tests

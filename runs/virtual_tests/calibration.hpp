@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-/// `grouser soil --calibrate`: contact parameters for target constants of a soil, at a grain size.
+/// `grouser soil --calibrate`: contact parameters that reproduce the target constants of a soil at a given grain size.
 namespace grouser::virtual_tests {
 
 /// Contents of a target file. See readTargets().
@@ -24,58 +24,58 @@ struct CalibrationTargets {
   std::optional<CurveTargets> curves; ///< replaces all of the above
   TestedSoil start;                   ///< initial material of the search
 
-  bool wantsSinkage() const;
+  bool requestsSinkage() const;
   /// k of Bekker's equation for a breadth [kN/m^(n+2)].
   double kAt(double breadth) const;
   /// Target sinkage of a plate of this breadth at the track's pressure [m].
   double sinkageAt(double breadth) const;
 };
 
-/// Reads [targets] (phi, c, K, n, k_c, k_phi, or k and b), [tolerances] (phi, c, k), [start], the keys of a scene's
-/// material, and [bed], as in a soil file; or with [plates] and [search] (curve_targets.hpp) [targets] repose and
-/// bulk_density. Throws base::InputError with file:line and key.
+/// Reads [targets] (phi, c, K, n, k_c and k_phi, or k and b), [tolerances] (phi, c, k), [start] (keys of a scene's
+/// material) and [bed] (as in a soil file). With [plates] and [search] (curve_targets.hpp), [targets] may only contain
+/// repose and bulk_density. Throws base::InputError with file:line and key.
 CalibrationTargets readTargets(const std::filesystem::path& file, double grainRadius);
 
 /// One trial of a search for x at a target y, which increases with x.
 struct Trial {
   double x = 0, y = 0;
 };
-/// Next x to try in [low, high]; empty if the nearest trial is within `tolerance` or cannot be improved. Regula falsi
-/// between trials on both sides; else extrapolation from the outermost trial with the slope to its neighbour, initially
-/// and roughly `slope`.
+/// Next x to try in [low, high]; empty if the nearest trial is within `tolerance` or cannot be improved. Uses regula
+/// falsi if there are trials on both sides of the target; otherwise extrapolates from the outermost trial with the
+/// slope to its neighbour. `slope`: expected slope; used for the first step, and limits the measured slope.
 std::optional<double> nextTrial(const std::vector<Trial>& trials, double wanted, double tolerance, double low,
                                 double high, double slope);
-/// The trial whose y is closest to `wanted`.
+/// The trial with the y that is closest to `wanted`.
 Trial nearestTrial(const std::vector<Trial>& trials, double wanted);
 
-/// Friction and rolling friction on a path of increasing strength: friction from 0 to that of the start (-1 to 0), then
-/// rolling friction up to 0.5 (0 to 1), then friction up to 1 (1 to 2).
+/// Friction and rolling friction on a path of increasing strength. From -1 to 0, friction rises from 0.01 to its
+/// initial value; from 0 to 1, rolling friction rises to 0.5; from 1 to 2, friction rises to 1.
 struct Strength {
   double friction = 0, rollingFriction = 0;
 };
 Strength strengthAt(double way, double startFriction);
-/// Position on this path by rolling friction.
+/// Position on the path of Strength for a rolling friction.
 double wayOf(double rollingFriction);
 
-/// Position of a trial on this path, and adhesion energy [J/m2].
+/// Position of a trial on the path of Strength, and its adhesion energy [J/m2].
 struct StrengthPoint {
   double way = 0, pull = 0;
 };
 
-/// Simultaneous search for angle and cohesion, which depend on both parameters: Broyden's method, scaled by tolerances
-/// and expected slopes. One target is optional.
+/// Simultaneous search for a target angle and a target cohesion; both depend on both parameters. Broyden's method,
+/// scaled by tolerances and expected slopes. Either target may be absent.
 class StrengthSearch {
 public:
   struct Target {
-    double wanted = 0, tolerance = 1, slope = 1; ///< slope: expected, of angle over path, or c over pull
+    double wanted = 0, tolerance = 1, slope = 1; ///< slope: expected, of the angle over the path or of c over the pull
   };
-  /// Without a target its parameter keeps the initial value.
+  /// The parameter of an absent target keeps its initial value.
   StrengthSearch(std::optional<Target> angle, std::optional<Target> cohesion, StrengthPoint start);
 
   StrengthPoint at() const { return trials_.empty() ? start_ : next_; }
-  /// Adds the result of the trial at() [deg], [kPa]. Returns whether another trial is worthwhile, at the new at().
+  /// Adds the result [deg], [kPa] of the trial at(). Returns true if another trial is worthwhile; at() then returns it.
   bool tried(double angle, double cohesion);
-  /// The closest trial, by the larger distance in tolerances; bitwise as tried.
+  /// The trial with the smallest distance from the targets; the distance is the larger of both errors / tolerance.
   StrengthPoint nearest() const;
 
 private:
@@ -97,8 +97,8 @@ private:
 
 struct CalibrationCommand {
   std::filesystem::path targets;
-  double grainRadius = 0; ///< [m]; 0: the file's
-  jobs::StudyPlace place; ///< folder empty: out/calibrate_NAME
+  double grainRadius = 0; ///< [m]; 0: radius in the target file
+  jobs::StudyPlace place; ///< an empty folder means out/calibrate_NAME
   jobs::PieceOptions pieces;
   int jobs = 1;
   PlanOptions plan;
@@ -106,7 +106,7 @@ struct CalibrationCommand {
 };
 void calibrateCommand(const CalibrationCommand& command);
 
-/// A soil file.
+/// Text of the soil file with the calibrated parameters.
 std::string soilFileText(const TestedSoil& soil, const std::string& description, const SoilResults& reached,
                          const std::string& command);
 

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Value of a soil file: a number, or a word without quotes.
+/// Value of a key in a soil file: a number, or a word without its quotes.
 Json valueOf(const std::string& toml) {
   char* end = nullptr;
   const double number = std::strtod(toml.c_str(), &end);
@@ -87,7 +87,7 @@ CalibrationRecord::CalibrationRecord(const CalibrationCommand& command, const Ca
       {"seeds", {{"small", command.plan.seeds}, {"large", command.plan.largeSeeds}, {"shear", command.plan.seeds}}},
       {"targets", targetsJson(targets)}};
   if (targets.curves) json_["contact_pressure_pa"] = targets.curves->contactPressure;
-  if (targets.wantsSinkage())
+  if (targets.requestsSinkage())
     json_["pressure"] = {{"wanted", 1e-3 * kTrackPressure},
                          {"unit", "kPa"},
                          {"tolerance", 1e-3 * kTrackPressure * targets.stiffnessTolerance}};

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-/// Trials of a calibration as calibration.json, rewritten after every trial.
+/// Writes the trials of a calibration to calibration.json, again after every trial.
 namespace grouser::virtual_tests {
 
 /// A target quantity of a calibration, and its result.
@@ -21,7 +21,7 @@ struct TargetOutcome {
   support::Estimate reached;
 
   bool isSought() const { return tolerance.has_value(); }
-  bool isReached() const; ///< by the value, without its interval
+  bool isReached() const; ///< compares only the value with the tolerance, not its interval
 };
 
 /// Table of targets and results for calibration.txt.
@@ -29,25 +29,25 @@ std::string outcomesText(const std::vector<TargetOutcome>& outcomes, bool coarse
 
 class CalibrationRecord {
 public:
-  /// Does not write.
+  /// Does not write the file.
   CalibrationRecord(const CalibrationCommand& command, const CalibrationTargets& targets,
                     const std::filesystem::path& folder);
 
-  /// Whether the folder contains the calibration of a call with the same targets, care and seeds.
+  /// True if the folder contains a calibration with the same targets, settings (coarse or full) and seeds.
   bool isOfThisCall() const;
 
-  /// Call when the first trial starts. Trials of an earlier call are recorded again as they are read.
+  /// Call this when the first trial starts. Reused trials of an earlier call are recorded again.
   void begun();
-  /// Adds a complete shear trial, named as its folder.
+  /// Adds a complete shear trial. `name`: its folder.
   void shear(const std::string& name, const TestedSoil& soil, const std::map<Quantity, support::Estimate>& measured);
   /// Adds a trial of the small plate: mean pressure [Pa] at the target sinkage [m].
   void plate(const std::string& name, const TestedSoil& soil, const support::Estimate& pressure, double sinkage);
-  /// Adds a trial of measured curves.
+  /// Adds a trial of a calibration to measured curves.
   void curves(const std::string& name, const SoilInBed& bed, const CurveComparison& curves,
               const std::map<Quantity, support::Estimate>& measured, double misfit);
-  /// Call at the time limit in a trial.
+  /// Call this if the time limit is reached during a trial.
   void stopped(const std::string& name, int missingTests);
-  /// Call when the tests of the result are complete.
+  /// Call this when all tests with the final parameters are complete.
   void ended(const std::vector<TargetOutcome>& outcomes, const std::string& soilFile, const std::string& tests);
 
 private:

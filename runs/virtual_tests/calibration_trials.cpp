@@ -29,7 +29,7 @@ TestPlan CalibrationTrials::tested(const TestedSoil& soil, const std::string& na
   if (const int missing = doTests(plan, pieces, pieceOptions, command_.jobs)) {
     if (const auto unsound = notedTests(plan, pieces, TestNote::unsound); !unsound.empty()) {
       record_.stopped(name, missing);
-      throw base::SimulationError(fmt::format("{} produced no result: {}", name, failedTestsText(unsound)));
+      throw base::SimulationError(fmt::format("trial {} produced no result: {}", name, failedTestsText(unsound)));
     }
     throw Unfinished{name, missing};
   }

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-/// The trials of a calibration: tests of one soil each, in a folder of their own.
+/// The trials of a calibration. A trial consists of tests of one soil, in a folder of its own.
 namespace grouser::virtual_tests {
 
 /// Thrown if the time limit is reached before all tests of a trial are done.
@@ -27,8 +27,8 @@ public:
   CalibrationTrials(const CalibrationCommand& command, std::filesystem::path folder, CalibrationRecord& record)
       : command_(command), folder_(std::move(folder)), record_(record) {}
 
-  /// Runs the wanted tests of a soil in the folder `name`, and reuses those of an earlier trial of the same soil. Calls
-  /// `whenDone` when all are done. Throws Unfinished, or base::SimulationError if a test fails.
+  /// Runs the wanted tests of a soil in the folder `name`; reuses the tests of an earlier trial of the same soil. Calls
+  /// `whenDone` when all tests are done. Throws Unfinished, or base::SimulationError if a test fails.
   TestPlan tested(const TestedSoil& soil, const std::string& name, const PlanOptions& options, const Wanted& wanted,
                   SoilResults& results, const WhenDone& whenDone = {});
 

@@ -12,7 +12,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-/// Range of a constant in published soils; isClosed: includes the lower end.
+/// Range of a constant in published soils; isClosed: the range includes its lower end.
 struct SoilRange {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
   bool isClosed = false;
@@ -22,13 +22,13 @@ struct SoilRange {
 SoilRange rangeOf(Quantity quantity) {
   switch (quantity) {
   case Quantity::exponent:
-    return {0.1, 2, true, "outside [0.1, 2], the range of soils"};
+    return {0.1, 2, true, "outside [0.1, 2], the range measured in soils"};
   case Quantity::frictionModulus:
-    return {0, std::numeric_limits<double>::infinity(), false, "not positive, so wide plates would carry no load"};
+    return {0, std::numeric_limits<double>::infinity(), false, "not positive: a wide plate would carry no load"};
   case Quantity::shearModulus:
     return {0, std::numeric_limits<double>::infinity(), false, "not positive"};
   case Quantity::frictionAngle:
-    return {0, 60, false, "outside (0, 60] degrees, the range of soils"};
+    return {0, 60, false, "outside (0, 60] degrees, the range measured in soils"};
   case Quantity::repose:
     return {0, 90, false, "outside (0, 90) degrees"};
   default:
@@ -47,7 +47,7 @@ std::string doubtOf(Quantity quantity, const support::Estimate& measured) {
     add(range.words);
   if (quantity == Quantity::cohesion && measured.value + measured.halfWidth < 0) add("negative");
   if (!std::isfinite(measured.halfWidth))
-    add("no interval from a single test");
+    add("a single test has no interval");
   else if (std::isfinite(range.low) && measured.halfWidth > std::fabs(measured.value))
     add("the interval is wider than the value");
   return why;

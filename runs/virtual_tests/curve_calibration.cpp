@@ -15,20 +15,20 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr int kLeastTilted = 4; // minimum beds for the angle of repose, which scatters more than pressures
-constexpr double kWithin = 2;   // tolerance of a pressure in standard deviations of a measured test
+constexpr int kMinTilted = 4; // minimum number of tilted beds: the angle of repose scatters more than pressures
+constexpr double kWithin = 2; // tolerance of a pressure / standard deviation of a measured test
 
 } // namespace
 
 void CurveCalibration::run() {
   std::vector<double> start;
   for (const SearchRange& range : curves_.ranges) start.push_back(parameterOf(bed_, range.key));
-  CurveSearch search(curves_.ranges, start, curves_.mostTrials);
-  for (bool goesOn = true; goesOn;) {
+  CurveSearch search(curves_.ranges, start, curves_.maxTrials);
+  for (bool continues = true; continues;) {
     setParameters(bed_, curves_, search.at());
     const std::string name = fmt::format("curves_{}", search.trials().size() + 1);
     const Trial trial = tried(name);
-    goesOn = search.tried(curveResiduals(trial.curves.points, reposeOf(trial), curves_));
+    continues = search.tried(curveResiduals(trial.curves.points, reposeOf(trial), curves_));
     const double misfit = search.trials().back().misfit();
     record_.curves(name, bed_, trial.curves, trial.results.measured, misfit);
     printTrial(name, trial, misfit);
@@ -41,7 +41,7 @@ CurveCalibration::Trial CurveCalibration::tried(const std::string& name, const C
   PlanOptions options = command_.plan;
   options.coarse = command_.place.quick, options.wide = false;
   options.plates = curves_.bed(bed_.depth);
-  options.reposeSeeds = curves_.repose ? std::max(kLeastTilted, options.seeds) : 0;
+  options.reposeSeeds = curves_.repose ? std::max(kMinTilted, options.seeds) : 0;
   Trial trial;
   const auto isOurs = [](const PlannedTest& t) { return t.kind == TestKind::plate || t.kind == TestKind::repose; };
   trials_.tested(bed_.soil, name, options, isOurs, trial.results,
@@ -98,7 +98,7 @@ void CurveCalibration::finish() {
   output::drawPicture("plate_curves.py", {tables / "curves.csv", tables / "points.csv"}, folder_ / "curves.png");
   const std::string call =
       fmt::format("grouser soil --calibrate {}{} --seeds {} --pressure {:g}", bed_.soil.file.filename().string(),
-                  command_.place.quick ? " --quick" : "", command_.plan.seeds, command_.plan.mostPressure);
+                  command_.place.quick ? " --quick" : "", command_.plan.seeds, command_.plan.greatestPressure);
   const std::string file = bed_.soil.name + ".toml";
   support::replaceTextFile(
       folder_ / file, soilFileText(bed_.soil, fmt::format("Calibrated by `{}` on beds {:g} m deep.", call, bed_.depth),

@@ -3,7 +3,7 @@
 
 #include "runs/virtual_tests/calibration_trials.hpp"
 
-/// `grouser soil --calibrate` where the targets are measured curves of plates and an angle of repose.
+/// `grouser soil --calibrate` for measured pressure-sinkage curves of plates and an angle of repose as targets.
 namespace grouser::virtual_tests {
 
 class CurveCalibration {
@@ -14,8 +14,8 @@ public:
         folder_(std::move(folder)), bed_{targets.start, targets.curves->depth}, record_(record),
         trials_(command, folder_, record) {}
 
-  /// Searches, collects the tests of the best trial in the folder `final`, and writes its tables, a picture and the
-  /// soil file. Throws Unfinished at the time limit.
+  /// Runs the search, collects the tests of the best trial in the folder `final`, and writes the tables, a plot and the
+  /// soil file. Throws Unfinished if the time limit is reached.
   void run();
 
 private:
@@ -23,7 +23,7 @@ private:
     CurveComparison curves;
     SoilResults results;
   };
-  /// Evaluates the present soil and depth.
+  /// Runs the tests of the present soil and bed depth, and compares them with the targets.
   Trial tried(const std::string& name, const CalibrationTrials::WhenDone& whenDone = {});
   void printTrial(const std::string& name, const Trial& trial, double misfit) const;
   void finish();

@@ -17,14 +17,14 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Lengths are fractions of the ranges.
-constexpr double kFirstStep = 0.15, kMostStep = 0.25;
-constexpr double kNear = 0.25;  // distance from the best trial at which the weight of a trial is one half
-constexpr double kSame = 0.01;  // trials closer than this repeat each other
-constexpr double kRidge = 1e-3; // bounds the slopes of parameters that have hardly varied
-constexpr double kLeastDamping = 1e-6, kMoreDamping = 2;
-constexpr double kLeastSaving = 1;        // a step must reduce the sum of squares by this much,
-constexpr double kLeastShareSaved = 1e-3; // plus this fraction of it
+// Distances between trials are in fractions of the parameter ranges.
+constexpr double kFirstStep = 0.15, kMaxStep = 0.25;
+constexpr double kNear = 0.25;  // distance from the best trial at which the weight of a trial is 1/2
+constexpr double kSame = 0.01;  // trials at a smaller distance count as equal
+constexpr double kRidge = 1e-3; // limits the slopes over parameters that hardly vary between trials
+constexpr double kMinDamping = 1e-6, kMoreDamping = 2;
+constexpr double kMinSaving = 1;        // minimum reduction of the sum of squares by a step,
+constexpr double kMinShareSaved = 1e-3; // plus this fraction of the sum
 
 /// residuals = intercept + slopes * (x - x of the best trial).
 struct LinearModel {
@@ -54,8 +54,8 @@ LinearModel fitModel(const std::vector<CurveSearch::Trial>& trials, const CurveS
   return {solved.row(0).transpose(), solved.bottomRows(k).transpose()};
 }
 
-/// Minimises |intercept + slopes s|^2 + damping |s|^2 with at + s in [0, 1]. Parameters that reach a bound are fixed
-/// there, and the rest is solved again.
+/// Minimises |intercept + slopes s|^2 + damping |s|^2 with at + s in [0, 1]. Fixes parameters that reach a bound, and
+/// solves again for the other parameters.
 VectorXd boundedStep(const LinearModel& model, const VectorXd& at, double damping) {
   const Eigen::Index k = at.size();
   VectorXd step = VectorXd::Zero(k);
@@ -101,8 +101,8 @@ double CurveSearch::Trial::misfit() const {
   return std::sqrt(sum / static_cast<double>(residuals.size()));
 }
 
-CurveSearch::CurveSearch(std::vector<SearchRange> ranges, const std::vector<double>& start, std::size_t mostTrials)
-    : ranges_(std::move(ranges)), most_(mostTrials), next_(start) {}
+CurveSearch::CurveSearch(std::vector<SearchRange> ranges, const std::vector<double>& start, std::size_t maxTrials)
+    : ranges_(std::move(ranges)), most_(maxTrials), next_(start) {}
 
 std::vector<double> CurveSearch::scaledOf(const std::vector<double>& values) const {
   std::vector<double> scaled;
@@ -132,11 +132,11 @@ std::size_t CurveSearch::nearest() const {
 std::vector<double> CurveSearch::stepFrom(const Trial& best) const {
   const LinearModel model = fitModel(trials_, best);
   const VectorXd at = vectorOf(best.scaled);
-  double damping = kLeastDamping;
+  double damping = kMinDamping;
   VectorXd step = boundedStep(model, at, damping);
-  while (step.lpNorm<Eigen::Infinity>() > kMostStep) step = boundedStep(model, at, damping *= kMoreDamping);
+  while (step.lpNorm<Eigen::Infinity>() > kMaxStep) step = boundedStep(model, at, damping *= kMoreDamping);
   const double now = squares(model.intercept), then = squares(model.intercept + model.slopes * step);
-  if (now - then < kLeastSaving + kLeastShareSaved * now) return {};
+  if (now - then < kMinSaving + kMinShareSaved * now) return {};
   const VectorXd to = at + step;
   return {to.data(), to.data() + to.size()};
 }

@@ -5,39 +5,39 @@
 #include <string>
 #include <vector>
 
-/// Least squares with few trials, each of them expensive and noisy.
+/// Least-squares fit for expensive and noisy trials: uses few of them.
 namespace grouser::virtual_tests {
 
-/// Rounds to four significant digits, which keeps soil files readable; trials scatter by far more.
+/// Rounds to four significant digits, to keep soil files readable. Trials scatter far more than this rounding.
 double fourDigits(double value);
 
 /// A parameter to fit and its range.
 struct SearchRange {
   std::string key; ///< "friction", "porosity"
   double low = 0, high = 0;
-  bool isLogarithmic = false; ///< the search works with its logarithm
+  bool isLogarithmic = false; ///< the search uses the logarithm of the parameter
 };
 
-/// Gauss-Newton method. The Jacobian is a linear regression over all trials, weighted by their distance from the best;
-/// Levenberg-Marquardt damping limits a step to a quarter of the ranges (Nocedal and Wright 2006, Numerical
-/// Optimization, section 10.3). The first trials are the start and one step along each parameter.
+/// Gauss-Newton method. The Jacobian comes from a linear regression over all trials with weights that decrease with the
+/// distance from the best trial. Levenberg-Marquardt damping limits a step to a quarter of the ranges (Nocedal and
+/// Wright 2006, Numerical Optimization, section 10.3). The first trials: the start, and a step along each parameter.
 class CurveSearch {
 public:
-  CurveSearch(std::vector<SearchRange> ranges, const std::vector<double>& start, std::size_t mostTrials);
+  CurveSearch(std::vector<SearchRange> ranges, const std::vector<double>& start, std::size_t maxTrials);
 
   /// Values of the next trial, in the order of the ranges, rounded to four digits.
   const std::vector<double>& at() const { return next_; }
-  /// Adds the residuals [standard deviations] of the trial at(); their number is constant. Returns whether another
-  /// trial is worthwhile.
+  /// Adds the residuals [standard deviations] of the trial at(). Every trial has the same number of residuals. Returns
+  /// true if another trial is worthwhile.
   bool tried(const std::vector<double>& residuals);
 
   struct Trial {
-    std::vector<double> values, scaled; ///< in the parameters' units, in [0, 1]
+    std::vector<double> values, scaled; ///< `values` in the units of the parameters, `scaled` in [0, 1]
     std::vector<double> residuals;
     double misfit() const; ///< root mean square of the residuals
   };
   const std::vector<Trial>& trials() const { return trials_; }
-  std::size_t nearest() const; ///< index of the trial of least misfit
+  std::size_t nearest() const; ///< index of the trial with the smallest misfit
 
 private:
   std::vector<double> scaledOf(const std::vector<double>& values) const;

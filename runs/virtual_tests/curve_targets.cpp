@@ -15,9 +15,9 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kWindow = 0.1;       // half width of the averaging window over the sinkage
-constexpr double kLeastWindow = 1e-3; // [m] its least half width
-constexpr double kFarther = 1.15;     // final sinkage of a plate over that of its last point
+constexpr double kWindow = 0.1;     // half width of the averaging window / sinkage
+constexpr double kMinWindow = 1e-3; // [m] minimum half width of the averaging window
+constexpr double kFarther = 1.15;   // final sinkage of a plate / sinkage of its last compared point
 
 struct PlateKeys {
   std::string file;
@@ -29,18 +29,18 @@ base::Table<PlateKeys> plateTable() {
   using T = PlateKeys;
   base::Table<T> t("plates", "Measured pressure-sinkage curves of circular plates");
   t.add("file", &T::file, "",
-        "CSV file with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa; path relative to the target "
-        "file")
+        "CSV file with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa; the path is relative to the "
+        "target file")
       .required();
-  t.add("sinkages", &T::sinkages, "m", "sinkages at which pressures are compared, ascending")
+  t.add("sinkages", &T::sinkages, "m", "sinkages at which the pressures are compared, in ascending order")
       .above(0)
       .atMost(10)
       .required();
   t.add("bin", &T::bin, "m", "side length of the square bed, between periodic boundaries").above(0).atMost(100);
   t.add("depth", &T::depth, "m", "depth of the bed").above(0).atMost(100);
   t.add("contact_pressure", &T::contact, "Pa",
-        "reference pressure at which the simulated sinkage is set equal to the mean measured sinkage; 0: sinkage is "
-        "measured from the mean surface")
+        "pressure that defines the zero of the simulated sinkage: at this pressure, the simulated sinkage is set to "
+        "the mean measured sinkage; 0: the sinkage is measured from the mean surface of the bed")
       .atLeast(0)
       .atMost(1e6);
   return t;
@@ -55,16 +55,14 @@ struct SearchKeys {
 base::Table<SearchKeys> searchTable() {
   using T = SearchKeys;
   base::Table<T> t("search", "Parameters to fit, with their ranges");
-  t.add("young", &T::young, "Pa", "Young's modulus of Hertz' contacts").above(0).atMost(1e13);
+  t.add("young", &T::young, "Pa", "Young's modulus of Hertz contacts").above(0).atMost(1e13);
   t.add("stiffness", &T::stiffness, "N/m", "stiffness of linear contacts").above(0).atMost(1e12);
   t.add("friction", &T::friction, "-", "Coulomb coefficient").atLeast(0).atMost(10);
   t.add("rolling_friction", &T::rolling, "-", "rolling friction").atLeast(0).atMost(2);
   t.add("porosity", &T::porosity, "-", "porosity of the bed").atLeast(0.2).atMost(0.7);
   t.add("cohesion", &T::cohesion, "J/m2", "energy of adhesion").atLeast(0).atMost(1e6);
-  t.add("depth", &T::depth, "m", "depth of the bed, if unknown from the experiment").above(0).atMost(100);
-  t.add("trials", &T::trials, "-", "maximum number of trials; 1: evaluate the initial values only")
-      .atLeast(1)
-      .atMost(1000);
+  t.add("depth", &T::depth, "m", "depth of the bed, if the measurements do not state it").above(0).atMost(100);
+  t.add("trials", &T::trials, "-", "maximum number of trials; 1: run only the initial values").atLeast(1).atMost(1000);
   return t;
 }
 
@@ -81,7 +79,7 @@ void addRange(const base::Section& section, const SoilInBed& start, const std::s
   ranges.push_back({key, low, high, key == "young" || key == "stiffness"});
 }
 
-double windowOf(double sinkage) { return std::max(kWindow * sinkage, kLeastWindow); }
+double windowOf(double sinkage) { return std::max(kWindow * sinkage, kMinWindow); }
 
 SinkageCurve curveOf(const jobs::Table& run) { return {run.values("sinkage [m]"), run.values("pressure [Pa]")}; }
 
@@ -117,8 +115,8 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
     if (const double first = plate.points.front().sinkage - windowOf(plate.points.front().sinkage);
         plate.contact >= first)
       plates.fail("contact_pressure",
-                  fmt::format("is reached by the plate of {:g} mm at a sinkage of {:.2f} mm, after the first compared "
-                              "sinkage, {:g} mm; lower it, or remove the first entry of sinkages",
+                  fmt::format("is reached by the plate of {:g} mm at a sinkage of {:.2f} mm, but the first comparison "
+                              "starts at {:g} mm; lower contact_pressure, or remove the first entry of sinkages",
                               1e3 * plate.diameter, 1e3 * plate.contact, 1e3 * first));
   const base::Section search = root.section("search");
   const SearchKeys sought = search.read(searchTable());
@@ -130,7 +128,7 @@ CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::
       {"depth", &sought.depth}};
   for (const auto& [key, span] : spans) addRange(search, given, key, *span, t.ranges);
   if (t.ranges.empty()) search.fail("", "contains no parameters; set at least one, e.g. friction = [0.3, 1]");
-  t.mostTrials = static_cast<std::size_t>(sought.trials);
+  t.maxTrials = static_cast<std::size_t>(sought.trials);
   return t;
 }
 
@@ -196,11 +194,11 @@ CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, 
 
 std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
                                    const CurveTargets& targets) {
-  constexpr double kLeast = 1; // [Pa] keeps the logarithm finite
+  constexpr double kMin = 1; // [Pa] minimum pressure, which keeps the logarithm finite
   std::vector<double> residuals;
   for (const CurvePoint& p : points)
-    residuals.push_back(base::log(std::max(kLeast, p.simulated.value) / p.measured.mean) /
-                        std::max(kLeastScatter, p.measured.deviation));
+    residuals.push_back(base::log(std::max(kMin, p.simulated.value) / p.measured.mean) /
+                        std::max(kMinScatter, p.measured.deviation));
   if (targets.repose) {
     constexpr double kNeverFlowed = 45; // [deg] assumed for a bed that never flows or never rests
     const double angle = repose && std::isfinite(*repose) ? *repose : kNeverFlowed;

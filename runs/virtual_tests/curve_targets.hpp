@@ -12,27 +12,27 @@
 #include <string>
 #include <vector>
 
-/// Measured curves of plates, and an angle of repose, as targets of a calibration.
+/// Measured pressure-sinkage curves of plates, and an angle of repose, as targets of a calibration.
 namespace grouser::virtual_tests {
 
-/// Sections [plates] and [search] of a file of targets.
+/// Sections [plates] and [search] of a target file.
 struct CurveTargets {
   std::vector<MeasuredPlate> plates;
   double bin = 0.3, depth = 0.12; ///< [m] side and depth of the bed
-  /// [Pa] pressure at which simulated sinkage equals the mean measured sinkage of that plate, as tests are zeroed at
-  /// contact and coarse grains protrude from the mean surface; 0: sinkage from the mean surface.
+  /// [Pa] pressure at which the simulated sinkage is set to the mean measured sinkage of the same plate: measurements
+  /// start at contact, but coarse grains protrude from the mean surface. 0: sinkage from the mean surface.
   double contactPressure = 0;
   std::vector<SearchRange> ranges;
-  std::size_t mostTrials = 16;
+  std::size_t maxTrials = 16;
   std::optional<double> repose;      ///< [deg]
-  double reposeTolerance = 1;        ///< [deg] counts as a standard deviation
+  double reposeTolerance = 1;        ///< [deg] used as standard deviation of the angle of repose
   std::optional<double> bulkDensity; ///< [kg/m3] bulk density of the bed; sets the density of the solid
 
-  /// The plates and their bed of this depth [m], for a plan.
+  /// The plates and their bed with the depth `depthOfBed` [m], for a plan.
   MeasuredPlatesBed bed(double depthOfBed) const;
 };
 
-/// Reads [plates] and [search]; `start`: initial soil of the search. Throws base::InputError: file:line and
+/// Reads [plates] and [search]; `start`: initial soil of the search. Throws base::InputError with file:line,
 /// key, range and remedy.
 CurveTargets readCurveTargets(const base::Section& root, const std::filesystem::path& file, const TestedSoil& start);
 
@@ -53,28 +53,28 @@ struct CurvePoint {
   double diameter = 0;         ///< [m]
   MeasuredPressure measured;   ///< with its sinkage
   support::Estimate simulated; ///< [Pa] mean over the seeds
-  double deviations() const;   ///< simulated less measured mean, in standard deviations of a measured test [-]
+  double deviations() const;   ///< (simulated - measured mean) / standard deviation of a measured test [-]
   std::string name() const;    ///< "60 mm at 5 mm"
 };
-/// Curve of a plate test with the sinkage used for comparison; empty if it never reaches the contact pressure.
+/// Curve of a plate test with the sinkage used for comparison; empty if the test never reaches the contact pressure.
 SinkageCurve comparedCurve(const jobs::Table& run, const CurveTargets& targets, const MeasuredPlate& plate);
-/// The finished tests of plates beside the measured points; means over the plates.
+/// Finished plate tests compared with the measured points; `porosity` and `zeroOfSinkage` are means over all tests.
 struct CurveComparison {
   std::vector<CurvePoint> points;
   double porosity = 0;      ///< porosity of the beds [-]
-  double zeroOfSinkage = 0; ///< [m] height above the bed's mean surface from which sinkage counts
+  double zeroOfSinkage = 0; ///< [m] height of zero sinkage above the bed's mean surface
 };
-/// Simulated pressures are averaged over 90 to 110 % of the sinkage, at least over 2 mm. A plate that never reaches the
-/// contact pressure has zero pressure.
+/// Averages simulated pressures over 90 to 110 % of the sinkage, but at least over 2 mm. Uses zero pressure for a plate
+/// that never reaches the contact pressure.
 CurveComparison compareCurves(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);
 
-/// For the search: ln(simulated / measured) of every point over its measured relative deviation, at least
-/// `kLeastScatter`; then (repose - target) over its tolerance, if it is a target.
-inline constexpr double kLeastScatter = 0.05; ///< [-] scatter of a simulated bed
+/// Residuals for the search: for every point ln(simulated / measured) / its measured relative deviation, which is at
+/// least `kMinScatter`; then (repose - target) / tolerance, if the angle of repose is a target.
+inline constexpr double kMinScatter = 0.05; ///< [-] scatter of a simulated bed
 std::vector<double> curveResiduals(const std::vector<CurvePoint>& points, const std::optional<double>& repose,
                                    const CurveTargets& targets);
 
-/// Tables: a text, a row for each measured test and point, and all curves.
+/// Tables: printed comparison; CSV with a row for each measured test and point; CSV of all simulated curves.
 std::string curvesText(const std::vector<CurvePoint>& points);
 std::string curvePointsCsv(const std::vector<CurvePoint>& points);
 std::string curvesCsv(const TestPlan& plan, const jobs::Pieces& pieces, const CurveTargets& targets);

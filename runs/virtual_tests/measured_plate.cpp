@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kPlateRows = 300;
 constexpr double kAbove = 1e-3;        // [d] initial gap between the plate and the highest grain
-constexpr double kHighest = 2;         // [d] assumed height of that grain above the mean surface
-constexpr double kTall = 2;            // height of the plate over its sinkage, so that no grain rolls onto it
-constexpr double kSettlingShare = 0.5; // estimated share of the settling in the wall time
+constexpr double kHighest = 2;         // [d] assumed height of the highest grain above the mean surface
+constexpr double kTall = 2;            // height of the plate / its sinkage, so that no grain rolls onto it
+constexpr double kSettlingShare = 0.5; // estimated fraction of the wall time spent on settling
 
 /// Scene file of the test.
 std::string sceneText(const Soil& soil, const MeasuredPlateTest& test, std::int64_t seed) {
@@ -52,7 +52,7 @@ public:
       if (simulation.surfaces()->surface(i).name == "plate") index_ = i;
   }
 
-  /// Depth of its lower face below the mean surface of the bed [m].
+  /// Depth of the plate's lower face below the mean surface of the bed [m].
   double sinkage() const { return simulation_.settled().meanHeight - (observed().position.z - halfLength_); }
   double meanPressure() const { return observed().force.z / area_; } ///< mean since the last row [Pa]
 
@@ -66,7 +66,7 @@ private:
   std::size_t index_ = 0;
 };
 
-/// Porosity of the bed without two mean diameters at the floor and at the surface [-].
+/// Porosity of the bed, excluding two mean diameters at the floor and at the surface [-].
 double porosityOf(const coupling::Simulation& simulation, const Soil& soil, const MeasuredPlateTest& test) {
   const BedSize size{test.bin, test.bin, test.depth};
   const double off = PlateTest::kOffEnds * soil.grains.diameter();
@@ -83,13 +83,14 @@ double MeasuredPlateTest::speed(const Soil& soil) const {
 }
 
 jobs::Table pushMeasuredPlate(const Soil& soil, const MeasuredPlateTest& test, std::int64_t seed,
-                              const std::filesystem::path& folder, const base::Exec& exec, const PlateProgress& tell) {
+                              const std::filesystem::path& folder, const base::Exec& exec,
+                              const PlateProgress& report) {
   std::optional<storage::BedCache> beds = storage::BedCache::ofUser();
   coupling::Simulation simulation(
       setup::simulationSetup(setup::parseScene(sceneText(soil, test, seed), folder / "push.toml")), exec,
       [&](double, double) {
-        jobs::stopStudyIfAsked();
-        tell(0, "settling the bed");
+        jobs::stopStudyOnRequest();
+        report(0, "settling the bed");
       },
       {}, beds ? &*beds : nullptr);
   const auto begin = std::chrono::steady_clock::now();
@@ -104,14 +105,14 @@ jobs::Table pushMeasuredPlate(const Soil& soil, const MeasuredPlateTest& test, s
   while (plate.sinkage() < deepest) {
     const double before = plate.sinkage();
     for (std::int64_t left = rowSteps; left > 0;) {
-      jobs::stopStudyIfAsked();
+      jobs::stopStudyOnRequest();
       left -= simulation.advance(left);
     }
     const double now = plate.sinkage();
     table.rows.push_back({0.5 * (before + now), plate.meanPressure(), porosity,
                           simulation.settled().meanHeight + test.depth, grains, simulation.settled().friction});
     simulation.restartMeans();
-    tell(kSettlingShare + (1 - kSettlingShare) * std::min(1.0, (now - from) / (deepest - from)), "pushing");
+    report(kSettlingShare + (1 - kSettlingShare) * std::min(1.0, (now - from) / (deepest - from)), "pushing");
   }
   simulation.checkEnergy();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

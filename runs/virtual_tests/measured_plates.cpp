@@ -19,7 +19,7 @@ namespace grouser::virtual_tests {
 namespace {
 
 constexpr std::array<const char*, 4> kColumns = {"trial", "plate_diameter_mm", "sinkage_mm", "pressure_kPa"};
-constexpr double kLeastDeviation = 0.01; ///< [-] for tests that agree by chance
+constexpr double kMinDeviation = 0.01; ///< [-] minimum relative deviation, for tests that agree by chance
 
 struct Test {
   double diameter = 0;                   ///< [m]
@@ -42,14 +42,14 @@ public:
   explicit Reader(const std::filesystem::path& file) : file_(file), in_(file) {
     if (!in_ || !std::filesystem::is_regular_file(file))
       throw base::InputError(
-          fmt::format("{} cannot be read; correct plates.file, a path relative to the target file", file.string()));
+          fmt::format("{} cannot be read; correct plates.file, which is relative to the target file", file.string()));
   }
 
   std::map<int, Test> tests() {
     readHead();
     std::map<int, Test> tests;
     for (std::string line; next(line);) addRow(cellsOf(line), tests);
-    if (tests.empty()) fail("no rows after the column names; add the measured tests");
+    if (tests.empty()) fail("the file has no rows after the column names; add the measured tests");
     return tests;
   }
 
@@ -69,12 +69,12 @@ private:
 
   void readHead() {
     std::string line;
-    if (!next(line)) fail("the file is empty; its first row names the columns");
+    if (!next(line)) fail("the file is empty; add a first row with the column names, and the measured tests");
     const std::vector<std::string> names = cellsOf(line);
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
       const auto found = std::find(names.begin(), names.end(), kColumns[k]);
       if (found == names.end())
-        fail(fmt::format("column {} is missing; the columns are {}, {}, {} and {}", kColumns[k], kColumns[0],
+        fail(fmt::format("column {} is missing; the required columns are {}, {}, {} and {}", kColumns[k], kColumns[0],
                          kColumns[1], kColumns[2], kColumns[3]));
       column_[k] = static_cast<std::size_t>(found - names.begin());
     }
@@ -95,7 +95,7 @@ private:
     if (!(diameter > 0 && diameter <= 10)) fail("plate_diameter_mm is outside (0, 10000]");
     Test& test = tests[static_cast<int>(trial)];
     if (!test.sinkage.empty() && test.diameter != diameter)
-      fail(fmt::format("trial {} has plates of {:g} and {:g} mm; use a separate number for each test", trial,
+      fail(fmt::format("trial {} has plates of {:g} and {:g} mm; use a different trial number for each test", trial,
                        1e3 * test.diameter, 1e3 * diameter));
     test.diameter = diameter;
     test.sinkage.push_back(1e-3 * number(cells, 2)), test.pressure.push_back(1e3 * number(cells, 3));
@@ -107,7 +107,7 @@ private:
   std::array<std::size_t, 4> column_{};
 };
 
-/// y where x first passes a value, by linear interpolation; empty if it never does, or passed it before the first row.
+/// y at the first point where x reaches `value`, by linear interpolation; empty if x never reaches it or starts above.
 std::optional<double> valueAt(const std::vector<double>& x, const std::vector<double>& y, double value) {
   for (std::size_t i = 0; i < x.size(); ++i) {
     if (x[i] < value) continue;
@@ -126,7 +126,7 @@ double contactOf(const std::filesystem::path& file, const std::map<int, Test>& t
     const std::optional<double> sinkage = valueAt(test.pressure, test.sinkage, pressure);
     if (!sinkage)
       throw base::InputError(fmt::format(
-          "{}: trial {} {} plates.contact_pressure = {:g} Pa; choose one between {:g} and "
+          "{}: trial {} {} plates.contact_pressure = {:g} Pa; choose a pressure between {:g} and "
           "{:g} Pa",
           file.string(), number, test.pressure.front() > pressure ? "begins above" : "never reaches", pressure,
           std::max(0.0, test.pressure.front()), *std::max_element(test.pressure.begin(), test.pressure.end())));
@@ -146,17 +146,17 @@ MeasuredPressure pointOf(const std::map<int, Test>& tests, double diameter, doub
   for (const MeasuredTrial& t : point.trials) point.mean += t.pressure / n;
   double squares = 0;
   for (const MeasuredTrial& t : point.trials) squares += (t.pressure - point.mean) * (t.pressure - point.mean);
-  if (n > 1) point.deviation = std::max(kLeastDeviation, std::sqrt(squares / (n - 1)) / point.mean);
+  if (n > 1) point.deviation = std::max(kMinDeviation, std::sqrt(squares / (n - 1)) / point.mean);
   return point;
 }
 
-/// Sets the deviation of tests without repetition.
+/// Sets the deviation of tests that were not repeated.
 void poolDeviations(std::vector<MeasuredPlate>& plates) {
   double squares = 0, count = 0;
   for (const MeasuredPlate& plate : plates)
     for (const MeasuredPressure& point : plate.points)
       if (point.trials.size() > 1) squares += point.deviation * point.deviation, ++count;
-  constexpr double kAssumed = 0.1; // [-] where no test was repeated
+  constexpr double kAssumed = 0.1; // [-] deviation if no test was repeated
   const double pooled = count > 0 ? std::sqrt(squares / count) : kAssumed;
   for (MeasuredPlate& plate : plates)
     for (MeasuredPressure& point : plate.points)
@@ -177,7 +177,8 @@ std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file,
       if (point.trials.empty()) continue;
       if (!(point.mean > 0))
         throw base::InputError(fmt::format(
-            "{}: the plate of {:g} mm carries {:g} kPa at {:g} mm; remove this sinkage from plates.sinkages",
+            "{}: the mean pressure of the plate of {:g} mm is {:g} kPa at a sinkage of {:g} mm, but must be positive; "
+            "remove this sinkage from plates.sinkages",
             file.string(), 1e3 * diameter, 1e-3 * point.mean, 1e3 * sinkage));
       plate.points.push_back(std::move(point));
     }
@@ -190,7 +191,7 @@ std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file,
       return std::any_of(plate.points.begin(), plate.points.end(), [&](const auto& p) { return p.sinkage == sinkage; });
     };
     if (std::none_of(plates.begin(), plates.end(), reaches))
-      throw base::InputError(fmt::format("{}: no test reaches {:g} mm; remove this sinkage from plates.sinkages",
+      throw base::InputError(fmt::format("{}: no test reaches a sinkage of {:g} mm; remove it from plates.sinkages",
                                          file.string(), 1e3 * sinkage));
   }
   poolDeviations(plates);

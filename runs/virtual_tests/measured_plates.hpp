@@ -16,24 +16,24 @@ struct MeasuredTrial {
 /// The tests of one plate at one sinkage.
 struct MeasuredPressure {
   double sinkage = 0;                ///< [m]
-  std::vector<MeasuredTrial> trials; ///< trials that reach it
+  std::vector<MeasuredTrial> trials; ///< the trials that reach this sinkage
   double mean = 0;                   ///< [Pa]
-  /// Relative standard deviation of a test [-]. A test without repetition has the root mean square of all others.
+  /// Relative standard deviation of a test [-]; for a single test, the root mean square of all other deviations.
   double deviation = 0;
 };
 
 struct MeasuredPlate {
   double diameter = 0; ///< [m]
   std::vector<MeasuredPressure> points;
-  double contact = 0; ///< [m] mean sinkage at which its tests first reach the contact pressure
+  double contact = 0; ///< [m] mean sinkage at which the tests of this plate first reach the contact pressure
   double deepest() const { return points.back().sinkage; } ///< [m]
 };
 
 /// Reads comma-separated rows with the columns trial, plate_diameter_mm, sinkage_mm and pressure_kPa after comment
-/// lines (#), and interpolates every trial at `sinkages` [m]. Plates are sorted by diameter. Contact is where trials
-/// first reach `contactPressure` [Pa]; 0 if that is 0. Throws base::InputError with file:line: no such file, a missing
-/// column, a cell that is not a number, a trial with two diameters, a sinkage that no trial reaches, a contact pressure
-/// that a trial starts with or never reaches.
+/// lines (#), and interpolates every trial at `sinkages` [m]. Sorts the plates by diameter. MeasuredPlate::contact is 0
+/// if `contactPressure` [Pa] is 0. Throws base::InputError if the file or a column is missing, a cell is not a number,
+/// a trial has two diameters, no trial reaches one of the sinkages, or a trial starts above the contact pressure or
+/// never reaches it.
 std::vector<MeasuredPlate> readMeasuredPlates(const std::filesystem::path& file, const std::vector<double>& sinkages,
                                               double contactPressure = 0);
 

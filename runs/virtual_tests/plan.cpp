@@ -21,8 +21,8 @@ constexpr double kCellLength = 32, kCellWidth = 16, kCellHeight = 10; // [d]: sa
 constexpr double kCoarseLength = 12, kCoarseWidth = 6;                // [d]
 constexpr double kTooth = 1.2, kTip = 0.4;                            // [d] height and tip width of the plate teeth
 constexpr double kLiftFall = 0.5;                                     // [s] simulated per lift, for cost estimates only
-constexpr double kYielding = 8; // sinkage over that of a bed as stiff as columns of grains, for cost estimates only
-constexpr double kPressed = 70; // [d sqrt(density / stress)] before shear starts, for cost estimates only
+constexpr double kYielding = 8; // sinkage / sinkage of a bed as stiff as columns of grains, for cost estimates only
+constexpr double kPressed = 70; // [d sqrt(density / stress)] time before shear starts, for cost estimates only
 
 /// Elastic overlap of two grains under a force [m].
 double overlapUnder(const TestedSoil& soil, double force) {
@@ -31,15 +31,15 @@ double overlapUnder(const TestedSoil& soil, double force) {
   return base::pow(0.5625 * force * force / (modulus * modulus * radius), 1.0 / 3);
 }
 
-/// Modulus of a bed of grain columns under the track's pressure [Pa]: an upper bound for real beds, for the initial
-/// speed of plates.
+/// Modulus of a bed that consists of columns of grains, under the track's pressure [Pa]. It is an upper bound for real
+/// beds, and determines the initial speed of plates.
 double modulusOfColumns(const TestedSoil& soil) {
   const double d = 2 * soil.grainRadius;
   return kTrackPressure * d / overlapUnder(soil, kTrackPressure * d * d);
 }
 
-/// Impact speed whose maximum overlap is that of a force-chain contact under `pressure`, for the time step. A contact
-/// carries about pressure times d^2, in chains twice that.
+/// Impact speed with the same maximum overlap as a contact in a force chain under `pressure`; used for the time step.
+/// The mean contact force is about pressure times d^2; in force chains it is twice as large.
 double impactLikePressure(const TestedSoil& soil, double pressure) {
   if (soil.young == 0) return 0;
   const double d = 2 * soil.grainRadius, force = 2 * pressure * d * d, overlap = overlapUnder(soil, force);
@@ -55,8 +55,8 @@ double volumeOf(const Soil& soil, const PlateSinkage& plate) {
 double plateCost(const Soil& soil, const PlateSinkage& plate) {
   const double lifts = plate.strip.depth * plate.strip.breadth / plate.lift;
   const double d = soil.grains.diameter(), breadth = plate.strip.breadth * d;
-  const double way =
-      std::min(1.2 * plate.strip.sinkage * breadth, d + kYielding * breadth * plate.mostPressure / plate.firstModulus);
+  const double way = std::min(1.2 * plate.strip.sinkage * breadth,
+                              d + kYielding * breadth * plate.greatestPressure / plate.firstModulus);
   const double push = way / std::sqrt(plate.pace(soil).first() * plate.fastest(soil));
   return volumeOf(soil, plate) / soil.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0) *
          (0.6 * kLiftFall * std::max(1.0, lifts) + push);
@@ -111,16 +111,16 @@ void addTests(TestPlan& plan) {
   addMeasuredPlates(plan);
 }
 
-/// Throws if the grains of the largest bed or sample exceed the free memory.
+/// Throws InputError if the grains of any bed or sample exceed the free memory.
 void checkSizes(const TestPlan& plan) {
   constexpr double kGiB = 1073741824.0;
-  constexpr double kBytes = 600;   // memory per grain
-  constexpr double kPacked = 1.15; // grains in a cube of one diameter
+  constexpr double kBytes = 600;   // [bytes] memory per grain
+  constexpr double kPacked = 1.15; // number of grains in a volume d^3
   const std::optional<double> free = base::freeMemoryOfHost();
   const auto require = [&](double grains, const std::string& what) {
     if (free && grains * kBytes > *free)
       throw base::InputError(
-          fmt::format("{} {:.3g} grains, which require about {:.3g} GiB, but only {:.3g} GiB are free; reduce the size",
+          fmt::format("{} {:.3g} grains, which require about {:.3g} GiB, but only {:.3g} GiB are free; reduce its size",
                       what, grains, grains * kBytes / kGiB, *free / kGiB));
   };
   const PlanOptions& o = plan.options;
@@ -130,46 +130,49 @@ void checkSizes(const TestPlan& plan) {
     require(
         volumeOf(plan.grains, plate) / plan.grains.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0),
         fmt::format(
-            "--plate-grains {:g}, --plate-ratio {:g}, --bin {:g}, --depth {:g} and --thickness {:g} result in a bed of",
+            "--plate-grains {:g}, --plate-ratio {:g}, --bin {:g}, --depth {:g} and --thickness {:g} require a bed of",
             o.plateGrains, o.plateRatio, o.bin, o.depth, o.thickness));
   }
   require(plan.cell.length * plan.cell.width * plan.cell.depth * kPacked,
-          fmt::format("--shear-height {:g} [m] with grains of radius {:g} m results in a sample of", o.shearHeight,
+          fmt::format("--shear-height {:g} [m] with grains of radius {:g} m requires a sample of", o.shearHeight,
                       plan.soil.grainRadius));
 }
 
-/// Checks that every plate fits its bed and stays clear of the floor.
+/// Throws InputError if a plate is too wide for its bed or would come too close to the floor.
 void checkMeasuredPlates(const MeasuredPlatesBed& p, double coarsest) {
   for (std::size_t k = 0; k < p.diameters.size(); ++k) {
     if (p.bin < 2 * p.diameters[k])
       throw base::InputError(
-          fmt::format("plates.bin = {:g} m is narrower than two diameters of the plate of {:g} m; raise it", p.bin,
+          fmt::format("plates.bin = {:g} m is less than twice the plate diameter, {:g} m; raise plates.bin", p.bin,
                       p.diameters[k]));
     if (p.depth < p.sinkages[k] + 2 * coarsest)
       throw base::InputError(fmt::format("plates.depth = {:g} m is too small: fewer than two grains remain below the "
-                                         "plate of {:g} m at a sinkage of {:g} m; raise it",
+                                         "plate of {:g} m at a sinkage of {:g} m; raise plates.depth",
                                          p.depth, p.diameters[k], p.sinkages[k]));
   }
 }
 
-/// Throws if a grain could touch two periodic images of another, or a plate the floor.
+/// Throws InputError if a grain could touch two periodic images of another grain, or if a plate could touch the floor.
 void checkBeds(const TestPlan& plan) {
   const double least = 3.5 * (1 + plan.soil.spread), d = 2 * plan.soil.grainRadius;
   const PlanOptions& o = plan.options;
   checkMeasuredPlates(o.plates, d * (1 + plan.soil.spread));
   if (o.thickness < least)
-    throw base::InputError(
-        fmt::format("--thickness {:g} [d] is too small: the largest grains need {:.3g} d between periodic boundaries",
-                    o.thickness, least));
+    throw base::InputError(fmt::format(
+        "--thickness {:g} [d] is too small: the largest grains require at least {:.3g} d between the periodic "
+        "boundaries; raise --thickness",
+        o.thickness, least));
   if (o.bin * o.plateGrains < least)
-    throw base::InputError(
-        fmt::format("--plate-grains {:g} [d]: the bin is {:g} d wide, but the largest grains need {:.3g} d; raise it",
-                    o.plateGrains, o.bin * o.plateGrains, least));
+    throw base::InputError(fmt::format(
+        "--plate-grains {:g} [d] is too small: the bed is {:g} d wide, but the largest grains require at least "
+        "{:.3g} d; raise --plate-grains or --bin",
+        o.plateGrains, o.bin * o.plateGrains, least));
   const double most = (o.depth * o.plateGrains - 1 - plan.soil.spread) / o.plateGrains;
   if (plan.small.strip.sinkage > most)
-    throw base::InputError(
-        fmt::format("--plate-grains {:g} [d]: the plate would come within a grain of {:g} m of the floor; raise it",
-                    o.plateGrains, d));
+    throw base::InputError(fmt::format(
+        "--plate-grains {:g} [d] is too small: the gap between the plate and the floor would be less than the "
+        "largest grain (mean diameter {:g} m); raise --plate-grains or --depth",
+        o.plateGrains, d));
 }
 
 } // namespace
@@ -205,11 +208,11 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.grains.spread = soil.spread, plan.grains.preparationFriction = soil.friction;
   plan.grains.stepsPerContact = options.stepsPerContact;
   plan.grains.impactSpeed = impactLikePressure(
-      soil, std::max(options.mostPressure, *std::max_element(options.loads.begin(), options.loads.end())));
+      soil, std::max(options.greatestPressure, *std::max_element(options.loads.begin(), options.loads.end())));
   PlateTest& small = plan.small.strip;
   small.breadth = options.plateGrains, small.bin = options.bin, small.depth = options.depth;
   small.thickness = options.thickness, small.inertialNumber = options.inertialNumber;
-  plan.small.mostPressure = options.mostPressure;
+  plan.small.greatestPressure = options.greatestPressure;
   plan.small.added = options.plateWaves * kTrackPressure, plan.small.firstModulus = modulusOfColumns(soil);
   plan.wide = plan.large = plan.small;
   plan.wide.strip.bin *= 2;
@@ -248,7 +251,7 @@ nlohmann::ordered_json TestPlan::recipe() const {
       {"depth", options.depth},
       {"thickness_d", options.thickness},
       {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
-      {"most_pressure_Pa", options.mostPressure},
+      {"most_pressure_Pa", options.greatestPressure},
       {"inertial_number", options.inertialNumber},
       {"plate_waves", options.plateWaves},
       {"steps_per_contact", options.stepsPerContact},
@@ -276,12 +279,13 @@ void longestFirst(std::vector<const PlannedTest*>& tests) {
 }
 
 jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
-                   const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell) {
-  if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, tell);
+                   const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& report) {
+  if (test.kind == TestKind::repose) return tiltBed(plan.grains, plan.repose, test.seed, folder, exec, report);
   if (test.kind == TestKind::plate)
-    return pushMeasuredPlate(plan.grains, plan.measuredPlate(test.diameter), test.seed, folder, exec, tell);
-  if (test.kind != TestKind::shear) return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, tell);
-  tell(0, "shearing");
+    return pushMeasuredPlate(plan.grains, plan.measuredPlate(test.diameter), test.seed, folder, exec, report);
+  if (test.kind != TestKind::shear)
+    return pushStrip(plan.grains, plan.plate(test.kind), test.seed, folder, exec, report);
+  report(0, "shearing");
   return shearCell(plan.grains, plan.cell, test.load, test.seed, folder, exec, kept);
 }
 

@@ -13,33 +13,33 @@
 #include <string>
 #include <vector>
 
-/// Tests of a bevameter, and their grain size.
+/// Plan of the tests of a virtual bevameter: their sizes, loads and seeds.
 namespace grouser::virtual_tests {
 
 /// Reference track for pressures and breadths: pads 0.28 m wide, mean pressure 47.5 kPa.
 inline constexpr double kTrackBreadth = 0.28, kTrackPressure = 47.5e3; ///< [m], [Pa]
 
-/// Measured circular plates and their bed, as in a scene's [terrain].
+/// Circular plates for comparison with measurements, and their bed, as in a scene's [terrain].
 struct MeasuredPlatesBed {
   std::vector<double> diameters, sinkages; ///< [m] of the plates, and their final sinkages
   double bin = 0.3, depth = 0.12;          ///< [m] side of the square bed between periodic boundaries, and its depth
 };
 
-/// Options of the user; defaults are full care.
+/// Options of the user; the defaults are the full settings (without --quick).
 struct PlanOptions {
   bool coarse = false;                                        ///< --quick
   double plateGrains = 20;                                    ///< [d] breadth of the small plate
-  double plateRatio = 3;                                      ///< breadth of the large plate over that of the small one
+  double plateRatio = 3;                                      ///< breadth of the large plate / breadth of the small one
   double bin = 5, depth = 2;                                  ///< [breadths] width and depth of the bed
-  double thickness = 12;                                      ///< [d] of beds along the strips
-  double gradedThickness = 16;                                ///< [d] of graded beds
+  double thickness = 12;                                      ///< [d] thickness of beds, along the strips
+  double gradedThickness = 16;                                ///< [d] thickness of graded beds
   double inertialNumber = 1.8e-3, shearInertialNumber = 8e-4; ///< [-]
-  double plateWaves = 0.04;                              ///< pressure added by waves, over the track's pressure [-]
-  double stepsPerContact = 20;                           ///< steps per shortest contact
-  double shearStrain = 0.4;                              ///< [-]
-  double shearHeight = 0.14;                             ///< [m] height of a shear sample, at least ten grains
-  std::vector<double> loads = {10e3, 25e3, 50e3, 100e3}; ///< [Pa]
-  double mostPressure = 100e3;                           ///< [Pa]
+  double plateWaves = 0.04;                                   ///< pressure added by waves / pressure of the track [-]
+  double stepsPerContact = 20;                                ///< steps per duration of the shortest contact
+  double shearStrain = 0.4;                                   ///< [-]
+  double shearHeight = 0.14;                                  ///< [m] height of a shear sample, at least ten grains
+  std::vector<double> loads = {10e3, 25e3, 50e3, 100e3};      ///< [Pa] normal stresses of the shear tests
+  double greatestPressure = 100e3;                            ///< [Pa] maximum pressure of the plates
   int seeds = 8, largeSeeds = 3;
   int reposeSeeds = 0;      ///< number of tilted beds
   MeasuredPlatesBed plates; ///< one test per plate and seed
@@ -54,20 +54,20 @@ enum class TestKind {
   wide,
   shear,
   repose,
-  plate ///< a measured circular plate
+  plate ///< a circular plate for comparison with a measured one
 };
 
-/// Factor of the steps per contact when a failed test is repeated [-].
+/// Factor by which the steps per contact increase when a failed test is repeated [-].
 inline constexpr double kShorterSteps = 1.5;
 
 /// One test of the plan.
 struct PlannedTest {
   std::string name; ///< "small_seed1", "shear25kPa_seed3"; prefix "coarse_" in coarse plans
   TestKind kind{};
-  double load = 0;     ///< [Pa] of shear tests
-  double diameter = 0; ///< [m] of measured plates
+  double load = 0;     ///< [Pa] normal stress of a shear test
+  double diameter = 0; ///< [m] diameter of a circular plate (TestKind::plate)
   int seed = 0;
-  double cost = 0; ///< approximate grains times simulated time, for remaining time and order
+  double cost = 0; ///< approximate number of grains x simulated time; determines the order and the remaining time
 };
 
 struct TestPlan {
@@ -77,7 +77,7 @@ struct TestPlan {
   PlateSinkage small, large, wide;
   ShearCell cell;
   ReposeTest repose;
-  std::vector<PlannedTest> tests; ///< seed by seed
+  std::vector<PlannedTest> tests; ///< in the order in which a single process performs them
 
   const PlateSinkage& plate(TestKind kind) const;
   MeasuredPlateTest measuredPlate(double diameter) const; ///< [m]
@@ -87,15 +87,15 @@ struct TestPlan {
   std::string care() const { return options.coarse ? "coarse" : "full"; }
   std::string preparationName() const { return options.coarse ? "coarse_preparation" : "preparation"; }
 };
-/// Throws InputError for an impossible bed.
+/// Throws InputError if a bed or sample is impossible.
 TestPlan planOf(const TestedSoil& soil, const PlanOptions& options);
 
-/// Sorts by decreasing cost, stably, so that no process ends with a long test alone.
+/// Stable sort by decreasing cost, so that no process is still busy with a long test after all others have finished.
 void longestFirst(std::vector<const PlannedTest*>& tests);
 
-/// Performs a test. `folder`: temporary files; `kept`: poured samples, for the other loads.
+/// Performs a test. `folder`: temporary files; `kept`: folder of poured samples, which the other loads reuse.
 jobs::Table doTest(const TestPlan& plan, const PlannedTest& test, const std::filesystem::path& folder,
-                   const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& tell);
+                   const std::filesystem::path& kept, const base::Exec& exec, const PlateProgress& report);
 
 /// Curve of a shear test.
 ShearCurve shearCurve(const jobs::Table& run, double diameter);

@@ -22,14 +22,14 @@ namespace {
 
 constexpr double kRoughFriction = 2;
 constexpr double kPorosity = 0.4;      // expected porosity, for the number of grains
-constexpr double kRestOfPlates = 1e-4; // over m g r: a tenth of the energy of a grain moving with a plate
-constexpr double kLiftRest = 1e-2;     // the impact of the next lift has about a thousand times more
-constexpr double kBedPatience = 6;     // [s]
+constexpr double kRestOfPlates = 1e-4; // [m g r] rest limit: 1/10 of the energy of a grain that moves with a plate
+constexpr double kLiftRest = 1e-2;     // [m g r] limit between lifts: the next impact has about 1000 times this energy
+constexpr double kBedPatience = 6;     // [s] maximum settling time
 constexpr double kFall = 1.5;          // [m/s] approximate impact speed of grains
-constexpr int kLatticeLayers = 5;      // as in earlier lattice beds
+constexpr int kLatticeLayers = 5;      // layers of a lattice bed
 constexpr double kLatticeSpacing = 2.02;
 
-/// The soil with the grain size at the floor.
+/// The soil with its grain radius multiplied by `scale`.
 Soil coarse(const Soil& soil, double scale) {
   Soil other = soil;
   other.grains.radius *= scale;
@@ -42,7 +42,7 @@ double weightTimesRadius(const Soil& soil, const BedGrains& grains) {
   return sum;
 }
 
-/// Scene of the present bed, with the soil's preparation friction.
+/// Scene text of the bed on `below`, with the soil's preparation friction.
 std::string sceneOf(const Soil& soil, const BedPreparation& bed, const std::string& below, std::int64_t seed) {
   return soil.prepared().scene(1, seed, soil.preparationFriction, {0, 0, -jobs::kGravity},
                                bed.size.run() + fmt::format("impact_speed = {}\n", kFall)) +
@@ -65,7 +65,7 @@ PreparedBed layLattice(const Soil& soil, const BedPreparation& bed, std::int64_t
   return {grainsOf(simulation, bed.size), simulation.steps(), 0};
 }
 
-/// Lifts of the loose column from which the bed is rained, lowest first.
+/// The lifts (layers of loose grains) from which the bed is rained, lowest first.
 std::vector<BedGrains> looseLifts(const Soil& soil, const BedPreparation& bed, const BedGrains& floor,
                                   std::int64_t seed) {
   terrain::RandomBedOptions o;
@@ -99,7 +99,7 @@ void raise(BedGrains& lift, const BedGrains& bed) {
 }
 
 PreparedBed rainBed(const Soil& soil, const BedPreparation& bed, std::int64_t seed, const std::filesystem::path& folder,
-                    const base::Exec& exec, const std::function<void(const std::string&)>& tell) {
+                    const base::Exec& exec, const std::function<void(const std::string&)>& report) {
   BedGrains floor;
   if (bed.floor == BedFloor::fixed) floor = roughFloor(coarse(soil, bed.coarsest(soil)), bed.size, seed);
   std::vector<BedGrains> lifts = looseLifts(soil, bed, floor, seed);
@@ -107,7 +107,7 @@ PreparedBed rainBed(const Soil& soil, const BedPreparation& bed, std::int64_t se
                            "[[grains]]\nform = \"file\"\nfile = \"lift.txt\"\nmaterial = \"grain\"\n";
   PreparedBed made;
   for (std::size_t k = 0; k < lifts.size(); ++k) {
-    tell(fmt::format("lift {} of {}", k + 1, lifts.size()));
+    report(fmt::format("lift {} of {}", k + 1, lifts.size()));
     raise(lifts[k], made.grains);
     made.grains.insert(made.grains.end(), lifts[k].begin(), lifts[k].end());
     writeBed(folder / "lift.txt", made.grains);
@@ -138,7 +138,7 @@ std::string floorSections(const Soil& soil, const BedPreparation& bed, std::int6
       text += fmt::format("[[grain]]\nposition = [{:.12g}, {:.12g}, {:.12g}]\nradius = {:.9g}\nmaterial = \"grain\"\n"
                           "fixed = true\n",
                           g.position.x, g.position.y, g.position.z, g.radius);
-    // Catches small grains that pass the fixed ones.
+    // This plane stops small grains that fall through gaps between the fixed grains.
     text += fmt::format("[[plane]]\npoint = [0, 0, {:.12g}]\nmaterial = \"grain\"\n", -roughFloorDepth(below));
     return text;
   }
@@ -159,24 +159,24 @@ std::vector<double> liftTops(const BedPreparation& bed) {
 
 PreparedBed prepareBed(const Soil& soil, const BedPreparation& bed, std::int64_t seed,
                        const std::filesystem::path& folder, const base::Exec& exec,
-                       const std::function<void(const std::string&)>& tell) {
+                       const std::function<void(const std::string&)>& report) {
   const auto begin = std::chrono::steady_clock::now();
   PreparedBed made =
-      bed.lattice ? layLattice(soil, bed, seed, folder, exec) : rainBed(soil, bed, seed, folder, exec, tell);
+      bed.lattice ? layLattice(soil, bed, seed, folder, exec) : rainBed(soil, bed, seed, folder, exec, report);
   made.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return made;
 }
 
 PreparedBed keptBed(const Soil& soil, const BedPreparation& bed, std::int64_t seed, const std::filesystem::path& folder,
-                    const base::Exec& exec, const std::function<void(const std::string&)>& tell) {
+                    const base::Exec& exec, const std::function<void(const std::string&)>& report) {
   constexpr const char* kHead = "# x, y, z, r [m]; steps, seconds: %ld, %lf";
   const std::filesystem::path file = folder / "bed.txt";
   PreparedBed made;
   if (!std::filesystem::exists(file)) {
-    made = prepareBed(soil, bed, seed, folder, exec, tell);
+    made = prepareBed(soil, bed, seed, folder, exec, report);
     writeBed(file, made.grains, fmt::format("; steps, seconds: {}, {:.3f}", made.steps, made.seconds));
   }
-  // Read back even if just written, so that results do not depend on the origin of the bed.
+  // Read the file even if this call wrote it, so that new and stored beds give bitwise the same results.
   std::ifstream in(file);
   std::string head;
   std::getline(in, head);

@@ -9,16 +9,16 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kFaster = 1.5;     // maximum increase per adjustment, as acceleration causes waves
-constexpr double kAboutRight = 0.2; // relative tolerance of the speed
-constexpr double kSoftest = 1e-6;   // minimum modulus over the first one
-constexpr double kThereAndBack = 2; // path of the waves in depths
+constexpr double kFaster = 1.5;     // maximum factor per adjustment, because acceleration causes waves
+constexpr double kAboutRight = 0.2; // relative tolerance of the speed; no adjustment within it
+constexpr double kSoftest = 1e-6;   // minimum modulus / firstModulus
+constexpr double kThereAndBack = 2; // path of the waves / depth of the bed
 
 double meanOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Slope between the means of both halves of the rows.
+/// Slope of the line through the means of the first and the second half of the rows.
 double slopeOver(std::span<const double> sinkage, std::span<const double> pressure) {
   const std::size_t half = sinkage.size() / 2;
   const double way = std::fabs(meanOf(sinkage.last(half)) - meanOf(sinkage.first(half)));

@@ -23,18 +23,18 @@ namespace {
 using base::Vec3d;
 using jobs::Table;
 
-constexpr int kRows = 1200;                        // rows of the loading to the greatest sinkage
-constexpr int kFiner = 4;                          // factor of the row density during unloading
-constexpr std::size_t kSmooth = 8;                 // rows averaged to detect a pressure
-constexpr double kUnloaded = 0.02;                 // end of unloading over the greatest pressure
+constexpr int kRows = 1200;                        // number of rows if the loading ends at the greatest sinkage
+constexpr int kFiner = 4;                          // rows per sinkage in unloading / rows per sinkage in loading
+constexpr std::size_t kSmooth = 8;                 // number of rows averaged to detect a pressure
+constexpr double kUnloaded = 0.02;                 // pressure at the end of unloading / greatest pressure
 constexpr double kBack = 0.1;                      // [breadths] maximum lift of the plate
-constexpr double kBedShare = 0.5;                  // approximate share of the wall time
-constexpr std::size_t kShows = 32;                 // latest rows for the apparent modulus
-constexpr int kHeldRows = 16, kSettledRows = 4;    // rows while the plate is held; the last ones averaged
-constexpr double kHeld = 2;                        // hold time over the travel time of waves to the floor and back
-constexpr double kSlopeFrom = 0.2, kSlopeTo = 0.8; // pressure range for stiffnesses over the greatest pressure
+constexpr double kBedShare = 0.5;                  // approximate fraction of the wall time spent on the bed
+constexpr std::size_t kShows = 32;                 // number of latest rows used for the apparent modulus
+constexpr int kHeldRows = 16, kSettledRows = 4;    // rows of the hold; number of last ones that are averaged
+constexpr double kHeld = 2;                        // hold time / travel time of waves to the floor and back
+constexpr double kSlopeFrom = 0.2, kSlopeTo = 0.8; // pressure range for the stiffness / greatest pressure
 
-/// A plate on its bed that moves down and up with contact history.
+/// A plate on its bed. It can move down and up; the contact history is kept.
 class Press {
 public:
   Press(const Soil& soil, const PlateSinkage& test, const BedPreparation& preparation, double surface, double bottom,
@@ -55,17 +55,17 @@ public:
   }
 
   struct Row {
-    double sinkage, pressure; ///< [m], [Pa], means over the row
+    double sinkage, pressure; ///< [m], [Pa], means over the time of the row
   };
-  /// Moves by about `way` [m].
+  /// Advances until the plate has moved by about `way` [m].
   Row go(double way) { return wait(way / std::fabs(velocity_)); }
-  /// Continues for about `time` [s].
+  /// Advances by about `time` [s].
   Row wait(double time) {
     const std::int64_t until =
         simulation_->steps() + std::max<std::int64_t>(1, std::llround(time / simulation_->timeStep()));
     const double before = sinkage();
     while (simulation_->steps() < until) {
-      jobs::stopStudyIfAsked();
+      jobs::stopStudyOnRequest();
       simulation_->advance(std::min<std::int64_t>(until - simulation_->steps(), 2000));
     }
     const double force = simulation_->surfaces()->observe(plate_, simulation_->steps()).force.z;
@@ -102,7 +102,7 @@ private:
   std::unique_ptr<coupling::Simulation> simulation_;
 };
 
-/// Mean pressure of the last rows of a phase.
+/// Mean pressure of the last `last` rows of a phase; NaN if there are fewer.
 double recentPressure(const std::vector<std::vector<double>>& rows, double phase, std::size_t last = kSmooth) {
   double sum = 0;
   std::size_t count = 0;
@@ -111,12 +111,12 @@ double recentPressure(const std::vector<std::vector<double>>& rows, double phase
   return count == last ? sum / static_cast<double>(count) : std::nan("");
 }
 
-/// Loading, hold, unloading and reloading of a plate at speeds by PlatePace.
+/// Loads, holds, unloads and reloads a plate at the speeds of PlatePace.
 class Course {
 public:
-  Course(Press& press, const PlateSinkage& test, const PlatePace& pace, const PlateProgress& tell)
-      : press_(press), pace_(pace), tell_(tell), most_(test.mostPressure), deepest_(test.strip.sinkage * pace.breadth),
-        step_(deepest_ / kRows) {}
+  Course(Press& press, const PlateSinkage& test, const PlatePace& pace, const PlateProgress& report)
+      : press_(press), pace_(pace), tell_(report), most_(test.greatestPressure),
+        deepest_(test.strip.sinkage * pace.breadth), step_(deepest_ / kRows) {}
 
   std::vector<std::vector<double>> rows() {
     load();
@@ -175,7 +175,7 @@ private:
   std::vector<double> sinkage_, pressure_; ///< rows of the present phase
 };
 
-/// Slope of the pressure over the sinkage in one phase, between two shares of `most`.
+/// Slope of the pressure over the sinkage in one phase, for pressures from 20 to 80 % of `most`.
 double slopeOf(const jobs::Table& run, double phase, double most) {
   std::vector<double> z, p;
   for (const std::vector<double>& row : run.rows)
@@ -208,25 +208,25 @@ BedPreparation PlateSinkage::preparation(const Soil& soil) const {
 }
 
 jobs::Table pushStrip(const Soil& soil, const PlateSinkage& test, std::int64_t seed,
-                      const std::filesystem::path& folder, const base::Exec& exec, const PlateProgress& tell) {
+                      const std::filesystem::path& folder, const base::Exec& exec, const PlateProgress& report) {
   const double d = soil.grains.diameter(), b = test.strip.breadth * d;
   const BedPreparation preparation = test.preparation(soil);
   const std::size_t lifts = liftTops(preparation).size();
   std::size_t lift = 0;
   const PreparedBed bed = keptBed(soil, preparation, seed, folder, exec, [&](const std::string& phase) {
-    tell(kBedShare * static_cast<double>(lift++) / static_cast<double>(lifts), phase);
+    report(kBedShare * static_cast<double>(lift++) / static_cast<double>(lifts), phase);
   });
   const auto begin = std::chrono::steady_clock::now();
   const double surface = surfaceHeight(bed.grains, preparation.size, d);
   const double bottom = topUnder(soil, test.strip, bed.grains) + 1e-3 * d;
-  // Porosity of one breadth below the surface.
+  // Porosity between the surface and a depth of one breadth.
   const double off = PlateTest::kOffEnds * d;
   const double low = std::max(surface - b, off * preparation.coarsest(soil));
   const double solid = solidFraction(bed.grains, preparation.size, low, surface - off);
   Press press(soil, test, preparation, surface, bottom, seed, folder, exec);
   jobs::Table table;
   table.names = kSinkageColumns;
-  table.rows = Course(press, test, test.pace(soil), tell).rows();
+  table.rows = Course(press, test, test.pace(soil), report).rows();
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (std::vector<double>& row : table.rows)
     for (const double same : {1 - solid, static_cast<double>(bed.grains.size()), static_cast<double>(bed.steps),

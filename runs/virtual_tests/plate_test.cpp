@@ -16,8 +16,8 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr double kCoarsest = 2.0 / 7; // largest grain diameter over the distance of the boundaries
-constexpr double kPushBedShare = 0.3; // approximate share of the wall time
+constexpr double kCoarsest = 2.0 / 7; // largest grain diameter / distance between the periodic boundaries
+constexpr double kPushBedShare = 0.3; // approximate fraction of the wall time spent on the bed
 
 } // namespace
 
@@ -72,17 +72,17 @@ BedPreparation PlateTest::preparation(const Soil& soil) const {
 }
 
 jobs::Table pushPlate(const Soil& given, const PlateTest& test, std::int64_t seed, const std::filesystem::path& folder,
-                      const base::Exec& exec, const PlateProgress& tell) {
+                      const base::Exec& exec, const PlateProgress& report) {
   Soil soil = given;
   soil.grains.young = test.young;
   const double d = soil.grains.diameter(), b = test.breadth * d, speed = test.speed(soil);
   const BedPreparation preparation = test.preparation(soil);
   const BedSize& size = preparation.size;
   const PreparedBed bed =
-      keptBed(soil, preparation, seed, folder, exec, [&](const std::string& phase) { tell(0, phase); });
+      keptBed(soil, preparation, seed, folder, exec, [&](const std::string& phase) { report(0, phase); });
   const auto begin = std::chrono::steady_clock::now();
   const double surface = surfaceHeight(bed.grains, size, d), bottom = topUnder(soil, test, bed.grains) + 1e-3 * d;
-  // Porosity of one breadth below the surface.
+  // Porosity between the surface and a depth of one breadth.
   const double low = std::max(surface - b, PlateTest::kOffEnds * d * preparation.coarsest(soil));
   const double solid = test.lattice ? solidFraction(bed.grains, size, 0.5 * d, surface - d)
                                     : solidFraction(bed.grains, size, low, surface - PlateTest::kOffEnds * d);
@@ -101,10 +101,10 @@ jobs::Table pushPlate(const Soil& given, const PlateTest& test, std::int64_t see
   for (int row = 1; row <= test.rows; ++row) {
     const std::int64_t from = simulation.steps(), until = all * row / test.rows;
     while (simulation.steps() < until) {
-      jobs::stopStudyIfAsked();
+      jobs::stopStudyOnRequest();
       simulation.advance(std::min<std::int64_t>(until - simulation.steps(), 2000));
     }
-    tell(kPushBedShare + (1 - kPushBedShare) * row / test.rows, "pushing");
+    report(kPushBedShare + (1 - kPushBedShare) * row / test.rows, "pushing");
     const double middle = 0.5 * static_cast<double>(from + until) * simulation.timeStep();
     for (std::size_t i = 0; i < surfaces.count(); ++i)
       if (surfaces.surface(i).name == "plate")
@@ -129,7 +129,7 @@ double meanPressure(const jobs::Table& run, double area, double from, double to)
 }
 
 double meanBearing(PlateShape shape, double angle, double unitWeight, double breadth, double from, double to) {
-  // The theory is linear in the sinkage.
+  // Mean over the interval: the theoretical pressure is linear in the sinkage.
   return bearingPressure(shape, angle, unitWeight, breadth, 0.5 * (from + to));
 }
 

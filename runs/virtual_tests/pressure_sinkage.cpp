@@ -33,10 +33,10 @@ bool counts(const PlateTests& plate, std::size_t curve, std::size_t i) {
 
 int timesOf(const std::vector<int>& counts, std::size_t curve) { return counts.empty() ? 1 : counts[curve]; }
 
-/// The tests of a breadth. Each has its own k in the fit of n: tests end at the same pressure, so that a common line
-/// through stiff and soft ones would be too flat.
+/// The tests of a breadth. Each test has its own k in the fit of n: all tests end at the same pressure, so that a
+/// common line through stiff and soft tests would be too flat.
 struct Breadth {
-  std::vector<std::pair<Sums, double>> tests; ///< with their multiplicities
+  std::vector<std::pair<Sums, double>> tests; ///< sums and multiplicity of each test
   double covariance = 0, variance = 0, times = 0;
 
   Breadth(const PlateTests& plate, const std::vector<int>& counted) {
@@ -71,7 +71,7 @@ double goodnessOf(const PlateTests& plate, const std::vector<int>& times, double
   return points > 2 ? 1 - std::sqrt(squares / (points - 2)) / (sum / points) : base::kNaN;
 }
 
-// Range of the starts of straight lines, their length, and increment, over the greatest pressure.
+// Range of the starts of the straight lines, their length, and the increment of the starts, all / greatest pressure.
 constexpr double kFirst = 0.02, kLast = 0.6, kSpan = 0.2, kStride = 0.02;
 
 /// p = slope (z - origin) by least squares over points [from, to).
@@ -89,7 +89,7 @@ Straight straightThrough(const SinkageCurve& curve, std::size_t from, std::size_
   return {slope, z / n - p / (n * slope), from};
 }
 
-/// First point with this pressure; the size of the curve if none.
+/// Index of the first point with at least this pressure; the size of the curve if there is none.
 std::size_t firstWith(const SinkageCurve& curve, double pressure) {
   std::size_t i = 0;
   while (i < curve.pressure.size() && curve.pressure[i] < pressure) ++i;
@@ -104,7 +104,7 @@ BekkerFit nothing() {
 } // namespace
 
 BeddedCurve correctedForBedding(const SinkageCurve& measured, double room) {
-  constexpr std::size_t kLeast = 3; // points
+  constexpr std::size_t kMin = 3; // minimum number of points
   BeddedCurve bedded{measured, 0};
   if (measured.pressure.empty()) return bedded;
   const double most = *std::max_element(measured.pressure.begin(), measured.pressure.end());
@@ -114,7 +114,7 @@ BeddedCurve correctedForBedding(const SinkageCurve& measured, double room) {
   for (int k = 0; kFirst + kStride * k <= kLast; ++k) {
     const double share = kFirst + kStride * k;
     const std::size_t from = firstWith(measured, share * most), to = firstWith(measured, (share + kSpan) * most);
-    if (to < from + kLeast || to > measured.pressure.size() || measured.sinkage[from] > measured.sinkage[first] + room)
+    if (to < from + kMin || to > measured.pressure.size() || measured.sinkage[from] > measured.sinkage[first] + room)
       continue;
     const Straight line = straightThrough(measured, from, to);
     if (std::isfinite(line.slope) && line.slope > steepest.slope) steepest = line, begins = share;

@@ -11,56 +11,57 @@ namespace grouser::virtual_tests {
 /// Loading curve of one plate.
 struct SinkageCurve {
   std::vector<double> sinkage;  ///< [m]
-  std::vector<double> pressure; ///< [Pa], one for each sinkage
+  std::vector<double> pressure; ///< [Pa] at each sinkage
 };
 
-/// Curve corrected for bedding of the plate into protruding grains, as ASTM D1883 does for curves that start concave
-/// upward: the start is replaced by the steepest straight line, whose zero becomes the origin of sinkage. Steepest: of
-/// the least-squares lines over a fifth of the greatest pressure that start between 2 and 60 % of it and at most `room`
-/// [m] below the sinkage at 2 %. Exponents above 1 are reduced by that: 1.27 becomes 1.11 if the room is a sixth of the
-/// sinkage.
+/// Curve corrected for bedding of the plate into protruding grains, as in ASTM D1883 for curves that are concave upward
+/// at the start: the steepest straight line replaces the start, and its zero becomes the origin of the sinkage. The
+/// candidates are least-squares lines over 20 % of the greatest pressure. They start between 2 and 60 % of it, at most
+/// `room` [m] below the sinkage at 2 %. The correction reduces exponents above 1: 1.27 becomes 1.11 if `room` is 1/6 of
+/// the sinkage.
 struct BeddedCurve {
   SinkageCurve curve;
-  double origin = 0; ///< [m] in the measured sinkage
-  double begins = 0; ///< start of the line over the greatest pressure: below it n is 1 by construction
+  double origin = 0; ///< [m] measured sinkage at the new origin
+  double begins = 0; ///< pressure at the start of the line / greatest pressure; below it, n is 1 by construction
 };
-/// A curve without such a line is unchanged.
+/// Returns a curve without such a line unchanged.
 BeddedCurve correctedForBedding(const SinkageCurve& measured, double room);
-/// Without correction: sinkage from the point at which the plate first carries 2 % of the greatest pressure.
+/// Curve without this correction: sinkage from the point where the plate first carries 2 % of the greatest pressure.
 SinkageCurve fromFirstContact(const SinkageCurve& measured);
-/// The same from the first row with this pressure [Pa], which gets the sinkage `at` [m]; empty if there is none.
+/// Curve from the first row with at least this pressure [Pa]; this row gets the sinkage `at` [m]. Empty if there is
+/// none.
 SinkageCurve fromContactPressure(const SinkageCurve& measured, double pressure, double at = 0);
-/// Sinkage of that row [m]; NaN if there is none.
+/// Sinkage of the first row with at least this pressure [m]; NaN if there is none.
 double contactSinkage(const SinkageCurve& measured, double pressure);
 
-/// Breadth and tests of a plate.
+/// Breadth of a plate, and the curves of its tests.
 struct PlateTests {
   double breadth = 0; ///< [m]
   std::vector<SinkageCurve> curves;
 };
 
-/// Mean pressure [Pa] of the rows with a sinkage in (from, to] [m]; NaN without such rows.
+/// Mean pressure [Pa] of the rows with a sinkage in (from, to] [m]; NaN if there are no such rows.
 double meanPressureBetween(const SinkageCurve& curve, double from, double to);
 
 struct BekkerFit {
   double n = 0;                     ///< [-] common to both breadths
   double kc = 0, kphi = 0;          ///< [N/m^(n+1)], [N/m^(n+2)]; kc may have either sign
   std::array<double, 2> k{};        ///< [N/m^(n+2)] of each breadth
-  std::array<double, 2> ownN{};     ///< [-] of each breadth alone
+  std::array<double, 2> ownN{};     ///< [-] n fitted to each breadth separately
   std::array<double, 2> goodness{}; ///< [-] Wong's, 1 - sqrt(sum (p - p_fit)^2 / (N - 2)) / mean p
   double kAt(double breadth) const { return kc / breadth + kphi; } ///< [N/m^(n+2)]
   double sinkageAt(double pressure, double breadth) const;         ///< [m]; NaN if kAt() is not positive
 };
 
-/// Least squares of ln p = ln k + n ln z with Wong's weights p^2 (Wong 1980): a common n of all tests, each with its
-/// own k, whose mean is the k of the breadth; tests of a breadth, and breadths, have equal weight; k_c = (k1 - k2) b1
-/// b2 / (b2 - b1), k_phi = (k2 b2 - k1 b1) / (b2 - b1). Excludes points without sinkage or pressure. `counts`:
-/// multiplicity of each curve; empty: 1. `givenN`: instead of the fitted n, as k_c and k_phi are comparable at equal n
-/// only. NaN without two points of a breadth.
+/// Least squares of ln p = ln k + n ln z with the weights p^2 (Wong 1980). All tests have a common n, and each its own
+/// k; the k of a breadth is the mean over its tests. Tests of a breadth have equal weight, and so do both breadths.
+/// k_c = (k1 - k2) b1 b2 / (b2 - b1), k_phi = (k2 b2 - k1 b1) / (b2 - b1). Excludes points without sinkage or pressure.
+/// `counts`: multiplicity of each curve; empty: 1. `givenN` replaces the fitted n, because k_c and k_phi are comparable
+/// only at equal n. NaN if a breadth has fewer than two points.
 BekkerFit fitBekker(const std::array<PlateTests, 2>& plates, const std::vector<std::vector<int>>& counts = {},
                     std::optional<double> givenN = {});
 
-/// The same with one plate: n and k of a breadth in [0]; the rest is NaN.
+/// Fit of a single plate: its n and k are in element [0]; all other values are NaN.
 BekkerFit fitOnePlate(const PlateTests& plate, const std::vector<int>& counts = {}, std::optional<double> givenN = {});
 
 } // namespace grouser::virtual_tests

@@ -19,7 +19,7 @@ namespace {
 constexpr double kLift = 12;    // [d] as in beds for plates
 constexpr double kImpact = 0.5; // [m/s] impact speed of flowing grains, for the time step of Hertz' contacts
 
-/// A bed with rotating gravity.
+/// A bed that is tilted by rotating gravity.
 class Slope {
 public:
   Slope(const Soil& soil, const BedPreparation& bed, std::int64_t seed, const std::filesystem::path& folder,
@@ -35,7 +35,7 @@ public:
       mass_ += soil.grains.density * 4 * base::kPi / 3 * g.radius * g.radius * g.radius;
   }
 
-  /// Holds a tilt [deg] for `time` [s]; returns the root mean square speed at its end [m/s].
+  /// Holds a tilt [deg] for `time` [s]; returns the root mean square speed of the grains at the end [m/s].
   double hold(double tilt, double time) {
     const double angle = tilt * base::kPi / 180;
     const base::Vec3d gravity{jobs::kGravity * base::sin(angle), 0, -jobs::kGravity * base::cos(angle)};
@@ -44,7 +44,7 @@ public:
     setup_.ground.grains->model.gravity = gravity;
     const double before = potential();
     simulation_ = std::make_unique<coupling::Simulation>(setup_, exec_, state);
-    // Gravity rotates without work: the jump of potential energy enters the initial ledger.
+    // The rotation of gravity does no work: the energy ledger starts with the changed potential energy.
     coupling::Ledger start;
     start.setCounted(state.ledgerAtStart);
     start.potential += potential() - before;
@@ -52,7 +52,7 @@ public:
     simulation_ = std::make_unique<coupling::Simulation>(setup_, exec_, state);
     const std::int64_t until = simulation_->steps() + std::llround(time / simulation_->timeStep());
     while (simulation_->steps() < until) {
-      jobs::stopStudyIfAsked();
+      jobs::stopStudyOnRequest();
       simulation_->advance(std::min<std::int64_t>(until - simulation_->steps(), 2000));
     }
     return std::sqrt(2 * simulation_->ground().grains->ledger().kinetic / mass_);
@@ -62,7 +62,7 @@ private:
   double potential() const { return simulation_->ground().grains->ledger().potential; } ///< [J]
 
   base::Exec exec_;
-  double mass_ = 0; ///< [kg] including fixed floor grains
+  double mass_ = 0; ///< [kg] mass of all grains, including the fixed grains of the floor
   coupling::SimulationSetup setup_;
   std::unique_ptr<coupling::Simulation> simulation_;
 };
@@ -70,13 +70,13 @@ private:
 } // namespace
 
 jobs::Table tiltBed(const Soil& soil, const ReposeTest& test, std::int64_t seed, const std::filesystem::path& folder,
-                    const base::Exec& exec, const PlateProgress& tell) {
+                    const base::Exec& exec, const PlateProgress& report) {
   const double d = soil.grains.diameter();
   BedPreparation bed;
   bed.size = {test.length * d, test.width * d, test.depth * d};
   bed.lift = kLift * d;
   const PreparedBed prepared =
-      keptBed(soil, bed, seed, folder, exec, [&](const std::string& phase) { tell(0, phase); });
+      keptBed(soil, bed, seed, folder, exec, [&](const std::string& phase) { report(0, phase); });
   const double surface = surfaceHeight(prepared.grains, bed.size, d);
   const double off = PlateTest::kOffEnds * d;
   const double porosity = 1 - solidFraction(prepared.grains, bed.size, off, surface - off);
@@ -88,7 +88,7 @@ jobs::Table tiltBed(const Soil& soil, const ReposeTest& test, std::int64_t seed,
   for (double tilt = test.from; tilt <= test.most && tilt > 0; tilt += flowing ? -test.down : test.up) {
     const double speed = slope.hold(tilt, time) / unit;
     table.rows.push_back({tilt, speed, porosity});
-    tell(std::min(0.9, 0.3 + 0.6 * tilt / test.most), flowing ? "tilting back" : "tilting");
+    report(std::min(0.9, 0.3 + 0.6 * tilt / test.most), flowing ? "tilting back" : "tilting");
     flowing = flowing || speed > test.flows;
     if (flowing && speed < test.rests) break;
   }

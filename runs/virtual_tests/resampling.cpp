@@ -11,7 +11,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-/// Variance of a number over the resamples of a group.
+/// Variance of a statistic over the resamples of a group.
 struct Spread {
   double sum = 0, squares = 0;
   int count = 0;
@@ -53,7 +53,7 @@ std::vector<support::Estimate> intervalsOfTests(const std::vector<int>& groupSiz
     const int n = groupSizes[g];
     single = single || n < 2;
     if (n < 2) continue;
-    // Deviations from the value, to avoid cancellation.
+    // Deviations from the value of all tests, to avoid cancellation.
     std::vector<Spread> spreads(values.size());
     TestCounts counts = all;
     for (int r = 0; r < resamples; ++r) {

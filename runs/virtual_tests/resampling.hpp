@@ -10,17 +10,17 @@
 /// Intervals of fitted constants by resampling whole tests.
 namespace grouser::virtual_tests {
 
-/// Multiplicity of each test: [group][test]; 1 in the data.
+/// Multiplicity of each test in a resample: [group][test]; 1 in the original data.
 using TestCounts = std::vector<std::vector<int>>;
 
-/// 95 % intervals of `statistic`, a vector of all tests. Tests of a group are independent and identically distributed
-/// (seeds of one plate); groups are independent.
+/// 95 % intervals of `statistic`, a vector computed from all tests. Tests of a group (e.g. seeds of one plate) are
+/// independent and identically distributed; groups are independent.
 ///
-/// Each group is resampled separately with replacement (Efron 1979). The
-/// variance over the resamples, times n / (n - 1), is the group's part of the variance; its half width is the root of
-/// that times Student's quantile of n - 1 degrees of freedom, and half widths add up in squares. (A plain bootstrap of
-/// three tests is far too narrow.) A group of one test makes every interval infinite. Random numbers depend on `seed`:
-/// the same tests have the same intervals. Excludes non-finite numbers.
+/// Each group of n tests is resampled separately with replacement (Efron 1979). The
+/// variance over the resamples, times n / (n - 1), is the group's part of the variance; the square root of this part,
+/// times Student's quantile for n - 1 degrees of freedom, is the group's half width. The squares of the half widths are
+/// summed. (The intervals of a plain bootstrap of three tests are far too narrow.) A group of one test makes every
+/// interval infinite. Equal tests and an equal `seed` result in equal intervals. Excludes non-finite statistics.
 std::vector<support::Estimate> intervalsOfTests(const std::vector<int>& groupSizes,
                                                 const std::function<std::vector<double>(const TestCounts&)>& statistic,
                                                 std::uint64_t seed = 1, int resamples = 400);

@@ -14,9 +14,9 @@ namespace {
 using jobs::Table;
 using support::Estimate;
 
-constexpr double kCompareFrom = 0.25; // start of the comparison over the common sinkage of two bins
+constexpr double kCompareFrom = 0.25; // sinkage at the start of the comparison of two bins / their common sinkage
 
-/// Corrected curves of one plate for the fits.
+/// Curves of one plate for the fits, corrected for bedding.
 PlateTests plateTests(const TestPlan& plan, const std::vector<jobs::Table>& runs, TestKind kind) {
   PlateTests tests{plan.breadth(kind), {}};
   for (const jobs::Table& run : runs) tests.curves.push_back(beddedCurve(plan, run).curve);
@@ -74,7 +74,8 @@ void addUnloading(SoilResults& r, std::size_t i, const std::vector<jobs::Table>&
   r.addedByMotion[i] = over(added);
 }
 
-/// Small plate on a bin of twice the width compared with the other, over the common sinkage.
+/// Relative difference of the small plate's pressure between the bin of double width and the normal bin, over the
+/// common sinkage.
 std::optional<Estimate> widerBin(const PlateTests& small, const PlateTests& wide) {
   if (small.curves.size() < 2 || wide.curves.size() < 2) return {};
   double common = INFINITY;
@@ -112,11 +113,11 @@ void addPlates(SoilResults& r, const TestPlan& plan, const std::array<std::vecto
   r.measured[Quantity::frictionModulus] = e[2];
   r.k = {e[3], e[4]}, r.ownN = {e[5], e[6]}, r.sinkage = e[7], r.goodness = {e[8], e[9]};
   if (!r.givenN) return;
-  r.atGivenN = {{Quantity::cohesionModulus, e[10]}, {Quantity::frictionModulus, e[11]}};
-  r.kAtGivenN = {e[12], e[13]};
+  r.atPublishedN = {{Quantity::cohesionModulus, e[10]}, {Quantity::frictionModulus, e[11]}};
+  r.kAtPublishedN = {e[12], e[13]};
 }
 
-/// Results of one breadth, if the other is missing.
+/// Adds the results of one breadth if the other breadth has no finished tests.
 void addOneBreadth(SoilResults& r, const TestPlan& plan, std::size_t i, const std::vector<jobs::Table>& runs) {
   const PlateTests tests = plateTests(plan, runs, kBreadths[i]);
   const auto statistic = [&](const TestCounts& counts) {
@@ -126,7 +127,7 @@ void addOneBreadth(SoilResults& r, const TestPlan& plan, std::size_t i, const st
   };
   const std::vector<Estimate> e = intervalsOfTests({static_cast<int>(runs.size())}, statistic);
   r.k[i] = e[0], r.ownN[i] = e[1], r.goodness[i] = e[2];
-  if (r.givenN) r.kAtGivenN[i] = e[3];
+  if (r.givenN) r.kAtPublishedN[i] = e[3];
 }
 
 void addShear(SoilResults& r, const std::vector<std::vector<ShearCurve>>& tests) {
@@ -141,12 +142,12 @@ void addShear(SoilResults& r, const std::vector<std::vector<ShearCurve>>& tests)
   r.peakCohesion = e[3], r.peakAngle = e[4], r.hump = e[5], r.misfit = e[6];
 }
 
-/// Share of the plate displacement that sheared the soil instead of sliding along the teeth.
+/// Fraction of the plate displacement that sheared the soil instead of sliding along the teeth.
 void addSlip(SoilResults& r, const std::vector<jobs::Table>& runs) {
-  r.sheared = 0, r.leastSheared = INFINITY;
+  r.sheared = 0, r.minSheared = INFINITY;
   for (const jobs::Table& run : runs) {
     const double share = shearStrength(run).sheared;
-    r.sheared += share / static_cast<double>(runs.size()), r.leastSheared = std::min(r.leastSheared, share);
+    r.sheared += share / static_cast<double>(runs.size()), r.minSheared = std::min(r.minSheared, share);
   }
 }
 
@@ -158,11 +159,11 @@ void addRepose(SoilResults& r, const TestPlan& plan, const std::vector<jobs::Tab
     if (std::isfinite(a.repose)) repose.push_back(a.repose);
   }
   r.reposeTests = static_cast<int>(repose.size());
-  if (starts.empty() || repose.empty()) return; // stable at any tilt
+  if (starts.empty() || repose.empty()) return; // no bed flowed and came to rest again
   r.stability = jobs::interval95(starts), r.measured[Quantity::repose] = jobs::interval95(repose);
 }
 
-/// Tolerance of published constants, relative or absolute.
+/// Tolerance of a published constant; relative for some quantities, absolute for others.
 double toleranceOf(Quantity quantity, double value) {
   switch (quantity) {
   case Quantity::exponent:
@@ -216,7 +217,7 @@ SoilResults resultsOf(const TestPlan& plan, const jobs::Pieces& pieces) {
   }
   for (const PublishedValue& p : plan.soil.published)
     if (p.quantity == Quantity::exponent && !r.givenN) r.givenN = p.value;
-  if (const auto whole = publishedBekker(plan.soil); !whole.empty()) r.givenN = whole.front().fit.n; // from one source
+  if (const auto whole = publishedBekker(plan.soil); !whole.empty()) r.givenN = whole.front().fit.n; // first source
   if (r.hasPlates()) addPlates(r, plan, plates);
   for (std::size_t i = 0; i < 2 && !r.hasPlates(); ++i)
     if (r.plates[i] > 0) addOneBreadth(r, plan, i, plates[i]);

@@ -36,7 +36,7 @@ void advanceSample(terrain::Grains& grains, std::int64_t steps) {
   }
 }
 
-double bringToRest(Sample& sample, double agitation, double limit) {
+double bringToRest(Sample& sample, double energyRatio, double limit) {
   terrain::Grains& grains = sample.grains();
   const terrain::GrainModel& model = grains.model();
   const double unit = model.mass * norm(model.gravity) * 2 * model.radius *
@@ -45,11 +45,11 @@ double bringToRest(Sample& sample, double agitation, double limit) {
   int calm = 0;
   double time = 0;
   while (time < limit) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     advanceSample(grains, every);
     time += static_cast<double>(every) * model.timeStep;
     const terrain::GrainLedger ledger = grains.ledger();
-    calm = ledger.kinetic + ledger.rotational < agitation * unit ? calm + 1 : 0;
+    calm = ledger.kinetic + ledger.rotational < energyRatio * unit ? calm + 1 : 0;
     if (calm >= 3) return time;
   }
   return -time;

@@ -13,10 +13,10 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-/// A constant in SI.
+/// A fitted constant in SI units.
 double valueOf(const ScmFit& fit, Quantity quantity) { return inSoilFile(quantity, fit.constants.at(quantity).value); }
 
-/// p = (k_c / b + k_phi) z^n for the loading of a plate. Excludes points without sinkage.
+/// Loading curve of a plate, and p = (k_c / b + k_phi) z^n at its points. Excludes points without sinkage.
 FittedCurve plateCurve(const ScmFit& fit, const TestPlan& plan, const PlannedTest& test, const jobs::Table& run) {
   const double n = valueOf(fit, Quantity::exponent),
                k = valueOf(fit, Quantity::cohesionModulus) / plan.breadth(test.kind) +
@@ -31,7 +31,7 @@ FittedCurve plateCurve(const ScmFit& fit, const TestPlan& plan, const PlannedTes
   return curve;
 }
 
-/// tau = (c + sigma tan phi) (1 - exp(-j / K)) for a shear test, with its normal stress.
+/// Curve of a shear test, and tau = (c + sigma tan phi) (1 - exp(-j / K)) with the normal stress of the test.
 FittedCurve shearFitCurve(const ScmFit& fit, const TestPlan& plan, const PlannedTest& test, const jobs::Table& run) {
   const double c = valueOf(fit, Quantity::cohesion), modulus = valueOf(fit, Quantity::shearModulus),
                friction = std::tan(valueOf(fit, Quantity::frictionAngle) * base::kPi / 180);

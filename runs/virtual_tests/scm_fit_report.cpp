@@ -2,7 +2,7 @@
 // Tables and files of `grouser soil NAME --fit-scm`.
 #include "runs/jobs/estimate.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/support/tell.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/constant_doubts.hpp"
 #include "runs/virtual_tests/scm_fit.hpp"
@@ -20,7 +20,7 @@ std::string percent(double share) { return std::isfinite(share) ? fmt::format("{
 
 double siValue(const ScmFit& fit, Quantity q) { return inSoilFile(q, fit.constants.at(q).value); }
 
-/// "n": the key of [scm].
+/// Line of section [scm] with a constant, its unit and its interval, e.g. "n = 1.1 # [-] +- 0.1".
 std::string lineOf(Quantity q, double value, const support::Estimate& e) {
   return fmt::format("{} = {:.6g} # [{}] +- {:.2g}{}\n", symbolOf(q), value, soilFileUnitOf(q),
                      inSoilFile(q, e.halfWidth), doubtOf(q, e).empty() ? "" : ", inconclusive");
@@ -35,16 +35,16 @@ std::string scmFitText(const TestPlan& plan, const ScmFit& fit) {
   for (const auto& [q, e] : fit.constants)
     text += fmt::format("  {:<8} {:>20} {}{}\n", symbolOf(q), jobs::valueText(e), unitOf(q),
                         doubtOf(q, e).empty() ? "" : "  inconclusive");
-  text += fmt::format("  {:<8} {:>20} elastic_ratio, from the unloading of the plates\n", "f",
-                      jobs::valueText(fit.elasticRatio));
+  text +=
+      fmt::format("  {:<8} {:>20} elastic_ratio, from unloading the plates\n", "f", jobs::valueText(fit.elasticRatio));
   text += fmt::format("\n  {:<16} {:>5} {:>9} {:>9} {:>12} {:>13}\n", "measured / fit - 1", "tests", "rms", "largest",
                       "model error", "seed scatter");
   for (const FittedGroup& g : fit.groups)
     text += fmt::format("  {:<18} {:>5} {:>9} {:>9} {:>12} {:>13}\n", g.name, g.tests.size(), percent(g.residual.rms),
                         fmt::format("{:+.1f} %", 100 * g.residual.largest), percent(g.residual.model),
                         percent(g.residual.scatter));
-  return text + fmt::format("  model error with the best constants: plates {}, shear {} (rms over the mean curves "
-                            "above {:g} % of the maximum stress)\n",
+  return text + fmt::format("  model error with these constants: plates {}, shear {} (rms deviation of the mean curves "
+                            "where the fit exceeds {:g} % of the maximum stress)\n",
                             percent(fit.modelError(true)), percent(fit.modelError(false)), 100 * kCountedFrom);
 }
 
@@ -59,8 +59,8 @@ std::string scmFitToml(const TestPlan& plan, const ScmFit& fit, std::string& why
     why = fmt::format("K = {:.4g} m is not positive", modulus);
   if (!why.empty()) return "";
   std::string text =
-      fmt::format("# Soil contact model (terrain.kind = \"scm\") fitted to {}virtual tests of {} with grains of {:g} "
-                  "mm by\n# `grouser soil {} --fit-scm`. +- is the half width of the 95 % interval. Model error: "
+      fmt::format("# Soil contact model (terrain.kind = \"scm\") fitted to {}virtual tests of {} (grain diameter {:g} "
+                  "mm) by\n# `grouser soil {} --fit-scm`. +- is the half width of the 95 % interval. Model error: "
                   "plates {}, shear {}.\n[scm]\n",
                   plan.options.coarse ? "coarse " : "", plan.soil.name, 2e3 * plan.soil.grainRadius, plan.soil.name,
                   percent(fit.modelError(true)), percent(fit.modelError(false)));
@@ -68,7 +68,7 @@ std::string scmFitToml(const TestPlan& plan, const ScmFit& fit, std::string& why
   const support::Estimate& f = fit.elasticRatio;
   if (std::isfinite(f.value))
     text += fmt::format("elastic_ratio = {:.4g} # [-] +- {:.2g}{}\n", std::max(1.0, f.value), f.halfWidth,
-                        f.value < 1 ? fmt::format("; measured {:.2g}, the model requires 1", f.value) : "");
+                        f.value < 1 ? fmt::format("; measured {:.2g}, the model requires at least 1", f.value) : "");
   return text;
 }
 
@@ -95,8 +95,9 @@ std::string scmCurvesCsv(const TestPlan& plan, const ScmFit& fit) {
 void reportScmFit(const TestPlan& plan, const jobs::Pieces& pieces) {
   const SoilResults results = resultsOf(plan, pieces);
   if (!results.hasPlates() || !results.hasShear())
-    return fmt::print("fit       skipped: {} missing; repeat the command to continue\n",
-                      results.hasShear() ? "all tests of a plate are" : "shear tests under all loads are");
+    return fmt::print("fit       skipped: {}; repeat the command with --resume\n",
+                      results.hasShear() ? "a plate has no finished tests"
+                                         : "no seed has finished shear tests under all loads");
   const ScmFit fit = fitScm(plan, pieces, results);
   const std::string text = scmFitText(plan, fit);
   std::string why;
@@ -104,7 +105,7 @@ void reportScmFit(const TestPlan& plan, const jobs::Pieces& pieces) {
   fmt::print("{}", text);
   const auto& folder = pieces.folder();
   if (toml.empty())
-    support::tell("WARNING: scm_fit.toml was not written: {}; use more seeds or larger plates\n", why);
+    support::printStderr("WARNING: scm_fit.toml was not written, because {}; use more seeds or larger plates\n", why);
   else
     support::replaceTextFile(folder / "scm_fit.toml", toml);
   support::replaceTextFile(folder / "scm_fit.txt", text);

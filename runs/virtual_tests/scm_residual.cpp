@@ -10,7 +10,7 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr int kPlaces = 50; // points of the mean curve
+constexpr int kPlaces = 50; // number of points of the mean curve
 
 std::size_t firstCounted(const FittedCurve& c) {
   const double least = kCountedFrom * *std::max_element(c.measured.begin(), c.measured.end());
@@ -19,14 +19,14 @@ std::size_t firstCounted(const FittedCurve& c) {
   return i;
 }
 
-/// Displacement of the first point that counts [m].
+/// Sinkage or displacement of the first point above kCountedFrom [m].
 double firstWay(const FittedCurve& c) {
   const std::size_t first = firstCounted(c);
   if (first == c.way.size()) return base::kInfinity;
   return c.way[first];
 }
 
-/// Deviation at a displacement, by linear interpolation.
+/// Deviation at a sinkage or displacement, by linear interpolation.
 double deviationAt(const FittedCurve& c, double way) {
   const auto above = static_cast<std::size_t>(std::upper_bound(c.way.begin(), c.way.end(), way) - c.way.begin());
   const std::size_t i = std::clamp<std::size_t>(above, 1, c.way.size() - 1);
@@ -34,7 +34,7 @@ double deviationAt(const FittedCurve& c, double way) {
   return (1 - share) * c.deviationAt(i - 1) + share * c.deviationAt(i);
 }
 
-/// Model error and scatter over the common range of all tests.
+/// Adds model error and scatter over the range that all tests have in common.
 void addMeanCurve(const std::vector<FittedCurve>& tests, GroupResidual& r) {
   double from = -base::kInfinity, to = base::kInfinity;
   for (const FittedCurve& c : tests) from = std::max(from, firstWay(c)), to = std::min(to, c.way.back());

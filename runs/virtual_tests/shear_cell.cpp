@@ -18,16 +18,16 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kPitch = 2;                // [d] tooth spacing
+constexpr double kPitch = 2;                // [d] distance between teeth
 constexpr double kBack = 2;                 // [d] thickness of the plates behind their teeth
-constexpr double kBeyond = 2;               // [d] minimum extent of plates beyond the boundaries
-constexpr double kRounded = 0.25;           // [d] radius of the spheres of a plate's mesh
-constexpr double kRamp = 30, kPressed = 70; // [d sqrt(density / stress)] duration of the load ramp, and start of shear
-constexpr double kPlateMass = 0.25;         // plate mass over sample mass
-constexpr auto kEntry = "max_overlap = 0.5\n"; // as between grains, for soft grains with initial overlap
-constexpr double kOffPlates = 2;               // [d] distance of the core from the plate tips
+constexpr double kBeyond = 2;               // [d] minimum extent of the plates beyond the boundaries
+constexpr double kRounded = 0.25;           // [d] radius of the spheres that represent a plate's mesh
+constexpr double kRamp = 30, kPressed = 70; // [d sqrt(density / stress)] duration of the load ramp, time of first shear
+constexpr double kPlateMass = 0.25;         // mass of the upper plate / mass of the sample
+constexpr auto kEntry = "max_overlap = 0.5\n"; // the limit between grains; soft grains can start with such overlaps
+constexpr double kOffPlates = 2;               // [d] distance between the core and the tips of the teeth
 
-/// A plate as OBJ: teeth along x with tips at z = 0, body below (`up`) or above.
+/// A plate as OBJ text: teeth along x with their tips at z = 0. The body is below the tips if `up`, else above.
 std::string toothedPlate(double from, double to, double width, double d, const ShearCell& cell, bool up) {
   const auto teeth = static_cast<int>(std::lround((to - from) / (kPitch * d)));
   std::vector<std::array<double, 2>> profile; // x, z
@@ -67,7 +67,7 @@ std::string plateSection(const std::string& name, double d, double z, const std:
                      name, kRounded * d, z, more);
 }
 
-/// Mean magnitude of the stresses on both plates.
+/// Shear and normal stress, each the mean magnitude over both plates.
 struct PlateStress {
   double shear = 0, normal = 0, height = 0;
 };
@@ -84,8 +84,8 @@ PlateStress plateStress(const coupling::Simulation& simulation, double area) {
   return s;
 }
 
-/// Writes the meshes of both plates. Teeth are periodic, so that both boundaries match; the upper plate extends
-/// backwards by its displacement.
+/// Writes the meshes of both plates. The period of the teeth divides the length of the cell, so that the teeth match
+/// across the boundaries. The upper plate extends backwards by its displacement.
 void writePlates(const ShearCell& cell, const BedSize& size, double d, const std::filesystem::path& folder) {
   const double period = kPitch * d, way = cell.strain * 1.5 * size.depth;
   const double behind = period * std::ceil((way + kBeyond * d) / period), end = size.length + period;
@@ -93,14 +93,14 @@ void writePlates(const ShearCell& cell, const BedSize& size, double d, const std
   support::writeTextFile(folder / "upper.obj", toothedPlate(-behind, end, size.width, d, cell, false), "--out");
 }
 
-/// A layer between its plates, before shear.
+/// Geometry and mass of a layer between its plates, before shear.
 struct Layer {
   BedGrains grains;
-  double upper = 0; ///< height of the tips of the upper plate [m]
+  double upper = 0; ///< initial height of the upper plate's tips [m]
   double mass = 0;  ///< total grain mass [kg]
 };
 
-/// Scene sections of both plates; the load on the upper one rises for `ramp` [s].
+/// Scene sections of both plates; the load on the upper plate rises during `ramp` [s].
 std::string plateSections(double d, const Layer& layer, double load, double ramp, const std::string& drawn) {
   return plateSection("lower", d, 0, "") +
          plateSection("upper", d, layer.upper,
@@ -113,7 +113,8 @@ std::string grainsSection(const std::string& file) {
   return fmt::format("[[grains]]\nform = \"file\"\nfile = \"{}\"\nmaterial = \"grain\"\n", file);
 }
 
-/// Presses the teeth of the upper plate in before grains are cohesive: on a cohesive layer they would rest and slide.
+/// Presses the teeth of the upper plate into the layer while it has no cohesion; on a cohesive layer, the teeth would
+/// rest on the grains and slide.
 void pressIn(const Soil& soil, const BedSize& size, double stress, std::int64_t seed,
              const std::filesystem::path& folder, const base::Exec& exec, Layer& layer) {
   const double d = soil.grains.diameter(), unit = d * std::sqrt(soil.grains.density / stress);
@@ -127,14 +128,14 @@ void pressIn(const Soil& soil, const BedSize& size, double stress, std::int64_t 
   std::filesystem::remove(folder / bed);
   const auto all = static_cast<std::int64_t>(kPressed * unit / simulation.timeStep());
   while (simulation.steps() < all) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     simulation.advance(std::min<std::int64_t>(all - simulation.steps(), 2000));
   }
   layer.grains = grainsOf(simulation, size);
   layer.upper = plateStress(simulation, size.length * size.width).height;
 }
 
-/// Shear velocity of the layer itself: grain velocity at the upper tips minus that at the lower tips [m/s].
+/// Shear velocity of the soil: mean velocity of the grains at the upper tips minus the mean at the lower tips [m/s].
 double shearedSpeed(const coupling::Simulation& simulation, double d, double height) {
   constexpr double kNear = 1; // [d] distance from the tips
   const terrain::GrainSnapshot s = simulation.ground().grains->snapshot();
@@ -179,7 +180,7 @@ CoreStress coreStress(const terrain::Grains& grains, const BedSize& size, double
       const double distance = norm(branch), overlap = radius(g) + radius(other) - distance;
       Vec3d force = branch * (law.stiffness * overlap / distance); // force on g
       if (!state.contactShear.empty()) force -= state.contactShear[c].as<double>() * law.tangentialStiffness;
-      // Each contact is visited from both sides.
+      // The loop visits each contact twice, once from each grain, hence the factors 0.5.
       s.xx += 0.5 * force.x * branch.x, s.zz += 0.5 * force.z * branch.z;
       s.xz += 0.5 * force.x * branch.z, s.zx += 0.5 * force.z * branch.x;
     }
@@ -196,7 +197,7 @@ jobs::Table shearCell(const Soil& soil, const ShearCell& cell, double stress, st
   const BedSize size{cell.length * d, cell.width * d, cell.depth * d};
   writePlates(cell, size, d, folder);
   Layer layer;
-  // Parameters of the mesh, as the scene text identifies the poured sample.
+  // The comment with the mesh parameters is needed because the hash of the scene text identifies the poured sample.
   const std::string below =
       plateSection("lower", d, 0, "") + fmt::format("# teeth {:.17g} {:.17g}\n", cell.tooth, cell.tip);
   layer.grains = pourBed(soil, size, below, seed, folder, exec, kept);
@@ -213,7 +214,7 @@ jobs::Table shearCell(const Soil& soil, const ShearCell& cell, double stress, st
   const double unit = d * std::sqrt(soil.grains.density / stress); // [s]
   const double rate = cell.inertialNumber / unit, start = kPressed * unit;
   const double duration = start + cell.strain / rate, area = size.length * size.width;
-  // Approximate height of the sample; strain uses the actual one.
+  // Approximate height of the sample; the strain is relative to the actual height.
   const double height = cell.pressesIn ? layer.upper : top - 0.5 * d, drawn = rate * height;
   const std::string run = size.run() + (cell.pressesIn ? kEntry : "");
   const std::string text = soil.scene(duration, seed, soil.grains.friction, {0, 0, 0}, run) +
@@ -233,7 +234,7 @@ jobs::Table shearCell(const Soil& soil, const ShearCell& cell, double stress, st
   for (int row = 0; row <= cell.rows; ++row) {
     const std::int64_t until = begin + (all - begin) * row / cell.rows;
     while (simulation.steps() < until) {
-      jobs::stopStudyIfAsked();
+      jobs::stopStudyOnRequest();
       simulation.advance(std::min<std::int64_t>(until - simulation.steps(), 2000));
     }
     const PlateStress plates = plateStress(simulation, area);

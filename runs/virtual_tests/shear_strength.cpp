@@ -11,8 +11,8 @@ namespace grouser::virtual_tests {
 
 namespace {
 
-constexpr int kTrials = 60;                      // search for K: the bracket shrinks to 3e-13
-constexpr double kNarrowest = 1e-4, kWidest = 3; // range of K over the largest displacement
+constexpr int kTrials = 60; // maximum iterations in the search for K: they shrink the bracket to 3e-13
+constexpr double kNarrowest = 1e-4, kWidest = 3; // range of K / largest displacement
 
 double meanOf(const std::vector<double>& values, std::size_t from, std::size_t to) {
   double sum = 0;
@@ -28,14 +28,14 @@ struct Line {
   }
   void solve(double& cohesion, double& angle) const {
     const double spread = xx - x * x / n;
-    const bool isOne = !(spread > 0.01 * xx); // a single load, except for scatter
+    const bool isOne = !(spread > 0.01 * xx); // all normal stresses are equal except for scatter: a single load
     const double slope = isOne ? xy / xx : (xy - x * y / n) / spread;
     cohesion = isOne ? 0 : (y - slope * x) / n;
     angle = std::atan(slope) * 180 / base::kPi;
   }
 };
 
-/// A curve as a share of its residual strength.
+/// A shear curve divided by its residual strength.
 struct Normalised {
   const ShearCurve* curve;
   double residual, times;
@@ -53,7 +53,7 @@ double misfitOf(const std::vector<Normalised>& curves, double shearModulus) {
   return squares / points;
 }
 
-/// Golden-section search over ln K, with a single minimum as the curves rise.
+/// Golden-section search over ln K. The error has a single minimum, because the curves rise.
 double bestModulus(const std::vector<Normalised>& curves) {
   double way = 0;
   for (const Normalised& c : curves) way = std::max(way, c.curve->displacement.back());
@@ -97,7 +97,7 @@ ShearFit fitShear(const std::vector<std::vector<ShearCurve>>& tests, const std::
     if (times == 0) continue;
     for (const ShearCurve& curve : tests[t]) {
       const CurveStrength s = strengthOf(curve);
-      // Strengths scatter in proportion to the load.
+      // The scatter of the strength is proportional to the load.
       residual.add(s.residualNormal, s.residualShear, times / (s.residualNormal * s.residualNormal));
       peak.add(s.peakNormal, s.peakShear, times / (s.peakNormal * s.peakNormal));
       curves.push_back({&curve, s.residualShear, times});

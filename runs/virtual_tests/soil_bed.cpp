@@ -27,17 +27,17 @@ namespace {
 
 using base::Vec3d;
 
-constexpr double kFloorScatter = 0.15; // scatter of the heights of rough-floor grains [mean diameters]
+constexpr double kFloorScatter = 0.15; // [d] scatter of the heights of rough-floor grains
 constexpr double kCloud = 0.22;        // solid fraction of the initial cloud
-constexpr double kPoured = 0.59;       // expected solid fraction, for the number of grains only
-constexpr double kAgitation = 1e-5;    // over m g r: limit for rest
-/// Limit at the end of the settling time, as single grains may keep vibrating. As for beds of plates.
+constexpr double kPoured = 0.59;       // expected solid fraction; determines only the number of grains
+constexpr double kAgitation = 1e-5;    // [m g r] kinetic energy per grain below which the bed is at rest
+/// Higher limit [m g r] at the end of the settling time, because single grains may keep vibrating. As for plate beds.
 constexpr double kLastAgitation = 1e-4;
-constexpr double kSettlingPatience = 6; // [s] for a bed of 0.25 m; increases with the root of the depth
-constexpr double kLook = 0.02;          // [s] interval of energy checks
+constexpr double kSettlingPatience = 6; // [s] maximum settling time; if depth > 0.25 m: times sqrt(depth / 0.25 m)
+constexpr double kLook = 0.02;          // [s] time between energy checks
 constexpr std::size_t kCalmLooks = 3;
 
-/// Within [0, length).
+/// Coordinate wrapped into [0, length).
 double wrapped(double x, double length) {
   const double y = x - length * std::floor(x / length);
   return y < length ? y : 0.0;
@@ -46,7 +46,7 @@ double wrapped(double x, double length) {
 } // namespace
 
 double Soil::meanVolume() const {
-  // The mean of r^3 of a uniform distribution is r^3 (1 + spread^2).
+  // For a uniform distribution of radii, the mean of r^3 is (mean r)^3 (1 + spread^2).
   return base::kPi / 6 * grains.diameter() * grains.diameter() * grains.diameter() * (1 + spread * spread);
 }
 
@@ -79,9 +79,9 @@ std::string BedSize::run() const {
 
 namespace {
 
-constexpr auto kKeptName = "poured_"; // prefix of files of pourBed(), followed by the hash of the scene
+constexpr auto kKeptName = "poured_"; // prefix of the files of pourBed(); the hash of the scene follows
 
-/// Empty if the file is missing or incomplete: another call may be removing it.
+/// Empty if the file is missing or incomplete, because another call may be removing it.
 std::optional<BedGrains> keptSample(const std::filesystem::path& file, std::int64_t number) {
   if (file.empty() || !std::filesystem::exists(file)) return {};
   try {
@@ -97,7 +97,7 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
                   const std::filesystem::path& folder, const base::Exec& exec, const std::filesystem::path& kept) {
   const double d = soil.grains.diameter(), r = soil.grains.radius, area = size.length * size.width;
   const auto number = static_cast<std::int64_t>(std::llround(kPoured * area * size.depth / soil.meanVolume()));
-  // The cloud leaves a grain diameter free at the boundaries.
+  // No grain of the cloud crosses a periodic boundary; this leaves a gap of one grain diameter.
   const double largest = 2 * r * (1 + soil.spread);
   const double cloud =
       static_cast<double>(number) * soil.meanVolume() / (kCloud * (size.length - largest) * (size.width - largest));
@@ -117,11 +117,11 @@ BedGrains pourBed(const Soil& soil, const BedSize& size, const std::string& belo
   if (const double left = kAgitation * comeToRest(simulation, kAgitation * unit, limit); !(left <= kLastAgitation))
     failRestless(seed, limit, left);
   if (file.empty()) return grainsOf(simulation, size);
-  // Read back as the next call will. Concurrent calls write identical files.
+  // Read the grains from the file, as the next call will do. Concurrent calls write identical files.
   const std::filesystem::path own = folder / file.filename();
   writeBed(own, grainsOf(simulation, size));
   BedGrains made = readBed(own);
-  std::error_code error; // on failure the next call pours again
+  std::error_code error; // ignored: without the file, the next call pours again
   std::filesystem::rename(own, file, error);
   return made;
 }
@@ -138,7 +138,7 @@ double roughFloorDepth(const Soil& soil) { return (1 + soil.spread + kFloorScatt
 BedGrains roughFloor(const Soil& soil, const BedSize& size, std::int64_t seed) {
   constexpr std::uint64_t kPurpose = base::purpose("study.rough_floor");
   const double d = soil.grains.diameter();
-  // Spacing of 0.9 diameters, to avoid holes.
+  // A spacing of 0.9 diameters avoids holes.
   const auto nx = static_cast<std::int64_t>(std::ceil(size.length / (0.9 * d)));
   const auto ny = static_cast<std::int64_t>(std::ceil(size.width / (0.9 * d)));
   BedGrains floor;
@@ -183,8 +183,8 @@ void failRestless(std::int64_t seed, double limit, double energy) {
   throw base::SimulationError(
       fmt::format(
           "the bed with seed {} did not come to rest within {:.1f} s: the mean kinetic energy per grain is still "
-          "{:.2g} m g r (mass x gravity x radius); reduce rolling friction, or raise preparation friction or "
-          "steps per contact",
+          "{:.2g} m g r (mass x gravity x radius); reduce the rolling friction, or raise the preparation friction or "
+          "the steps per contact",
           seed, limit, energy),
       base::Cause::unsettledBed);
 }
@@ -197,7 +197,7 @@ double comeToRest(coupling::Simulation& simulation, double energy, double limit)
   last.fill(INFINITY);
   const auto most = [&last] { return *std::max_element(last.begin(), last.end()); };
   for (std::size_t look = 0; !(most() < 1) && simulation.time() - start < limit; ++look) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     for (std::int64_t left = every; left > 0;) left -= simulation.advance(left);
     const terrain::GrainLedger ledger = grains.ledger();
     last[look % kCalmLooks] = (ledger.kinetic + ledger.rotational) / energy;

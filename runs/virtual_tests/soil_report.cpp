@@ -6,7 +6,7 @@
 #include "runs/output/plots.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/csv_cell.hpp"
-#include "runs/support/tell.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/text_file.hpp"
 #include "runs/virtual_tests/constant_doubts.hpp"
 #include "terrain/packing_limits.hpp"
@@ -44,12 +44,12 @@ nlohmann::ordered_json publishedJson(const TestedSoil& soil, Quantity quantity) 
   return all;
 }
 
-/// k of a plate with the published n, and the published span for its breadth.
+/// k of plate `i` with the published n, and the published span of k for the breadth of this plate.
 std::string atGivenNText(const TestPlan& plan, const SoilResults& r, std::size_t i) {
   if (!r.givenN) return {};
   const std::optional<PublishedSpan> span = publishedModulus(plan.soil, plan.breadth(kBreadths[i]));
-  return fmt::format("k {} with n = {:g}{}; ", jobs::valueText(r.kAtGivenN[i]), *r.givenN,
-                     span ? fmt::format(" ({}: {})", spanText(*span), verdictOf(r.kAtGivenN[i], *span)) : "");
+  return fmt::format("k {} with n = {:g}{}; ", jobs::valueText(r.kAtPublishedN[i]), *r.givenN,
+                     span ? fmt::format(" ({}: {})", spanText(*span), verdictOf(r.kAtPublishedN[i], *span)) : "");
 }
 
 std::string row(const std::string& name, const Estimate& e, const std::string& unit, const std::string& rest) {
@@ -58,25 +58,26 @@ std::string row(const std::string& name, const Estimate& e, const std::string& u
 
 bool isPlate(TestKind kind) { return kind == TestKind::small || kind == TestKind::large || kind == TestKind::wide; }
 
-/// A layer that slides along the teeth measures their friction, not its strength.
+/// Fraction of the displacement that shears the soil. If the soil slides along the teeth instead, the test measures the
+/// friction of the teeth.
 std::string slipText(const SoilResults& r) {
   constexpr double kSlides = 0.7;
-  return fmt::format("  shear within the soil: {:.0f} % of the plate displacement, at least {:.0f} % in each test{}\n",
-                     100 * r.sheared, 100 * r.leastSheared,
-                     r.leastSheared < kSlides ? "; if the soil slides along the teeth, c and phi describe the teeth, "
-                                                "not the soil: use larger grains or less cohesion"
-                                              : "");
+  return fmt::format("  shear within the soil: {:.0f} % of the plate displacement (lowest test: {:.0f} %){}\n",
+                     100 * r.sheared, 100 * r.minSheared,
+                     r.minSheared < kSlides ? "; if the soil slides along the teeth, c and phi describe this sliding, "
+                                              "not the soil: use larger grains or less cohesion"
+                                            : "");
 }
 
-/// A large relaxation during the hold means that inertia contributed to the pressure.
+/// A large decrease of the pressure during the hold means that inertia contributed to it.
 std::string motionText(const Estimate& added) {
   constexpr double kMuch = 0.1;
-  return fmt::format("pressure relaxation at constant sinkage: {} %{}\n",
+  return fmt::format("pressure decrease at constant sinkage: {} %{}\n",
                      jobs::valueText({100 * added.value, 100 * added.halfWidth}),
                      added.value > kMuch ? ": the plate motion increases the pressure; reduce --plate-waves" : "");
 }
 
-/// Warning about beds and samples looser than random packings of spheres; empty if none.
+/// Warning about beds and samples that are looser than random packings of spheres; empty if there are none.
 std::string looseText(const TestPlan& plan, const SoilResults& r) {
   const auto has = [&](const char* key) { return numberOf(plan.soil, key, 0) > 0; };
   const bool coheres = has("cohesion") || has("surface_energy") || has("adhesion_stiffness");
@@ -85,8 +86,8 @@ std::string looseText(const TestPlan& plan, const SoilResults& r) {
   for (const TestCosts& c : r.costs)
     if (c.porosity > loosest) text += fmt::format("{}{} {:.2f}", text.empty() ? "" : ", ", c.name, c.porosity);
   return text.empty() ? text
-                      : fmt::format("porosity of {} above {:.2f}, the loosest random packing of such grains: beds are "
-                                    "too thin or not settled",
+                      : fmt::format("porosity of {} exceeds {:.2f}, the porosity of the loosest random packing of such "
+                                    "grains: these beds are too thin or have not settled; use deeper beds",
                                     text, loosest);
 }
 
@@ -101,25 +102,26 @@ nlohmann::ordered_json estimateJson(const Estimate& e, const std::string& unit) 
 std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
   const std::map<Quantity, std::string> doubts = doubtsOf(r);
   std::string text =
-      fmt::format("\n{}soil {}, +- half width of the 95 % interval\n  {:<8} {:>20} {:<11} {}\n",
+      fmt::format("\n{}soil {} (+-: half width of the 95 % interval)\n  {:<8} {:>20} {:<11} {}\n",
                   plan.options.coarse ? "coarse: " : "", plan.soil.name, "", "measured", "", "published");
   for (const Quantity q : kQuantities) {
     const auto measured = r.measured.find(q);
     if (measured == r.measured.end()) continue;
     const std::optional<PublishedSpan> span = publishedSpan(plan.soil, q);
-    const auto given = r.atGivenN.find(q);
-    const bool isAtGivenN = given != r.atGivenN.end();
-    if (isAtGivenN) text += row(symbolOf(q), measured->second, unitOf(q), "with the n above");
-    const Estimate& compared = isAtGivenN ? given->second : measured->second;
-    text += row(isAtGivenN ? fmt::format("  n={:g}", *r.givenN) : symbolOf(q), compared, unitOf(q),
+    const auto given = r.atPublishedN.find(q);
+    const bool isAtPublishedN = given != r.atPublishedN.end();
+    if (isAtPublishedN) text += row(symbolOf(q), measured->second, unitOf(q), "with the n above");
+    const Estimate& compared = isAtPublishedN ? given->second : measured->second;
+    text += row(isAtPublishedN ? fmt::format("  n={:g}", *r.givenN) : symbolOf(q), compared, unitOf(q),
                 (span ? spanText(*span) + ": " + verdictOf(compared, *span) : "-") +
                     (doubts.contains(q) ? "; inconclusive" : ""));
     for (const PublishedValue& p : plan.soil.published)
       if (p.quantity == q) text += pad() + fmt::format("{:g}  {}\n", p.value, p.source);
   }
   if (r.hasPlates()) {
-    text += row("z", r.sinkage, "mm",
-                fmt::format("by Bekker's equation at {:g} kPa, width {:g} m", 1e-3 * kTrackPressure, kTrackBreadth));
+    text += row(
+        "z", r.sinkage, "mm",
+        fmt::format("sinkage from Bekker's equation at {:g} kPa, width {:g} m", 1e-3 * kTrackPressure, kTrackBreadth));
     for (const PublishedBekker& p : publishedBekker(plan.soil))
       text += pad() + fmt::format("{:.3g}  {}\n", 1e3 * p.fit.sinkageAt(kTrackPressure, kTrackBreadth), p.source);
   }
@@ -129,8 +131,9 @@ std::string constantsTable(const TestPlan& plan, const SoilResults& r) {
 std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
   std::string text;
   const double d = plan.grains.grains.diameter();
-  text += fmt::format("\n{}grains of {:g} mm; plates of {:g} and {:g} grains\n", plan.options.coarse ? "coarse: " : "",
-                      1e3 * d, plan.small.strip.breadth, plan.large.strip.breadth);
+  text +=
+      fmt::format("\n{}grain diameter {:g} mm; plate widths {:g} and {:g} grain diameters\n",
+                  plan.options.coarse ? "coarse: " : "", 1e3 * d, plan.small.strip.breadth, plan.large.strip.breadth);
   for (std::size_t i = 0; i < 2; ++i) {
     if (r.plates[i] == 0) continue;
     const double b = plan.breadth(kBreadths[i]);
@@ -141,16 +144,16 @@ std::string detailsTable(const TestPlan& plan, const SoilResults& r) {
     text += fmt::format("origin {} mm below the mean surface, steepest straight line starts at {:.0f} % of the maximum "
                         "pressure; n from first contact {}; ",
                         jobs::valueText(r.bedding[i]), 100 * r.lineBegins[i].value, jobs::valueText(r.nFromContact[i]));
-    text += fmt::format("k_u {} kN/m3 unloading from {} kPa, {} reloading; ", jobs::valueText(r.unloading[i]),
+    text += fmt::format("k_u {} kN/m3 for unloading from {} kPa, {} for reloading; ", jobs::valueText(r.unloading[i]),
                         jobs::valueText(r.unloadedFrom[i]), jobs::valueText(r.reloading[i])) +
             motionText(r.addedByMotion[i]);
   }
   if (r.wider)
-    text += fmt::format("  bin of double width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n", 100 * r.wider->value,
+    text += fmt::format("  bed of double width: pressure {:+.1f} +- {:.1f} %; within 5 %: {}\n", 100 * r.wider->value,
                         100 * r.wider->halfWidth, jobs::verdictText(jobs::judge(*r.wider, 0.05)));
   if (r.hasShear())
-    text += fmt::format("  shear, {}, layer of {:.3g} m: peak phi {} deg, c {} kPa; peak over residual {}; "
-                        "misfit of 1 - exp(-j/K) {}\n",
+    text += fmt::format("  shear, {}, layer {:.3g} m thick: peak phi {} deg, peak c {} kPa; peak / residual strength "
+                        "{}; misfit of 1 - exp(-j/K) {}\n",
                         base::counted(r.shearTests, "seed"), plan.cell.depth * d, jobs::valueText(r.peakAngle),
                         jobs::valueText(r.peakCohesion), jobs::valueText(r.hump), jobs::valueText(r.misfit)) +
             slipText(r);
@@ -173,7 +176,7 @@ std::string constantsCsv(const TestPlan& plan, const SoilResults& r) {
     const std::optional<PublishedSpan> span = publishedSpan(plan.soil, q);
     const std::string doubt = doubts.contains(q) ? doubts.at(q) : "";
     text += fmt::format("{},{},{:.6g},{:.4g},{},", plan.care(), symbolOf(q), e.value, e.halfWidth, unitOf(q));
-    if (const auto given = r.atGivenN.find(q); given != r.atGivenN.end()) {
+    if (const auto given = r.atPublishedN.find(q); given != r.atPublishedN.end()) {
       text += fmt::format(",,with the n above,{}\n", support::csvCell(doubt));
       text += fmt::format("{},{} at n {:g},{:.6g},{:.4g},{},", plan.care(), symbolOf(q), *r.givenN, given->second.value,
                           given->second.halfWidth, unitOf(q));
@@ -234,11 +237,11 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
     const std::string doubt = doubtOf(q, e);
     one["inconclusive"] = doubt.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(doubt);
     one["published"] = publishedJson(plan.soil, q);
-    const auto given = r.atGivenN.find(q);
-    if (given != r.atGivenN.end()) one["at_published_n"] = estimateJson(given->second, unitOf(q));
+    const auto given = r.atPublishedN.find(q);
+    if (given != r.atPublishedN.end()) one["at_published_n"] = estimateJson(given->second, unitOf(q));
     if (const auto span = publishedSpan(plan.soil, q))
       one["span"] = {span->low, span->high},
-      one["verdict"] = verdictOf(given != r.atGivenN.end() ? given->second : e, *span);
+      one["verdict"] = verdictOf(given != r.atPublishedN.end() ? given->second : e, *span);
     json["constants"][symbolOf(q)] = one;
   }
   if (r.hasPlates()) json["track_sinkage"] = estimateJson(r.sinkage, "mm");
@@ -247,7 +250,7 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
     for (std::size_t i = 0; i < 2; ++i) {
       json["plates"].push_back({{"k", estimateJson(r.k[i], "kN/m^(n+2)")},
                                 {"k_n", estimateJson(ofK(i), "-")},
-                                {"k_at_published_n", estimateJson(r.kAtGivenN[i], "kN/m^(n+2)")},
+                                {"k_at_published_n", estimateJson(r.kAtPublishedN[i], "kN/m^(n+2)")},
                                 {"n_alone", estimateJson(r.ownN[i], "-")},
                                 {"goodness", estimateJson(r.goodness[i], "-")},
                                 {"origin", estimateJson(r.bedding[i], "mm")},
@@ -259,7 +262,7 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
                                 {"added_by_motion", estimateJson(r.addedByMotion[i], "-")}});
       if (const auto span = publishedModulus(plan.soil, plan.breadth(kBreadths[i])); span && r.plates[i] > 0)
         json["plates"].back()["k_at_published_n"]["span"] = {span->low, span->high},
-        json["plates"].back()["k_at_published_n"]["verdict"] = verdictOf(r.kAtGivenN[i], *span);
+        json["plates"].back()["k_at_published_n"]["verdict"] = verdictOf(r.kAtPublishedN[i], *span);
     }
   }
   if (r.wider) json["wide_over_small_less_one"] = estimateJson(*r.wider, "-");
@@ -270,7 +273,7 @@ nlohmann::ordered_json resultsJson(const TestPlan& plan, const SoilResults& r, i
                      {"peak_over_residual", estimateJson(r.hump, "-")},
                      {"janosi_misfit", estimateJson(r.misfit, "-")},
                      {"sheared_share", r.sheared},
-                     {"least_sheared_share", r.leastSheared}};
+                     {"least_sheared_share", r.minSheared}};
   if (r.reposeTests > 0) json["flow_begins_at"] = estimateJson(r.stability, "deg");
   for (const TestCosts& c : r.costs)
     json["tests"].push_back({{"name", c.name},
@@ -290,13 +293,13 @@ void reportSoil(const TestPlan& plan, const jobs::Pieces& pieces, int missing) {
   std::string text = constantsTable(plan, results) + detailsTable(plan, results);
   const std::vector<NotedTest> noted = notedTests(plan, pieces, TestNote::shorterSteps);
   if (!noted.empty())
-    text += fmt::format("  repeated with {:g} times as many steps per contact, after the first attempt failed:{}\n",
+    text += fmt::format("  tests repeated with {:g} times as many steps per contact after a failure:{}\n",
                         kShorterSteps, textOf(noted));
   std::fflush(stdout);
   std::string warnings;
   for (const std::string& warning : {doubtsText(results, plan), looseText(plan, results)})
     if (!warning.empty()) warnings += fmt::format("WARNING: {}\n", warning);
-  support::tell("{}", warnings);
+  support::printStderr("{}", warnings);
   fmt::print("{}", text);
   text = warnings + text;
   if (missing > 0)

@@ -15,7 +15,7 @@ std::filesystem::path noteFile(const jobs::Pieces& pieces, const PlannedTest& te
 std::vector<NotedTest> notedTests(const TestPlan& plan, const jobs::Pieces& pieces, TestNote kind) {
   std::vector<NotedTest> noted;
   for (const PlannedTest& test : plan.tests) {
-    const bool isDone = kind == TestNote::shorterSteps; // the note of an unfinished test may be from an earlier call
+    const bool isDone = kind == TestNote::shorterSteps; // only finished tests count as repeated
     if (pieces.has(test.name) != isDone) continue;
     if (std::ifstream note(noteFile(pieces, test, kind)); note)
       noted.push_back({test.name, std::string(std::istreambuf_iterator<char>(note), {})});
@@ -30,7 +30,7 @@ std::string textOf(const std::vector<NotedTest>& tests) {
 }
 
 std::string failedTestsText(const std::vector<NotedTest>& tests) {
-  return "these tests failed, even with shorter steps (use a larger --steps-per-contact and a new folder):" +
+  return "these tests failed, even with shorter steps (raise --steps-per-contact and choose a new --out folder):" +
          textOf(tests);
 }
 

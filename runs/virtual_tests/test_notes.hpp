@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-/// Notes of failed tests beside their tables, with the reason.
+/// Notes about failed tests: files beside the tables of the tests, with the reason of the failure.
 namespace grouser::virtual_tests {
 
 enum class TestNote {
-  unsound,     ///< failed, no table
-  shorterSteps ///< repeated with shorter steps
+  unsound,     ///< the test failed and has no table
+  shorterSteps ///< the test was repeated with shorter steps
 };
 
 struct NotedTest {
@@ -21,11 +21,11 @@ struct NotedTest {
 };
 
 std::filesystem::path noteFile(const jobs::Pieces& pieces, const PlannedTest& test, TestNote kind);
-/// In the order of the plan.
+/// Tests with a note of this kind, in the order of the plan.
 std::vector<NotedTest> notedTests(const TestPlan& plan, const jobs::Pieces& pieces, TestNote kind);
-/// One line per test, each after a line break; empty without tests.
+/// One line per test, each after a line break; empty if there are no tests.
 std::string textOf(const std::vector<NotedTest>& tests);
-/// Message about failed tests, with remedy.
+/// Error message about failed tests, with a remedy.
 std::string failedTestsText(const std::vector<NotedTest>& tests);
 
 } // namespace grouser::virtual_tests

@@ -20,7 +20,7 @@ namespace {
 struct QuantityName {
   Quantity quantity;
   const char *symbol, *unit;
-  double perUnit; ///< `unit` per SI unit of soil files
+  double perUnit; ///< value in `unit` / value in the SI unit of soil files
 };
 constexpr std::array kNames = {QuantityName{Quantity::exponent, "n", "-", 1},
                                QuantityName{Quantity::cohesionModulus, "k_c", "kN/m^(n+1)", 1e-3},
@@ -42,19 +42,19 @@ struct BedKeys {
 
 base::Table<BedKeys> bedTable() {
   base::Table<BedKeys> t("bed", "Bed of the soil");
-  t.add("grain_radius", &BedKeys::grainRadius, "m", "mean radius for which [material] is valid")
+  t.add("grain_radius", &BedKeys::grainRadius, "m", "mean grain radius for which [material] is valid")
       .above(0)
       .atMost(10)
       .required();
-  t.add("radius_spread", &BedKeys::spread, "-", "half width of the uniform radius distribution / mean radius")
+  t.add("radius_spread", &BedKeys::spread, "-", "half width of the uniform distribution of grain radii / mean radius")
       .atLeast(0)
       .atMost(0.9);
   t.add("porosity", &BedKeys::porosity, "-", "porosity of the bed").atLeast(0.2).atMost(0.7);
-  t.add("calibrated_radii", &BedKeys::calibrated, "m", "smallest and largest calibrated mean radius").above(0);
+  t.add("calibrated_radii", &BedKeys::calibrated, "m", "smallest and largest mean radius with a calibration").above(0);
   return t;
 }
 
-/// Converts a constant of a soil file from SI; empty if the bevameter does not measure it.
+/// Converts a constant of a soil file from SI units; empty if the bevameter does not measure this quantity.
 std::optional<PublishedValue> publishedValue(const scene::PublishedConstant& c) {
   const std::optional<Quantity> quantity = quantityOf(std::string(base::wordOf(c.quantity)));
   if (!quantity) return {};
@@ -65,7 +65,7 @@ std::optional<PublishedValue> publishedValue(const scene::PublishedConstant& c) 
   return value;
 }
 
-/// Scales a number of [material] with the ratio of radii.
+/// TOML text of a key of [material], scaled by the ratio of the grain radii.
 double scaled(const std::string& key, double value, double ratio) {
   const int power = scene::radiusPowerOf(key);
   return power > 0 ? value * ratio : power < 0 ? value / ratio : value;
@@ -80,13 +80,13 @@ std::string tomlOf(const std::string& key, const base::Section& section, const b
   section.fail(key, "is a list, but keys of [material] must be numbers, words or booleans");
 }
 
-/// "soil.toml:14" -> 14; 0 if missing.
+/// "soil.toml:14" -> 14; 0 if the origin has no line number.
 std::size_t lineOf(const std::string& origin) {
   const std::size_t colon = origin.rfind(':');
   return colon == std::string::npos ? 0 : std::strtoul(origin.c_str() + colon + 1, nullptr, 10);
 }
 
-/// Checks the material as part of a scene, with each key in its original line, for error messages.
+/// Checks the material as part of a scene. Each key is put in its original line, so that error messages are correct.
 scene::Material checkedMaterial(const base::Section& section, const std::string& file) {
   std::vector<std::string> lines{"version = 1"};
   const auto put = [&](std::size_t line, const std::string& text) {
@@ -110,14 +110,14 @@ fs::path fileOf(const std::string& nameOrFile) {
       fmt::format("unknown soil {}; {}; or specify a soil file (.toml)", nameOrFile, scene::soilHint(nameOrFile, "")));
 }
 
-/// Copies the keys of a checked material, and derived values.
+/// Copies the keys of a checked material, and sets the values derived from them.
 void takeMaterial(const base::Section& section, const scene::Material& m, TestedSoil& soil) {
   if (m.hertzian()) soil.young = *m.young, soil.poisson = m.poisson.value_or(scene::Material::kPoisson);
   soil.isPlain = m.law == contact::LawKind::linear && m.cohesion == 0;
   const double ratio = soil.grainRadius / soil.fileRadius;
   for (const base::Node::Entry& e : std::get<base::Node::Map>(section.node().value))
     soil.keys.emplace_back(e.key, tomlOf(e.key, section, e.node, ratio));
-  // Stores defaults explicitly, as a default stiffness would not scale.
+  // Store the defaults explicitly, because a default stiffness would not be scaled with the grain radius.
   if (!m.hertzian() && !section.has("stiffness")) setNumber(soil, "stiffness", ratio * *m.stiffness);
   setNumber(soil, "density", m.density), setNumber(soil, "friction", m.friction);
 }

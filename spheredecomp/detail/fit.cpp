@@ -14,11 +14,11 @@ constexpr int kShrinks = 30;
 constexpr int kDirections = 12;
 constexpr int kFlatSteps = 10;
 
-/// Two pushes that return to within this distance, while one does not, are a cycle [radius].
+/// If two pushes return to within this distance of the start, but one push does not, the iteration is a cycle [radius].
 constexpr double kCycle = 0.01;
 
-/// Moves `centre` until a sphere of `radius` is inside: repeatedly away from the nearest surface point (successive
-/// projection onto half-spaces). Returns false without convergence, as between two faces of a thin plate.
+/// Moves `centre` repeatedly away from the nearest surface point until a sphere of `radius` is inside (successive
+/// projection onto half-spaces). Returns false if this does not converge, as between two faces of a thin plate.
 bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double radius) {
   Vec3d before = centre, beforeThat = centre + normal * radius;
   for (int i = 0; i < kPushes; ++i) {
@@ -37,8 +37,8 @@ bool push(const OuterSurface& outer, Vec3d& centre, const Vec3d& normal, double 
   return false;
 }
 
-/// Radius, at most `radius`, of the largest ball inside that touches the surface at `point`: it shrinks to the nearest
-/// point of the surface until none lies within (Ma, Bae and Choi 2012, shrinking ball).
+/// Radius, at most `radius`, of the largest ball inside the mesh that touches the surface at `point`: the ball shrinks
+/// to the nearest surface point until no surface point is inside (Ma, Bae and Choi 2012, shrinking ball).
 double touchingRadius(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius) {
   double r = radius;
   for (int i = 0; i < kShrinks; ++i) {
@@ -67,7 +67,7 @@ SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& 
   };
   if (fits(radius)) return sphere;
 
-  // Too thin for the full sphere: find the largest that fits by bisection.
+  // The part is too thin for the full sphere: find the largest sphere that fits by bisection.
   double low = fit.smallest * radius, high = radius;
   if (fit.touching && fits(std::max(low, touchingRadius(outer, point, normal, radius)))) return sphere;
   if (!fits(low)) {
@@ -96,7 +96,7 @@ double flatRadius(const OuterSurface& outer, const SetSphere& sphere, double lim
     }
     return true;
   };
-  // A small hole may lie inside a valid rim.
+  // A small hole may be inside a valid rim.
   const bool whole = stays(limit) && (!closely || (stays(0.75 * limit) && stays(0.5 * limit) && stays(0.25 * limit)));
   if (whole) return limit;
   double flat = 0;

@@ -14,12 +14,13 @@ inline constexpr double kFitTolerance = 0.005;
 /// Limits and method of a sphere fit.
 struct Fit {
   double smallest; ///< [radius]
-  bool touching;   ///< true: largest sphere tangent to the surface at the point; false: largest that fits nearby, by
-                   ///< bisection
+  bool touching;   ///< true: largest sphere tangent to the surface at the point; false: largest sphere that fits
+                   ///< nearby, found by bisection
 };
 
-/// Fits a sphere below the surface at `point` with outward normal `normal`: at a depth of `radius`; next to an edge, as
-/// close to that as it fits; if the part is too thin, smaller, down to `fit.smallest`. `flat` and `area` remain 0.
+/// Fits a sphere below the surface at `point` with outward normal `normal`: at a depth of `radius`, or next to an edge
+/// as close to this depth as the sphere fits. If the part is too thin, the sphere is smaller, down to `fit.smallest`.
+/// `flat` and `area` remain 0.
 SetSphere fitSphere(const OuterSurface& outer, const Vec3d& point, const Vec3d& normal, double radius, const Fit& fit);
 
 /// Maximum radius of a flat disc for the sphere [m], at most `limit`, for which the inflated disc stays within the mesh

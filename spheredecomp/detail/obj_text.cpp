@@ -19,7 +19,7 @@ namespace {
 
 using Fail = std::function<void(const std::string&)>;
 
-/// True if the whole word is a number; a decimal comma is accepted, as by the reader.
+/// True if the whole word is a number; like assimp, accepts a decimal comma.
 bool isNumber(std::string word, double& value) {
   std::replace(word.begin(), word.end(), ',', '.');
   const char* begin = word.data() + (word.starts_with('+') ? 1 : 0);
@@ -27,7 +27,7 @@ bool isNumber(std::string word, double& value) {
   return error == std::errc() && end == word.data() + word.size();
 }
 
-/// The reader skips a vertex with another count of numbers, and ignores numbers that begin with a point.
+/// Checks a vertex: assimp skips a vertex with another count of numbers, and ignores numbers that begin with a point.
 void checkVertex(std::istream& words, const Fail& fail) {
   std::vector<double> values;
   for (std::string word; words >> word;) {
@@ -37,13 +37,13 @@ void checkVertex(std::istream& words, const Fail& fail) {
   }
   if (values.size() < 3) fail(fmt::format("a vertex has {} of its 3 coordinates", values.size()));
   if (values.size() == 4 && values[3] != 1)
-    fail(fmt::format("a vertex has the weight {:g}, which is for curves; remove it", values[3]));
+    fail(fmt::format("a vertex has the weight {:g}, which only curves use; remove it", values[3]));
   if (values.size() == 5 || values.size() > 6)
     fail(fmt::format("a vertex has {} numbers; it must have 3 (x y z), 4 (and a weight of 1) or 6 (and a colour)",
                      values.size()));
 }
 
-/// The reader looks for v and f in the first column, and skips the lines of all others.
+/// Checks how a line begins: assimp requires v or f in the first column, and skips all other lines.
 void checkLine(const std::string& line, const Fail& fail) {
   std::istringstream words(line.substr(0, line.find('#')));
   std::string word;
@@ -51,7 +51,7 @@ void checkLine(const std::string& line, const Fail& fail) {
   const bool hasMark = word.starts_with("\xEF\xBB\xBF");
   const char kind = hasMark && word.size() == 4 ? word[3] : word.size() == 1 ? word[0] : ' ';
   if (std::string("vVfF").find(kind) == std::string::npos) return;
-  if (hasMark) fail(fmt::format("a byte-order mark precedes \"{}\"; save the file without one", kind));
+  if (hasMark) fail(fmt::format("a byte-order mark precedes \"{}\"; save the file without this mark", kind));
   if (line.front() != kind || kind == 'V' || kind == 'F')
     fail(fmt::format("the line is indented or in upper case; it must begin with \"{}\"", kind == 'V'   ? 'v'
                                                                                          : kind == 'F' ? 'f'
@@ -70,8 +70,8 @@ void checkObj(const std::string& path) {
     };
     if (const std::size_t end = line.find('\r'); end < line.size() - 1)
       fail("lines end in bare carriage returns; save the file with Unix or Windows line endings");
-    const auto goesOn = [&line] { return line.ends_with('\\') || line.ends_with("\\\r"); };
-    for (std::string next; goesOn() && std::getline(in, next); ++number)
+    const auto continues = [&line] { return line.ends_with('\\') || line.ends_with("\\\r"); };
+    for (std::string next; continues() && std::getline(in, next); ++number)
       line = line.substr(0, line.rfind('\\')) + ' ' + next;
     checkLine(line, fail);
   }

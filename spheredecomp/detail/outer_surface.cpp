@@ -29,8 +29,8 @@ std::pair<Corners, Corners> bisect(const Corners& t, std::size_t k) {
   return {Corners{t[k], middle, apex}, Corners{middle, t[(k + 1) % 3], apex}};
 }
 
-/// True if two triangles are within about `gap`: no separating axis among both normals, the nine edge cross products
-/// and, for coplanar triangles, the in-plane normals of their edges.
+/// True if two triangles are within about `gap` of each other, i.e. no axis separates them. Tests both normals, the
+/// nine cross products of edges and, for coplanar triangles, the in-plane normals of the edges.
 bool meet(const Corners& a, const Corners& b, double gap) {
   auto separated = [&](const Vec3d& axis) {
     const double length2 = norm2(axis);
@@ -99,7 +99,7 @@ struct Sorter {
     }
     const Vec3d middle = centroid(c), step = solid.normal(t) * gap;
     if (solid.winding(middle + step) != 0) return;
-    // Coincident faces raise the winding number together: each counts with its fraction.
+    // Coincident faces change the winding number together; each counts as a fraction.
     const int within = std::abs(solid.winding(middle - step));
     if (within == 0) return;
     for (const Vec3d& v : c) {
@@ -131,7 +131,7 @@ OuterSurface::OuterSurface(const TriangleMesh& mesh, double resolution) : solid_
 }
 
 std::vector<SurfaceSample> OuterSurface::samples(double spacing) const {
-  // The last halving leaves pieces between half this and this long; their area is about spacing^2 on average.
+  // After the last bisection, the pieces are between half of this length and this length; their mean area is spacing^2.
   const double longest = 2 * spacing;
   std::vector<SurfaceSample> result;
   std::vector<Corners> stack;

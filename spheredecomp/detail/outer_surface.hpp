@@ -14,8 +14,8 @@ struct SurfaceSample {
   double area{}; ///< [m2]
 };
 
-/// Outer surface of the union of a mesh's shells: its triangles without the parts inside another shell. Intersected
-/// triangles are subdivided down to `resolution` and classified piece by piece.
+/// Outer surface of the union of a mesh's shells: the triangles of the mesh without their parts inside another shell.
+/// Intersected triangles are subdivided down to `resolution`, and each piece is classified.
 class OuterSurface {
 public:
   /// @param mesh  closed and welded; @param resolution  resolution of intersection curves [m]
@@ -30,10 +30,10 @@ public:
   /// Area of the outer surface [m2]. Coincident faces count once.
   double area() const { return area_; }
 
-  /// Volume of the union of the shells [m3]; where shells intersect, to the resolution of the intersection curves.
+  /// Volume of the union of the shells [m3]; its accuracy is the resolution of the intersection curves of shells.
   double volume() const { return volume_; }
 
-  /// Returns points about `spacing` [m] apart, whose areas sum to area(). The order follows the mesh.
+  /// Returns points about `spacing` [m] apart, in the order of the mesh; the sum of their areas is area().
   std::vector<SurfaceSample> samples(double spacing) const;
 
 private:

@@ -59,7 +59,7 @@ void checkPly(const std::string& path) {
   int number = 0;
   const Header header = headerOf(in, number);
   if (!header.isWhole)
-    throw base::InputError(path + ": the header has no line \"end_header\"; the file is damaged or cut short, export "
+    throw base::InputError(path + ": the header has no line \"end_header\"; the file is damaged or truncated; export "
                                   "it again");
   if (!header.isText) return;
   for (const Element& element : header.elements) {

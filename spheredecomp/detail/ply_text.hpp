@@ -5,8 +5,8 @@
 
 namespace grouser::spheredecomp::detail {
 
-/// Rejects content that assimp misreads in a PLY file: a header without an end, on which it hangs, and text vertices
-/// with a different number of values than in the header, for which it continues on the next line. Throws
+/// Rejects content that assimp misreads in a PLY file: a header without an end, for which assimp hangs, and text
+/// vertices with another number of values than the header states, for which assimp continues on the next line. Throws
 /// base::InputError with file and line.
 void checkPly(const std::string& path);
 

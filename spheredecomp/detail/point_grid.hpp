@@ -19,7 +19,7 @@ public:
   void add(const base::Vec3d& p, std::uint32_t id) { cells_[key(index(p.x), index(p.y), index(p.z))].push_back(id); }
 
   /// Calls visit(id) for the points in all cells that overlap the cube of half edge `reach` [m] about p, until a call
-  /// returns true. Returns whether one did.
+  /// returns true. Returns true if a call did.
   template <class Visit> bool any(const base::Vec3d& p, double reach, Visit&& visit) const {
     for (std::int64_t i = index(p.x - reach), i1 = index(p.x + reach); i <= i1; ++i)
       for (std::int64_t j = index(p.y - reach), j1 = index(p.y + reach); j <= j1; ++j)
@@ -30,7 +30,7 @@ public:
     return false;
   }
 
-  /// Calls visit(id) for all of these points.
+  /// Calls visit(id) for all points in these cells.
   template <class Visit> void each(const base::Vec3d& p, double reach, Visit&& visit) const {
     any(p, reach, [&](std::uint32_t id) {
       visit(id);

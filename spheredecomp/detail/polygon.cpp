@@ -9,8 +9,8 @@ namespace {
 
 using base::Vec3d;
 
-/// Maximum number of corners for comparing ears, whose cost is cubic.
-constexpr std::size_t kMostCompared = 64;
+/// Maximum number of corners up to which ears are compared; the cost of the comparison is cubic.
+constexpr std::size_t kMaxCompared = 64;
 
 struct Point {
   double x, y;
@@ -23,7 +23,7 @@ double turn(const Point& a, const Point& b, const Point& c) {
 }
 double length2(const Point& a, const Point& b) { return (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y); }
 
-/// Twice the vector area (Newell), normal to the face for any corners.
+/// Twice the vector area (Newell); a normal of the face, also if it is not convex.
 Vec3d vectorArea(const std::vector<Vec3d>& corners) {
   Vec3d sum;
   for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -31,8 +31,8 @@ Vec3d vectorArea(const std::vector<Vec3d>& corners) {
   return sum;
 }
 
-/// Projects the outline along the axis nearest to its normal, anticlockwise: coordinates are unchanged, so that corners
-/// on a straight side are found exactly.
+/// Projects the outline, anticlockwise, along the axis nearest to its normal. Coordinates are not changed, so that
+/// corners on a straight side are found exactly.
 std::vector<Point> projected(const std::vector<Vec3d>& corners) {
   const Vec3d n = vectorArea(corners);
   const int axis = std::fabs(n.x) >= std::fabs(n.y) && std::fabs(n.x) >= std::fabs(n.z) ? 0
@@ -53,7 +53,7 @@ public:
       left_.push_back(k);
       size2 = std::max(size2, length2(points_[0], points_[k]));
     }
-    // Corners that deviate from a straight side by rounding of the file count as on it.
+    // A corner that deviates from a straight side by the rounding of the file counts as a corner on the side.
     flat_ = 1e-7 * std::sqrt(size2);
   }
 
@@ -78,7 +78,7 @@ private:
     return longest2 > 0 ? turn(a, b, c) / std::sqrt(longest2) : 0;
   }
 
-  /// True left of the line from a to b, or on it.
+  /// True if a point is on the line from a to b or to the left of it.
   bool isLeftOf(const Point& a, const Point& b, const Point& p) const {
     return turn(a, b, p) >= -flat_ * std::sqrt(length2(a, b));
   }
@@ -90,7 +90,7 @@ private:
     for (std::size_t k = 2; k + 1 < n; ++k) {
       const Point& p = at(ear + k);
       if (p == a || p == b || p == c) {
-        // End of a bridge, which occurs twice: no other side may enter the ear from it.
+        // A corner at the end of a bridge occurs twice: no other side may enter the ear from this corner.
         if (leadsInto(ear + k, a, b, c)) return false;
         continue;
       }
@@ -99,7 +99,7 @@ private:
     return true;
   }
   bool leadsInto(std::size_t k, const Point& a, const Point& b, const Point& c) const {
-    // Strictly inside: not left of any side seen from its other end.
+    // A point is strictly inside if it is not on or to the left of any reversed side.
     const auto inside = [&](const Point& p) { return !isLeftOf(b, a, p) && !isLeftOf(c, b, p) && !isLeftOf(a, c, p); };
     const Point& from = at(k);
     const auto beginsInside = [&](const Point& end) { // a short step along the side
@@ -108,8 +108,8 @@ private:
     return beginsInside(at(k + left_.size() - 1)) || beginsInside(at(k + 1));
   }
 
-  /// Returns the ear with the largest minimum height, or the first one for very large faces; a degenerate one only if
-  /// no other remains, as for collinear corners. left_.size() if there is none.
+  /// Returns the ear with the largest minimum height, or for very large faces the first ear; a degenerate ear only if
+  /// no other remains, as for collinear corners. Returns left_.size() if there is no ear.
   std::size_t bestEar() const {
     const std::size_t n = left_.size();
     std::size_t best = n, empty = n;
@@ -118,7 +118,7 @@ private:
       const Point &a = at(k + n - 1), &b = at(k), &c = at(k + 1);
       const double h = height(a, b, c);
       if (h > bestHeight && isFree(k)) best = k, bestHeight = h;
-      if (best < n && n > kMostCompared) break;
+      if (best < n && n > kMaxCompared) break;
       if (std::fabs(h) <= flat_ && empty == n) empty = k;
     }
     return best < n ? best : empty;
@@ -145,7 +145,7 @@ bool isConvex(const std::vector<Vec3d>& corners) {
   double size2 = 0;
   for (const Point& p : points) size2 = std::max(size2, length2(points[0], p));
   const double rounding = 1e-7 * size2; // rounding of float coordinates
-  // Left turns alone may wind twice, as in a pentagram: then some triangle of the fan has negative area.
+  // A polygon with left turns only may wind twice, like a pentagram; then a triangle of the fan has negative area.
   for (std::size_t k = 0; k < n; ++k)
     if (!(turn(points[k], points[(k + 1) % n], points[(k + 2) % n]) > rounding)) return false;
   for (std::size_t k = 1; k + 1 < n; ++k)

@@ -22,8 +22,8 @@ namespace grouser::terrain::detail {
 ///   sum      sums the contacts of each grain in the order of the neighbours' ids;
 ///   advance  advances several grains at a time (AdvanceLanes).
 ///
-/// The law is contact::contactForce() itself. All else repeats GrainStep and addCompensated() with the same operations
-/// in the same order; where those functions branch, both sides are computed and one is selected. Results are therefore
+/// The law is contact::contactForce() itself. The rest repeats the operations of GrainStep and addCompensated()
+/// in the same order; where these functions branch, both sides are computed and one is selected. Results are therefore
 /// bitwise equal. Rare cases are passed to GrainStep itself.
 ///
 /// kFeatures is one of kSimdKernels, or kGeneral: then features are tested at run time, and contacts of several
@@ -309,9 +309,9 @@ private:
     if (hasFixed() && has(kLedger)) accountFixedContacts(g, i);
     Sum all;
     const int first = begin_[g], n = begin_[g + 1] - first;
-    // No branch for the most frequent counts, which would often be mispredicted: adding zero does not change a sum that
-    // started at zero. Masks are loaded from memory, since the compiler turns comparisons into masked loads, which wait
-    // for the rows just stored.
+    // No branch on the most frequent counts, since it would often be mispredicted: adding zero does not change a sum
+    // that started at zero. Masks are loaded from memory, since the compiler turns comparisons into masked loads, and
+    // these wait for the rows just stored.
     const std::int32_t* const there = there_ + (n < kUsual ? kUsual - n : 0);
 #pragma GCC unroll 6
     for (int k = 0; k < kUsual; ++k) add(first + k, Int4{} + there[k], all);

@@ -104,12 +104,12 @@ private:
     const Int binade = binadeOf(value);
     const Float perBinade = base::bitsAs<Float>((254 << 23) - binade);
     const Double rest = (sum - base::toDouble(value)) * (base::toDouble(perBinade) * (1 / kRemainderOfBinade));
-    remainder = base::clamped(base::toInt(base::roundedDown(rest + 0.5)), kLeastRemainder, kMostRemainder);
+    remainder = base::clamped(base::toInt(base::roundedDown(rest + 0.5)), kMinRemainder, kMaxRemainder);
     return {sum,
             (base::toDouble(remainder) - rest) * (base::toDouble(base::bitsAs<Float>(binade)) * kRemainderOfBinade)};
   }
   GROUSER_SIMD static Int binadeOf(const Float& v) {
-    const Int bits = base::bitsAs<Int>(v) & 0x7F800000, least = base::broadcast<Int>(kLeastBinade);
+    const Int bits = base::bitsAs<Int>(v) & 0x7F800000, least = base::broadcast<Int>(kMinBinade);
     return bits < least ? least : bits;
   }
   /// SIMD version of halfSquareGained().
@@ -165,14 +165,14 @@ private:
         work[a] = halfSquareGained(faster, speed) * size.mass + halfSquareGained(turning, turn) * size.inertia;
       keep[a] = (rv & 0xFFFF) | rw << 16;
       Double displacement = speed.sum * data_.unitsPerSpeed;
-      const auto near = (displacement > -kMostUnitsPerStep) & (displacement < kMostUnitsPerStep);
+      const auto near = (displacement > -kMaxUnitsPerStep) & (displacement < kMaxUnitsPerStep);
       displacement = near ? displacement : Double{}; // a NaN speed must not reach the integer conversion
       // advanceKeeping()
       const Int place = kept[3] << (22 - 10 * a) >> 22; // ten bits each
       const Double wanted = displacement + base::toDouble(place) * (1.0 / kPlacesPerUnit);
       const Double whole = base::roundedDown(wanted + 0.5);
       const Int rest = base::clamped(base::toInt(base::roundedDown((wanted - whole) * double{kPlacesPerUnit} + 0.5)),
-                                     kLeastPlace, kMostPlace);
+                                     kMinPlace, kMaxPlace);
       keep[3] |= (rest & 0x3FF) << (10 * a);
       const Int units = base::toInt(whole);
       q[a] = p[a] + units;

@@ -7,7 +7,7 @@
 namespace grouser::base {
 
 #if defined(__AVX512F__)
-// Conversions of eight numbers, like those of four in simd_rows.hpp. Masked forms: GCC 12 warns about the others.
+// Conversions of eight numbers, like those of four in simd_rows.hpp. In masked form, since GCC 12 warns otherwise.
 constexpr __mmask8 kEightLanes = 0xFF;
 using Float8 = Simd<float, 8>;
 using Int8 = Simd<std::int32_t, 8>;

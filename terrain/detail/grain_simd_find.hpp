@@ -22,7 +22,7 @@ protected:
     return has(contact::kFriction | contact::kRollingFriction | contact::kPlastic);
   }
   GROUSER_SIMD bool slips() const { return has(contact::kHertz) && has(contact::kFriction) && has(kLedger); }
-  GROUSER_SIMD bool bothSpins() const { return has(contact::kRollingFriction | kManyRadii); } ///< else only the sum
+  GROUSER_SIMD bool bothSpins() const { return has(contact::kRollingFriction | kManyRadii); } ///< false: their sum
   GROUSER_SIMD unsigned layout() const { return kFeatures & contact::kGeneral ? data_.features : kFeatures; }
   GROUSER_SIMD std::size_t historyWidth() const { return contact::historyWidth(layout()); }
   GROUSER_SIMD std::size_t dentPlace() const { return contact::plasticPlace(layout()); }

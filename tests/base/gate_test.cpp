@@ -18,8 +18,8 @@ struct There {
   void launch(const Watch& watch = kNothing) {
     gate.carryBefore(exec, watch, std::array{Parcel{cleared.device().data(), nullptr, 8}});
     gate.pass(exec, watch, std::array{Parcel{sent.device().data(), sent.host(), sent.bytes()}});
-    gate.tell(exec, Gate::kFirst, std::array{Parcel{back.host(), sent.device().data(), back.bytes()}});
-    gate.tell(exec, Gate::kSecond, {});
+    gate.signal(exec, Gate::kFirst, std::array{Parcel{back.host(), sent.device().data(), back.bytes()}});
+    gate.signal(exec, Gate::kSecond, {});
   }
   void write(double value) {
     for (std::size_t i = 0; i < sent.size(); ++i) sent.host()[i] = value + static_cast<double>(i);

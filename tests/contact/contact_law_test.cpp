@@ -11,7 +11,7 @@ using base::Vec3f;
 using testing::hertz, testing::linear;
 
 TEST(ContactLaw, SpringTurnsIntoTheTangentPlane) {
-  // A spring of a contact whose normal has since rotated by 0.6 rad, at rest: all of its force is tangential.
+  // Spring of a contact at rest, after its normal has rotated by 0.6 rad: the whole spring force is tangential.
   Vec3f shear{1e-5f, 0, 0};
   const ContactGeometry touch{{0.6f, 0.8f, 0}, 1e-3f, {}, 0.1f};
   const auto law = linear<float>();

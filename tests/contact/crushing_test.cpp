@@ -25,7 +25,7 @@ constexpr double kStrength = kCap / (4 * kRadius * kRadius); // 2.5e5 Pa
 constexpr double kFloat = 1e-6;                              // forces and overlaps are float
 constexpr double kPlace = 2e-5;                              // overlaps of 1 mm are differences of 10 mm
 
-/// One grain under a plate whose motion the test sets.
+/// One grain under a plate; the test sets the motion of the plate.
 struct Press {
   base::SphereSet set = plate(0.05, 0.004, 0.004);
   GrainPartModel model;

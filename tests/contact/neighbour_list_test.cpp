@@ -195,7 +195,7 @@ TEST(NeighbourList, PairsAcrossPeriodicBoundariesAreListed) {
 TEST(NeighbourList, AFewSpheresFarAwayDoNotHideOthers) {
   std::vector<Vec3l> place = randomPlaces(300, 5);
   place.push_back({std::int64_t{1} << 40, 0, 0});
-  // The low words of these two equal those of others.
+  // The low words of these two positions equal the low words of other positions.
   place.push_back(place[0] + Vec3l{std::int64_t{1} << 32, 0, 0});
   place.push_back(place[1] + Vec3l{0, std::int64_t{1} << 33, 10});
   Bed bed(place);
@@ -265,7 +265,7 @@ TEST(NeighbourList, RowsTravelAsIdsAndHistories) {
   for (const std::uint32_t wanted : {0u, 3u})
     slots.push_back(static_cast<std::uint32_t>(std::find(bed.id.begin(), bed.id.end(), wanted) - bed.id.begin()));
   base::Array<std::uint32_t> leaving(bed.exec, slots);
-  ASSERT_EQ(bed.list.mostTouching(leaving.data(), 2), 2u);
+  ASSERT_EQ(bed.list.maxTouching(leaving.data(), 2), 2u);
   TravellingRows rows{nullptr, 2, 3};
   base::Array<std::uint32_t> data(bed.exec, 2 * rows.words());
   rows.data = data.data();

@@ -105,7 +105,7 @@ TEST(PlateValues, DampAcrossAndAlong) {
   const base::Array<double> travelled(exec, std::vector<double>{model.margin});
   contacts.compute(motion, travelled.data(), loads.data());
   const Vec3d f = model.quanta.force.value(loads.at(0).force);
-  // Approach at 10 mm/s; sliding at (20, -30) mm/s, one step of which is in the spring.
+  // Approach at 10 mm/s; sliding at (20, -30) mm/s; the spring contains one step of this motion.
   const double kt = ratio * modulus * area, along = kt * (model.timeStep + relaxation);
   EXPECT_NEAR(f.z, modulus * area * (overlap + relaxation * 0.01), 1e-3 * f.z);
   EXPECT_NEAR(f.x, -along * 0.02, 1e-3 * along * 0.02);

@@ -29,7 +29,7 @@ struct PlateOnPlate {
                                                   std::vector<int>{0, 1}, std::vector<PartPair>{{0, 1}});
     loads = base::Array<PartLoad>(exec, 2);
   }
-  /// Small plate (a) stands on its lower face, 30 mm below its origin, inclined about y; `v` is its velocity.
+  /// Small plate (a) rests on its lower face, 30 mm below its origin, inclined about y; `v` is its velocity.
   void step(const Vec3d& origin, const Vec3d& v, double tilt = 0) {
     PartMotion a = atRest(origin, {std::sqrt(1 - tilt * tilt / 4), 0, tilt / 2, 0}), b = atRest({});
     a.velocity = v;
@@ -112,7 +112,7 @@ TEST(PlateOnPlate, ChangingAreaGivesNoEnergy) {
 }
 
 TEST(PlateOnPlate, PulledFastAndPushedBackSlowlyGivesNoEnergy) {
-  // At high speed the dashpot alone exceeds Coulomb's limit with hardly any spring elongation.
+  // At high speed, the dashpot force by itself exceeds Coulomb's limit with hardly any spring elongation.
   PlateOnPlate bench(0.005, 0.1);
   bench.model.law.relaxation = 0.1;
   bench.contacts = std::make_unique<PartPartContacts>(bench.exec, bench.model,

@@ -118,7 +118,7 @@ std::vector<Named> laws() {
 }
 
 TEST(Pump, AShearedAndRolledContactUnderAVaryingLoadNeverDoesWork) {
-  // Rounding alone may seem to release energy: 1e-12 of the exchanged energy.
+  // Rounding may seem to release energy: 1e-12 of the exchanged energy.
   for (const Named& each : laws())
     for (const int ratio : {1, 2})
       for (const double depth : {0.5, 0.95, 1.3})
@@ -135,7 +135,7 @@ TEST(Pump, AShearedAndRolledContactUnderAVaryingLoadNeverDoesWork) {
 }
 
 TEST(Pump, ASurfacePulledFastAndPushedBackSlowlyNeverGivesWork) {
-  // At high speed the dashpot alone exceeds Coulomb's limit with hardly any spring; at low speed only the spring acts.
+  // At high speed, the dashpot exceeds Coulomb's limit with hardly any spring; at low speed only the spring acts.
   constexpr double kLength = 2e-5;
   for (const Named& each : laws())
     for (const int fast : {2, 20, 200})

@@ -244,7 +244,7 @@ TEST(Fluid, ShiftingRestoresTheLattice) {
   }
 }
 
-/// A viscous square whose rotation grows with the radius: central forces have no moment, those of Morris do.
+/// A viscous square with a rotation that grows with the radius: central forces have no moment, Morris forces have.
 TEST(Fluid, CentralViscosityConservesAngularMomentum) {
   double change[2];
   for (const bool central : {false, true}) {
@@ -450,7 +450,7 @@ TEST(Lattice, FillsATankAndItsWallsWithoutGapsOrOverlaps) {
   EXPECT_LT(s.markers.size(), inBox - 12u * 8 * 18);
   for (const WallMarker& m : s.markers)
     EXPECT_TRUE(m.position.x < 0 || m.position.x > 0.6 || m.position.y < 0 || m.position.y > 0.4 || m.position.z < 0);
-  // A particle at the floor has as many neighbours as one in the bulk: the sum of V W is that of the lattice.
+  // A particle at the floor has as many neighbours as one in the bulk: the sum of V W is the same as for the lattice.
   const Wendland kernel = s.model.kernel();
   const auto sumAt = [&](const Vec3d& p) {
     double sum = 0;

@@ -29,17 +29,17 @@ class House:
 
     @cached_property
     def plain(self):
-        """{code file: text without comments and strings}; line numbers are kept."""
+        """{code file: text without comments and strings}; line numbers do not change."""
         return {path: without_comments(self.text[path]) for path in self.code}
 
     @cached_property
     def endings(self):
-        """All endings of paths: for a/b/c.hpp also b/c.hpp and c.hpp."""
+        """All endings of paths: for a/b/c.hpp, also b/c.hpp and c.hpp."""
         return {'/'.join(Path(path).parts[k:]) for path in self.files for k in range(len(Path(path).parts))}
 
     @cached_property
     def includes(self):
-        """{file: [(line, included name, file or None)]}, without external headers."""
+        """{file: [(line, included name, included file or None)]}, without external headers."""
         found = {}
         for path in self.code:
             found[path] = []
@@ -71,7 +71,7 @@ def files_below(root, top=True):
 
 
 def is_there(path):
-    """Whether git has the path; git has no empty folders."""
+    """True if git tracks the path; git does not track empty folders."""
     return any(files_below(path)) if path.is_dir() else path.exists()
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Functions and classes of a C++ file with their lines, for the limits of tests/rooms.
+"""Functions and classes of a C++ file with their lines, for the size limits of tests/rooms.
 
-Not a compiler: follows braces and classifies each by the text before it. Correct for formatted code without macros
-that hide braces; the format is checked separately.
+This module is not a parser: it follows braces and classifies each brace by the text before it. This is correct for
+formatted code without macros that contain braces; tests/format checks the format.
 """
 import re
 from dataclasses import dataclass, field
@@ -29,7 +29,7 @@ _DIRECTIVE = re.compile(r'^[ \t]*#(?:\\\n|[^\n])*', re.M)
 
 
 def without_comments(text, keep_strings=False):
-    """The text with comments, and strings unless kept, blanked out; line numbers are kept."""
+    """Replaces comments, and strings unless kept, by blanks; line numbers do not change."""
     def blank(match):
         word = match.group(0)
         if word[0] != '/':
@@ -39,12 +39,12 @@ def without_comments(text, keep_strings=False):
 
 
 def comments(text):
-    """Matches of the comments in a text."""
+    """Regular-expression matches of the comments in a text."""
     return [match for match in _QUIET.finditer(text) if match[0][0] == '/']
 
 
 def _without_directives(text):
-    """Blanks out preprocessor lines, and #else branches whose braces do not match."""
+    """Replaces preprocessor lines, and #else branches with unbalanced braces, by blanks."""
     joined = _DIRECTIVE.sub(lambda m: m[0].replace('\\\n', ' ') + '\n' * m[0].count('\\\n'), text)
     lines = joined.split('\n')
     branches = []  # start of the current branch of each open #if, None for a first branch
@@ -84,7 +84,7 @@ def _skip(text, at):
 
 
 def _without_angles(head):
-    """Without template arguments and parameters: `template <class T = int> A<T, (3)> f()` is `template A f()`."""
+    """Removes template arguments and parameters: `template <class T = int> A<T, (3)> f()` becomes `template A f()`."""
     head = re.sub(r'operator\s*(<=>|<<=?|>>=?|<=?|>=?|->\*?|\(\)|[^\s\w(]+)', 'operator_', head)
     head = head.replace('->', ' ')
     while True:
@@ -99,7 +99,7 @@ _CLASS = re.compile(r'\b(class|struct|union)\s+' + _ATTRIBUTES + r'([\w:]+)?')
 
 
 def _opens(head):
-    """Kind of the brace after this head ('namespace', 'class', 'function', 'lambda' or 'value'), and its name."""
+    """Kind and name of the brace after a head: 'namespace', 'class', 'function', 'lambda' or 'value'."""
     plain = re.sub(r'\s+', ' ', _without_angles(head)).strip()
     plain = re.sub(r'^template\s*', '', plain)
     if re.match(r'(inline )?namespace\b', plain) or re.fullmatch(r'extern ""', plain):
@@ -124,13 +124,13 @@ def _opens(head):
 
 
 def _inside_initialisers(head):
-    """Whether a brace after this head is a value in a constructor's initialiser list, not the body."""
+    """True if the brace after a head is a value in a constructor's initialiser list, not the body."""
     return re.search(r'\)\s*(noexcept\s*)?:(?!:)', head) and re.search(r'[\w>]\s*$', head)
 
 
 def outline(text):
-    """(functions, classes) of a file's text, including named lambdas outside of functions, without nested or inherited
-    functions."""
+    """(functions, classes) in the text of a file. Functions include named lambdas outside of functions, but no nested
+    or inherited functions."""
     text = _without_directives(without_comments(text))
     functions, classes = [], []
     _walk(text, 0, None, '', functions, classes)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The index of docs/evidence: title, date and first verdict of each record.
+"""Writes the index of docs/evidence: title, date and first verdict of each record.
 
     tests/house/evidence.py > docs/evidence/README.md
 """
@@ -20,7 +20,7 @@ run `tests/house/evidence.py > docs/evidence/README.md`, which reads the records
 
 
 def index(texts):
-    """`texts`: {path from the root: text} of the records. Returns the index."""
+    """Returns the index. texts: {path from the root: text} of the records."""
     rows = []
     for path, text in sorted(texts.items(), key=lambda item: item[1].lower()):
         verdict = ' '.join(verdicts(text)[:1]).split()

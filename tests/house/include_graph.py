@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Include graph algorithms; graph: {node: included nodes}."""
+"""Algorithms on include graphs; a graph is {node: included nodes}."""
 from collections import deque
 
 
 def chains_from(start, graph):
-    """A shortest chain from `start` to each reachable node of {node: nodes} (breadth-first search)."""
+    """A shortest chain from `start` to each reachable node (breadth-first search)."""
     came = {start: None}
     queue = deque([start])
     while queue:
@@ -20,7 +20,7 @@ def chains_from(start, graph):
 
 
 def circles_of(graph):
-    """A shortest cycle of each strongly connected component of {node: nodes}, with its first node repeated."""
+    """A shortest cycle in each strongly connected component; the first node is repeated at the end."""
     for component in components(graph):
         if len(component) > 1 or component[0] in graph.get(component[0], ()):
             inside = set(component)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rules on references: links, paths, tests and code that a file names exist."""
+"""Rules on references: links, paths, tests and code files named in a file must exist."""
 import fnmatch
 import re
 import tomllib
@@ -11,7 +11,7 @@ MAX_PROSE_COLUMNS = 120
 
 
 def prose(house):
-    """Documents are wrapped, except tables, code and unbreakable text."""
+    """Lines of documents are at most 120 columns wide, except tables, code and unbreakable text."""
     for path in house.documents:
         for number, line in prose_lines(house.text[path]):
             # A line with a single long word (link, address) after its list mark cannot be shorter.
@@ -37,7 +37,7 @@ def prose_lines(text):
 
 
 def commits(house):
-    """Commits of measured figures are in records under docs/evidence/, not in guides."""
+    """Guides contain no commits; the commits of measured figures are in the records under docs/evidence/."""
     for path in house.documents:
         if path.startswith('docs/evidence/'):
             continue
@@ -97,7 +97,7 @@ def headings(text):
 
 
 def tests_of(house):
-    """{room of tests: GoogleTest names}"""
+    """{room of tests: names of its GoogleTests}"""
     tests = {}
     for path in house.code:
         if path.startswith('tests/'):
@@ -107,7 +107,7 @@ def tests_of(house):
 
 
 def long_tests(house):
-    """Long tests and the quicker tests of their claims exist (ctest ignores unknown names)."""
+    """Long tests, and the quicker tests of the same claims, exist (ctest ignores unknown names)."""
     path = house.root / 'tests/long_tests.cmake'
     there = {name for names in tests_of(house).values() for name in names}
     rows = [row.split() for row in re.findall(r'^ +"(\w+\.\w+.*)"', path.read_text() if path.exists() else '', re.M)]

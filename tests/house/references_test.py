@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Each rule on references finds its faults and passes correct text."""
+"""Each rule on references finds violations and accepts correct text."""
 import sys
 import tempfile
 import unittest

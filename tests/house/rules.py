@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The coding rules checked by tests/rooms. Each takes a House and yields violations as 'place: message'."""
+"""The coding rules checked by tests/rooms. Each function has a House as argument and yields 'place: message'."""
 import re
 from pathlib import Path
 
@@ -10,7 +10,7 @@ from include_graph import chains_from, circles_of
 from references import commits, links, long_tests, mutants, prose
 from words import words
 
-# Each room and the other rooms that it may include.
+# Each room, with the other rooms that it may include.
 LIBRARIES = {
     'base': set(),
     'contact': {'base'},
@@ -23,11 +23,11 @@ LIBRARIES = {
     'coupling': {'base', 'contact', 'fluid', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle'},
     'assets': {'base'},
 }
-# Rooms of the program may include the libraries and the rooms of previous lists, but not those of their own list.
+# Rooms of the program may include the libraries and the rooms of previous lists, but not other rooms of their own list.
 PROGRAM = [['support'], ['scene'], ['setup'], ['storage'], ['output'], ['render', 'jobs', 'validation/bench'],
            ['session', 'virtual_tests', 'campaigns/sweeps'], ['validation/studies', 'campaigns/forecast'],
            ['campaigns/events'], ['commands']]
-# The public interface, whose headers include nothing else, and the Python module based on it.
+# The public interface, with headers that include no other headers of the project, and the Python module based on it.
 BESIDE = {'api': {'runs/' + room for room in 'support scene setup storage output session'.split()} | set(LIBRARIES),
           'api/include/grouser': set(), 'python/module': set()}
 # Rooms without physics.
@@ -37,7 +37,7 @@ NARROW = {
 }
 # Rooms that use coupling::SimulationSetup and setup::RecordSetup instead of the scene.
 BLIND = ['coupling', 'runs/storage', 'runs/output', 'runs/render', 'runs/session']
-# Folders of tests without a room: whole scenes, and tests on several ranks.
+# Test folders without a room: whole scenes, and tests on several ranks.
 TEST_ROOMS = {'tests/system', 'tests/ranks'}
 MAX_FILE_LINES = 500
 MAX_FUNCTION_LINES = 80
@@ -45,9 +45,9 @@ MAX_PUBLIC_FUNCTIONS = 25
 # Outside the top folders a checkout may contain results, but no code.
 STRANGE_CODE = {'.c', '.cc', '.cxx', '.h', '.hh', '.hxx', '.inc', '.inl', '.ipp', '.tpp', '.cl', '.hip', '.f90', '.rs'}
 
-# Rooms that compute the state: elementary functions only from base/math.hpp.
+# Rooms that compute the state; they may use elementary functions only from base/math.hpp.
 STATE_ROOMS = [*LIBRARIES, 'runs/support', 'runs/scene', 'runs/setup', 'runs/storage']
-# Uses fused multiply-adds for correctly rounded results, which a test compares with the operators.
+# This file uses fused multiply-adds for correctly rounded results; a test compares these with the operators.
 ROUNDED_CORRECTLY = 'base/moderate.hpp'
 LIBM = ('sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp exp2 expm1 log log2 log10 log1p pow '
         'cbrt hypot erf erfc tgamma lgamma fma sincos exp10 sinpi cospi rsqrt').split()
@@ -77,7 +77,7 @@ def places(house):
                 yield f'{path}: unknown suffix; code ends in .hpp, .cpp, .cu or .cuh (others: tests/house/rules.py)'
         elif suffix in SUFFIXES | SCRIPTS | STRANGE_CODE:
             yield f'{path}: not in a room; rooms are listed in tests/house/rules.py'
-        # Tests are found by their folders: others would never be compiled.
+        # CMake finds tests by their folders; tests in other folders would never be compiled.
         room = room_of(path)
         if re.fullmatch(r'tests/.+_test\.(cpp|cu)', path) and room not in TEST_ROOMS:
             if room.removeprefix('tests/') not in allowed_rooms():
@@ -85,7 +85,7 @@ def places(house):
 
 
 def order(house):
-    """A room includes only the rooms in its line of ARCHITECTURE.md; tests may include every room."""
+    """A room includes only the rooms that ARCHITECTURE.md lists for it; tests may include every room."""
     may = allowed_rooms()
     for path, includes in house.includes.items():
         room = room_of(path)
@@ -126,7 +126,7 @@ def chains(house):
 
 
 def scenes(house):
-    """Rooms after setup use plain values, no scene."""
+    """Rooms after setup use plain values instead of the scene."""
     for path in house.code:
         if room_of(path) in BLIND:
             for match in re.finditer(r'\bscene\s*::', house.plain[path]):
@@ -134,7 +134,7 @@ def scenes(house):
 
 
 def privacy(house):
-    """Files in ROOM/detail/ are included only by ROOM and tests/ROOM."""
+    """Only ROOM and tests/ROOM include files in ROOM/detail/."""
     for path, includes in house.includes.items():
         for line, name, target in includes:
             if target and '/detail/' in target:
@@ -144,7 +144,7 @@ def privacy(house):
 
 
 def circles(house):
-    """No include cycles, also if x.hpp, x.cpp, x.cu and x.cuh count as one unit."""
+    """There are no include cycles, even if x.hpp, x.cpp, x.cu and x.cuh count as one unit."""
     between = {}  # (unit, unit): an include of the second by the first
     files, units = {}, {}
     for path, includes in house.includes.items():
@@ -170,7 +170,7 @@ def unit_of(path):
 
 
 def thrust(house):
-    """Thrust and CUB only in base/*.cu: they take minutes to compile, and their summation order is unspecified."""
+    """Only base/*.cu uses Thrust and CUB, which take minutes to compile and have an unspecified summation order."""
     for path in house.code:
         if not re.fullmatch(r'base/[^/]+\.cu', path):
             for match in re.finditer(r'^[ \t]*#[ \t]*include[ \t]*<((?:thrust|cub)/[^>]+)>', house.text[path], re.M):
@@ -178,7 +178,7 @@ def thrust(house):
 
 
 def mpi(house):
-    """MPI is used only in base/comm and in the parallel HDF5 file."""
+    """Only base/comm and the parallel HDF5 file use MPI."""
     for path in house.code:
         if not MPI_FILES.fullmatch(path):
             for text, words in ((house.plain[path], r'\bMPI_\w+'), (house.text[path], r'^[ \t]*#.*[<"](mpi\.h)[>"]')):
@@ -213,7 +213,7 @@ def libm(house):
 
 
 def sums(house):
-    """Code that computes the state has no sums of variable order: OpenMP reduces integers, or to minimum or maximum."""
+    """Code that computes the state has no sums of variable order: OpenMP reduces only integers, minima and maxima."""
     for path in house.code:
         if room_of(path) not in STATE_ROOMS:
             continue
@@ -237,7 +237,7 @@ def sums(house):
 
 
 def is_integer(name, before):
-    """Whether the last declaration of `name` in the text before is an integer."""
+    """True if the last declaration of `name` in the preceding text is an integer."""
     words = (r'(?:std\s*::\s*)?(?:u?int\d+_t|size_t|ptrdiff_t)|(?:unsigned\s+|signed\s+)?(?:int|long(?:\s+long)?)|'
              r'unsigned')
     # Other names of the same declaration may be in between: `std::int64_t a = 0, b = 0;`
@@ -274,7 +274,7 @@ def arguments(text, at):
 
 
 def sizes(house):
-    """Sizes of files, functions and classes (without copy operations and destructors)."""
+    """Files, functions and classes (without copy operations and destructors) are within the size limits."""
     for path in house.code + house.scripts:
         lines = house.text[path].count('\n')
         if lines > MAX_FILE_LINES:

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Each rule of tests/rooms finds violations and passes correct code."""
+"""Each rule of tests/rooms finds violations and accepts correct code."""
 import sys
 import tempfile
 import unittest

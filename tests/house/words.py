@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rule on language: phrases and openings that plain English does not have, in documents, messages, help and
-comments."""
+"""Rule on language: documents, messages, help and comments do not contain certain unidiomatic phrases and openings."""
 import re
 from pathlib import Path
 
 from checkout import line_at
 
-#: Phrases, each with what to write instead.
+#: Phrases, each with better words.
 PHRASES = {
     r'\b(?:is|are|was|were|be|been) told\b': 'prints, reports, names',
     r'\b(?:is|are) asked for\b': 'requires, requests',
@@ -21,18 +20,18 @@ PHRASES = {
     r'\bit comes to\b': 'it is',
     r'\bwhat hangs on\b': 'loads on',
 }
-#: A comment line, or a comment behind code, that begins with such a word names nothing, or is the rest of a sentence that
-#: should break elsewhere.
+#: A comment that begins with such a word does not name its subject; if it is a line within a sentence, the sentence
+#: should be wrapped elsewhere.
 OPENINGS = r'(?:[Oo]f|[Ww]hat|[Ww]hatever|Whoever|[Ww]hose|How|[Tt]hose|By what)\b'
 MARKS = {'.py': '#', '.toml': '#', '.sh': '#', '.cmake': '#', '.js': '//'}
-#: Files whose words are data: columns of stored results, and this list.
+#: Files in which these words are data: columns of stored results, and this list.
 EXCEPTIONS = {'tests/house/words.py', 'tests/house/words_test.py',
               'runs/validation/studies/trial_files.hpp', 'runs/validation/studies/random_vehicles_command.cpp'}
 
 
 def words(house):
-    """Texts use plain English: no phrase of the list in tests/house/words.py, and comments begin with what they are
-    about."""
+    """Texts are plain English: they contain no phrase of the list in tests/house/words.py, and comments begin with
+    their subject."""
     for path in [*house.code, *house.documents]:
         if path in EXCEPTIONS or path.startswith(('tests/', 'docs/evidence/')) or path == 'CHANGELOG.md':
             continue

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The rule on language finds its phrases and openings, and passes plain text."""
+"""The rule on language finds its phrases and openings, and accepts plain text."""
 import sys
 import unittest
 from pathlib import Path

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Combined forces along one axis: several torques, and a stop whose damper acts only on entry.
+// Combined forces along one axis: several torques, and a stop with a damper that acts only on entry.
 #include "benchmarks.hpp"
 
 #include <gtest/gtest.h>

@@ -56,7 +56,7 @@ TEST_P(Couplings, ADrivesTorqueIsPartOfItsJointsACouplingsForceStandsBesideThem)
   o.integrator = GetParam();
   Solver solver(m.model, o);
   for (int i = 0; i < 10; ++i) solver.step(m.state, m.loads, 1e-3);
-  // I_1 alpha_1 = torque of hub 1 + 2 x force of the gears on hub 2, which alone turns wheel 2.
+  // I_1 alpha_1 = torque of hub 1 + 2 x force of the gears on hub 2; only this force turns wheel 2.
   const double alpha = 1.3 / (0.25 + 4 * 0.1);
   EXPECT_NEAR(m.state.joint[0].torque.z, 1.3, 1e-12);
   EXPECT_NEAR(m.state.joint[0].torque.z + 2 * m.state.coupling[0].force, 0.25 * alpha, 1e-9);
@@ -95,7 +95,7 @@ std::string errorOf(const Model& model) {
 }
 
 TEST(CouplingCheck, RatiosThatContradictEachOtherAreRefusedWithTheNamesOfAll) {
-  // Two ratios for two wheels; loops of three whose last ratio is not the product of the others, one of them reversed.
+  // Two ratios for two wheels; loops of three; the last ratio is not the product of the others, one of them reversed.
   EXPECT_EQ(errorOf(wheels({{0, 1, -2}, {0, 1, 3}})),
             "coupling 'mesh 1': joint 'hub 1' cannot move 3 times as far as joint 'hub 0': with 'mesh 0' it moves "
             "-2 times as far; remove one of them, or correct a ratio");

@@ -146,8 +146,8 @@ void expectClosedBooks(const Case& c, const SolverOptions& options, double step)
   const Totals end = totals(m.model, m.state, m.loads);
   EXPECT_NEAR(b.potentialGain, end.gravity - start.gravity, kRounding * b.turnover);
   EXPECT_NEAR(b.elasticGain, end.elastic - start.elastic, kRounding * b.turnover);
-  EXPECT_LE(length(b.linearLeftOver), kRounding * scale.linear);
-  EXPECT_LE(length(b.angularLeftOver), kRounding * scale.angular);
+  EXPECT_LE(length(b.linearRemainder), kRounding * scale.linear);
+  EXPECT_LE(length(b.angularRemainder), kRounding * scale.angular);
   if (c.name == "oddments") {
     EXPECT_GT(b.jointDamping, 0);
     EXPECT_GT(b.springDamping, 0);
@@ -345,8 +345,8 @@ TEST(MultibodyLedger, AFreeChainKeepsItsMomentaAndBooksNothingFromOutside) {
     const Balance b = balance(m.model, m.state, m.loads);
     EXPECT_EQ(m.state.ledger.linearImpulse.value(), (Vec3d{}));
     EXPECT_EQ(m.state.ledger.angularImpulse.value(), (Vec3d{}));
-    EXPECT_LE(length(b.linearLeftOver), kRounding * length(m.state.ledger.startLinear));
-    EXPECT_LE(length(b.angularLeftOver), kRounding * length(m.state.ledger.startAngular));
+    EXPECT_LE(length(b.linearRemainder), kRounding * length(m.state.ledger.startLinear));
+    EXPECT_LE(length(b.angularRemainder), kRounding * length(m.state.ledger.startAngular));
   }
 }
 
@@ -364,8 +364,8 @@ TEST(MultibodyLedger, AHangingChainIsBalancedByItsHook) {
   EXPECT_GT(length(hook), 100);
   const Vec3d weight = 8.0 * 3 * m.loads.gravity;
   EXPECT_LE(length(m.state.ledger.linearImpulse.value() - hook - weight), 1e-10);
-  EXPECT_LE(length(b.linearLeftOver), 1e-10);
-  EXPECT_LE(length(b.angularLeftOver), 1e-10);
+  EXPECT_LE(length(b.linearRemainder), 1e-10);
+  EXPECT_LE(length(b.angularRemainder), 1e-10);
 }
 
 TEST(MultibodyLedger, AChangeThatNobodyBooksIsLeftOver) {

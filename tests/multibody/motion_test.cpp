@@ -236,7 +236,7 @@ TEST(Bushing, StaticDeflectionIsForceOverStiffness) {
 
 // ------------------------------------------------------------------------------------------------- imposed motions
 
-/// A slider-crank in the x-z plane whose crank turns about y; crank 0.1 m, rod 0.3 m.
+/// A slider-crank in the x-z plane; the crank turns about y; crank 0.1 m, rod 0.3 m.
 Mechanism sliderCrank(const Drive& drive, double crankRate) {
   Mechanism m;
   const double r = 0.1, l = 0.3;
@@ -287,7 +287,7 @@ TEST(ImposedMotion, PositionLawIsMetInPositionAndRateWithoutDrift) {
 }
 
 TEST(ImposedMotion, DriveTorqueIsThatOfInverseDynamics) {
-  // A wheel alone: torque = I alpha(t), exactly.
+  // A single wheel: torque = I alpha(t), exactly.
   Mechanism m;
   Drive d;
   d.name = "motor", d.kind = DriveKind::kPosition;

@@ -12,7 +12,7 @@
 namespace grouser::multibody::test {
 namespace {
 
-/// A door of 20 kg whose centre of mass is `out` [m] from the line of its hinges, at rest.
+/// A door of 20 kg at rest, with its centre of mass `out` [m] from the line of its hinges.
 Mechanism doorOn(const std::vector<double>& hinges, double out = 0.45) {
   Mechanism m;
   m.model.addBody(makeBody("door", 20, Mat3d::diagonal({7, 8, 1.1}), {{out, 0, 1}, {}}));

@@ -42,7 +42,7 @@ double difference(const std::vector<Twist>& a, const std::vector<Twist>& b) {
   return most;
 }
 
-/// Largest difference between the twists at the end of a step and those predicted by its response.
+/// Largest difference between the twists at the end of a step and the twists predicted by the response.
 double errorOfPrediction(double dt) {
   Mechanism m = dampedRing();
   Solver solver(m.model);

@@ -157,7 +157,7 @@ TEST(MultibodySprings, HeavyJointDampingIsStableAtAnyStep) {
 
 TEST(MultibodySprings, ClosingTheJointsDoesNotMoveSoftRows) {
   // A rod on a damped pin, off its centre of mass, so that every step opens and closes the joint. The angle
-  // must follow the damping alone: w = w0 exp(-c t / I), angle = w0 I / c (1 - exp(-c t / I)).
+  // must follow the damping only: w = w0 exp(-c t / I), angle = w0 I / c (1 - exp(-c t / I)).
   const double c = 0.8, l = 0.5, m = 2, inertia = 0.2 + m * l * l, w0 = 12, dt = 1e-5;
   Mechanism p;
   p.model.addBody(makeBody("rod", m, kWheelInertia, {{l, 0, 0}, {}}, cross(w0 * kY, Vec3d{l, 0, 0}), w0 * kY));

@@ -37,7 +37,7 @@ void expectSolverRefuses(const Model& model, const std::vector<std::string>& wor
 TEST(Start, VelocitiesThatBreakAJointAreRefusedByNameOrProjected) {
   for (const Integrator integrator : {Integrator::kSymplecticEuler, Integrator::kRattle}) {
     Model model;
-    // A rod whose centre moves along its own axis, away from the pin.
+    // The centre of a rod moves along the axis of the rod, away from the pin.
     model.addBody(makeBody("rod", 1, kRodInertia, {{1, 0, 0}, {}}, {0.5, 0, -1}, {0, 1, 0}));
     model.addJointAt("pin", JointType::kRevolute, kWorld, 0, frameWithZ({}, kY));
     SolverOptions o;

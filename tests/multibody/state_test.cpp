@@ -185,7 +185,7 @@ TEST(MultibodyErrors, NameThePartAndWhatIsWrong) {
       [&] {
         body(1, Mat3d::diagonal({1, -1, 1}));
       },
-      "shoe 3", "positive definite; every principal moment must be > 0, and they are -1, 1, 1");
+      "shoe 3", "positive definite; every principal moment must be > 0, but they are -1, 1, 1");
   expectMessage([&] { body(1, Mat3d::diagonal({1, 1, 2.1})); }, "shoe 3", "triangle");
   expectMessage([&] { body(1, {{{1, 0.6, 0}, {0.6, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "they are 0.4, 1, 1.6");
   expectMessage([&] { body(1, {{{1, 0.1, 0}, {0, 1, 0}, {0, 0, 1}}}); }, "shoe 3", "symmetric");

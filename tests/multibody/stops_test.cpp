@@ -163,7 +163,7 @@ TEST(MultibodyStops, DampedStopGivesBackTheClosedFormOfItsRestitution) {
 }
 
 TEST(MultibodyStops, BothIntegratorsGiveTheWorkedExample) {
-  // k 1e5 N/m, c 200 N s/m, m 2 kg: e = 0.53942; damping on entry alone would yield its root, 0.7345.
+  // k 1e5 N/m, c 200 N s/m, m 2 kg: e = 0.53942; damping only on entry would yield its square root, 0.7345.
   EXPECT_NEAR(restitutionOf(200 / (2 * std::sqrt(1e5 * 2))), 0.53942, 5e-6);
   for (const SolverOptions& options : {rattle(), rattle(4), symplecticEuler()})
     EXPECT_NEAR(bounceOff(options, 1e5, 200, 1e-5, 0.3).restitution, 0.53942, 2e-3); // omega dt = 2.2e-3, order 1

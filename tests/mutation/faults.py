@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The table of faults and their results."""
+"""The faults and their results."""
 import hashlib
 import json
 import tomllib
@@ -20,13 +20,13 @@ class Fault:
     tests: tuple  # 'ROOM:GTEST FILTER' of tests that should detect it
 
     def room(self):
-        """'sweeps' for runs/campaigns/sweeps/x.cpp: name of its test program."""
+        """Name of the test program of a file's room: 'sweeps' for runs/campaigns/sweeps/x.cpp."""
         folders = self.file.split('/')[:-1]
         return folders[-2 if folders[-1] == 'detail' else -1]
 
     def stages(self):
-        """Programs and filters to run, in this order, before the whole suite. Folders without tests use those of whole
-        scenes."""
+        """Programs and filters to run, in this order, before the whole suite. For folders without tests: tests of
+        whole scenes."""
         own = [tuple(t.split(':', 1)) for t in self.tests]
         has_tests = any(path.parent.name == self.room() for path in TESTS.rglob('*_test.c*'))
         return own + [(self.room() if has_tests else 'system', '*')]
@@ -62,7 +62,7 @@ def find(faults, names):
 
 
 class Results:
-    """Results, in a file that is replaced atomically."""
+    """Results, stored in a file that is replaced atomically."""
 
     def __init__(self, path, fresh=False):
         self.path = path
@@ -75,19 +75,19 @@ class Results:
         return entry and (entry['verdict'], entry['tests'])
 
     def stands(self, fault, digest):
-        """Whether a result is still valid: detected faults always, others only for the same sources."""
+        """True if a result is still valid: for detected faults always, for others only with the same sources."""
         entry = self.found.get(fault.key())
         return bool(entry) and (entry['verdict'] == 'results' or
                                 (entry['digest'] == digest and entry['verdict'] in ('hash', 'none')))
 
     def add(self, fault, verdict, tests, program, digest):
-        """`program`: test program of the tests."""
+        """Adds a result. program: test program of the tests."""
         self.found[fault.key()] = {'name': fault.name, 'verdict': verdict, 'tests': tests, 'program': program,
                                    'digest': digest, 'confirmed': False}
         self.save()
 
     def newly_seeing(self, digest):
-        """Tests that have detected a fault and were not yet run without faults, by program."""
+        """Tests, by program, that have detected a fault but have not yet run without a fault."""
         seeing = {}
         for e in self.found.values():
             if e['verdict'] == 'results' and not e['confirmed'] and e['digest'] == digest:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A copy of the sources with its own build, in which faults are inserted and tests run."""
+"""A copy of the sources with its own build; faults are inserted in this copy."""
 import hashlib
 import os
 import re
@@ -21,7 +21,7 @@ class BuildError(Exception):
 
 
 def digest_of(files):
-    """Hash of names and contents; `files`: pairs of name and bytes."""
+    """Hash of names and contents. files: pairs of name and bytes."""
     whole = hashlib.sha256()
     for name, content in files:
         whole.update(f'{name}\0{len(content)}\0'.encode() + content)
@@ -70,7 +70,7 @@ class Workshop:
 
     @contextmanager
     def with_fault(self, fault):
-        """Context with the fault in the copy; yields whether its text occurs exactly once."""
+        """Context in which the copy contains the fault; yields True if the text of the fault occurs exactly once."""
         path = self.source / fault.file
         sound = path.read_text() if path.exists() else ''
         found = sound.count(fault.old) == 1
@@ -89,7 +89,7 @@ class Workshop:
         return sorted({file.parent.name for file in (self.tree / 'tests').rglob('*_test.c[pu]*')} - {'ranks'})
 
     def build(self, program):
-        """Builds a folder's test program, or all of them. Throws BuildError."""
+        """Builds the test program of a folder, or all test programs. Raises BuildError."""
         if program in self.built:
             return
         target = 'grouser_tests' if program == 'all' else 'grouser_tests_' + program
@@ -101,7 +101,7 @@ class Workshop:
         self.built.add(program)
 
     def run(self, program, pattern, first=True):
-        """Failing tests of physics and results; `first`: stop at the first."""
+        """Failing tests of physics and results. first: stop at the first failure."""
         return self.call(program, pattern, self.hashes + self.noisy, first)
 
     def run_hashes(self):
@@ -129,7 +129,7 @@ class Workshop:
 
     @staticmethod
     def start(words, shard, shards):
-        """Starts one of several processes that share the tests; returns it and its output file."""
+        """Starts one of several processes that share the tests; returns the process and its output file."""
         environment = dict(os.environ, GROUSER_CACHE='', GOMP_SPINCOUNT='5000', GTEST_TOTAL_SHARDS=str(shards),
                            GTEST_SHARD_INDEX=str(shard))
         said = tempfile.TemporaryFile('w+', errors='replace')
@@ -138,7 +138,7 @@ class Workshop:
 
     @staticmethod
     def red_of(process, said):
-        """Failed tests, including one that crashed or timed out."""
+        """Failed tests, including a test that crashed or timed out."""
         try:
             process.wait(timeout=MOST_SECONDS)
         except subprocess.TimeoutExpired:

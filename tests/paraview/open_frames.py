@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Opens frames.xdmf of a run in ParaView, compares it with other output of the run, renders a picture.
+"""Opens frames.xdmf of a run in ParaView, compares it with other output of the run, and renders a picture.
 
 pvpython open_frames.py FOLDER PICTURE. Exit code 1 with a message on any difference.
 """
@@ -20,7 +20,7 @@ def check(claim, what):
         os._exit(1)  # ParaView's normal exit crashes with an open view
 
 
-# Before reading data: the OpenGL context cannot be created later.
+# Create the view before reading data, since the OpenGL context cannot be created later.
 view = pv.CreateRenderView(ViewSize=[1200, 700], Background=[1, 1, 1], UseColorPaletteForBackground=0)
 view.OrientationAxesVisibility = 0
 reader = pv.XDMFReader(FileNames=[f"{folder}/frames.xdmf"])
@@ -65,7 +65,7 @@ for time in times:
     speeds.append(float(vtk_to_numpy(grains.GetPointData().GetArray("speed")).max()))
     parts = blocks["parts"]
     number = int(vtk_to_numpy(parts.GetCellData().GetArray("part")).max()) + 1
-    # 2 x (46 shoes, sprocket, idler, 5 wheels, 3 rollers) and the chassis.
+    # The parts are 2 x (46 shoes, sprocket, idler, 5 wheels, 3 rollers) and the chassis.
     check(number == 113, f"{number} parts")
     low, high = parts.GetBounds()[4:6]
     check(0 < high - low < 2, f"the vehicle extends from {low} to {high} m")

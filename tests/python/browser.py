@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Headless Chromium, controlled by the DevTools protocol over a pair of pipes, without libraries."""
+"""Headless Chromium, controlled by the DevTools protocol over a pair of pipes."""
 import json
 import os
 import select
@@ -9,14 +9,14 @@ import tempfile
 import time
 
 PROGRAMS = ("chromium-headless-shell", "chromium", "chromium-browser", "google-chrome")
-#: WebGL is drawn by the processor. Root may have no sandbox.
+#: The CPU renders WebGL. Chromium has no sandbox for root.
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle", "--use-angle=swiftshader",
          "--enable-unsafe-swiftshader", "--hide-scrollbars", "--disable-extensions", "--no-first-run",
          "--window-size=1300,1000"]
 
 
 def find():
-    """The installed browser; None without one."""
+    """Path of the installed browser; None if there is none."""
     return next(filter(None, map(shutil.which, PROGRAMS)), None)
 
 
@@ -27,7 +27,7 @@ class Browser:
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_read, self.write = os.pipe()
         self.read, to_write = os.pipe()
-        # The browser reads commands from descriptor 3 and answers on 4.
+        # The browser reads commands from file descriptor 3 and answers on 4.
         command = f'exec "$0" "$@" 3<&{to_read} 4>&{to_write}'
         self.process = subprocess.Popen(
             ["bash", "-c", command, find(), *FLAGS, "--remote-debugging-pipe", f"--user-data-dir={self.profile.name}"],

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package with damaged and closed files."""
+"""The Python package reports damaged and closed files."""
 import json
 import unittest
 
@@ -12,7 +12,7 @@ import grouser
 
 class Files(FolderTest):
     def test_damaged_json_is_told_with_its_place(self):
-        """Messages are one line: file, line, column, remedy; no Python traceback."""
+        """Messages are one line with file, line, column and remedy; there is no Python traceback."""
         openers = {"check.json": grouser.open_check, "soil.json": grouser.open_soil, "events.json": grouser.open_events,
                    "calibration.json": grouser.open_calibration}
         whole = {"check.json": {"figures": [], "cases": []}, "soil.json": {"soil": "s", "constants": {}},
@@ -100,7 +100,7 @@ class Files(FolderTest):
         for what, name in ((lambda: run["ledger.kinetic"], "results"), (lambda: run.time, "results"),
                            (lambda: run.constants, "results"), (lambda: run.scene, "results"),
                            (lambda: frame.position, "frames"), (lambda: frames.parts, "frames")):
-            with self.assertRaisesRegex(ValueError, f"done/{name}.h5: is closed; open it again"):
+            with self.assertRaisesRegex(ValueError, f"done/{name}.h5: the file is closed; open it again"):
                 what()
 
 

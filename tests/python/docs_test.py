@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The documents: commands and options exist, tutorial and how-tos work as written, site and installed documents have no
+"""Documents: commands and options exist, tutorial and how-tos work as written, and site and installed documents have no
 dead links."""
 import os
 import re
@@ -20,7 +20,7 @@ sys.path.insert(0, str(ROOT / "cmake"))
 import documents  # noqa: E402
 
 DOCUMENTS = [*ROOT.glob("*.md"), *(ROOT / "docs").glob("*.md")]
-#: A call of the program in code: its words up to what a shell takes apart.
+#: A call of the program in code: its words up to the next shell operator.
 CALL = re.compile(r"(?:^|[\s`])(?:build/bin/)?grouser((?: +[^\s`|;&#)]+)+)")
 
 
@@ -53,7 +53,7 @@ def code_of(text):
 
 
 def faults_of(words):
-    """Errors of a call: [text]."""
+    """Errors in a call, as texts."""
     command = []
     while words and words[0] in commands_of(tuple(command)):
         command.append(words.pop(0))
@@ -111,7 +111,7 @@ class Commands(unittest.TestCase):
 
 
 class Sources(unittest.TestCase):
-    """Statements of documents about the code are up to date."""
+    """Statements in documents about the code are up to date."""
 
     def test_sources_that_are_named_are_there(self):
         name = re.compile(r"(?<![\w/.~$])(?:base|contact|spheredecomp|multibody|terrain|vehicle|coupling|runs|assets|python|"
@@ -170,7 +170,7 @@ class Sources(unittest.TestCase):
 
 
     def test_lines_of_libraries_are_those_that_are_there(self):
-        """Rounded line counts of files, tolerance 15 % or 10 lines."""
+        """Rounded line counts of files are right within 15 % or 10 lines."""
         told = []
         for row in re.findall(r"^\| (.*) \|$", (ROOT / "docs/libraries.md").read_text(encoding="utf-8"), re.M):
             cells = row.split(" | ")
@@ -198,11 +198,11 @@ class Sources(unittest.TestCase):
 
 
 class Followed(FolderTest):
-    """Follows a page in a separate folder: saves files under their names, runs commands."""
+    """Follows the instructions of a page in a separate folder: saves its files and runs its commands."""
 
     def follow(self, page, names):
-        """Runs the shell blocks of a page in order; names: files of its other blocks, in order. Returns the output of
-        each command."""
+        """Runs the shell blocks of a page in order. names: file names of the other blocks, in order. Returns the
+        output of each command."""
         text = (ROOT / "docs" / page).read_text(encoding="utf-8")
         (self.folder / "build/bin").mkdir(parents=True)
         (self.folder / "build/bin/grouser").symlink_to(grouser.find_program())
@@ -345,7 +345,7 @@ class Installed(FolderTest):
         self.assertEqual([file.name for file in self.folder.iterdir()], ["srv"])
 
     def test_sources_may_lie_in_a_folder_with_a_blank(self):
-        """The install script of install.cmake, in a separate project."""
+        """The install script of install.cmake works in a separate project."""
         code = re.search(r"^install\(CODE .*?^  COMPONENT program\)", (ROOT / "cmake/install.cmake").read_text(), re.M | re.S)[0]
         sources = self.folder / "my sources"
         (sources / "cmake").mkdir(parents=True)
@@ -382,7 +382,7 @@ class Installed(FolderTest):
 
 
 class FirstProgram(unittest.TestCase):
-    """The page of the C++ library shows the installed example program, which is built and run."""
+    """The page of the C++ library shows the installed example program, which another test builds and runs."""
 
     def test_is_the_installed_example(self):
         page = (ROOT / "docs/control.md").read_text()

@@ -29,14 +29,14 @@ class BouncingGrain(FolderTest):
         measured = bouncing_grain.main(str(self.folder))
         self.assertEqual(len(measured), 3)
         impact = (2 * GRAVITY * bouncing_grain.HEIGHT) ** 0.5  # [m/s]
-        # Speeds come from frames 1 ms apart: each may miss g dt of the impact speed.
+        # Speeds are from frames 1 ms apart: each may differ from the impact speed by g dt.
         tolerance = 2 * GRAVITY * 1e-3 / impact
         for asked, found in measured.items():
             self.assertAlmostEqual(found, asked, delta=tolerance)
 
 
 class PlateStress(unittest.TestCase):
-    """The runs take minutes: docs/reports.md has the figure."""
+    """The full runs take minutes; docs/reports.md shows their figure."""
 
     def test_compares_with_the_tabulated_influence_of_a_square(self):
         self.assertAlmostEqual(float(plate_stress.below_corner(1.0, 1.0, 1.0)), 0.1752, 4)  # Newmark's table
@@ -113,12 +113,12 @@ class TrackSinkage(FolderTest):
         for time in (0.0, 0.3):
             self.assertLess(abs(heights.at(time)[0] - places["z"].at(time)), 0.15)
         self.assertAlmostEqual(run.surface.x[-1] - run.surface.x[0], 4.2, delta=0.2)
-        # The vehicle has pressed the bed down below its tracks: less than a grain is not a rut.
+        # The vehicle has compressed the bed below its tracks; a depth of less than a grain is not a rut.
         rise = run.surface.final_height - run.surface.height
         self.assertEqual(rise.shape, (len(run.surface.y), len(run.surface.x)))
         self.assertLess(rise.min(), -0.01)
 
-        # The checkpoint at the end and the last frame contain the same grains: frames have floats.
+        # The final checkpoint and the last frame contain the same grains; frames are in single precision.
         bed, last = run.bed(), run.frames[-1]
         order = numpy.argsort(last.id)
         self.assertEqual(len(bed), len(last))
@@ -138,13 +138,13 @@ class ErrorBars(FolderTest):
         force = sweep["ground force z"]
         self.assertEqual(force.unit, "N")
         self.assertEqual(force.value.shape, (6,))
-        # The mean printed by the sweep equals that of its runs, and of the series in their files.
+        # The mean printed by the sweep equals the mean over its runs, and over the series in their files.
         first = sweep.means["ground force z"][0]
         self.assertAlmostEqual(first.mean.value, numpy.mean(force.value[:3]), places=6)
         with sweep.runs[0].open() as run:
             series = run["surfaces.ground.force"]["z"].between(0.1, 0.2)
             self.assertAlmostEqual(float(numpy.mean(series.value)), force.value[0], places=6)
-        # Friction 0.5 is not in the sweep, but has the same weight; the total bar is at least that of the seeds.
+        # Friction 0.5 is not in the sweep, but the weight is the same; the total bar is at least the bar of the seeds.
         figure = check["ground force z"]
         self.assertGreaterEqual(figure.bar.half_width, figure.by_seeds.half_width)
         self.assertEqual(set(figure.errors), {"step"})
@@ -158,7 +158,7 @@ class ErrorBars(FolderTest):
 
 
 class Controllers(FolderTest):
-    """Each fails with its own error if it misses its target."""
+    """Each example fails with its own error message if it misses its target."""
 
     def test_cruise_control_holds_its_speed_up_the_slope_and_is_replayed(self):
         self.assertAlmostEqual(cruise_control.main(str(self.folder / "held")), cruise_control.GOAL, delta=0.01)

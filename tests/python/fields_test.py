@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Soil fields of a run: stress of a compressed box against its walls, shapes, positions, XDMF, picture in the
-report."""
+"""Soil fields of a run: stress in a compressed box compared with its wall forces, shapes, positions, XDMF, and picture
+in the report."""
 import re
 import unittest
 import xml.etree.ElementTree as xml
@@ -15,7 +15,7 @@ SIDE = 0.062  # [m] inner width of the box
 
 
 def pressed_box():
-    """Rough grains between five smooth walls, below a smooth lid with a load of 20 N."""
+    """Rough grains between five smooth walls and a smooth lid with a load of 20 N."""
     walls = [{"name": name, "normal": normal, "point": position, "material": "smooth"} for name, normal, position in (
         ("floor", [0, 0, 1], [0, 0, 0]), ("left", [1, 0, 0], [0, 0, 0]), ("right", [-1, 0, 0], [SIDE, 0, 0]),
         ("front", [0, 1, 0], [0, 0, 0]), ("back", [0, -1, 0], [0, SIDE, 0]))]
@@ -44,7 +44,7 @@ class FieldsOfTheSoil(FolderTest):
             def force(name, axis):
                 return float(run[f"surfaces.{name}.force"][axis].value[-1])
             lid = float(run["surfaces.lid.position"]["z"].value[-1]) - 0.01
-            # Sum of the forces on the grains times their places: walls at the origin contribute 0, the lid has no friction.
+            # Sum of wall forces times positions: walls at the origin contribute 0, and the lid has no friction.
             self.assertAlmostEqual(integral[0, 0] / (-force("right", "x") * SIDE), 1, delta=0.01)
             self.assertAlmostEqual(integral[1, 1] / (-force("back", "y") * SIDE), 1, delta=0.01)
             frame = run.frames[-1]
@@ -53,7 +53,7 @@ class FieldsOfTheSoil(FolderTest):
             self.assertAlmostEqual(integral[2, 2] / (-force("lid", "z") * lid + weight), 1, delta=0.01)
             self.assertGreater(force("lid", "z"), 20)
             solid = ((1 - run.fields("porosity").value[-1]).sum() * stress.cell_volume)
-            self.assertAlmostEqual(solid / (len(frame) * mass / 2600), 1, delta=1e-5)  # floats, and grains in the walls
+            self.assertAlmostEqual(solid / (len(frame) * mass / 2600), 1, delta=1e-5)  # floats, overlap with walls
             self.assert_xdmf_points_to_them(run)
 
     def assert_xdmf_points_to_them(self, run):

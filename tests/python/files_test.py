@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""docs/files.md lists all contents of result files with type, shape, unit and help, and nothing else."""
+"""docs/files.md lists exactly the contents of result files, with type, shape, unit and help."""
 import re
 import unittest
 
@@ -10,7 +10,7 @@ from fixture import ROOT, FolderTest
 import grouser
 
 KINDS = {"results.h5": "results.h5", "frames.h5": "frames.h5", "checkpoint.h5": "checkpoint.h5 and cached beds"}
-#: Only in runs of several ranks, or of a vehicle in water, which takes a minute to begin with.
+#: Only in runs with several ranks, or with a vehicle in water, which take a minute to start.
 RARE = {"/FRAME/partition/AXIS"} | {f"/fluid/vehicle/{part}/{load}/value" for part in ("hull", "SIDE_track")
                                     for load in ("force", "torque")}
 QUIET = {"plots": False, "picture": False}

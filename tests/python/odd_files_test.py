@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Odd and damaged input files: each leads to one clear error (exit code 2), to a note, or to the right result.
+"""Unusual and damaged input files: each causes one clear error (exit code 2), a note, or the right result.
 
 A case is a function that returns the files to write and the expectation on `grouser run scene.toml`."""
 import os
@@ -213,15 +213,15 @@ def changed(was, now):
 
 
 class Error(list):
-    """Exit code 2 and one line with all of these."""
+    """Expects exit code 2 and one line that contains all of these texts."""
 
 
 class Note(list):
-    """Exit code 0 and a note with all of these."""
+    """Expects exit code 0 and a note that contains all of these texts."""
 
 
 class Right(list):
-    """Exit code 0, and `grouser plan` prints all of these."""
+    """Expects exit code 0, and all of these texts in the output of `grouser plan`."""
 
 
 def flipped():
@@ -244,7 +244,7 @@ def prism(outline, height=1.0):
     return v, f
 
 
-# Only the complete cube, with all faces in place, has this conversion.
+# Only the complete cube, with all faces in place, is converted to these spheres.
 CUBE_CUT = Right(["thing: 92 spheres"])
 # Mesh errors suggest a remedy.
 REMEDY = "export|repair|close|flip|correct|give it|write|remove|make all"
@@ -294,7 +294,7 @@ CASES = {
     "mesh negative indices": mesh(obj(faces=[tuple(k - 9 for k in f) for f in CUBE_FACES]), CUBE_CUT),
     "mesh nan": mesh(obj(vertices=[(float("nan"), 0, 0)] + CUBE[1:]), Error(["thing.obj"])),
     "mesh inf": mesh(obj(vertices=[(float("inf"), 0, 0)] + CUBE[1:]), Error(["thing.obj"])),
-    "mesh decimal commas": mesh(obj().replace("0.1", "0,1"), CUBE_CUT),  # the reader treats them as points
+    "mesh decimal commas": mesh(obj().replace("0.1", "0,1"), CUBE_CUT),  # the reader treats these faces as points
     "mesh a coordinate missing": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1"), Error(["thing.obj:8", "2 of"])),
     "mesh a coordinate missing and a vertex to spare": mesh(
         obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1\nv 0 0 0.2"), Error(["thing.obj:8", "2 of its 3"])),
@@ -302,7 +302,7 @@ CASES = {
     "mesh of colours": mesh(obj().replace("v 0.1 0.1 0.1", "v 0.1 0.1 0.1 1 0 0"), CUBE_CUT),
     "mesh words for numbers": mesh(obj().replace("v 0.1 0.1 0.1", "v a b c"), Error(["thing.obj"])),
     "mesh without its lid": mesh(obj(faces=CUBE_FACES[:-1]), Error(["thing.obj", "open"])),
-    "mesh inside out": mesh(obj(faces=flipped()), Error(["thing.obj", "flip them"])),
+    "mesh inside out": mesh(obj(faces=flipped()), Error(["thing.obj", "flip the faces"])),
     "mesh one face turned": mesh(obj(faces=CUBE_FACES[:-1] + [tuple(reversed(CUBE_FACES[-1]))]),
                                  Error(["thing.obj", "make all faces point outwards"])),
     "mesh a face twice": mesh(obj(faces=CUBE_FACES + [CUBE_FACES[0]]), Error(["thing.obj"])),

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package: scenes as text, calls and their errors, wrong files."""
+"""The Python package: scenes as text, calls and their errors, invalid files."""
 import json
 import os
 import re
@@ -62,13 +62,13 @@ class Scenes(FolderTest):
         scene = grouser.Scene(MINIMAL)
         for wrong in ("run duration", "", "a = 1\nb"):
             self.assertNotIn(wrong, scene)
-            with self.assertRaisesRegex(KeyError, "is no key"):
+            with self.assertRaisesRegex(KeyError, "is not a key"):
                 scene[wrong] = 1
-        with self.assertRaisesRegex(KeyError, r"run\.duration\.x: run\.duration is no section, but 0\.01"):
+        with self.assertRaisesRegex(KeyError, r"run\.duration\.x: run\.duration is not a section, but 0\.01"):
             scene["run.duration.x"] = 1
-        with self.assertRaisesRegex(KeyError, r"run\.duration\.x: run\.duration is no section, but 0\.01"):
+        with self.assertRaisesRegex(KeyError, r"run\.duration\.x: run\.duration is not a section, but 0\.01"):
             del scene["run.duration.x"]
-        with self.assertRaisesRegex(KeyError, r"plane is no section; a list is changed as scene\['plane'\]\[0\]"):
+        with self.assertRaisesRegex(KeyError, r"plane is not a section; change a list by scene\['plane'\]\[0\]"):
             del scene["plane.material"]
         self.assertEqual(scene.document, MINIMAL)
 
@@ -102,7 +102,7 @@ class Scenes(FolderTest):
         self.assertEqual(grouser.Scene.read("mark.toml").document, MINIMAL)
         self.assertIn("grains", grouser.call(["plan", "mark.toml", "--no-probe"]))
         (self.folder / "latin.toml").write_bytes(b"# \xe4\n")
-        with self.assertRaisesRegex(grouser.FileError, "^latin.toml: is no text in UTF-8"):
+        with self.assertRaisesRegex(grouser.FileError, "^latin.toml: not UTF-8 text"):
             grouser.Scene.read("latin.toml")
 
     def test_files_that_a_scene_names_are_found_from_its_own_folder(self):
@@ -195,7 +195,7 @@ class Calls(FolderTest):
             job.wait()
         self.assertTrue(stopped)
         self.assertEqual(grouser.open_run("long").status, "stopped")
-        self.assertTrue(job.messages)  # those after the exception, too
+        self.assertTrue(job.messages)  # lines after the exception, too
 
     def test_a_text_is_one_value_and_one_axis(self):
         scene = grouser.Scene(MINIMAL)
@@ -327,7 +327,7 @@ class Files(FolderTest):
         for wrong, words in ((lambda: left + force, r"left \[m/s\] \+ pull \[N\]: the units differ"),
                              (lambda: force - 1.0, r"pull \[N\] - 1.0 \[-\]: the units differ"),
                              (lambda: left * force, r"left \[m/s\] \* pull \[N\].*\.value"),
-                             (lambda: left - later, "rows are of different times"),
+                             (lambda: left - later, "rows have different times"),
                              (lambda: left * numpy.ones((2, 3)), "shape")):
             with self.assertRaisesRegex(ValueError, words):
                 wrong()
@@ -454,13 +454,13 @@ class SoilTests(FolderTest):
         self.assertEqual(loads, [2000.0, 5000.0])
         for curve in soil.shear():
             self.assertEqual(curve.displacement.shape, curve.shear_stress.shape)
-            # Residual strength over load: the angle is between those of its two samples (and cohesion is small).
+            # Residual strength over load: the angle is between the angles of the two samples (and cohesion is small).
             self.assertTrue(0.05 < numpy.median(curve.shear_stress) / curve.load < 1.5)
         plates = {curve.plate: curve for curve in soil.plates()}
         self.assertEqual(set(plates), {"small", "large"})
         self.assertAlmostEqual(plates["large"].breadth / plates["small"].breadth, 1.5)
         self.assertGreaterEqual(plates["small"].pressure.max(), 19000)
-        again = grouser.measure_soil("sand.toml", "soil", options)  # a finished folder is opened, nothing is measured
+        again = grouser.measure_soil("sand.toml", "soil", options)  # opens the finished folder and measures nothing
         self.assertEqual(again["phi"].measured.value, phi.measured.value)
         with self.assertRaises(grouser.InputError):
             grouser.measure_soil("sand.toml", "soil", [*options, "--bin", "4"])

@@ -35,7 +35,7 @@ SHOES = 24
 
 
 def pads(rise):
-    """[rows, shoes]: the shoes are on the ground one after the other, and then rise by this height [m]."""
+    """[rows, shoes]: the shoes touch the ground one after the other, then rise by this height [m]."""
     left = 0.1 * numpy.arange(SHOES)[None, :] - 0.6 * TIME[:, None]
     return numpy.clip(-left, 0, None) * rise - 0.01, left > 0
 
@@ -75,7 +75,7 @@ class Readable(FolderTest):
             return self.drawn(plot(series.Run(file)))
 
     def drawn(self, figure):
-        """Draws the figure as saved, and checks for forbidden content."""
+        """Draws the figure as it is saved, and checks it for forbidden content."""
         drawing.save(figure, "picture.png", 80)
         FigureCanvasAgg(figure).draw()
         for axes in figure.axes:
@@ -161,7 +161,7 @@ INTERVALS = """k,figure,seeds,mean,half width,difference to the first,half width
 
 
 class Doubtful(FolderTest):
-    """Results of runs that hardly drove or are incomplete are marked."""
+    """Plots mark the results of runs that hardly drove or are incomplete."""
 
     def written(self, intervals=""):
         (self.folder / "summary.csv").write_text(SUMMARY)

@@ -11,7 +11,7 @@ from fixture import FolderTest
 
 import grouser
 
-#: Ten grains fall onto a plane: seeds make a difference, and each run takes a moment.
+#: Ten grains fall onto a plane: results depend on the seed, and a run takes about a second.
 GRAINS = """version = 1
 [run]
 duration = 0.1
@@ -37,7 +37,7 @@ picture_width = 200
 """
 
 
-#: A film by its first bytes, and as it stands in a page.
+#: The first bytes of a film, and their form in a page.
 FILM = b"\0\0\0\x18ftypmp42 a film"
 FILM_TEXT = "data:video/mp4;base64," + base64.b64encode(FILM).decode()
 
@@ -73,12 +73,12 @@ class PageTest(FolderTest):
         self.plots_are_drawn()
         if self.browser.value("!!report.space"):
             self.assertTrue(self.browser.value("report.space.isInView()"), "the label of the scale is cut off")
-        if kept := os.environ.get("GROUSER_REPORT_PICTURES"):  # for the eye
+        if kept := os.environ.get("GROUSER_REPORT_PICTURES"):  # for manual inspection
             self.browser.picture(f"{kept}/{self.id().rpartition('.')[2]}_{folder}.png", 4000)
         return self.browser
 
     def fits_narrow_screens(self):
-        """At a width of 320 points with everything unfolded, nothing exceeds the right edge."""
+        """At a width of 320 pixels with all sections unfolded, no content exceeds the right edge."""
         self.browser.width(320)
         self.browser.open(self.folder / "page.html")
         self.browser.until("document.documentElement.dataset.ready === 'yes'")

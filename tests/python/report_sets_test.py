@@ -42,7 +42,7 @@ class Pages(PageTest):
         self.assertIn("long.mp4", self.browser.value("document.getElementById('films').textContent"))
 
     def test_a_sweep_names_runs_whose_files_are_missing_or_damaged(self):
-        """Damaged runs are listed with causes in their rows and at the top; the next seed replaces a damaged run."""
+        """The report lists damaged runs with causes in their rows and at the top; the next seed replaces such a run."""
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.4,0.6", "--seeds", "2", "--out",
                       "sweep"])
@@ -113,7 +113,7 @@ class Pages(PageTest):
             force = [plot for plot in plots if plot[0] == "Ground force z"]
             self.assertEqual(force, [["Ground force z", 2, places, grouser.open_sweep(name)["ground force z"].value.tolist()]])
             told = self.browser.value("document.querySelector('#plots figcaption').textContent")
-            self.assertIn("no error bars: one run each", told)
+            self.assertIn("One point per run, without error bars", told)
             if name == "cases":
                 self.assertIn("1: case = slippery; 2: case = rough", told)
 
@@ -160,7 +160,7 @@ class Pages(PageTest):
         self.assertIn("sand.friction = 0.2, rock.friction = 0.4", ", ".join(names))
 
     def test_a_narrow_screen_shows_a_sweep_without_scrolling_sideways(self):
-        """Names break after commas, long tables scroll, their headings stay visible."""
+        """Names break after commas; long tables scroll, and their headings remain visible."""
         (self.folder / "grains.toml").write_text(GRAINS)
         grouser.call(["sweep", "grains.toml", "--set", "material.sand.friction=0.2,0.4", "--set",
                       "run.gravity=[0,0,-9.81],[0.5,0,-9.81]", "--seeds", "6", "--out", "sweep"])
@@ -178,7 +178,7 @@ class Pages(PageTest):
                                                   f"{box}.getBoundingClientRect().top"), 0, delta=1.0)
 
     def runs_are_chosen(self, folders):
-        """Keys select each run in turn, with its own frames; each has a ledger."""
+        """The keyboard selects each run in turn, with its own frames; each run has a ledger."""
         page = self.browser
         self.assertEqual(page.value("report.data.spaces.map(s => s.name)"), [folder.name for folder in folders])
         page.value("document.getElementById('space-run').focus()")
@@ -220,7 +220,7 @@ class Pages(PageTest):
         for name, seconds in cells:
             self.same(shown[name], seconds, name)
         for figure in check.json["figures"]:
-            for error in figure["errors"]:  # as if the seed scatter were small, and the step's bar far above its change
+            for error in figure["errors"]:  # small scatter over seeds, and a bar of the step far above the change
                 error["bar"] = {"step": 0.7, "precision": 0.9}[error["axis"]] * abs(figure["value"])
             figure["seeds_half_width"], figure["bar"] = 0.1 * abs(figure["value"]), 0.75 * abs(figure["value"])
         (self.folder / "check/check.json").write_text(json.dumps(check.json))
@@ -229,7 +229,7 @@ class Pages(PageTest):
         self.assertTrue(self.browser.value(f"{over}.looks.length && {over}.looks.every(look => look.marked)"))
         largest = self.browser.value("[...document.querySelectorAll('#shares td:last-child')].map(c => c.textContent)")
         self.assertEqual(set(largest), {"step (70 %)"}, "precision is in no bar where seeds matter")
-        # Its runs write no frames: the view shows the checkpoint.
+        # These runs write no frames; the view shows the checkpoint.
         with grouser.open_run("check/base,seed=1") as run:
             self.assertIsNone(run.frames)
             bed = run.bed()
@@ -306,7 +306,7 @@ class Pages(PageTest):
         self.fits_narrow_screens()
 
     def test_a_calibration(self):
-        """Targets and results, all trials, the soil file, and all measurements of that soil."""
+        """The page contains targets and results, all trials, the soil file, and all measurements of this soil."""
         folder = self.folder / "found"
         self.put_soil(folder / "final")
         def value(number, half, unit):

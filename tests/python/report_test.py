@@ -33,11 +33,11 @@ class Refused(FolderTest):
     def test_what_is_no_result(self):
         self.refuses("nosuch", ["nosuch", "is not a folder"])
         (self.folder / "empty").mkdir()
-        self.refuses("empty", ["holds no results", "results.h5"])
+        self.refuses("empty", ["contains no results", "results.h5"])
         self.assertEqual(list((self.folder / "empty").iterdir()), [])
         (self.folder / "above/drive").mkdir(parents=True)
         (self.folder / "above/drive/results.h5").write_text("")
-        self.refuses("above", ["holds no results", "above/drive"])
+        self.refuses("above", ["contains no results", "above/drive"])
         (self.folder / "file").write_text("")
         self.refuses("file", ["is not a folder"])
 
@@ -49,7 +49,7 @@ class Refused(FolderTest):
         found = {"soil": "sand", "care": "full", "status": "unfinished", "grain_radius_m": 0.01, "targets": [],
                  "trials": []}
         for name, text, words in (
-                ("summary.csv", head, ["holds no run"]),
+                ("summary.csv", head, ["contains no run"]),
                 ("summary.csv", head + "k=1,1,pending,,,,,,\nk=2,2,running,,,,,,\n", ["none of the 2 runs", "again"]),
                 ("events.json", json.dumps({"rows": [row]}), ["none of the runs", "--resume"]),
                 ("events.json", json.dumps({"rows": []}), ["none of the runs"]),
@@ -211,7 +211,7 @@ class Pages(PageTest):
         self.assertEqual(self.browser.value("[report.space.grains.count, report.space.time.length]"), [100, 3])
 
     def ground_pressure_is_of_the_shoes_in_contact(self, folder):
-        """Four carry 100 kPa, the others are pulled by 102 kPa: the expected mean is 100 kPa in every row."""
+        """Four shoes carry 100 kPa, the others are pulled by 102 kPa: the expected mean is 100 kPa in every row."""
         with h5py.File(f"{folder}/results.h5", "r+") as file:
             for side in ("left", "right"):
                 pressure, carries = (file[f"vehicle/{side}/{name}/value"] for name in ("ground_pressure", "on_ground"))
@@ -267,7 +267,7 @@ class Pages(PageTest):
         self.browser.value("report.space.show(report.space.time.length - 1)")
 
     def keys_work(self, page):
-        """All controls are reachable by Tab, show their focus, and work by keys."""
+        """All controls can be reached by Tab, show their focus, and work with the keyboard."""
         page.value("document.activeElement.blur(); window.scrollTo(0, 0)")
         reached = []
         for _ in range(60):
@@ -310,7 +310,7 @@ class Pages(PageTest):
         self.assertEqual(page.value("report.plots[0].graph.xAxisRange()"), wide)
 
     def any_series_is_drawn(self, page, folder):
-        """The list of all series by keys: the selected one is drawn, with unit and definition."""
+        """Keys select a series in the list of all series; the page draws it with unit and definition."""
         page.value("document.getElementById('any-series').focus()")
         page.press("End")
         page.press("Enter")
@@ -325,7 +325,7 @@ class Pages(PageTest):
             self.assertIn(f"[{series.unit}]", page.value(f"{plot}.entry.y"))
 
     def looks_change(self, page):
-        """Dark theme if the system's is dark; white when printed."""
+        """The page is dark if the theme of the system is dark, and white in print."""
         back = "getComputedStyle(document.body).backgroundColor"
         self.assertEqual(page.value(back), "rgb(255, 255, 255)")
         page.media(scheme="dark")
@@ -399,7 +399,7 @@ class Pages(PageTest):
         self.assertTrue(math.isfinite(self.browser.value("report.space.grains.fastest")))
 
     def test_what_is_damaged_beside_the_results(self):
-        """The scene comes from results.h5, a damaged picture is reported; results of a short steady part are marked."""
+        """The scene comes from results.h5; damaged pictures and results of a short steady part are marked."""
         self.run_of_grains("run", "--steps", "40")
         grouser.call(["run", "grains.toml", "--out", "run", "--resume"])
         begun = grouser.open_run("run").manifest["resumed_from_step"]
@@ -452,8 +452,8 @@ class Pages(PageTest):
         figures = [{"name": "force [N]", "value": 1.5}, {"name": "steady from [s]", "value": 0.02}]
         early = "The run ended at 0.04\u00a0s, before the 0.1\u00a0s of its scene, by --steps 400."
         for since, words in ((None, "has no steady part"), (0.05, "which would start at 0.05\u00a0s"),
-                             (0.02, "Means and extremes since 0.02\u00a0s, as in the summary of a sweep; work, errors "
-                                    "and values \u201cat the end\u201d are those of the last row.")):
+                             (0.02, "Means and extremes from 0.02\u00a0s on, as in the summary of a sweep; work, errors "
+                                    "and values \u201cat the end\u201d are from the last row.")):
             (self.folder / "figures.json").write_text(json.dumps({"figures": figures, "steady_from": since}))
             subprocess.run([*SCRIPT, "run", "page.html", "--figures", "figures.json"], check=True, capture_output=True)
             self.browser.open(self.folder / "page.html")
@@ -462,11 +462,11 @@ class Pages(PageTest):
             self.assertIn(early, caption)
             self.assertEqual(self.browser.value("[...document.querySelectorAll('#figures table')[0].querySelectorAll("
                                                 "'tbody tr')].map(r => r.cells[0].textContent)"), ["force"])
-        for step in ("1e-4", "1.4e-4"):  # the last one ends before the duration of the scene
+        for step in ("1e-4", "1.4e-4"):  # the last run ends before the duration of the scene
             grouser.call(["run", "grains.toml", "--out", f"whole{step}", "--set", f"run.time_step={step}"])
             self.opened(f"whole{step}")
             caption = self.browser.value("document.querySelector('#figures caption').textContent")
-            self.assertIn("Means and extremes since 0.05\u00a0s", caption)
+            self.assertIn("Means and extremes from 0.05\u00a0s", caption)
             self.assertNotIn("ended at", caption)
 
     def test_a_narrow_screen_shows_a_run_without_scrolling_sideways(self):

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Series of the Python package: half widths in arithmetic, rows, names and units."""
+"""Series of the Python package: arithmetic with half widths, rows, names and units."""
 import unittest
 
 import numpy
@@ -53,7 +53,7 @@ class Rows(unittest.TestCase):
         self.assertEqual(taken["y"].value.tolist(), [3, 5])
         with self.assertRaises(IndexError):
             series[3]
-        with self.assertRaisesRegex(KeyError, "no column 'z'; it has x, y"):
+        with self.assertRaisesRegex(KeyError, "no column 'z'; named columns: x, y"):
             series["z"]
 
 

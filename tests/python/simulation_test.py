@@ -26,7 +26,7 @@ FALL = {
 
 
 def vehicle_scene() -> grouser.Scene:
-    """Rigid ground, coarse spheres, a drive that starts at 40 ms."""
+    """A scene with rigid ground, coarse spheres, and a drive that starts at 40 ms."""
     scene = grouser.Scene.read(ROOT / "tests/scenes/rigid.toml")
     scene["vehicle.sphere_radius"] = 0.03
     scene["driver"] = {"sprocket_speed": 0.0, "tension_ramp": 0.02, "weight_ramp": 0.02, "drive_start": 0.04,

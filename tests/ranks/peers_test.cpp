@@ -125,7 +125,7 @@ std::uint32_t said(std::uint32_t run, int from, int to) {
   return 10'000 * run + 100 * static_cast<std::uint32_t>(from) + static_cast<std::uint32_t>(to);
 }
 
-/// Element r goes to rank r; received elements follow in rank order.
+/// Element r is sent to rank r; received elements are in rank order.
 void sendToAllOthers(const base::Exec& exec, const base::Comm& comm, contact::Exchange& exchange) {
   std::vector<std::uint64_t> to;
   std::vector<std::uint32_t> from;
@@ -208,7 +208,7 @@ TEST_F(Peers, StepsTogetherGiveTheBitsOfOneRankOnACpu) {
   // Alternates sixteen steps at once and single steps; reads energies, adds grains, and resumes a saved run.
   using namespace terrain;
   GrainModel m = testing::gravel();
-  m.mostSimdLanes = 1; // lanes compute one step at a time
+  m.maxSimdLanes = 1; // lanes compute one step at a time
   const Boundaries box{
       {{{0, 0, 1}, 0, m.law}, {{1, 0, 0}, -0.05, m.law}, {{-1, 0, 0}, -0.85, m.law}, {{0, -1, 0}, -0.5, m.law}}, {}};
   std::vector<GrainSpec> start = testing::gravelBlock(12, 6, 5, {2.5, 1.0, -1}, {3, -2, 9});

@@ -5,7 +5,7 @@
 
 namespace grouser::test {
 
-/// All ranks of this test program: 1 if it was started alone.
+/// All ranks of this test program: 1 if it was started without MPI.
 const base::Comm& comm();
 
 } // namespace grouser::test

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Moving surfaces on any number of ranks: bits and loads equal those on one.
+// Moving surfaces on any number of ranks: bits and loads are the same as on one rank.
 #include "terrain/grains.hpp"
 #include "tests/ranks/ranks.hpp"
 #include "tests/terrain/surface_fixture.hpp"

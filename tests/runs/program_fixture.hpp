@@ -41,7 +41,7 @@ inline std::filesystem::path programUnderTest() {
   return std::filesystem::read_symlink("/proc/self/exe").parent_path() / "grouser";
 }
 
-/// Shell commands in `folder`, with the program as $grouser. Their output goes beside the folder, to FOLDER.out
+/// Shell commands in `folder`, with the program as $grouser. Their output is written next to the folder, to FOLDER.out
 /// and FOLDER.err: `folder` holds only files of the program or the test. Each run starts without kept files.
 inline Outcome shellIn(const std::filesystem::path& folder, const std::string& commands) {
   const std::string out = folder.string() + ".out", errors = folder.string() + ".err";

@@ -30,7 +30,7 @@ SoilConstants constants(double n, double kc, double kphi, double c, double phi, 
   return s;
 }
 
-// Sinkages and energies: z = (p / k)^(1/n), p z / (n + 1); the figures are those of an independent computation.
+// Sinkages and energies: z = (p / k)^(1/n), p z / (n + 1); the figures are from an independent computation.
 const std::vector<Soil> kSoils = {{"LETE sand",
                                    constants(0.793, 102, 5301, 1.3, 31.1, 12),
                                    5665286,

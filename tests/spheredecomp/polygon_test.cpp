@@ -205,7 +205,7 @@ Faces torus() {
   return t;
 }
 
-// Sphere sets and their hashes follow from the triangles: those of quads are unchanged since faces with many corners.
+// Sphere sets, and their hashes, depend on the triangles: quads must keep their fan.
 TEST(ImportMesh, Quads_KeepTheirFan) {
   const Faces box{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}},
                   {{0, 3, 2, 1}, {4, 5, 6, 7}, {5, 4, 0, 1}, {6, 5, 1, 2}, {7, 6, 2, 3}, {4, 7, 3, 0}}};
@@ -279,7 +279,7 @@ TEST(ImportMesh, VerticesOfFiveDigits_AreWelded) {
     imported(looseBox(0.01, 1e-4), ".obj");
     FAIL() << "accepted";
   } catch (const base::InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("of their vertices lie within 0.00057 m of another: merge these"),
+    EXPECT_NE(std::string(error.what()).find("of their vertices are within 0.00057 m of another: merge these"),
               std::string::npos)
         << error.what();
   }

@@ -126,7 +126,7 @@ TEST(ThinPart, BeyondTheBudgetAnErrorNamesPlaceAndRemedy) {
   } catch (const base::InputError& error) {
     const std::string said = error.what();
     for (const char* word : {"part: the mesh is thin or pointed at (", "more than the permitted 4e-06 m",
-                             "needs more than 100000 spheres", "set the sphere radius to 0.00707107 m"})
+                             "requires more than 100000 spheres", "set the sphere radius to 0.00707107 m"})
       EXPECT_NE(said.find(word), std::string::npos) << said;
   }
 }

@@ -113,7 +113,7 @@ TEST(LedgerOfGrains, OfManySizesBalancesInEnergyAndMomenta) {
   EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
   EXPECT_LT(std::fabs(l.integrationError), 0.05 * l.dissipated.total());
   EXPECT_GT(l.dissipated.rolling, 0.001 * l.dissipated.total());
-  // Relative to the impulse of the weight alone; the ledger stores masses as 30 bits of the largest.
+  // Relative to the impulse of the weight; the ledger stores masses as 30 bits of the largest.
   EXPECT_LT(norm(l.momentumResidual), 1e-8 * mass * kGravity * 0.15);
   EXPECT_LT(norm(l.angularResidual), 1e-8 * mass * kGravity * 0.15 * 0.6) << "at 0.6 m";
 }

@@ -106,7 +106,7 @@ TEST(ComplementarityScene, AHingedLeverPressesWithItsMoment) {
   for (int k = 0; k < 20; ++k) s.step();
   const base::Vec3d force = s.mechanism()->contactForces()[0], hinge = s.mechanism()->state().joint[0].force;
   EXPECT_NEAR(force.z + hinge.z, 9.81 * 2, 0.01);
-  // The force lies between those of the far column alone (x = 0.022 m) and the near column alone (-0.022 m).
+  // The force is between the forces of the far column only (x = 0.022 m) and the near column only (-0.022 m).
   EXPECT_GT(force.z, 9.81 * 2 * 0.1 / 0.123);
   EXPECT_LT(force.z, 9.81 * 2 * 0.1 / 0.077);
   const coupling::Ledger l = s.ledger();

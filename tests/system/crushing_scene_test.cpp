@@ -64,7 +64,7 @@ TEST_F(CrushingScene, TheForceStaysAtTheCapAndTheLedgerCloses) {
   EXPECT_NEAR(l.elastic / (kCap * kYield), 1, 1e-3);
   EXPECT_NEAR((l.elastic + l.dissipated.total() + l.kinetic) / l.driveWork, 1, kDashpots);
   EXPECT_LT(std::fabs(l.residual), 1e-11) << "a few quanta of 2e-12 J";
-  // The spring of the plate alone would store k x overlap, less its part cut by the cap: speed times time since then.
+  // Without crushing, the spring would store k x overlap, less its part cut by the cap: speed times time since then.
   const double overlap = kSpeed * s->time() - 1e-4 - kYield; // less the plane's share
   EXPECT_NEAR(l.cutImpulse / (0.5 * kStiffness * (overlap - kYield) * (overlap - kYield) / kSpeed), 1, 5e-3);
 }
@@ -81,14 +81,14 @@ TEST_F(CrushingScene, TheIntegrationErrorFallsWithTheStep) {
 
 TEST_F(CrushingScene, AGrainCrushedToItsMiddleIsTakenOutAndBooked) {
   const auto s = made(scene(2e-5, crushing()));
-  while (s->time() < 0.26 && s->takenOut().grains == 0) s->step();
-  ASSERT_EQ(s->takenOut().grains, 1);
+  while (s->time() < 0.26 && s->crushedGrains().grains == 0) s->step();
+  ASSERT_EQ(s->crushedGrains().grains, 1);
   // Its middle: 10 mm of the plate, 1 mm of the plane, 0.1 mm of way before.
   EXPECT_NEAR(s->time() * kSpeed, 0.0111, 5e-5);
   EXPECT_EQ(s->ground().grains->count(), 0u);
-  EXPECT_NEAR(s->takenOut().mass, ballMass(), 1e-9 * ballMass());
+  EXPECT_NEAR(s->crushedGrains().mass, ballMass(), 1e-9 * ballMass());
   // The energy stored at the plane leaves with the grain; the energy stored at the plate is dissipated.
-  EXPECT_NEAR(s->takenOut().energy / (0.5 * kCap * kYield), 1, 1e-2);
+  EXPECT_NEAR(s->crushedGrains().energy / (0.5 * kCap * kYield), 1, 1e-2);
   for (int k = 0; k < 100; ++k) s->step();
   const Ledger l = s->ledger();
   EXPECT_NEAR(l.dissipated.crushing / (kCap * (kRadius - kYield) + 0.5 * kCap * kYield), 1, 1e-3);
@@ -146,7 +146,9 @@ struct End {
 std::ostream& operator<<(std::ostream& out, const End& e) {
   return out << e.hash << ' ' << e.grains << ' ' << e.energy << ' ' << e.mass;
 }
-End endOf(const Simulation& s) { return {s.stateHash(), s.takenOut().grains, s.takenOut().energy, s.takenOut().mass}; }
+End endOf(const Simulation& s) {
+  return {s.stateHash(), s.crushedGrains().grains, s.crushedGrains().energy, s.crushedGrains().mass};
+}
 
 TEST(CrushedBed, HasOneAnswerForThreadsSkinsKernelsAndResumedRuns) {
   const std::string text = bed("crushing_strength = 1e5");

@@ -93,7 +93,7 @@ TEST(FluidScene, EnergiesClose) {
   EXPECT_LT(std::fabs(l.residual), 1e-9);
 }
 
-/// A driven body: the drive's work goes to the water.
+/// A driven body: the work of the drive increases the energy of the water.
 TEST(FluidScene, WorkOfADriveGoesIntoTheWater) {
   Simulation s = madeFluid(waterTank(floatingBox(20, 0.2) +
                                      "[[joint]]\nname = \"rail\"\ntype = \"prismatic\"\nbodies = [\"world\", "

@@ -70,7 +70,7 @@ TEST(TimeStep, TheStiffestLawOfTheSceneSetsTheLimit) {
   const double soft = setup::stepLimit(setup::parseScene(kBall, "ball.toml")).step;
   std::string stiff = kBall;
   stiff += "[contact.\"soil|hard\"]\nstiffness = 1e9\n";
-  // A grain and a plane alone: half of an impact's limit, 4 k / m.
+  // A single grain and a plane: half of the limit of an impact, 4 k / m.
   EXPECT_NEAR(soft / setup::stepLimit(setup::parseScene(stiff, "ball.toml")).step, std::sqrt(1e9 / 1e6), 1e-3);
   EXPECT_THROW(setup::chooseTimeStep(setup::parseScene(stiff, "ball.toml")), base::InputError);
 }

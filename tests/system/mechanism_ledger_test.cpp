@@ -71,8 +71,8 @@ TEST(MechanismLedger, GoesOnFromACheckpointWithTheSameBitsAndIsNotHashed) {
   EXPECT_EQ(a.integrationError, b.integrationError);
   EXPECT_EQ(a.leftOver, b.leftOver);
   EXPECT_EQ(a.turnover, b.turnover);
-  EXPECT_EQ(a.linearLeftOver, b.linearLeftOver);
-  EXPECT_EQ(a.angularLeftOver, b.angularLeftOver);
+  EXPECT_EQ(a.linearRemainder, b.linearRemainder);
+  EXPECT_EQ(a.angularRemainder, b.angularRemainder);
   EXPECT_EQ(straight.save().bodies, resumed.save().bodies);
 
   const std::vector<std::uint32_t> words = saved.words();
@@ -97,8 +97,8 @@ TEST(MechanismLedger, OfAVehiclesBodiesClosesToRounding) {
   EXPECT_EQ(l.kineticGain, l.now.kinetic) << "it starts at rest";
   EXPECT_NEAR(l.kineticGain + l.potentialGain + l.elasticGain + l.dissipated() + l.integrationError,
               l.driveWork + l.externalWork, kRounding * l.turnover);
-  EXPECT_LE(norm(l.linearLeftOver), 1e-9) << "impulses are some 1e4 N s";
-  EXPECT_LE(norm(l.angularLeftOver), 1e-8);
+  EXPECT_LE(norm(l.linearRemainder), 1e-9) << "impulses are some 1e4 N s";
+  EXPECT_LE(norm(l.angularRemainder), 1e-8);
 }
 
 } // namespace

@@ -145,11 +145,11 @@ TEST(PutOnBed, StandsAboveTheHighestGrainUnderIt) {
 
 TEST(PutOnBed, OverlapIsRefusedWithNumbersAndRemedy) {
   const std::string deep = refusal(sceneWithBed(plate("velocity = [0, 0, -0.1]\n"), {"box.plate.position.2=0.0"}));
-  for (const char* part : {"placed.toml:", "plate would lie", "m deep in grain", "above_bed", "placed = \"before\""})
+  for (const char* part : {"placed.toml:", "plate would penetrate", "m into grain", "above_bed", "placed = \"before\""})
     EXPECT_NE(deep.find(part), std::string::npos) << part << "\n" << deep;
   const std::string grain =
       refusal(sceneWithBed("[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.05\nmaterial = \"steel\"\n"));
-  for (const char* part : {"placed.toml:", "m deep in grain", "above_bed"})
+  for (const char* part : {"placed.toml:", "m into grain", "above_bed"})
     EXPECT_NE(grain.find(part), std::string::npos) << part << "\n" << grain;
   EXPECT_NE(refusal(sceneWithBed(plate(kFree + "above_bed = 0.01\n"), {"box.plate.position.0=7"}))
                 .find("no grain of the bed"),
@@ -160,7 +160,7 @@ TEST(PutOnBed, OverlapIsRefusedWithNumbersAndRemedy) {
   // Two grains at one position, which no bed can separate.
   const std::string stone =
       "[[grain]]\nposition = [0.3, 0, 0]\nradius = 0.02\nmaterial = \"steel\"\nabove_bed = 0.01\n";
-  EXPECT_NE(refusal(sceneWithBed(stone + stone)).find("m deep in grain"), std::string::npos);
+  EXPECT_NE(refusal(sceneWithBed(stone + stone)).find("m into grain"), std::string::npos);
 }
 
 TEST(PutOnBed, WhatRestsStandsInTheBedAndWhatMovesComesLater) {

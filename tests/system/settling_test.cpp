@@ -64,7 +64,7 @@ TEST(Settling, WhatIsToldOfARestlessBedIsTheMostOfTheLastFiveLooks) {
   LaidGround ground = buildGround(setup, base::cpuExec(1));
   std::vector<double> seen;
   try {
-    settle(*setup.grains->bed, ground, [&](double, double agitation) { seen.push_back(agitation); });
+    settle(*setup.grains->bed, ground, [&](double, double energyRatio) { seen.push_back(energyRatio); });
     FAIL() << "no bed settles to 1e-9";
   } catch (const base::SimulationError& error) {
     ASSERT_GE(seen.size(), 6U);
@@ -88,8 +88,8 @@ TEST(Settling, ReportsTheEnergyOfShiftAndTurnOfItsGrains) {
   const terrain::GrainModel& model = ground.grains->model();
   const double unit = model.mass * 9.81 * model.radius * static_cast<double>(ground.grains->count());
   ASSERT_GT(now.rotational, 0);
-  EXPECT_NEAR(report.agitation, (now.kinetic + now.rotational) / unit, 1e-12);
-  EXPECT_LT(report.agitation, 1e-2);
+  EXPECT_NEAR(report.energyRatio, (now.kinetic + now.rotational) / unit, 1e-12);
+  EXPECT_LT(report.energyRatio, 1e-2);
   EXPECT_NEAR(report.time, static_cast<double>(report.steps) * 2e-4, 1e-12);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A vehicle that stands, drives, turns, or is dropped on a small bed raises no alarm at any output interval.
+// A vehicle that rests, drives, turns, or is dropped on a small bed raises no alarm at any output interval.
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "coupling/simulation.hpp"

@@ -146,7 +146,7 @@ TEST(Sources, TheDeepestOfManyInTheWayIsNamed) {
 }
 
 TEST(Sources, AnImageAcrossPeriodicBoundariesLiesInTheWayToo) {
-  // Grains 2^32 units of length apart, not 1 m: low words alone would match that image.
+  // Grains 2^32 units of length apart, not 1 m: the low words would match such an image.
   const std::string two = dropAt("[-0.59, 0, 1]", "0.0") + dropAt("[0.59, 0, 1]", "0.01");
   expectParts(stopOf(two, {"run.periodic=[true, false]", "run.domain_x=[-0.6, 0.6]"}),
               {"source.1", "0.02 m deep in grain 0 at (-0.59, 0, 1)"});

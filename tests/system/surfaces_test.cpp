@@ -103,7 +103,7 @@ TEST(FreeSurface, RestsWhereGrainsCarryLoadAndWeight) {
   fresh->step();
   EXPECT_NEAR(fresh->surfaces()->observe(1, 0).force.z, 4 * pressed, 1e-3 * pressed);
   EXPECT_NEAR(fresh->surfaces()->observe(0, 0).force.z, -4 * (pressed + weight), 1e-3 * pressed);
-  // Energy: the work of load and weight goes to springs and dissipation. Dashpot losses use the speed in the
+  // Energy: the work of load and weight is stored in springs or dissipated. Dashpot losses use the speed in the
   // middle of the step as for a single contact; here two contacts load a grain: first order in the step.
   const Ledger l = s->ledger();
   EXPECT_NEAR(l.driveWork, 50 * (0.0301 - height), 1e-6 * 50);
@@ -171,10 +171,10 @@ TEST(FreeSurface, TooQuickToBeFeltStopsTheRunAndIsNamed) {
     return "";
   };
   // Half a radius per step is 500 m/s, which a load of 1e6 N on 1 kg reaches in 50 steps.
-  const std::string told = stop("1e6");
+  const std::string printed = stop("1e6");
   for (const char* part :
        {"step 50, time 0.0005 s: the loaded surface lid moves at 510 m/s", "(500 m/s)", "lower its load"})
-    EXPECT_NE(told.find(part), std::string::npos) << part << "\n" << told;
+    EXPECT_NE(printed.find(part), std::string::npos) << part << "\n" << printed;
   EXPECT_EQ(stop("4e5"), "");
 }
 

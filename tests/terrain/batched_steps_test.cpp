@@ -16,7 +16,7 @@ namespace {
 Grains thrown(double speed, Precision precision = Precision::single, bool hills = false) {
   GrainModel model = gravel(0.02);
   model.precision = precision, model.floorLaw = model.law;
-  model.mostSimdLanes = 1; // a CPU then batches its steps like a GPU
+  model.maxSimdLanes = 1; // a CPU then batches its steps like a GPU
   Boundaries floor;
   if (hills)
     floor.floor = HeightField::plane({-2, 3, -2, 3}, -0.05, 0.1, -0.05);

@@ -94,7 +94,7 @@ TEST(BedSurface, TreatsXAndYAlike) {
   for (Seed& g : grains) std::swap(g.centre.x, g.centre.y);
   const Rectangle turned{kArea.yMin, kArea.yMax, kArea.xMin, kArea.xMax};
   const BedSurface mirrored(grains, HeightField::flat(turned, -1).view(), turned, 2 * kRadius);
-  // Round-off of the smoothing, whose two passes are interchanged.
+  // Round-off of the smoothing: its two passes are interchanged.
   for (double x = 0; x < 3; x += 0.017)
     for (double y = -1; y < 1; y += 0.19) ASSERT_NEAR(surface.height(x, y), mirrored.height(y, x), 10 * kEps);
 }

@@ -70,7 +70,7 @@ base::Vec3d dragged(const GrainModel& m, const Boundaries& boundaries, const std
   return base::normalized(tangential);
 }
 
-/// Sliding from the first touch: the dashpot alone exceeds Coulomb's limit.
+/// Sliding from the first touch: the dashpot force by itself exceeds Coulomb's limit.
 GrainModel slippery() {
   GrainModel m = ball(1e-6);
   makeRough(m.law, 0, 0.2);

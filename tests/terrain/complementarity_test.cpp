@@ -13,7 +13,7 @@ using contact::ImpulseFriction;
 
 constexpr double kG = 9.81;
 
-/// The reference ball in steps of `timeStep`, with a solver tolerance far below those of the tests.
+/// The reference ball in steps of `timeStep`, with a solver tolerance far below the tolerances of the tests.
 GrainModel impulsive(double timeStep, double friction, Compliance compliance = Compliance::rigid) {
   GrainModel m = roughBall(timeStep, friction, 0);
   m.precision = Precision::double_;

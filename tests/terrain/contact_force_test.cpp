@@ -102,7 +102,7 @@ TEST(ContactForce, OutlivesARowOfResultsAndGrainsThatEnter) {
 
 TEST(ContactForce, AfterStepsThatGoAsOne_IsThatOfTheLast) {
   GrainModel m = gravel();
-  m.mostSimdLanes = 1; // so that a CPU batches steps as well
+  m.maxSimdLanes = 1; // so that a CPU batches steps as well
   Grains batched(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, gravelBlock(3, 3, 2, {0, 0, -1}));
   Grains single(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, gravelBlock(3, 3, 2, {0, 0, -1}));
   while (batched.steps() < 200) {

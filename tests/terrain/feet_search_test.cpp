@@ -301,7 +301,7 @@ TEST(FeetPlaces, GoToTheFootWhoseNormalIsNearest) {
   float normals[24] = {};
   const Vec3d before = base::normalized(Vec3d{-0.69, 0.01, 0.7});
   normals[6] = float(before.x), normals[7] = float(before.y), normals[8] = float(before.z);
-  int place[Feet::kMost];
+  int place[Feet::kMax];
   EXPECT_EQ(takePlaces(feet, 1u << 2, normals, place), 1u << 2);
   EXPECT_EQ(place[1], 2);
   EXPECT_EQ(place[0], 0);

@@ -159,13 +159,13 @@ TEST(FixedGrains, EveryKernelGivesTheBitsOfTheGeneralOne) {
     if (kind.ledger) {
       EXPECT_GT(special.ledger().impulse.z, 0) << "they have rebounded";
     }
-    m.specialised = false, m.skin = 0.2, m.mostSimdLanes = 1;
+    m.specialised = false, m.skin = 0.2, m.maxSimdLanes = 1;
     Grains general = bedOf(kind, m, testExec(2));
     advance(general, 600);
     EXPECT_TRUE(wordsOf(special) == wordsOf(general)) << text;
     for (const int lanes : {4, 8}) {
       GrainModel narrow = modelOf(kind);
-      narrow.mostSimdLanes = lanes;
+      narrow.maxSimdLanes = lanes;
       Grains same = bedOf(kind, narrow, testExec(2));
       advance(same, 600);
       EXPECT_TRUE(wordsOf(special) == wordsOf(same)) << text << ", " << lanes << " lanes";

@@ -78,7 +78,7 @@ std::vector<GrainSpec> heap(const LaneKind& kind) {
   return start;
 }
 
-/// Pushes every fifth grain, another fifth each step, by an amount that depends on its id alone.
+/// Pushes every fifth grain, another fifth each step, by an amount that depends only on its id.
 struct Pushes {
   std::vector<std::uint32_t> range;
   std::vector<std::uint32_t> slot;
@@ -116,7 +116,7 @@ void stepApart(Grains& grains, const contact::GrainLoadsView& loads) {
 std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threads, int steps, double skin = 0.5,
                                       bool apart = false) {
   GrainModel m = laneModel(kind);
-  m.mostSimdLanes = lanes, m.skin = skin;
+  m.maxSimdLanes = lanes, m.skin = skin;
   contact::ContactLaw wall = m.law;
   wall.friction = kind.wallFriction;
   std::vector<Wall> walls;
@@ -280,7 +280,7 @@ TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
         start.push_back({place, {}, {0, 0, 5}, small * (0.9 + 0.1 * die(i, 1))});
     }
     const auto words = [&](int lanes) {
-      m.mostSimdLanes = lanes;
+      m.maxSimdLanes = lanes;
       Grains grains(base::cpuExec(1), m, {{{{0, 0, 1}, -(across + 1) * 1.05 * small, m.law}}, {}}, start);
       advance(grains, 1);
       const contact::NeighbourList::HostCopy lists = grains.system().neighbours.toHost();
@@ -294,13 +294,13 @@ TEST(GrainSimd, GrainsWithManyNeighboursAreTakenWhole) {
   for (const double times : {6.0, 12.0}) check(times, false), check(times, true);
 }
 
-/// Two grains whose overlap is below the resolution of float squares, and two that just do not touch.
+/// Two grains with an overlap below the resolution of float squares, and two that just do not touch.
 TEST(GrainSimd, TouchOfOneUnitIsFound) {
   GrainModel m = ball(1e-6);
   const double unit = base::positionScale(2 * m.radius).unit;
   for (const int units : {-2, -1, 0, 1, 2})
     for (const int lanes : {1, 4, 8, 16}) {
-      m.mostSimdLanes = lanes;
+      m.maxSimdLanes = lanes;
       Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, {{2 * m.radius + units * unit, 0, 0}, {}, {}}});
       advance(grains, 1);
       std::uint64_t touching = 0;
@@ -312,7 +312,7 @@ TEST(GrainSimd, TouchOfOneUnitIsFound) {
 TEST(GrainSimd, FaultsAreThoseOfTheScalarKernel) {
   const auto messageOf = [](int lanes, const GrainSpec& second) -> std::string {
     GrainModel m = ball(1e-5);
-    m.mostSimdLanes = lanes;
+    m.maxSimdLanes = lanes;
     Grains grains(base::cpuExec(1), m, {}, {{{0, 0, 0}, {}, {}}, second});
     try {
       advance(grains, 2000);
@@ -331,12 +331,12 @@ TEST(GrainSimd, FaultsAreThoseOfTheScalarKernel) {
   EXPECT_NE(messageOf(16, fast).find("moves at"), std::string::npos);
 }
 
-/// Coordinates whose low words wrap during the run.
+/// Coordinates with low words that wrap during the run.
 TEST(GrainSimd, GrainsCrossTheEndsOfTheirLowWords) {
   GrainModel m = ball(1e-5);
   const double wrap = 4294967296.0 * base::positionScale(2 * m.radius).unit;
   const auto words = [&](int lanes) {
-    m.mostSimdLanes = lanes;
+    m.maxSimdLanes = lanes;
     std::vector<GrainSpec> start;
     for (int k = -3; k <= 3; ++k) start.push_back({{k * wrap + 1e-4, -k * wrap - 1e-4, 1e-5}, {-1, 1, -0.5}, {}});
     Grains grains(base::cpuExec(1), m, {}, start);

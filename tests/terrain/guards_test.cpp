@@ -37,7 +37,7 @@ TEST(Guards, DeepOverlapStopsTheRun) {
 /// The error of one step of a grain with an overlap of `overlap` radii on a plane.
 Fault faultAtPlane(double overlap, int lanes) {
   GrainModel m = ball(1e-6);
-  m.mostSimdLanes = lanes;
+  m.maxSimdLanes = lanes;
   try {
     Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, (1 - overlap) * m.radius}, {}, {}}});
     advance(grains, 1);
@@ -57,7 +57,7 @@ TEST(Guards, AGrainMayBeSqueezedButNotPassThroughAPlane) {
 TEST(Guards, TwoGrainsMayOverlapByHalfARadiusAndTheirOverlapIsCounted) {
   for (const int lanes : {16, 1}) {
     GrainModel m = ball(1e-6);
-    m.mostSimdLanes = lanes;
+    m.maxSimdLanes = lanes;
     const auto pair = [&](double overlap) {
       return Grains(base::cpuExec(1), m, {},
                     {{{0, 0, 0}, {}, {}}, {{(2 - overlap) * m.radius, 0, 0}, {}, {}}, {{1, 0, 0}, {}, {}}});
@@ -76,7 +76,7 @@ TEST(Guards, SqueezedContactsWithPlanesAreCountedApart) {
     Grains grains(base::cpuExec(1), m, {{floorPlane(m.law)}, {}}, {{{0, 0, (1 - overlap) * m.radius}, {}, {}}});
     const GrainLedger l = grains.ledger();
     EXPECT_EQ(l.squeezed, 0);
-    return l.squeezedAtBoundaries;
+    return l.deepAtBoundaries;
   };
   EXPECT_EQ(counted(0.19), 0);
   EXPECT_EQ(counted(0.21), 1);
@@ -86,7 +86,7 @@ TEST(Guards, GrainsThatComeToOnePlaceStopTheRun) {
   // They pass through each other, since hardly any force separates them; no other alarm detects them at one position.
   for (const int lanes : {16, 1}) {
     GrainModel m = ball(0x1p-13);
-    m.law.stiffness = 1e-9, m.maxOverlap = 1.99, m.mostSimdLanes = lanes;
+    m.law.stiffness = 1e-9, m.maxOverlap = 1.99, m.maxSimdLanes = lanes;
     const double way = 0x1p-13; // path per step at 1 m/s; a whole number of units
     const auto pass = [&](double offset) {
       Grains grains(base::cpuExec(1), m, {},

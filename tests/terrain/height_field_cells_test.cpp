@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Boxes over the cells of a height-field: those near the ground, and those over one plane.
+// Boxes over the cells of a height-field: boxes near the ground, and boxes over one plane.
 #include "terrain/height_field_cells.hpp"
 
 #include <gtest/gtest.h>

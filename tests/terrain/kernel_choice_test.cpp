@@ -87,10 +87,10 @@ TEST(KernelChoice, LanesAreTheProcessorsAndAtMostThoseAllowed) {
   EXPECT_GE(stepKernel(kUnderVehicle, m).lanes, 4);
   EXPECT_GE(boundaryKernel(kUnderVehicle, m).lanes, 4) << "planes alone";
   EXPECT_EQ(boundaryKernel(kUnderVehicle | kFloor, m).lanes, 1);
-  m.mostSimdLanes = 4;
+  m.maxSimdLanes = 4;
   EXPECT_EQ(stepKernel(kUnderVehicle, m).lanes, 4);
 #endif
-  m.mostSimdLanes = 1;
+  m.maxSimdLanes = 1;
   EXPECT_EQ(stepKernel(kUnderVehicle, m).lanes, 1);
   EXPECT_EQ(stepKernel(kUnderVehicle, m).noSimd, nullptr);
 }

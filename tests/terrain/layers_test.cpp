@@ -47,7 +47,7 @@ LayerOptions options(FloorShape floor = FloorShape::follow) {
 }
 
 /// Smallest distance of two centres, by cells of one diameter.
-double leastDistance(const std::vector<Seed>& grains) {
+double minDistance(const std::vector<Seed>& grains) {
   std::map<std::tuple<int, int, int>, std::vector<int>> cells;
   const auto cell = [](double v) { return static_cast<int>(std::floor(v / (2 * kRadius))); };
   double least = 1e9;
@@ -65,7 +65,7 @@ double leastDistance(const std::vector<Seed>& grains) {
 }
 
 /// Smallest distance between a grain and the floor points beneath its disc, on a grid; negative below the floor.
-double leastClearance(const HeightField& floor, const Seed& g) {
+double minClearance(const HeightField& floor, const Seed& g) {
   double least = 1e9;
   const int n = 6;
   for (int b = -n; b <= n; ++b)
@@ -88,10 +88,10 @@ TEST_P(LayersOnAnyGround, NoGrainTouchesAnotherTheFloorOrAWall_AndThePlanCountsT
   const std::vector<Seed> grains = layGrains(surface, o);
   EXPECT_EQ(plan.grains, static_cast<std::int64_t>(grains.size()));
   ASSERT_GT(grains.size(), 1000u);
-  EXPECT_GT(leastDistance(grains), 2 * kRadius);
+  EXPECT_GT(minDistance(grains), 2 * kRadius);
   for (const Seed& g : grains) {
     ASSERT_EQ(g.radius, kRadius);
-    ASSERT_GT(leastClearance(plan.floor, g), 0);
+    ASSERT_GT(minClearance(plan.floor, g), 0);
     ASSERT_GE(g.centre.x - kRadius, 0.05);
     ASSERT_LE(g.centre.x + kRadius, 1.95);
     ASSERT_GE(g.centre.y - kRadius, -0.45);
@@ -244,7 +244,7 @@ TEST(Layers, ASingleColumnFits) {
   o.jitter = 0;
   const auto grains = layGrains(narrow, o);
   ASSERT_EQ(grains.size(), 5u);
-  EXPECT_GT(leastDistance(grains), 2 * kRadius);
+  EXPECT_GT(minDistance(grains), 2 * kRadius);
 }
 
 TEST(Layers, BrokenOptions_GiveAnErrorThatNamesTheOption) {

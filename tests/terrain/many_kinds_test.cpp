@@ -119,7 +119,7 @@ TEST(ManyKinds, EveryKernelGivesTheBitsOfTheGeneralOneOnAnyThreadsAndRebuilds) {
     const auto expected = wordsAfter(bed, 300, 2);
     bed.model.specialised = true, bed.model.skin = 0.5;
     for (const int lanes : {16, 8, 4, 1}) {
-      bed.model.mostSimdLanes = lanes;
+      bed.model.maxSimdLanes = lanes;
       EXPECT_TRUE(wordsAfter(bed, 300) == expected)
           << lanes << " lanes, "
           << featureText(Grains(testExec(1), bed.model, bed.boundaries, bed.start).system().constants.features);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Periodic boundaries: no bit depends on where they stand.
+// Periodic boundaries: no bit depends on their position.
 #include "base/error.hpp"
 #include "grain_fixture.hpp"
 

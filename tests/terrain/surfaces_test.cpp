@@ -105,7 +105,7 @@ TEST(BallInDrum, SwingsWithThePeriodOfRolling) {
 }
 
 TEST(BallInDrum, ThatTurnsWithItFeelsNoRollingResistance) {
-  // Pressed to the wall by rotation alone, spinning with the drum: no sliding or rolling.
+  // Pressed to the wall only by rotation, spinning with the drum: no sliding or rolling.
   const double omega = 40, radius = 0.03;
   GrainModel m = ball(1e-5);
   m.law.friction = 0.6, m.law.tangentialStiffness = m.law.stiffness * 2 / 7;

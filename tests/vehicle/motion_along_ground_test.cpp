@@ -95,7 +95,7 @@ TEST_F(AlongGround, RollCountsOnWhereAVehicleRollsOver) {
   }
 }
 
-/// In reverse all signs change except that of the resistance.
+/// In reverse, all signs change except the sign of the resistance.
 TEST_F(AlongGround, InReverseForcesAreStatedBackward) {
   const Quat attitude = about(2, 0.6);
   place(attitude);
@@ -142,7 +142,7 @@ TEST_F(AlongGround, WhereTracksRunAgainstEachOtherNothingResistsAlongTheHeading)
       << "about a locked track";
 }
 
-/// The direction is that of the mean since the last row, like torque and forces; a checkpoint stores it.
+/// The direction is that of the mean motion since the last row, like torque and forces; a checkpoint stores it.
 TEST_F(AlongGround, DirectionIsOfTheMeanSinceTheLastRow) {
   Observer observer(v);
   drive(-3, -3, -300, -300), observer.update(state, 1e-3);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The vehicles of assets/vehicles: each closes, has the correct mass, stands, and drives on rigid ground.
+// The vehicles of assets/vehicles: each closes, has the correct mass, rests, and drives on rigid ground.
 #include "base/math.hpp"
 #include "ride.hpp"
 #include "tests/vehicle/ground_shoes.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Shape dimensions of a running gear: those of the shipped vehicles fit their meshes, others are rejected by name.
+// Shape dimensions of a running gear: for the shipped vehicles they fit the meshes; others are rejected by name.
 #include "vehicle/shape_check.hpp"
 
 #include "spheredecomp/mesh.hpp"

@@ -29,7 +29,7 @@ TEST_F(TrackWatch, AsItWasWrappedItRunsAroundAll) {
 
 TEST_F(TrackWatch, AShoeBesideItsWheelsIsNamedWithItsDistance) {
   move(v.tracks[1].shoes[20], {0, -0.0612, 0});
-  EXPECT_EQ(mostSideways(v, 1, state).shoe, 20);
+  EXPECT_EQ(maxLateralShift(v, 1, state).shoe, 20);
   EXPECT_EQ(thrownTrack(v, 0, state, lift), "");
   EXPECT_EQ(thrownTrack(v, 1, state, lift),
             "right track thrown: right shoe 20 is 61 mm beside its wheels, more than a horn's height of 60 mm; tighten "
@@ -42,7 +42,7 @@ TEST_F(TrackWatch, ATrackThatHangsOffItsWheelsInItsPlaneIsGuided) {
   const Track& left = v.tracks[0];
   for (const int i : {1, 2, 3, 4}) move(left.wheels[static_cast<std::size_t>(i)], {0, 0, 0.062});
   for (const int shoe : left.shoes) move(shoe, {0, 0.0001, 0});
-  EXPECT_NEAR(mostLifted(v, 0, state).gap, 0.062, 1e-12);
+  EXPECT_NEAR(maxLifted(v, 0, state).gap, 0.062, 1e-12);
   EXPECT_EQ(unguidedWheel(v, 0, state, lift).body, -1);
   EXPECT_EQ(thrownTrack(v, 0, state, lift), "");
   for (const int i : {1, 2, 3, 4}) move(left.wheels[static_cast<std::size_t>(i)], {0, 0, 0.1});

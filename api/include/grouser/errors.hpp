@@ -5,20 +5,20 @@
 
 namespace grouser {
 
-/// Base class of all exceptions. what() is one line: place, value, valid range and remedy.
+/// Base class of all exceptions. what() returns one line with place, value, valid range and remedy.
 class Error : public std::runtime_error {
 public:
   using std::runtime_error::runtime_error;
 };
 
-/// Invalid scene, value or file; the call has no effect. Exit code 2 of the program.
+/// A scene, value or file is invalid; the failed call has no effect. Exit code 2 of the program.
 class InputError : public Error {
 public:
   using Error::Error;
 };
 
-/// The simulation became unsound, or results could not be written. Its state can be read but not stepped further.
-/// Exit code 3 of the program.
+/// The simulation became invalid, or results could not be written. The state of the simulation can still be read, but
+/// step() throws. Exit code 3 of the program.
 class SimulationError : public Error {
 public:
   using Error::Error;

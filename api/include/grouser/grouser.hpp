@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// All of grouser's public interface. Headers in <grouser/internal/> may change at any time.
+/// The complete public interface of grouser. Headers in <grouser/internal/> may change at any time.
 #include <grouser/errors.hpp>
 #include <grouser/scene.hpp>
 #include <grouser/simulation.hpp>

@@ -17,19 +17,19 @@ namespace detail {
 struct Run;
 struct SceneData;
 void setInstalledShare(const char* folder);
-#ifdef GROUSER_INSTALLED_SHARE // defined by the target grouser::grouser: folder of vehicles, soils and height-maps
+#ifdef GROUSER_INSTALLED_SHARE // from the target grouser::grouser: folder of vehicles, soils and height-maps
 inline const bool kShareIsKnown = (setInstalledShare(GROUSER_INSTALLED_SHARE), true);
 #endif
 } // namespace detail
 
-/// A scene, from a file or TOML text, with overrides. docs/keys.md lists all keys. Every setter validates the whole
-/// scene; if that is invalid, it throws InputError and changes nothing. Copies are cheap.
+/// A scene from a file or TOML text, with overrides. docs/keys.md lists all keys. Every setter validates the whole
+/// scene; if the scene would become invalid, the setter throws InputError and changes nothing. Copies are cheap.
 class Scene {
 public:
-  /// Reads a scene file, once.
+  /// Reads a scene file; later changes of the file have no effect.
   static Scene fromFile(const std::filesystem::path& file);
-  /// A scene as TOML text. Paths in it are relative to `folder`, and assets by name are found as in a file; `file` is
-  /// the name used in messages.
+  /// Reads a scene from TOML text. Paths in the text are relative to `folder`; assets are found by name as for a scene
+  /// file. Messages use the name `file`.
   static Scene fromText(std::string_view toml, const std::filesystem::path& folder = ".",
                         const std::string& file = "scene.toml");
 
@@ -50,7 +50,7 @@ public:
   Scene& set(const std::vector<std::string>& assignments);
 
   std::string name() const;
-  double duration() const;      ///< run.duration [s]; Simulation::step() may go beyond it
+  double duration() const;      ///< run.duration [s]; Simulation::step() can continue beyond this time
   std::string resolved() const; ///< the scene as TOML, including all defaults
 
 private:

@@ -28,7 +28,7 @@ double lateMean(const sweeps::RunSeries& series, const std::string& column, doub
   return count ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Change of a quantity over the second half of the motion, and its duration.
+/// Change of a quantity over the second half of the motion, and the duration of that half.
 struct LateChange {
   double change = 0, seconds = 0;
 };

@@ -21,11 +21,11 @@ inline constexpr const char* kPull = "drawbar pull [N]";
 std::vector<Figure> figuresOf(Event event, const Motion& motion, const sweeps::RunSeries& series, double driveStart,
                               const Trial& trial, const Course& course);
 
-/// Fourth-order Butterworth low-pass, forward only, of values `dt` [s] apart; cutoff [Hz] below half of 1 / dt.
+/// Fourth-order Butterworth low-pass filter, forward only, of values at intervals `dt` [s]; cutoff [Hz] < 0.5 / dt.
 std::vector<double> lowPass(const std::vector<double>& values, double dt, double cutoff);
 
-/// Turning resistance moment on the spot [N m]: friction on an evenly loaded contact length opposite to the local slip,
-/// rate x sideways and `slipSpeed` [m/s] longitudinally. mu W L / 4 if slipSpeed is 0.
+/// Turning resistance moment of a pivot turn [N m]: uniform pressure over the contact length; friction opposes the
+/// local slip velocity, rate x laterally and `slipSpeed` [m/s] longitudinally. Equals mu W L / 4 if slipSpeed is 0.
 double turningMoment(const VehicleShape& shape, double friction, double weight, double rate, double slipSpeed);
 
 } // namespace grouser::events

@@ -22,7 +22,7 @@ namespace {
 constexpr double kStepH200 = 161e-6, kMore = 0.43e-9;              // s per step, s per further grain
 constexpr double kGrainsH200 = 285'000, kSettling = 1, kBegin = 5; // -, s, s per process
 
-/// Scene to probe for a run: its own, or the bed alone if obstacles reach into it, which copied tiles do not support.
+/// Scene to probe for a run: its scene, or only the bed if obstacles are in the bed, which copied tiles do not support.
 scene::Scene probedScene(const EventPlan& plan, const sweeps::SweepRun& run, const std::vector<std::string>& sets) {
   std::vector<std::string> bed;
   for (const std::string& set : sets)
@@ -45,7 +45,7 @@ std::string timeText(double seconds) {
 std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::path& folder) {
   std::vector<EventTime> times;
   support::Progress progress("probing");
-  double steps = 0, output = 0, preparation = 0; // probed run [s]: per step and grain, per run, per bed grain
+  double steps = 0, output = 0, preparation = 0; // probed times [s]: per step and grain, per run, per grain of the bed
   for (std::size_t i = 0; i < plan.trials.size(); ++i) {
     const PlannedTrial& planned = plan.trials[i];
     const sweeps::SweepRun& run = plan.sweep.runs[planned.runs.front()];
@@ -62,10 +62,10 @@ std::vector<EventTime> timesOf(const EventPlan& plan, const std::filesystem::pat
       const scene::Scene probed = probedScene(plan, run, sets);
       const forecast::CountedGrains ofProbe = forecast::countGrains(probed, step, 0);
       const double workOfProbe = std::max(1.0, static_cast<double>(ofProbe.grains));
-      const forecast::Forecast told = forecast::forecastOf(probed, ofProbe, {folder, 1, true});
-      steps = forecast::Forecast::sum(told.steps) / (duration / step) / workOfProbe;
-      output = forecast::Forecast::sum(told.output);
-      preparation = forecast::Forecast::sum(told.preparation) / workOfProbe;
+      const forecast::Forecast predicted = forecast::forecastOf(probed, ofProbe, {folder, 1, true});
+      steps = forecast::Forecast::sum(predicted.steps) / (duration / step) / workOfProbe;
+      output = forecast::Forecast::sum(predicted.output);
+      preparation = forecast::Forecast::sum(predicted.preparation) / workOfProbe;
       times.push_back({planned.event, 0, 0, 0, 0});
     }
     EventTime& time = times.back();

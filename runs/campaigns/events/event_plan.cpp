@@ -31,9 +31,9 @@ constexpr const char* kRigid = "rigid";
 constexpr double kLightRadius = 0.2451, kLightSpeed = 1.2; // m, m/s: of the light vehicle
 constexpr double kFewOnPad = 6;               // grains per pad width; with four, tracks skip teeth (docs/events.md)
 constexpr double kSphere = 0.02 / 0.28;       // radius of the parts' spheres over pad width
-constexpr double kStart = 1.2, kSlower = 1.2; // start of the drive [s]; duration over that at full speed
+constexpr double kStart = 1.2, kSlower = 1.2; // start of the drive [s]; duration / duration at full speed
 
-/// The names of the ready vehicles.
+/// Names of the built-in vehicles.
 std::vector<std::string> readyVehicles() {
   std::vector<std::string> names;
   std::error_code error;
@@ -68,7 +68,7 @@ scene::Soil soilOf(const std::string& word) {
   return scene::readSoil(file);
 }
 
-/// The vehicle file with the user's overrides.
+/// Vehicle with the user's overrides.
 vehicle::VehicleSpec specOf(const std::string& file, const EventOptions& options) {
   std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", file)};
   for (const std::string& set : options.fixed)
@@ -88,7 +88,7 @@ void refuseGrainOptions(const EventOptions& options, bool rigid) {
               : fmt::format("{}: has no effect on deformable soil; set --ground granular, or remove the option", name));
 }
 
-/// The soil constants with the user's overrides.
+/// Soil constants with the user's overrides.
 scm::SoilConstants constantsOf(const EventOptions& options, const std::string& file) {
   std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", file), "terrain.kind=\"scm\"",
                                    fmt::format("terrain.material=\"{}\"", options.soil)};
@@ -138,7 +138,7 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
   return sets;
 }
 
-/// Key that distinguishes the runs of a level.
+/// Key that has different values in the runs of a level.
 std::string keyOfNumber(const EventPlan& plan) { return plan.draws > 0 ? sweeps::kDrawKey : sweeps::kSeedKey; }
 
 std::string runName(Event event, double level, int number, const EventPlan& plan) {
@@ -148,7 +148,7 @@ std::string runName(Event event, double level, int number, const EventPlan& plan
   return name;
 }
 
-/// Expected time at which the course is driven [s]; at most `limit`, the duration of the scene.
+/// Expected time at which the vehicle completes the course [s]; at most `limit`, the duration of the scene.
 double expectedEnd(const PlannedTrial& planned, double limit) {
   const Trial& trial = planned.trial;
   if (trial.angle > 0) return limit;
@@ -196,7 +196,7 @@ std::string namingUserOption(const std::string& fault, const EventOptions& optio
   return fmt::format("event {}: {}", base::wordOf(event), rest);
 }
 
-/// Loads the scene of a run. Checks it for the first seed or draw only, as the others differ in a random number.
+/// Loads the scene of a run. Checks only the first seed or draw, because the others differ only in random numbers.
 void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial& planned, int number) {
   try {
     run.scene = setup::loadScene(run.file, run.overrides);
@@ -241,7 +241,7 @@ EventPlan planEvents(const EventOptions& options) {
   plan.seeds = plan.course.granular() ? options.seeds.value_or(options.care().seeds) : 1;
   plan.draws = options.draws;
   if (plan.draws > 0 && !plan.course.deformable())
-    throw InputError("--draws: requires deformable soil; set --ground scm, or remove it");
+    throw InputError("--draws: requires deformable soil; set --ground scm, or remove --draws");
   for (const std::string& set : options.fixed)
     if (plan.draws > 0 && sweeps::keyOf(set) == sweeps::kDrawKey)
       throw InputError(fmt::format("--set {}: mutually exclusive with --draws; remove one", set));

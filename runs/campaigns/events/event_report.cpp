@@ -27,7 +27,7 @@ bool isOfSteadyPart(const std::string& figure) {
   return std::find(std::begin(kSteady), std::end(kSteady), figure) != std::end(kSteady);
 }
 
-/// Whether the second half of a run is steady driving, straight or on a circle.
+/// Whether the vehicle drives steadily, straight or on a circle, in the second half of a run of this event.
 bool isSteady(Event event) {
   return event != Event::pivotTurn && event != Event::step && event != Event::gap && event != Event::ditch &&
          event != Event::halfRound;
@@ -41,7 +41,7 @@ public:
     if (!values_.contains(name)) order_.push_back(name);
     values_[name].push_back(value);
   }
-  /// `drawn`: prediction intervals of one further draw instead of confidence intervals of the mean.
+  /// `drawn`: prediction intervals for one more draw instead of confidence intervals of the mean.
   std::vector<FigureOverSeeds> figures(bool drawn) const {
     std::vector<FigureOverSeeds> all;
     for (const std::string& name : order_) {
@@ -121,7 +121,7 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
     EventRow row;
     row.event = planned.event, row.level = planned.level;
     Gathered gathered;
-    steady.keepSound(planned.runs), row.doubt = steady.doubtOf(planned.runs);
+    steady.dropInconclusive(planned.runs), row.doubt = steady.doubtOf(planned.runs);
     for (const std::size_t run : planned.runs) {
       const sweeps::SweepOutcome& outcome = outcomes[run];
       const fs::path at = folder / plan.sweep.runs[run].name;

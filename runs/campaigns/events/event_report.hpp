@@ -19,8 +19,8 @@ namespace grouser::events {
 struct FigureOverSeeds {
   std::string name;           ///< with its unit
   std::vector<double> values; ///< one per run that has the figure
-  /// Mean with the half width of its 95 % confidence interval over seeds, or of the 95 % prediction interval of one
-  /// further draw; infinite for one run.
+  /// Mean with the half width of its 95 % confidence interval over seeds, or of the 95 % prediction interval for one
+  /// more draw; infinite for a single run.
   support::Estimate estimate;
 };
 
@@ -39,27 +39,27 @@ struct EventRow {
   int gos = 0;     ///< runs with verdict go
   int unknown = 0; ///< runs that failed for reasons unrelated to the vehicle
   int pending = 0;
-  int incomplete = 0; ///< runs whose vehicle never drove, or too little for a verdict
+  int incomplete = 0; ///< runs whose vehicle never drove, or drove too little for a verdict
   std::vector<RunVerdict> each;
   std::vector<FigureOverSeeds> figures;
   std::string doubt;   ///< reason why steady-part figures are inconclusive; empty if valid
   std::string picture; ///< picture of the first run, relative to the folder; empty if missing
 
-  /// Reason why a steady-part mean is inconclusive; empty if it is valid, or no steady-part mean.
+  /// Reason why a steady-part mean is inconclusive; empty if it is valid or is not a steady-part mean.
   std::string doubtOfMean(const std::string& figure) const;
   /// Reason why a figure is inconclusive; empty if it is valid.
   std::string doubtOf(const FigureOverSeeds& figure) const;
-  /// Reason of the first no-go run; else of the first finished one, or the mean drawbar pull.
+  /// Reason for the verdict of the first no-go run, else of the first finished run; or the mean drawbar pull.
   std::string why() const;
 };
 
-/// Bounds of the limit level of an event.
+/// Bounds of the highest level that a vehicle passes.
 struct EventLimit {
   Event event{};
-  std::optional<double> go;   ///< highest level such that all seeds pass it and every lower level
-  std::optional<double> noGo; ///< lowest level that some seed fails
+  std::optional<double> go;   ///< highest level that all seeds pass, together with all lower levels
+  std::optional<double> noGo; ///< lowest level that at least one seed fails
   std::optional<Reference> reference;
-  /// Whether runs agree with the reference: none passes a blocked level or fails a passable one; empty: no reference.
+  /// Whether the runs agree with the reference: all pass below `passes` and fail above `blocks`; empty: no reference.
   std::optional<bool> agrees;
 };
 
@@ -74,18 +74,18 @@ std::string goText(const EventRow& row);
 std::string levelCell(Event event, double level);
 /// "between 0.4 and 0.5"
 std::string limitText(const EventLimit& limit);
-/// Closed form, and whether the runs agree with it; empty without a closed form.
+/// Closed-form limit, and whether the runs agree with it; empty without a closed form.
 std::string referenceText(const EventLimit& limit);
 
-/// Note on runs with soil contact of the track shoes only, in the head and the tables.
+/// Note on runs in which only the track shoes have soil contact; printed at the start and in the tables.
 inline constexpr const char* kShoesOnly =
     "soil contact: track shoes only, because coarse grains would jam the running gear (vehicle.soil_contact)";
 
-/// Text of both tables.
+/// Text of the tables of runs and of limits.
 std::string eventsText(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits, const EventPlan& plan);
 /// One row per level and figure, with its runs, mean and half width. `first`: name and value of a leading column.
 std::string eventsCsv(const std::vector<EventRow>& rows, const std::pair<std::string, std::string>& first = {});
-/// Everything, with the keys that each level sets.
+/// All results, with the keys that each level sets.
 nlohmann::ordered_json eventsJson(const std::vector<EventRow>& rows, const std::vector<EventLimit>& limits,
                                   const EventPlan& plan);
 

@@ -62,7 +62,7 @@ jobs::Recipe recipeOf(const EventsCommand& command, const fs::path& folder, cons
                                  {"seeds", given(o.seeds)},
                                  {"quick", o.quick},
                                  {"frames", o.frames}};
-  // The default ground of a soil has no entry.
+  // call.json has no entry for the default ground of a soil.
   if (groundOf(o) == scene::TerrainKind::scm) call["ground"] = base::wordOf(scene::TerrainKind::scm);
   if (o.draws > 0) call["draws"] = o.draws;
   if (!axis.empty()) call["axis"] = axis;
@@ -71,13 +71,13 @@ jobs::Recipe recipeOf(const EventsCommand& command, const fs::path& folder, cons
 
 void checkFolder(const EventsCommand& command, const fs::path& folder, const jobs::Recipe& call) {
   if (command.plan) return;
-  const bool goesOn = command.pieces.resume || !command.pieces.part.empty() || call.isThere();
+  const bool continues = command.pieces.resume || !command.pieces.part.empty() || call.isThere();
   std::error_code unreadable;
-  if (!command.force && !goesOn && fs::is_directory(folder, unreadable) && !fs::is_empty(folder, unreadable))
+  if (!command.force && !continues && fs::is_directory(folder, unreadable) && !fs::is_empty(folder, unreadable))
     throw base::InputError(fmt::format("{}: contains results of a different command; continue with --resume, choose "
                                        "another folder with --out, or repeat all runs with --force",
                                        folder.string()));
-  output::checkOutputFolder(folder, command.force || goesOn);
+  output::checkOutputFolder(folder, command.force || continues);
 }
 
 void printHead(const EventsCommand& command, const std::string& what, const EventPlan& plan, std::size_t runs) {

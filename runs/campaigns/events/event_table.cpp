@@ -18,13 +18,13 @@ namespace {
 
 constexpr double kWay = 5;      // m, distance to drive at half the commanded speed or more
 constexpr double kEnd = 0.3;    // m, between the vehicle and the end of the terrain
-constexpr double kRunUp = 3;    // m, run-up on slopes: near the limit acceleration is slow
-constexpr double kCrawl = 0.4;  // share of the commanded speed, and minimum in m/s: over steps, gaps and ditches
-constexpr double kBeyond = 0.3; // m, beyond the end of the course, or lateral drift
-constexpr double kSwerve = 0.2; // width beside a grain-free course over its length: obstacles turn vehicles
+constexpr double kRunUp = 3;    // m, run-up on slopes: acceleration is slow near the limit
+constexpr double kCrawl = 0.4;  // speed over steps, gaps and ditches: share of the commanded speed, and minimum in m/s
+constexpr double kBeyond = 0.3; // m, space beyond the end of the course, or for lateral drift
+constexpr double kSwerve = 0.2; // width beside a course without grains / its length: obstacles turn vehicles
 constexpr double kReferenceRun = 1.7832; // m, contact length of the light vehicle; obstacles scale with it
 constexpr double kDitchWidth = 0.16, kDitchMiddle = 0.6; // fractions of the length of ditch.png
-constexpr double kSettled = 2;                           // s, until every vehicle has settled and drives
+constexpr double kSettled = 2;                           // s, time after which every vehicle has settled and drives
 
 double crawl(const Course& c) { return std::max(kCrawl * c.speed, kCrawl); }
 
@@ -46,7 +46,7 @@ std::string set(const std::string& key, std::initializer_list<double> values) {
   return fmt::format("{}=[{}]", key, fmt::join(words, ", "));
 }
 
-/// Width of the ground beside the tracks [m]; small for beds: grains are expensive.
+/// Width of the ground beside the tracks [m]; small for granular beds to save run time.
 double sideRoom(const Course& c, double distance) {
   return c.granular() ? std::max(c.margin, kEnd) : kSwerve * distance;
 }
@@ -58,7 +58,7 @@ struct Straight {
   double length = 0, width = 0;
 };
 
-/// `behind`: space for sliding back. `obstacle`: its length, 0: none. `runUp`: distance before the measured one.
+/// `behind`: space for sliding back. `obstacle`: obstacle length, or 0. `runUp`: distance before the measured distance.
 Straight straight(const Course& c, Trial& trial, double behind, double obstacle, double drift, double runUp = 0) {
   const double approach = 0.4 * scaleOf(c);
   Straight s;
@@ -86,25 +86,25 @@ std::string leaning(double slope, bool sideways) {
   return sideways ? set("run.gravity", {0.0, -along, -down}) : set("run.gravity", {-along, 0.0, -down});
 }
 
-/// Box from x to `end` over the whole width, with its top at `top`; it extends through a bed, and a pad width into
-/// deformable soil.
+/// Box from x to `end` over the whole width, with its top at `top`. The box extends through the whole depth of a bed,
+/// and one pad width into deformable soil.
 void box(const Course& c, Trial& trial, int number, double x, double end, double width, double top) {
   const double foot = c.rigid() ? 0.0 : c.granular() ? -c.depth : -c.shape.padWidth;
   const std::string key = fmt::format("box.{}.", number);
   trial.overrides.push_back(set(key + "position", {0.5 * (x + end), 0.0, 0.5 * (top + foot)}));
   trial.overrides.push_back(set(key + "size", {end - x, width, top - foot}));
-  // Obstacles in the bed touch grains and need the same contact law.
+  // Obstacles in the bed touch grains, which requires the same contact law.
   if (c.granular()) trial.overrides.push_back(key + "material=" + c.soil);
 }
 
-/// Raises the overlap limit to that of grains below parts: a coarse grain between track and obstacle edge carries a
-/// large part of the vehicle weight.
+/// Raises the overlap limit to that of grains below parts, because a coarse grain between track and obstacle edge can
+/// support a large part of the vehicle's weight.
 void allowDeepOverlap(const Course& c, Trial& trial) {
   if (c.granular()) trial.overrides.push_back(set("run.max_overlap", 1.0));
 }
 
-/// One cosine wave whose steepest slope is `level`. The course behind the ditch determines the length of the
-/// height-map.
+/// A ditch shaped as one period of a cosine, with `level` as steepest slope. The course behind the ditch determines the
+/// length of the height-map.
 void ditch(const Course& c, Trial& trial, double level) {
   const double approach = 0.4 * scaleOf(c), ends = 2 * kEnd + c.margin;
   const double before = kDitchMiddle - 0.5 * kDitchWidth,
@@ -131,11 +131,11 @@ void pivot(const Course& c, Trial& trial) {
 }
 
 void circle(const Course& c, Trial& trial, double radius) {
-  // A run ends at a chord length; the chord increases along the first half of the circle only.
+  // A run ends when the chord reaches a given length; the chord increases only along the first half of the circle.
   const double path = std::min(1.2 * kWay, 0.8 * base::kPi * radius), angle = (path + kBeyond) / radius;
   const double reach = c.shape.halfWidth + c.margin + 2 * kEnd, start = kEnd + c.shape.rear;
   const double ahead = radius * std::sin(std::min(angle, base::kPi / 2)), left = radius * (1 - std::cos(angle));
-  const double half = left + c.shape.length() + reach; // margin for a vehicle that ends up sideways
+  const double half = left + c.shape.length() + reach; // margin for a vehicle that turns sideways
   trial.distance = path, trial.speed = c.speed;
   trial.overrides = {set("terrain.size", {start + c.shape.massCentre.x + ahead + c.shape.length() + reach, 2 * half}),
                      set("vehicle.position", {start, 0.0}),
@@ -313,7 +313,7 @@ Trial trialOf(Event event, double level, const Course& c) {
   }
   case Event::drawbar:
     straight(c, trial, 0, 0, 0);
-    trial.distance = 2 * c.shape.groundRun(); // means are over the second half
+    trial.distance = 2 * c.shape.groundRun(); // the means cover the second half
     sweeps::putOverride(trial.overrides, set("stop.distance", trial.distance));
     trial.slip = level;
     trial.overrides.push_back(set("hitch.slip", level));

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-/// The standard mobility events, their levels, and the scene overrides of a level.
+/// The standard mobility events, their levels, and the scene overrides of each level.
 namespace grouser::events {
 
 enum class Event {
@@ -28,12 +28,12 @@ enum class Event {
   softSoil
 };
 
-/// Event by its word. Throws base::InputError that lists the events.
+/// Event with this name. Throws base::InputError, with a list of the events, for an unknown name.
 Event eventOf(const std::string& word);
-/// Events in the order of runs and tables.
+/// All events, in the order of runs and tables.
 std::vector<Event> allEvents();
 
-/// Quantity of the levels: "tan of the slope [-]", "height of the step [m]"; empty for events with a single level.
+/// Quantity that the levels vary: "tan of the slope [-]", "height of the step [m]"; empty for a single level.
 std::string levelText(Event event);
 /// "Up a slope".
 std::string titleOf(Event event);
@@ -55,16 +55,16 @@ struct Course {
   bool deformable() const { return ground == scene::TerrainKind::scm; }
 };
 
-/// Default levels: three to five, fewer with `quick`; one for events with a single level, none for events that do not
-/// apply to the ground.
+/// Default levels: three to five, fewer with `quick`; one for events without levels; empty for events that do not apply
+/// to the ground.
 std::vector<double> levelsOf(Event event, const Course& course, bool quick);
-/// Reason why an event is left out; else empty.
+/// Reason why an event is skipped; else empty.
 std::string omission(Event event, const Course& course);
 
 /// One level of an event: scene overrides and target motion.
 struct Trial {
   std::vector<std::string> overrides; ///< "key=value"
-  double distance = 0;                ///< distance to drive [m]; 0 for a turn on the spot
+  double distance = 0;                ///< distance to drive [m]; 0 for a pivot turn
   double angle = 0;                   ///< angle to turn [rad]
   double rate = 0;                    ///< commanded turn rate [rad/s]
   double speed = 0;                   ///< commanded speed [m/s]
@@ -75,9 +75,9 @@ Trial trialOf(Event event, double level, const Course& course);
 /// Analytical limit of an event from geometry and friction.
 struct Reference {
   std::string text;                     ///< "friction 0.8"
-  std::optional<double> passes, blocks; ///< highest level that passes, lowest that fails; undecided in between
+  std::optional<double> passes, blocks; ///< highest level that must pass, lowest that must fail; undecided in between
 };
-/// Reference of an event; empty if there is none.
+/// Reference of an event; empty if the event has no closed-form limit.
 std::optional<Reference> referenceOf(Event event, const Course& course);
 
 } // namespace grouser::events

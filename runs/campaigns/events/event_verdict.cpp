@@ -27,7 +27,7 @@ const std::vector<double>& columnOf(const sweeps::RunSeries& series, const std::
       fmt::format("timeseries.csv has no column {}: another version wrote it; repeat the runs with --force", name));
 }
 
-/// Time at which `end` is reached, and mean rate over the last `stretch` before.
+/// Time at which a quantity reaches `end`, and its mean rate over the last `stretch` before `end`.
 struct Passage {
   double at = 0, rate = 0;
 };
@@ -77,7 +77,7 @@ Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPa
 Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   if (motion.time.empty()) return {false, "never drove"};
   const double roll = greatest(motion.roll) * 180 / base::kPi;
-  if (roll >= rule.mostRoll) return {false, fmt::format("roll angle reaches {:.0f} degrees", roll)};
+  if (roll >= rule.maxRoll) return {false, fmt::format("roll angle reaches {:.0f} degrees", roll)};
   if (trial.angle > 0) {
     const auto turn = passage(motion.time, motion.turned, trial.angle, trial.angle);
     const double most = *std::max_element(motion.turned.begin(), motion.turned.end()) * 180 / base::kPi;

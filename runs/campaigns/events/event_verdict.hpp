@@ -11,12 +11,12 @@
 /// Go/no-go verdict of a run.
 namespace grouser::events {
 
-/// Criteria of a go.
+/// Criteria for the verdict go.
 struct GoRule {
-  double way = 5;       ///< [m] horizontal distance at the end of the course
-  double share = 0.5;   ///< minimum mean speed, or rate of turn, over that distance relative to the commanded one
-  double time = 20;     ///< [s] after the start of the drive
-  double mostRoll = 30; ///< [deg] of the hull relative to the plane of the ground
+  double way = 5;      ///< [m] final part of the course over which the mean speed is measured
+  double share = 0.5;  ///< minimum of mean speed in that part (or mean turn rate) / commanded value [-]
+  double time = 20;    ///< [s] after the start of the drive
+  double maxRoll = 30; ///< [deg] maximum roll angle of the hull relative to the plane of the ground
 };
 
 struct Verdict {
@@ -32,16 +32,16 @@ struct Motion {
   std::vector<double> left;    ///< [m] lateral displacement, left positive
   std::vector<double> roll;    ///< [rad]
   std::vector<double> pitch;   ///< [rad]
-  std::vector<double> upSpeed; ///< [m/s] of the hull along z
+  std::vector<double> upSpeed; ///< [m/s] velocity of the hull along z
 };
-/// `alongPath`: distance along the path, not along x. Excludes rows before `driveStart` [s]; may be empty. Throws
+/// `alongPath`: distance along the path, not along x. Excludes rows before `driveStart` [s]; may have no rows. Throws
 /// base::InputError if the series has no vehicle.
 Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPath);
 
-/// Verdict of a run without errors.
+/// Verdict of a run that ended without an error.
 Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule = {});
 
-/// Verdict of a failed run: no-go if the vehicle threw a track or never came to rest, e.g. sliding down a slope;
+/// Verdict of a failed run: no-go if the vehicle threw a track or never came to rest, e.g. as it slid down a slope;
 /// `known` is false for errors unrelated to the vehicle.
 struct FailureVerdict {
   bool known = false;
@@ -49,10 +49,10 @@ struct FailureVerdict {
 };
 FailureVerdict judgeFailure(const sweeps::SweepOutcome& outcome);
 
-/// Time [s] at which an increasing quantity first reaches `level`, linear between rows; NaN if it does not.
+/// Time [s] at which an increasing quantity first reaches `level`, interpolated between rows; NaN if it never does.
 double timeAt(const std::vector<double>& time, const std::vector<double>& value, double level);
 
-/// Maximum magnitude of values; 0 if empty.
+/// Maximum absolute value; 0 if `values` is empty.
 double greatest(const std::vector<double>& values);
 
 } // namespace grouser::events

@@ -13,8 +13,8 @@
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/not_written.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/program_call.hpp"
-#include "runs/support/tell.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ constexpr const char *kTable = "events.csv", *kJson = "events.json", *kText = "e
                      *kPictures = "pictures.png", *kDrawbar = "drawbar.png", *kAgainst = "against.csv",
                      *kAgainstText = "against.txt";
 
-/// A film of the first run of each level that has left frames.
+/// Makes a film of the first run of each level, if that run has frames.
 void makeFilms(const EventPlan& plan, const fs::path& folder) {
   const fs::path program = fs::read_symlink("/proc/self/exe");
   for (const PlannedTrial& planned : plan.trials) {
@@ -46,7 +46,7 @@ void makeFilms(const EventPlan& plan, const fs::path& folder) {
     if (made.status == 0)
       fmt::print("film      {}\n", film.string());
     else
-      support::tell("WARNING: no film of {}: {}\n", name, made.output);
+      support::printStderr("WARNING: no film of {}: {}\n", name, made.output);
   }
 }
 

@@ -6,10 +6,10 @@
 /// `grouser events`: the standard mobility events of a vehicle on a ground.
 namespace grouser::events {
 
-/// Performs the missing runs, each in a process, and writes events.csv, events.json, events.txt and pictures, with
-/// --against also against.csv and against.txt. A no-go is a result, not an error. Throws base::InputError for invalid
-/// options before any run starts, and base::SimulationError at the end if runs failed for a reason unrelated to the
-/// vehicle.
+/// Performs the missing runs, each in a separate process, and writes events.csv, events.json, events.txt and pictures;
+/// with --against also against.csv and against.txt. A no-go is a result, not an error. Throws base::InputError for
+/// invalid options before any run starts, and base::SimulationError at the end if runs failed for reasons unrelated to
+/// the vehicle.
 void eventsCommand(const EventsCommand& command);
 
 } // namespace grouser::events

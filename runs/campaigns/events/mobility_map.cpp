@@ -25,7 +25,7 @@ using base::InputError;
 namespace {
 
 constexpr const char *kMapTable = "map.csv", *kMapJson = "map.json", *kMapText = "map.txt", *kMapPlot = "map.png";
-/// Keys that a command-line option sets, with that option.
+/// Keys that have a command-line option, with that option.
 constexpr std::pair<const char*, const char*> kOfOptions[] = {
     {"terrain.material", "use --soil"}, {"terrain.kind", "use --ground"}, {sweeps::kSeedKey, "use --seeds"},
     {sweeps::kDrawKey, "use --draws"},  {"run.threads", "use --threads"}, {"run.device", "use --device"}};
@@ -76,7 +76,7 @@ nlohmann::ordered_json mapJson(const MobilityMap& map) {
   return json;
 }
 
-/// Plan of the event for one value of the axis. Errors about the key name --axis.
+/// Plan of the event for one value of the axis. Error messages about the key mention --axis.
 EventPlan planColumn(const EventOptions& options, const std::string& key, const std::string& value) {
   EventOptions ofColumn = options;
   ofColumn.fixed.push_back(fmt::format("{}={}", key, value));
@@ -112,7 +112,7 @@ bool sameLevels(const EventPlan& a, const EventPlan& b) {
                     [](const PlannedTrial& x, const PlannedTrial& y) { return x.level == y.level; });
 }
 
-/// Estimated run time of all columns, from that of the first.
+/// Estimated run time of all columns, scaled from the first column.
 std::vector<EventTime> timesOf(const MobilityMap& map, const fs::path& folder) {
   std::vector<EventTime> times = events::timesOf(map.columns.front().plan, folder);
   const auto columns = static_cast<int>(map.columns.size());
@@ -132,15 +132,15 @@ MobilityMap planMap(const EventOptions& options, const std::string& axis) {
   const sweeps::KeyValues values = sweeps::keyValues(axis, "--axis", "scm.c=0,1000,2000");
   map.key = values.key;
   if (values.values.size() < 2)
-    throw InputError(fmt::format("--axis {}: needs at least two values; use --set for a single one", axis));
+    throw InputError(fmt::format("--axis {}: requires at least two values; for a single value, use --set", axis));
   refuseKey(axis, map.key);
   for (const std::string& value : values.values) {
     MapColumn column{value, planColumn(options, values.key, value), {}};
     for (sweeps::SweepRun& run : column.plan.sweep.runs)
       run.name = fmt::format("{}={},{}", sweeps::plainText(values.key), sweeps::plainText(column.value), run.name);
-    if (column.plan.trials.size() < 2) throw InputError("--levels: a map needs at least two levels");
+    if (column.plan.trials.size() < 2) throw InputError("--levels: a map requires at least two levels");
     if (!map.columns.empty() && !sameLevels(column.plan, map.columns.front().plan))
-      throw InputError("--levels: required, as the default levels differ between the values of --axis");
+      throw InputError("--levels: required, because the default levels differ between the values of --axis");
     map.columns.push_back(std::move(column));
   }
   checkNames(map, axis);

@@ -6,18 +6,18 @@
 #include <string>
 #include <vector>
 
-/// Go/no-go map of an event over its level and the values of a key (`grouser map`).
+/// Go/no-go map of an event over its levels and the values of a key (`grouser map`).
 namespace grouser::events {
 
 struct MapCommand {
-  EventsCommand events; ///< options.only has the single event
+  EventsCommand events; ///< options.only contains the single event
   std::string axis;     ///< "key=value,value..."
 };
 
-/// One column of the map: the runs of one value of the key.
+/// One column of the map: runs with one value of the key.
 struct MapColumn {
   std::string value;
-  EventPlan plan; ///< names of its runs start with key and value
+  EventPlan plan; ///< the names of the runs start with key and value
   std::vector<EventRow> rows;
 };
 
@@ -31,10 +31,10 @@ struct MobilityMap {
 /// values, levels that differ between values, or a key that an option sets; otherwise as planEvents().
 MobilityMap planMap(const EventOptions& options, const std::string& axis);
 
-/// Table of verdicts, hardest level first, and the limit for each value with its closed form.
+/// Table of verdicts, hardest level first, and for each value the limit from the runs and in closed form.
 std::string mapText(const MobilityMap& map);
 
-/// Performs the missing runs, and writes map.txt, map.csv, map.json and map.png. Throws as eventsCommand().
+/// Performs the missing runs, and writes map.txt, map.csv, map.json and map.png. Throws the errors of eventsCommand().
 void mapCommand(const MapCommand& command);
 
 } // namespace grouser::events

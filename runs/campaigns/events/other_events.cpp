@@ -37,7 +37,7 @@ EventSet parsed(const nlohmann::json& json) {
   return set;
 }
 
-/// Mean with its confidence interval, or with the prediction interval of one further draw.
+/// Mean with its confidence interval, or with the prediction interval of one more draw.
 support::Estimate estimateOf(const EventSet& set, const LevelFigure& figure) {
   if (set.drawn) return jobs::predictionInterval(figure.values, 0.05);
   return set.seeded() ? jobs::interval95(figure.values) : support::Estimate{figure.values.front(), 0};
@@ -116,7 +116,7 @@ std::string differencesText(const std::vector<FigureDifference>& differences, co
        {std::tuple{"vehicle", here.vehicle, other.vehicle},
         {"soil", here.soil, other.soil},
         {"commanded speed [m/s]", fmt::format("{:g}", here.speed), fmt::format("{:g}", other.speed)}})
-    if (a != b) text += fmt::format("WARNING: {}: {} here, {} there\n", what, a, b);
+    if (a != b) text += fmt::format("WARNING: different {}: {} and {}\n", what, a, b);
   if (differences.empty()) return text + "no common event, level and figure\n";
   text += fmt::format("{:<18}{:<7}{:<46}{:>22}{:>5}{:>22}{:>8}{:>22}\n", "event", "level", "figure", here.ground,
                       "runs", other.ground, "runs", "difference");

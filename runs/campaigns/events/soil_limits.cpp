@@ -17,7 +17,7 @@ double groundArea(const VehicleShape& s) { return 2 * s.groundRun() * s.padWidth
 } // namespace
 
 double holdingSlope(const VehicleShape& shape, const scm::SoilConstants& soil) {
-  // sin a - tan phi cos a = c A / W, whose left side is sin(a - phi) / cos(phi).
+  // sin a - tan phi cos a = c A / W; the left side equals sin(a - phi) / cos(phi).
   const double phi = std::atan(soil.friction);
   const double cohesive = soil.cohesion * groundArea(shape) / (shape.mass * kGravity);
   const double angle = phi + std::asin(std::min(1.0, cohesive * std::cos(phi)));

@@ -4,12 +4,12 @@
 #include "runs/campaigns/events/vehicle_shape.hpp"
 #include "scm/soil_constants.hpp"
 
-/// Limits of a vehicle on deformable soil: two rigid tracks with uniform pressure, by the relations of Bekker and
-/// Janosi.
+/// Limits of a vehicle on deformable soil, modelled as two rigid tracks with uniform pressure, by the relations of
+/// Bekker and Janosi.
 namespace grouser::events {
 
-/// Tangent of the slope on which shear stress holds the vehicle: W sin a = c A + W cos a tan phi; infinity if it holds
-/// on any slope [-].
+/// Tangent of the steepest slope on which shear stress can support the vehicle [-]: W sin a = c A + W cos a tan phi;
+/// infinite if there is no such limit.
 double holdingSlope(const VehicleShape& shape, const scm::SoilConstants& soil);
 
 /// F(i) = (c A + W tan phi) (1 - K / (i L) (1 - exp(-i L / K))) at a slip i in (0, 1] [N].

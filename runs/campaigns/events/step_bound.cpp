@@ -18,9 +18,9 @@ namespace {
 
 constexpr int kCorners = 96;                        // corners of a disc
 constexpr double kDegree = base::kPi / 180;         // rad
-constexpr int kLeastPitch = 2, kMostPitch = 80;     // degrees, in steps of
-constexpr int kPitchStep = 2;                       // the maximum is flat
-constexpr double kDepthStep = 5e-3, kDeepest = 0.6; // m, of the edge below the hull
+constexpr int kMinPitch = 2, kMaxPitch = 80;        // degrees, range of pitch angles
+constexpr int kPitchStep = 2;                       // degrees; coarse, because the maximum is flat
+constexpr double kDepthStep = 5e-3, kDeepest = 0.6; // m, depth of the edge below the hull
 constexpr int kHalvings = 16;
 
 double cross(const SidePoint& o, const SidePoint& a, const SidePoint& b) {
@@ -81,7 +81,7 @@ struct Frame {
   std::vector<SidePoint> pivots;      ///< pivots of the road-wheel arms
   double wheel = 0, arm = 0;          ///< radius of the loop about a road wheel; length of an arm [m]
   double drawn = 0;                   ///< angle of the arms below the horizontal, backwards [rad]
-  bool rigid = false;                 ///< arms
+  bool rigid = false;                 ///< whether the arms are rigid
   double outward = 0, halfLength = 0; ///< from pins to grouser tips; half length of a shoe [m]
   double hanging = 0;                 ///< lowest arm angle: torsion bar loaded by the weight of the wheel only [rad]
   double highestEdge = 0;             ///< maximum z of an edge under the contact length [m]
@@ -106,7 +106,7 @@ Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap) {
     f.pivots.push_back({s.roadWheel.firstX + k * s.roadWheel.spacing + f.arm * base::cos(f.drawn),
                         s.roadWheel.z + f.arm * base::sin(f.drawn)});
   f.outward = s.shoe.grouserHeight - s.shoe.padBottom, f.halfLength = s.shoe.halfLength;
-  // A square edge enters the gap between two pads by half its width.
+  // A right-angled edge enters the gap between two pads by half the gap width.
   f.inward = std::max(0.0, -s.shoe.padBottom - 0.5 * (s.shoe.pitch - 2 * s.shoe.halfLength));
   f.loop = s.shoe.count * s.shoe.pitch;
   f.first = s.roadWheel.firstX - f.wheel;
@@ -136,7 +136,7 @@ struct Pitch {
   SideDisc operator()(const SideDisc& d) const { return {(*this)(d.middle), d.radius}; }
 };
 
-/// Largest angle up to `most` at which wheel k fits into the loop and lies behind the step; -1 if none. `notch`:
+/// Largest angle up to `most` at which wheel k fits into the loop and is behind the step; -1 if there is none. `notch`:
 /// position of the pins above the edge, pitched; null: no step.
 double lowestArm(const Frame& f, std::size_t k, double most, const Pitch& pitched, const SidePoint* notch) {
   const auto fits = [&](double angle) {
@@ -214,7 +214,7 @@ double highestAt(const Frame& f, const SidePoint& centre, double hull, double an
     const double edge = middle.z - below;
     const SidePoint inHull{centre.x - below * pitched.s, centre.z - below * pitched.c};
     if (inHull.x > f.first && inHull.x < f.last && inHull.z > f.highestEdge + kDepthStep) continue;
-    // The loop is tested at the lower end of this depth step, the height taken at the upper one: an upper bound.
+    // The loop is tested at the lower end of this depth step, the height is that of the upper end: an upper bound.
     const SidePoint notch{middle.x, edge - kDepthStep + f.inward};
     const auto keepsOut = [&](std::size_t k) {
       const SidePoint wheel = pitched(f.wheelAt(k, f.drawn)).middle;
@@ -273,7 +273,7 @@ double highestStep(const vehicle::VehicleSpec& spec) {
       spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / spec.chassis.mesh).string());
   const SidePoint centre = foremostCentre(spec, drawn, f);
   double highest = 0;
-  for (int degrees = kLeastPitch; degrees <= kMostPitch; degrees += kPitchStep) {
+  for (int degrees = kMinPitch; degrees <= kMaxPitch; degrees += kPitchStep) {
     const double angle = degrees * kDegree;
     highest = highestAt(f, centre, hullBelow(hull, centre, angle), angle, highest);
   }

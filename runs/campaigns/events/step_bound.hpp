@@ -21,16 +21,16 @@ struct SideDisc {
   double radius = 0; ///< [m]
 };
 
-/// Length of the shortest loop around discs [m] that passes above `notch`, which has no effect outside the loop. Discs
-/// are inscribed polygons of 96 corners: the result is a lower bound, short by at most 2e-4 of the arcs.
+/// Length of the shortest loop around discs [m] that passes above `notch`. A notch outside the loop has no effect. The
+/// discs are replaced by inscribed polygons of 96 corners: a lower bound, too short by at most 2e-4 of the arcs.
 double shortestLoop(const std::vector<SideDisc>& discs);
 double shortestLoop(const std::vector<SideDisc>& discs, const SidePoint& notch);
 
 /// Height above which no slow vehicle climbs a step at any friction [m].
 ///
-/// A slow vehicle whose centre of mass passes over the edge of a step must still be supported by the ground behind it,
-/// or it tips back. So the step is at most as high as the edge can lie above the lowest point of the track, at any
-/// pitch, with the edge vertically below the centre of mass, where
+/// When the centre of mass of a slow vehicle passes over the edge of a step, the ground behind the edge must still
+/// support the vehicle, or it tips back. The bound is therefore the maximum height of the edge above the lowest track
+/// point, over all pitch angles, with the edge vertically below the centre of mass, where
 /// - the edge is outside the hull, and under the contact length no higher than an arm turned by half the weight allows,
 ///   or two arms turned by a quarter each with shoes folded up between them;
 /// - the track encloses sprocket, idler (at its inner stop) and the lowest wheel, passes above the edge, and is at most

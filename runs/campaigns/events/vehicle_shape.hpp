@@ -6,7 +6,7 @@
 /// Geometric limits of a vehicle, for the sizes of obstacles and as references for runs.
 namespace grouser::events {
 
-/// Lengths and masses of a vehicle as drawn, on level ground.
+/// Dimensions and masses of a vehicle in its design position on level ground.
 struct VehicleShape {
   double rear = 0, front = 0;           ///< distance from the sprocket axle to the rear and front ends [m]
   double diagonal = 0;                  ///< longest distance between two points of the track outline [m]
@@ -29,19 +29,19 @@ VehicleShape shapeOf(const vehicle::VehicleSpec& spec);
 
 /// Widths of a gap between two slabs [m].
 struct GapBounds {
-  double sure = 0;  ///< crossed level: always a supported road wheel on each side of the centre of mass
-  double level = 0; ///< above, the centre of mass is unsupported while a level track reaches one side only: the nose
-                    ///< drops against the far wall, and friction decides
-  double never = 0; ///< track length: the track lies on one side at any pitch
+  double sure = 0;  ///< widest gap with a supported road wheel on each side of the centre of mass at all times
+  double level = 0; ///< in wider gaps, a level track is supported on one side only as the centre of mass crosses the
+                    ///< edge: the nose drops against the far wall, and friction decides
+  double never = 0; ///< track length: in wider gaps, the track reaches one side only at any pitch
 };
 GapBounds gapBounds(const VehicleShape& shape);
 
-/// Tangent of the side slope on which the vehicle tips over the outer edge of its lower track, without suspension
-/// travel: half width over height of the centre of mass [-].
+/// Tangent of the side slope on which the vehicle tips over the outer edge of its lower track [-]: half width over
+/// height of the centre of mass. Neglects suspension travel.
 double tippingSlope(const VehicleShape& shape);
 
-/// mu W L / 4: turning resistance moment on the spot for uniform pressure and longitudinal slip much smaller than
-/// lateral slip [N m].
+/// mu W L / 4: turning resistance moment of a pivot turn [N m] for uniform pressure and much smaller longitudinal than
+/// lateral slip.
 double turningMoment(const VehicleShape& shape, double friction, double weight);
 
 } // namespace grouser::events

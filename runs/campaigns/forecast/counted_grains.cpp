@@ -12,7 +12,7 @@
 
 namespace grouser::forecast {
 
-CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64_t mostLaid) {
+CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64_t maxLaid) {
   CountedGrains counted;
   counted.grains = setup::plannedGrains(scene);
   if (!scene.terrain || !scene.terrain->granular()) return counted;
@@ -21,7 +21,7 @@ CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64
     counted.doubt = "estimated from the volume to within a few percent (walls cut the copies of a tile)";
     return counted;
   }
-  if (counted.grains > mostLaid) {
+  if (counted.grains > maxLaid) {
     counted.exact = scene.terrain->lattice();
     if (!counted.exact) counted.doubt = "estimated from the volume to within a few tenths of a percent";
     return counted;

@@ -8,20 +8,20 @@
 
 namespace grouser::forecast {
 
-/// Number of grains of a run, and its accuracy.
+/// Number of grains of a run, and the accuracy of this number.
 struct CountedGrains {
-  std::int64_t grains = 0; ///< including later sources and fixed floor grains
-  bool exact = true;       ///< counted as a run places them
+  std::int64_t grains = 0; ///< includes fixed floor grains and grains from sources
+  bool exact = true;       ///< true: counted by laying the bed as in a run
   std::string doubt;       ///< reason why the count is not exact; else empty
   double laying = 0;       ///< time to lay the bed [s]; 0 if not laid
 };
 
-/// Largest bed that is laid to count its grains; larger ones are estimated by volume.
-inline constexpr std::int64_t kMostLaid = 1'000'000;
+/// Maximum number of grains of a bed that is laid to count them; larger beds are estimated from the volume.
+inline constexpr std::int64_t kMaxLaid = 1'000'000;
 
-/// Lays the bed of the scene around obstacles, as a run does, and counts its grains. Reads the height-map. A bed of
-/// more than `mostLaid` grains, or of copied tiles, is not laid; `doubt` then has the uncertainty. Throws as
+/// Lays the bed of the scene around obstacles, as a run does, and counts its grains. Reads the height-map. Does not lay
+/// a bed of copied tiles or of more than `maxLaid` grains; `doubt` then states the uncertainty. Throws the errors of
 /// groundSetup().
-CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64_t mostLaid = kMostLaid);
+CountedGrains countGrains(const scene::Scene& scene, double timeStep, std::int64_t maxLaid = kMaxLaid);
 
 } // namespace grouser::forecast

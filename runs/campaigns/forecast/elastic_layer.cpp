@@ -9,8 +9,8 @@ namespace grouser::forecast {
 
 namespace {
 
-/// Settlement of the corner of a rectangle with sides `a` and `b`, times modulus over pressure [m]; odd in both, so
-/// that corners add up to the settlement of any point.
+/// Settlement of the corner of a rectangle with sides `a` and `b`, times modulus / pressure [m]. Odd in `a` and in `b`,
+/// so that the terms of four corners add up to the settlement of any point.
 double cornerSettlement(double a, double b, double depth, double poisson) {
   if (a == 0 || b == 0) return 0;
   // Settlement of a half-space at its surface, then at `depth`.
@@ -27,7 +27,7 @@ double cornerSettlement(double a, double b, double depth, double poisson) {
 } // namespace
 
 double layerSettlement(const std::vector<LoadedRectangle>& loads, double depth, double poisson) {
-  constexpr int kAlong = 32, kAcross = 8; // points at which settlements are taken
+  constexpr int kAlong = 32, kAcross = 8; // number of points at which the settlement is evaluated
   double sum = 0, area = 0;
   for (const LoadedRectangle& here : loads) {
     double settled = 0;

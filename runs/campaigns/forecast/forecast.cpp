@@ -36,17 +36,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kMostCopied =
-    60'000; // maximum grains of a piece on a CPU; kMostTaken on a GPU, where few take as long as many
-constexpr double kMostTaken = 400'000; // maximum grains of a cached bed that is used unchanged
-constexpr double kTrials = 4;          // small beds settled to find the friction for a porosity
-constexpr double kStride = 4;          // ratio of softened to real time step [-]
-constexpr double kFurtherPlot = 0.3;   // time of a further plot over that of the first, which starts Python [-]
-constexpr double kShort = 0.25;        // duration of the short probe's steps [s]
-constexpr double kFewGrains = 50'000;  // largest scene without a bed that the short probe runs whole
-constexpr double kCutMeshes = 2;       // typical time for sphere sets of meshes [s]
-constexpr int kTestedThreads = 4;      // maximum thread count with a probed (not typical) forecast
-constexpr double kNoFigure = 1e-4;     // shorter parts are not stored [s]
+constexpr double kMaxCopied =
+    60'000; // maximum grains of the probed part on a CPU; kMaxTaken on a GPU, where few grains take as long as many
+constexpr double kMaxTaken = 400'000; // maximum number of grains of a cached bed that is used unchanged
+constexpr double kTrials = 4;         // number of small beds settled to find the friction for a porosity
+constexpr double kStride = 4;         // ratio of softened to real time step [-]
+constexpr double kFurtherPlot = 0.3;  // time of a further plot / time of the first plot, which starts Python [-]
+constexpr double kShort = 0.25;       // duration of the short probe's steps [s]
+constexpr double kFewGrains = 50'000; // maximum grains of a scene without a bed for the short probe
+constexpr double kCutMeshes = 2;      // typical time for sphere sets of meshes [s]
+constexpr int kTestedThreads = 4;     // maximum thread count with a probed (not typical) forecast
+constexpr double kNoFigure = 1e-4;    // ratios of shorter parts are not stored [s]
 
 constexpr const char* kStepText = "steps"; // add() prints number and time of the steps
 
@@ -98,14 +98,14 @@ public:
     }
     memory();
     if (sound && options_.probe && options_.cache) {
-      simulation_.reset(); // frees its memory for the model
+      simulation_.reset(); // frees memory for the model
       keep();
     }
     f_.spent = all.seconds();
     return f_;
   }
 
-  /// Hardware, device, threads and build that kept ratios hold for.
+  /// Hardware, device, threads and build to which stored ratios apply.
   static std::string machineOf(const scene::Scene& scene) {
     return fmt::format("{}; {}; {}", support::machineText(),
                        base::describe(support::chooseDevice(scene.run.device, scene.run.threads, nullptr)),
@@ -140,7 +140,7 @@ private:
     if (settles()) {
       options_.stage("timing a small bed");
       try {
-        settle(setup::groundSetup(pieceOf(scene_, grains_, kMostCopied), timeStep_), 2 * kShort);
+        settle(setup::groundSetup(pieceOf(scene_, grains_, kMaxCopied), timeStep_), 2 * kShort);
       } catch (const base::InputError&) { // too small a bed for a periodic tile
         tile_ = typicalTile(typical_, timeStep_);
       }
@@ -214,7 +214,7 @@ private:
   }
 
   void findBed() {
-    if (!beds_ || (options_.probe && grains_ > kMostTaken)) return;
+    if (!beds_ || (options_.probe && grains_ > kMaxTaken)) return;
     const std::string origin = setup::originOfBed(scene_);
     kept_ = !origin.empty() && beds_->find(origin);
   }
@@ -223,7 +223,7 @@ private:
     bool copied = hasBed(scene_) && !kept_;
     if (copied) {
       try {
-        const scene::Scene piece = pieceOf(probed_, grains_, exec_.onCpu() ? kMostCopied : kMostTaken);
+        const scene::Scene piece = pieceOf(probed_, grains_, exec_.onCpu() ? kMaxCopied : kMaxTaken);
         options_.stage("settling a tile of the bed");
         if (settles()) settle(setup::simulationSetup(piece).ground, 1.5 * options_.seconds);
         coupling::SimulationSetup setup = copiedBed(piece);
@@ -241,7 +241,7 @@ private:
     }
     const auto& grains = simulation_->ground().grains;
     pieceGrains_ = grains ? static_cast<double>(grains->count()) : 0;
-    // Grains that enter later do not affect the scale.
+    // The scale does not include grains that enter later.
     scale_ = copied && pieceGrains_ > 0 ? grains_ / pieceGrains_ : 1;
   }
 
@@ -253,7 +253,7 @@ private:
         beds_ && kept_ ? &*beds_ : nullptr, spheres_ ? &*spheres_ : nullptr);
   }
 
-  /// Scenes without a bed change most during the run: softer contacts cover more of it in the same time.
+  /// Scenes without a bed change most during the run: softer contacts allow a longer part of the run in the same time.
   bool stepSoft() {
     const bool soft = !hasBed(scene_) && !scene_.vehicle && grains_ > 0 && scene_.mechanism.empty();
     if (!soft) return false;
@@ -368,7 +368,7 @@ private:
     if (wrote > 0 && options_.probe) f_.diskSpeed = (o.frameBytes + o.checkpointBytes) / wrote;
   }
 
-  /// Time of one list rebuild of the piece [s]; the simulation takes no step afterwards.
+  /// Time of one list rebuild of the probed part [s]. The simulation cannot be stepped afterwards.
   double lists() {
     if (lists_ < 0) lists_ = timeOfLists(*simulation_, exec_);
     return lists_;
@@ -384,13 +384,13 @@ private:
     const double each = last.seconds / std::max(1.0, last.steps);
     double perStep = last.lists * each * scale_;
     std::string how = "same rebuild interval as measured";
-    // No list expires in a bed at rest: the rebuild interval follows from the grain speed.
+    // In a bed at rest, no list needs a rebuild: the rebuild interval follows from the expected grain speed.
     if (const double speed = speedOf(scene_); speed > 0) {
       const double reach = 0.5 * scene_.run.skin * setup::ContactPairs(scene_).kinds.largest;
       const double between = std::max(1.0, reach / (speed * timeStep_));
-      const double told = lists() * scale_ / between;
-      if (told > perStep)
-        perStep = told, how = fmt::format("one rebuild per {:.0f} steps at {:.2g} m/s", between, speed);
+      const double predicted = lists() * scale_ / between;
+      if (predicted > perStep)
+        perStep = predicted, how = fmt::format("one rebuild per {:.0f} steps at {:.2g} m/s", between, speed);
     }
     addSteps(steps_ * each * (1 - last.lists - last.parts) * scale_, steps_ * perStep, steps_ * each * last.parts, how);
   }
@@ -453,7 +453,7 @@ private:
   }
 
   static constexpr double kLaid = 2e-6;      // time to place a grain on the device [s]
-  static constexpr double kCopiesRest = 0.2; // simulated time that copies need to rest [s]
+  static constexpr double kCopiesRest = 0.2; // simulated time until the copies are at rest [s]
   /// Fixed cost of a tile's step on one thread [s], and the cost of a grain in a bed larger than the CPU cache over
   /// that of a grain in the tile [-].
   static constexpr double kStepAlone = 25e-6, kLarge = 1.3;
@@ -465,7 +465,7 @@ private:
   Ratios ratios_;
   std::string soil_, vehicle_; ///< keys of kept ratios: kernel and material; file, spheres and ground of the vehicle
   TypicalTimes typical_;
-  double uncut_ = 0;      ///< time of sphere sets still to be cut [s]
+  double uncut_ = 0;      ///< time of sphere sets that are not yet generated [s]
   bool modelled_ = false; ///< steps follow from a tile and typical times
   base::Exec exec_;
   double timeStep_, grains_, laying_, steps_;
@@ -474,13 +474,13 @@ private:
   std::optional<storage::BedCache> beds_;
   bool kept_ = false;
   bool tiled_ = false; ///< a tile of the bed was settled
-  bool whole_ = false; ///< the long probe settled the bed itself
+  bool whole_ = false; ///< the long probe settled the whole bed
   SettledTile tile_;
   std::unique_ptr<coupling::Simulation> simulation_;
-  double own_ = 0;    ///< time to build the piece [s]
+  double own_ = 0;    ///< time to build the probed part [s]
   double lists_ = -1; ///< [s]; below 0: not measured
   session::OutputTimes output_;
-  double stride_ = 1; ///< steps of the run that one of the probe stands for
+  double stride_ = 1; ///< length of a step of the probe / length of a step of the run
   double pieceGrains_ = 0, scale_ = 1;
   StepTimes times_;
 };

@@ -12,7 +12,7 @@ namespace grouser::forecast {
 namespace {
 
 constexpr double kProbed = 1.5, kKept = 2,
-                 kTypical = 3; // factors within which parts lie: docs/large_runs.md#forecast [-]
+                 kTypical = 3; // factors of accuracy [-]: docs/large_runs.md#forecast
 
 std::string time(double seconds) {
   return seconds < 0.095  ? fmt::format("{:.2f} s", seconds)

@@ -18,11 +18,11 @@ constexpr auto kTimes = support::KeptFiles::Kind::times;
 
 namespace {
 
-constexpr double kMostRatio = 100; // measured over modelled, either way [-]: beyond it the file is wrong
-constexpr auto kLook = std::chrono::milliseconds(20); // between two attempts to lock
+constexpr double kMaxRatio = 100;                     // ratios above it, or below its inverse, are ignored [-]
+constexpr auto kLook = std::chrono::milliseconds(20); // delay between two attempts to lock the file
 constexpr int kLooks = 100;
 
-bool isPlausible(double ratio) { return ratio >= 1 / kMostRatio && ratio <= kMostRatio; }
+bool isPlausible(double ratio) { return ratio >= 1 / kMaxRatio && ratio <= kMaxRatio; }
 
 } // namespace
 
@@ -51,7 +51,7 @@ void keepRatios(const std::string& machine, const Ratios& ratios) {
     all.merge(keptRatios(machine));
     support::keepJson(*kept, kTimes, machine, nlohmann::json::object({{"ratios", all}}));
   } catch (const std::exception&) {
-    return; // later plans then take their own measurements
+    return; // then later plans use typical values
   }
 }
 

@@ -31,13 +31,13 @@ constexpr double kProgram = 100e6, kVehicle = 250e6; // process memory without g
 constexpr double kRow = 1000, kVehicleRow = 7000;    // size of a row in results.h5 and timeseries.csv [bytes]
 constexpr double kPicture = 1e6;                     // picture.png [bytes]
 constexpr double kCheckpointBytes = 250;             // checkpoint size per grain with its contacts [bytes]
-constexpr double kMostRemembered = 2e6;              // grains up to which a state is also kept in memory
+constexpr double kMaxRemembered = 2e6;               // maximum number of grains for which memory holds a second state
 
 std::string size(double bytes) {
   return bytes >= 0.1 * kGiB ? fmt::format("{:.3g} GiB", bytes / kGiB) : fmt::format("{:.3g} MiB", bytes / 1048576.0);
 }
 
-/// The nearest existing folder.
+/// Nearest existing folder at or above a path.
 fs::path existing(fs::path folder) {
   std::error_code error;
   folder = fs::absolute(folder, error);
@@ -71,7 +71,7 @@ double frameBytesOfFields(const scene::Scene& scene) {
     box = {scene.terrain->size[0], scene.terrain->size[1], *scene.terrain->depth + *o.fieldsCell};
   double cells = 1;
   for (int a = 0; a < 3; ++a) cells *= std::max(1.0, std::floor(box[a] / *o.fieldsCell));
-  return static_cast<double>(output::bytesOfFields(static_cast<std::size_t>(std::min(cells, setup::kMostFieldCells))));
+  return static_cast<double>(output::bytesOfFields(static_cast<std::size_t>(std::min(cells, setup::kMaxFieldCells))));
 }
 
 Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep, bool onDevice, int ranks,
@@ -81,9 +81,9 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
   Demand demand;
   demand.grains = all;
   const double lists = grains > 0 ? all * setup::grainMemory(scene).most() : 0;
-  // Every rank has the initial positions of all grains; then its own state to save.
+  // Each rank stores the initial positions of all grains, and later its own state for a checkpoint.
   const double start = all * static_cast<double>(sizeof(terrain::GrainSpec) + sizeof(base::Position));
-  const double saved = all * kCheckpointBytes * (all <= kMostRemembered && ranks == 1 ? 2 : 1);
+  const double saved = all * kCheckpointBytes * (all <= kMaxRemembered && ranks == 1 ? 2 : 1);
   demand.process =
       ranksOnHost * (kProgram + (scene.vehicle ? kVehicle : 0)) +
       std::max(ranksOnHost * start + (onDevice ? 0 : share * lists), share * saved + (onDevice ? 0 : share * lists));
@@ -96,7 +96,7 @@ Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep,
   demand.checkpoint = all * kCheckpointBytes;
   const double rows = times(scene.run.outputInterval);
   demand.rows = rows * (scene.vehicle ? kVehicleRow : kRow) + (scene.output.picture ? kPicture : 0);
-  if (output::GrainsCsv::isWanted(scene.output.grainsCsv, grains, scene.run.duration, scene.run.outputInterval))
+  if (output::GrainsCsv::isRequested(scene.output.grainsCsv, grains, scene.run.duration, scene.run.outputInterval))
     demand.rows += rows * all * output::GrainsCsv::kLineBytes;
   return demand;
 }
@@ -135,11 +135,11 @@ std::string misfit(const Demand& demand, const Room& room) {
 
 void requireFit(const scene::Scene& scene, const base::Exec& exec, const fs::path& folder, bool overwritten, bool disk,
                 const base::Ranks* ranks) {
-  // Their errors name the key.
+  // The errors of these checks name the key.
   setup::checkFillSizes(scene);
   setup::checkBedSize(scene);
   const int all = ranks ? ranks->comm().size() : 1, here = ranks ? ranks->ranksOnHost() : 1;
-  // Output intervals rarely undercut the step; its stability is checked later.
+  // Output intervals are rarely shorter than the step. The stability of the step is checked later.
   const double step = scene.run.timeStep.value_or(std::min(scene.run.outputInterval, scene.run.frameInterval));
   const Demand demand = demandOf(scene, setup::plannedGrains(scene), step, !exec.onCpu(), all, here);
   Room room = roomOf(exec, folder, overwritten);

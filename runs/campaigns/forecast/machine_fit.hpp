@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-/// Checks before a run whether it fits the machine.
+/// Checks before a run whether the machine has enough memory and disk space.
 namespace grouser::forecast {
 
 /// Memory and disk space that a run requires [bytes].
@@ -25,28 +25,28 @@ struct Demand {
 /// Available memory and disk space [bytes]; empty if unknown.
 struct Room {
   std::optional<double> process, device, disk;
-  std::filesystem::path place; ///< folder whose disk was queried
+  std::filesystem::path place; ///< folder on the queried disk
 };
 
-/// Bytes of a grain in frames.h5: positions, velocities, speeds, radii, ids, and optional forces and marks.
+/// Bytes per grain in frames.h5: position, velocity, speed, radius and id; optional contact force and fixed flag.
 double frameBytesOfGrain(const scene::Scene& scene);
-/// Bytes of the fields of the soil in a frame. Counts one cell if the scene defines neither a field box nor a bed.
+/// Bytes of the soil fields in a frame. Assumes a single cell if the scene defines neither a field box nor a bed.
 double frameBytesOfFields(const scene::Scene& scene);
 
-/// Demand of a run with `grains` grains and steps of `timeStep` [s] on `ranks` ranks, `ranksOnHost` of them on this
-/// host. Vehicle, tables and program are round figures.
+/// Demand of a run with `grains` grains and steps of `timeStep` [s] on `ranks` ranks, with `ranksOnHost` ranks on this
+/// host. Uses round figures for vehicle, tables and program.
 Demand demandOf(const scene::Scene& scene, std::int64_t grains, double timeStep, bool onDevice, int ranks = 1,
                 int ranksOnHost = 1);
 
-/// Available memory of the process (system, cgroup, `ulimit -v`) and of the device of `exec`, and space on the disk of
-/// `folder`; its files count as free space if `overwritten`.
+/// Available memory of the process (system, cgroup, `ulimit -v`) and of the device of `exec`, and free space on the
+/// disk of `folder`. If `overwritten`, the files in the folder count as free space.
 Room roomOf(const base::Exec& exec, const std::filesystem::path& folder, bool overwritten);
 
-/// Reason why the run does not fit, with remedy, in one line; empty if it fits.
+/// One line with the reason why the machine lacks memory or disk space, and the remedy; empty if the run fits.
 std::string misfit(const Demand& demand, const Room& room);
 
-/// Throws InputError "does not fit this machine: ..." if the run does not fit. `disk`: check disk space, not for
-/// resumed runs, which have most of their files. `ranks`: null for one rank.
+/// Throws InputError "exceeds the resources of this machine: ..." if the run does not fit. `disk`: check disk space;
+/// false for resumed runs, which already have most of their files. `ranks`: null for one rank.
 void requireFit(const scene::Scene& scene, const base::Exec& exec, const std::filesystem::path& folder,
                 bool overwritten, bool disk, const base::Ranks* ranks);
 

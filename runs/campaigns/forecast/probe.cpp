@@ -23,16 +23,16 @@ using coupling::Stage;
 
 namespace {
 
-constexpr double kTileGrains = 300;  // minimum of a tile
-constexpr double kTileWidth = 8;     // minimum width in largest radii
-constexpr double kNearlyAtRest = 10; // kinetic energy of the copied tile over the limit for rest
+constexpr double kTileGrains = 300;  // minimum number of grains of a tile
+constexpr double kTileWidth = 8;     // minimum width [largest grain radii]
+constexpr double kNearlyAtRest = 10; // kinetic energy of the copied tile / limit for rest
 constexpr double kPrepared = 0.1;    // friction while the tile settles [-]: the middle of the tested range
 constexpr int kGroups = 24;
 
 /// Ends the settling of a tile at its time limit.
 struct TimeLimitReached {};
 
-/// The bed that settles: that of the ground, or of the ground without the objects placed on it.
+/// The bed that settles: the bed of the ground, or of the ground without the objects placed on the bed.
 const coupling::BedSetup& settlingBed(const coupling::GroundSetup& whole) {
   const coupling::BedSetup& bed = *whole.grains->bed;
   return bed.alone ? *bed.alone->grains->bed : bed;
@@ -155,7 +155,7 @@ SettledTile settleTile(const coupling::GroundSetup& piece, bool prepared, const 
   tile.rebuilds = static_cast<double>(grains.system().rebuilds);
   const double fall = std::sqrt(2 * bed.fall / norm(ground.grains->model.gravity));
   if (!tile.complete) {
-    // Grains fall, and rest about half a second later.
+    // Grains fall and come to rest about half a second later.
     const double more = std::max(1.2, (fall + 0.5) / (tile.steps + 1) / ground.grains->model.timeStep);
     tile.steps *= more, tile.rebuilds *= more, tile.seconds *= more;
   }
@@ -213,7 +213,7 @@ scene::Scene hurried(const scene::Scene& scene) {
   piece.driver.tensionRamp = piece.driver.weightRamp = 0.3 * kHurry;
   piece.driver.driveStart = 0.6 * kHurry, piece.driver.driveRamp = 0.4 * kHurry;
   piece.hitch.reset();                            // negligible cost, and might outlast the piece
-  if (const auto& course = scene.driver.course) { // a course does not fit the piece: drive straight at its speed
+  if (const auto& course = scene.driver.course) { // too little space for a course: drive straight at its speed
     piece.driver.sprocketSpeed = course->speed / vehicle::readVehicleSpec(piece.vehicle->source()).pitchRadius();
     piece.driver.course.reset();
   }

@@ -24,12 +24,12 @@ double pairsBelowTracks(const scene::Scene& scene) {
 }
 
 TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spheres, const base::Exec& exec) {
-  constexpr double kSetArea = 7;        // spheres of the sets of a light vehicle times their radius squared [m2]
-  constexpr double kHull = 27e3;        // spheres of a hull, the only set on rigid ground
+  constexpr double kSetArea = 7;        // number of spheres in the sets of a light vehicle x radius squared [m2]
+  constexpr double kHull = 27e3;        // number of spheres of a hull, the only set on rigid ground
   constexpr double kDisk = 400e6;       // [bytes/s]
   constexpr double kVehicleFrame = 8e5; // [bytes]
-  constexpr double kCheckpointed = 250; // checkpoint size a grain [bytes]
-  constexpr double kPair = 170e-9;      // core time a step of a grain-part pair [s]
+  constexpr double kCheckpointed = 250; // checkpoint size per grain [bytes]
+  constexpr double kPair = 170e-9;      // CPU time per grain-part pair and step [s]
   const bool cpu = exec.onCpu(), vehicle = scene.vehicle.has_value(), rigid = vehicle && grains == 0;
   const double cores = cpu ? usefulThreads(exec) : 1;
   if (vehicle && spheres == 0) {
@@ -51,7 +51,7 @@ TypicalTimes typicalTimes(const scene::Scene& scene, double grains, double spher
 }
 
 SettledTile typicalTile(const TypicalTimes& times, double timeStep) {
-  constexpr double kGrains = 300, kRest = 0.7, kList = 0.005; // grains, simulated times of rest and of a list [s]
+  constexpr double kGrains = 300, kRest = 0.7, kList = 0.005; // grains; time until rest, list lifetime [s]
   SettledTile tile;
   tile.grains = kGrains, tile.steps = kRest / timeStep, tile.rebuilds = kRest / kList;
   tile.falling = tile.resting = kGrains * times.grain, tile.list = kGrains * times.list;

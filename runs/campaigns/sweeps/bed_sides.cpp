@@ -23,12 +23,12 @@ struct Strip {
   Vec3d low, high;
 };
 
-/// Region that a wider bed would fill at one side, and a grain's width inside the bed.
+/// Region that a wider bed would also fill at one side, extended into the bed by one grain diameter.
 Strip besideBed(const scene::Scene& scene, double timesAsWide, bool upper) {
   const scene::Terrain& t = *scene.terrain;
   const terrain::Rectangle area = *setup::terrainArea(scene);
   const double largest = setup::grainKinds(scene).largest, more = 0.5 * (timesAsWide - 1) * area.length();
-  // The same height above the bed as below: loose grains stand higher than settled ones.
+  // As high above the bed as the bed is deep: loose grains reach higher than settled grains.
   const double thick = t.layers ? *t.layers * *t.spacing * *t.grainRadius : t.depth.value_or(0);
   Strip s{{area.xMin, area.yMin - more, t.heightRange[0] - thick},
           {area.xMax, area.yMin + 2 * largest, t.heightRange[1] + thick}};

@@ -7,9 +7,9 @@
 
 namespace grouser::sweeps {
 
-/// First plane, box, cylinder or mesh at a side of the bed along y, or in the space of a bed `timesAsWide` as wide:
-/// "plane 1 (left wall)", numbered from 0 in the file. Empty if none. Excludes surfaces placed above the settled bed
-/// and planes that are uniform along y.
+/// First plane, box, cylinder or mesh at a side of the bed along y, or within a bed that is `timesAsWide` as wide:
+/// "plane 1 (left wall)", counted from 0 in the file. Empty if there is no such surface. Excludes surfaces placed
+/// above the settled bed and planes that do not depend on y.
 std::string surfaceAtSides(const scene::Scene& scene, double timesAsWide);
 
 } // namespace grouser::sweeps

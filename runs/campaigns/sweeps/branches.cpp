@@ -23,14 +23,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettled = "settled"; // folder of the settling run
 
-/// The first run of each seed.
+/// First run of each seed.
 std::map<std::int64_t, const SweepRun*> firstOfSeeds(const SweepPlan& plan) {
   std::map<std::int64_t, const SweepRun*> first;
   for (const SweepRun& run : plan.runs) first.emplace(run.scene.run.seed, &run);
   return first;
 }
 
-/// Throws if `run` cannot start from the state of `first` before its drive.
+/// Throws if `run` cannot start from the state of `first` before the drive.
 void requireOneState(const SweepRun& first, const SweepRun& run) {
   const auto refuse = [&](const std::string& what) {
     throw base::InputError(fmt::format("--from-checkpoint: {}, which changes the common initial state; vary only keys "
@@ -50,7 +50,7 @@ void requireOneState(const SweepRun& first, const SweepRun& run) {
                        other, run.name));
 }
 
-/// Whether the folder contains a settling run by this program that this run can branch from.
+/// Whether the folder contains a settling run by this program from which the run can branch.
 bool holdsState(const fs::path& folder, const SweepRun& run) {
   const RunManifest manifest(folder);
   if (manifest.text("status") != "finished" || manifest.text("ended_by") != output::kUntilRest ||

@@ -5,9 +5,9 @@
 
 namespace grouser::sweeps {
 
-/// Plan whose runs branch from `options.from` or, if that is empty, from the vehicle at rest: one settling run per seed
-/// in the sweep's folder, performed first if missing. Throws InputError before any run if the runs of a seed differ in
-/// a key that affects the state; SimulationError if the vehicle does not come to rest.
+/// Plan with runs that branch from `options.from` or, if it is empty, from the vehicle at rest. In that case, missing
+/// settling runs (one per seed, in the sweep's folder) are performed first. Throws InputError before any run if runs
+/// with equal seeds differ in a key that affects the state at rest; SimulationError if the vehicle never rests.
 SweepPlan branched(const SweepPlan& plan, const SweepOptions& options);
 
 } // namespace grouser::sweeps

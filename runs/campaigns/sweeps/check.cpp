@@ -76,9 +76,9 @@ public:
         work_(options_, fixed_, scene_.run.seed, record_) {
     checkScene(scene_);
     origin_ = checkOrigin(scene_, setup::inputsOf(scene_));
-    if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.mostSeeds())
-      throw base::InputError(fmt::format("run.seed = {}: too large, since {} more seeds follow it; set a smaller seed",
-                                         scene_.run.seed, options.mostSeeds()));
+    if (scene_.run.seed > std::numeric_limits<std::int64_t>::max() - options.maxSeeds())
+      throw base::InputError(fmt::format("run.seed = {}: too large, because {} more seeds follow; set a smaller seed",
+                                         scene_.run.seed, options.maxSeeds()));
     record_.folder = options.sweep.folder, record_.scene = file.string(), record_.origin = originHash(origin_);
     record_.jobs = options.sweep.jobs;
     record_.cases = checkCases(file, fixed_, scene_, options.draws);
@@ -86,7 +86,7 @@ public:
     record_.runs.plan.scene = file, record_.runs.plan.keys = {kCaseKey, kSeedKey};
     if (options.figures.empty()) return;
     keepGoalCases(record_.cases, options.axes);
-    record_.looks = looksUpTo(options.mostSeeds(), record_.cases.seeded);
+    record_.looks = looksUpTo(options.maxSeeds(), record_.cases.seeded);
     if (scene_.vehicle) nameFigures(sweepFigures(planOf(scene_), {{}}, record_.folder).columns);
   }
 
@@ -99,7 +99,7 @@ public:
   }
 
 private:
-  /// A plan of one run, never performed, for the names of its figures.
+  /// A plan of one run that is not performed; provides the names of the figures.
   static SweepPlan planOf(const scene::Scene& scene) {
     SweepPlan plan;
     plan.runs.emplace_back().scene = scene;
@@ -133,7 +133,7 @@ private:
   nlohmann::json asked() const {
     nlohmann::json asked = {{"origin", record_.origin},
                             {"budget", options_.budget},
-                            {"seeds", options_.mostSeeds()},
+                            {"seeds", options_.maxSeeds()},
                             {"cases", record_.cases.cases.size()},
                             {"jobs", options_.sweep.jobs}};
     if (!options_.figures.empty()) asked["of"] = options_.figures, asked["bar_percent"] = options_.percent;
@@ -153,7 +153,7 @@ private:
 
   /// Selects the runs: the stored choice of this check, or one from the cost of the first run.
   CheckChoice choose() {
-    const int seeds = options_.mostSeeds();
+    const int seeds = options_.maxSeeds();
     if (options_.budget.empty()) return chooseRuns(record_.cases, seeds, std::nullopt, {}, 1);
     const nlohmann::json kept = keptFile();
     std::optional<CheckChoice> choice;
@@ -182,12 +182,12 @@ private:
   void runToGoals() {
     GoalChoice choice;
     const nlohmann::json kept = keptFile();
-    const bool goesOn = kept.is_object() && choice.restore(kept, record_.cases.cases.size(), record_.looks.most());
+    const bool continues = kept.is_object() && choice.restore(kept, record_.cases.cases.size(), record_.looks.most());
     if (options_.budget.empty()) {
-      choice = {}, choice.costs.run = 1; // relative costs only: the same choice on every machine
+      choice = {}, choice.costs.run = 1; // relative costs, so that the choice is the same on every machine
     } else {
       CheckBeds beds(record_.runs.plan.scene, fixed_, record_.cases);
-      if (!goesOn) choice = {}, choice.costs = work_.pilot(beds), choice.costs.isKept = nullptr;
+      if (!continues) choice = {}, choice.costs = work_.pilot(beds), choice.costs.isKept = nullptr;
       choice.costs.beds = beds.numbers();
     }
     for (std::size_t look = 0;; ++look) {
@@ -205,7 +205,7 @@ private:
     report();
   }
 
-  /// [cases] seeds of a look.
+  /// [cases] number of seeds at a look.
   std::vector<int> seedsOf(std::size_t look, const RunCosts& costs) const {
     const SeedsFit fits = [&](const std::vector<int>& seeds) {
       return options_.budget.empty() ||
@@ -219,7 +219,7 @@ private:
     return nextLook(record_.cases, record_.goals, taken_, record_.looks, costs, fits);
   }
 
-  /// Called before the runs of a look, so that a resumed call makes the same choice.
+  /// Stores the choice before the runs of a look, so that a resumed call makes the same choice.
   void keepLooks(const GoalChoice& choice) const {
     if (options_.budget.empty()) return;
     keepFile({{"asked", asked()},
@@ -236,7 +236,7 @@ private:
 
   void findGoals() {
     const CheckResults found = results();
-    if (figures_.empty()) { // without a vehicle, names are known from the runs only
+    if (figures_.empty()) { // without a vehicle, only the runs provide the names
       std::vector<std::string> names;
       for (const CheckFigure& f : found.figures) names.push_back(f.name);
       nameFigures(names);

@@ -30,17 +30,17 @@ using Overrides = std::vector<std::string>;
 
 constexpr double kFiner = 0.8, kLarger = 1.5, kWiderSkin = 1.5;
 constexpr double kCostOfDouble = 1.6, kCostOfSpheres = 1.3,
-                 kCostOfNodes = 1.8; // approximate cost of a run over that of the base
+                 kCostOfNodes = 1.8; // approximate cost of a run / cost of a base run
 
 std::string set(const std::string& key, double value) { return fmt::format("{}={}", key, value); }
 
-/// Name as part of a key, quoted if it contains other characters than letters, digits and _.
+/// Name as part of a key; quoted if it contains characters other than letters, digits and _.
 std::string keyWord(const std::string& name) {
   const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) || c == '_'; });
   return plain && !name.empty() ? name : fmt::format("\"{}\"", name);
 }
 
-/// Makes the cases of one scene.
+/// Creates the cases of one scene.
 class Cases {
 public:
   Cases(const std::filesystem::path& file, const Overrides& fixed, const scene::Scene& scene)
@@ -65,12 +65,12 @@ private:
     all_.omitted.push_back({axis, scene_.deformable() ? "deformable soil has no grains and no seeds" : why});
   }
 
-  /// Loads the scene with the overrides, and keeps the case, refused or not.
+  /// Loads the scene with the overrides, and adds the case, even if it is invalid.
   void add(CheckAxis axis, const std::string& name, const std::string& what, const Overrides& overrides,
            double costOfStep = 1, int refinement = 0) {
     CheckCase c;
     c.axis = axis, c.name = name, c.what = what, c.overrides = overrides, c.refinement = refinement;
-    c.cost = c.settling = std::ldexp(1.0, refinement); // estimate for refused cases
+    c.cost = c.settling = std::ldexp(1.0, refinement); // estimate for invalid cases
     try {
       Overrides all = fixed_;
       for (const std::string& o : overrides) putOverride(all, o);
@@ -86,7 +86,7 @@ private:
     all_.cases.push_back(std::move(c));
   }
 
-  /// Rows, frames and the end fall on whole steps of the base and of the finer run.
+  /// Rows, frames and the end coincide with steps of both the base and the finer run.
   void addStep(int refinement) {
     const double factor = std::ldexp(1.0, -refinement);
     const std::string name =
@@ -97,7 +97,7 @@ private:
           {set("run.tolerance", tolerance)}, std::sqrt(1 / factor), refinement);
       return;
     }
-    // Coarse steps deviate from 2^k h such that the run ends at the same time as the base.
+    // Coarse steps deviate from 2^k h, so that the run ends at the same time as the base.
     const double end = std::max(1.0, std::round(scene_.run.duration / step_)) * step_;
     const double step = refinement > 0 ? factor * step_ : end / std::max(1.0, std::round(end / (factor * step_)));
     const auto whole = [this](double time) { return std::max(1.0, std::round(time / step_)) * step_; };
@@ -179,11 +179,11 @@ private:
         overrides);
   }
 
-  /// Scales stiffness and cohesion of the bed's material such that strains and strength stay.
+  /// Scales stiffness and cohesion of the bed's material, which preserves strains and strength.
   void addSoilOf(double share, Overrides& overrides) const {
     const scene::Material& soil = scene_.material(scene_.terrain->material);
     const std::string section = fmt::format("material.{}.", keyWord(soil.name));
-    // Values of a soil file scale with the radius automatically.
+    // Values from a soil file scale with the radius automatically.
     const auto given = [&](const char* key) { return !scene::goesWithGrains(scene_, soil.name, key); };
     if (!soil.soil.empty() && given("grain_radius"))
       overrides.push_back(set(section + "grain_radius", share * *soil.grainRadius));
@@ -199,7 +199,7 @@ private:
 
   void addSpheres() {
     Overrides overrides;
-    // Not half the default radius: an explicit one cuts thin parts more coarsely than an automatic one.
+    // Not half the default radius: an explicit radius represents thin parts more coarsely than the automatic radius.
     if (scene_.vehicle) overrides.push_back(set("vehicle.sphere_refinement", 2 * scene_.vehicle->sphereRefinement));
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m)
       overrides.push_back(set(fmt::format("mesh.{}.sphere_refinement", m), 2 * scene_.meshes[m].sphereRefinement));
@@ -270,7 +270,7 @@ double runsOfBarCases(const scene::Scene& scene, int seeds) {
   double runs = 1 + 2; // the base and half its step
   if (scene.vehicle || !scene.meshes.empty()) runs += kCostOfSpheres;
   if (scene.deformable()) runs += kCostOfNodes;
-  // Finer grains take a shorter step, and 1 / share^3 as many fill the bed.
+  // Finer grains require a shorter step, and the bed contains 1 / share^3 times as many.
   if (scene.terrain && scene.terrain->granular())
     runs += kLarger + kLarger + 1 + 1 / (kFiner * kFiner * kFiner * kFiner);
   return runs * (seedMatters(scene) ? seeds : 1);

@@ -15,18 +15,18 @@ namespace grouser::sweeps {
 
 namespace {
 
-/// Seeds of a case if seed-dependent cases have `seeds`.
+/// Number of seeds of a case if seed-dependent cases have `seeds` seeds.
 int seedsOf(const CheckCases& cases, std::size_t c, int seeds) {
   return !cases.seeded || cases.cases[c].axis == CheckAxis::skin ? 1 : seeds;
 }
 
-/// Sums the cost of the runs taken so far.
+/// Sums the cost of the runs chosen so far.
 class Spending {
 public:
   Spending(const CheckCases& cases, const RunCosts& costs)
       : cases_(&cases), costs_(&costs), taken_(cases.cases.size(), 0), settled_(cases.cases.size(), 0) {}
 
-  /// Raises the seeds of a case to `seeds`.
+  /// Increases the number of seeds of a case to `seeds`.
   void take(std::size_t c, int seeds) {
     const CheckCase& one = cases_->cases[c];
     seconds_ += costs_->run * one.cost * (seeds - taken_[c]);
@@ -43,7 +43,7 @@ private:
   const CheckCases* cases_;
   const RunCosts* costs_;
   std::vector<int> taken_;   // seeds [cases]
-  std::vector<int> settled_; // seeds whose bed is settled or cached [beds]
+  std::vector<int> settled_; // number of seeds with a settled or cached bed [beds]
   double seconds_ = 0;
 };
 
@@ -107,8 +107,8 @@ double budgetSeconds(const std::string& text) {
   const std::string unit(end, text.data() + text.size());
   const double factor = unit.empty() || unit == "s" ? 1 : unit == "min" ? 60 : unit == "h" ? 3600 : 0;
   const double seconds = factor * number;
-  constexpr double kMost = 3600.0 * 10'000;
-  if (error != std::errc() || !(seconds >= 1 && seconds <= kMost))
+  constexpr double kMax = 3600.0 * 10'000;
+  if (error != std::errc() || !(seconds >= 1 && seconds <= kMax))
     throw base::InputError(
         fmt::format("--budget {}: must be a time between 1 s and 10000 h, e.g. 90s, 20min or 1.5h", text));
   return seconds;

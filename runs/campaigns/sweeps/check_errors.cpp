@@ -10,16 +10,16 @@ namespace grouser::sweeps {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kSafety = 1.25;                    // Roache's factor for three grids or more
-constexpr double kLeastOrder = 0.5, kMostOrder = 8; // the RATTLE scheme has orders up to 8
-constexpr double kLeastLeft = 0.25;                 // share of C h without an observed order
-constexpr double kAgree = 0.5;                      // largest difference of successive orders
+constexpr double kSafety = 1.25;                 // Roache's factor for three grids or more
+constexpr double kMinOrder = 0.5, kMaxOrder = 8; // the RATTLE scheme has orders up to 8
+constexpr double kMinLeft = 0.25;                // share of C h in the bar without an observed order
+constexpr double kAgree = 0.5;                   // maximum difference of successive orders
 
-/// log2(a / b) if both have the same sign and the order is plausible.
+/// log2(a / b) if a and b have the same sign and the order is plausible.
 std::optional<double> orderOf(double a, double b) {
   if (!(a * b > 0)) return std::nullopt;
   const double order = std::log2(a / b);
-  return order >= kLeastOrder && order <= kMostOrder ? std::optional(order) : std::nullopt;
+  return order >= kMinOrder && order <= kMaxOrder ? std::optional(order) : std::nullopt;
 }
 
 /// Order of the last three differences.
@@ -50,7 +50,7 @@ StepError stepError(std::span<const double> values) {
     most = std::max(most, std::ldexp(std::fabs(finest - values[i]), static_cast<int>(i)));
   // Error of the finest value for first-order convergence.
   const double left = 1 / (std::ldexp(1.0, static_cast<int>(values.size()) - 1) - 1);
-  error.bar = std::fabs(error.change) + std::max(kLeastLeft, left) * most;
+  error.bar = std::fabs(error.change) + std::max(kMinLeft, left) * most;
   return error;
 }
 
@@ -76,7 +76,7 @@ jobs::Verdict judgeSeeds(const support::Estimate& difference, double bar, int se
   constexpr int kEnough = 8;
   const jobs::Verdict verdict = jobs::judge(difference, bar);
   const bool few = seeds < kEnough && difference.halfWidth > 0.5 * bar;
-  return few && verdict == jobs::Verdict::equal ? jobs::Verdict::notShown : verdict;
+  return few && verdict == jobs::Verdict::equal ? jobs::Verdict::inconclusive : verdict;
 }
 
 double totalBar(double seedsHalfWidth, std::span<const double> bars) {
@@ -88,12 +88,12 @@ double totalBar(double seedsHalfWidth, std::span<const double> bars) {
 int seedsFor(double bar, double halfWidth, int seeds, double miss) {
   if (seeds < 2 || !std::isfinite(halfWidth)) return 0;
   const double deviation = halfWidth * std::sqrt(static_cast<double>(seeds)) / support::student(seeds - 1, miss);
-  constexpr int kMost = 1000;
+  constexpr int kMax = 1000;
   const auto isEnough = [&](int n) {
     return support::student(n - 1, miss) * deviation <= bar * std::sqrt(static_cast<double>(n));
   };
-  if (!isEnough(kMost)) return 0;
-  int low = 1, high = kMost; // too few, enough
+  if (!isEnough(kMax)) return 0;
+  int low = 1, high = kMax; // too few, enough
   while (high - low > 1) {
     const int middle = (low + high) / 2;
     (isEnough(middle) ? high : low) = middle;

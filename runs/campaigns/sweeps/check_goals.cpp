@@ -16,23 +16,23 @@ namespace grouser::sweeps {
 
 namespace {
 
-constexpr double kMissed = 0.05;  // probability that any interval misses the truth
-constexpr double kFarAway = 1000; // target bars: assumed for a part without runs
-constexpr double kCheap = 1.5;    // runs of the base: cases up to this cost are run first
+constexpr double kMissed = 0.05;  // probability that any interval misses the true value
+constexpr double kFarAway = 1000; // bar assumed for a part without runs [target bars]
+constexpr double kCheap = 1.5;    // maximum cost of cases that are run first [base runs]
 
 /// Half width of an interval over seeds with this standard deviation.
 double halfWidth(double deviation, int seeds, double miss) {
   return support::student(seeds - 1, miss) * deviation / std::sqrt(static_cast<double>(seeds));
 }
 
-/// Total bar of parts whose bars are `barOf`.
+/// Total bar of all parts; `barOf`: bar of a part.
 template <class BarOf> double total(const std::vector<BarPart>& parts, const BarOf& barOf) {
   std::vector<double> bars;
   for (const BarPart& part : parts) bars.push_back(barOf(part));
   return totalBar(0, bars);
 }
 
-/// The case of an axis; h/2 for the step.
+/// Case of an axis; for the step, the case h/2.
 std::size_t caseOf(const CheckCases& cases, CheckAxis axis) {
   const auto at = std::find_if(cases.cases.begin(), cases.cases.end(), [axis](const CheckCase& c) {
     return c.axis == axis && (axis != CheckAxis::step || c.refinement == 1);
@@ -64,7 +64,7 @@ std::vector<BarPart> partsOf(const CheckCases& cases, const CheckFigure& figure,
   return parts;
 }
 
-/// Predicted bar of a goal once the planned runs have been made.
+/// Predicted bar of a goal after the planned runs.
 double expectedBar(const Goal& goal, const std::vector<int>& taken, const std::vector<int>& planned) {
   return total(goal.parts, [&](const BarPart& p) {
     const double bar = planned[p.ofCase] > taken[p.ofCase] ? p.expected(planned[p.ofCase]) : p.bar;
@@ -72,7 +72,7 @@ double expectedBar(const Goal& goal, const std::vector<int>& taken, const std::v
   });
 }
 
-/// `planned` with the next look of case c, and of the base if pairs require it.
+/// `planned` plus the next look of case c, and of the base if the paired differences require it.
 std::vector<int> withMore(const std::vector<int>& planned, std::size_t c, const Looks& looks) {
   std::vector<int> more = planned;
   more[c] = looks.after(planned[c]);
@@ -80,7 +80,7 @@ std::vector<int> withMore(const std::vector<int>& planned, std::size_t c, const 
   return more;
 }
 
-/// Reduction of the squared bars of open goals over its cost, by going from `planned` to `more`.
+/// Reduction of the squared bars of open goals / cost of the runs, from `planned` to `more`.
 double worth(const CheckCases& cases, const std::vector<Goal>& goals, const std::vector<int>& taken,
              const std::vector<int>& planned, const std::vector<int>& more, const RunCosts& costs) {
   double gain = 0;
@@ -89,8 +89,8 @@ double worth(const CheckCases& cases, const std::vector<Goal>& goals, const std:
     const double before = expectedBar(goal, taken, planned), after = expectedBar(goal, taken, more);
     gain += (before * before - after * after) / (goal.wanted * goal.wanted);
   }
-  constexpr double kLeastGain = 0.01; // relative to the square of the wanted bar; a smaller gain is not worth a run
-  return gain < kLeastGain ? 0 : gain / (secondsOf(cases, costs, more) - secondsOf(cases, costs, planned));
+  constexpr double kMinGain = 0.01; // relative to the square of the target bar; smaller gains do not justify a run
+  return gain < kMinGain ? 0 : gain / (secondsOf(cases, costs, more) - secondsOf(cases, costs, planned));
 }
 
 /// Returns `taken` plus further looks, until the open goals are expected to be met or no look can be added.
@@ -116,7 +116,7 @@ std::vector<int> plannedSeeds(const CheckCases& cases, const std::vector<Goal>& 
   return planned;
 }
 
-/// The open goal as intervals at other levels would show it.
+/// The open goal with intervals at other levels.
 Goal atLevels(Goal goal, const SeedLevels& levels) {
   goal.state = GoalState::open;
   for (BarPart& p : goal.parts) {
@@ -134,7 +134,7 @@ GoalState stateOf(const Goal& goal, const Looks& looks, bool seeded) {
   const auto least = [&](int seeds) {
     return total(goal.parts, [&](const BarPart& p) { return std::max(0.0, p.least(std::max(p.seeds, seeds))); });
   };
-  if (!seeded) { // only the step axis has more runs
+  if (!seeded) { // more runs are possible on the step axis only
     const double others = total(goal.parts, [](const BarPart& p) { return p.axis == CheckAxis::step ? 0 : p.bar; });
     return others > goal.wanted ? GoalState::limited : GoalState::open;
   }
@@ -142,7 +142,7 @@ GoalState stateOf(const Goal& goal, const Looks& looks, bool seeded) {
   return least(looks.most()) > goal.wanted ? GoalState::beyond : GoalState::open;
 }
 
-/// Lower case, '_' replaced by a blank, without unit.
+/// Converts to lower case, replaces '_' by a blank, removes the unit.
 std::string plainName(std::string name) {
   const std::size_t from = name.find(" ["), to = name.find(']');
   if (from < to && to != std::string::npos) name.erase(from, to + 1 - from);
@@ -184,10 +184,10 @@ double BarPart::expected(int more) const {
 double BarPart::least(int more) const {
   if (seeds < kFewSeeds) return 0; // too few seeds to end a check, e.g. after failed runs
   const double root = std::sqrt(static_cast<double>(seeds));
-  const double leastChange = std::max(0.0, std::fabs(change) - 2 * deviation / root);
-  constexpr int kKnown = 1000; // the quantile is constant beyond
+  const double minChange = std::max(0.0, std::fabs(change) - 2 * deviation / root);
+  constexpr int kKnown = 1000; // approximately constant quantile above this number of seeds
   const double quantile = support::student(std::min(more, kKnown) - 1, miss);
-  return factor * (leastChange + quantile * deviation / (1 + 1.6 / root) / std::sqrt(static_cast<double>(more)));
+  return factor * (minChange + quantile * deviation / (1 + 1.6 / root) / std::sqrt(static_cast<double>(more)));
 }
 
 const BarPart* Goal::largest() const {
@@ -293,17 +293,17 @@ std::vector<int> nextLook(const CheckCases& cases, const std::vector<Goal>& goal
 
 std::vector<int> seedsToReach(const CheckCases& cases, const Goal& goal, const std::vector<int>& taken,
                               const Looks& looks) {
-  constexpr int kMost = 1000;
+  constexpr int kMax = 1000;
   if (!cases.seeded) return {};
   RunCosts costs;
   costs.run = 1;
   const SeedsFit any = [](const std::vector<int>&) { return true; };
-  for (int most = looks.most();; most = std::min(kMost, 2 * most)) {
+  for (int most = looks.most();; most = std::min(kMax, 2 * most)) {
     const Looks more = most == looks.most() ? looks : looksUpTo(most, true);
     const Goal asked = atLevels(goal, more.levels);
     std::vector<int> planned = plannedSeeds(cases, {asked}, taken, more, costs, any);
     if (expectedBar(asked, taken, planned) <= asked.wanted) return planned;
-    if (most >= kMost) return {};
+    if (most >= kMax) return {};
   }
 }
 

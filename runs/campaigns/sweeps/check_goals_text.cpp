@@ -48,12 +48,12 @@ std::vector<std::string> missingCases(const CheckRecord& record) {
   return missing;
 }
 
-/// A narrow bar without the runs of some cases does not count as met.
+/// A goal does not count as met while cases that contribute to its bar lack runs.
 const char* stateOf(const CheckRecord& record, const Goal& goal) {
   return goal.state == GoalState::met && !missingCases(record).empty() ? "inconclusive" : wordOf(goal.state);
 }
 
-/// Present number of seeds of each case.
+/// Current number of seeds of each case.
 std::vector<int> seedsSoFar(const CheckRecord& record) {
   std::vector<int> seeds(record.cases.cases.size(), 0);
   for (const std::size_t c : record.runs.caseOf) ++seeds[c];
@@ -78,9 +78,8 @@ std::string moreText(const CheckRecord& record, const std::vector<int>& toReach)
 std::string remedy(const CheckRecord& record, const Goal& goal, const std::vector<int>& toReach) {
   const BarPart& worst = *goal.largest();
   if (goal.state == GoalState::limited)
-    return fmt::format(
-        "{} alone changes the value by {:+.3g} {}; more seeds cannot reduce this error, change the scene",
-        nameOf(worst), worst.change, unitOf(goal.figure));
+    return fmt::format("{} changes the value by {:+.3g} {}; more seeds cannot reduce this error; change the scene",
+                       nameOf(worst), worst.change, unitOf(goal.figure));
   if (!record.isWhole) return "repeat the command to continue";
   if (!record.cases.seeded) return "requires a smaller time step than those tested";
   return moreText(record, toReach);

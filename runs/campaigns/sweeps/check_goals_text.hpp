@@ -7,10 +7,10 @@
 
 #include <string>
 
-/// Reports on the error bars of --of.
+/// Reports on the target error bars of --of.
 namespace grouser::sweeps {
 
-/// [goals]: figure, target and actual bar, its parts, and the seeds that would reach the target.
+/// [goals]: figure, target bar, actual bar and its parts, and the numbers of seeds that would reach the target.
 nlohmann::ordered_json goalsJson(const CheckRecord& record);
 
 /// One line per goal for the terminal, with the expected remaining run time. Empty without goals.

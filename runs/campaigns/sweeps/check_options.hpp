@@ -12,15 +12,15 @@ namespace grouser::sweeps {
 
 struct CheckOptions {
   std::vector<std::string> fixed;   ///< overrides "key=value" of all runs
-  std::optional<int> seeds;         ///< maximum per case, starting at run.seed; default: 8, with figures 24
-  double percent = 5;               ///< percentage of a figure's mean: bar of the verdicts and target of figures
-  std::vector<std::string> figures; ///< figures with target bars, words of goalFigure(); empty: all cases are run
+  std::optional<int> seeds;         ///< maximum number per case; default: 8, with figures 24
+  double percent = 5;               ///< percentage of a figure's mean: tolerance of the verdicts, and target of figures
+  std::vector<std::string> figures; ///< figures with target bars, see goalFigure(); empty: run all cases
   std::vector<CheckAxis> axes;      ///< axes to vary; empty: all
-  int draws = 0;                    ///< samples of the constants of deformable soil
+  int draws = 0;                    ///< number of samples of the soil constants
   std::string budget;               ///< total wall time, e.g. "20min"; empty: unlimited
-  SweepOptions sweep;               ///< folder, jobs, seconds of this call
+  SweepOptions sweep;               ///< folder, jobs and seconds of this call
 
-  int mostSeeds() const { return seeds.value_or(figures.empty() ? 8 : 24); }
+  int maxSeeds() const { return seeds.value_or(figures.empty() ? 8 : 24); }
 };
 
 } // namespace grouser::sweeps

@@ -25,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kPercents[] = {10, 5, 1};
-constexpr int kMostPrinted = 24; // maximum number of figures in the terminal
+constexpr int kMaxPrinted = 24; // maximum number of figures printed in the terminal
 
 Json numberOf(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -68,7 +68,7 @@ Json figureJson(const CheckFigure& f, const CheckResults& results) {
   return json;
 }
 
-/// Message without the path of the folder.
+/// Message with paths relative to the folder.
 std::string placeless(std::string message, const CheckRecord& record) {
   const std::string folder = (record.folder / "").string();
   for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder, at))
@@ -100,7 +100,7 @@ std::string changeText(const support::Estimate& change) {
   return fmt::format("{}{}", change.value < 0 ? "" : "+", jobs::valueText(change));
 }
 
-/// "-0.5 +- 4.2 %"; empty if the value is not significantly different from zero.
+/// "-0.5 +- 4.2 %"; empty if the value does not differ significantly from zero.
 std::string shareText(const CheckFigure& f, const support::Estimate& change) {
   const double value = std::fabs(f.value.value);
   if (value == 0 || value <= f.value.halfWidth) return "";
@@ -166,7 +166,7 @@ std::string linesOf(const CheckRecord& record, const CheckResults& results, cons
   return text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
 }
 
-/// One line per figure of reproducible runs: bar, order of the step, and the cheapest step within 1 %.
+/// One line per figure of reproducible runs: error bar, order of the step, and cheapest step with an error within 1 %.
 std::string lineOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::string order;
   for (const AxisError& e : f.errors)
@@ -190,7 +190,7 @@ Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const 
   for (std::size_t i = 0; i < results.stepCases.size(); ++i) {
     const double bar = figure.barOfStep[i];
     if (!(bar < most)) continue;
-    // The seeds get the rest of the bar.
+    // The scatter of the seeds may use the rest of the error bar.
     const int seeds = results.seeded ? seedsFor(std::sqrt(most * most - bar * bar), figure.value.halfWidth,
                                                 figure.seeds, results.levels.value)
                                      : 1;
@@ -268,7 +268,7 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
     return f.name.ends_with(" at the end") && !f.name.starts_with("ledger.");
   };
   if (has(ofVehicle)) return ofVehicle(figure);
-  // With few grains each is a figure.
+  // In scenes of few grains, each grain has figures.
   if (has(isForce)) return isForce(figure) || (isEnd(figure) && figure.name.starts_with("grain."));
   return !has(isEnd) || isEnd(figure);
 }
@@ -280,8 +280,8 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
   int printed = 0, more = 0;
   for (const CheckFigure& f : results.figures) {
     if (!isHeadline(results, f) || !isAboveRounding(f)) continue;
-    if (++printed > kMostPrinted) ++more;
-    if (printed > kMostPrinted) continue;
+    if (++printed > kMaxPrinted) ++more;
+    if (printed > kMaxPrinted) continue;
     text += results.seeded || hasSoilAxes(f) ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);

@@ -9,27 +9,26 @@
 /// Reports of a check as text, JSON and a plot.
 namespace grouser::sweeps {
 
-/// Cheapest time step and number of seeds that keep the error of a figure within `percent` of its value.
+/// Time step and number of seeds that keep the error of a figure within `percent` of its value at the lowest cost.
 struct Cheapest {
-  std::string name; ///< case name; empty: no tested case suffices
+  std::string name; ///< case; empty: no tested case suffices
   double step = 0;  ///< relative error bar of the time step [-]
   int seeds = 0;    ///< 1 without seed dependence
-  double wall = 0;  ///< wall time of all these runs in sequence [s]
+  double wall = 0;  ///< wall time of all runs of these seeds in sequence [s]
 };
 Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const CheckFigure& figure, double percent);
 
-/// Values, errors, verdicts and runs, bitwise independent of the run schedule. Figures without a number are
-/// null.
+/// Values, errors, verdicts and runs; bitwise independent of the order of the runs. Figures without a value are null.
 std::string checkJson(const CheckRecord& record, const CheckResults& results);
 /// Costs of the runs on this machine, and the cheapest settings for 10, 5 and 1 %.
 std::string costsJson(const CheckRecord& record, const CheckResults& results);
 
-/// The main figures, for the terminal.
+/// Text of the main figures, for the terminal.
 std::string checkText(const CheckRecord& record, const CheckResults& results);
 
-/// Whether a figure is known and its value or bar is above rounding, 1e-12 of its scale.
+/// Whether a figure is known and its value or bar exceeds rounding errors, 1e-12 of its scale.
 bool isAboveRounding(const CheckFigure& figure);
-/// Main figures: vehicle figures, surface forces, else all.
+/// Whether this is a main figure: figures of the vehicle, or else forces on surfaces, or else all figures.
 bool isHeadline(const CheckResults& results, const CheckFigure& figure);
 
 inline constexpr const char *kCheckFile = "check.json", *kCheckCosts = "costs.json", *kCheckSeries = "series.csv",

@@ -15,14 +15,14 @@ namespace grouser::sweeps {
 
 namespace {
 
-/// Figures of all runs: those of a sweep, and final values of all columns in scenes without a vehicle.
+/// Figures of all runs: figures of a sweep, and in scenes without a vehicle the final values of all columns.
 SweepFigures figuresOf(const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
                        const std::filesystem::path& folder, bool hasVehicle, std::string& doubt) {
   SweepFigures figures = sweepFigures(runs.plan, outcomes, folder);
   std::vector<std::size_t> all(runs.plan.runs.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   doubt = figures.doubtOf(all);
-  figures.keepSound(all);
+  figures.dropInconclusive(all);
   if (hasVehicle) return figures;
   std::map<std::string, std::size_t> columnOf; // columns of final values
   for (std::size_t r = 0; r < runs.plan.runs.size(); ++r) {
@@ -53,7 +53,7 @@ public:
       if (std::isfinite(at(run))) values.push_back(at(run));
     return values;
   }
-  /// Differences from case `from` to case `to` over their common seeds, which `third` must also have if given.
+  /// Differences from case `from` to case `to`, over the seeds that both have in common, and with `third` if given.
   std::vector<double> changes(std::size_t from, std::size_t to, std::optional<std::size_t> third) const {
     std::vector<std::size_t> cases = {from, to};
     if (third) cases.push_back(*third);
@@ -71,7 +71,7 @@ private:
   std::size_t column_;
 };
 
-/// Index of the case with this refinement of the step (0: the base); empty if missing.
+/// Index of the case with this refinement of the step (0: base); empty if missing.
 std::optional<std::size_t> stepCase(const CheckCases& cases, int refinement) {
   for (std::size_t c = 0; c < cases.cases.size(); ++c) {
     const CheckAxis axis = cases.cases[c].axis;
@@ -80,11 +80,11 @@ std::optional<std::size_t> stepCase(const CheckCases& cases, int refinement) {
   return std::nullopt;
 }
 
-/// Verdict on a change of a figure; inconclusive if the mean is not significant, unless nothing changed.
+/// Verdict on a change of a figure; inconclusive if the mean is not significant, unless the change is zero.
 jobs::Verdict verdictOf(const CheckFigure& figure, const AxisError& error, double bar, bool seeded) {
   const double mean = std::fabs(figure.value.value);
   if (error.change.value == 0 && error.change.halfWidth == 0) return jobs::Verdict::equal;
-  if (mean <= figure.value.halfWidth || mean == 0) return jobs::Verdict::notShown;
+  if (mean <= figure.value.halfWidth || mean == 0) return jobs::Verdict::inconclusive;
   const support::Estimate share{error.change.value / mean, error.change.halfWidth / mean};
   return seeded ? judgeSeeds(share, bar, error.seeds) : jobs::judge(share, bar);
 }
@@ -136,17 +136,17 @@ private:
     const std::vector<double> values = refined(0);
     if (values.size() < 2) return;
     const StepError e = stepError(values);
-    // The bar covers the change and its uncertainty.
+    // The bar includes the change and its uncertainty.
     const double rest = std::max(0.0, e.bar - std::fabs(e.change));
     add({CheckAxis::step, {e.change, rest}, e.order, 1, std::max(e.bar, std::fabs(e.change)), {}});
   }
 
-  /// Changes from case `from` to case `to` over the common seeds of all three cases; the third is optional.
+  /// Changes from case `from` to case `to`, over the common seeds of all three cases; the third case is optional.
   std::vector<double> changes(std::size_t from, std::size_t to, std::optional<std::size_t> third) const {
     return values_.changes(from, to, third);
   }
 
-  /// Error of the step at the base, from h to h/2 and, if available for the same seeds, from 2 h to h.
+  /// Error of the base's step, from the changes from h to h/2 and, if available for the same seeds, from 2 h to h.
   ScatteredStepError scatteredAtBase(std::size_t& seeds) const {
     const auto fine = stepCase(cases_, 1), coarse = stepCase(cases_, -1);
     const std::vector<double> both = coarse ? changes(0, *fine, coarse) : std::vector<double>{};
@@ -170,7 +170,7 @@ private:
     const std::vector<double> change = changes(0, c, std::nullopt);
     if (change.empty()) return;
     const support::Estimate changed = over(change);
-    // First order: the error of the finer grid equals its difference from the coarser one.
+    // First order: the error of the finer grid equals its difference from the coarser grid.
     const double unseen = axis == CheckAxis::nodeSpacing ? kStepUnseen : 1;
     add({axis,
          changed,
@@ -180,7 +180,7 @@ private:
          {}});
   }
 
-  /// Scatter of the figure with the soil constants: prediction interval of one more sample.
+  /// Scatter of the figure due to the soil constants: prediction interval for one more sample.
   void addParameter() {
     std::vector<double> samples;
     for (std::size_t c = 1; c < cases_.cases.size(); ++c) {
@@ -204,7 +204,7 @@ private:
     return cases_.seeded ? jobs::interval(change, asked_.levels.change) : support::Estimate{change.front(), 0};
   }
 
-  /// Error bar of the figure at the step of case c with the other settings of the base.
+  /// Error bar of the figure at the step of case c, with all other settings as in the base.
   double barOfStep(std::size_t c) const {
     const int refinement = cases_.cases[c].refinement;
     if (!cases_.seeded) {

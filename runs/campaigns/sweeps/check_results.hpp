@@ -11,25 +11,25 @@
 #include <string>
 #include <vector>
 
-/// Figures of a scene with error bars, from the runs of a check.
+/// Figures of a scene with error bars, computed from the runs of a check.
 namespace grouser::sweeps {
 
-/// The runs of a check: each case with its selected seeds.
+/// Runs of a check: each case with its selected seeds.
 struct CheckRuns {
-  SweepPlan plan;                   ///< keys: kCaseKey, kSeedKey
+  SweepPlan plan;                   ///< with the keys kCaseKey and kSeedKey
   std::vector<std::size_t> caseOf;  ///< [runs] index into CheckCases::cases
   std::vector<std::int64_t> seedOf; ///< [runs]
-  std::vector<RunSeries> series;    ///< [runs] series of finished runs; all rows if hasPartInSeries(), else the last
+  std::vector<RunSeries> series;    ///< [runs] series of finished runs; if not hasPartInSeries(), only the last row
 };
 
-/// The runs of each case, ordered by seed.
+/// Runs of each case, ordered by seed.
 class RunsByCase {
 public:
   /// `cases`: number of cases.
   RunsByCase(const CheckRuns& runs, std::size_t cases);
   /// All runs of a case.
   std::vector<std::size_t> of(std::size_t aCase) const;
-  /// Runs of these cases for each common seed, in the order of the cases; one pass.
+  /// For each seed that these cases have in common, the runs in the order of the cases.
   std::vector<std::vector<std::size_t>> sharing(const std::vector<std::size_t>& cases) const;
 
 private:
@@ -43,46 +43,46 @@ private:
 /// Error of a figure by one axis.
 struct AxisError {
   CheckAxis axis = CheckAxis::step;
-  support::Estimate change;    ///< change from base to other setting, in the figure's unit; extrapolated to zero step
-                               ///< with an observed order
+  support::Estimate change;    ///< change from the base to the other setting, in the figure's unit; if an order is
+                               ///< observed, extrapolated to zero step
   std::optional<double> order; ///< observed order of the step
-  int seeds = 0;               ///< number of pairs of runs
+  int seeds = 0;               ///< number of seeds with runs of both cases
   double bar = 0;              ///< error bar: |change| + half width; for the step see check_errors
-  jobs::Verdict verdict = jobs::Verdict::notShown; ///< compares the change with the bar
+  jobs::Verdict verdict = jobs::Verdict::inconclusive; ///< compares the change with the bar
 };
 
 struct CheckFigure {
   std::string name;        ///< with its unit: "sinkage mean [m]"
-  support::Estimate value; ///< value of the base; half width over the seeds, 0 without seed dependence
-  double scale = 0;        ///< largest value of all figures with its unit, for the rounding threshold
+  support::Estimate value; ///< value of the base; half width over seeds, 0 without seed dependence
+  double scale = 0;        ///< largest value of all figures in the same unit, for the rounding threshold
   int seeds = 0;           ///< number of runs
   std::vector<AxisError> errors;
-  /// totalBar() of all axes, with seed dependence without precision; infinite without seed dependence and finer step.
+  /// totalBar() of all axes (with seed dependence except precision). Infinite without seed dependence and finer steps.
   double bar = 0;
   /// Error bar at each step of the step axis and the base, in the figure's unit; NaN if unknown.
   std::vector<double> barOfStep;
 };
 
-/// Whether results are bitwise equal with another skin.
+/// Whether results with another skin are bitwise equal.
 enum class SameBits { yes, no, notRun };
 
 struct CheckResults {
   bool seeded = false;
-  double percent = 5; ///< percentage of a figure's mean: the bar of the verdicts
+  double percent = 5; ///< percentage of a figure's mean: tolerance of the verdicts
   SeedLevels levels;  ///< levels of all intervals
   std::vector<CheckFigure> figures;
-  std::vector<std::size_t> stepCases; ///< cases of barOfStep: finished ones of the step axis, and the base
+  std::vector<std::size_t> stepCases; ///< cases of barOfStep: the base, and finished cases of the step axis
   SameBits skin = SameBits::notRun;
   std::string doubt; ///< reason why all figures are inconclusive, e.g. no run passed two teeth; else empty
 };
 
-/// "m" of "depth [m] at the end"; empty without unit.
+/// Unit in the name of a figure: "m" of "depth [m] at the end"; empty if there is none.
 std::string unitOf(const std::string& figure);
 
-/// `folder` contains the folders of the runs. Figures are those of the base runs.
+/// `folder` contains the folders of the runs. The base runs define the list of figures.
 CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
                           const std::filesystem::path& folder, double percent, const SeedLevels& levels = {});
-/// One figure without its scale; `column`: a column of a base run.
+/// One figure, without its scale. `column`: column of a base run.
 CheckFigure checkFigure(const CheckCases& cases, const RunsByCase& runs, const SweepFigures& figures,
                         std::size_t column, const CheckResults& asked);
 

@@ -14,7 +14,7 @@ namespace grouser::sweeps {
 
 namespace {
 
-/// A run's series and its seed.
+/// Series and seed of a run.
 struct Member {
   int refinement; ///< refinement of the step
   std::int64_t seed;
@@ -40,7 +40,7 @@ bool sameTimes(const RunSeries& a, const RunSeries& b) {
   return true;
 }
 
-/// Mean and half width; for reproducible runs the single value.
+/// Mean and half width; for reproducible runs, the single value.
 support::Estimate estimateOf(const std::vector<double>& values, bool seeded, double miss) {
   if (values.empty()) return {base::kNaN, base::kNaN};
   return seeded ? jobs::interval(values, miss) : support::Estimate{values.front(), 0};
@@ -67,7 +67,7 @@ double stepBar(const Cell& cell, bool seeded, double miss) {
   return changes.empty() ? base::kNaN : scatteredStepError(changes, {}, miss).bar;
 }
 
-/// One column of the members that have it.
+/// One column, from the members that have this column.
 struct Column {
   std::vector<const Member*> members;
   std::vector<const std::vector<double>*> values; ///< all rows, one column per member

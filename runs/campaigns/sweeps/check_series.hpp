@@ -12,24 +12,24 @@ namespace grouser::sweeps {
 struct SeriesWithBars {
   std::string name;          ///< with its unit
   std::vector<double> value; ///< mean over the seeds
-  std::vector<double> seeds; ///< half width of its 95 % interval; 0 without seed dependence
-  std::vector<double> step;  ///< half width of the error by the step: stepError(), or scatteredStepError() of h and h/2
-  std::vector<double> both;  ///< root of the sum of their squares; excludes other axes
+  std::vector<double> seeds; ///< half width of the 95 % interval over seeds; 0 without seed dependence
+  std::vector<double> step;  ///< half width of the step error: stepError(), or scatteredStepError() of h and h/2
+  std::vector<double> both;  ///< root sum of squares of both; excludes other axes
 };
 struct CheckSeries {
   std::vector<double> time; ///< [s]
   std::vector<SeriesWithBars> series;
 };
 
-/// Whether a case contributes to the series: the base and finer steps.
+/// Whether a case contributes to the series: true for the base and finer steps.
 bool hasPartInSeries(const CheckCase& aCase);
 
-/// Series of the base runs; unknown numbers are NaN. Series that finer runs lack or have at other times have no step
-/// error. `levels`: of the intervals over seeds.
+/// Series of the base runs; unknown numbers are NaN. A series has no step error if the finer runs lack it or have other
+/// output times. `levels`: levels of the intervals over seeds.
 CheckSeries checkSeries(const CheckCases& cases, const CheckRuns& runs, const std::vector<SweepOutcome>& outcomes,
                         const SeedLevels& levels = {});
 
-/// CSV text: time, and for each series its value and the three half widths.
+/// CSV text: time, and for each series the value and the three half widths.
 std::string seriesCsv(const CheckSeries& series);
 
 } // namespace grouser::sweeps

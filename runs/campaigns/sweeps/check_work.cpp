@@ -32,7 +32,7 @@ bool CheckWork::make(const std::vector<int>& seeds, const std::string& what) {
 }
 
 RunCosts CheckWork::pilot(CheckBeds& beds) {
-  const int few = record_.cases.seeded ? std::min(options_.mostSeeds(), kFewSeeds) : 1;
+  const int few = record_.cases.seeded ? std::min(options_.maxSeeds(), kFewSeeds) : 1;
   int seed = 0;
   while (seed < few && beds.keptSteps(0, seed)) ++seed;
   const bool settles = seed < few;
@@ -51,13 +51,12 @@ RunCosts CheckWork::pilot(CheckBeds& beds) {
   };
   RunCosts costs;
   costs.settling = part("wall_settling_s");
-  costs.run =
-      std::max(1e-3, wall - costs.settling - part("wall_cutting_s")); // sphere sets are generated once for all runs
-  // A cached bed records its number of steps, but not their wall time.
+  costs.run = std::max(1e-3, wall - costs.settling - part("wall_cutting_s")); // all runs share the sphere sets
+  // A cached bed records the number of its settling steps, but not their wall time.
   if (!settles) costs.settling = 1e-6 * part("microseconds_a_step") * static_cast<double>(*beds.keptSteps(0, 0));
   costs.beds = beds.numbers();
   costs.isKept = [&beds, seed, settles](int bed, int of) {
-    const bool justMade = settles && bed == 0 && of == seed; // settled by the first run: its cost counts
+    const bool justMade = settles && bed == 0 && of == seed; // settled by the first run: includes its cost
     return !justMade && beds.keptSteps(bed, of).has_value();
   };
   return costs;
@@ -80,7 +79,7 @@ void CheckWork::addRun(std::size_t c, int seedIndex) {
 void CheckWork::makeAdded(const std::string& what) {
   SweepOptions sweep = options_.sweep;
   sweep.made = made_;
-  // Both limits hold for the whole call, even if the first run underestimates the others.
+  // Both limits apply to the whole call, even if the cost of the first run underestimates that of the others.
   const double budget = options_.budget.empty() ? 0 : budgetSeconds(options_.budget);
   for (const double limit : {budget, options_.sweep.seconds}) {
     if (limit <= 0) continue;
@@ -97,7 +96,7 @@ void CheckWork::makeAdded(const std::string& what) {
     if (output::hasEnded(record_.outcomes[r].status)) read(r);
 }
 
-/// Reads the series of a run. A run with damaged files counts as failed and is repeated when the command is run again.
+/// Reads the series of a run. A run with damaged files counts as failed; repeating the command repeats the run.
 void CheckWork::read(std::size_t r) {
   const fs::path folder = record_.folder / record_.runs.plan.runs[r].name;
   try {

@@ -16,17 +16,17 @@ namespace grouser::sweeps {
 
 class CheckWork {
 public:
-  /// `record` contains the cases and the scene file, and receives runs and outcomes; `fixed`: overrides of all runs.
+  /// `record`: contains cases and scene file, receives runs and outcomes. `fixed`: overrides of all runs.
   CheckWork(const CheckOptions& options, const std::vector<std::string>& fixed, std::int64_t firstSeed,
             CheckRecord& record)
       : options_(options), fixed_(fixed), firstSeed_(firstSeed), record_(record) {}
 
-  /// Performs missing runs up to these seeds of each case [cases]; `what`: label of the progress lines. Returns whether
-  /// all have ended or failed; false if the time limit of this call was reached.
+  /// Performs the missing runs up to these numbers of seeds [cases]. `what`: label of the progress lines. Returns true
+  /// if all runs have ended or failed, false if this call reached its time limit.
   bool make(const std::vector<int>& seeds, const std::string& what);
 
-  /// Performs a base run and returns the costs of runs estimated from it. Prefers a seed without cached bed, so that
-  /// the costs include settling.
+  /// Performs a base run and estimates the costs of all runs from it. Prefers a seed without a cached bed, so that the
+  /// costs include settling.
   RunCosts pilot(CheckBeds& beds);
 
   /// Whether the base has a finished run.

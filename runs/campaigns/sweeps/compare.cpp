@@ -35,11 +35,11 @@ constexpr const char *kText = "compare.txt", *kTable = "compare.csv", *kJson = "
 /// A variant of the scene.
 struct Variant {
   std::string option, word;
-  bool random; ///< it has a run for each seed
+  bool random; ///< whether it has one run per seed
   std::vector<std::string> overrides;
 };
 
-/// Calls `make` and adds the variant to its error messages.
+/// Calls `make` and adds the variant to error messages.
 template <class Make> auto naming(const std::string& option, const std::string& word, const Make& make) {
   try {
     return make();
@@ -62,7 +62,7 @@ std::vector<Variant> variantsOf(const fs::path& scene, const CompareOptions& opt
   return variants;
 }
 
-/// Values of an option: at least two, all different.
+/// Values of an option: at least two, without duplicates.
 template <class Enum>
 std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::string& option, const char* what) {
   std::vector<Enum> values;

@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Figures in the text table; the files have all.
+/// Figures of the text table; the files contain all figures.
 constexpr const char* kShown[] = {"speed [m/s]",           "slip [-]",           "sinkage mean [m]",
                                   "sinkage max [m]",       "drive torque [N m]", "drive power [W]",
                                   "tension mean [N]",      "gross traction [N]", "drawbar pull [N]",
@@ -44,7 +44,7 @@ double steadyPitch(const fs::path& folder, double from) {
   return count > 0 ? sum / count * 180 / base::kPi : base::kNaN;
 }
 
-/// Figures of a sweep, and the pitch.
+/// Figures of a sweep, plus the mean pitch.
 SweepFigures figuresOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes, const fs::path& folder) {
   SweepFigures figures = sweepFigures(plan, outcomes, folder);
   const auto hasVehicle = [](const SweepRun& run) { return run.scene.vehicle.has_value(); };
@@ -64,7 +64,7 @@ VariantResult resultOf(const std::string& variant, bool random, const SweepPlan&
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     if (plan.runs[i].values.front() == variant) runs.push_back(i);
   result.runs = static_cast<int>(runs.size());
-  figures.keepSound(runs), result.doubt = figures.doubtOf(runs);
+  figures.dropInconclusive(runs), result.doubt = figures.doubtOf(runs);
   for (const std::size_t i : runs) {
     if (!output::hasEnded(outcomes[i].status)) continue;
     const RunManifest manifest(folder / plan.runs[i].name);
@@ -101,7 +101,7 @@ VariantDifference differenceOf(const Comparison& all, std::size_t from, std::siz
   return difference;
 }
 
-/// Reason why a variant has no valid figures; empty if it has.
+/// Reason why a variant has no valid figures; else empty.
 std::string reasonWithoutFigures(const Comparison& all, const VariantResult& result) {
   if (!result.doubt.empty()) return result.doubt;
   for (std::size_t c = 0; c < all.columns.size(); ++c)
@@ -127,7 +127,7 @@ support::Estimate variantDifference(const VariantResult& a, const VariantResult&
 std::string variantVerdict(const support::Estimate& difference, double a, double b, double percent) {
   const double bar = percent / 100 * std::max(std::fabs(a), std::fabs(b));
   const jobs::Verdict verdict = jobs::judge(difference, bar);
-  return verdict == jobs::Verdict::notShown ? kInconclusive : jobs::verdictText(verdict);
+  return verdict == jobs::Verdict::inconclusive ? kInconclusive : jobs::verdictText(verdict);
 }
 
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,

@@ -14,20 +14,20 @@
 /// Figures of a scene in several variants (kinds of ground, contact methods), and their differences.
 namespace grouser::sweeps {
 
-/// One variant over its runs.
+/// Results of one variant over its runs.
 struct VariantResult {
   std::string variant;                     ///< "granular", "penalty"
-  bool random = false;                     ///< it has seeds; otherwise values have no interval
-  int runs = 0, ended = 0;                 ///< planned; with figures
-  std::string doubt;                       ///< reason why all its figures are inconclusive; else empty
+  bool random = false;                     ///< whether it has several seeds; otherwise values have no interval
+  int runs = 0, ended = 0;                 ///< planned runs; runs with figures
+  std::string doubt;                       ///< reason why all figures are inconclusive; else empty
   std::vector<support::Estimate> figures;  ///< [columns]; NaN if missing
   std::vector<std::vector<double>> values; ///< [columns][runs with a value]
-  double wallTime = 0;                     ///< mean over the runs, of their steps [s]
-  double preparation = 0, cpuTime = 0;     ///< mean wall time before the steps, CPU time of the steps [s]
-  double perSecond = 0;                    ///< wall time per simulated time [-]
+  double wallTime = 0;                     ///< wall time of the steps, mean over the runs [s]
+  double preparation = 0, cpuTime = 0;     ///< means of wall time before the steps, CPU time of the steps [s]
+  double perSecond = 0;                    ///< wall time / simulated time [-]
 };
 
-/// One variant less another.
+/// Difference between two variants: `to` minus `from`.
 struct VariantDifference {
   std::size_t from = 0, to = 0;           ///< indices of the variants
   std::vector<support::Estimate> changes; ///< [columns]; NaN if a variant lacks the value
@@ -40,21 +40,22 @@ struct Comparison {
   std::vector<VariantDifference> differences; ///< all pairs of variants
 };
 
-/// Difference b - a with its 95 % half width: Welch's interval between two samples, that of the other mean if one
-/// variant has no scatter, 0 if neither has.
+/// Difference b - a with its 95 % half width: Welch's interval between two samples; if one variant has no scatter, the
+/// half width of the other mean; 0 if neither has scatter.
 support::Estimate variantDifference(const VariantResult& a, const VariantResult& b, std::size_t column);
 
-/// Verdict on a difference by the bar `percent` of the larger of both means.
+/// Verdict on a difference with a tolerance of `percent` of the larger mean.
 std::string variantVerdict(const support::Estimate& difference, double a, double b, double percent);
 
-/// Value with its half width ("12.3 +- 0.4"); four digits if the half width is zero or infinite; "-" for NaN.
+/// Value with half width ("12.3 +- 0.4"); only the value, with four digits, if the half width is zero or infinite; "-"
+/// for NaN.
 std::string figureText(const support::Estimate& e);
 
-/// The first value of each run is its variant. `random`: variants with seeds.
+/// The first value of each run is its variant. `random`: variants with several seeds.
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                         const std::vector<std::string>& random, double percent, const std::filesystem::path& folder);
 
-/// Main figures, their differences, and the cost.
+/// Text of the main figures, their differences, and the cost.
 std::string comparisonText(const Comparison& comparison, double percent);
 /// One row per figure and pair of variants.
 std::string comparisonCsv(const Comparison& comparison);

@@ -26,7 +26,7 @@ const std::string* wordOf(const Node* section, const char* key) {
   return node ? std::get_if<std::string>(&node->value) : nullptr;
 }
 
-/// Returns true if a material has constants of deformable soil: its name, or its key soil, names a soil file.
+/// Returns true if a material has constants of deformable soil: its name or its key `soil` is that of a soil file.
 bool isSoil(const Node& root, const std::string& material, const std::filesystem::path& scene) {
   const Node* materials = root.find("material");
   const Node* own = materials ? materials->find(material) : nullptr;
@@ -36,7 +36,7 @@ bool isSoil(const Node& root, const std::string& material, const std::filesystem
   return !scene::findSoil(of ? *of : material, scene, tried).empty();
 }
 
-/// Throws InputError if the scene lacks a key that the ground needs. The loader checks all other keys.
+/// Throws InputError if the scene lacks a key that this kind of ground requires. The loader checks all other keys.
 void requireKeys(const Node& root, const std::filesystem::path& scene, TerrainKind ground) {
   const Node& terrain = *root.find("terrain");
   const auto missing = [&](const char* key, const char* unit) {
@@ -56,7 +56,7 @@ void requireKeys(const Node& root, const std::filesystem::path& scene, TerrainKi
                   scene.string(), *material));
 }
 
-/// Paths of the scene's keys that this kind of ground does not have.
+/// Paths of those keys of the scene that this kind of ground does not have.
 std::vector<std::string> foreignKeys(const Node& root, TerrainKind ground) {
   std::vector<std::string> found;
   if (ground != TerrainKind::scm && root.find(kScm)) found.emplace_back(kScm);
@@ -70,7 +70,7 @@ std::vector<std::string> foreignKeys(const Node& root, TerrainKind ground) {
   return found;
 }
 
-/// The key that an override sets or removes.
+/// Key that an override sets or removes.
 std::string changedKey(const std::string& set) {
   const std::string word = keyOf(set);
   return word.substr(word.starts_with('~'));

@@ -11,18 +11,18 @@
 /// One scene on several kinds of ground, or with several contact methods.
 namespace grouser::sweeps {
 
-/// Overrides that put a scene on this kind of ground: `sets` and terrain.kind, without the keys that only other kinds
-/// have. Those in the file are removed ("~terrain.depth"). Throws InputError, with the key and the --set that is
-/// missing, if the scene has no [terrain] or lacks what the ground needs.
+/// Overrides that select this kind of ground: `sets` and terrain.kind, without keys that only other kinds of ground
+/// have. Such keys in the scene file are removed ("~terrain.depth"). Throws InputError, with the missing key and --set,
+/// if the scene has no [terrain] or lacks keys that this kind of ground requires.
 std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const std::vector<std::string>& sets,
                                          scene::TerrainKind ground);
 
-/// The same for a sweep, whose lists may contain required keys; the lists are excluded from the result.
+/// The same for a sweep: its lists of values may contain required keys. The result excludes these lists.
 std::vector<std::string> groundOverrides(const std::filesystem::path& scene, const SweepLists& lists,
                                          const std::vector<std::string>& fixed, scene::TerrainKind ground);
 
-/// Overrides under which a scene has this contact method: `sets` and run.contact, without the keys that only the other
-/// method has. A method other than the scene's takes its automatic step, unless `sets` give one.
+/// Overrides that select this contact method: `sets` and run.contact, without keys that only the other method has. If
+/// the method differs from that of the scene, the time step is automatic, unless `sets` contain one.
 std::vector<std::string> contactOverrides(const std::filesystem::path& scene, const std::vector<std::string>& sets,
                                           scene::ContactMethod method);
 

@@ -35,7 +35,7 @@ namespace fs = std::filesystem;
 
 constexpr auto kCheck = support::KeptFiles::Kind::check;
 constexpr const char* kShippedChecks = "runs/scenes/checks";
-constexpr int kSeedsOfCheck = 8; // seeds of a full check
+constexpr int kSeedsOfCheck = 8; // number of seeds of a full check
 
 nlohmann::json readJson(const fs::path& path) {
   std::ifstream file(path);
@@ -47,14 +47,14 @@ double numberOrInfinity(const nlohmann::json& json, const char* key) {
   return at != json.end() && at->is_number() ? at->get<double>() : base::kInfinity;
 }
 
-/// Check of a scene of this origin that the user has run; not an object if there is none.
+/// Check that the user has run for a scene of this origin; not a JSON object if there is no such check.
 nlohmann::json usersCheck(const std::string& origin) {
   const auto kept = support::KeptFiles::ofUser();
   if (!kept) return {};
   return support::keptJson(*kept, kCheck, origin);
 }
 
-/// Check that comes with the program, from runs/scenes/checks; not an object if there is none.
+/// Check from runs/scenes/checks, installed with the program; not a JSON object if there is no such check.
 nlohmann::json shippedCheck(const std::string& origin) {
   const std::string hash = originHash(origin);
   std::error_code error;
@@ -66,7 +66,7 @@ nlohmann::json shippedCheck(const std::string& origin) {
   return {};
 }
 
-/// "step, depth, 8 seeds": contributions to the bar of a figure.
+/// "step, depth, 8 seeds": contributions to the error bar of a figure.
 std::string partsOf(const nlohmann::json& figure, bool seeded) {
   std::string text;
   for (const nlohmann::json& e : figure.at("errors"))
@@ -76,16 +76,16 @@ std::string partsOf(const nlohmann::json& figure, bool seeded) {
   return text;
 }
 
-/// `listed`: with the figures.
+/// `listed`: include the figures.
 std::string barsText(const nlohmann::json& kept, bool listed) {
-  constexpr int kMost = 12;
+  constexpr int kMax = 12;
   const nlohmann::json& check = kept.at("check");
   std::string text, parts;
   int printed = 0, more = 0;
   for (const nlohmann::json& f : check.at("figures")) {
     if (!f.value("headline", false) || !f.at("value").is_number()) continue;
-    if (++printed > kMost) ++more;
-    if (printed > kMost) continue;
+    if (++printed > kMax) ++more;
+    if (printed > kMax) continue;
     if (parts.empty()) parts = partsOf(f, check.at("seeds_matter").get<bool>());
     text += fmt::format("  {:<44} {}\n", f.at("name").get<std::string>(),
                         jobs::valueText({f.at("value").get<double>(), numberOrInfinity(f, "bar")}));
@@ -96,7 +96,7 @@ std::string barsText(const nlohmann::json& kept, bool listed) {
                      listed ? text : "");
 }
 
-/// The command that checks this scene, with its overrides.
+/// Command that checks this scene with its overrides.
 std::string commandOf(const scene::Scene& scene) {
   std::string text = fmt::format("grouser check {}", support::shellWord(scene.file.string()));
   for (const std::string& o : scene.overrides)
@@ -136,7 +136,7 @@ void keepCheck(const std::string& origin, const std::string& json, int runs, boo
                                               {"folder", fs::absolute(folder).lexically_normal().string()},
                                               {"check", check}}));
   } catch (const std::exception&) {
-    return; // later runs then print no error bars
+    return; // then later runs print no error bars
   }
 }
 
@@ -149,12 +149,12 @@ std::string checkNote(const scene::Scene& scene, const std::string& inputs, doub
   }
   const std::string whole = support::Progress::duration(runSeconds * runsOfWholeCheck(scene, kSeedsOfCheck));
   if (scene.vehicle && seedMatters(scene))
-    return fmt::format("no error bars yet; run: {} --bar 20% --of sinkage,torque (at least {}; without --of, for all "
-                       "figures: about {}; with --budget 20min: as much as fits)\n",
-                       commandOf(scene), support::Progress::duration(runSeconds * runsOfBarCases(scene, kFewSeeds)),
-                       whole);
-  return fmt::format("no error bars yet; run: {} (about {}; with --budget 20min: as much as fits)\n", commandOf(scene),
-                     whole);
+    return fmt::format(
+        "no error bars yet; for sinkage and torque (at least {}; without --of, all figures: about {}), run\n"
+        "  {} --bar 20% --of sinkage,torque\n",
+        support::Progress::duration(runSeconds * runsOfBarCases(scene, kFewSeeds)), whole, commandOf(scene));
+  return fmt::format("no error bars yet; to compute them (about {}; --budget 20min limits this), run\n  {}\n", whole,
+                     commandOf(scene));
 }
 
 nlohmann::json keptCheck(const scene::Scene& scene, const std::string& inputs) {

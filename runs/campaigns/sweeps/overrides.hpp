@@ -8,13 +8,13 @@
 /// Overrides of scene keys from the command line: "key=value".
 namespace grouser::sweeps {
 
-/// Position of the = between key and value; a quoted key may contain one. npos if missing.
+/// Position of the "=" between key and value; skips any "=" in a quoted key. npos if missing.
 std::size_t equalsSign(const std::string& set);
 
-/// The key, without quotes: contact."a|b".friction and contact.a|b.friction are equal.
+/// Key of an override without quotes: contact."a|b".friction and contact.a|b.friction are equal.
 std::string keyOf(const std::string& set);
 
-/// Throws InputError, with both values, if two overrides set the same key.
+/// Throws InputError, with both values in the message, if two overrides set the same key.
 void checkGivenOnce(const std::vector<std::string>& overrides);
 
 /// Adds `set`, replacing overrides of the same key.

@@ -26,7 +26,7 @@ nlohmann::ordered_json jsonNumber(double value) {
 /// Range of the hull's speed, for sprockets at constant speeds; null otherwise.
 nlohmann::ordered_json speedRange(const scene::Scene& scene, const std::array<double, 2>& range) {
   const scene::Driver& driver = scene.driver;
-  const bool isConstant = setup::asksToDrive(scene) && !driver.course && !driver.table && !driver.torqueTable;
+  const bool isConstant = setup::commandsDrive(scene) && !driver.course && !driver.table && !driver.torqueTable;
   return isConstant && range[0] <= range[1] ? nlohmann::ordered_json(range) : nullptr;
 }
 

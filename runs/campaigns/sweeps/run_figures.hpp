@@ -7,11 +7,11 @@
 
 namespace grouser::sweeps {
 
-/// Figures of one finished run as in summary.csv, with the error bars of the last check of its scene. As JSON:
-/// `figures`, each with `name` (with unit) and `value` (null: none); `inconclusive`: the reason, empty if valid;
-/// `steady_from` [s], start of the steady part; `speed_range` [m/s], minimum and maximum of the hull's speed in it, or
-/// null; `check`: the last check (sweeps::keptCheck()), or null; `note`: why there are no figures, e.g. an unreadable
-/// scene. Throws nothing.
+/// Figures of one finished run as in summary.csv, with the last check of its scene. JSON entries: `figures`, each with
+/// `name` (with unit) and `value` (null if missing); `inconclusive`: reason, empty if the figures are valid;
+/// `steady_from` [s]: start of the steady part; `speed_range` [m/s]: minimum and maximum speed of the hull in the
+/// steady part, or null; `check`: result of sweeps::keptCheck(), or null; `note`: reason why there are no figures, e.g.
+/// an unreadable scene. Does not throw.
 nlohmann::ordered_json runFigures(const std::filesystem::path& folder);
 
 } // namespace grouser::sweeps

@@ -8,7 +8,7 @@
 
 namespace grouser::sweeps {
 
-/// manifest.json of a run's folder; every entry is missing if the file is missing or damaged.
+/// manifest.json of a run's folder. If the file is missing or damaged, all entries count as missing.
 class RunManifest {
 public:
   explicit RunManifest(const std::filesystem::path& folder);
@@ -17,8 +17,8 @@ public:
   double figure(const char* key) const;    ///< entry of the run's figures; NaN if missing
   std::string text(const char* key) const; ///< empty if missing
   std::string commit() const;              ///< commit of the program; empty if missing
-  /// All steps of the run over its timed ones: a resumed run is timed from its checkpoint. Excludes steps before a
-  /// branch.
+  /// Number of all steps / number of timed steps: the wall time of a resumed run starts at its checkpoint. Excludes
+  /// steps before a branch.
   double stepsOverTimed() const;
   double wallTime() const; ///< wall time of all steps, extrapolated for a resumed run [s]; NaN if missing
 

@@ -8,11 +8,11 @@
 /// Progress of runs in other processes.
 namespace grouser::sweeps {
 
-/// Expected simulated time at the end of a run [s], at most run.duration, which few runs with [stop] reach.
+/// Expected simulated time at the end of a run [s]; at most run.duration. Most runs with [stop] end earlier.
 double expectedEnd(const SweepRun& run);
 
-/// Relative work of a run in a sweep: expectedEnd() times grains, a vehicle counting as twenty thousand grains [grain
-/// s]. Ignores time steps and settling.
+/// Relative work of a run in a sweep [grain s]: expectedEnd() times the number of grains; a vehicle counts as twenty
+/// thousand grains. Ignores time steps and settling.
 double workOf(const SweepRun& run);
 
 /// Simulated time of the last row in the folder [s]; 0 without rows.

@@ -56,7 +56,7 @@ Table readTable(const fs::path& path) {
   return table;
 }
 
-/// Whether the first output has few grains; reads only that part of the file.
+/// Whether the first output time has few grains; reads only that part of the file.
 bool hasFewGrains(const fs::path& path) {
   std::ifstream file(path);
   std::string line, first;

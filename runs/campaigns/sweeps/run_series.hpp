@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-/// Time series of a run, from its text files.
+/// Time series of a run, read from its text files.
 namespace grouser::sweeps {
 
-/// Rows of a run; a number that is missing is NaN.
+/// Rows of a run; missing numbers are NaN.
 struct RunSeries {
-  std::vector<std::string> columns;        ///< name and unit, as in timeseries.csv: "vehicle.left.slip [-]"
+  std::vector<std::string> columns;        ///< names with units as in timeseries.csv: "vehicle.left.slip [-]"
   std::vector<double> time;                ///< [s]
   std::vector<std::vector<double>> values; ///< [columns][rows]
 
@@ -20,11 +20,11 @@ struct RunSeries {
   void keepEnd();
 };
 
-/// Up to this number, each grain has its own columns: "grain.3.position.z [m]".
+/// Up to this number of grains, each grain has separate columns: "grain.3.position.z [m]".
 inline constexpr std::size_t kGrainsWithSeries = 20;
 
-/// Reads timeseries.csv of a run's folder, and grains.csv with at most kGrainsWithSeries grains that are always
-/// present. Throws base::InputError for an invalid line.
+/// Reads timeseries.csv of a run's folder; also grains.csv, if it has at most kGrainsWithSeries grains, for grains that
+/// are present in all rows. Throws base::InputError for an invalid line.
 RunSeries readSeries(const std::filesystem::path& folder);
 
 } // namespace grouser::sweeps

@@ -38,7 +38,7 @@ namespace {
 
 using output::RunStatus;
 
-/// Status of this run by this program in the folder; pending if there is none.
+/// Status of this run in the folder; pending if the folder has no such run by this program.
 RunStatus statusOf(const fs::path& folder, const SweepRun& run) {
   const scene::Scene& scene = run.scene;
   const RunManifest manifest(folder);
@@ -64,7 +64,7 @@ void checkRunFolder(const fs::path& folder) {
         folder.string()));
 }
 
-/// A sweep in the folder of a run would hide its results.
+/// Throws if the folder is that of a run: a sweep would hide its results.
 void requireNoRun(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / "manifest.json", error))
@@ -76,7 +76,7 @@ base::Cause causeIn(const RunManifest& manifest) {
   return base::valueOf<base::Cause>(manifest.text("cause")).value_or(base::Cause::unknown);
 }
 
-/// Waits until no run writes into this folder: runs of a killed sweep still write their checkpoints.
+/// Waits until no run writes to this folder: runs of a killed sweep still write their checkpoints.
 void awaitFormer(const fs::path& folder) {
   constexpr auto kPatience = std::chrono::seconds(60);
   constexpr auto kLook = std::chrono::milliseconds(20);
@@ -91,7 +91,7 @@ void awaitFormer(const fs::path& folder) {
   }
 }
 
-/// Reason why a run failed: its error message if it printed one.
+/// Reason why a run failed: the error message that the run printed, if any.
 std::string reason(const support::ProcessEnd& end, const fs::path& log) {
   const std::string mark = "grouser: error: ";
   std::string message;
@@ -102,7 +102,7 @@ std::string reason(const support::ProcessEnd& end, const fs::path& log) {
   return message.empty() ? fmt::format("{}; see {}", end.text(), log.string()) : message;
 }
 
-/// Whether a signal stopped a run, which can be resumed: exit code 128 + signal.
+/// Whether a signal stopped the run, so that it can be resumed: exit code 128 + signal.
 bool hasStopped(const support::ProcessEnd& end) { return end.status > 128; }
 
 std::ptrdiff_t countEnded(const std::vector<SweepOutcome>& outcomes) {
@@ -115,7 +115,7 @@ bool mayUseGpu(const SweepPlan& plan) {
                      [](const SweepRun& run) { return run.scene.run.device != support::DeviceChoice::cpu; });
 }
 
-/// The runs of a sweep as processes, at most `jobs` at a time.
+/// Performs the runs of a sweep as processes, at most `jobs` at a time.
 class Runner {
 public:
   Runner(const SweepPlan& plan, const SweepOptions& options, const std::string& what, const OutcomesChanged& changed)
@@ -207,9 +207,9 @@ private:
       throw base::InputError(fmt::format("{}: cannot create the folder ({}); choose another with --out",
                                          folder(i).string(), error.message()));
     awaitFormer(folder(i));
-    const bool goesOn = goesOn_.contains(i);
+    const bool continues = goesOn_.contains(i);
     // Results of an earlier run must not be mistaken for those of this one.
-    if (!goesOn)
+    if (!continues)
       for (const char* name : {"manifest.json", "results.h5", "timeseries.csv"}) fs::remove(folder(i) / name);
     support::Program program{{options_.program.string(), "run", fileOf(i).string()}};
     std::vector<std::string>& words = program.words;
@@ -217,20 +217,20 @@ private:
     if (options_.jobs > 1 && plan_.runs[i].scene.run.threads == 0)
       putOverride(overrides, fmt::format("run.threads={}", std::max(1, base::cpuExec().threads / options_.jobs)));
     for (const std::string& o : overrides) words.insert(words.end(), {"--set", o});
-    words.insert(words.end(), {"--out", folder(i).string(), goesOn ? "--resume" : "--force", "--hash"});
+    words.insert(words.end(), {"--out", folder(i).string(), continues ? "--resume" : "--force", "--hash"});
     if (plan_.runs[i].untilRest) words.insert(words.end(), {"--until", "rest"});
-    if (const auto& from = plan_.runs[i].from; from && !goesOn) words.insert(words.end(), {"--resume", from->file});
+    if (const auto& from = plan_.runs[i].from; from && !continues) words.insert(words.end(), {"--resume", from->file});
     const int place = freePlace();
     program.environment = gpus_.environment();
     program.environment.emplace_back(support::kFirstGpu, support::firstGpuOf(place));
-    program.log = folder(i) / kRunLog, program.append = goesOn;
-    if (goesOn) progress_.note(fmt::format("{} resumes from its checkpoint", title(i)));
+    program.log = folder(i) / kRunLog, program.append = continues;
+    if (continues) progress_.note(fmt::format("{} resumes from its checkpoint", title(i)));
     running_.emplace_back(i, place, program);
     outcomes_[i].status = RunStatus::running;
     changed_(outcomes_);
   }
 
-  /// First free slot: the next run uses the GPU of a finished one.
+  /// First free slot: the next run uses the GPU of a finished run.
   int freePlace() const {
     const auto isTaken = [&](int place) {
       return std::any_of(running_.begin(), running_.end(), [&](const Running& r) { return r.place == place; });
@@ -266,7 +266,7 @@ private:
     return true;
   }
 
-  /// Stops the runs, which finish their step and write their checkpoints.
+  /// Stops the runs: each finishes its current step and writes a checkpoint.
   void stop(int signal) {
     stopping_ = true;
     for (Running& run : running_) run.process.terminate();

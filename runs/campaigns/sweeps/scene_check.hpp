@@ -5,9 +5,9 @@
 
 namespace grouser::sweeps {
 
-/// Throws InputError if a run of this scene would fail before its first step: reads height-map and vehicle spec, lays
-/// out bed and parts, chooses the step, builds the mechanism. Settles nothing. Unless `sizes` is false, first checks
-/// that the grains fit the memory of this machine, as their number is the cause of errors that follow.
+/// Throws InputError if a run of this scene would fail before its first step: reads height-map and vehicle file, lays
+/// out bed and parts, chooses the step, and builds the mechanism. Does not settle the bed. If `sizes`, first checks
+/// that the grains fit into the memory of this machine, because too many grains would cause other errors later.
 void checkScene(const scene::Scene& scene, bool sizes = true);
 
 } // namespace grouser::sweeps

@@ -8,7 +8,7 @@
 #include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/support/tell.hpp"
+#include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
 
@@ -36,14 +36,11 @@ std::string inconclusiveText(const SweepPlan& plan, const SweepFigures& figures)
                      count == 1 ? "is" : "are", first);
 }
 std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOutcome>& outcomes) {
-  const auto column = std::find(figures.columns.begin(), figures.columns.end(), "steady from [s]");
-  if (column == figures.columns.end()) return {};
-  const auto at = static_cast<std::size_t>(column - figures.columns.begin());
   int finished = 0, tooShort = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     if (!output::hasEnded(outcomes[i].status)) continue;
     ++finished;
-    if (!std::isfinite(figures.values[i][at])) ++tooShort;
+    if (!std::isfinite(figures.from[i])) ++tooShort;
   }
   if (tooShort == 0) return {};
   return fmt::format("note      {} of {} ended before the vehicle reached full speed, so they have no means over the "
@@ -51,7 +48,7 @@ std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOu
                      tooShort, base::counted(finished, "run"));
 }
 
-/// Warnings of the runs, from their logs: the first kShownWarnings texts, each with the number of runs that print it.
+/// Warnings in the logs of the runs: the first kShownWarnings texts, each with the number of runs that printed it.
 std::string runWarnings(const SweepPlan& plan, const fs::path& folder) {
   constexpr std::size_t kShownWarnings = 5;
   const std::string begin = "WARNING: ";
@@ -74,7 +71,7 @@ std::string runWarnings(const SweepPlan& plan, const fs::path& folder) {
   return all;
 }
 
-/// Warning for a plan with several seeds but without a random scene; else empty.
+/// Warning about several seeds if no scene of the plan is random; else empty.
 std::string seedsWarning(const SweepPlan& plan) {
   std::set<std::int64_t> seeds;
   for (const SweepRun& run : plan.runs) {
@@ -82,8 +79,8 @@ std::string seedsWarning(const SweepPlan& plan) {
     seeds.insert(run.scene.run.seed);
   }
   if (seeds.size() < 2) return {};
-  return "WARNING: nothing in these scenes is random, so the seeds give equal results and no error bars; remove them "
-         "and use grouser check\n";
+  return "WARNING: nothing in these scenes is random, so all seeds yield equal results without error bars; remove the "
+         "seeds, and run grouser check\n";
 }
 
 } // namespace
@@ -91,7 +88,7 @@ std::string seedsWarning(const SweepPlan& plan) {
 int runSweep(const SweepPlan& given, const SweepOptions& options) {
   if (!options.force) checkSweepFiles(options.folder);
   const SweepPlan plan = options.from ? branched(given, options) : given;
-  support::tell("{}", seedsWarning(plan));
+  support::printStderr("{}", seedsWarning(plan));
   const std::vector<SweepOutcome> outcomes = runMissing(
       plan, options, "sweep", [&](const std::vector<SweepOutcome>& now) { writeSummary(plan, now, options.folder); });
   // Files of an earlier sweep with other values.

@@ -3,14 +3,14 @@
 
 #include "runs/campaigns/sweeps/runner.hpp"
 
-/// Runs of one scene over the product of all values.
+/// Runs of one scene for all combinations of values.
 ///
-/// Each run is a process, so that a failure or crash does not affect others and all memory is released after it.
+/// Each run is a separate process: a failure or crash does not affect other runs, and its end releases all memory.
 namespace grouser::sweeps {
 
-/// Performs missing runs (runMissing()). Rewrites summary.csv after every run and, if seeds are swept, writes
-/// intervals.csv at the end. Returns the number of failed runs. Throws InputError before any run starts if the folder
-/// contains other files. With `options.from`, all runs branch from one state per seed.
+/// Performs missing runs (runMissing()). Rewrites summary.csv after each run; with several seeds, writes intervals.csv
+/// at the end. Returns the number of failed runs. Throws InputError before any run starts if the folder contains other
+/// files. With `options.from`, all runs of a seed branch from the same state.
 int runSweep(const SweepPlan& plan, const SweepOptions& options);
 
 } // namespace grouser::sweeps

@@ -11,7 +11,7 @@ inline constexpr const char *kSummaryFile = "summary.csv", *kSummaryPlot = "summ
                             *kIntervalsFile = "intervals.csv";
 inline constexpr std::array kSweepFiles = {kSummaryFile, kSummaryPlot, kIntervalsFile};
 
-/// Throws InputError if the folder contains any of these files not written by a sweep; does not modify the folder.
+/// Throws InputError if the folder contains files with these names that no sweep wrote; does not modify the folder.
 void checkSweepFiles(const std::filesystem::path& folder);
 
 } // namespace grouser::sweeps

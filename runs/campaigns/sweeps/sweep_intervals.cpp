@@ -19,7 +19,7 @@ namespace grouser::sweeps {
 
 namespace {
 
-/// Main figures of a vehicle; for surfaces, forces are shown.
+/// Main figures of a vehicle; for surfaces, the forces are the main figures.
 constexpr const char* kShown[] = {"sinkage mean [m]", "sinkage max [m]",    "slip [-]",
                                   "speed [m/s]",      "drive torque [N m]", "tension mean [N]"};
 
@@ -51,7 +51,7 @@ std::vector<std::pair<std::size_t, std::size_t>> pairsOf(const Members& a, const
   return pairs;
 }
 
-/// Adds to `of` the differences of the second from the first run of each pair.
+/// Adds to `of` the differences between the second and the first run of each pair.
 void addDifference(const SweepFigures& figures, const std::vector<std::pair<std::size_t, std::size_t>>& pairs,
                    std::size_t column, SeedGroup& of) {
   std::vector<double> first, second;
@@ -79,7 +79,7 @@ std::string doubtOf(const SeedGroup& group, std::size_t column) {
   return !group.doubt.empty() ? group.doubt : jobs::isInconclusive(figure) ? "interval wider than the value" : "";
 }
 
-/// "+12.3 +- 0.4 %"; in the figure's unit if the first mean is not significant.
+/// "+12.3 +- 0.4 %"; in the figure's unit if the first mean does not differ significantly from zero.
 std::string differenceText(const support::Estimate& first, const SeedGroup& group, std::size_t column) {
   const support::Estimate &share = group.differences[column], &change = group.changes[column];
   const bool zero = !(std::fabs(first.value) > first.halfWidth) && std::isfinite(first.halfWidth);
@@ -110,7 +110,7 @@ SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& given) {
   }
   SweepFigures figures = given;
   for (std::size_t g = 0; g < members.size(); ++g)
-    all.groups[g].doubt = figures.doubtOf(members[g].rows), figures.keepSound(members[g].rows);
+    all.groups[g].doubt = figures.doubtOf(members[g].rows), figures.dropInconclusive(members[g].rows);
   for (std::size_t g = 0; g < members.size(); ++g) {
     const std::vector<std::pair<std::size_t, std::size_t>> pairs = pairsOf(members[0], members[g]);
     for (std::size_t c = 0; c < all.columns.size(); ++c) {

@@ -14,8 +14,8 @@ namespace grouser::sweeps {
 /// One combination of the swept values, over its seeds.
 struct SeedGroup {
   std::vector<std::string> values;        ///< values of the keys except the seed
-  int runs = 0;                           ///< finished runs whose figures count
-  std::string doubt;                      ///< reason why all are inconclusive, see SweepFigures; else empty
+  int runs = 0;                           ///< number of finished runs with valid figures
+  std::string doubt;                      ///< reason why all figures are inconclusive, see SweepFigures; else empty
   std::vector<support::Estimate> figures; ///< one per SweepFigures column; infinite half width for one seed
   std::vector<support::Estimate>
       differences; ///< relative to the mean of the first group [-], paired by common seeds; NaN without such seeds
@@ -30,8 +30,8 @@ struct SeedIntervals {
 
 SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures);
 
-/// Writes intervals.csv: a row for each combination and figure with number of seeds, mean, half width, and the
-/// difference from the first combination in its unit and relative to its mean. Returns the path.
+/// Writes intervals.csv: one row per combination and figure, with number of seeds, mean, half width, and difference
+/// from the first combination (in the figure's unit, and relative to the first mean). Returns the path.
 std::filesystem::path writeIntervals(const SeedIntervals& intervals, const std::filesystem::path& folder);
 
 /// Text table of the main figures.

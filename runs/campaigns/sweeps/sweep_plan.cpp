@@ -20,7 +20,7 @@ using base::InputError;
 
 namespace {
 
-constexpr std::size_t kLongestName = 120; // length of folder names; the file system allows 255
+constexpr std::size_t kLongestName = 120; // maximum length of folder names; file systems allow 255
 
 /// One value of an axis.
 struct Point {
@@ -50,7 +50,7 @@ Axis axisOf(const std::string& set) {
   return axis;
 }
 
-/// Whether this is a valid folder name, different from the sweep's files, . and ..
+/// Whether this is a valid folder name that differs from the sweep's files, from . and from ..
 bool isFolderName(const std::string& label) {
   const std::string plain = plainText(label);
   return plain.find_first_not_of('.') != std::string::npos &&
@@ -124,7 +124,7 @@ void checkKeysApart(const std::vector<Axis>& axes) {
 
 std::string lastWord(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
-/// Last word of the key if unique, else the whole key; also for numbers of list entries.
+/// Last word of the key; the whole key if this word is not unique or is the number of a list entry.
 std::string shortName(const std::string& key, const std::vector<Axis>& axes) {
   const std::string last = lastWord(key);
   const auto alike = std::count_if(axes.begin(), axes.end(), [&](const Axis& a) { return lastWord(a.key) == last; });
@@ -145,8 +145,8 @@ std::string folderName(const std::vector<Axis>& swept, const std::vector<std::st
   return unique;
 }
 
-/// Reason why a run with these overrides is invalid; empty if valid. Reads spec and height-map, lays out the bed and
-/// chooses the step.
+/// Reason why a run with these overrides is invalid; empty if it is valid. Reads vehicle file and height-map, lays out
+/// the bed, and chooses the step.
 std::string faultOf(const std::filesystem::path& file, const std::vector<std::string>& overrides, scene::Scene& scene) {
   try {
     scene = setup::loadScene(file, overrides);
@@ -157,7 +157,7 @@ std::string faultOf(const std::filesystem::path& file, const std::vector<std::st
   }
 }
 
-/// Error message that names --case NAME instead of --set for the keys of a case.
+/// Error message that mentions --case NAME instead of --set for the keys of a case.
 std::string namedFault(const std::string& fault, const std::string& name) {
   const std::string set = "--set";
   if (fault.rfind(set + " ", 0) == 0) return fmt::format("--case {}:{}", name, fault.substr(set.size()));

@@ -18,7 +18,7 @@ struct SweepLists {
   std::vector<std::string> sets = {}; ///< "key=value,value..."
   std::vector<std::string> cases =
       {};        ///< "NAME: key=value, key=value": keys that change together; a name without keys: unchanged
-  int seeds = 0; ///< each combination with run.seed 1 to this number; 0: the seed of the scene
+  int seeds = 0; ///< runs each combination with run.seed = 1 to this number; 0: seed of the scene
 };
 
 inline constexpr const char* kCaseKey = "case";               ///< key of the cases
@@ -31,10 +31,10 @@ struct SweepRun {
   std::vector<std::string> values;            ///< as given, one per swept key
   std::vector<std::string> overrides;         ///< "key=value", swept and fixed
   scene::Scene scene;                         ///< with the overrides applied
-  std::filesystem::path file{};               ///< scene file; empty: that of the plan
+  std::filesystem::path file{};               ///< scene file; empty: scene file of the plan
   bool untilRest = false;                     ///< the run stops before its drive
   std::optional<storage::BranchPoint> from{}; ///< initial state
-  double expectedEnd = 0;                     ///< expected simulated time at its end [s]; 0: run.duration
+  double expectedEnd = 0;                     ///< expected simulated time at the end [s]; 0: run.duration
 };
 
 struct SweepPlan {
@@ -43,7 +43,7 @@ struct SweepPlan {
   std::vector<SweepRun> runs;    ///< the last key changes fastest
 };
 
-/// Splits at commas outside quotes, brackets and braces: "[1, 2],[3, 4]" has two values.
+/// Splits a list at commas outside quotes, brackets and braces: "[1, 2],[3, 4]" has two values.
 std::vector<std::string> splitValues(std::string_view list);
 
 /// A key with a list of values.
@@ -58,9 +58,9 @@ KeyValues keyValues(const std::string& set, const std::string& option, const std
 /// Replaces each run of characters that are unsafe in folder names by an underscore.
 std::string plainText(const std::string& text);
 
-/// Plans the runs of `scene` over the product of all lists; loads and checks every scene as `grouser plan` does. A
-/// --set key with one value is fixed, unless no key has several values. `fixed`: overrides for all runs. Throws
-/// InputError for the first invalid value, a duplicate key, or an empty sweep.
+/// Plans the runs of `scene` for all combinations of the lists; loads and checks each scene as `grouser plan` does. A
+/// key with a single value in --set is fixed, unless all keys have a single value. `fixed`: overrides for all runs.
+/// Throws InputError for an invalid value, a duplicate key, or an empty sweep.
 SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
                     const std::vector<std::string>& fixed = {});
 

@@ -48,7 +48,7 @@ public:
     while (first_ < times_.size() && !(times_[first_] >= from)) ++first_;
     part_ = first_, first_ = firstOfWholeTeeth();
   }
-  /// Start of the means [s]; NaN without a file.
+  /// Start of the interval of the means [s]; NaN without a file.
   double from() const { return !file_ ? base::kNaN : first_ > part_ ? times_[first_ - 1] : from_; }
   Spread of(const std::string& path) const {
     Spread spread;
@@ -77,14 +77,14 @@ public:
         sum = std::isfinite(sum) ? sum + mean : mean;
     return sum;
   }
-  /// Teeth that pass the sprocket of each track in the whole steady part, forward and backward alike [-].
+  /// Number of teeth that pass the sprocket of each track in the whole steady part, forward or backward [-].
   Spread teeth() const {
     Spread spread;
     for (const std::string side : {"left", "right"})
       if (const std::vector<double> until = teethUntilEnd(side); part_ < until.size()) spread.add(until[part_]);
     return spread;
   }
-  /// Common slip of both tracks: 1 - hull travel over sprocket travel, in the direction of each track.
+  /// Common slip of both tracks: 1 - hull travel / sprocket travel, in the direction of each track.
   double slip() const {
     double went = 0, asked = 0;
     for (const std::string side : {"left", "right"}) {
@@ -97,7 +97,7 @@ public:
     }
     return asked > 0 ? 1 - went / (asked * constant("vehicle/pitch_radius")) : base::kNaN;
   }
-  /// Minimum and maximum of the hull's speed, averaged over the tracks [m/s]; infinite and reversed without one.
+  /// Minimum and maximum of the hull's speed [m/s], averaged over the tracks; infinite and reversed without a vehicle.
   std::array<double, 2> speedRange() const {
     const std::vector<double> left = rows("vehicle/left/speed"), right = rows("vehicle/right/speed");
     const std::vector<double>& one = left.empty() ? right : left;
@@ -108,7 +108,7 @@ public:
         range = {std::min(range[0], speed), std::max(range[1], speed)};
     return range;
   }
-  /// Whether the direction of motion changes: gross traction has the sign of the torques when driving forward.
+  /// Whether the direction of motion changes: gross traction has the sign of the torques only in forward motion.
   bool turnsRound() const {
     const std::vector<double> traction = rows("vehicle/gross_traction"), left = rows("vehicle/left/mean_torque"),
                               right = rows("vehicle/right/mean_torque");
@@ -140,7 +140,7 @@ private:
     const std::string dataset = "/" + path + "/value";
     return file_ && file_->has(dataset) ? file_->numbers(dataset) : std::vector<double>{};
   }
-  /// Teeth that pass the sprocket of a track between each row and the last one [-].
+  /// Number of teeth that pass the sprocket of a track between each row and the last row [-].
   std::vector<double> teethUntilEnd(const std::string& side) const {
     std::vector<double> teeth = numbers("vehicle/" + side + "/teeth_passed");
     double sum = 0;
@@ -150,8 +150,8 @@ private:
     }
     return teeth;
   }
-  /// First row of the whole number of teeth, or nearly so, at the end of the steady part: a mean over a part of a tooth
-  /// contains its share of the ripple. The interval of a row ends at its time.
+  /// First row of the (nearly) whole number of teeth at the end of the steady part: a mean over a fraction of a tooth
+  /// would contain a part of the ripple. The interval of a row ends at the time of the row.
   std::size_t firstOfWholeTeeth() const {
     for (const std::string side : {"left", "right"}) {
       const std::vector<double> until = teethUntilEnd(side);
@@ -171,13 +171,13 @@ private:
   }
 
   const support::Hdf5File* file_;
-  double from_; ///< [s]
+  double from_; ///< start of the steady part [s]
   std::vector<double> times_;
   std::size_t part_ = 0;  ///< first row of the steady part
   std::size_t first_ = 0; ///< first row of the means
 };
 
-/// Columns along the direction of motion.
+/// Figures measured along the direction of motion.
 constexpr std::array kAlongMotion{"gross traction [N]", "drawbar pull [N]", "motion resistance [N]"};
 constexpr const char* kTurned = "direction of motion changes: gross traction, drawbar pull, motion resistance";
 
@@ -186,10 +186,10 @@ struct Figure {
   double value;
 };
 
-/// Vehicle and surfaces of all runs of a sweep, which determine the columns.
+/// Vehicle and surfaces of all runs of a sweep; they determine the columns.
 struct Columns {
   bool vehicle = false;
-  std::vector<std::string> surfaces; ///< their names
+  std::vector<std::string> surfaces; ///< names
 
   explicit Columns(const SweepPlan& plan) {
     for (const SweepRun& run : plan.runs) {
@@ -244,7 +244,7 @@ std::vector<Figure> figuresOf(const Steady& steady, const Columns& columns) {
 /// Reason why figures of the steady part are inconclusive; empty if valid or missing.
 std::string doubtOf(const scene::Scene& scene, const SweepOutcome& outcome, double teeth) {
   if (outcome.status == output::RunStatus::incomplete) return outcome.message;
-  if (!setup::asksToDrive(scene) || !(teeth < setup::kFewestTeeth)) return {};
+  if (!setup::commandsDrive(scene) || !(teeth < setup::kFewestTeeth)) return {};
   return fmt::format("the steady part covers {:.2g} teeth, fewer than {:g}", teeth, setup::kFewestTeeth);
 }
 
@@ -323,7 +323,7 @@ std::string SweepFigures::doubtOf(std::size_t run) const {
   return inconclusive[run].empty() ? turned[run] : inconclusive[run];
 }
 
-void SweepFigures::keepSound(const std::vector<std::size_t>& runs) {
+void SweepFigures::dropInconclusive(const std::vector<std::size_t>& runs) {
   for (const std::size_t i : runs)
     for (std::size_t c = 0; i < turned.size() && !turned[i].empty() && c < columns.size(); ++c)
       if (std::find(kAlongMotion.begin(), kAlongMotion.end(), columns[c]) != kAlongMotion.end())

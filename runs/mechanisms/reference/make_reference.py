@@ -53,7 +53,7 @@ def andrews():
     d, da, e, ea, rr, ra = .028, .0115, .02, .01421, .007, 9.2e-4
     ss, sa, sb, sc, sd, ta, tb, u, ua, ub, zf, zt, fa = .035, .01874, .01043, .018, .02, .02308, .00916, .04, .01228, .00449, .02, .04, .01421
     sin, cos = numpy.sin, numpy.cos
-    # Every centre of mass and every point of closure is a sum of arms r (cos, sin)(sum of angles + phase).
+    # Each centre of mass and each closure point is a sum of arms r (cos, sin)(sum of angles + phase).
     B, T, G, P, D, O, E = range(7)
 
     def arm(length, *angles, phase=0.0):
@@ -133,7 +133,7 @@ def main():
                             [2 * (x * v - w * u), 2 * (u * v + w * x), 1 - 2 * (x * x + u * u)]])
         inertia = numpy.array([1, 2, 3])
         print(name, "angular momentum in the world off by", numpy.abs(turn @ (inertia * y[:3]) - inertia * spin).max())
-    print("andrews.csv: angles at 0.05 s", andrews(), "- the crank's is 33.8258677669525 in the literature")
+    print("andrews.csv: angles at 0.05 s", andrews(), "(literature value of the crank angle: 33.8258677669525)")
 
 
 if __name__ == "__main__":

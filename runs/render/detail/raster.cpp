@@ -42,7 +42,7 @@ Rectangle sphereBounds(const View& v, const Vec3f& c, float radius) {
 struct PlacedSphere {
   Vec3f centre_C;
   float radius;
-  float nearest; ///< depth of its nearest point
+  float nearest; ///< depth of the nearest point of the sphere
   Rectangle bounds;
   std::int32_t object;
 };
@@ -71,7 +71,7 @@ void draw(const PlacedSphere& sphere, int top, int bottom, Surfaces& s) {
     for (int column = sphere.bounds.left; column < sphere.bounds.right; ++column) {
       const std::size_t i = s.index(column, row);
       if (sphere.nearest >= s.depth[i]) continue;
-      // Foot point of the centre on the ray, then back along it: avoids differences of large squares.
+      // Foot point of the centre on the ray, then back along the ray: avoids differences of large squares.
       const Vec3f origin = v.perspective ? Vec3f{} : Vec3f{v.planeX(column), v.planeY(row), 0};
       const Vec3f along = v.perspective ? Vec3f{v.planeX(column), v.planeY(row), 1} : Vec3f{0, 0, 1};
       const float a = dot(along, along), foot = dot(c - origin, along) / a;
@@ -95,7 +95,7 @@ struct Polygon {
   void add(const Corner& c) { corner[count++] = c; }
 };
 
-/// The part of a triangle beyond the near plane: zero, three or four corners.
+/// Part of a triangle beyond the near plane: zero, three or four corners.
 Polygon clipped(const Facet& f, const View& view) {
   std::array<Corner, 3> in;
   Polygon out;
@@ -144,7 +144,7 @@ void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& li
     const auto [x0, x1] = std::minmax_element(t.x.begin(), t.x.end());
     const auto [y0, y1] = std::minmax_element(t.y.begin(), t.y.end());
     const auto clampTo = [](float p, int n) { return static_cast<int>(std::clamp(p, 0.0f, float(n))); };
-    // Pixels whose centre may be inside: most small triangles have none.
+    // Pixels with centres that may be inside: most small triangles have no such pixel.
     t.bounds = {clampTo(std::ceil(*x0 - 0.5f), view.width), clampTo(std::floor(*x1 + 0.5f), view.width),
                 clampTo(std::ceil(*y0 - 0.5f), view.height), clampTo(std::floor(*y1 + 0.5f), view.height)};
     t.object = facet.object, t.coloured = facet.coloured;
@@ -194,7 +194,7 @@ View viewTowards(const base::Vec3d& eye, const base::Vec3d& target, const base::
 
 namespace {
 
-/// Position index of each vertex: vertices at the same position share one.
+/// Position index of each vertex; vertices at the same position have the same index.
 std::vector<std::uint32_t> placesOf(const base::TriangleMesh& mesh, std::size_t& count) {
   std::vector<std::uint32_t> order(mesh.vertices.size()), place(mesh.vertices.size());
   std::iota(order.begin(), order.end(), 0u);

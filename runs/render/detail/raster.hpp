@@ -70,7 +70,7 @@ struct Facet {
   bool oneSided{}, coloured{};
 };
 
-/// All triangles of a scene; smooth shading between faces that differ by less than 35 degrees.
+/// All triangles of a scene; faces that differ by less than 35 degrees have smooth shading between them.
 std::vector<Facet> facetsOf(const RenderScene& scene);
 
 /// Renders all objects into the depth buffer.

@@ -10,15 +10,15 @@
 /// Checks shared by sections of several subjects.
 namespace grouser::scene::detail {
 
-/// Throws InputError unless `name` is a material of the scene; `key` is where the name stands.
+/// Throws InputError unless `name` is a material of the scene; `key`: key that contains the name.
 void requireMaterial(const Scene& scene, const base::Section& section, const std::string& key, const std::string& name);
 
 /// Makes `name` the absolute path of an existing file. Throws InputError with the searched paths.
 void resolveFile(const Scene& scene, const base::Section& section, const std::string& key, std::string& name);
 
 /// Reads the mesh at the absolute path `file`. `scale`: metres per unit of the file; `sphereRadius` [m], empty for the
-/// default; `centred`: moves the centre of the bounding box to the origin. Throws InputError that names the key: file,
-/// scale or sphere_radius.
+/// default; `centred`: moves the centre of the bounding box to the origin. Throws InputError at the key file, scale or
+/// sphere_radius.
 LoadedMesh loadMesh(const base::Section& section, const std::string& file, double scale,
                     const std::optional<double>& sphereRadius, bool centred);
 

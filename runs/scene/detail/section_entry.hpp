@@ -14,19 +14,19 @@
 #include <vector>
 
 /// Sections of a scene file: reading, checks, the resolved copy and the help iterate over one list of entries. The
-/// functions below make entries for the forms of a section in a file and in the Scene. `where` holds the sections: a
-/// member of Scene, or a function from a Scene to it.
+/// functions below make entries for single, optional, listed and named sections. `where` selects the data of the
+/// section: a member of Scene, or a function that returns a reference into a Scene.
 namespace grouser::scene::detail {
 
 struct SectionEntry {
-  std::string name; ///< in a file, without brackets; "driver.table" is part of another
-  std::function<void(const base::Section& root, Scene& scene)> read; ///< and check; throws InputError
+  std::string name; ///< in a file, without brackets; may be a subsection, "driver.table"
+  std::function<void(const base::Section& root, Scene& scene)> read; ///< reads and checks; throws InputError
   std::function<std::string(const Scene& scene)> write;              ///< TOML with headings
   std::function<std::string()> describe;                             ///< Markdown
-  std::function<void(base::Document& document)> renameKeys;          ///< that have a former name in files
-  std::vector<std::string> keys;                                     ///< with the section: "driver.table.time"
+  std::function<void(base::Document& document)> renameKeys;          ///< renames keys with a former name
+  std::vector<std::string> keys;                                     ///< full names: "driver.table.time"
 
-  /// Writes the section only if `holds`.
+  /// Writes the section only for scenes for which `holds` returns true.
   SectionEntry writtenIf(bool (*holds)(const Scene&)) && {
     write = [holds, always = std::move(write)](const Scene& s) { return holds(s) ? always(s) : std::string(); };
     return std::move(*this);
@@ -34,8 +34,8 @@ struct SectionEntry {
 };
 using SectionList = std::vector<SectionEntry>;
 
-/// Checks beyond a table's, and defaults that follow from other keys. `scene` has all sections that precede it in the
-/// list of entries.
+/// Checks that a table cannot express, and defaults that follow from other keys. `scene` contains all sections that
+/// precede this one in the list of entries.
 template <class S> using Check = std::function<void(const base::Section& section, S& s, const Scene& scene)>;
 template <class S> using CheckOf = std::type_identity_t<Check<S>>; // not deduced
 
@@ -45,7 +45,7 @@ template <class S> std::vector<std::string> fullKeys(const std::string& name, co
   return keys;
 }
 
-/// The section at a path such as "driver.table", where there is one.
+/// The section at a path such as "driver.table"; empty if there is none.
 inline std::optional<base::Section> findSection(const base::Section& root, const std::string& path) {
   const std::size_t dot = path.find('.');
   const std::string first = path.substr(0, dot);
@@ -76,7 +76,7 @@ std::function<void(const base::Section&, Scene&)> readerOfOne(const std::string&
   };
 }
 
-/// [name]: one, with its defaults where the file has none. `subsections` are part of it and have their own entries.
+/// Single section [name], with defaults if the file does not contain it. `subsections` have their own entries.
 template <class S, class Where> SectionEntry single(const std::string& name, Where where, const base::Table<S>& table,
                                                     CheckOf<S> check = {},
                                                     const std::vector<std::string>& subsections = {}) {
@@ -88,18 +88,18 @@ template <class S, class Where> SectionEntry single(const std::string& name, Whe
           fullKeys(name, table)};
 }
 
-/// [name], without which a file is no scene.
+/// Required section [name].
 template <class S, class Where>
 SectionEntry required(const std::string& name, Where where, const base::Table<S>& table, CheckOf<S> check = {}) {
   SectionEntry entry = single<S>(name, where, table, check);
   entry.read = [name, read = std::move(entry.read)](const base::Section& root, Scene& scene) {
-    root.section(name); // throws where it is missing
+    root.section(name); // throws if the section is missing
     read(root, scene);
   };
   return entry;
 }
 
-/// [name], that may be absent.
+/// Optional section [name].
 template <class S, class Where> SectionEntry optional(const std::string& name, Where where, const base::Table<S>& table,
                                                       CheckOf<S> check = {},
                                                       const std::vector<std::string>& subsections = {}) {
@@ -114,7 +114,7 @@ template <class S, class Where> SectionEntry optional(const std::string& name, W
           fullKeys(name, table)};
 }
 
-/// [[name]]: as many as there are, in the file's order.
+/// List of sections [[name]], in the order of the file.
 template <class S, class Where>
 SectionEntry list(const std::string& name, Where where, const base::Table<S>& table, CheckOf<S> check = {}) {
   return {name,
@@ -132,7 +132,8 @@ SectionEntry list(const std::string& name, Where where, const base::Table<S>& ta
           fullKeys(name, table)};
 }
 
-/// [name.KEY], in the file's order. `begin` makes a section with its key and initial values, `keyOf` returns the key.
+/// Sections [name.KEY], in the order of the file. `begin` makes a section with its key and initial values, `keyOf`
+/// returns the key.
 template <class S, class Where>
 SectionEntry named(const std::string& name, Where where, const base::Table<S>& table,
                    S (*begin)(const base::Section& section, const std::string& key, Scene& scene),
@@ -145,7 +146,7 @@ SectionEntry named(const std::string& name, Where where, const base::Table<S>& t
           },
           [=](const Scene& scene) {
             std::string text;
-            for (const S& s : std::invoke(where, scene)) // in quotes always, which is always allowed
+            for (const S& s : std::invoke(where, scene)) // TOML allows quotes for all keys
               text += written<S>(fmt::format("[{}.{}]", name, base::toToml(keyOf(s))), table, s);
             return text;
           },

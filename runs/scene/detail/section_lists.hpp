@@ -4,8 +4,8 @@
 #include "runs/scene/detail/section_entry.hpp"
 
 /// The sections of a scene file by subject, each list in the order in which its sections are read, written and
-/// described. A new section is a struct and a member in scene.hpp, and an entry in one of these lists; a new key is a
-/// member and a line of the section's table.
+/// described. A new section requires a struct and a member in scene.hpp, and an entry in one of these lists; a new key
+/// requires a member and a line in the section's table.
 namespace grouser::scene::detail {
 
 SectionList runSections();

@@ -16,25 +16,26 @@ base::Table<Material> materialTable();
 /// Checks of a material beyond its table, and the defaults of its law.
 void completeMaterial(const base::Section& section, Material& m);
 
-/// Adds [material.NAME] soil = "NAME" for each soil used as a material without a section of that name (overrides
-/// aside).
+/// Adds [material.NAME] soil = "NAME" for each soil that the scene uses as a material without a section [material.NAME]
+/// in its file.
 void supplySoils(base::Document& document, const std::filesystem::path& scene);
 
-/// The soil of [material.NAME], stored in the scene; null if it has none. Throws InputError.
+/// The soil of [material.NAME], which is then stored in the scene; null if the section has no key soil. Throws
+/// InputError.
 const Soil* soilOf(const base::Section& section, const std::string& name, Scene& scene);
 
-/// Values of the soil's file, without keys that contradict those of the scene's section: keys of the other law, or
-/// restitution and damping.
+/// Values of the soil's file, without keys that contradict the scene's section: keys of a different law, or restitution
+/// against damping.
 Material materialOf(const Soil& soil, const base::Section& section);
 
-/// Once all sections are read: scales values of soil files to the grains of the scene. Throws InputError if these have
-/// no common radius.
+/// Scales values of soil files to the grains of the scene. Call after all sections are read. Throws InputError if the
+/// grains of a soil have no common radius.
 void scaleSoils(Scene& scene);
 
 /// Calls `f` with key, unit, value and power of r for each value that scales with the grain radius r. Modulus,
-/// densities, coefficients of friction and restitution do not: strains under a pressure, and strength over it, are then
-/// the same at all sizes, and the time step scales with r. (Thakur et al. 2015; stiffness with r, forces of adhesion
-/// with r^2.)
+/// densities, coefficients of friction and restitution do not scale: strain under a given pressure and the ratio of
+/// strength to pressure are then the same at all grain sizes, and the time step is proportional to r. (Thakur et al.
+/// 2015; stiffness with r, forces of adhesion with r^2.)
 template <class M, class F> void forEachScaled(M&& m, F f) {
   f("stiffness", "N/m", m.stiffness, 1);
   f("damping", "1/s", m.damping, -1);

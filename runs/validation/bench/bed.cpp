@@ -43,17 +43,17 @@ double median(std::vector<double> values) {
 struct Radii {
   double mean, smallest, largest;
 };
-/// For radii uniform between mean (1 - s) and mean (1 + s) the mean cube is mean^3 (1 + s^2).
+/// For radii with a uniform distribution in mean (1 +- s), the mean of r^3 is mean^3 (1 + s^2).
 Radii radiiOf(const BedBench& b) {
   const double s = b.radiiSpread, mean = s > 0 ? b.radius * base::pow(1 + s * s, -1.0 / 3) : b.radius;
   return {mean, mean * (1 - s), mean * (1 + s)};
 }
 
-/// Springs and dashpots of grains of effective mass `mass` [kg].
+/// Contact law of grains with the effective mass `mass` [kg].
 contact::ContactLaw lawOf(const BedBench& b, double mass) {
   contact::ContactLaw law;
   const bool manyMasses = b.radiiSpread > 0;
-  // 2/7 and 1/2 are the scene's defaults of the tangential ratios.
+  // 2/7 and 1/2 are the defaults of the tangential ratios in scenes.
   if (b.hertz) {
     const double radius = 0.5 * b.radius, contactRadius = std::sqrt(radius * 1e-3 * b.radius);
     law.hertz = true, law.stiffness = static_cast<float>(b.stiffness / (1.5 * contactRadius));
@@ -83,20 +83,20 @@ terrain::GrainModel modelOf(const BedBench& b) {
   model.mass = base::sphereMass(b.density, radii.largest);
   model.timeStep = b.timeStep;
   model.gravity = {0, 0, -kGravity};
-  model.skin = b.skin, model.mostSimdLanes = b.lanes;
+  model.skin = b.skin, model.maxSimdLanes = b.lanes;
   model.ledger = b.ledger;
   model.law = lawOf(b, 0.5 * model.mass); // effective mass of a pair
   model.floorLaw = model.law;
   const double lightest = base::sphereMass(b.density, radii.smallest);
   const double limit = contact::stableStep(std::sqrt(8 * b.stiffness / lightest), 0);
   if (b.timeStep > limit)
-    throw base::InputError(
-        fmt::format("bench bed: --time-step {:g} s exceeds the stable step, {} s, of grains of radius {} m; reduce it",
-                    b.timeStep, base::roundedDown(limit, 3), radii.smallest));
+    throw base::InputError(fmt::format(
+        "bench bed: --time-step {:g} s exceeds the longest stable step, {} s, for a grain radius of {} m; reduce it",
+        b.timeStep, base::roundedDown(limit, 3), radii.smallest));
   return model;
 }
 
-/// Sites per side of the lattice for all grains in kLayers layers; the top layer may be incomplete.
+/// Number of lattice sites per side, such that all grains fit into kLayers layers. The top layer may be incomplete.
 std::int64_t sideOf(std::int64_t grains) {
   auto side = static_cast<std::int64_t>(std::sqrt(static_cast<double>(grains) / kLayers));
   while (side * side * kLayers < grains) ++side;
@@ -109,7 +109,7 @@ std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
   const std::int64_t side = sideOf(b.grains);
   const Radii radii = radiiOf(b);
   const double spacing = kSpacing * radii.largest;
-  const double shift = 0.5 * b.jitter * (kSpacing - 2) * radii.largest; // no initial contacts
+  const double shift = 0.5 * b.jitter * (kSpacing - 2) * radii.largest; // small enough to avoid initial contacts
   std::vector<terrain::GrainSpec> start;
   start.reserve(static_cast<std::size_t>(b.grains));
   for (std::int64_t i = 0; i < b.grains; ++i) {
@@ -123,7 +123,7 @@ std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
     start.push_back(grain);
   }
   if (!b.fixedFloor) return start;
-  // Tops at z = 0, holes smaller than any grain.
+  // The tops of the fixed grains are at z = 0; the gaps between them are smaller than any grain.
   const double edge = edgeOf(b);
   const auto across = static_cast<std::int64_t>(std::ceil(edge / (2 * radii.smallest)));
   for (std::int64_t i = 0; i < across * across; ++i) {
@@ -137,7 +137,7 @@ std::vector<terrain::GrainSpec> lattice(const BedBench& b) {
 terrain::Boundaries box(const BedBench& b, const terrain::GrainModel& model) {
   const double edge = edgeOf(b);
   contact::ContactLaw law = model.law;
-  // At a wall the effective mass is that of the whole grain.
+  // In a contact with a wall, the effective mass is the mass of the grain.
   law.damping /= std::sqrt(2.0f), law.tangentialDamping /= std::sqrt(2.0f);
   terrain::Boundaries box;
   if (!b.fixedFloor) box.walls.push_back({{0, 0, 1}, 0, law});
@@ -180,7 +180,7 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
   base::synchronize(exec);
   f.settleSeconds = secondsSince(settling);
 
-  // Warm-up; it also determines the steps of a batch of one second.
+  // Warm-up; its speed also determines the number of steps in a batch of one second.
   timed(exec, grains, 5);
   const double warm = timed(exec, grains, 20);
   f.times.steps = b.steps > 0 ? b.steps : std::clamp<std::int64_t>(static_cast<std::int64_t>(1e6 / warm), 10, 20000);
@@ -205,7 +205,7 @@ BedFigures benchBed(const BedBench& b, const base::Exec& exec, const base::Comm&
     const double share = (subdomain->waited() - waited) / secondsSince(start);
     double extremes[2] = {share, -share};
     comm.maximum(extremes, 2);
-    f.mostWait = extremes[0], f.leastWait = -extremes[1];
+    f.maxWait = extremes[0], f.minWait = -extremes[1];
   }
   if (!b.save.empty()) saveBed(grains, b.save);
   if (b.hash) f.stateHash = terrain::hashOf(grains.state(), comm).hex();

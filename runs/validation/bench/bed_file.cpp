@@ -12,7 +12,7 @@ namespace grouser::bench {
 
 namespace {
 
-constexpr double kSameRadius = 1e-6; // [-]: radii in files may be floats
+constexpr double kSameRadius = 1e-6; // relative tolerance [-]: radii in files may have single precision
 
 std::string rowOf(const base::Vec3d& x, double radius, const base::Vec3f& v, const base::Vec3f& w) {
   return fmt::format("{:.17g} {:.17g} {:.17g} {:.17g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g} {:.9g}\n", x.x, x.y, x.z,

@@ -28,7 +28,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-constexpr int kCountsTaken = 20; // contact counts in the instrumented pass
+constexpr int kCountsTaken = 20; // number of contact counts in the instrumented pass
 
 Json jsonOf(const BatchTimes& times) {
   return {{"steps_a_batch", times.steps},
@@ -44,7 +44,7 @@ struct Drive {
   double ramp = 0;             ///< [s]
 };
 
-/// Start of the timing [s]; empty while waiting for the start of the drive.
+/// Start of the timing [s]; empty until the start of the drive is known.
 std::optional<double> timedFrom(const StepBenchOptions& o, const coupling::Simulation& simulation, double ramp) {
   const bool waits = simulation.vehicle() && (o.fromDrive || !o.after);
   if (!waits) return o.after.value_or(0);
@@ -53,9 +53,9 @@ std::optional<double> timedFrom(const StepBenchOptions& o, const coupling::Simul
   return *start + o.after.value_or(ramp);
 }
 
-/// Steps until the start of the timing, with progress; returns that time [s].
+/// Steps until the timing starts, and shows the progress; returns the time of this start [s].
 double advance(coupling::Simulation& simulation, const StepBenchOptions& o, double ramp) {
-  support::Progress progress("up to speed", simulation.comm().first());
+  support::Progress progress("warming up", simulation.comm().first());
   while (true) {
     const std::optional<double> from = timedFrom(o, simulation, ramp);
     const std::int64_t end = from ? std::llround(*from / simulation.timeStep()) : simulation.steps() + 1;
@@ -68,9 +68,9 @@ double advance(coupling::Simulation& simulation, const StepBenchOptions& o, doub
   }
 }
 
-/// Motion of the vehicle between two times: keyword and text.
+/// Describes the motion of the vehicle between two times: keyword and text.
 std::array<std::string, 2> phaseOf(const Drive& drive, double from, double to) {
-  constexpr double kStep = 1e-9; // [s]: rounding of times
+  constexpr double kStep = 1e-9; // [s] tolerance for rounding of times
   if (!drive.start || *drive.start >= to)
     return {"standing", "the vehicle is at rest; use --after drive to time driving"};
   if (*drive.start > from + kStep)
@@ -78,13 +78,13 @@ std::array<std::string, 2> phaseOf(const Drive& drive, double from, double to) {
             fmt::format(
                 "the vehicle starts to drive at t = {:g} s, during the timing; use --after drive to time driving only",
                 *drive.start)};
-  const std::string since = fmt::format("the vehicle drives since t = {:g} s", *drive.start);
+  const std::string since = fmt::format("the vehicle has been driving since t = {:g} s", *drive.start);
   if (from < *drive.start + drive.ramp - kStep)
-    return {"speeding up", fmt::format("{}, sprockets accelerate until {:g} s", since, *drive.start + drive.ramp)};
+    return {"speeding up", fmt::format("{}; its sprockets accelerate until {:g} s", since, *drive.start + drive.ramp)};
   return {"driving", since};
 }
 
-/// Contacts per step by kind, and listed neighbours: means over the instrumented pass.
+/// Contacts by kind, and listed neighbours, per step: means over counts in the instrumented pass.
 struct Contacts {
   double grainGrain = 0, grainBoundary = 0, grainPart = 0, partPart = 0, pairsListed = 0, samplesListed = 0;
   int counts = 0;
@@ -106,8 +106,8 @@ Json printParts(const coupling::StageTimer& timer) {
   const double n = static_cast<double>(timer.steps());
   double sum = 0;
   for (const coupling::StageTimer::Part& part : timer.parts()) sum += part.microseconds / n;
-  fmt::print("\ninstrumented pass of {} steps: it synchronises after each part, so parts do not overlap and their sum "
-             "exceeds the step time\n",
+  fmt::print("\ninstrumented pass of {} steps; it synchronises after each part, so that parts cannot overlap and their "
+             "sum exceeds the time of a step\n",
              timer.steps());
   Json json = Json::object();
   for (const coupling::StageTimer::Part& part : timer.parts()) {
@@ -120,7 +120,7 @@ Json printParts(const coupling::StageTimer& timer) {
   return json;
 }
 
-/// Particle-steps per second.
+/// Particle-steps per second for a given time per step [us].
 double rate(const BedBench& bench, double microseconds) {
   return static_cast<double>(bench.grains) / (1e-6 * microseconds);
 }
@@ -134,8 +134,8 @@ void printBed(const BedBench& b, const BedFigures& f, int ranks) {
              rate(b, f.times.median()), f.times.microseconds.size(), f.times.steps, rate(b, f.times.most()),
              rate(b, f.times.least()));
   fmt::print("step      {:.2f} us (median; {:.2f} to {:.2f})\n", f.times.median(), f.times.least(), f.times.most());
-  fmt::print("contacts  {:.3f} per grain, each counted once; {:.2f} neighbours listed per grain\n", f.contactsPerGrain,
-             f.listLength);
+  fmt::print("contacts  {:.3f} per grain (each pair counted once); {:.2f} listed neighbours per grain\n",
+             f.contactsPerGrain, f.listLength);
   fmt::print("rebuild   {:.1f} us, {}\n", f.rebuildMicroseconds,
              std::isfinite(f.stepsBetweenRebuilds)
                  ? fmt::format("every {:.0f} steps: {:.2f} us per step", f.stepsBetweenRebuilds, share)
@@ -144,10 +144,10 @@ void printBed(const BedBench& b, const BedFigures& f, int ranks) {
              f.peakBytesPerGrain, f.reservedPerGrain);
   if (ranks > 1)
     fmt::print(
-        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, {:.0f} bytes per step sent by the busiest rank ({}); "
+        "ranks     {}: subdomains {} x {} x {}, {:.2f} % ghosts, at most {:.0f} bytes sent per step and rank ({}); "
         "MPI wait time {:.1f} to {:.1f} %\n",
         ranks, f.subdomains[0], f.subdomains[1], f.subdomains[2], 100 * f.ghostShare, f.bytesAStep, f.way,
-        100 * f.leastWait, 100 * f.mostWait);
+        100 * f.minWait, 100 * f.maxWait);
   if (!f.stateHash.empty()) fmt::print("state-hash {} step {}\n", f.stateHash, f.stepsTaken);
 }
 
@@ -191,11 +191,11 @@ void addBed(Json& json, const BedBench& b, const BedFigures& f, int ranks) {
   json["way"] = f.way;
   json["ghost_share"] = f.ghostShare;
   json["bytes_a_step"] = f.bytesAStep;
-  json["waiting_share"] = {{"least", f.leastWait}, {"most", f.mostWait}};
+  json["waiting_share"] = {{"least", f.minWait}, {"most", f.maxWait}};
   if (!f.stateHash.empty()) json["state_hash"] = f.stateHash;
 }
 
-/// The scene with a settled bed, and the wall time of settling [s].
+/// Simulation of the scene with a settled bed, and the wall time of settling [s].
 std::unique_ptr<coupling::Simulation> prepare(const scene::Scene& scene, const base::Exec& exec, const base::Comm& comm,
                                               double& seconds) {
   std::unique_ptr<support::Progress> settling;
@@ -224,7 +224,7 @@ Json describeScene(const scene::Scene& scene, const coupling::Simulation& simula
           {"vehicle_spheres", spheres},        {"time_step_s", simulation.timeStep()}};
 }
 
-/// Batches of steps without internal timers.
+/// Times batches of steps without internal timers.
 BatchTimes timeBatches(coupling::Simulation& simulation, const StepBenchOptions& o, const base::Exec& exec) {
   BatchTimes times;
   times.steps = o.steps;
@@ -239,7 +239,7 @@ BatchTimes timeBatches(coupling::Simulation& simulation, const StepBenchOptions&
   return times;
 }
 
-/// The same steps with timers at each stage and some contact counts.
+/// Runs the same number of steps with a timer for each part, and counts contacts in some of them.
 Contacts instrument(coupling::StageTimer& timer, coupling::Simulation& simulation, std::int64_t steps) {
   Contacts contacts;
   const std::int64_t countEvery = std::max<std::int64_t>(1, steps / kCountsTaken);
@@ -251,15 +251,15 @@ Contacts instrument(coupling::StageTimer& timer, coupling::Simulation& simulatio
 }
 
 void printTimes(const BatchTimes& times, const StepBenchOptions& o, double from, int ranks) {
-  fmt::print("step      {:.2f} us (median of {} batches of {} steps without internal timers; {:.2f} to {:.2f}), from t "
-             "= {:g} s\n",
+  fmt::print("step      {:.2f} us (median of {} batches of {} steps without internal timers; {:.2f} to {:.2f}), timed "
+             "from t = {:g} s on\n",
              times.median(), o.batches, o.steps, times.least(), times.most(), from);
   if (ranks > 1) fmt::print("ranks     {}: times of the first rank, including MPI wait time\n", ranks);
 }
 
 void printRebuilds(const coupling::StageTimer& timer) {
   const double rebuild = timer.part(coupling::Stage::neighbourList).microseconds;
-  fmt::print("  neighbour lists built {} times{}\n", timer.rebuilds(),
+  fmt::print("  neighbour lists rebuilt {} times{}\n", timer.rebuilds(),
              timer.rebuilds() ? fmt::format(", {:.1f} us each", rebuild / static_cast<double>(timer.rebuilds())) : "");
 }
 
@@ -272,9 +272,9 @@ Json printContacts(const Contacts& contacts) {
                {"grain on wall and floor", "grain_boundary", contacts.grainBoundary},
                {"grain on part, patches", "grain_part_patches", contacts.grainPart},
                {"part on part and ground, patches", "part_patches", contacts.partPart},
-               {"grain-part pairs listed", "grain_part_pairs_listed", contacts.pairsListed},
-               {"samples listed", "probes_listed", contacts.samplesListed}};
-  fmt::print("\ncontacts per step (mean of {} counts)\n", contacts.counts);
+               {"listed pairs of grain and part", "grain_part_pairs_listed", contacts.pairsListed},
+               {"listed surface points", "probes_listed", contacts.samplesListed}};
+  fmt::print("\ncontacts in a step (mean of {} counts)\n", contacts.counts);
   for (const auto& kind : kinds) {
     fmt::print("  {:<34} {:10.1f}\n", kind.text, contacts.mean(kind.sum));
     json[kind.key] = contacts.mean(kind.sum);
@@ -283,10 +283,10 @@ Json printContacts(const Contacts& contacts) {
 }
 
 void printMemory(Json& json, const base::Exec& exec) {
-  const double bytes = static_cast<double>(base::memoryTaken(exec));
-  const double host = static_cast<double>(base::memoryTaken(base::cpuExec()));
+  const double bytes = static_cast<double>(base::usedMemory(exec));
+  const double host = static_cast<double>(base::usedMemory(base::cpuExec()));
   fmt::print("\nmemory    host {:.0f} MiB peak", host / 1048576);
-  if (!exec.onCpu()) fmt::print(", device {:.0f} MiB used by all programs", bytes / 1048576);
+  if (!exec.onCpu()) fmt::print(", device {:.0f} MiB in use by all programs", bytes / 1048576);
   fmt::print("\n");
   json["host_peak_bytes"] = host;
   if (!exec.onCpu()) json["device_bytes_taken"] = bytes;

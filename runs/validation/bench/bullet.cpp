@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Pairs with a contact point of non-negative depth (Bullet also keeps pairs with small gaps).
+/// Counts the pairs that have a contact point without a gap (Bullet also keeps pairs with small gaps).
 std::int64_t touching(btDispatcher& dispatcher) {
   std::int64_t count = 0;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
@@ -46,7 +46,7 @@ BulletFigures benchBullet(const std::vector<base::Vec3f>& positions, float diame
   std::vector<btCollisionObject> objects(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     objects[i].setCollisionShape(&sphere);
-    objects[i].setCollisionFlags(0); // not static: static objects do not collide with each other
+    objects[i].setCollisionFlags(0); // not static, because static objects do not collide with each other
     objects[i].setWorldTransform(
         btTransform(btQuaternion::getIdentity(), btVector3(positions[i].x, positions[i].y, positions[i].z)));
     world.addCollisionObject(&objects[i]);
@@ -65,7 +65,7 @@ BulletFigures benchBullet(const std::vector<base::Vec3f>& positions, float diame
   std::sort(warm.begin(), warm.end());
   figures.warmSeconds = warm[warm.size() / 2];
   figures.contacts = touching(dispatcher);
-  // Pairs first: removing an object visits all remaining pairs.
+  // Remove the pairs first, because the removal of an object visits all remaining pairs.
   btOverlappingPairCache& pairs = *broadphase.getOverlappingPairCache();
   while (const int left = pairs.getNumOverlappingPairs()) {
     const btBroadphasePair pair = pairs.getOverlappingPairArray()[left - 1];
@@ -84,7 +84,7 @@ namespace grouser::bench {
 std::string bulletVersion() { return ""; }
 
 BulletFigures benchBullet(const std::vector<base::Vec3f>&, float, int) {
-  throw base::InputError("grouser was built without Bullet");
+  throw base::InputError("this grouser was built without Bullet; install libbullet-dev and build it again");
 }
 
 } // namespace grouser::bench

@@ -9,19 +9,19 @@
 
 namespace grouser::bench {
 
-/// Time of sequential Bullet to find the contacts of equal spheres.
+/// Time that Bullet needs on one core to find the contacts of equal spheres.
 struct BulletFigures {
   std::int64_t contacts = 0; ///< overlapping pairs, each once
-  double setUpSeconds = 0;   ///< creation of the world with all spheres
-  double coldSeconds = 0;    ///< first detection, including the broad phase
-  double warmSeconds = 0;    ///< later detection with kept pairs and fixed spheres; median
+  double setUpSeconds = 0;   ///< time to create the world with all spheres
+  double coldSeconds = 0;    ///< time of the first detection, including the broad phase
+  double warmSeconds = 0;    ///< median time of later detections, with kept pairs and spheres at rest
 };
 
-/// Empty if built without Bullet.
+/// Version of Bullet; empty if grouser was built without Bullet.
 std::string bulletVersion();
 
-/// Collision detection by btCollisionWorld with a btDbvtBroadphase, one thread, single precision. `positions` and
-/// `diameter` in any unit. Throws base::InputError if built without Bullet.
+/// Times collision detection by btCollisionWorld with a btDbvtBroadphase, in one thread and in single precision.
+/// `positions` and `diameter`: in the same unit. Throws base::InputError if grouser was built without Bullet.
 BulletFigures benchBullet(const std::vector<base::Vec3f>& positions, float diameter, int repeats);
 
 } // namespace grouser::bench

@@ -12,7 +12,7 @@ namespace grouser::bench {
 namespace {
 
 constexpr std::uint64_t kPurpose = base::purpose("bench.contacts");
-constexpr std::uint64_t kBits = 21; ///< random bits per axis: three axes in one 64-bit number
+constexpr std::uint64_t kBits = 21; ///< random bits per axis: one 64-bit number serves three axes
 
 struct Place {
   std::uint64_t count, step, ny, nz, seed;
@@ -20,7 +20,7 @@ struct Place {
   base::Position* position;
 
   GROUSER_HD void operator()(int i) const {
-    const std::uint64_t site = static_cast<std::uint64_t>(i) * step % count; // both below 2^31: no overflow
+    const std::uint64_t site = static_cast<std::uint64_t>(i) * step % count; // no overflow: i and step are below 2^31
     const std::uint64_t bits = base::hash(seed, kPurpose, site);
     const std::uint64_t cell[3] = {site / (ny * nz), site / nz % ny, site % nz};
     base::Vec3l u;

@@ -28,8 +28,8 @@ using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kSpheresSeed = 1;
-constexpr double kPairsPerSphere = 3; ///< contacts per sphere in the limit of many spheres
-constexpr double kLinearFrom = 1e6;   ///< minimum number of contacts for the growth fit
+constexpr double kPairsPerSphere = 3; ///< number of contacts / number of spheres, for many spheres
+constexpr double kLinearFrom = 1e6;   ///< the growth fit uses points with at least this number of contacts
 const std::vector<double> kOnCpu = {3e4, 1e5, 3e5, 1e6, 3e6, 1e7};
 const std::vector<double> kOnGpu = {1e6, 1e7, 1e8, 3e8, 1e9, 2e9, 4e9, 6e9};
 
@@ -40,14 +40,14 @@ struct Times {
 
 struct Point {
   std::int64_t spheres = 0, contacts = 0;
-  Times first;  ///< including memory allocation
-  Times median; ///< median of the later searches; the first if it is the only one
+  Times first;  ///< times of the first search, including memory allocation
+  Times median; ///< median times of the later searches; `first` if there are no later searches
   int slabs = 0;
-  double bytesPerSphere = 0; ///< positions, pairs and work
+  double bytesPerSphere = 0; ///< memory for positions, pairs and work arrays / number of spheres [B]
   std::optional<BulletFigures> bullet;
 };
 
-/// One search from positions, releasing the pairs; all ranks together, timed until the last one has finished.
+/// One search from positions; releases the pairs. All ranks search together; the time ends when the last rank finishes.
 Times search(PairSearch& searcher, const base::Array<base::Position>& positions, const PairSearchOptions& options,
              const base::Comm& comm, Point& point) {
   comm.wait();
@@ -130,13 +130,13 @@ Json jsonOf(const Point& p) {
   return json;
 }
 
-/// Bullet uses single precision: a few pairs near zero overlap may differ.
+/// Tolerance: Bullet uses single precision, so that a few pairs with almost zero overlap may differ.
 void checkBullet(const Point& p) {
   if (!p.bullet) return;
   const double apart = std::fabs(static_cast<double>(p.bullet->contacts - p.contacts));
   if (apart > 1e-4 * static_cast<double>(p.contacts) + 2)
     throw base::SimulationError(
-        fmt::format("contact counts differ: for {} spheres Bullet finds {} contacts and this program {}", p.spheres,
+        fmt::format("contact counts differ: for {} spheres, Bullet finds {} contacts, but grouser finds {}", p.spheres,
                     p.bullet->contacts, p.contacts));
 }
 
@@ -157,16 +157,16 @@ void benchContactsCommand(const ContactsBench& bench) {
   json["ranks"] = ranks;
   json["bullet_version"] = bulletVersion();
   fmt::print("spheres   {}\n", json["arrangement"].get<std::string>());
-  fmt::print("contacts  overlapping pairs, each once, {}\n",
-             bench.countOnly ? "only counted" : "stored as two 32-bit ids");
-  fmt::print("times     search from positions, median of {} after a first search that allocates memory\n",
+  fmt::print("contacts  overlapping pairs, each counted once, {}\n",
+             bench.countOnly ? "not stored" : "stored as two 32-bit ids");
+  fmt::print("times     searches from positions: a first one that allocates memory, and the median of {}\n",
              std::max(1, bench.repeats - 1));
-  if (ranks > 1) fmt::print("ranks     {}: each rank has all positions and searches a part of the slabs\n", ranks);
+  if (ranks > 1) fmt::print("ranks     {}: each rank stores all positions and searches some of the slabs\n", ranks);
   fmt::print(
       "bullet    {}\n",
       bulletVersion().empty()
-          ? std::string("none: built without it (Debian: libbullet-dev)")
-          : fmt::format("{}, one thread, up to {} spheres; cold: including set-up; warm: pairs kept, spheres fixed",
+          ? std::string("no comparison: this grouser was built without Bullet (Debian: libbullet-dev)")
+          : fmt::format("{}, one thread, up to {} spheres; cold: with set-up; warm: with kept pairs, spheres at rest",
                         bulletVersion(), bench.bulletSpheres));
   printHead(!bench.countOnly);
   std::vector<double> wanted = bench.contacts.empty() ? exec.onCpu() ? kOnCpu : kOnGpu : bench.contacts;

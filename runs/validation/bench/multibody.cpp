@@ -25,14 +25,14 @@ namespace {
 const Vec3d kGravityVector{0, 0, -9.81};
 constexpr double kTensionRamp = 0.05, kWeightRamp = 0.1, kDriveRamp = 0.2; // [s]
 constexpr double kGoal = 20;                                               // target time per step of the vehicle [us]
-constexpr double kLoose = 1e-8, kTight = 1e-13;                            // [m, rad] tolerances of the gaps
+constexpr double kLoose = 1e-8, kTight = 1e-13;                            // [m, rad] tolerances of the joint errors
 constexpr double kGrowth = 2.2;                                            // maximum time ratio for twice the shoes
 
 double microsecondsSince(Clock::time_point start) {
   return 1e6 * std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// `f` returns the time of one call [us].
+/// Median and range of the times of several calls. `f` returns the time of one call [us].
 template <class F> BatchTimes timed(int batches, std::int64_t calls, F f) {
   BatchTimes times;
   times.steps = calls;
@@ -66,7 +66,7 @@ void timeParts(const multibody::Model& model, const multibody::State& state, con
   f.linearise = timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.factor(); }); });
   f.solve = timed(bench.batches, bench.steps, [&] { return microsecondsOf([&] { system.solve(); }); });
 
-  // Two tolerances require different numbers of iterations at the same state.
+  // At the same state, the two tolerances require different numbers of iterations.
   const auto stepped = [&](double tolerance, double& iterations) {
     multibody::SolverOptions options;
     options.positionTolerance = tolerance;
@@ -90,18 +90,18 @@ Json summaryOf(const BatchTimes& times) {
 }
 
 Json report(const VehicleGraphFigures& f) {
-  fmt::print("vehicle   {} bodies, {} joints, {} hard rows, {} loops, {} batches of four bodies\n", f.bodies, f.joints,
-             f.rows, f.loops, f.batches);
-  fmt::print(
-      "drive     hull at {:.2f} m/s, {:.2f} iterations per step, maximum {:.0f}; joint errors up to {:.1e} m or rad\n",
-      f.hullSpeed, f.iterations, f.mostIterations, f.positionError);
+  fmt::print("vehicle   {} bodies, {} joints, {} constraint rows, {} loops, {} SIMD batches of four bodies\n", f.bodies,
+             f.joints, f.rows, f.loops, f.batches);
+  fmt::print("drive     hull speed {:.2f} m/s; {:.2f} iterations per step (maximum {:.0f}); joint errors up to {:.1e} "
+             "m or rad\n",
+             f.hullSpeed, f.iterations, f.mostIterations, f.positionError);
   fmt::print("step      {:.2f} us (median of {} batches of {} steps; {:.2f} to {:.2f}); goal {:g}\n", f.step.median(),
              f.step.microseconds.size(), f.step.steps, f.step.least(), f.step.most(), kGoal);
-  fmt::print("parts of a step, measured separately (minimum):\n");
+  fmt::print("parts of a step, measured separately (minimum times):\n");
   fmt::print("  {:<42} {:7.2f} us\n", "rows, inertias, factorisation", f.linearise.least());
-  fmt::print("  {:<42} {:7.2f} us\n", "each iteration: solution, poses, errors", f.iteration);
-  fmt::print("  {:<42} {:7.2f} us\n", "  solution only", f.solve.least());
-  fmt::print("  {:<42} {:7.2f} us\n", "loads, first errors, readings", f.rest);
+  fmt::print("  {:<42} {:7.2f} us\n", "each iteration: solve, poses, joint errors", f.iteration);
+  fmt::print("  {:<42} {:7.2f} us\n", "  solve only", f.solve.least());
+  fmt::print("  {:<42} {:7.2f} us\n", "loads, first joint errors, readings", f.rest);
   return {{"bodies", f.bodies},
           {"joints", f.joints},
           {"hard_rows", f.rows},
@@ -133,7 +133,7 @@ VehicleGraphFigures benchVehicleGraph(const MultibodyBench& bench) {
   const vehicle::Driver driver(driverOptions(bench.speed));
   const TrackGuide guide(assembly);
 
-  // The guiding forces are not timed.
+  // The times do not include the guiding forces.
   const auto step = [&] {
     vehicle::applyControls(assembly, driver.at(state.time), kGravityVector, loads);
     guide.apply(state, loads);

@@ -15,55 +15,55 @@ struct MultibodyBench {
   std::string vehicle;     ///< spec file; empty: the light vehicle
   double speed = 3;        ///< sprocket speed [rad/s]
   double timeStep = 5e-5;  ///< [s]
-  std::int64_t steps = 50; ///< steps per batch: short, so that some batches run without interruption
+  std::int64_t steps = 50; ///< steps per batch; small, so that some batches run without an interruption by the system
   int batches = 101;
-  std::string json; ///< file; empty: none
-  base::Comm comm;  ///< each rank does all the work, the first one writes
+  std::string json; ///< JSON file; empty: no file
+  base::Comm comm;  ///< each rank does all the work; only the first rank writes
 };
 
-/// The multibody model of the vehicle, driven on level ground with tensioned tracks.
+/// Results for the multibody model of the vehicle, which drives on level ground with tensioned tracks.
 struct VehicleGraphFigures {
   int bodies = 0, joints = 0;
   int rows = 0;                              ///< hard constraint rows
   int loops = 0;                             ///< constraints outside the spanning tree
   int batches = 0;                           ///< SIMD batches of four bodies
   BatchTimes step;                           ///< complete steps
-  double iterations = 0, mostIterations = 0; ///< per step: mean and maximum
-  double positionError = 0;                  ///< maximum after a step [m, rad]
+  double iterations = 0, mostIterations = 0; ///< iterations per step: mean and maximum
+  double positionError = 0;                  ///< maximum joint error after a step [m, rad]
   double hullSpeed = 0;                      ///< final hull speed [m/s]
-  // Parts of a step, called separately at one state.
+  // Parts of a step, called separately at the same state:
   BatchTimes linearise; ///< rows, inertias and the factorisation
-  BatchTimes solve;     ///< one solution
-  double iteration = 0; ///< solution, poses and joint errors, from steps with different numbers of iterations [us]
-  double rest = 0;      ///< rest of a step: loads, first joint errors, readings [us]
+  BatchTimes solve;     ///< one solve
+  double iteration = 0; ///< solve, poses and joint errors; from steps with different numbers of iterations [us]
+  double rest = 0;      ///< remainder of a step: loads, first joint errors, readings [us]
 };
 VehicleGraphFigures benchVehicleGraph(const MultibodyBench& bench);
 
-/// Two spinning rings of shoes, and a hull with wheels, arms and idlers.
+/// Results for two spinning rings of shoes, and a hull with wheels, arms and idlers.
 struct RingFigures {
   int shoes = 0, bodies = 0;
-  long multiplications = 0; ///< multiplications in one factorisation and one solution
+  long multiplications = 0; ///< number of multiplications in one factorisation and one solve
   double iterations = 0;
   BatchTimes step;
 };
 RingFigures benchRings(int shoes, const MultibodyBench& bench);
 multibody::Model ringsAndHull(int shoes);
 
-/// Prints both, with the growth over 46, 92 and 184 shoes per ring.
+/// Prints the results of both models, with the growth over 46, 92 and 184 shoes per ring.
 void benchMultibodyCommand(const MultibodyBench& bench);
 
-/// Guiding forces on the shoes during the timing: circles for the wheels, a plane at z = 0 for the ground, each a
-/// spring and dashpot with viscous friction. Realistic forces on every body without meshes.
+/// Guiding forces on the shoes: circles represent the wheels, a plane at z = 0 represents the ground. Each acts through
+/// a spring and a dashpot, with viscous friction. This applies realistic forces to every body without meshes.
 class TrackGuide {
 public:
   explicit TrackGuide(const vehicle::Assembly& vehicle);
-  /// Sets the wrenches in `loads`.
+  /// Sets the wrenches of the shoes in `loads`.
   void apply(const multibody::State& state, multibody::Loads& loads) const;
 
 private:
   struct Circle {
     int body;
-    double radius, height; ///< [m]; height of the contact points on the shoe
+    double radius, height; ///< [m] radius of the circle, and height of the contact points on the shoe
     double drag;           ///< [N s/m]
   };
   void touch(int shoe, const base::Pose& X, const Circle& circle, const multibody::State& state,

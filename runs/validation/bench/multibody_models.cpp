@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kStiffness = 1e7; // [N/m]
 constexpr double kDamping = 4e3;   // [N s/m]
-// High drag of the sprocket: teeth do not slip.
+// The drag of the sprocket is high, because teeth do not slip.
 constexpr double kSprocketDrag = 2e4, kWheelDrag = 2e2; // [N s/m]
 
 Vec3d velocity(int body, const Vec3d& p, const multibody::State& state) {
@@ -33,7 +33,7 @@ void push(int body, const Vec3d& p, const Vec3d& force, const multibody::State& 
 TrackGuide::TrackGuide(const vehicle::Assembly& vehicle) : vehicle_(vehicle) {
   const vehicle::VehicleSpec& spec = vehicle.spec;
   for (const vehicle::Track& track : vehicle.tracks) {
-    // Contact of the pins with sprocket and idler, of the plates with the others.
+    // The pins touch the sprocket and the idler; the plates touch the other wheels.
     std::vector<Circle> circles{{track.sprocket, spec.sprocketPinRadius(), 0, kSprocketDrag},
                                 {track.idler, spec.idlerPinRadius(), 0, kWheelDrag}};
     for (const int wheel : track.wheels)
@@ -62,7 +62,7 @@ void TrackGuide::apply(const multibody::State& state, multibody::Loads& loads) c
     }
 }
 
-/// At the shoe's two ends and its middle.
+/// Contact points at both ends and in the middle of the shoe.
 void TrackGuide::touch(int shoe, const base::Pose& X, const Circle& circle, const multibody::State& state,
                        multibody::Loads& loads) const {
   const Vec3d axle = state.pose[static_cast<std::size_t>(circle.body)].position;
@@ -83,8 +83,8 @@ void TrackGuide::touch(int shoe, const base::Pose& X, const Circle& circle, cons
   }
 }
 
-/// Two rings of `shoes` links spinning about their centres at 1 rad/s, and a hull with 32 bodies: arms with wheels,
-/// rollers, driven sprockets, carriers with idlers. Dimensions of the light vehicle.
+/// Two rings of `shoes` links, which spin about their centres at 1 rad/s, and a hull with 32 bodies: arms with wheels,
+/// rollers, driven sprockets, and carriers with idlers. The dimensions are those of the light vehicle.
 multibody::Model ringsAndHull(int shoes) {
   multibody::Model model;
   const double pitch = 0.154, turn = 2 * base::kPi / shoes;

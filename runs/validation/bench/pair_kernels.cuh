@@ -13,7 +13,7 @@ using contact::Cell;
 using contact::ColumnOfThree;
 using contact::overShare;
 
-/// Division of 42-bit numbers by the cell edge, by multiplication.
+/// Divides 42-bit numbers by the cell edge, using a multiplication.
 struct Divider {
   std::uint64_t edge, inverse;
   explicit Divider(std::int64_t e) : edge(static_cast<std::uint64_t>(e)), inverse(~std::uint64_t{0} / edge) {}
@@ -24,13 +24,13 @@ struct Divider {
 #else
     auto q = static_cast<std::uint64_t>(static_cast<unsigned __int128>(u) * inverse >> 64);
 #endif
-    // The inverse is rounded down: q may be one too small.
+    // The inverse is rounded down, so that q may be too small by 1.
     if (u - q * edge >= edge) ++q;
     return static_cast<std::uint32_t>(q);
   }
 };
 
-/// Cell of a sphere, counted from the lowest representable position.
+/// Cell of a sphere; the count starts at the lowest representable position.
 struct CellOf {
   Divider divide;
   GROUSER_HD std::uint32_t along(std::int64_t u) const {
@@ -44,7 +44,7 @@ struct CellOf {
   }
 };
 
-/// Number of spheres of a sample in each layer of cells along x.
+/// Counts the spheres of a sample in each layer of cells along x.
 struct CountLayers {
   CellOf cellOf;
   const Position* position;
@@ -54,7 +54,7 @@ struct CountLayers {
   GROUSER_HD void operator()(int i) const { base::atomicAdd32(layers + (cellOf.x(position[i * stride]) - low), 1u); }
 };
 
-/// mark[i] = 1 for the spheres of layers [from, to).
+/// Sets mark[i] = 1 for the spheres in the layers [from, to).
 struct MarkLayers {
   CellOf cellOf;
   const Position* position;
@@ -66,7 +66,7 @@ struct MarkLayers {
   }
 };
 
-/// Compacts the marked ones by prefix sums of the marks.
+/// Compacts the list of marked spheres, using prefix sums of the marks.
 struct ListMarked {
   const std::uint32_t* before;
   std::int64_t count;
@@ -78,7 +78,7 @@ struct ListMarked {
   }
 };
 
-/// Dense grid over a slab; x is the slowest index, so that the layer of the next slab is last.
+/// Dense grid over a slab. x is the slowest index, so that the first layer of the next slab comes last.
 struct SlabGrid {
   CellOf cellOf;
   Cell low, cells;
@@ -97,19 +97,20 @@ struct Neighbourhood {
   const Position* position; ///< sorted by cell
   const std::uint32_t* start;
   std::int64_t reach2;
-  bool checkFar; ///< 32-bit differences may wrap in cells this wide
+  bool checkFar; ///< true if the cells are so wide that 32-bit differences may wrap
 
   GROUSER_HD bool overlaps(const Position& a, const Position& b) const {
     if (checkFar && !contact::differencesHold(base::toUnits(b) - base::toUnits(a))) return false;
     return base::squaredNorm(base::difference(a, b)) < reach2;
   }
 
-  /// Calls visit(j, contact of j and i) for each sphere j after i in the same cell or in one of the 13 following cells.
+  /// Calls visit(j, contact of j and i) for each sphere j that follows i in the same cell, or is in one of the 13
+  /// following cells.
   template <class Visit> GROUSER_HD void forLater(std::uint32_t i, Visit& visit) const {
     const Position p = position[i];
     const Cell c = grid.local(p);
     across(p, i + 1, ColumnOfThree(grid, start, c.x, c.y, c.z).last, visit);
-    // Columns (0, 1), (1, -1), (1, 0), (1, 1) from here.
+    // Columns of cells at the offsets (0, 1), (1, -1), (1, 0), (1, 1).
     for (std::uint32_t column = 0; column < 4; ++column) {
       const std::uint32_t x = column == 0 ? c.x : c.x + 1, y = column == 0 ? c.y + 1 : c.y + column - 2;
       if (x >= grid.cells.x || y >= grid.cells.y) continue; // -1 wraps to a large number
@@ -140,7 +141,7 @@ struct Count {
   }
 };
 
-/// Run with sharesOf(count) threads.
+/// Must run with sharesOf(count) threads.
 struct SumCounts {
   const std::uint32_t* counts;
   std::int64_t count;

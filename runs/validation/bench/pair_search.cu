@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t kSample = 1 << 22; // size of the sample that determines the slabs
 constexpr std::size_t kAtATimeOnGpu = 250000000;
-constexpr std::int64_t kMostSpheres = 2147483646; // maximum of forEach minus the end marker
+constexpr std::int64_t kMaxSpheres = 2147483646; // maximum count of forEach minus 1 for the end marker
 
 } // namespace
 
@@ -38,13 +38,13 @@ struct PairSearch::Work {
     Cell low, cells;
     std::int64_t edge;
   };
-  /// Range of layers of cells along x whose spheres search for neighbours.
+  /// Range of cell layers along x; their spheres search for neighbours.
   struct Slab {
     std::uint32_t from, to;
   };
 
   Grid gridOver(const Position* positions, std::int64_t count);
-  /// About `wanted` slabs with equal numbers of spheres.
+  /// Cuts the layers into about `wanted` slabs with about equal numbers of spheres.
   std::vector<Slab> cut(const Grid& grid, const Position* positions, std::int64_t count, std::size_t wanted);
   SlabGrid gridOf(const Slab& slab, const Grid& grid) const;
   std::int64_t choose(const Slab& slab, const Grid& grid, const Position* positions, std::int64_t count);
@@ -63,7 +63,7 @@ struct PairSearch::Work {
 };
 
 PairSearch::Work::Grid PairSearch::Work::gridOver(const Position* positions, std::int64_t count) {
-  // A few distant spheres must not make the grid huge: enlarge the cells until it fits.
+  // A few distant spheres must not make the grid huge: enlarge the cells until the grid fits.
   const double most = 16.0 * static_cast<double>(count) + 1e6;
   small.resize(6);
   for (std::int64_t edge = diameter;; edge *= 2) {
@@ -86,7 +86,7 @@ std::vector<PairSearch::Work::Slab> PairSearch::Work::cut(const Grid& grid, cons
   base::forEach(exec, "count spheres by layer", sampled,
                 CountLayers{{Divider(grid.edge)}, positions, stride, grid.low.x, small.data()});
   const std::vector<std::uint32_t> layers = small.toHost();
-  // Each slab consists of whole layers with its share of the sample.
+  // Each slab consists of whole layers that contain its share of the sample.
   const double share = static_cast<double>(sampled) / static_cast<double>(wanted);
   std::vector<Slab> slabs;
   double held = 0;
@@ -104,7 +104,7 @@ SlabGrid PairSearch::Work::gridOf(const Slab& slab, const Grid& grid) const {
   return {{Divider(grid.edge)}, {grid.low.x + slab.from, grid.low.y, grid.low.z}, {layers, grid.cells.y, grid.cells.z}};
 }
 
-/// Lists the spheres of the slab and of the next layer. Returns their number.
+/// Lists the spheres of the slab and of the next layer. Returns the number of these spheres.
 std::int64_t PairSearch::Work::choose(const Slab& slab, const Grid& grid, const Position* positions,
                                       std::int64_t count) {
   const auto n = static_cast<std::size_t>(count);
@@ -123,8 +123,8 @@ std::int64_t PairSearch::Work::choose(const Slab& slab, const Grid& grid, const 
   return chosen;
 }
 
-/// Sorts the chosen spheres by cell and gathers their positions. Returns the number of those in the slab itself (the
-/// first ones).
+/// Sorts the chosen spheres by cell and gathers their positions. The spheres of the slab itself come first; returns
+/// their number.
 std::int64_t PairSearch::Work::sort(const Slab& slab, const SlabGrid& grid, const Position* positions,
                                     std::int64_t chosen) {
   const auto n = static_cast<std::size_t>(chosen);
@@ -141,7 +141,7 @@ std::int64_t PairSearch::Work::sort(const Slab& slab, const SlabGrid& grid, cons
 
 Neighbourhood PairSearch::Work::neighbourhood(const SlabGrid& grid) const {
   const auto edge = static_cast<std::int64_t>(grid.cellOf.divide.edge);
-  // Spheres in neighbouring cells are less than two edges apart, and squares of up to 2^30 add up within 64 bits.
+  // Along each axis, spheres in neighbouring cells are less than two edges apart; squares of distances fit in 64 bits.
   return {grid, position.data(), start.data(), diameter * diameter, edge >= std::int64_t{1} << 29};
 }
 
@@ -155,7 +155,7 @@ std::int64_t PairSearch::Work::countPairs(const Neighbourhood& near, std::int64_
 
 base::Array<IdPair> PairSearch::Work::storePairs(const Neighbourhood& near, std::int64_t owned, std::int64_t sum) {
   if (sum > std::int64_t{0xFFFFFFFF})
-    throw base::SimulationError("more than 2^32 contacts in one slab: the spheres overlap too much, or the batch is "
+    throw base::SimulationError("one slab has more than 2^32 contacts: the spheres overlap too much, or the slabs are "
                                 "too large; reduce --at-a-time");
   base::exclusiveScan(exec, counts.data(), counts.data(), static_cast<std::size_t>(owned));
   base::Array<IdPair> pairs(exec, static_cast<std::size_t>(sum));
@@ -164,7 +164,7 @@ base::Array<IdPair> PairSearch::Work::storePairs(const Neighbourhood& near, std:
 }
 
 std::size_t PairSearch::Work::bytes() const {
-  // Sorting needs two copies of keys and indices.
+  // The sort needs two copies of keys and indices.
   return marks.bytes() + 2 * list.bytes() + start.bytes() + counts.bytes() + small.bytes() + 2 * key.bytes() +
          position.bytes();
 }
@@ -177,7 +177,7 @@ PairSearch::PairSearch(const base::Exec& exec, std::int64_t diameter) : work_(ne
 PairSearch::~PairSearch() = default;
 
 FoundPairs PairSearch::find(const Position* positions, std::size_t count, const PairSearchOptions& options) {
-  if (count > static_cast<std::size_t>(kMostSpheres))
+  if (count > static_cast<std::size_t>(kMaxSpheres))
     throw std::invalid_argument("a pair search supports at most 2^31 - 2 spheres");
   FoundPairs found;
   if (count == 0) return found;
@@ -186,7 +186,7 @@ FoundPairs PairSearch::find(const Position* positions, std::size_t count, const 
   const auto parts = static_cast<std::size_t>(options.of);
   const std::size_t wished = options.atATime ? options.atATime : work.exec.onCpu() ? count : kAtATimeOnGpu;
   const std::size_t atATime = std::min(wished, count);
-  // All parts have equal numbers of slabs and spheres.
+  // All parts have the same number of slabs and about the same number of spheres.
   const std::size_t rounds = std::max<std::size_t>(1, (count + atATime * parts - 1) / (atATime * parts));
   Clock::time_point last = Clock::now();
   const auto addTime = [&](double& seconds) {

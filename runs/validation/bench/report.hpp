@@ -11,10 +11,10 @@
 /// Common parts of all benchmarks.
 namespace grouser::bench {
 
-/// Machine, device and program: printed as the first lines of a benchmark, and returned as the head of its JSON.
+/// Prints device, machine and program as the first lines of a benchmark, and returns them as the start of its JSON.
 nlohmann::ordered_json benchOrigin(const char* bench, const base::Exec& exec);
 
-/// Written by the first rank. Throws base::InputError if the file cannot be written; does nothing without a name.
+/// Writes a JSON file on the first rank; does nothing if `path` is empty. Throws base::InputError if it cannot write.
 void writeBench(const nlohmann::ordered_json& json, const std::string& path, const base::Comm& comm);
 
 } // namespace grouser::bench

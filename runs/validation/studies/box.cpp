@@ -38,7 +38,7 @@ terrain::Grains fill(const StudyBox& box, const base::Exec& exec) {
     for (int a = 0; a < 3; ++a) {
       const auto k = static_cast<std::uint64_t>(a);
       p[a] += gap * random(k), v[a] = 2 * box.speed * random(3 + k);
-      // On the grid first, so that the shaking is whole units.
+      // Put positions on the grid first, so that displacements are whole units of length.
       p[a] = std::floor(p[a] * scale.perMetre + 0.5) * scale.unit;
       if (box.shaken > 0)
         p[a] += std::floor((2 * base::uniform(box.seed, kShaken, id, k) - 1) * box.shaken + 0.5) * scale.unit;

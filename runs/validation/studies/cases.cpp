@@ -40,14 +40,14 @@ struct Pendulum {
   }
 };
 
-/// N four-bar linkages turn as one pendulum that goes over the top: phi from upright,
+/// N four-bar linkages move like one pendulum that passes over the top. With the angle phi from the upright position:
 /// [(N+1)/3 + N] phi'' = (g/L) [(N+1)/2 + N] sin(phi), phi'(0) = 1 rad/s.
 struct Rotor {
   explicit Rotor(int n) {
     const double a = 9.81 * (0.5 * (n + 1) + n) / ((n + 1) / 3.0 + n);
     rate = 0.5 * std::sqrt(1 + 4 * a), k = std::sqrt(4 * a / (1 + 4 * a)), quarter = quarterPeriod(k);
   }
-  /// Position and velocity of the end of the first coupler.
+  /// The probes are position and velocity of the end of the first coupler.
   Values tip(double t) const {
     const Jacobi j = jacobi(rate * t - quarter, k);
     const double sine = -2 * j.sn * j.cn, cosine = 2 * j.sn * j.sn - 1, speed = 2 * rate * j.dn;
@@ -188,7 +188,7 @@ std::vector<StudyCase> joints() {
   return cases;
 }
 
-/// Size of the force that a joint exerts [N].
+/// Magnitude of the reaction force of a joint [N].
 std::function<double(const coupling::Mechanism&)> forceOf(const std::string& joint) {
   return [joint](const coupling::Mechanism& m) {
     return norm(m.state().joint[static_cast<std::size_t>(m.model().jointIndex(joint))].force);
@@ -213,9 +213,9 @@ std::vector<double> readProbes(const coupling::Mechanism& mechanism, const std::
 
 std::function<std::vector<double>(double t)> referenceFile(const std::string& name) {
   const std::filesystem::path path = support::shareFolder() / "runs" / "mechanisms" / "reference" / name;
-  // Read on first use, so that listing the cases does not require the file.
+  // The file is read on first use, so that a list of the cases does not require it.
   return [path, rows = std::map<long long, Values>()](double t) mutable {
-    constexpr double kTick = 1e-7; // [s] finer than any step between rows
+    constexpr double kTick = 1e-7; // [s] resolution of times; finer than any interval between rows
     if (rows.empty()) {
       std::ifstream file(path);
       std::string line;
@@ -229,7 +229,8 @@ std::function<std::vector<double>(double t)> referenceFile(const std::string& na
     }
     const auto row = rows.find(std::llround(t / kTick));
     if (row == rows.end())
-      throw base::InputError(fmt::format("{}: no row at {} s; run make_reference.py in its folder", path.string(), t));
+      throw base::InputError(
+          fmt::format("{}: has no row at {} s; run make_reference.py in the folder of this file", path.string(), t));
     return row->second;
   };
 }

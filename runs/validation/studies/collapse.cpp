@@ -18,13 +18,13 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kSpacing = 2.6;    // lattice spacing of the initial column [radii]; it settles to disorder
-constexpr double kSolid = 0.59;     // expected solid fraction of the column, for its height only
-constexpr double kCalm = 1e-4;      // kinetic energy per grain over m g d at rest [-]
-constexpr double kLongest = 4;      // maximum duration over the expected one [-]
+constexpr double kSpacing = 2.6;    // lattice spacing of the initial column [radii]; large enough for disorder
+constexpr double kSolid = 0.59;     // expected solid fraction of the column; determines the initial height
+constexpr double kCalm = 1e-4;      // kinetic energy per grain / (m g d) below which grains are at rest [-]
+constexpr double kLongest = 4;      // maximum duration / expected duration [-]
 constexpr double kLookEvery = 0.02; // sampling interval [sqrt(h0 / g)]
 
-/// The column with and without the gate, `gate` [m] from the back wall.
+/// Scene of the column, with (`closed`) or without the gate at the distance `gate` [m] from the back wall.
 std::string columnScene(const virtual_tests::SampleGrains& material, double gate, double width, double height,
                         std::int64_t seed, scene::ContactMethod contact, bool closed) {
   std::string text = fmt::format(
@@ -39,7 +39,7 @@ std::string columnScene(const virtual_tests::SampleGrains& material, double gate
   return text;
 }
 
-/// The same grains without their last boundary and its springs.
+/// The state without the last boundary (the gate) and its springs.
 terrain::GrainState withoutGate(terrain::GrainState s) {
   const auto before = static_cast<std::size_t>(s.layout.boundaries), after = before - 1;
   const auto dropLast = [&]<class T>(std::vector<T>& springs) {
@@ -56,7 +56,7 @@ terrain::GrainState withoutGate(terrain::GrainState s) {
   return s;
 }
 
-/// Depth of the deposit [m] in bins of one diameter along x, at the solid fraction of the column.
+/// Depth of the deposit [m] in bins of one diameter along x, assuming the solid fraction kSolid.
 std::vector<double> profile(const std::vector<base::Vec3d>& centres, double d, double width) {
   std::vector<double> depth;
   for (const base::Vec3d& x : centres) {
@@ -67,7 +67,7 @@ std::vector<double> profile(const std::vector<base::Vec3d>& centres, double d, d
   return depth;
 }
 
-/// First position from the back wall where the deposit is less than half a diameter deep [m].
+/// Distance from the back wall to the first position where the deposit is less than half a diameter deep [m].
 double frontOf(const std::vector<double>& depth, double d) {
   const auto end = std::find_if(depth.begin(), depth.end(), [d](double h) { return h < 0.5 * d; });
   return static_cast<double>(end - depth.begin()) * d;
@@ -85,7 +85,7 @@ Collapse collapseColumn(const virtual_tests::SampleGrains& material, double leng
   const double fill = aspect * gate * kSolid / (base::kPi / 6) * spread * spread * spread;
   virtual_tests::Sample column = virtual_tests::buildSample(
       columnScene(material, gate, deep, fill, seed, scene::ContactMethod::penalty, true), base::cpuExec(1));
-  virtual_tests::bringToRest(column, kCalm, 2.0); // tolerates single grains rolling on top
+  virtual_tests::bringToRest(column, kCalm, 2.0); // a single grain may still roll on top
 
   double mean = 0;
   for (const base::Vec3d& x : column.grains().snapshot().position)
@@ -104,7 +104,7 @@ Collapse collapseColumn(const virtual_tests::SampleGrains& material, double leng
   std::vector<double> fronts, depth;
   result.rests = false;
   for (double t = 0; t < kLongest * kChannelTime * unit && !result.rests; t += look) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     virtual_tests::advanceSample(open.grains(), every);
     depth = profile(open.grains().snapshot().position, d, deep);
     fronts.push_back(frontOf(depth, d));
@@ -129,11 +129,12 @@ void studyCollapseCommand(const CollapseCommand& command) {
   const std::vector<double>& aspects = command.aspects;
   virtual_tests::SampleGrains material;
   material.stiffness = 3e4, material.rollingFriction = 0.1;
-  fmt::print(
-      "          spheres of 10 mm, 3e4 N/m, restitution 0.5, friction 0.5, rolling friction 0.1; column {} d long "
-      "between a wall and a gate,\n          {} d between periodic boundaries; smooth floor of the same friction; {} "
-      "contacts; {} seeds, +- their standard error; one thread\n",
-      length, command.width, base::wordOf(command.contact), seeds);
+  fmt::print("          spheres of 10 mm diameter (d), 3e4 N/m, restitution 0.5, friction 0.5, rolling friction 0.1; "
+             "column {} d "
+             "long\n          between a wall and a gate, {} d between periodic boundaries; smooth floor with the same "
+             "friction; "
+             "{} contacts;\n          {} seeds, +- standard error; one thread\n",
+             length, command.width, base::wordOf(command.contact), seeds);
   support::Progress progress("collapsing");
   std::string csv = "aspect [-],seed,grains,run-out [-],deposit height [-],time [-],rests\n";
   std::string table = fmt::format("\n  {:>13} {:>7} {:>17} {:>8} {:>17} {:>8} {:>17} {:>8}\n", "h0/d0", "grains",
@@ -160,7 +161,9 @@ void studyCollapseCommand(const CollapseCommand& command) {
                          channelRunOut(a), both(height), channelHeight(a), both(time), kChannelTime);
   }
   progress.finish(fmt::format("{} columns", aspects.size() * static_cast<std::size_t>(seeds)));
-  fmt::print("{}\n  channel: fits to channel experiments (scatter 10 to 15 %); columns of few grains deviate\n", table);
+  fmt::print("{}\n  channel: fits to channel experiments (scatter 10 to 15 %); columns of few grains deviate from the "
+             "fits\n",
+             table);
   support::writeTextFile(folder / "collapse.csv", csv, "--out");
   jobs::writeStudyOrigin(folder, "collapse", std::chrono::duration<double>(Clock::now() - begin).count(),
                          {{"length_in_diameters", length},

@@ -7,25 +7,26 @@
 
 #include <vector>
 
-/// Collapse of a column of grains: run-out against channel experiments (Lube et al. 2005, Lajeunesse et al. 2005).
+/// Collapse of a column of grains: compares the run-out with channel experiments (Lube et al. 2005, Lajeunesse et al.
+/// 2005).
 namespace grouser::studies {
 
-/// One collapse.
+/// Results of one collapse.
 struct Collapse {
   double aspect = 0; ///< [-] initial height / initial length
-  double runOut = 0; ///< [-] (x_end - d0) / d0, x_end: deposit half a diameter deep
+  double runOut = 0; ///< [-] (x_end - d0) / d0; at x_end the deposit is half a diameter deep, d0: initial length
   double height = 0; ///< [-] height of the deposit at the back wall / d0
-  double time = 0;   ///< [-] time until the front is within one diameter of its end, over sqrt(h0 / g)
+  double time = 0;   ///< [-] time until the front is within one diameter of its final position / sqrt(h0 / g)
   std::size_t grains = 0;
-  bool rests = true; ///< at rest within the maximum duration
+  bool rests = true; ///< true if the grains came to rest within the maximum duration
 };
 
-/// A column `length` diameters long and about `aspect` times as high, `width` diameters between periodic boundaries.
-/// `contact`: contact method during the collapse.
+/// Collapse of a column: `length` diameters long, about `aspect` times as high, and `width` diameters wide between
+/// periodic boundaries. `contact`: contact method during the collapse.
 Collapse collapseColumn(const virtual_tests::SampleGrains& material, double length, double width, double aspect,
                         std::int64_t seed, scene::ContactMethod contact = scene::ContactMethod::penalty);
 
-/// Fits to channel experiments, for any material: run-out, height of the deposit / d0, time / sqrt(h0 / g).
+/// Fits to channel experiments, valid for any material: run-out, height of the deposit / d0, time / sqrt(h0 / g).
 double channelRunOut(double aspect);
 double channelHeight(double aspect);
 inline constexpr double kChannelTime = 3.3;

@@ -15,14 +15,14 @@ using base::Vec3d;
 namespace {
 
 constexpr int kIterations = 4000;
-constexpr double kSphereInertia = 0.4; ///< 2/5: moment of a sphere over m R^2
+constexpr double kSphereInertia = 0.4; ///< moment of inertia of a sphere / (m R^2)
 
-/// Displacement, and rotation times radius.
+/// Displacement of a sphere, and its rotation times radius.
 struct Motion {
   Vec3d move, turn;
 };
 
-/// Negative forces and moments / radius of springs of unit stiffness for a displacement.
+/// Negative forces, and negative moments / radius, that springs of unit stiffness exert at a displacement.
 void stiffnessTimes(const ContactNetwork& network, const std::vector<Motion>& u, std::vector<Motion>& f) {
   std::fill(f.begin(), f.end(), Motion{});
   for (const ContactNetwork::Contact& c : network.contacts) {
@@ -66,7 +66,7 @@ double highestFrequency(const ContactNetwork& network) {
 }
 
 double gershgorinFrequency(const ContactNetwork& network) {
-  // Rows of K summed by blocks: the largest eigenvalue of sum_c w_c n n^T for each sphere, by its own power iteration.
+  // K is summed by blocks of rows: for each sphere, a power iteration finds the largest eigenvalue of sum_c w_c n n^T.
   std::vector<std::array<Vec3d, 3>> rows(network.spheres);
   const auto add = [&](std::size_t i, const Vec3d& n, double weight) {
     rows[i][0] += weight * n.x * n, rows[i][1] += weight * n.y * n, rows[i][2] += weight * n.z * n;

@@ -16,9 +16,9 @@ using terrain::Precision;
 namespace {
 
 constexpr double kDiameter = 2 * StudyBox::kRadius;
-constexpr double kGasSpacing = 3.2; // radii
-constexpr int kSampleEvery = 20;    // steps
-constexpr int kShaken = 8;          // units of length, between runs of an ensemble
+constexpr double kGasSpacing = 3.2; // [radii] lattice spacing of the gas
+constexpr int kSampleEvery = 20;    // number of steps between samples
+constexpr int kShaken = 8;          // [units of length] maximum initial displacement between runs
 constexpr std::size_t kMacroTimes = 10;
 
 StudyBox gasOf(const DriftStudy& study) {
@@ -48,11 +48,11 @@ double collisionTimeOf(const StudyBox& box) {
   const double number = 1 / std::pow(box.spacing * StudyBox::kRadius, 3);
   const double fraction = number * base::kPi / 6 * std::pow(kDiameter, 3);
   const double chi = (1 - 0.5 * fraction) / std::pow(1 - fraction, 3);
-  const double thermal = box.speed / std::sqrt(3.0); // per component, uniform in [-speed, speed]
+  const double thermal = box.speed / std::sqrt(3.0); // rms of a velocity component that is uniform in [-speed, speed]
   return 1 / (4 * std::sqrt(base::kPi) * number * kDiameter * kDiameter * chi * thermal);
 }
 
-/// Positions by id: exact.
+/// Exact positions, sorted by id.
 std::vector<base::Position> placesById(const Grains& grains) {
   std::vector<base::Position> place(grains.view().count);
   for (std::size_t slot = 0; slot < place.size(); ++slot) place[grains.view().id[slot]] = grains.view().position[slot];
@@ -80,7 +80,7 @@ Drift runPair(const std::string& scene, const std::string& pair, const StudyBox&
   Drift drift;
   drift.scene = scene, drift.pair = pair;
   const auto samples = static_cast<std::int64_t>(duration / StudyBox::kTimeStep) / kSampleEvery;
-  // Growth is fitted above rounding and below saturation.
+  // The growth rate is fitted where the distance is above rounding and below saturation.
   const double low = 10 * studyBoxScale().unit, high = 0.02 * kDiameter;
   std::vector<double> time, logRms;
   bool small = true;
@@ -92,13 +92,13 @@ Drift runPair(const std::string& scene, const std::string& pair, const StudyBox&
     if (small && s.rms > low) time.push_back(s.time), logRms.push_back(std::log(s.rms));
     if (drift.toDiameter < 0 && s.max >= kDiameter) drift.toDiameter = s.time;
     if (drift.rmsToDiameter < 0 && s.rms >= kDiameter) drift.rmsToDiameter = s.time;
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
   }
   drift.growth = support::fitLine(time, logRms);
   return drift;
 }
 
-/// Macroscopic quantities of one run of the bed at one time.
+/// Macroscopic quantities of one run of the dropped bed at one time.
 struct Macro {
   double kinetic, centre, top, coordination;
 };
@@ -147,14 +147,14 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
     for (int p = 0; p < 2; ++p) {
       StudyBox box = bedOf(study);
       box.precision = p == 0 ? Precision::single : Precision::double_;
-      // All runs have different initial states, so the two means are independent.
+      // All runs have different initial states, so that the two means are independent.
       box.shaken = kShaken, box.seed = 2 * static_cast<std::uint64_t>(run) + static_cast<std::uint64_t>(p) + 1;
       progress((run + 0.5 * p) / study.runs, "dropped bed");
       Grains grains = fill(box, exec);
       for (std::size_t k = 0; k < kMacroTimes; ++k) {
         advanceBy(grains, each);
         found[p][k].push_back(macroOf(grains));
-        jobs::stopStudyIfAsked();
+        jobs::stopStudyOnRequest();
       }
     }
   const struct {
@@ -181,7 +181,7 @@ std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgr
 
 std::string driftTable(const std::vector<Drift>& drifts) {
   std::string text =
-      fmt::format("\ndrift of two runs from the same state: distance between corresponding grains\n  {:<12} {:<32} "
+      fmt::format("\ndrift of two runs from the same state: distance of each grain between the runs\n  {:<12} {:<32} "
                   "{:>17} {:>15} {:>14} {:>16} {:>14}\n",
                   "", "", "growth [1/s]", "a collision [-]", "farthest at D", "rms at D", "rms at end [m]");
   for (const Drift& d : drifts) {
@@ -193,8 +193,8 @@ std::string driftTable(const std::vector<Drift>& drifts) {
         moment(d.toDiameter), moment(d.rmsToDiameter), d.samples.back().rms);
   }
   if (!drifts.empty() && drifts.front().collisionTime > 0)
-    text += fmt::format("  mean time between collisions in the gas: {:.4f} s; D: diameter, {:g} m; unit of length: "
-                        "{:.2e} m\n",
+    text += fmt::format("  mean time between collisions in the gas: {:.4f} s; D: grain diameter, {:g} m; unit of "
+                        "length: {:.2e} m\n",
                         drifts.front().collisionTime, kDiameter, studyBoxScale().unit);
   return text;
 }
@@ -209,20 +209,20 @@ std::string driftCsv(const std::vector<Drift>& drifts) {
 
 std::string macroTable(const std::vector<MacroRow>& rows, int runs) {
   std::string text = fmt::format(
-      "\nsingle and double precision, macroscopic quantities: means over {0} + {0} dropped beds with initial "
+      "\nmacroscopic quantities in single and double precision: means over {0} + {0} dropped beds with random initial "
       "displacements of up to {1} units of length\n  {2:<30} {3:>9} {4:>25} {5:>25} {6:>12} {7:>12} {8:>8}\n",
       runs, kShaken, "", "time [s]", "single", "double", "bias", "std. error", "ratio");
   int beyond = 0;
   for (const MacroRow& r : rows) {
     const double ratio = r.error() > 0 ? r.bias() / r.error() : 0;
     beyond += std::fabs(ratio) > 2;
-    if ((&r - rows.data()) % 2 == 0) continue; // every second time; the file contains all
+    if ((&r - rows.data()) % 2 == 0) continue; // prints every second time; the file contains all times
     text += fmt::format("  {:<30} {:>9.3g} {:>25} {:>25} {:>12.2e} {:>12.2e} {:>+8.2f}\n",
                         fmt::format("{} [{}]", r.quantity, r.unit), r.time,
                         fmt::format("{:.6g} +- {:.1e}", r.single.mean, r.single.error),
                         fmt::format("{:.6g} +- {:.1e}", r.double_.mean, r.double_.error), r.bias(), r.error(), ratio);
   }
-  return text + fmt::format("  {} of {} rows exceed two standard errors (expected by chance: about one in twenty)\n",
+  return text + fmt::format("  {} of {} biases exceed two standard errors (expected by chance: about one in twenty)\n",
                             beyond, rows.size());
 }
 

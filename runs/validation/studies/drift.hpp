@@ -9,26 +9,26 @@
 #include <string>
 #include <vector>
 
-/// Drift between runs of different precision: distances of single grains first, then macroscopic quantities.
+/// Drift between runs in single and double precision: distances of single grains, and macroscopic quantities.
 namespace grouser::studies {
 
-/// Distances of the same grains in two runs.
+/// Distance between the positions of the same grain in two runs, over all grains.
 struct DriftSample {
   double time = 0;         ///< [s]
   double max = 0, rms = 0; ///< [m]
 };
 
-/// Two runs from one state.
+/// Two runs from the same initial state.
 struct Drift {
   std::string scene, pair; ///< "gas", "single - double"
   std::vector<DriftSample> samples;
   double collisionTime = 0; ///< mean time between collisions [s]; 0: unknown
   support::LineFit growth;  ///< growth of ln rms while rms is small [1/s]
-  double toDiameter = -1;   ///< time until the maximum distance is one diameter [s]; negative: not reached
+  double toDiameter = -1;   ///< time at which the maximum distance reaches one diameter [s]; negative: not reached
   double rmsToDiameter = -1;
 };
 
-/// A macroscopic quantity at one time, over runs whose initial states differ by a few units of length.
+/// A macroscopic quantity at one time: means over runs with initial states that differ by a few units of length.
 struct MacroRow {
   std::string quantity, unit;
   double time = 0; ///< [s]
@@ -40,14 +40,14 @@ struct MacroRow {
 struct DriftStudy {
   std::int64_t grains = 2000;
   double gasTime = 1.5, bedTime = 0.5; ///< [s]
-  int runs = 8;                        ///< runs per precision
-  int threads = 0;                     ///< 0: all
+  int runs = 8;                        ///< number of runs in each precision
+  int threads = 0;                     ///< number of CPU threads; 0: all
 };
 using DriftProgress = std::function<void(double fraction, const std::string& what)>;
-/// A gas of elastic grains and a dropped bed: single against double precision, and double against double with all
-/// grains displaced by up to a unit of length.
+/// Compares pairs of runs of a gas of elastic grains and of a dropped bed: single with double precision, and two runs
+/// in double precision, where all grains of one run are displaced by up to one unit of length.
 std::vector<Drift> studyDrift(const DriftStudy& study, const DriftProgress& progress);
-/// Many runs of the dropped bed in both precisions: heights, kinetic energy, coordination.
+/// Compares heights, kinetic energy and coordination over many runs of the dropped bed in both precisions.
 std::vector<MacroRow> studyMacroscopic(const DriftStudy& study, const DriftProgress& progress);
 
 std::string driftTable(const std::vector<Drift>& drifts);

@@ -10,7 +10,7 @@ namespace grouser::studies {
 
 namespace {
 
-/// Steps of the arithmetic-geometric mean; each doubles the number of digits.
+/// Iterations of the arithmetic-geometric mean; each iteration doubles the number of correct digits.
 constexpr int kMeans = 10;
 
 struct Means {
@@ -34,12 +34,12 @@ Means means(double k) {
 
 Jacobi jacobi(double u, double k) {
   const Means m = means(k);
-  const double period = 2 * base::kPi / m.a[kMeans]; // period of sn and cn, 4 K
+  const double period = 2 * base::kPi / m.a[kMeans]; // 4 K, the period of sn and cn
   u -= period * std::floor(u / period + 0.5);
   double phi = std::ldexp(m.a[kMeans] * u, kMeans);
   for (std::size_t n = kMeans; n > 0; --n) phi = 0.5 * (phi + std::asin(m.c[n] / m.a[n] * std::sin(phi)));
   const double sn = std::sin(phi), cn = std::cos(phi);
-  // 1 - k^2 sn^2 without cancellation for k near 1.
+  // This is 1 - k^2 sn^2 without cancellation for k near 1.
   return {sn, cn, std::sqrt((1 - k) * (1 + k) + k * k * cn * cn)};
 }
 

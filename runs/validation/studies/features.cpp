@@ -20,12 +20,12 @@ namespace grouser::studies {
 namespace {
 
 constexpr double kFeatureRadius = 0.01, kFeatureStiffness = 1e5; // [m], [N/m]
-constexpr int kLayers = 6, kTile = 12;                           // grains on a side of the tile
-constexpr double kFeatureSpacing = 2.1;                          // [radii]
+constexpr int kLayers = 6, kTile = 12;                           // number of layers; grains per side of the tile
+constexpr double kFeatureSpacing = 2.1;                          // [radii] lattice spacing
 constexpr std::int64_t kCompared = 300;                          // number of steps before states are compared
-constexpr std::int64_t kOutputEvery = 100;                       // steps
+constexpr std::int64_t kOutputEvery = 100;                       // number of steps between outputs
 
-/// Lines of `section` in text of the form "section: key = value".
+/// Lines "key = value" of one section, from lines of the form "section: key = value".
 std::string keysOf(const std::string& keys, const std::string& section) {
   std::string found;
   std::istringstream lines(keys);
@@ -34,7 +34,7 @@ std::string keysOf(const std::string& keys, const std::string& section) {
   return found;
 }
 
-/// The grains of a scene's bed.
+/// Ground of the scene with these keys.
 std::vector<terrain::GrainSpec> placesOf(const coupling::GroundSetup& setup, const base::Exec& exec) {
   const coupling::LaidGround ground = coupling::buildGround(setup, exec);
   const terrain::GrainSnapshot at = ground.grains->snapshot();
@@ -56,11 +56,11 @@ void advance(terrain::Grains& grains, std::int64_t steps) {
   for (std::int64_t i = 0; i < steps;) i += grains.advance(steps - i);
 }
 
-/// Calls `turn(false)` and `turn(true)` in pairs of alternating order; both return the time per step.
+/// Calls `turn(false)` and `turn(true)` in pairs with alternating order. `turn` returns the time per step.
 template <class Turn> void inPairs(int pairs, const Turn& turn, jobs::Table& table) {
-  turn(false), turn(true); // warm-up: memory and neighbour lists
+  turn(false), turn(true); // warm-up, which allocates memory and builds neighbour lists
   for (int k = 0; k < pairs; ++k) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     double without = 0, with = 0;
     if (k % 2 == 0)
       without = turn(false), with = turn(true);
@@ -76,7 +76,7 @@ void fill(jobs::Table& table, double bytesWithout, double bytesWith, double grai
     row[2] = bytesWithout, row[3] = bytesWith, row[4] = grainsWithout, row[5] = grainsWith, row[6] = same ? 1 : 0;
 }
 
-/// Number of steps that takes about `seconds`, from a first measurement.
+/// Number of steps that take about `seconds`, estimated from a first measurement.
 template <class Step> std::int64_t stepsIn(double seconds, const Step& step) {
   step(5);
   const support::Stopwatch start;
@@ -113,14 +113,14 @@ const std::vector<Feature>& features() {
   const auto radii = [](coupling::GroundSetup& g) { g.grains->model.smallestRadius = 0.5 * g.grains->model.radius; };
   const std::string random = "terrain: arrangement = \"random\"\nterrain: depth = 0.12\n";
   static const std::vector<Feature> all = {
-      {"friction", "friction = 0.5, and 0 without", "material: friction = 0\n", ""},
+      {"friction", "friction = 0.5, compared with 0", "material: friction = 0\n", ""},
       {"rolling", "rolling_friction = 0.1", "", "material: rolling_friction = 0.1\n"},
       {"cohesion", "cohesion = 0.05 J/m2", "", "material: cohesion = 0.05\n"},
       {"hertz", "law = \"hertz\"", "", "material: law = \"hertz\"\nmaterial: young = 1e7\n"},
       {"double", "precision = \"double\"", "", "run: precision = \"double\"\n"},
       {"radii", "one (equal) radius per grain", "", "", false, false, radii},
-      {"random_radii", "arrangement = \"random\": radii +- 25 %, own bed", "", random, true},
-      {"grading", "coarsening = 0.1 below 0.05 m, against random radii", random,
+      {"random_radii", "arrangement = \"random\" with radii +- 25 %, on a bed of its own", "", random, true},
+      {"grading", "coarsening = 0.1 below 0.05 m, compared with random radii", random,
        random + "terrain: fine_depth = 0.05\nterrain: coarsening = 0.1\nterrain: coarsest_radius = 0.016\n", true},
       {"no_ledger", "no energy accounting (internal option)", "", "", false, false, ledgerOff},
       {"off_rolling", "rolling_friction = 0", "", "material: rolling_friction = 0\n", false, true},
@@ -169,7 +169,7 @@ jobs::Table measureOutput(const FeaturesCommand& c, const base::Exec& exec, cons
   terrain::Grains& grains = *ground.grains;
   output::FramesFile frames(folder, {}, {});
   const auto write = [&] {
-    grains.ledger(); // as for an output row
+    grains.ledger(); // as in a run, for an output row
     const terrain::GrainSnapshot at = grains.snapshot({true});
     output::Frame frame;
     frame.step = grains.steps(), frame.time = static_cast<double>(grains.steps());

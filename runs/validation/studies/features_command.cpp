@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study features`: cost of each feature, and check that it costs nothing when it is off.
+// `grouser study features`: measures the cost of each feature, and checks that disabled features cost nothing.
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/output/plots.hpp"
@@ -27,7 +27,7 @@ namespace {
 constexpr const char* kVehicle = "vehicle";
 constexpr const char* kOutput = "output";
 constexpr const char* kRanksName = "ranks";
-constexpr double kReady = 0.05; // time when the vehicle drives with full weight [s]
+constexpr double kReady = 0.05; // time from which on the vehicle drives with its full weight [s]
 
 std::vector<std::string> allNames() {
   std::vector<std::string> names;
@@ -40,9 +40,9 @@ std::vector<std::string> allNames() {
 }
 
 std::string whatOf(const std::string& name) {
-  if (name == kVehicle) return "driven [vehicle]; time per step and total memory instead of per grain";
+  if (name == kVehicle) return "driven [vehicle]; total time per step and total memory, not per grain";
   if (name == kOutput) return "a row and a frame every 100 steps";
-  if (name == kRanksName) return "two ranks with one thread each, against one rank with two threads";
+  if (name == kRanksName) return "two ranks with one thread each, compared with one rank with two threads";
   return std::find_if(features().begin(), features().end(), [&](const Feature& f) { return f.name == name; })->what;
 }
 
@@ -82,7 +82,7 @@ jobs::Table measureVehicle(const FeaturesCommand& c, const base::Exec& exec) {
     auto& run = runs[with ? 1 : 0];
     run = std::make_unique<coupling::Simulation>(
         setup::simulationSetup(setup::parseScene(vehicleScene(with), "features.toml")), exec,
-        coupling::SettleProgress([](double, double) { jobs::stopStudyIfAsked(); }), base::Comm(), nullptr,
+        coupling::SettleProgress([](double, double) { jobs::stopStudyOnRequest(); }), base::Comm(), nullptr,
         spheres ? &*spheres : nullptr);
     while (run->time() < kReady) run->step();
     bytes[with ? 1 : 0] = static_cast<double>(run->ground().grains->system().deviceBytes());
@@ -96,7 +96,7 @@ jobs::Table measureVehicle(const FeaturesCommand& c, const base::Exec& exec) {
   const std::int64_t steps = std::max<std::int64_t>(10, std::llround(c.turn / (first.seconds() / 20)));
   jobs::Table table{kFeatureColumns, {}};
   for (int k = 0; k <= c.pairs; ++k) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     double times[2];
     for (const bool with : {k % 2 != 0, k % 2 == 0}) {
       const support::Stopwatch begin;
@@ -114,12 +114,12 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
   for (const std::string& name : wanted)
     if (std::find(known.begin(), known.end(), name) == known.end())
       throw base::InputError(
-          fmt::format("study features: --features {}: unknown; choose from {}", name, fmt::join(known, ", ")));
+          fmt::format("study features: --features {}: unknown feature; choose from {}", name, fmt::join(known, ", ")));
   jobs::Pieces pieces("features", c.place, c.pieces, recipeOf(c));
   const support::StopSignals signals;
   const support::Stopwatch begin;
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
-  fmt::print("          about {} grains on {}, {} pairs of measurements of {:g} s, +- 95 % interval over the pairs\n",
+  fmt::print("          about {} grains on {}; {} pairs of measurements of {:g} s; +-: 95 % interval over the pairs\n",
              c.grains, base::describe(exec), c.pairs, c.turn);
   support::Progress progress("measuring");
   int done = 0;
@@ -150,7 +150,7 @@ void studyFeaturesCommand(const FeaturesCommand& c) {
                        cost.difference.halfWidth, cost.relative.value, cost.relative.halfWidth, cost.bytesWithout,
                        cost.bytesWith, verdict);
   }
-  if (pieces.left() > 0) fmt::print("{} features missing; repeat the command with --resume\n", pieces.left());
+  if (pieces.left() > 0) fmt::print("missing features: {}; repeat the command with --resume\n", pieces.left());
   support::writeTextFile(pieces.folder() / "features.csv", csv, "--out");
   jobs::writeStudyOrigin(pieces.folder(), "features", begin.seconds(), recipeOf(c));
   output::drawPicture("study_features.py", {pieces.folder() / "features.csv"}, pieces.folder() / "features.png");

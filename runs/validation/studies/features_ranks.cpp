@@ -17,12 +17,12 @@ namespace {
 
 constexpr int kRanks = 2;
 constexpr int kBatches = 3;
-constexpr double kUsual = 100e-9; // typical time per grain and step on one core [s], sets the steps of a measurement
+constexpr double kUsual = 100e-9; // typical time per grain and step on one core [s]; determines the number of steps
 
-/// Output of one call of `grouser bench bed`.
+/// Results of one call of `grouser bench bed`.
 struct BedTimes {
   double step = 0;  ///< time per grain and step [ns]
-  double bytes = 0; ///< per grain, all ranks
+  double bytes = 0; ///< memory per grain, sum over all ranks
   std::string hash;
 };
 
@@ -75,7 +75,7 @@ BedTimes timesOf(const FeaturesCommand& c, bool ranks, const std::filesystem::pa
 jobs::Table measureRanks(const FeaturesCommand& c, const std::filesystem::path& folder) {
   jobs::Table table{kFeatureColumns, {}};
   for (int k = 0; k < c.pairs; ++k) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     BedTimes times[2];
     for (const bool ranks : {k % 2 != 0, k % 2 == 0})
       times[ranks ? 1 : 0] = timesOf(c, ranks, folder / (ranks ? "ranks.json" : "alone.json"));

@@ -20,14 +20,14 @@ using fluid::FluidSnapshot;
 
 namespace {
 
-/// Steps a fluid until `end` [s]; calls `look` after each step.
+/// Advances a fluid to the time `end` [s], and calls `look` after each step.
 template <class Look>
 void drive(const FluidSetup& setup, double end, const base::Exec& exec, FluidPoint& point, const Look& look) {
   Fluid fluid(setup, exec);
   point.timeStep = setup.model.timeStep, point.particles = fluid.particles();
   double seconds = 0;
   while (fluid.time() < end - 1e-9) {
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     const auto begin = std::chrono::steady_clock::now();
     fluid.step();
     seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -36,7 +36,7 @@ void drive(const FluidSetup& setup, double end, const base::Exec& exec, FluidPoi
   point.steps = fluid.steps(), point.seconds = seconds;
 }
 
-/// Two-dimensional flow in the xz plane, or in the xy plane if both are periodic.
+/// Two-dimensional flow in the xz plane, or in the xy plane if x and y are periodic.
 FluidSetup planar(double spacing) {
   FluidSetup setup;
   setup.model.dimensions = 2, setup.model.spacing = spacing;
@@ -53,7 +53,7 @@ public:
     if (before_ * value < 0) times_.push_back(time_ + (time - time_) * before_ / (before_ - value));
     time_ = time, before_ = value;
   }
-  /// Mean time between crossings; 0 with fewer than two.
+  /// Mean time between crossings; 0 if there are fewer than two.
   double meanDistance() const {
     return times_.size() < 2 ? 0 : (times_.back() - times_.front()) / static_cast<double>(times_.size() - 1);
   }
@@ -65,7 +65,7 @@ private:
 
 double relative(double measured, double exact) { return std::abs(measured - exact) / std::abs(exact); }
 
-/// Water at rest in a tank: pressure rho g (H - z), the floor bears the weight.
+/// Water at rest in a tank: the pressure is rho g (H - z), and the force on the floor is the weight.
 void stillTank(const base::Exec& exec, FluidPoint& point) {
   constexpr double kDepth = 0.5, kWidth = 0.5, kEnd = 2, kSpare = 0.3, kWall = 0.3; // [m], [s]
   FluidSetup setup = planar(point.spacing);
@@ -95,8 +95,8 @@ void stillTank(const base::Exec& exec, FluidPoint& point) {
   point.errors = {std::sqrt(square / n), worst, relative(-force / looks, weight)};
 }
 
-/// A plane sound wave of length 1 m on a square lattice, whose speed on the lattice is c D(k)/k with
-/// D(k) = sum of V F x sin(k x), from the linear equations.
+/// A plane sound wave 1 m long on a square lattice. From the linear equations, its speed on the lattice is c D(k)/k,
+/// where D(k) is the sum of V F x sin(k x).
 void soundWave(const base::Exec& exec, FluidPoint& point) {
   constexpr double kSpeed = 10, kAmplitude = 1e-3, kEnd = 0.5; // [m/s], [m/s], [s]
   FluidSetup setup = planar(point.spacing);
@@ -124,7 +124,7 @@ void soundWave(const base::Exec& exec, FluidPoint& point) {
       const double x = i * point.spacing, y = j * point.spacing;
       dispersion -= m.volume() * kernel.slope(std::hypot(x, y)) * x * std::sin(2 * kPi * x);
     }
-  const double speed = 0.5 / crossings.meanDistance(); // half a wavelength in half a period
+  const double speed = 0.5 / crossings.meanDistance(); // half a wavelength / half a period
   point.errors = {relative(speed, kSpeed * dispersion / (2 * kPi)), relative(speed, kSpeed)};
 }
 
@@ -141,7 +141,7 @@ void taylorGreen(const base::Exec& exec, FluidPoint& point) {
   for (std::int64_t i = 0; i < cells; ++i)
     for (std::int64_t j = 0; j < cells; ++j) {
       const double x = centre(i, point.spacing), y = centre(j, point.spacing), k = 2 * kPi;
-      // Exact sums preserve the (unstable) symmetry of a perfect lattice, so it is perturbed.
+      // The lattice is perturbed, because exact sums would preserve the (unstable) symmetry of a perfect lattice.
       const double dx = kDisorder * point.spacing * std::sin(static_cast<double>(37 * i + 91 * j * j));
       const double dy = kDisorder * point.spacing * std::sin(static_cast<double>(53 * j + 71 * i * i));
       const double pressure = -0.25 * (std::cos(2 * k * x) + std::cos(2 * k * y));
@@ -159,7 +159,7 @@ void taylorGreen(const base::Exec& exec, FluidPoint& point) {
   point.errors = {relative(energy, 1), momentum};
 }
 
-/// Channel of width 0.2 m, started from rest, viscosity 1e-3 m2/s.
+/// Flow that starts from rest in a channel 0.2 m wide; viscosity 1e-3 m2/s.
 FluidSetup channel(double spacing, double wallSpeed, double pull) {
   constexpr double kGap = 0.2, kLength = 0.2; // [m]
   FluidSetup setup = planar(spacing);
@@ -179,7 +179,7 @@ FluidSetup channel(double spacing, double wallSpeed, double pull) {
   return setup;
 }
 
-/// RMS error of the velocity against `exact(z, t)` at `end`, over the maximum velocity.
+/// RMS difference between the velocity and `exact(z, t)` at the time `end` / maximum velocity.
 template <class Exact> double profileError(const FluidSetup& setup, double end, const base::Exec& exec,
                                            FluidPoint& point, const Exact& exact) {
   double square = 0, greatest = 0;
@@ -216,7 +216,7 @@ void couette(const base::Exec& exec, FluidPoint& point) {
   })};
 }
 
-/// Standing wave of small amplitude in water 1 m deep, 2 m long, g = 1 m/s2, Re 250: half period
+/// Standing wave of small amplitude in water 1 m deep and 2 m long, g = 1 m/s2, Re 250: half period
 /// pi/sqrt(g k tanh kH), kinetic energy ~ exp(-4 nu k^2 t).
 void standingWave(const base::Exec& exec, FluidPoint& point) {
   constexpr double kDepth = 1, kLength = 2, kGravity = 1, kAmplitude = 0.05, kReynolds = 250, kHalfPeriods = 4;
@@ -224,7 +224,7 @@ void standingWave(const base::Exec& exec, FluidPoint& point) {
   fluid::FluidModel& m = setup.model;
   const double k = 2 * kPi / kLength, omega = std::sqrt(kGravity * k * std::tanh(k * kDepth)), half = kPi / omega;
   m.gravity = {0, 0, -kGravity}, m.artificialViscosity = 0;
-  m.centralViscosity = true, m.smoothing = 1.5; // with 1.3 the period is 5 % too short
+  m.centralViscosity = true, m.smoothing = 1.5; // with a smoothing of 1.3, the period is 5 % too short
   m.viscosity = m.density * kDepth * std::sqrt(kGravity * kDepth) / kReynolds;
   m.soundSpeed = fluid::soundSpeedFor(std::sqrt(2 * kGravity * kDepth), 0, m.density);
   m.timeStep = fluid::stepLimits(m, 0.1 * m.soundSpeed, kGravity).least();
@@ -252,8 +252,8 @@ void standingWave(const base::Exec& exec, FluidPoint& point) {
   point.errors = {relative(crossings.meanDistance(), half), relative(rate, 4 * nu * k * k)};
 }
 
-/// A drop of radius 1 m pulled to its centre by -r per mass, which starts with the velocity (x, -y): its shape is an
-/// ellipse with the period 4.8274 s, from a' = s a, s' = (s^2 + 1)(b^2 - a^2)/(a^2 + b^2), b = 1/a.
+/// A drop of radius 1 m under the central force -r per mass. It starts with the velocity (x, -y) and stays an ellipse,
+/// which oscillates with the period 4.8274 s, from a' = s a, s' = (s^2 + 1)(b^2 - a^2)/(a^2 + b^2), b = 1/a.
 void oscillatingDrop(const base::Exec& exec, FluidPoint& point) {
   constexpr double kPeriod = 4.8274, kEnd = 10; // [s]
   FluidSetup setup = planar(point.spacing);
@@ -280,7 +280,7 @@ void oscillatingDrop(const base::Exec& exec, FluidPoint& point) {
   point.errors = {relative(2 * crossings.meanDistance(), kPeriod), momentum};
 }
 
-/// A square of fluid that spins at 1 rad/s without walls: its spin stays, and so does most of its energy.
+/// A square of fluid that spins at 1 rad/s without walls. It keeps its angular momentum and most of its energy.
 void rotatingPatch(const base::Exec& exec, FluidPoint& point) {
   constexpr double kEnd = 2; // [s], [rad]
   FluidSetup setup = planar(point.spacing);

@@ -25,7 +25,7 @@ struct FluidResult {
   std::vector<FluidPoint> points;
 };
 
-/// Verdict at the finest spacing; "" if it was not run or has no tolerance.
+/// Verdict at the finest spacing; "" if this spacing was not run or the quantity has no tolerance.
 std::string verdictOf(const FluidResult& result, std::size_t quantity) {
   const double bar = result.study.quantities[quantity].bar, error = result.points.back().errors[quantity];
   return bar == 0 || result.points.size() < result.study.spacings.size()

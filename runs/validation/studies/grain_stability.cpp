@@ -25,14 +25,15 @@ namespace {
 
 constexpr double kRadius = 0.005, kDensity = 2600; // [m], [kg/m3]
 constexpr double kOwnOverlap = 1e-3;               // overlap of a grain under its own weight [radii]
-constexpr double kDisturbance = 5e-4; // initial amplitude at frequency sqrt(k / m) [overlaps under own weight]
+constexpr double kDisturbance = 5e-4; // initial amplitude at the frequency sqrt(k / m) / overlap under own weight
 constexpr double kTangentialRatio = 2.0 / 7;
 constexpr double kSettleStiffness = 1e5, kSettleZeta = 0.3, kSettleStep = 0.3; // [N/m], [-], [1 / sqrt(k / m)]
 constexpr std::uint64_t kSeed = 1, kPurpose = base::purpose("study.stability");
 
 double rate(double stiffness) { return std::sqrt(stiffness / base::sphereMass(kDensity, kRadius)); } // [1/s]
 
-/// Scene of the study. All contacts have c = 2 zeta sqrt(k m): gamma m / 2 between grains, gamma m at a plane.
+/// Scene of the study. All contacts have c = 2 zeta sqrt(k m), where c = gamma m / 2 between grains and gamma m at a
+/// plane.
 scene::Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta) {
   std::string text = "version = 1\n[run]\nduration = 1\n";
   for (const char* name : {"grain", "wall"})
@@ -48,7 +49,7 @@ scene::Scene sceneOf(const RestingGrains& grains, double stiffness, double zeta)
   return scene;
 }
 
-/// Grains of the scene with an unchecked time step.
+/// Grains of the scene, with a time step that is not checked.
 Grains build(const RestingGrains& grains, double stiffness, double zeta, double timeStep,
              const std::vector<terrain::GrainSpec>& start) {
   const scene::Scene scene = sceneOf(grains, stiffness, zeta);
@@ -89,7 +90,7 @@ ContactNetwork networkOf(const RestingGrains& grains) {
   return network;
 }
 
-/// Settles the grains, repeatedly resetting all velocities to zero.
+/// Settles the grains; repeatedly resets all velocities to zero.
 void settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start) {
   Grains grains = build(resting, kSettleStiffness, kSettleZeta, kSettleStep / rate(kSettleStiffness), start);
   const auto advance = [&grains](int steps) {
@@ -99,17 +100,17 @@ void settle(RestingGrains& resting, const std::vector<terrain::GrainSpec>& start
     }
   };
   constexpr int kFall = 4000, kBetween = 500, kTimes = 200;
-  constexpr double kAtRest = 1e-5; // mean resultant force over weight
+  constexpr double kAtRest = 1e-5; // mean resultant force / weight of a grain
   advance(kFall);
   for (int k = 0; k < kTimes; ++k) {
     grains.stop();
     advance(kBetween);
     resting.forceRatio = terrain::forceRatio(grains.system());
     if (resting.forceRatio < kAtRest) break;
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
   }
   grains.stop();
-  advance(1); // updates contacts without motion
+  advance(1); // updates the contacts at rest
   resting.state = grains.state();
   resting.network = networkOf(resting);
   resting.frequency = highestFrequency(resting.network);
@@ -131,7 +132,7 @@ RestingGrains column(int grains) {
   std::vector<terrain::GrainSpec> start;
   double z = 0;
   for (int i = 0; i < grains; ++i) {
-    // The contact below sphere i carries spheres i and above.
+    // The contact below sphere i supports the weight of sphere i and of all spheres above.
     z += (i == 0 ? 1 : 2) * kRadius - (grains - i) * kOwnOverlap * kRadius;
     start.push_back({{0, 0, z}, {}, {}});
   }
@@ -199,7 +200,7 @@ GrainStabilityCell tryCell(const RestingGrains& resting, double stiffness, doubl
       if (i % kLookEvery) continue;
       const terrain::GrainLedger ledger = grains.ledger();
       cell.growth = std::max(cell.growth, (ledger.kinetic + ledger.rotational) / first);
-      cell.stable = cell.growth <= kGrowth; // false for NaN too
+      cell.stable = cell.growth <= kGrowth; // also false for NaN
     }
   } catch (const base::SimulationError&) {
     cell.stable = false, cell.stopped = true;
@@ -226,7 +227,7 @@ GrainStabilityMap stabilityMap(const RestingGrains& grains, const StabilityAxes&
         map.cells.push_back(tryCell(grains, stiffness, zeta, scaled / rate(stiffness)));
       for (const double share : axes.ofLimit)
         map.cells.push_back(tryCell(grains, stiffness, zeta, share * limit / rate(stiffness)));
-      jobs::stopStudyIfAsked();
+      jobs::stopStudyOnRequest();
     }
   return map;
 }

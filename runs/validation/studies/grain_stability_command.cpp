@@ -18,7 +18,7 @@ namespace grouser::studies {
 
 namespace {
 
-/// "18 of 18".
+/// Number of cells that agree with the prediction, e.g. "18 of 18".
 std::string counted(const GrainStabilityMap& map, const std::function<bool(const GrainStabilityCell&)>& which) {
   int all = 0, agree = 0;
   for (const GrainStabilityCell& c : map.cells)
@@ -28,7 +28,7 @@ std::string counted(const GrainStabilityMap& map, const std::function<bool(const
 
 bool at(const GrainStabilityCell& c, double share) { return std::fabs(c.ofLimit - share) < 1e-9; }
 
-/// Damping ratios in the order of the cells.
+/// The damping ratios of a map, in the order of the cells.
 std::vector<double> zetasOf(const GrainStabilityMap& map) {
   std::vector<double> zetas;
   for (const GrainStabilityCell& c : map.cells)
@@ -69,7 +69,7 @@ std::string grainStabilityTable(const GrainStabilityMap& map) {
                         found.lowestUnstable, limit, calm, calm / limit);
   }
   text += fmt::format("  steps in 1 / sqrt(k/m); in brackets: step / predicted limit\n  as predicted: {} cells; at "
-                      "0.95 of the limit {}, at 1.05 {}\n  conservative bound: excludes {} stable cells, includes {} "
+                      "0.95 of the limit {}, at 1.05 {}\n  bound \"calm up to\": excludes {} stable cells, includes {} "
                       "unstable cells; guards stopped {} runs\n",
                       counted(map, [](const GrainStabilityCell&) { return true; }),
                       counted(map, [](const GrainStabilityCell& c) { return at(c, 0.95); }),
@@ -111,7 +111,7 @@ void studyGrainStabilityCommand(const GrainStabilityCommand& command) {
   const auto folder = jobs::beginStudy("stability", command.place);
   const support::StopSignals signals;
   const bool quick = command.place.quick;
-  fmt::print("          radius 5 mm, 2600 kg/m3; unstable: the kinetic energy exceeds {:g} times that of a small "
+  fmt::print("          radius 5 mm, 2600 kg/m3; unstable: the kinetic energy exceeds {:g} times the energy of a small "
              "disturbance within {} steps, or a guard stops the run\n",
              kGrowth, kStabilitySteps);
   const StabilityAxes axes = stabilityAxes(quick);

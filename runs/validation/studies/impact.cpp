@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kBallRadius = 0.005, kBallDensity = 2600;      // [m], [kg/m3]
 constexpr double kBallStiffness = 1e5, kEffectiveModulus = 1e9; // [N/m], [Pa]
-constexpr double kPairSpacing = 4 * kBallRadius;                // distance between simultaneous collisions [m]
+constexpr double kPairSpacing = 4 * kBallRadius;                // distance between two simultaneous collisions [m]
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double mass() { return base::sphereMass(kBallDensity, kBallRadius); }
@@ -43,7 +43,7 @@ contact::ContactLaw lawOf(const ImpactCase& c) {
   return law;
 }
 
-/// Maximum overlap of the linear law [m]: the same with and without clamp, which acts during separation only.
+/// Maximum overlap of the linear law [m]. The clamp does not change it, because it acts only during separation.
 double deepestLinear(double omega, double zeta, double speed) {
   const double eta = zeta * omega;
   double time = 1 / eta; // zeta = 1
@@ -64,10 +64,10 @@ double threadSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Simultaneous collisions: grain i, or grains 2 i and 2 i + 1, in collision i.
+/// Simultaneous collisions. Collision i has the grain i, or the grains 2 i and 2 i + 1.
 class Collisions {
 public:
-  /// First contact after `stepsBefore(i)` steps.
+  /// `stepsBefore(i)`: number of steps before the first contact in collision i.
   template <class StepsBefore> Collisions(const ImpactCase& c, terrain::Precision precision, double timeStep, int count,
                                           const StepsBefore& stepsBefore)
       : binary_(c.binary), count_(static_cast<std::size_t>(count)) {
@@ -97,7 +97,7 @@ public:
     grains_->step();
   }
 
-  /// Gaps [m] and approach speeds [m/s].
+  /// Reads the gap [m] and the approach speed [m/s] of each collision.
   void read(std::vector<double>& gap, std::vector<double>& speed) const {
     gap.resize(count_), speed.resize(count_);
     const std::size_t n = binary_ ? 2 * count_ : count_;
@@ -128,7 +128,7 @@ public:
   double deepest() const { return deepest_; }      ///< [m]
   double rebound() const { return rebound_; }      ///< [m/s]
 
-  /// Step s: from (gap0, speed0) to (gap1, speed1).
+  /// Processes step s, in which gap and speed change from (gap0, speed0) to (gap1, speed1).
   void see(std::int64_t s, double gap0, double speed0, double gap1, double speed1, bool clamped) {
     if (over()) return;
     const double at = static_cast<double>(s);
@@ -146,8 +146,8 @@ public:
   }
 
 private:
-  /// Steps from the last force to the zero of a parabola through it and two earlier ones, at most one. The points are
-  /// sqrt(steps) apart, since differences of neighbouring float velocities are noise.
+  /// Number of steps, at most 1, from the last force to the zero of a parabola through this force and two earlier ones.
+  /// The three forces are sqrt(steps) apart, because differences of neighbouring float velocities are noise.
   double untilNoForce() const {
     const std::size_t n = pull_.size();
     const auto k = std::max<std::size_t>(1, static_cast<std::size_t>(std::sqrt(static_cast<double>(n))));
@@ -160,8 +160,8 @@ private:
 
   double began_ = -1, ended_ = -1; ///< [steps]
   double deepest_ = 0, rebound_ = 0;
-  std::vector<double> pull_; ///< speed change of each step with a force [m/s]
-  double firstForce_ = 0;    ///< step of the first force
+  std::vector<double> pull_; ///< speed change in each step with a force [m/s]
+  double firstForce_ = 0;    ///< number of the first step with a force
 };
 
 } // namespace
@@ -188,7 +188,7 @@ ImpactReference impactReference(const ImpactCase& c) {
     const double omega = omega0(c);
     r.contactTime = base::kPi / omega, r.stableStep = contact::stableStep(omega, c.damping);
     overlap = c.damping == 0 ? c.speed / omega : deepestLinear(omega, c.damping, c.speed);
-    if (c.damping >= 1 && !c.isClamped()) return r; // overdamped: never separates
+    if (c.damping >= 1 && !c.isClamped()) return r; // overdamped: the bodies never separate
     restitution = contact::restitutionOf(c.damping, !c.isClamped());
     duration = contact::contactDuration(omega, c.damping, !c.isClamped());
     return r;
@@ -205,7 +205,7 @@ int expectedOrder(const ImpactCase& c, int) { return c.damping == 0 ? 2 : 1; }
 
 namespace {
 
-/// Adds the errors of `phases` collisions at one step to `point`, weighted with `share`.
+/// Adds the errors of `phases` collisions at one step size to `point`, weighted with `share`.
 void addCollisions(const ImpactCase& c, terrain::Precision precision, const ImpactReference& reference,
                    double stepsPerContact, int phases, double share, ImpactPoint& point) {
   const double timeStep = reference.contactTime / stepsPerContact;
@@ -215,8 +215,8 @@ void addCollisions(const ImpactCase& c, terrain::Precision precision, const Impa
   collisions.read(gap0, speed0);
   const bool ends = reference.value[kRestitution].has_value();
   const bool endsWithForce =
-      c.isClamped() && c.damping > 0; // elastic: the contact ends with the overlap, which is more accurate
-  // Contacts without end are observed past the maximum overlap; the slowest of the others takes 2.3 contact times.
+      c.isClamped() && c.damping > 0; // the end of an elastic contact is more accurate from the overlap
+  // Contacts that never end are observed past the maximum overlap. Of all others, the slowest takes 2.3 contact times.
   const auto longest = static_cast<std::int64_t>((ends ? 8 : 1) * stepsPerContact) + 8;
   for (std::int64_t s = 0; s < longest; ++s) {
     collisions.step();
@@ -236,7 +236,7 @@ void addCollisions(const ImpactCase& c, terrain::Precision precision, const Impa
     ImpactError& error = point.error[k];
     for (const Observed& o : observed) {
       const double measured[] = {o.rebound() / c.speed, o.steps() * timeStep, o.deepest()};
-      // Contacts longer than eight contact times count as stuck: no rebound speed, no duration.
+      // Contacts longer than eight contact times count as stuck: zero rebound speed, infinite duration.
       const double value = q == kDuration && !o.over() ? kNever : q == kRestitution && !o.over() ? 0 : measured[q];
       error.worst = std::max(error.worst, std::fabs(value - exact) / unit);
       error.mean += (value - exact) / unit * share;

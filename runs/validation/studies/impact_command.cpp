@@ -19,7 +19,8 @@ using terrain::Precision;
 
 namespace {
 
-/// Steps per contact: three decades by factors of 1.8, not integers, so that the phase of separation varies.
+/// Steps per contact over three decades, with a ratio of 1.8. They are not integers, so that the phase of separation
+/// varies.
 std::vector<double> stepCounts(bool quick) {
   std::vector<double> steps;
   for (int k = 0; k <= (quick ? 6 : 12); ++k) steps.push_back(4.7 * std::pow(1.8, k));
@@ -27,7 +28,7 @@ std::vector<double> stepCounts(bool quick) {
 }
 
 std::vector<ImpactCase> impactCases(bool quick) {
-  // Rows of the table of closed forms; four of them with --quick.
+  // Damping ratios in the table of closed forms; four of them with --quick.
   const std::vector<double> zetas =
       quick ? std::vector<double>{0, 0.2, 1, 2}
             : std::vector<double>{0, 0.05, 0.1, 0.2, 0.3, 0.5, std::sqrt(0.5), 0.9, 1, 1.5, 2};
@@ -67,10 +68,11 @@ void studyImpactCommand(const ImpactCommand& command) {
   const bool quick = command.place.quick;
   const std::vector<double> steps = stepCounts(quick);
   const std::vector<ImpactCase> cases = impactCases(quick);
-  fmt::print("          radius 5 mm, 2600 kg/m3; linear 1e5 N/m, Hertz E_eff 1 GPa; 1 m/s; one thread; steps per "
-             "undamped contact; {} phases of first contact, {} phases of separation\n          CPU time: {} "
-             "simultaneous collisions, median of {}\n",
-             command.phases.touching, command.phases.leaving, command.collisions, command.repeats);
+  fmt::print(
+      "          radius 5 mm, 2600 kg/m3; linear 1e5 N/m, Hertz E_eff 1 GPa; 1 m/s; one thread; steps: number per "
+      "undamped contact; {} phases of first contact, {} phases of separation\n          CPU time: {} "
+      "simultaneous collisions, median of {} repetitions\n",
+      command.phases.touching, command.phases.leaving, command.collisions, command.repeats);
   support::Progress progress("studying");
   std::vector<ImpactSeries> all;
   for (std::size_t i = 0; i < cases.size(); ++i) {
@@ -80,11 +82,11 @@ void studyImpactCommand(const ImpactCommand& command) {
       for (const double n : steps) {
         series.points.push_back(measureImpact(cases[i], precision, n, command.phases));
         timeImpact(cases[i], precision, command.collisions, command.repeats, series.points.back());
-        jobs::stopStudyIfAsked();
+        jobs::stopStudyOnRequest();
       }
       all.push_back(std::move(series));
     }
-    // Prints the most informative ones; the file contains all.
+    // Prints the most informative collisions; the file contains all collisions.
     if (cases[i].damping == 0 || cases[i].damping == 0.2 || !cases[i].isLinear())
       progress.note(impactTable(all[all.size() - 2], all.back()));
   }

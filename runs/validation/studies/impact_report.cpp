@@ -52,10 +52,10 @@ std::string impactTable(const ImpactSeries& single, const ImpactSeries& double_)
 }
 
 std::string orderTable(const std::vector<ImpactSeries>& all) {
-  std::string text =
-      fmt::format("\norder of the worst error in the step, 95 % confidence, at {:g} or more steps per contact, "
-                  "errors above {:g}; in brackets: expected\n  {:<36} {:<7}",
-                  kFitFrom, kRoundOffFloor, "", "");
+  std::string text = fmt::format(
+      "\norder of the worst error in the step size with its 95 % interval, from points with at least {:g} steps "
+      "per contact and errors above {:g}; in brackets: expected order\n  {:<36} {:<7}",
+      kFitFrom, kRoundOffFloor, "", "");
   for (int q = 0; q < kImpactQuantities; ++q) text += fmt::format(" {:>19}", impactQuantityName(q));
   text += "\n";
   for (const ImpactSeries& s : all) {
@@ -142,8 +142,8 @@ std::string cheapestImpactCsv(const std::vector<ImpactSeries>& all) {
 
 std::string closedFormTable(const std::vector<ImpactSeries>& all, std::size_t point) {
   std::string text = fmt::format(
-      "\nclosed forms and simulation at {:.4g} steps per contact, mean over the phases, single "
-      "precision\n  {:<30} {:>11} {:>11}  {:>11} {:>11}  {:>11} {:>11}\n",
+      "\nclosed-form values (e: restitution, t_c: duration, maximum overlap) and simulation in single precision at "
+      "{:.4g} steps per contact, mean over the phases\n  {:<30} {:>11} {:>11}  {:>11} {:>11}  {:>11} {:>11}\n",
       all.front().points[point].steps, "", "e", "measured", "t_c [s]", "measured", "overlap [m]", "measured");
   for (const ImpactSeries& s : all) {
     if (s.precision != terrain::Precision::single || s.study.binary || !s.points[point].stable) continue;
@@ -168,7 +168,7 @@ std::vector<ConvergenceRow> convergenceRows(int phases) {
   for (ConvergenceRow& row : rows) {
     ImpactCase c;
     c.damping = 0.2;
-    // Integer steps of the (longer) damped contact.
+    // The numbers of steps per damped contact, which is longer, are integers.
     const ImpactReference reference = impactReference(c);
     const double shorter = reference.contactTime / *reference.value[kDuration];
     row.damped = measureImpact(c, terrain::Precision::double_, row.steps * shorter, {phases, 1}).error[kRestitution];
@@ -179,11 +179,11 @@ std::vector<ConvergenceRow> convergenceRows(int phases) {
 }
 
 std::string convergenceTable(const std::vector<ConvergenceRow>& rows) {
-  std::string text = fmt::format("\nlinear free on a plane, double precision: error of the restitution at integer "
-                                 "steps per contact\n  {:>6} {:>26} "
-                                 "{:>12} {:>12}   {:>16}\n  {:>6} {:>26} {:>12} {:>12}   {:>16}\n",
-                                 "", "zeta 0.2: worst, published", "worst here", "mean here", "elastic: worst", "steps",
-                                 "", "", "", "");
+  std::string text = fmt::format(
+      "\nlinear free law, grain on a plane, double precision: error of the restitution at an "
+      "integer number of steps per contact\n  {:>6} {:>26} "
+      "{:>12} {:>12}   {:>16}\n  {:>6} {:>26} {:>12} {:>12}   {:>16}\n",
+      "", "zeta 0.2: worst, published", "worst here", "mean here", "elastic: worst", "steps", "", "", "", "");
   for (const ConvergenceRow& r : rows)
     text += fmt::format("  {:>6g} {:>26} {:>12.4f} {:>+12.4f}   {:>16.1e}\n", r.steps, number(r.published, "{:.4f}"),
                         r.damped.worst, r.damped.mean, r.elastic.worst);
@@ -213,8 +213,8 @@ std::vector<CoarseRow> coarseRows(int phases) {
 
 std::string coarseTable(const std::vector<CoarseRow>& rows) {
   std::string text =
-      "\nlinear clamped on a plane, double precision: error of the restitution, worst (mean), at steps per "
-      "contact\n  restitution";
+      "\nlinear clamped law, grain on a plane, double precision: error of the restitution, worst (mean), over the "
+      "steps per contact\n  restitution";
   for (const double steps : kCoarseSteps) text += fmt::format(" {:>18g}", steps);
   for (const CoarseRow& row : rows) {
     text += fmt::format("\n  {:>11g}", row.restitution);
@@ -225,7 +225,7 @@ std::string coarseTable(const std::vector<CoarseRow>& rows) {
 
 std::string speedTable(const std::vector<ImpactSeries>& all) {
   std::string text =
-      fmt::format("\nworst error over the approach speed, {:.4g} steps per contact\n  {:<36} {:<7} {:>12} "
+      fmt::format("\nworst error over the approach speed at {:.4g} steps per contact\n  {:<36} {:<7} {:>12} "
                   "{:>12} {:>12} {:>12}\n",
                   all.front().points.front().steps, "", "", "speed [m/s]", "restitution", "duration", "overlap");
   for (const ImpactSeries& s : all)

@@ -24,10 +24,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kThreshold = 1e-3; ///< y_thr of the error's definition
-constexpr double kShortRun = 0.2;   ///< CPU time below which a run is repeated [s]
-constexpr int kRepeats = 3;         ///< repeats of a short run; the minimum time counts
-constexpr double kHopeless = 1e3;   ///< error above which a run counts as failed [-]
+constexpr double kThreshold = 1e-3; ///< y_thr in the definition of the error
+constexpr double kShortRun = 0.2;   ///< runs with less CPU time are repeated [s]
+constexpr int kRepeats = 3;         ///< number of repetitions of a short run; the minimum time counts
+constexpr double kHopeless = 1e3;   ///< runs with a larger error count as failed [-]
 
 double cpuSeconds() {
   timespec now{};
@@ -35,7 +35,7 @@ double cpuSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// The scene of a case; scenes not in runs/mechanisms/ are made by the script there.
+/// The scene of a case: a file in runs/mechanisms/, or a file that make_mechanisms.py in this folder writes.
 scene::Scene loadCase(const std::string& scene, const IntegratorChoice& integrator) {
   const fs::path folder = support::shareFolder() / "runs" / "mechanisms";
   fs::path file = folder / scene;
@@ -61,7 +61,7 @@ struct Measured {
   double error = 0, position = 0, velocity = 0, energy = 0, seconds = 0;
 };
 
-/// Runs a case and compares at its sample times; measures the time of the steps only.
+/// Runs a case and compares it with the reference at the sample times; measures only the time of the steps.
 Measured measure(const StudyCase& c, const scene::Scene& scene, double step, std::int64_t stepsPerSample,
                  std::int64_t samples) {
   coupling::Mechanism mechanism(setup::mechanismSetup(scene), step);
@@ -85,7 +85,7 @@ Measured measure(const StudyCase& c, const scene::Scene& scene, double step, std
     const coupling::Mechanism::Drift drift = mechanism.drift();
     m.position = std::max(m.position, drift.position), m.velocity = std::max(m.velocity, drift.velocity);
     m.energy = std::max(m.energy, std::fabs(energy() - start));
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
   }
   m.error = std::sqrt(sum / static_cast<double>(samples));
   return m;
@@ -109,7 +109,7 @@ std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& int
     p.order = std::numeric_limits<double>::quiet_NaN();
     const StudyPoint* before = points.empty() ? nullptr : &points.back();
     if (before && before->seconds * 4 > budget) {
-      p.failure = fmt::format("skipped: about {:.0f} s", before->seconds * 4);
+      p.failure = fmt::format("skipped: would take about {:.0f} s", before->seconds * 4);
       p.seconds = before->seconds * 4;
       points.push_back(p);
       continue;
@@ -122,7 +122,7 @@ std::vector<StudyPoint> studyOne(const StudyCase& c, const IntegratorChoice& int
       if (m.error < kHopeless)
         p.error = m.error;
       else
-        p.failure = "failed: unbounded error";
+        p.failure = "failed: the error is too large";
       if (p.error && before && before->error && *p.error > 0) p.order = std::log2(*before->error / *p.error) / 2;
     } catch (const base::SimulationError& error) {
       p.failure = error.what();

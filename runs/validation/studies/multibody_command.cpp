@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kQuickSteps = 3; ///< number of step sizes with --quick
-constexpr int kFullSteps = 7;  ///< a quarter each: factor 4096 in all
+constexpr int kFullSteps = 7;  ///< number of step sizes; the first one is 4096 times the last one
 
 } // namespace
 
@@ -32,7 +32,7 @@ void studyMultibodyCommand(const StudyCommand& command) {
   std::vector<StudyCase> cases = chosenCases(studyCases(), command.cases);
   if (command.cases.empty() && command.place.quick) std::erase_if(cases, [](const StudyCase& c) { return c.isLong; });
   const fs::path folder = jobs::beginStudy("multibody", command.place);
-  fmt::print("          one thread; CPU time of the steps without set-up and output\n");
+  fmt::print("          one thread; the CPU time includes the steps, but not set-up and output\n");
 
   const support::StopSignals signals;
   const int count = command.place.quick ? kQuickSteps : kFullSteps;

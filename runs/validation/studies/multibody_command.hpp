@@ -11,9 +11,9 @@ namespace grouser::studies {
 /// `grouser study multibody`.
 struct StudyCommand {
   std::vector<std::string> cases; ///< empty: all
-  bool stability = false;         ///< only the stability of steps
-  double budget = 60;             ///< CPU time per run [s]
-  jobs::StudyPlace place;         ///< quick: few step sizes of a few cases
+  bool stability = false;         ///< only test which steps are stable
+  double budget = 60;             ///< maximum CPU time per run [s]
+  jobs::StudyPlace place;         ///< quick: few step sizes and few cases
 };
 void studyMultibodyCommand(const StudyCommand& command);
 

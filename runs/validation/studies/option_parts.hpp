@@ -13,13 +13,13 @@
 #include <type_traits>
 #include <vector>
 
-/// Options common to several studies.
+/// Options that several studies have in common.
 namespace grouser::studies {
 
-/// Defaults under --quick; options set by the user keep their values.
+/// Defaults with --quick. Options that the user sets keep their values.
 class QuickValues {
 public:
-  /// `value`: target of the option, whose help shows the quick default.
+  /// Sets `value`, the target of the option, to `quick` with --quick; adds this default to the help of the option.
   template <class T> void instead(CLI::Option* option, T& value, const std::type_identity_t<T>& quick) {
     std::string text;
     if constexpr (std::is_arithmetic_v<T>)
@@ -39,14 +39,14 @@ private:
   std::vector<std::function<void()>> values_;
 };
 
-/// --quick, --out and --force; `quick`: settings of --quick for its help; `name`: of the study.
+/// Adds --quick, --out and --force. `quick`: help text with the settings of --quick; `name`: name of the study.
 void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick);
-/// A number in [low, high].
+/// Adds an option for a number in [low, high].
 CLI::Option* addNumber(CLI::App& app, const std::string& name, double& value, double low, double high,
                        const std::string& help);
-/// Throws InputError with the nearest known name for an unknown name.
+/// Throws InputError with the nearest known name if a name is unknown.
 void checkCaseNames(const std::vector<std::string>& names, const std::vector<std::string>& known);
-/// The cases of --cases in the order of `all`; without names all of them.
+/// The cases that --cases names, in the order of `all`; without names, all cases.
 template <class Case> std::vector<Case> chosenCases(std::vector<Case> all, const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const Case& c : all) known.push_back(c.name);
@@ -56,9 +56,9 @@ template <class Case> std::vector<Case> chosenCases(std::vector<Case> all, const
   });
   return all;
 }
-/// --seeds
+/// Adds --seeds.
 CLI::Option* addSeeds(CLI::App& app, int& seeds, const std::string& help);
-/// Runs the study with `command` as the callback of `app`.
+/// Sets the callback of `app`, which runs the study with `command`.
 template <class Command>
 void doStudy(CLI::App& app, Command& command, void (*study)(const Command&), const QuickValues& quick) {
   app.callback([&command, study, quick] {

@@ -13,7 +13,7 @@ namespace {
 
 void addImpact(CLI::App& study, ImpactCommand& c) {
   CLI::App* impact = study.add_subcommand("impact", "Compare a single collision with its closed-form solution: error, "
-                                                    "order and CPU time over the time step (3 min, one core)");
+                                                    "order and CPU time over the time step (3 min on one core)");
   impact->add_option("--phases", c.phases.touching, "number of phases of first contact within a step")
       ->check(support::wholeNumber(1, 1000))
       ->capture_default_str();
@@ -30,7 +30,7 @@ void addImpact(CLI::App& study, ImpactCommand& c) {
   impact->callback([&c] { studyImpactCommand(c); });
 }
 
-/// Rejects options that apply to the other kind of map only.
+/// Rejects options that apply only to the other kind of map.
 void checkStabilityWords(const CLI::App& stability, bool random, const std::string& scene) {
   const bool vehicle = scene == "vehicle";
   const auto only = [&](const char* name, bool may, const char* with) {
@@ -47,9 +47,9 @@ void addVehicleStability(CLI::App& stability, std::string& scene, VehicleStabili
   stability
       .add_option("--scene", scene,
                   "grains, or vehicle (maps of the tracked vehicle over tension, grains, stiffness, drop height, "
-                  "gravity, masses, inertias, speed, reversed drives, bumps and ledges; compares each point with a run "
-                  "at a quarter of its step; exit code 3 if a run is silently wrong or stops with a wrong cause; an "
-                  "hour on one core, some minutes with --quick)")
+                  "gravity, masses, inertias, speed, reversed drives, bumps and ledges; compares each run with a run "
+                  "at a quarter of its step; exit code 3 if a run is wrong without an error message or stops with a "
+                  "wrong cause; one hour on one core, some minutes with --quick)")
       ->check(CLI::IsMember({"grains", "vehicle"}))
       ->capture_default_str();
   stability
@@ -65,8 +65,8 @@ void addStability(CLI::App& study, GrainStudies& studies) {
   RandomStability& random = studies.randomStability;
   CLI::App* stability = study.add_subcommand(
       "stability",
-      "Map the stable time steps of grains over stiffness and damping (one contact, a column, random beds) with "
-      "predicted limits (half a minute, one core), or those of a vehicle; for mechanisms use multibody --stability");
+      "Map the stable time steps of grains over stiffness and damping (one contact, a column, random beds), with "
+      "predicted limits (half a minute on one core), or of a vehicle; for mechanisms, use multibody --stability");
   addVehicleStability(*stability, studies.stabilityScene, studies.vehicleStability);
   QuickValues quick;
   quick.instead(stability->add_option("--grains", c.bedGrains, "number of grains in the random beds")
@@ -80,10 +80,11 @@ void addStability(CLI::App& study, GrainStudies& studies) {
            "use one stiffness and three damping ratios (takes seconds); for a vehicle, a few points of each map");
   CLI::Option* scenes =
       stability
-          ->add_option("--random", random.scenes,
-                       "run this number of random scenes instead of the maps, at the automatic step and at the step "
-                       "limit, and find the longest sound step by bisection; exit code 3 if a scene is unsound at the "
-                       "automatic step or the step limit (200 scenes: 7 min, one core)")
+          ->add_option(
+              "--random", random.scenes,
+              "instead of the maps, run this number of random scenes at the automatic step and at the step "
+              "limit, and find the longest sound step by bisection; exit code 3 if a scene raises an alarm at the "
+              "automatic step or blows up at the step limit (200 scenes: 7 min on one core)")
           ->check(support::wholeNumber(1, 1'000'000));
   stability->add_option("--seed", random.seed, "seed of the random scenes")
       ->check(support::wholeNumber(0, 1'000'000'000))
@@ -110,7 +111,9 @@ void addRandomVehicles(CLI::App& study, RandomVehicles& c) {
   CLI::App* vehicles = study.add_subcommand(
       "random-vehicles",
       "Run random tracked vehicles on rigid ground and small beds: each run must be sound, be rejected, or stop with a "
-      "correct cause; exit code 3 if a run is silently wrong (100 vehicles: half an hour or more, one core)");
+      "correct cause; exit code 3 if a run is wrong without an error message or stops with a wrong cause (100 "
+      "vehicles: "
+      "half an hour or more on one core)");
   QuickValues quick;
   quick.instead(vehicles->add_option("--vehicles", c.vehicles, "number of random vehicles")
                     ->check(support::wholeNumber(1, 1'000'000))
@@ -120,28 +123,29 @@ void addRandomVehicles(CLI::App& study, RandomVehicles& c) {
       ->check(support::wholeNumber(0, 1'000'000'000))
       ->capture_default_str();
   jobs::addPieceOptions(*vehicles, c.pieces);
-  addPlace(*vehicles, c.place, "random_vehicles", "three vehicles (takes half a minute)");
+  addPlace(*vehicles, c.place, "random_vehicles", "use three vehicles (takes half a minute)");
   doStudy(*vehicles, c, studyRandomVehicles, quick);
 }
 
 void addPrecision(CLI::App& study, PrecisionCommand& c) {
-  CLI::App* precision =
-      study.add_subcommand("precision", "Compare single with double precision: contact decisions, drift of two runs, "
-                                        "and differences in macroscopic quantities (8 min, one core)");
+  CLI::App* precision = study.add_subcommand(
+      "precision", "Compare single with double precision: contact decisions, drift between two runs, "
+                   "and differences in macroscopic quantities (8 min on one core)");
   QuickValues quick;
   quick.instead(precision->add_option("--grains", c.touch.grains, "number of grains in the bed for contact decisions")
                     ->check(support::wholeNumber(10, 100'000'000))
                     ->capture_default_str(),
                 c.touch.grains, 2000);
-  quick.instead(
-      precision->add_option("--configurations", c.touch.configurations, "number of configurations of this bed")
-          ->check(support::wholeNumber(1, 1'000'000))
-          ->capture_default_str(),
-      c.touch.configurations, 5);
+  quick.instead(precision
+                    ->add_option("--configurations", c.touch.configurations,
+                                 "number of configurations in which contacts are decided")
+                    ->check(support::wholeNumber(1, 1'000'000))
+                    ->capture_default_str(),
+                c.touch.configurations, 5);
   precision->add_option("--every", c.touch.every, "number of steps between configurations")
       ->check(support::wholeNumber(1, 1'000'000'000))
       ->capture_default_str();
-  quick.instead(precision->add_option("--drift-grains", c.drift.grains, "number of grains in the runs for drift")
+  quick.instead(precision->add_option("--drift-grains", c.drift.grains, "number of grains in the runs for the drift")
                     ->check(support::wholeNumber(10, 100'000'000))
                     ->capture_default_str(),
                 c.drift.grains, 200);
@@ -165,7 +169,7 @@ void addPrecision(CLI::App& study, PrecisionCommand& c) {
 
 void addPacking(CLI::App& study, PackingCommand& c) {
   CLI::App* packing = study.add_subcommand("packing", "Measure the solid fraction of poured spheres over friction, and "
-                                                      "compare with random packings (10 min, one core)");
+                                                      "compare it with random packings (10 min on one core)");
   QuickValues quick;
   quick.instead(packing->add_option("--grains", c.grains, "number of grains per sample")
                     ->check(support::wholeNumber(300, 1'000'000))
@@ -180,9 +184,9 @@ void addPacking(CLI::App& study, PackingCommand& c) {
 }
 
 void addCollapse(CLI::App& study, CollapseCommand& c) {
-  CLI::App* collapse = study.add_subcommand(
-      "collapse",
-      "Measure the run-out of a collapsing column of grains, and compare with channel experiments (30 min, one core)");
+  CLI::App* collapse = study.add_subcommand("collapse", "Measure the run-out of a collapsing column of grains, and "
+                                                        "compare it with experiments in channels (30 min on one "
+                                                        "core)");
   QuickValues quick;
   quick.instead(addNumber(*collapse, "--length", c.length, 5.0, 1000.0, "length of the column [grain diameters]"),
                 c.length, 10);
@@ -201,7 +205,7 @@ void addCollapse(CLI::App& study, CollapseCommand& c) {
 
 void addShear(CLI::App& study, ShearCommand& c) {
   CLI::App* shear = study.add_subcommand(
-      "shear", "Measure the friction angle of a bed in a direct shear box under several loads (10 min, one core)");
+      "shear", "Measure the friction angle of a bed in a direct shear box under several loads (10 min on one core)");
   addNumber(*shear, "--friction", c.friction, 0.0, 5.0, "friction between grains, and between grains and box [-]");
   addNumber(*shear, "--rolling-friction", c.rollingFriction, 0.0, 5.0, "rolling friction of the same contacts [-]");
   QuickValues quick;
@@ -216,8 +220,9 @@ void addShear(CLI::App& study, ShearCommand& c) {
 }
 
 void addFeatures(CLI::App& study, FeaturesCommand& c) {
-  CLI::App* app = study.add_subcommand("features", "Measure time and memory of each feature, alternating with a bed "
-                                                   "without it, and check that disabled features cost nothing (3 min)");
+  CLI::App* app =
+      study.add_subcommand("features", "Measure time and memory of each feature by alternating runs with and "
+                                       "without it, and check that disabled features cost nothing (3 min)");
   app->add_option("--features", c.features,
                   "measure only these features, separated by commas, e.g. rolling,hertz,off_rolling; default: all")
       ->delimiter(',');
@@ -226,7 +231,7 @@ void addFeatures(CLI::App& study, FeaturesCommand& c) {
                     ->check(support::wholeNumber(864, 100'000'000))
                     ->capture_default_str(),
                 c.grains, 864);
-  quick.instead(app->add_option("--pairs", c.pairs, "number of pairs of measurements, without and with the feature")
+  quick.instead(app->add_option("--pairs", c.pairs, "number of pairs of measurements with and without the feature")
                     ->check(support::wholeNumber(2, 1000))
                     ->capture_default_str(),
                 c.pairs, 5);
@@ -241,7 +246,8 @@ void addFeatures(CLI::App& study, FeaturesCommand& c) {
 
 void addFluid(CLI::App& study, FluidCommand& c) {
   CLI::App* app = study.add_subcommand(
-      "fluid", "Compare the particle fluid with known solutions: error, and order in the spacing, over run time");
+      "fluid",
+      "Compare the particle fluid with known solutions: error over spacing and run time, and order in the spacing");
   std::string names;
   for (const FluidCase& known : fluidCases()) names += (names.empty() ? "" : ", ") + known.name;
   app->add_option("--cases", c.cases, "run only these cases, separated by commas: " + names + "; default: all")

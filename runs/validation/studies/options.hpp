@@ -17,7 +17,7 @@
 
 namespace grouser::studies {
 
-/// Options of `grouser study`, except `multibody`.
+/// Options of `grouser study`, except those of `multibody`.
 struct GrainStudies {
   ImpactCommand impact;
   GrainStabilityCommand stability;

@@ -20,11 +20,11 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kRestEnergy = 1e-7;         // kinetic energy per grain over m g d at rest [-]
-constexpr double kPatience = 4.0;            // [s]
-constexpr double kOffFloor = 4, kOffTop = 3; // [d] excluded: ordered layers on the floor, loose top
+constexpr double kRestEnergy = 1e-7;         // kinetic energy per grain / (m g d) below which grains are at rest [-]
+constexpr double kPatience = 4.0;            // [s] maximum settling time
+constexpr double kOffFloor = 4, kOffTop = 3; // [d] excluded layers: ordered grains on the floor, loose top
 
-/// Volume shared by two spheres with this overlap.
+/// Volume that two spheres with this overlap have in common.
 double sharedVolume(double overlap, double r) {
   const double half = 0.5 * overlap; // height of each cap
   return 2 * base::kPi * half * half * (3 * r - half) / 3;
@@ -35,7 +35,7 @@ double sharedVolume(double overlap, double r) {
 Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, double width, std::int64_t seed) {
   const double d = material.diameter(), side = width * d;
   const double height = static_cast<double>(grains) * base::kPi / 6 * d * d * d * 7 / (side * side);
-  // The random fill keeps whole grains inside the box, so one diameter stays free at the periodic boundary.
+  // The random fill places whole grains inside the box, so that one diameter stays empty at the periodic boundaries.
   virtual_tests::Sample sample = virtual_tests::buildSample(
       fmt::format(
           "version = 1\n[run]\nduration = 1\nperiodic = [true, true]\ndomain_x = [0, {0}]\ndomain_y = [0, {0}]\n"
@@ -69,7 +69,7 @@ Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, dou
       const double distance =
           norm(period.apart(state.position[g], state.position[other]).as<double>()) * sample.grains().scale().unit;
       overlaps += d - distance, ++contacts;
-      shared += 0.5 * sharedVolume(d - distance, r); // each contact is visited twice
+      shared += 0.5 * sharedVolume(d - distance, r); // the loop visits each contact twice
     }
   }
   packing.solidFraction = (volume - shared) / (side * side * (high - low));
@@ -78,7 +78,7 @@ Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, dou
   packing.coordination = contacts / count;
   packing.overlap = contacts > 0 ? overlaps / contacts / d : 0;
 
-  // Removing a rattler may make its neighbours rattlers.
+  // The removal of a rattler may turn its neighbours into rattlers.
   const std::size_t least = material.friction > 0 ? 2 : 4;
   std::vector<bool> held(state.rows(), true);
   const auto holding = [&](std::size_t g) {
@@ -108,8 +108,9 @@ void studyPackingCommand(const PackingCommand& command) {
   const std::vector<double> frictions =
       command.place.quick ? std::vector<double>{0, 0.5} : std::vector<double>{0, 0.05, 0.1, 0.2, 0.5, 1.0};
   fmt::print(
-      "          {} spheres of 10 mm, 1e5 N/m, restitution 0.5, poured between periodic boundaries {} d apart; {} "
-      "seeds, +- standard error\n          measured from {} d above the floor to {} d below the top; one thread\n",
+      "          {} spheres of 10 mm diameter (d), 1e5 N/m, restitution 0.5, poured between periodic boundaries {} d "
+      "apart; "
+      "{} seeds, +- standard error\n          measured from {} d above the floor to {} d below the top; one thread\n",
       grains, width, seeds, kOffFloor, kOffTop);
   support::Progress progress("pouring");
   std::string csv = "friction [-],seed,solid fraction [-],coordination [-],coordination without rattlers [-],"
@@ -139,13 +140,13 @@ void studyPackingCommand(const PackingCommand& command) {
                          both(all, 2), both(held, 2), jobs::meanOf(rattlers).mean, jobs::meanOf(overlap).mean);
   }
   progress.finish(base::counted(done, "sample"));
-  fmt::print(
-      "{}\n  literature: frictionless 0.634 to 0.64 (random close packing) and 6 contacts (isostatic); poured with\n"
-      "  friction 0.58 to 0.62; loosest packings about 0.55, and 4 contacts for infinite friction\n",
-      table);
+  fmt::print("{}\n  literature: without friction 0.634 to 0.64 (random close packing) and 6 contacts (isostatic); "
+             "poured with\n"
+             "  friction 0.58 to 0.62; loosest packings about 0.55, and 4 contacts at infinite friction\n",
+             table);
   if (restless > 0)
-    fmt::print("  {} of {} samples not at rest after {} s (negative time of rest in the table)\n", restless, done,
-               kPatience);
+    fmt::print("  {} of {} samples did not come to rest within {} s (their time is negative in packing.csv)\n",
+               restless, done, kPatience);
   support::writeTextFile(folder / "packing.csv", csv, "--out");
   jobs::writeStudyOrigin(folder, "packing", std::chrono::duration<double>(Clock::now() - begin).count(),
                          {{"grains", grains}, {"seeds", seeds}, {"width_in_diameters", width}, {"threads", 1}});

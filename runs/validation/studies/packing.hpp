@@ -7,21 +7,21 @@
 #include <string>
 #include <vector>
 
-/// Solid fraction and coordination of poured spheres, against known limits of random packings.
+/// Solid fraction and coordination of poured spheres; comparison with known limits of random packings.
 namespace grouser::studies {
 
-/// The interior of one poured sample, away from floor and top.
+/// Measurements in the interior of one poured sample, away from floor and top.
 struct Packing {
-  double solidFraction = 0; ///< [-] volume of the spheres, overlaps counted once
+  double solidFraction = 0; ///< [-] volume of the spheres / total volume; overlaps are counted once
   double coordination = 0;  ///< [-] contacts per grain
   double coordinationWithoutRattlers = 0;
-  double rattlers = 0; ///< [-] fraction of grains without sufficient contacts
-  double overlap = 0;  ///< [-] mean overlap of the contacts, in diameters
-  double rest = 0;     ///< [s] time until rest; negative: not reached
+  double rattlers = 0; ///< [-] number of rattlers / number of grains
+  double overlap = 0;  ///< [d] mean overlap of the contacts
+  double rest = 0;     ///< [s] time until the sample is at rest; negative: it did not come to rest
 };
 
-/// Pours `grains` spheres at a seventh of the volume between periodic boundaries `width` diameters apart, and measures.
-/// Grains with fewer than `least` contacts are rattlers: four without friction, two with.
+/// Pours `grains` spheres from a solid fraction of 1/7 between periodic boundaries `width` diameters apart. Grains with
+/// fewer than `least` contacts are rattlers; use 4 without friction, and 2 with friction.
 Packing pourPacking(const virtual_tests::SampleGrains& material, int grains, double width, std::int64_t seed);
 
 struct PackingCommand {

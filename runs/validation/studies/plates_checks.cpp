@@ -9,10 +9,10 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kNarrowest = 3.5;      // largest diameters: three, plus the margin of the neighbour list
-constexpr double kLatticeHeight = 5.05; // [d] height of five layers
+constexpr double kNarrowest = 3.5;      // minimum width / largest diameter: 3, plus the margin of the neighbour list
+constexpr double kLatticeHeight = 5.05; // [d] height of the five layers of a lattice
 
-/// Names of the options of a case.
+/// Names of the options that determine a case.
 struct Names {
   std::string breadth = "--breadth", bin = "--strip-bin", depth = "--strip-depth";
   explicit Names(const PlateCase& plate) {
@@ -21,7 +21,7 @@ struct Names {
   }
 };
 
-/// A case with its bed in mean grain diameters.
+/// Checks of a case; lengths in mean grain diameters.
 class CaseCheck {
 public:
   CaseCheck(const PlateCase& plate, const virtual_tests::Soil& soil)
@@ -44,7 +44,7 @@ private:
     throw base::InputError(fmt::format("{} {:g} [{}], case {}: {}", option, value, unit, name_, why));
   }
 
-  /// No grain may touch two periodic images of another one.
+  /// No grain may touch two periodic images of another grain.
   void checkWidth() const {
     const double least = kNarrowest * largest_;
     if (bin_ < least)
@@ -55,22 +55,24 @@ private:
     const bool isStrip = test_.shape == virtual_tests::PlateShape::strip;
     if (isStrip && test_.thickness < least)
       fail(test_.young > 0 ? "--fine-thickness" : "--strip-thickness", test_.thickness, "d",
-           fmt::format("the largest grains need {:.3g} d between periodic boundaries; increase it", least));
+           fmt::format("the largest grains require {:.3g} d between the periodic boundaries; increase this value",
+                       least));
   }
 
   void checkFineDepth() const {
     if (test_.coarsening > 0 && test_.fineDepth >= test_.depth)
       fail("--fine-depth", test_.fineDepth, "plate widths",
-           fmt::format("no part of the bed would be coarser; use less than the bed depth, {} = {:g} plate widths",
-                       names_.depth, test_.depth));
+           fmt::format(
+               "no part of the bed would have coarser grains; use less than the bed depth, {} = {:g} plate widths",
+               names_.depth, test_.depth));
   }
 
-  /// Porosity is measured away from floor and surface.
+  /// The porosity is measured away from floor and surface.
   void checkDepth() const {
     const double least = 1 + virtual_tests::PlateTest::kOffEnds * (1 + coarsest_);
     if (!test_.lattice && height_ < least)
       fail(names_.depth, test_.depth / deeper_, "plate widths",
-           fmt::format("the bed is {:g} d deep, too thin to measure its porosity {:g} grains away from floor and "
+           fmt::format("the bed is {:g} d deep; this is too thin to measure its porosity {:g} d away from floor and "
                        "surface; use at least {:.3g}, or increase {} from {:g} d",
                        height_, virtual_tests::PlateTest::kOffEnds, least / test_.breadth / deeper_, names_.breadth,
                        test_.breadth));
@@ -84,8 +86,9 @@ private:
         test_.lattice ? fmt::format("a smaller {} than {:g} d", names_.breadth, test_.breadth)
                       : fmt::format("a bed deeper than {} = {:g} plate widths", names_.depth, test_.depth / deeper_);
     fail("--sinkage", test_.sinkage, "plate widths",
-         fmt::format("the plate would reach the floor or come within a grain of it; use at most {:.3g}, or {}", most,
-                     remedy));
+         fmt::format(
+             "the plate would come closer to the floor than the largest grain diameter; use at most {:.3g}, or {}",
+             most, remedy));
   }
 
   std::string name_;

@@ -19,7 +19,7 @@ namespace grouser::studies {
 namespace {
 
 constexpr int kSlices = 4;
-constexpr double kLatticeSinkage = 0.2; // [breadths] maximum for a bed of five layers
+constexpr double kLatticeSinkage = 0.2; // [breadths] maximum sinkage in a bed of five layers
 
 virtual_tests::Soil soilOf(const PlatesCommand& c) {
   virtual_tests::Soil soil;
@@ -66,10 +66,10 @@ void runAll(const PlatesCommand& command, const virtual_tests::Soil& soil, const
       progress.update(done++ / all, name);
       if (!pieces.due(name)) continue;
       const auto folder = pieces.begin(name);
-      const auto tell = [&](double share, const std::string& phase) {
+      const auto report = [&](double share, const std::string& phase) {
         progress.update((done - 1 + share) / all, name + ", " + phase);
       };
-      pieces.keep(name, virtual_tests::pushPlate(soil, c.test, seed, folder, exec, tell));
+      pieces.keep(name, virtual_tests::pushPlate(soil, c.test, seed, folder, exec, report));
       if (command.keepBeds) std::filesystem::rename(folder / "bed.txt", pieces.folder() / ("bed_" + name + ".txt"));
       std::filesystem::remove_all(folder);
     }
@@ -98,7 +98,7 @@ std::vector<PlateCase> plateCases(const PlatesCommand& c) {
                                 {"old", "five layers in a lattice on a plane floor", old, "base"},
                                 {"circular", "circular plate", circular, "", true},
                                 {"fine", "strip on uniformly fine grains", fine},
-                                {"graded", "the same strip, grains coarser with depth", graded, "fine"}};
+                                {"graded", "the same strip, grain size increases with depth", graded, "fine"}};
   if (c.cases.empty()) return all;
   std::vector<PlateCase> chosen;
   for (const std::string& name : c.cases) {
@@ -128,9 +128,8 @@ void studyPlatesCommand(const PlatesCommand& command) {
   jobs::Pieces pieces("plates", command.place, command.pieces, recipe);
   const support::StopSignals signals;
   const auto begin = std::chrono::steady_clock::now();
-  fmt::print("          spheres of {:g} mm +- {:g} %, {:g} N/m, friction {:g}, rolling friction {:g}, friction {:g} "
-             "during pouring; "
-             "plate {:g} d; {} seeds, +- 95 %\n",
+  fmt::print("          spheres of {:g} mm diameter (d) +- {:g} %, {:g} N/m, friction {:g}, rolling friction {:g}, "
+             "friction {:g} during pouring; plate width {:g} d; {} seeds, +-: 95 % interval\n",
              2e3 * soil.grains.radius, 100 * soil.spread, soil.grains.stiffness, soil.grains.friction,
              soil.grains.rollingFriction, soil.preparationFriction, command.breadth, command.seeds);
   runAll(command, soil, cases, pieces);

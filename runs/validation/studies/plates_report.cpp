@@ -54,7 +54,7 @@ std::vector<CaseRuns> runsThatAreThere(const std::vector<PlateCase>& cases, cons
 
 std::string pressureTable(const std::vector<CaseRuns>& all, const std::vector<Slice>& slices, std::string& csv) {
   std::string text =
-      fmt::format("\npressure [kPa] over sinkage / breadth\n  {:<10} {:>5} {:>8}", "", "seeds", "porosity");
+      fmt::format("\npressure [kPa] over sinkage / plate width\n  {:<10} {:>5} {:>8}", "", "seeds", "porosity");
   text += sliceHeads(slices);
   csv = "case,seeds,porosity [-],from [breadths],to [breadths],pressure [Pa],half width\n";
   for (const CaseRuns& c : all) {
@@ -83,11 +83,11 @@ std::string differenceTable(const std::vector<CaseRuns>& all, const std::vector<
         std::find_if(all.begin(), all.end(), [&](const CaseRuns& o) { return o.plate->name == c.plate->comparedWith; });
     if (other == all.end()) continue;
     if (text.empty())
-      text = fmt::format("\ndifference of pressures [%] over sinkage / breadth; tolerance {:g} %\n  {:<18}",
+      text = fmt::format("\npressure difference [%] over sinkage / plate width; tolerance {:g} %\n  {:<18}",
                          100 * kEqualBar, "") +
              sliceHeads(slices);
     text += fmt::format("  {:<18}", fmt::format("{} to {}", c.plate->name, other->plate->name));
-    std::string verdict = "smaller sinkage only";
+    std::string verdict = "sinkage too small";
     for (const Slice& s : slices) {
       if (!c.reaches(s)) {
         text += fmt::format(" {:>16}", "-");
@@ -135,9 +135,10 @@ std::string bearingTable(const PlatesCommand& command, const virtual_tests::Soil
                          const std::vector<CaseRuns>& all, const std::vector<Slice>& slices, std::string& csv) {
   csv = "case,from [breadths],to [breadths],measured [Pa],half width,theory [Pa],at the angle's lower end [Pa],at its "
         "upper end [Pa],measured over theory - 1,half width,verdict,angle that theory would need [deg]\n";
-  if (command.angle <= 0) return "\nno bearing theory: requires --angle, measured by `grouser study shear-angle`\n";
+  if (command.angle <= 0)
+    return "\nno comparison with bearing theory: it requires --angle, from `grouser study shear-angle`\n";
   std::string text =
-      fmt::format("\nbearing capacity at {:g} +- {:g} deg (Vesic's factors, density of the bed), tolerance {:g} %\n"
+      fmt::format("\nbearing capacity at {:g} +- {:g} deg (Vesic's factors, density of the bed); tolerance {:g} %\n"
                   "  {:<10} {:>12} {:>18} {:>28} {:>20} {:>11} {:>14}\n",
                   command.angle, command.angleError, 100 * kBearingBar, "", "sinkage / B", "measured [kPa]",
                   "theory, angle interval [kPa]", "measured/theory - 1", "", "fitted angle");
@@ -153,7 +154,7 @@ std::string bearingTable(const PlatesCommand& command, const virtual_tests::Soil
       const support::Estimate p = jobs::interval95(measured);
       const double q = theory(command.angle), low = theory(command.angle - command.angleError),
                    high = theory(command.angle + command.angleError);
-      // The uncertainty of the angle is added to the scatter of the pressure.
+      // The interval includes the uncertainty of the angle and the scatter of the pressure.
       const support::Estimate ratio{p.value / q - 1, std::hypot(p.halfWidth / q, p.value / q * 0.5 * (high - low) / q)};
       const double fits = virtual_tests::bearingAngle(c.plate->test.shape, p.value, weight, c.breadth,
                                                       0.5 * (s[0] + s[1]) * c.breadth) *

@@ -27,11 +27,11 @@ void studyPrecisionCommand(const PrecisionCommand& command) {
       "          radius 27 mm, 2500 kg/m3, 1e6 N/m, step 5e-5 s, 20 steps per contact; a bed dropped into a box, "
       "friction 0.5, restitution 0.5; a gas of elastic grains\n");
 
-  support::Progress judging("deciding");
+  support::Progress judging("deciding contacts");
   int judged = 0;
   const std::vector<TouchConfiguration> touches = studyTouch(touch, [&](const TouchConfiguration& c) {
     judging.update(static_cast<double>(++judged) / touch.configurations, fmt::format("step {}", c.step));
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
   });
   judging.note(touchTable(touches, touch));
   judging.finish(fmt::format("{} configurations", touches.size()));

@@ -11,7 +11,7 @@ struct PrecisionCommand {
   jobs::StudyPlace place;
   TouchStudy touch;
   DriftStudy drift;
-  int threads = 0; ///< 0: all
+  int threads = 0; ///< number of CPU threads; 0: all
 };
 void studyPrecisionCommand(const PrecisionCommand& command);
 

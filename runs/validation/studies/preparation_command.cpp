@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser study preparation`: beds with a target porosity in [terrain], and their porosity.
+// `grouser study preparation`: settles beds with a target porosity in [terrain], and measures their porosity.
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "coupling/simulation.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kPorosityBar = 0.01;                // [-] tolerance of the porosity
 constexpr double kGrainRadius = 0.025;               // [m]
-constexpr double kGrainStiffness = 4e5, kSoft = 1e5; // [N/m] grains collide at some m/s; slower with --quick
+constexpr double kGrainStiffness = 4e5, kSoft = 1e5; // [N/m] for impacts at some m/s; kSoft with --quick
 
 std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
   const double d = 2 * kGrainRadius;
@@ -39,7 +39,7 @@ std::string sceneOf(const PreparationCommand& c, double porosity, int seed) {
 
 std::string nameOf(double porosity, int seed) { return fmt::format("porosity{:g}_seed{}", porosity, seed); }
 
-/// One row; without numbers if the porosity cannot be reached.
+/// Table with one row; empty if the bed cannot reach the porosity.
 jobs::Table prepare(const PreparationCommand& c, double porosity, int seed, const base::Exec& exec,
                     std::string& refused) {
   jobs::Table table;
@@ -47,7 +47,7 @@ jobs::Table prepare(const PreparationCommand& c, double porosity, int seed, cons
   try {
     const scene::Scene scene = setup::parseScene(sceneOf(c, porosity, seed), "preparation.toml");
     const coupling::Simulation simulation(setup::simulationSetup(scene), exec,
-                                          [](double, double) { jobs::stopStudyIfAsked(); });
+                                          [](double, double) { jobs::stopStudyOnRequest(); });
     const terrain::BedStructure& bed = *simulation.ground().structure;
     table.rows.push_back({porosity, bed.porosity, simulation.settled().friction, bed.coordination, bed.rattlers,
                           bed.order, static_cast<double>(bed.grains)});
@@ -69,9 +69,10 @@ void studyPreparationCommand(const PreparationCommand& c) {
   jobs::Pieces pieces("preparation", c.place, c.pieces, recipeOf(c));
   const support::StopSignals signals;
   const auto begin = std::chrono::steady_clock::now();
-  fmt::print("          spheres of {:g} mm +- 25 %, friction {:g}, rolling friction {:g}, {:g} d wide, periodic "
-             "boundaries, {:g} d deep; {} seeds, +- 95 %\n",
-             2e3 * kGrainRadius, c.friction, c.rollingFriction, c.width, c.depth, c.seeds);
+  fmt::print(
+      "          spheres of {:g} mm diameter (d) +- 25 %, friction {:g}, rolling friction {:g}; beds {:g} d wide "
+      "between periodic boundaries, {:g} d deep; {} seeds, +-: 95 % interval\n",
+      2e3 * kGrainRadius, c.friction, c.rollingFriction, c.width, c.depth, c.seeds);
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
   support::Progress progress("preparing");
   const double all = static_cast<double>(c.porosities.size()) * c.seeds;
@@ -119,7 +120,7 @@ void studyPreparationCommand(const PreparationCommand& c) {
                        n.value, n.halfWidth, jobs::meanOf(friction).mean, z.value, z.halfWidth,
                        jobs::meanOf(rattlers).mean, jobs::meanOf(order).mean, verdict);
   }
-  fmt::print("  friction: during settling only; afterwards the grains have their own\n");
+  fmt::print("  friction: only during settling; then it is reset to the friction of the material\n");
   if (pieces.left() > 0)
     fmt::print("{} missing; repeat the command with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "preparation.csv", csv, "--out");

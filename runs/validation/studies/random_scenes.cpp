@@ -20,12 +20,12 @@ namespace {
 
 constexpr std::uint64_t kScenesPurpose = base::purpose("study.random_scenes");
 
-/// Scales common to the materials of a scene.
+/// Scales that all materials of a scene have in common.
 struct Scales {
   double radius, density, stiffness, young, poisson; ///< values of the smallest grains
   bool hertz;
   double mass() const { return base::sphereMass(density, radius); }
-  /// Impact speed [m/s] with a maximum overlap of about `share` radii.
+  /// Impact speed [m/s] that causes a maximum overlap of about `share` radii.
   double speedFor(double share) const {
     if (!hertz) return share * radius * std::sqrt(stiffness / mass());
     // Impact of a grain on a plane (Johnson): overlap = (15 m v^2 / (16 E_eff sqrt(R)))^(2/5).
@@ -54,7 +54,7 @@ std::string material(Draw& draw, const std::string& name, const Scales& s, doubl
 }
 
 struct Room {
-  double halfWidth, height; ///< [m]; height 0: no lid
+  double halfWidth, height; ///< [m]; a height of 0 means no lid
 };
 
 std::string planes(const Room& room, bool sides, bool floor, bool lid) {
@@ -73,12 +73,12 @@ std::string planes(const Room& room, bool sides, bool floor, bool lid) {
 
 /// Parameters of each kind of scene.
 struct Form {
-  int side, layers;    ///< grains along x and y, and upwards
+  int side, layers;    ///< number of grains along x and along y, and number of layers
   double spacing;      ///< lattice spacing [largest radii]
-  double widest;       ///< largest / smallest radius
-  double gravity;      ///< overlap under the largest grain's own weight [radii]
-  double push;         ///< overlap of initial impacts [radii]
-  bool random, closed; ///< random directions of velocities; lid
+  double widest;       ///< largest radius / smallest radius
+  double gravity;      ///< overlap of the largest grain under its own weight [radii]
+  double push;         ///< overlap in initial impacts [radii]
+  bool random, closed; ///< velocities have random directions; the box has a lid
 };
 
 Form formOf(const std::string& kind, Draw& draw) {
@@ -94,7 +94,7 @@ Form formOf(const std::string& kind, Draw& draw) {
           draw.over(3e-5, 3e-4), hit,           draw.once(0.5),  false};
 }
 
-/// Gravity that gives the overlap `gravity` of the form [m/s2].
+/// Gravity at which the largest grain has the overlap Form::gravity under its own weight [m/s2].
 double gravityOf(const Form& form, const Scales& s) {
   if (form.gravity <= 0) return 0;
   const double largest = form.widest * s.radius, mass = form.widest * form.widest * form.widest * s.mass();
@@ -106,7 +106,7 @@ double gravityOf(const Form& form, const Scales& s) {
   return std::min(gravity, 1000.0);
 }
 
-/// Boundaries of the grains.
+/// Scene sections of the boundaries.
 std::string aroundOf(const std::string& kind, const Room& room, double largest, bool closed, Draw& draw) {
   if (kind == "box")
     return planes(room, true, true, false) +
@@ -121,7 +121,7 @@ std::string aroundOf(const std::string& kind, const Room& room, double largest, 
   return planes(room, kind != "plane", true, closed);
 }
 
-/// Weak enough for grains to separate [J/m2].
+/// Random cohesion that is weak enough for grains to separate [J/m2].
 double cohesionOf(const Scales& s, Draw& draw) {
   return s.hertz ? draw.over(1e-8, 1e-6) * s.young * s.radius : draw.over(1e-6, 1e-4) * s.stiffness / base::kPi;
 }
@@ -156,12 +156,12 @@ RandomScene randomScene(std::uint64_t seed, int number) {
   const double spacing = form.spacing * largest;
   const bool few = scene.kind == "few";
   const int count = few ? draw.of(2, 4) : form.side * form.side * form.layers;
-  // Narrow enough for all to collide, or wide.
+  // The box is either so narrow that all grains collide, or wide.
   Room room{0.5 * form.side * spacing + 0.05 * largest, form.layers * spacing + 0.1 * largest};
   std::string grains;
   double lightest = 0, heaviest = 0;
   for (int i = 0; i < count; ++i) {
-    // Half of them have the smallest radius, so that the highest frequencies occur.
+    // Half of the grains have the smallest radius, so that the highest frequencies occur.
     const double radius = form.widest > 1 && i > 0 && draw.once(0.5) ? draw.in(s.radius, largest) : s.radius;
     const double free = few ? 0.9 * (0.5 * spacing - radius) : 0.9 * std::max(0.0, 0.5 * spacing - largest);
     const int x = i % form.side, y = i / form.side % form.side, z = i / (form.side * form.side);
@@ -185,7 +185,7 @@ RandomScene randomScene(std::uint64_t seed, int number) {
   }
   const double impact = std::max(scene.speed, 1e-6);
   scene.speed *= std::sqrt(heaviest / lightest), scene.grains = count;
-  // Fewer grains collide less often.
+  // Few grains collide less often, so that they need a longer run.
   scene.contacts = count > 32 ? 500 : 1500;
   std::string materials = material(draw, "a", s, 1, first);
   if (two) materials += material(draw, "b", s, draw.over(0.1, 1), second);
@@ -197,7 +197,7 @@ RandomScene randomScene(std::uint64_t seed, int number) {
   if (pulls) add("attraction = true\n");
 
   const std::string around = aroundOf(scene.kind, room, largest, form.closed, draw);
-  // A single output: scene checks require an interval above the step.
+  // The intervals allow a single output, because scene checks require intervals above the step.
   scene.toml =
       fmt::format("version = 1\n[run]\nduration = 1e4\noutput_interval = 1e4\nframe_interval = 1e4\ngravity = [0, 0, "
                   "{:.6g}]\nimpact_speed = {:.6g}\nprecision = \"{}\"\nthreads = 1\n",

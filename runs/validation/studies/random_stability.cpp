@@ -20,10 +20,10 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kFactor = 1.5, kFarthest = 40; // search above the limit: factor, maximum [limits]
-constexpr int kLooks = 40;                      // number of energy checks per run
+constexpr double kFactor = 1.5, kFarthest = 40; // search above the limit: factor between steps, maximum step / limit
+constexpr int kLooks = 40;                      // number of energy checks in a run
 
-/// Runs of one scene, each step size once.
+/// Runs of one scene; runs each step size only once.
 class Trials {
 public:
   Trials(const RandomScene& random, const scene::Scene& scene, double share)
@@ -31,11 +31,11 @@ public:
   const StepTrial& at(double step) {
     const auto found = done_.find(step);
     if (found != done_.end()) return found->second;
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     return done_[step] = tryStep(random_, scene_, step, share_);
   }
 
-  /// The longest step for which `unsound` is false; 0 if none is found.
+  /// The longest step for which `unsound` is false; 0 if there is no such step.
   double longest(double limit, double accuracy, const std::function<bool(const StepTrial&)>& unsound) {
     double low = limit, high = limit;
     if (unsound(at(limit))) {
@@ -84,7 +84,7 @@ StepTrial tryStep(const RandomScene& random, const scene::Scene& scene, double s
       while (run.steps() < next) try {
           run.advance(next - run.steps());
         } catch (const coupling::EnergyAlarm& error) {
-          alarm(error.what()); // the step itself has been completed
+          alarm(error.what()); // the simulation has completed the step and can continue
         }
       const coupling::Ledger ledger = run.ledger();
       trial.growth = std::max(trial.growth, (ledger.kinetic + ledger.potential + ledger.elastic) / random.energy);
@@ -92,7 +92,8 @@ StepTrial tryStep(const RandomScene& random, const scene::Scene& scene, double s
         blowUp(fmt::format("step {}: a grain moves at {:.3g} m/s, above the physical maximum of {:.3g} m/s",
                            run.steps(), ledger.fastestGrain, random.speed));
       if (!(trial.growth <= kRandomGrowth))
-        blowUp(fmt::format("step {}: energy has grown by {:.3g} of the initial energy", run.steps(), trial.growth));
+        blowUp(
+            fmt::format("step {}: the energy has increased by {:.3g} of its initial value", run.steps(), trial.growth));
     }
     if (!trial.alarmed) run.checkEnergy();
   } catch (const coupling::EnergyAlarm& error) {
@@ -100,7 +101,7 @@ StepTrial tryStep(const RandomScene& random, const scene::Scene& scene, double s
   } catch (const base::SimulationError& error) {
     blowUp(error.what());
   } catch (const base::InputError& error) {
-    blowUp(error.what()); // too fast for the neighbour lists at this step
+    blowUp(error.what()); // the grains are too fast for the neighbour lists at this step
   }
   return trial;
 }

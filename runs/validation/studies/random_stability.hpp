@@ -9,46 +9,46 @@
 #include <string>
 #include <vector>
 
-/// Automatic step and step limit of `grouser run` against the longest stable step of random scenes.
+/// Compares the automatic step and the step limit of `grouser run` with the longest stable step of random scenes.
 namespace grouser::studies {
 
-/// A run of a scene at one step.
+/// A run of a scene at one step size.
 struct StepTrial {
   double step = 0;      ///< [s]
-  bool blewUp = false;  ///< kinetic + potential + elastic energy grew by kRandomGrowth of its initial value,
-                        ///< a grain exceeded kRandomSpeed times the physical maximum, or overlapped too much, or NaN
-  bool alarmed = false; ///< blow-up, or an alarm of the energy guard
+  bool blewUp = false;  ///< kinetic + potential + elastic energy grew by kRandomGrowth of its initial value; or a grain
+                        ///< exceeded kRandomSpeed times the maximum physical speed or overlapped too much; or NaN
+  bool alarmed = false; ///< the run blew up, or the energy check raised an alarm
   double growth = 0;    ///< maximum energy gain / initial energy [-]
-  std::string why;      ///< first message; empty if sound
+  std::string why;      ///< first message; empty if the run is sound
 };
 inline constexpr double kRandomGrowth = 0.5, kRandomSpeed = 2.5;
 
-/// The scene at an unchecked step for `share` of its duration.
+/// Runs the scene for the fraction `share` of its duration, at a step that is not checked.
 StepTrial tryStep(const RandomScene& random, const scene::Scene& scene, double step, double share = 1);
 
-/// Steps of a scene: automatic, limit, and longest sound ones.
+/// Steps of a scene: automatic steps, step limit, and longest sound steps.
 struct StepMargins {
   RandomScene scene;
   double contact = 0;   ///< shortest contact time [s]
-  double limit = 0;     ///< longest step allowed by a run [s]
-  std::string limiting; ///< "grain on the floor"
+  double limit = 0;     ///< longest step that a run allows [s]
+  std::string limiting; ///< contact that determines the limit, e.g. "grain on the floor"
   double automatic = 0; ///< "auto" with the default run.steps_per_contact [s]
   double coarse = 0;    ///< "auto" with the minimum run.steps_per_contact [s]
   StepTrial atAutomatic, atCoarse, atLimit;
   double bounded = 0; ///< longest step without blow-up [s]
-  double silent = 0;  ///< longest step without alarm [s]
+  double silent = 0;  ///< longest step without an alarm [s]
 };
 
-/// Runs the scene at its automatic steps and at its limit, then searches the longest sound steps with relative
-/// accuracy `accuracy`: upwards from the limit by factors of 1.5 to the first unsound step, then by bisection.
+/// Runs the scene at its automatic steps and at its limit, then searches for the longest sound steps with the relative
+/// accuracy `accuracy`: increases the step from the limit by factors of 1.5 until it is unsound, then bisects.
 StepMargins stepMargins(const RandomScene& random, double accuracy, double share = 1);
 
 std::string marginsHeader();                                                    ///< header of the CSV
-std::string marginsLine(const StepMargins& m);                                  ///< without newline
-std::string marginsSummary(const std::vector<std::string>& lines, bool& sound); ///< summary of such lines
+std::string marginsLine(const StepMargins& m);                                  ///< line of the CSV without newline
+std::string marginsSummary(const std::vector<std::string>& lines, bool& sound); ///< summary of lines of the CSV
 
 struct RandomStability {
-  int scenes = 0; ///< 0: off
+  int scenes = 0; ///< number of scenes; 0: do not run this study
   std::int64_t seed = 1;
   bool resume = false;
 };

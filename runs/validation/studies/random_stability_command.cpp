@@ -44,14 +44,15 @@ std::vector<std::string> cells(const std::string& line) {
   return row;
 }
 
-/// Lines of the table of an earlier call.
+/// Lines of the table that an earlier call has written.
 std::vector<std::string> formerLines(const fs::path& file, std::int64_t seed) {
   std::ifstream in(file);
   std::vector<std::string> lines;
   std::string line;
   if (!in || !std::getline(in, line)) return lines;
   if (line != kColumns)
-    throw base::InputError(file.string() + ": was written by another version; repeat the command without --resume");
+    throw base::InputError(file.string() +
+                           ": another version has written this file; repeat the command without --resume");
   while (std::getline(in, line)) {
     const std::vector<std::string> row = cells(line);
     if (row.size() < 2 || row[1] != std::to_string(seed))
@@ -99,7 +100,7 @@ std::string marginsSummary(const std::vector<std::string>& lines, bool& sound) {
     const std::array<double, 3> steps{number(13), number(14), number(11)};
     for (std::size_t k = 0; k < 3; ++k) {
       for (const std::string& kind : {row[2], std::string("all")}) {
-        // 0: no sound step found.
+        // A longest step of 0 means that no sound step was found.
         bounded[kind][k].values.push_back(number(15) > 0 ? steps[k] / number(15) : INFINITY);
         silent[kind][k].values.push_back(number(16) > 0 ? steps[k] / number(16) : INFINITY);
       }
@@ -132,8 +133,9 @@ void studyRandomStability(const RandomStability& command, const jobs::StudyPlace
   const support::StopSignals signals;
   std::vector<std::string> lines;
   if (command.resume) lines = formerLines(table, command.seed);
-  fmt::print("          {} random scenes of seed {}; steps to {:g} %\n", command.scenes, command.seed, 100 * kAccuracy);
-  support::Progress progress("trying");
+  fmt::print("          {} random scenes with seed {}; accuracy of the longest steps {:g} %\n", command.scenes,
+             command.seed, 100 * kAccuracy);
+  support::Progress progress("running");
   const auto write = [&] {
     std::string text = std::string(kColumns) + "\n";
     for (const std::string& line : lines) text += line + "\n";
@@ -154,7 +156,8 @@ void studyRandomStability(const RandomStability& command, const jobs::StudyPlace
   output::drawPicture("study_random_stability.py", {table}, folder / "random.png");
   fmt::print("tables    {}\n", folder.string());
   if (!sound)
-    throw base::SimulationError("a random scene is unsound at its automatic step or its step limit (listed above)");
+    throw base::SimulationError(
+        "a random scene raises an alarm at its automatic step or blows up at its step limit (see the table above)");
 }
 
 } // namespace grouser::studies

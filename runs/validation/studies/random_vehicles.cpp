@@ -26,8 +26,8 @@ std::string triple(const base::Vec3d& v, double times) {
   return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", times * v.x, times * v.y, times * v.z);
 }
 
-/// More shoes, with the idler moved and the track-ground contact length increased by half as many pitches; a road wheel
-/// more or fewer if there is room.
+/// Adds or removes shoes, and changes idler position and track-ground contact length by half as many pitches. Adds or
+/// removes a road wheel if the remaining space allows it.
 std::string gear(Draw& draw, vehicle::VehicleSpec& s) {
   const int more = draw.once(0.5) ? draw.of(-2, 4) : 0;
   s.shoe.count += more, s.idler.x += 0.5 * s.outward() * more * s.shoe.pitch;
@@ -41,7 +41,7 @@ std::string gear(Draw& draw, vehicle::VehicleSpec& s) {
       break;
     }
   s.roadWheel.spacing = spaced(s.roadWheel.count);
-  // With a front sprocket the first wheel is the rearmost, next to the idler.
+  // If the sprocket is at the front, the first wheel is the rearmost wheel, next to the idler.
   if (s.sprocketInFront()) s.roadWheel.firstX -= 0.5 * more * s.shoe.pitch;
   s.trackOffset *= draw.once(0.3) ? draw.in(1, 1.2) : 1;
   return fmt::format("[spec.vehicle]\ntrack_offset = {:.6g}\n[spec.road_wheel]\ncount = {}\nspacing = {:.7g}\n"
@@ -92,7 +92,7 @@ std::string driver(Draw& draw, const vehicle::VehicleSpec& s, const std::string&
   return text + fmt::format("left = {:.5g}\nright = {:.5g}\ndrive_ramp = {:.3g}\n", left, omega, draw.over(0.03, 0.15));
 }
 
-/// Ground and obstacles; `start`: x of the sprocket axle.
+/// Scene sections of ground and obstacles; `start`: x of the sprocket axle [m].
 std::string ground(Draw& draw, const vehicle::VehicleSpec& s, RandomVehicle& random, double& start) {
   const double scale = 2 * s.shoe.padHalfWidth / kLightPad, room = 0.9 * scale;
   const double reach = s.sprocketPinRadius() + 2 * s.shoe.pitch, idler = s.idlerPinRadius() + s.shoe.pitch;
@@ -102,7 +102,7 @@ std::string ground(Draw& draw, const vehicle::VehicleSpec& s, RandomVehicle& ran
   const std::string flat = fmt::format("heightmap = \"heightmaps/flat.png\"\nsize = [{:.6g}, {:.6g}]\n", length, width);
   random.onBed = draw.once(0.3);
   if (random.onBed) {
-    // Stiffness for the same relative overlap as under the light vehicle.
+    // With this stiffness, the relative overlap is the same as under the light vehicle.
     const double stiffness = 1e6 * s.totalMass() / (kLightMass * scale) * draw.over(0.5, 3);
     return fmt::format(
         "[material.soil]\ndensity = {:.5g}\nstiffness = {:.5g}\nrestitution = {:.3g}\nfriction = {:.3g}\n"

@@ -26,7 +26,7 @@ std::string nameOf(int number) { return fmt::format("vehicle_{}", number); }
 
 void runAll(const RandomVehicles& c, jobs::Pieces& pieces) {
   const base::Exec exec = support::chooseDevice(support::deviceChoice(c.pieces.device), c.pieces.threads, nullptr);
-  storage::SphereCache spheres{support::KeptFiles(pieces.folder() / "kept")}; // shared by all steps of a vehicle
+  storage::SphereCache spheres{support::KeptFiles(pieces.folder() / "kept")}; // all runs of a vehicle share it
   support::Progress progress("driving");
   for (int k = 0; k < c.vehicles; ++k) {
     const std::string name = nameOf(k);
@@ -37,7 +37,7 @@ void runAll(const RandomVehicles& c, jobs::Pieces& pieces) {
     place.folder = folder, place.exec = exec, place.spheres = &spheres;
     const RandomVehicle vehicle = randomVehicle(static_cast<std::uint64_t>(c.seed), k);
     const RandomOutcome outcome = tryRandomVehicle(vehicle, place);
-    // Scene for `grouser run`; written before the trials, which mark the piece as finished.
+    // Scene for `grouser run`; it is written before the trials, because they mark the piece as finished.
     support::replaceTextFile(pieces.folder() / "runs" / (name + ".toml"),
                              sceneText(vehicle.what, outcome.trials.at(0).step));
     keepTrials(pieces, name, outcome.trials);
@@ -52,13 +52,13 @@ void studyRandomVehicles(const RandomVehicles& c) {
   const auto begin = std::chrono::steady_clock::now();
   jobs::Pieces pieces("random_vehicles", c.place, c.pieces, {{"study", "random-vehicles"}, {"seed", c.seed}});
   const support::StopSignals signals;
-  fmt::print("          {} random vehicles of seed {}\n", c.vehicles, c.seed);
+  fmt::print("          {} random vehicles with seed {}\n", c.vehicles, c.seed);
   runAll(c, pieces);
   if (!pieces.whole()) return;
   std::array<int, kVerdictWords.size()> counts{};
   std::string csv = "vehicle,seed,file,drive,ground,arms,step [s],verdict,cause,reached [s],speed [m/s],dissipated [J],"
                     "left over [-],wall [s]\n";
-  std::string told;
+  std::string lines;
   for (int k = 0; k < c.vehicles; ++k) {
     if (!pieces.has(nameOf(k))) continue;
     const RandomVehicle v = randomVehicle(static_cast<std::uint64_t>(c.seed), k);
@@ -77,10 +77,10 @@ void studyRandomVehicles(const RandomVehicles& c) {
                        support::csvCell(judgement.why), run.reached, support::csvCell(run.figures.speed),
                        support::csvCell(run.figures.dissipated), support::csvCell(run.figures.energyResidual), wall);
     if (judgement.verdict != MapVerdict::sound)
-      told += fmt::format("{}: vehicle {}, {} {} on {}: {}\n", kVerdictWords[verdict], k, v.base, v.drive,
-                          v.onBed ? "a bed" : "rigid ground", judgement.why);
+      lines += fmt::format("{}: vehicle {}, {} {} on {}: {}\n", kVerdictWords[verdict], k, v.base, v.drive,
+                           v.onBed ? "a bed" : "rigid ground", judgement.why);
   }
-  fmt::print("{}\n", told);
+  fmt::print("{}\n", lines);
   for (std::size_t v = 0; v < kVerdictWords.size(); ++v) fmt::print("  {:<16}{:>5}\n", kVerdictWords[v], counts[v]);
   if (pieces.left() > 0) fmt::print("{} vehicles missing; repeat the command with --resume\n", pieces.left());
   nlohmann::ordered_json verdicts;

@@ -13,7 +13,7 @@ std::string orDash(double x, const char* format) {
   return std::isfinite(x) ? fmt::format(fmt::runtime(format), x) : "-";
 }
 
-/// The first sentence of a failure message, shortened for a table.
+/// A failure message, shortened for a table.
 std::string brief(const std::string& failure) {
   constexpr std::size_t kWidth = 90;
   return failure.size() <= kWidth ? failure : failure.substr(0, kWidth - 3) + "...";
@@ -62,7 +62,7 @@ const StudyPoint* cheapest(const StudyResult& r, double threshold) {
 }
 
 std::string cheapestTable(const std::vector<StudyResult>& results) {
-  std::string text = fmt::format("\ncheapest setting for a given precision\n  {:<13} {:<34} {:<34}\n", "",
+  std::string text = fmt::format("\ncheapest integrator and step for a given precision\n  {:<13} {:<34} {:<34}\n", "",
                                  "low: error <= 1e-1", "high: error <= 1e-3");
   for (const StudyResult& r : results) {
     text += fmt::format("  {:<13}", r.study.name);

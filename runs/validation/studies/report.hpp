@@ -9,7 +9,7 @@
 /// The tables of `grouser study multibody`, as text and as CSV.
 namespace grouser::studies {
 
-/// Maximum errors for low and high precision of the IFToMM benchmark [-].
+/// Maximum errors for the low and the high precision of the IFToMM benchmark [-].
 inline constexpr double kLowPrecision = 1e-1, kHighPrecision = 1e-3;
 
 struct StudyResult {
@@ -19,7 +19,7 @@ struct StudyResult {
 std::string caseTable(const StudyResult& result);
 std::string pointsCsv(const std::vector<StudyResult>& results);
 
-/// The point with the smallest CPU time and an error below `threshold`; null if there is none.
+/// The point with the smallest CPU time among those with an error of at most `threshold`; null if there is none.
 const StudyPoint* cheapest(const StudyResult& result, double threshold);
 std::string cheapestTable(const std::vector<StudyResult>& results);
 std::string cheapestCsv(const std::vector<StudyResult>& results);

@@ -26,14 +26,14 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kRest = 0.9;           // [s] settling and compression before shearing
+constexpr double kRest = 0.9;           // [s] time for settling and compression before shearing
 constexpr double kLidMass = 0.05;       // [kg]
-constexpr double kRow = 0.01;           // [s]
-constexpr double kPlateau = 0.5;        // fraction of the travel after which the strength is residual
+constexpr double kRow = 0.01;           // [s] time between rows
+constexpr double kPlateau = 0.5;        // fraction of the travel after which the strength counts as residual
 constexpr double kLatticeSpacing = 2.1; // initial lattice spacing [largest radii]
-constexpr double kSampleSolid = 0.6;    // expected solid fraction of the sample, for its depth only
+constexpr double kSampleSolid = 0.6;    // expected solid fraction of the sample; determines only its depth
 
-/// Walls of the shear box: lower half fixed, upper half moving.
+/// Walls of the shear box; the lower half is fixed, and the upper half moves.
 enum class Side { floor, lowerLeft, lowerRight, upperLeft, upperRight, lid };
 
 constexpr bool rests(Side side) { return side == Side::floor || side == Side::lowerLeft || side == Side::lowerRight; }
@@ -54,7 +54,7 @@ namespace {
 std::string shearScene(const virtual_tests::SampleGrains& material, const ShearBox& box, double stress,
                        std::int64_t seed) {
   const double d = material.diameter(), l = box.length * d, w = box.width * d, depth = box.depth * d;
-  const double wall = box.travel * l + 2 * d; // thick enough to cover the gap
+  const double wall = box.travel * l + 2 * d; // thick enough to cover the gap that opens between the halves
   const double largest = material.radius * (1 + box.spread), cell = kLatticeSpacing * largest;
   const double loose = depth * kSampleSolid * cell * cell * cell / (base::kPi / 6 * d * d * d);
   const double top = loose - 0.5 * depth + d;
@@ -83,7 +83,7 @@ std::string shearScene(const virtual_tests::SampleGrains& material, const ShearB
   return text;
 }
 
-/// Angle whose tangent is `t` [deg].
+/// Angle with the tangent `t` [deg].
 double degrees(double t) { return std::atan(t) * 180 / base::kPi; }
 
 } // namespace
@@ -98,7 +98,7 @@ std::vector<ShearRow> shearSample(const virtual_tests::SampleGrains& material, c
   for (std::int64_t step = 1; step <= all; ++step) {
     simulation.step();
     if (step % every != 0) continue;
-    jobs::stopStudyIfAsked();
+    jobs::stopStudyOnRequest();
     simulation.checkEnergy();
     const coupling::Surfaces& surfaces = *simulation.surfaces();
     ShearRow row;
@@ -136,12 +136,13 @@ void studyShearCommand(const ShearCommand& command) {
   const std::vector<double>& stresses = command.stresses;
   virtual_tests::SampleGrains material;
   material.friction = command.friction, material.rollingFriction = command.rollingFriction;
-  fmt::print(
-      "          spheres of 10 mm +- {:.0f} %, 1e5 N/m, restitution 0.5, friction {}, rolling friction {}; box {} d "
-      "long, {} d between\n          periodic boundaries, {} d deep; sheared at {} m/s over {} of its length; {} "
-      "contacts; {} seeds, +- standard error; one thread\n",
-      100 * box.spread, material.friction, material.rollingFriction, box.length, box.width, box.depth, box.speed,
-      box.travel, base::wordOf(box.contact), seeds);
+  fmt::print("          spheres of 10 mm diameter (d) +- {:.0f} %, 1e5 N/m, restitution 0.5, friction {}, rolling "
+             "friction {};\n"
+             "          box {} d long, {} d between periodic boundaries, {} d deep; sheared at {} m/s over a distance "
+             "of {} of "
+             "its length;\n          {} contacts; {} seeds, +- standard error; one thread\n",
+             100 * box.spread, material.friction, material.rollingFriction, box.length, box.width, box.depth, box.speed,
+             box.travel, base::wordOf(box.contact), seeds);
   support::Progress progress("shearing");
   std::string csv = "stress [Pa],seed,displacement [m],shear force [N],normal force [N],lid [m]\n";
   std::string table = fmt::format("\n  {:>10} {:>18} {:>18} {:>22} {:>20}\n", "load [Pa]", "peak T/N", "residual T/N",
@@ -165,7 +166,7 @@ void studyShearCommand(const ShearCommand& command) {
         const ShearRow& r = rows[k];
         csv += fmt::format("{:g},{},{:.6g},{:.6g},{:.6g},{:.6g}\n", stress, seed, r.displacement, r.shear, r.normal,
                            r.lid);
-        // Peak of means over five rows, to reduce noise.
+        // The peak is the maximum of means over five rows, which reduces noise.
         if (k >= 4) {
           double t = 0, n = 0;
           for (std::size_t j = k - 4; j <= k; ++j) t += rows[j].shear, n += rows[j].normal;
@@ -185,10 +186,10 @@ void studyShearCommand(const ShearCommand& command) {
   progress.finish(base::counted(done, "sample"));
   fmt::print("{}\n  friction angle of the bed: {} deg\n", table, both(angles, 1));
   if (const support::LineFit line = support::fitLine(sigma, tau); line.hasError() && stresses.size() > 1)
-    fmt::print("  linear fit to all samples: slope {} (95 %), {:.1f} deg; cohesion {:.0f} +- {:.0f} Pa (95 %)\n",
+    fmt::print("  linear fit to all samples: slope {} (95 %), i.e. {:.1f} deg; cohesion {:.0f} +- {:.0f} Pa (95 %)\n",
                line.slopeText(), degrees(line.slope), line.intercept, line.interceptEstimate().halfWidth);
-  fmt::print("  T: shear force on the upper half, N: normal force between the halves; residual: second half of the "
-             "travel\n");
+  fmt::print("  T: shear force on the upper half, N: normal force between the halves; residual: mean over the second "
+             "half of the travel\n");
   support::writeTextFile(folder / "shear.csv", csv, "--out");
   jobs::writeStudyOrigin(folder, "shear", std::chrono::duration<double>(Clock::now() - begin).count(),
                          {{"friction", material.friction},

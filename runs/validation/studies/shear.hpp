@@ -7,10 +7,10 @@
 
 #include <vector>
 
-/// Direct shear box: friction angle of a bed of grains.
+/// Direct shear box, which measures the friction angle of a bed of grains.
 namespace grouser::studies {
 
-/// One row of a test.
+/// A row in the table of a test.
 struct ShearRow {
   double displacement = 0; ///< displacement of the upper half [m]
   double shear = 0;        ///< shear force on the upper half [N]
@@ -19,14 +19,14 @@ struct ShearRow {
 };
 
 struct ShearBox {
-  double length = 16, width = 6, depth = 10; ///< inside, between periodic boundaries, settled depth [grain diameters]
+  double length = 16, width = 6, depth = 10; ///< inner length, width between periodic boundaries, settled depth [d]
   double travel = 0.12;                      ///< travel / length [-]
-  double speed = 0.02;                       ///< [m/s]
-  double spread = 0.12; ///< radii uniform within +- this fraction of the mean, to prevent order [-]
+  double speed = 0.02;                       ///< speed of the upper half [m/s]
+  double spread = 0.12; ///< half width of the uniform radius distribution / mean radius; prevents order [-]
   scene::ContactMethod contact = scene::ContactMethod::penalty;
 };
 
-/// Fills the box, loads the lid with `stress` [Pa], then shears.
+/// Fills the box, loads the lid with `stress` [Pa], and then shears the sample.
 std::vector<ShearRow> shearSample(const virtual_tests::SampleGrains& material, const ShearBox& box, double stress,
                                   std::int64_t seed);
 
@@ -35,7 +35,7 @@ struct ShearCommand {
   double friction = 0.5, rollingFriction = 0;
   ShearBox box;
   int seeds = 3;
-  std::vector<double> stresses = {1000, 2000, 4000}; ///< [Pa]
+  std::vector<double> stresses = {1000, 2000, 4000}; ///< normal stresses on the lid [Pa]
 };
 /// `grouser study shear`
 void studyShearCommand(const ShearCommand& command);

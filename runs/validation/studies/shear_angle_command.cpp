@@ -18,7 +18,7 @@ namespace grouser::studies {
 
 namespace {
 
-constexpr double kBar = 1;         // [deg] target half width of the angle
+constexpr double kBar = 1;         // [deg] target half width of the interval of the angle
 constexpr double kInertial = 1e-3; // [-] maximum inertial number of a quasi-static test
 
 double inDegrees(double radians) { return radians * 180 / base::kPi; }
@@ -114,7 +114,7 @@ std::string stressTable(const Samples& s, const jobs::Pieces& pieces, double rol
                        residual.halfWidth, core.value, core.halfWidth, before.value, before.halfWidth, after.value,
                        after.halfWidth, inertial.value);
     if (inertial.value > kInertial)
-      text += "             WARNING: not quasi-static (I > 1e-3); reduce the shear speed\n";
+      text += "             WARNING: the test is not quasi-static (inertial number I > 1e-3); reduce the shear speed\n";
   }
   return text;
 }
@@ -132,7 +132,7 @@ ShearAngle shearAngle(const std::vector<std::vector<virtual_tests::ShearStrength
     }
     core.push_back(inDegrees(angle));
     const support::LineFit line = support::fitLine(sigma, tau), peaks = support::fitLine(sigma, high);
-    const bool through = line.points < 2; // one stress only: line through the origin
+    const bool through = line.points < 2; // a single stress: the line passes through the origin
     residual.push_back(inDegrees(std::atan(through ? tau.front() / sigma.front() : line.slope)));
     peak.push_back(inDegrees(std::atan(through ? high.front() / sigma.front() : peaks.slope)));
     cohesion.push_back(through ? 0 : line.intercept);
@@ -145,11 +145,11 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
   jobs::Pieces pieces("shear-angle", command.place, command.pieces, recipeOf(s));
   const support::StopSignals signals;
   const auto begin = std::chrono::steady_clock::now();
-  fmt::print(
-      "          spheres of {:g} mm +- {:g} %, {:g} N/m, friction {:g}, {:g} during pouring; {:g} x {:g} d between "
-      "periodic boundaries, {:g} d deep; {} seeds, +- 95 %\n",
-      2e3 * s.soil.grains.radius, 100 * s.soil.spread, s.soil.grains.stiffness, s.soil.grains.friction,
-      s.soil.preparationFriction, s.cell.length, s.cell.width, s.cell.depth, s.seeds);
+  fmt::print("          spheres of {:g} mm diameter (d) +- {:g} %, {:g} N/m, friction {:g}, {:g} during pouring; {:g} "
+             "x {:g} d "
+             "between periodic boundaries, {:g} d deep; {} seeds, +-: 95 % interval\n",
+             2e3 * s.soil.grains.radius, 100 * s.soil.spread, s.soil.grains.stiffness, s.soil.grains.friction,
+             s.soil.preparationFriction, s.cell.length, s.cell.width, s.cell.depth, s.seeds);
   runAll(s, pieces, command.pieces);
   if (!pieces.whole()) return;
   std::string csv =
@@ -163,7 +163,7 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
     const std::string text = stressTable(s, pieces, rolling, runs, csv);
     if (runs.empty()) continue;
     const ShearAngle a = shearAngle(runs);
-    fmt::print("{}  line fit: residual {} deg, peak {} deg; cohesion {} Pa; core {} deg\n"
+    fmt::print("{}  line fit: residual angle {} deg, peak angle {} deg; cohesion {} Pa; core angle {} deg\n"
                "  half width of the residual angle {} {:g} deg: {}\n",
                text, jobs::plusMinus(a.angle, 2), jobs::plusMinus(a.peakAngle, 2), jobs::plusMinus(a.cohesion, 0),
                jobs::plusMinus(a.mohrCoulomb, 2), a.angle.halfWidth < kBar ? "below" : "not below", kBar,
@@ -173,9 +173,9 @@ void studyShearAngleCommand(const ShearAngleCommand& command) {
                           a.mohrCoulomb.value, a.mohrCoulomb.halfWidth, a.cohesion.value, a.cohesion.halfWidth);
   }
   fmt::print(
-      "  tau, sigma: mean of both plates; residual: second half of the strain; core angle: sine = (s1 - s3)/(s1 + s3) "
-      "of the stress in the shear plane,\n  from contacts more than two grains away from the plates: the "
-      "Mohr-Coulomb angle for bearing theories\n");
+      "  tau, sigma: mean of both plates; residual: mean over the second half of the strain; core angle: sine = "
+      "(s1 - s3)/(s1 + s3)\n  of the stress in the shear plane, from contacts more than two grains away from the "
+      "plates; it is the Mohr-Coulomb angle for bearing theories\n");
   if (pieces.left() > 0)
     fmt::print("{} missing; repeat the command with --resume\n", base::counted(pieces.left(), "run is", "runs are"));
   support::writeTextFile(pieces.folder() / "shear_angle.csv", csv, "--out");

@@ -10,8 +10,8 @@ namespace {
 
 void addShearAngle(CLI::App& study, ShearAngleCommand& c) {
   CLI::App* shear = study.add_subcommand(
-      "shear-angle", "Measure angle of internal friction and cohesion of poured beds in simple shear between toothed "
-                     "plates, with and without rolling friction (hours on one core: use --part)");
+      "shear-angle", "Measure the angle of internal friction and the cohesion of poured beds in simple shear between "
+                     "toothed plates, with and without rolling friction (hours on one core: use --part)");
   addNumber(*shear, "--friction", c.friction, 0, 5, "friction between grains, and between grains and plates [-]");
   addNumber(*shear, "--preparation-friction", c.preparationFriction, 0, 5,
             "friction between grains during pouring; a lower value makes the bed denser [-]");
@@ -33,8 +33,9 @@ void addShearAngle(CLI::App& study, ShearAngleCommand& c) {
 void addPlates(CLI::App& study, PlatesCommand& c) {
   CLI::App* plates = study.add_subcommand(
       "plates",
-      "Push plates into poured beds: measure pressure over sinkage, effects of floor, depth and width of the bed, and "
-      "bearing capacity compared with theory, and compare a graded with a fine bed (GPU recommended)");
+      "Push plates into poured beds: measure the pressure over the sinkage and the effects of floor, depth and width "
+      "of "
+      "the bed, and compare the bearing capacity with theory and a graded bed with a fine bed (GPU recommended)");
   QuickValues quick;
   const auto number = [&](const std::string& name, double& value, double low, double high, double quickly,
                           const std::string& help) {
@@ -56,14 +57,16 @@ void addPlates(CLI::App& study, PlatesCommand& c) {
   number("--circular-depth", c.circularDepth, 0.5, 100, 1.5, "depth of the circular plate's bed [plate widths]");
   number("--fine-breadth", c.fineBreadth, 4, 1000, 5, "strip width in cases fine and graded [grain diameters]");
   number("--fine-thickness", c.fineThickness, 6, 1000, 7,
-         "length of the strips and beds in cases fine and graded [grain diameters]; three times the coarsest diameter");
+         "length of strips and beds in cases fine and graded [grain diameters]; limits the largest grain to 2/7 of it");
   addNumber(*plates, "--fine-depth", c.fineDepth, 0, 100, "depth of the fine layer of the graded bed [plate widths]");
-  number("--coarsening", c.coarsening, 1e-4, 0.5, 0.12, "increase of the mean radius per depth below this layer [-]");
+  number("--coarsening", c.coarsening, 1e-4, 0.5, 0.12,
+         "increase of the mean radius per depth below the fine layer [-]");
   number("--young", c.young, 1e5, 1e12, 5e7,
          "Young's modulus of the grains in cases fine and graded, with Hertz contacts [Pa]");
   number("--sinkage", c.sinkage, 0.01, 2, 0.2, "final sinkage of the plates [plate widths]");
-  number("--inertial-number", c.inertialNumber, 1e-6, 0.1, 2e-2,
-         "inertial number: (speed / plate width) d sqrt(density / pressure) [-]");
+  number(
+      "--inertial-number", c.inertialNumber, 1e-6, 0.1, 2e-2,
+      "inertial number (speed / plate width) d sqrt(density / pressure), which determines the speed of the plates [-]");
   addNumber(*plates, "--friction", c.friction, 0, 5, "friction between grains, and between grains and plate [-]");
   addNumber(*plates, "--rolling-friction", c.rollingFriction, 0, 5, "rolling friction of the same contacts [-]");
   addNumber(*plates, "--preparation-friction", c.preparationFriction, 0, 5,
@@ -72,7 +75,8 @@ void addPlates(CLI::App& study, PlatesCommand& c) {
             "angle of internal friction for the theory: the core angle measured by shear-angle [deg]");
   addNumber(*plates, "--angle-error", c.angleError, 0, 20, "half width of the interval of --angle [deg]")
       ->needs("--angle");
-  plates->add_flag("--keep-beds", c.keepBeds, "write each bed to a text file with one line x, y, z, r per grain");
+  plates->add_flag("--keep-beds", c.keepBeds,
+                   "write each bed to a text file with a line x, y, z, r [m] for each grain");
   jobs::addPieceOptions(*plates, c.pieces);
   addPlace(*plates, c.place, "plates", "use small plates on small beds, two seeds and a high speed (takes seconds)");
   doStudy(*plates, c, studyPlatesCommand, quick);
@@ -81,7 +85,7 @@ void addPlates(CLI::App& study, PlatesCommand& c) {
 void addPreparation(CLI::App& study, PreparationCommand& c) {
   CLI::App* preparation = study.add_subcommand(
       "preparation",
-      "Measure the porosity of beds with a target porosity in [terrain], and the friction used during settling");
+      "Settle beds with a target porosity in [terrain], and measure their porosity and the settling friction");
   QuickValues quick;
   quick.instead(preparation->add_option("--porosities", c.porosities, "target porosities [-]")
                     ->check(support::between(0.2, 0.7))
@@ -90,9 +94,9 @@ void addPreparation(CLI::App& study, PreparationCommand& c) {
   addNumber(*preparation, "--friction", c.friction, 0, 5, "friction of the grains [-]");
   addNumber(*preparation, "--rolling-friction", c.rollingFriction, 0, 5, "rolling friction of the grains [-]");
   quick.instead(addNumber(*preparation, "--width", c.width, 6, 1000,
-                          "width of a bed between opposite periodic boundaries [grain diameters]"),
+                          "width of the bed between opposite periodic boundaries [grain diameters]"),
                 c.width, 9);
-  quick.instead(addNumber(*preparation, "--depth", c.depth, 4, 1000, "depth of a bed [grain diameters]"), c.depth, 7);
+  quick.instead(addNumber(*preparation, "--depth", c.depth, 4, 1000, "depth of the bed [grain diameters]"), c.depth, 7);
   quick.instead(addSeeds(*preparation, c.seeds, "number of beds per porosity"), c.seeds, 2);
   jobs::addPieceOptions(*preparation, c.pieces);
   addPlace(*preparation, c.place, "preparation", "use one porosity and two small beds (takes half a minute)");

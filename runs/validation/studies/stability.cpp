@@ -36,11 +36,11 @@ scene::Scene sceneOf(const scene::MechanismSections& sections, const Choice& cho
   scene.run.gravity = gravity;
   scene.run.integrator = choice.integrator, scene.run.springs = choice.springs;
   scene.mechanism = sections;
-  scene.run.stepsPerPeriod = 2; // low resolution: only stability matters
+  scene.run.stepsPerPeriod = 2; // a low resolution, because only the stability matters
   return scene;
 }
 
-/// Runs; stable if `size` stays below `bound`.
+/// Runs a mechanism; the run is stable if `size` stays at or below `bound`.
 void tryStep(const scene::Scene& scene, StabilityPoint& point,
              const std::function<double(const coupling::Mechanism&)>& size, double bound) {
   point.predicted = point.step < point.limit;
@@ -48,7 +48,7 @@ void tryStep(const scene::Scene& scene, StabilityPoint& point,
     coupling::Mechanism mechanism(setup::mechanismSetup(scene), point.step);
     for (int i = 0; i < kSteps && point.stable; ++i) {
       mechanism.advance();
-      point.stable = size(mechanism) <= bound; // false for NaN too
+      point.stable = size(mechanism) <= bound; // also false for NaN
     }
   } catch (const base::InputError&) {
     point.stable = false, point.refused = true;
@@ -57,7 +57,7 @@ void tryStep(const scene::Scene& scene, StabilityPoint& point,
   }
 }
 
-/// Trial steps: from 1e-6 s upwards, and around the limit.
+/// Trial steps: from 1e-6 s on, and around the limit.
 std::vector<double> stepsFor(double limit, double longest) {
   std::vector<double> steps;
   for (const double s : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1.0})
@@ -89,7 +89,7 @@ void springs(std::vector<StabilityPoint>& points) {
       const double limit = limited ? 2 / omega : kAnyStep;
       for (const double step : stepsFor(limit, 1)) {
         StabilityPoint p{fmt::format("spring x {:g}", factor), choice.name, limit, step};
-        // The free oscillation reaches 2 kPull / k; twice that is unstable.
+        // The free oscillation reaches 2 kPull / k; twice this value is unstable.
         tryStep(
             sceneOf(m, choice, {kPull / kMass, 0, 0}), p,
             [](const coupling::Mechanism& now) { return std::fabs(now.state().pose[0].position.x); },
@@ -100,22 +100,22 @@ void springs(std::vector<StabilityPoint>& points) {
   }
 }
 
-/// Highest frequency of small oscillations of a hanging chain [rad/s], by power iteration on M^-1 K: links of mass m,
-/// length l and inertia I about the centre, angles from the vertical as coordinates.
+/// Highest frequency of small oscillations of a hanging chain [rad/s], by power iteration on M^-1 K. The links have the
+/// mass m, the length l and the moment of inertia I about their centre; the coordinates are angles from the vertical.
 double highestSwing(int n, double m, double l, double I, double tip, double g) {
   const auto at = [n](int i, int j) {
     return static_cast<std::size_t>(i) * static_cast<std::size_t>(n) + static_cast<std::size_t>(j);
   };
   std::vector<double> M(at(n, 0)), K(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
-    // Links below i move with l theta_i, the centre of link i with half of that.
+    // Links below link i move with l theta_i; the centre of link i moves with l theta_i / 2.
     K[static_cast<std::size_t>(i)] = g * l * (0.5 * m + (n - 1 - i) * m + tip);
     for (int j = 0; j < n; ++j) {
       const int low = std::max(i, j);
       M[at(i, j)] = l * l * ((n - 1 - low) * m + tip + (i == j ? 0.25 * m : 0.5 * m)) + (i == j ? I : 0);
     }
   }
-  // Cholesky's factor of M.
+  // Cholesky factor of M.
   for (int j = 0; j < n; ++j)
     for (int i = j; i < n; ++i) {
       double sum = M[at(i, j)];
@@ -168,7 +168,7 @@ void massRatios(std::vector<StabilityPoint>& points) {
     for (const Choice& choice : {kChoices[0], kChoices[1]})
       for (const double step : stepsFor(limit, 1)) {
         StabilityPoint p{fmt::format("tip mass x {:g}", ratio), choice.name, limit, step};
-        // The chain oscillates as a whole to twice the tilt; the fastest mode is a zigzag with large pin angles.
+        // The whole chain oscillates up to twice the tilt; the fastest mode is a zigzag with large pin angles.
         const auto widest = [](const coupling::Mechanism& now) {
           double angle = 0;
           for (const multibody::JointReading& joint : now.state().joint)
@@ -189,7 +189,7 @@ void inertiaRatios(std::vector<StabilityPoint>& points) {
     body.name = "top", body.mass = 1, body.inertia = {1, ratio, ratio + 0.5};
     body.spin = base::Vec3d{1, 1, 1} * (kSpin / std::sqrt(3.0));
     m.bodies.push_back(body);
-    // No theory: empirical limit of the implicit gyroscopic equation, rotation per step.
+    // Without a theory, this is an empirical limit of the implicit gyroscopic equation: rotation per step.
     const double limit = (ratio <= 10 ? 1.0 : 0.1) / kSpin; // [rad] over [rad/s]
     const double start = 0.5 * kSpin * kSpin / 3 * (1 + 2 * ratio + 0.5);
     for (const Choice& choice : {kChoices[0], kChoices[1]})

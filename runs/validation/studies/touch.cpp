@@ -17,21 +17,21 @@ using base::Vec3l;
 
 namespace {
 
-/// Width of cells [units]; a grain is 1e8 to 2e8 wide.
+/// Width of the local cells [units]; grain diameters are 1e8 to 2e8 units.
 constexpr std::int64_t kCell = std::int64_t{1} << 27;
 
 std::int64_t cellOf(std::int64_t units) { return units >= 0 ? units / kCell : -((kCell - 1 - units) / kCell); }
 
 template <class T> bool nearer(const Vec3<T>& apart, T reach) { return dot(apart, apart) < reach * reach; }
 
-/// Gap [m], from exact squares.
+/// Gap [m], computed from exact squares.
 double gapOf(const Position& a, const Position& b, double unit, std::int64_t diameterUnits) {
   const std::int64_t distance2 = base::squaredNorm(base::difference(a, b));
   const double difference = static_cast<double>(distance2 - diameterUnits * diameterUnits);
   return difference / (std::sqrt(static_cast<double>(distance2)) + static_cast<double>(diameterUnits)) * unit;
 }
 
-/// Contacts of all grains, each pair once, as sorted keys.
+/// Contacts of all grains as sorted keys; each pair occurs once.
 std::vector<std::uint64_t> contactKeys(const terrain::GrainState& state) {
   std::vector<std::uint64_t> keys;
   std::size_t at = 0;
@@ -43,7 +43,7 @@ std::vector<std::uint64_t> contactKeys(const terrain::GrainState& state) {
   return keys;
 }
 
-/// Contact lists found by a step of `grains` in a configuration.
+/// State with the contact lists that one step of `grains` finds in a configuration.
 terrain::GrainState listsOf(terrain::Grains& grains, const terrain::GrainState& configuration) {
   grains.restore(configuration);
   grains.refreshNeighbours();
@@ -175,12 +175,12 @@ std::string touchTable(const std::vector<TouchConfiguration>& all, const TouchSt
   }
   std::string text = fmt::format(
       "\ncontact decisions: {} configurations of {} grains, {} steps apart ({:g} s); contacts made or lost between two "
-      "configurations: median {:.3g}, minimum {:.3g} of all\n  {} candidate pairs, {} in contact; smallest |gap|: "
-      "{:.2g} m\n  grains whose contacts differ between single and double precision: {} with grains, {} with "
+      "configurations / all contacts: median {:.3g}, minimum {:.3g}\n  {} candidate pairs, {} in contact; smallest "
+      "|gap|: {:.2g} m\n  grains with different contacts in single and double precision: {} with grains, {} with "
       "walls\n  {:<28} {:>14} {:>14} {:>14} {:>22}\n",
       all.size(), study.grains, study.every, static_cast<double>(study.every) * StudyBox::kTimeStep,
       jobs::medianOf(changed), changed.empty() ? 0 : *std::min_element(changed.begin(), changed.end()), sum.pairs,
-      sum.touching, sum.nearest, grains, walls, "against exact integers", "disagreements", "missed", "invented",
+      sum.touching, sum.nearest, grains, walls, "compared with exact integers", "disagreements", "missed", "false",
       "largest |gap| [m]");
   for (int k = 0; k < kTouchArithmetics; ++k) {
     const TouchCounts::Disagreements& d = sum.wrong[static_cast<std::size_t>(k)];

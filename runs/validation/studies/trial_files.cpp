@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A run is stored as a table of numbers and a file with its message.
+/// Each run is stored as a table of numbers; a file contains the messages.
 jobs::Table tableOf(const std::vector<VehicleTrial>& trials) {
   jobs::Table table;
   table.names = {"step [s]", "end", "reached [s]", "wall [s]", "cause"};
@@ -53,7 +53,7 @@ std::vector<VehicleTrial> readTrials(const jobs::Pieces& pieces, const std::stri
 void keepTrials(jobs::Pieces& pieces, const std::string& name, const std::vector<VehicleTrial>& trials) {
   std::string causes;
   for (const VehicleTrial& t : trials) causes += base::oneLine(t.cause) + "\n";
-  support::replaceTextFile(causesOf(pieces, name), causes); // before the table, which marks the run as finished
+  support::replaceTextFile(causesOf(pieces, name), causes); // before the table, because it marks the run as finished
   pieces.keep(name, tableOf(trials));
 }
 

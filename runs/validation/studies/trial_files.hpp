@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-/// Runs of vehicles, stored as pieces of a study.
+/// Files of vehicle runs, which are pieces of a study.
 namespace grouser::studies {
 
-/// A figure of a run as a column.
+/// A figure of a run as a table column.
 struct FigureColumn {
   const char* name;
   double MapFigures::*value;
@@ -31,9 +31,9 @@ inline constexpr std::array<FigureColumn, 14> kTrialFigures{{{"speed [m/s]", &Ma
                                                              {"power magnitude [W]", &MapFigures::powerMagnitude},
                                                              {"blow [weights]", &MapFigures::blow}}};
 
-/// The runs of one point or vehicle.
+/// Reads the runs of one point or vehicle.
 void keepTrials(jobs::Pieces& pieces, const std::string& name, const std::vector<VehicleTrial>& trials);
-/// Throws base::InputError if the table is from another version.
+/// Throws base::InputError if another version wrote the table.
 std::vector<VehicleTrial> readTrials(const jobs::Pieces& pieces, const std::string& name);
 
 } // namespace grouser::studies

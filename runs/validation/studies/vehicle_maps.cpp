@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kStep = 1e-4;      // step of maps without a step axis: the automatic one on rigid ground [s]
-constexpr double kDriveStart = 0.2; // [s]
-constexpr double kHardStart = 0.05; // [s]
-constexpr int kLinePoints = 25;     // points of a predicted line
+constexpr double kStep = 1e-4;      // [s] step of maps without a step axis: the automatic step on rigid ground
+constexpr double kDriveStart = 0.2; // [s] start of the drive
+constexpr double kHardStart = 0.05; // [s] drive ramp of a hard start
+constexpr int kLinePoints = 25;     // number of points of a predicted line
 constexpr const char* kStepAxis = "step [s]";
 constexpr const char* kLongestLine = "longest step accepted by grouser";
 
@@ -32,11 +32,11 @@ struct Drive {
   double speed = 2;   ///< sprocket speed [rad/s]
   double ramp = 0.2;  ///< [s]
   double length = 9;  ///< length of the ground [m]
-  double until = 0.7; ///< [s]; the last 0.3 s are compared
+  double until = 0.7; ///< end of the run [s]; the last 0.3 s are compared
 };
 
-/// The vehicle is set down from 5 mm on rigid, level ground. `driver`: keys of the drive, which starts at kDriveStart.
-/// `obstacles`: sections.
+/// The vehicle is set down on rigid, level ground from a height of 5 mm. `driver`: keys of the drive, which starts at
+/// kDriveStart. `obstacles`: scene sections.
 VehicleCase setDown(double length, const std::string& driver, const std::string& obstacles, double until,
                     const std::string& place = "") {
   VehicleCase c;
@@ -51,7 +51,7 @@ VehicleCase setDown(double length, const std::string& driver, const std::string&
   return c;
 }
 
-/// The same without obstacles, then driving.
+/// The vehicle is set down on rigid, level ground without obstacles, and then drives.
 VehicleCase onRigidGround(const Drive& drive, std::vector<SpecChange> changes = {}, const std::string& run = "") {
   VehicleCase c =
       setDown(drive.length, fmt::format("sprocket_speed = {:.9g}\ndrive_ramp = {:g}\n", drive.speed, drive.ramp), "",
@@ -92,7 +92,7 @@ std::string triple(const base::Vec3d& v, double times) {
   return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", times * v.x, times * v.y, times * v.z);
 }
 
-/// Points over a quantity and the step, at fractions of the longest step of the program, which is drawn as a line.
+/// Points over a quantity and the step. The steps are fractions of the longest step of the program, which is a line.
 VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::vector<double>& shares,
                      const std::function<VehicleCase(double)>& make, const fs::path& folder) {
   for (const double x : xs) {
@@ -105,7 +105,7 @@ VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::v
   std::vector<double> at;
   if (map.x.logarithmic) at = between(*low, *high, kLinePoints);
   for (int i = 0; i < kLinePoints && !map.x.logarithmic; ++i) {
-    const double share = static_cast<double>(i) / (kLinePoints - 1); // squared: denser where limits change most
+    const double share = static_cast<double>(i) / (kLinePoints - 1); // its square makes points denser at small values
     at.push_back(*low + (*high - *low) * share * share);
   }
   for (const double x : at) limit.x.push_back(x), limit.y.push_back(longestStep(make(x), folder));
@@ -115,7 +115,7 @@ VehicleMap overSteps(VehicleMap map, const std::vector<double>& xs, const std::v
 
 VehicleMap speedAndTension(bool quick, const fs::path& folder) {
   VehicleMap map{"tension",
-                 "sprocket speed, reached in 0.05 s, and tension; step 1e-4 s",
+                 "sprocket speed (reached within 0.05 s) and tension; step 1e-4 s",
                  {"preload of an idler [N]"},
                  {"sprocket speed [rad/s]"}};
   const vehicle::VehicleSpec spec = shippedSpec(folder);
@@ -125,17 +125,17 @@ VehicleMap speedAndTension(bool quick, const fs::path& folder) {
   for (const double preload : preloads)
     for (const double speed : speeds) {
       const Drive drive{speed, kHardStart, 8 + 0.4 * speed * spec.pitchRadius(), 0.7};
-      // The deflection of the spring stays constant.
+      // Higher preloads also raise the stiffness, so that the deflection of the spring does not change.
       const double stiffness = spec.idler.stiffness * std::max(1.0, preload / spec.idler.preload);
       map.points.push_back({preload, speed,
                             onRigidGround(drive, {{"idler", "preload", fmt::format("{:g}", preload)},
                                                   {"idler", "stiffness", fmt::format("{:g}", stiffness)}}),
                             kStep});
     }
-  // A strand moving at v has a tension of lambda v^2: above that speed the preload of both strands is used up.
+  // A strand that moves at v has the tension lambda v^2. Above the speed of this line, both strands exceed the preload.
   const double lambda = spec.shoe.mass / spec.shoe.pitch;
   PredictedLine taut{"centrifugal tension lambda v^2 exceeds the preload", {}, {}};
-  // Each strand accelerates half the track, with 1.5 times the mean acceleration on a smooth ramp.
+  // Each strand accelerates half the track; on a smooth ramp, with 1.5 times the mean acceleration.
   PredictedLine start{"track acceleration exceeds the preload", {}, {}};
   const double pulled = 0.5 * spec.shoe.mass * spec.shoe.count * 1.5 * spec.pitchRadius() / kHardStart; // [N s]
   for (const double preload : between(preloads.front(), preloads.back(), kLinePoints)) {
@@ -149,7 +149,7 @@ VehicleMap speedAndTension(bool quick, const fs::path& folder) {
   return map;
 }
 
-/// Mass and suspension stiffness scaled by the same factor, so that the ride height is unchanged.
+/// Scales mass and suspension stiffness by the same factor, so that the ride height does not change.
 std::vector<SpecChange> heavier(const vehicle::VehicleSpec& s, double times) {
   const double mass = s.chassis.mass + (times - 1) * s.totalMass();
   const auto scaled = [times](double value) { return fmt::format("{:.9g}", times * value); };
@@ -162,7 +162,7 @@ std::vector<SpecChange> heavier(const vehicle::VehicleSpec& s, double times) {
 
 VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   VehicleMap map{"grains",
-                 "grain size and weight, on a bed of 1e6 N/m, step 1e-4 s",
+                 "grain size and weight, on a bed with a stiffness of 1e6 N/m; step 1e-4 s",
                  {"grain radius [m]"},
                  {"weight / weight of the shipped vehicle [-]"}};
   map.onBed = true;
@@ -172,7 +172,7 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   for (const double radius : radii)
     for (const double weight : weights)
       map.points.push_back({radius, weight, onBed(radius, heavier(spec, weight)), kStep});
-  // A single grain on another one carries a road wheel and overlaps by one radius.
+  // A single grain carries a road wheel and overlaps with the grain below by one radius.
   PredictedLine pressed{"a single grain under a road wheel overlaps by its radius", {}, {}};
   const double wheels = 2.0 * spec.roadWheel.count;
   for (const double radius : between(radii.front(), radii.back(), kLinePoints)) {
@@ -183,9 +183,9 @@ VehicleMap grainsAndWeight(bool quick, const fs::path& folder) {
   return map;
 }
 
-/// Scatter between seeds, the reference for differences on beds. Not with --quick.
+/// Scatter between seeds, which is the reference for differences on beds. Not run with --quick.
 VehicleMap seeds(bool quick, const fs::path& folder) {
-  VehicleMap map{"seeds", "beds with grain radius 0.05 m, different seeds", {"seed", false}, {kStepAxis}};
+  VehicleMap map{"seeds", "beds with different seeds, grain radius 0.05 m", {"seed", false}, {kStepAxis}};
   map.onBed = true;
   constexpr int kSeeds = 4;
   for (int seed = 1; seed <= kSeeds && !quick; ++seed)
@@ -199,7 +199,7 @@ VehicleMap stiffness(bool quick, const fs::path& folder) {
   const VehicleMap map{"stiffness", "stiffness of shoes and wheels", {"foundation modulus [N/m3]"}, {kStepAxis}};
   const vehicle::VehicleSpec spec = shippedSpec(folder);
   const auto make = [&](double modulus) {
-    // Constant damping ratio.
+    // The relaxation time keeps the damping ratio constant.
     const double relaxation = spec.contact.relaxationTime * std::sqrt(spec.contact.foundationModulus / modulus);
     return onRigidGround({}, {{"contact", "foundation_modulus", fmt::format("{:.9g}", modulus)},
                               {"contact", "relaxation_time", fmt::format("{:.9g}", relaxation)}});
@@ -226,13 +226,13 @@ VehicleMap drop(bool quick, const fs::path& folder) {
 }
 
 VehicleMap speeds(bool quick, const fs::path& folder) {
-  const VehicleMap map{"speed", "speed, reached in 0.2 s", {"sprocket speed [rad/s]", false}, {kStepAxis}};
+  const VehicleMap map{"speed", "speed (reached within 0.2 s)", {"sprocket speed [rad/s]", false}, {kStepAxis}};
   const auto make = [](double speed) { return onRigidGround({speed, 0.2, 9 + 0.1 * speed, 0.7}); };
   return overSteps(map, quick ? std::vector<double>{20} : std::vector<double>{0, 5, 10, 20}, mapShares(quick), make,
                    folder);
 }
 
-/// Forward, then backward at the same speed a tenth of a second later, with sliding shoes.
+/// Drives forward, and 0.1 s later backward at the same speed; the shoes slide.
 VehicleMap reversal(bool quick, const fs::path& folder) {
   const VehicleMap map{
       "reversal", "drives reversed within 0.1 s", {"sprocket speed, forward and back [rad/s]", false}, {kStepAxis}};
@@ -247,7 +247,8 @@ VehicleMap reversal(bool quick, const fs::path& folder) {
                    folder);
 }
 
-/// Set down with the middle of the left track on a half-round and the right track on the ground, then driving.
+/// The vehicle is set down with the middle of the left track on a half-round and the right track on the ground, and
+/// then drives.
 VehicleMap bump(bool quick, const fs::path& folder) {
   const VehicleMap map{"bump", "one track on a bump", {"radius of the half-round [m]", false}, {kStepAxis}};
   const auto make = [&folder](double radius) {
@@ -263,7 +264,7 @@ VehicleMap bump(bool quick, const fs::path& folder) {
                    folder);
 }
 
-/// Driven off a ledge at 10 rad/s; the centre of mass starts 0.3 m before the edge.
+/// The vehicle drives off a ledge at 10 rad/s; its centre of mass starts 0.3 m before the edge.
 VehicleMap ledge(bool quick, const fs::path& folder) {
   const VehicleMap map{"ledge", "driven off a ledge at 10 rad/s", {"height [m]", false}, {kStepAxis}};
   const auto make = [&folder](double height) {
@@ -280,7 +281,7 @@ VehicleMap ledge(bool quick, const fs::path& folder) {
 }
 
 VehicleMap gravity(bool quick, const fs::path& folder) {
-  const VehicleMap map{"gravity", "gravity", {"gravity over 9.81 m/s2 [-]", false}, {kStepAxis}};
+  const VehicleMap map{"gravity", "gravity", {"gravity / 9.81 m/s2 [-]", false}, {kStepAxis}};
   const auto make = [](double g) {
     return onRigidGround({}, {}, fmt::format("gravity = [0, 0, {:.9g}]\n", -g * jobs::kGravity));
   };
@@ -289,7 +290,7 @@ VehicleMap gravity(bool quick, const fs::path& folder) {
 }
 
 VehicleMap masses(bool quick, const fs::path& folder) {
-  const VehicleMap map{"mass", "mass ratio", {"mass of the hull over that of a shoe [-]"}, {kStepAxis}};
+  const VehicleMap map{"mass", "mass ratio", {"mass of the hull / mass of a shoe [-]"}, {kStepAxis}};
   const vehicle::VehicleSpec spec = shippedSpec(folder);
   const auto make = [&](double ratio) {
     const double mass = spec.chassis.mass / ratio;
@@ -301,8 +302,7 @@ VehicleMap masses(bool quick, const fs::path& folder) {
 }
 
 VehicleMap inertias(bool quick, const fs::path& folder) {
-  const VehicleMap map{
-      "inertia", "inertia ratio", {"m l^2 / 12 of a shoe over its moment of inertia [-]"}, {kStepAxis}};
+  const VehicleMap map{"inertia", "inertia ratio", {"m l^2 / 12 of a shoe / its moment of inertia [-]"}, {kStepAxis}};
   const vehicle::VehicleSpec spec = shippedSpec(folder);
   const double solid = spec.shoe.mass * spec.shoe.halfLength * spec.shoe.halfLength / 3;
   const auto make = [&](double ratio) {

@@ -29,10 +29,10 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string nameOf(const VehicleMap& map, std::size_t point) { return fmt::format("{}_{}", map.name, point); }
-/// Name of the pair at neighbouring step `k`.
+/// Name of the pair of runs at the neighbouring step `k`.
 std::string nameBeside(const std::string& point, std::size_t k) { return fmt::format("{}_beside_{}", point, k); }
 
-/// Inputs of the runs, for --resume.
+/// Inputs of the runs; --resume compares them.
 nlohmann::ordered_json recipeOf(const std::vector<VehicleMap>& maps, bool quick) {
   nlohmann::ordered_json recipe = {{"study", "stability"}, {"scene", "vehicle"}, {"quick", quick}};
   for (const VehicleMap& map : maps) {
@@ -42,7 +42,7 @@ nlohmann::ordered_json recipeOf(const std::vector<VehicleMap>& maps, bool quick)
   return recipe;
 }
 
-/// A scene at a step and at a quarter of it.
+/// Runs a scene at a step and at a quarter of this step.
 void runPoint(const VehicleCase& what, double step, const std::string& name, const TrialPlace& kept,
               jobs::Pieces& pieces) {
   TrialPlace place = kept;
@@ -93,7 +93,7 @@ std::vector<JudgedPoint> judged(const std::vector<VehicleMap>& maps, const jobs:
         for (std::size_t k = 0; k < kNeighbourShares.size() && whole; ++k)
           if (const std::string beside = nameBeside(name, k); (whole = pieces.has(beside)))
             p.pairs.push_back(pairOf(pieces, beside));
-      if (!whole) continue; // a verdict requires all of them
+      if (!whole) continue; // a verdict requires all pairs
       p.judgement = judge(p.pairs, map.onBed);
       points.push_back(p);
     }
@@ -120,7 +120,7 @@ void studyVehicleStability(const VehicleStability& command, const jobs::StudyPla
   fs::remove_all(scratch);
   jobs::Pieces pieces("stability_vehicle", place, command.pieces, recipeOf(maps, place.quick));
   const support::StopSignals signals;
-  fmt::print("          shipped vehicle, each point at its step and at a quarter of it\n");
+  fmt::print("          light_tracked vehicle; each point is run at its step and at a quarter of this step\n");
   runAll(maps, pieces, command.pieces);
   if (!pieces.whole()) return;
   const std::vector<JudgedPoint> points = judged(maps, pieces);

@@ -84,8 +84,8 @@ std::string seedScatterTable(const std::vector<JudgedPoint>& points) {
     if (p.map->name == "seeds" && p.judgement.verdict == MapVerdict::sound) seeds.push_back(&p);
   if (seeds.size() < 2) return {};
   std::string text =
-      fmt::format("\n  {} beds from different seeds: mean and standard deviation at the step, the same at a "
-                  "quarter of it,\n  rms difference, allowed difference\n",
+      fmt::format("\n  {} beds with different seeds: mean and standard deviation at the step, mean and standard "
+                  "deviation at a quarter of the step,\n  rms difference, allowed difference\n",
                   seeds.size());
   for (const ComparedFigure& figure : comparedFigures(true)) {
     std::array<double, 2> mean{}, squares{};
@@ -114,9 +114,9 @@ std::string neighboursTable(const std::vector<JudgedPoint>& points) {
   for (const JudgedPoint& p : points)
     if (p.pairs.size() > 1)
       text += fmt::format(
-          "\n  {}: {} at {} = {:.4g}, {} = {:.4g}: mean and standard deviation over {} neighbouring steps down to "
-          "{:.3g} of it, the same over\n  their quarters, difference of the means with Welch's 95 % "
-          "interval, allowed difference\n{}",
+          "\n  {}: {} at {} = {:.4g}, {} = {:.4g}: mean and standard deviation over {} neighbouring steps (down to "
+          "{:.3g} times the step), mean and standard deviation over\n  quarters of these steps, difference of the "
+          "means with Welch's 95 % interval, allowed difference\n{}",
           wordOf(p.judgement.verdict), p.map->name, p.map->x.label, p.point->x, p.map->y.label, p.point->y,
           p.pairs.size() - 1, kNeighbourShares.back(), scatterTable(p.pairs, p.map->onBed));
   return text;

@@ -27,9 +27,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kSamples = 100; // samples in the window
+constexpr int kSamples = 100; // number of samples in the window
 
-/// The file of the shipped vehicle with changed values, as text.
+/// Text of the vehicle file light_tracked.toml with changed values.
 std::string specText(const std::vector<SpecChange>& changes) {
   const fs::path assets = support::shareFolder() / "assets", file = assets / "vehicles" / "light_tracked.toml";
   std::ifstream in(file);
@@ -48,7 +48,7 @@ std::string specText(const std::vector<SpecChange>& changes) {
   return text;
 }
 
-/// `step`: 0: automatic.
+/// Reads the scene of a case at a step; `step` = 0: automatic step.
 scene::Scene parsed(const VehicleCase& what, double step, const fs::path& folder) {
   fs::create_directories(folder);
   std::string text = sceneText(what, step);
@@ -69,8 +69,8 @@ double pinTension(const coupling::VehicleRig& rig) {
   return sum / pins;
 }
 
-/// Sums over the samples of the window; tension over all steps, since impacts of rigid links last a single step and
-/// samples would miss their impulse.
+/// Sums over the samples in the window. The tension is summed over all steps, because impacts of rigid links last a
+/// single step, and samples would miss their impulse.
 class Window {
 public:
   void step(const coupling::VehicleRig& rig) { pull_ += pinTension(rig), ++steps_; }
@@ -127,8 +127,8 @@ void drive(coupling::Simulation& run, const VehicleCase& what, VehicleTrial& tri
       run.step();
       if (run.steps() > begin) window.step(*run.vehicle());
       f.lowest = std::min(f.lowest, run.vehicle()->state().pose[chassis].position.z);
-      if (run.steps() % 256 == 0) jobs::stopStudyIfAsked();
-      // Evenly spaced samples for any step.
+      if (run.steps() % 256 == 0) jobs::stopStudyOnRequest();
+      // The samples are evenly spaced at any step.
       if (run.steps() > begin && (run.steps() - begin) * kSamples >= (sample + 1) * (end - begin)) {
         ++sample;
         window.take(run);
@@ -171,7 +171,8 @@ VehicleTrial tryVehicle(const VehicleCase& what, double step, const TrialPlace& 
     coupling::SimulationSetup setup = setup::simulationSetup(scene);
     if (check == StepCheck::none) setup.timeStep = step, setup.ground = setup::groundSetup(scene, step);
     coupling::Simulation run(
-        std::move(setup), place.exec, [](double, double) { jobs::stopStudyIfAsked(); }, {}, place.beds, place.spheres);
+        std::move(setup), place.exec, [](double, double) { jobs::stopStudyOnRequest(); }, {}, place.beds,
+        place.spheres);
     drive(run, what, trial);
   } catch (const base::InputError& error) {
     trial.end = TrialEnd::refused, trial.cause = error.what();

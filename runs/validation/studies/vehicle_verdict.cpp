@@ -13,8 +13,8 @@
 namespace grouser::studies {
 
 const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
-  // Relative tolerance, and absolute floors: a hundredth of a slow speed, a tenth of the static arm deflection, a
-  // hundredth of the driving power and of the strand tension.
+  // Relative tolerances and absolute floors. The floors are 1/100 of a slow speed, 1/10 of the static arm deflection,
+  // and 1/100 of the driving power and of the strand tension.
   static const std::vector<ComparedFigure> onRigidGround = {
       {"speed", "m/s", &MapFigures::speed, 0.05, 0.01, &MapFigures::speedMagnitude},
       {"height", "m", &MapFigures::height, 0, 0.004},
@@ -23,8 +23,8 @@ const std::vector<ComparedFigure>& comparedFigures(bool onBed) {
       {"power", "W", &MapFigures::power, 0.05, 30, &MapFigures::powerMagnitude},
       {"tension", "N", &MapFigures::tension, 0.05, 50},
       {"dissipated energy", "J", &MapFigures::dissipated, 0.1, 10}};
-  // Beds differ between steps: two to four standard deviations of the difference of two beds with different seeds,
-  // from the map `seeds` (docs/evidence/vehicle_stability.md).
+  // Beds differ between steps. Therefore the tolerances are two to four standard deviations of the difference between
+  // two beds with different seeds, from the map `seeds` (docs/evidence/vehicle_stability.md).
   static const std::vector<ComparedFigure> onGrains = {
       {"speed", "m/s", &MapFigures::speed, 0.2, 0.05, &MapFigures::speedMagnitude},
       {"sinkage", "m", &MapFigures::sinkage, 0.2, 0.01},
@@ -58,32 +58,32 @@ double allowed(const ComparedFigure& c, double size, double finerSize) {
   return c.relative * std::max(size, finerSize) + c.floor;
 }
 
-/// Message about a figure that is not finite in one run only; empty if there is none.
+/// Message about a figure that is not finite in one of the runs (unless it is NaN in both); empty if there is none.
 std::string noNumber(const MapFigures& run, const MapFigures& finer, bool onBed) {
   for (const ComparedFigure& c : comparedFigures(onBed)) {
     const double a = run.*c.value, b = finer.*c.value;
     if (!(std::isnan(a) && std::isnan(b)) && (!std::isfinite(a) || !std::isfinite(b)))
-      return fmt::format("{} is {} and {}, not a finite number", c.name, a, b);
+      return fmt::format("{} is {}, and {} at a quarter of the step: not a finite number", c.name, a, b);
   }
   return {};
 }
 
-/// Message about the figure that exceeds its allowed difference most; empty if none does.
+/// Message about the figure that exceeds its allowed difference most; empty if no figure exceeds it.
 std::string apartInWords(const MapFigures& run, const MapFigures& finer, bool onBed) {
   std::string worst;
   double most = 1;
   for (const ComparedFigure& c : comparedFigures(onBed)) {
     const double a = run.*c.value, b = finer.*c.value;
     const double may = allowed(c, sizeOf(c, run), sizeOf(c, finer)), over = std::fabs(a - b) / may;
-    if (!(over > most)) continue; // or not available in this scene
+    if (!(over > most)) continue; // also if the figure is not available in this scene
     most = over;
-    worst = fmt::format("{} is {:.4g} {}, at a quarter of the step {:.4g} {}: difference {:.3g}, allowed {:.3g}",
+    worst = fmt::format("{} is {:.4g} {}, but {:.4g} {} at a quarter of the step: difference {:.3g}, allowed {:.3g}",
                         c.name, a, c.unit, b, c.unit, std::fabs(a - b), may);
   }
   return worst;
 }
 
-/// Message about the first error in two runs, apart from differences between their figures; empty if there is none.
+/// Message about the first error in two runs, except differences between their figures; empty if there is no error.
 std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) {
   if (finer.end != TrialEnd::sound) return fmt::format("at a quarter of the step: {}", finer.cause);
   for (const MapFigures* f : {&run.figures, &finer.figures})
@@ -91,11 +91,11 @@ std::string fault(const VehicleTrial& run, const VehicleTrial& finer, bool onBed
   return noNumber(run.figures, finer.figures, onBed);
 }
 
-/// A figure over neighbouring steps and their quarters, without the first pair.
+/// A figure at neighbouring steps and at their quarters, excluding the first pair.
 struct FigureScatter {
   std::vector<double> runs, finer;
-  double deviation = 0, finerDeviation = 0; ///< standard deviation of one run
-  support::Estimate change;                 ///< difference of the means, quarter minus step
+  double deviation = 0, finerDeviation = 0; ///< standard deviations of the runs
+  support::Estimate change;                 ///< mean at the quarters minus mean at the steps
   double mean = 0, finerMean = 0, may = 0;
 };
 
@@ -117,17 +117,17 @@ FigureScatter scatterOf(const ComparedFigure& c, const std::vector<TrialPair>& p
   return s;
 }
 
-/// Message if neighbouring steps show an error of the step; empty if the difference may be scatter.
+/// Message if neighbouring steps show that the step causes an error; empty if the difference may be scatter.
 std::string errorOfStep(const ComparedFigure& c, const FigureScatter& s) {
   const double apart = std::fabs(s.change.value);
   if (apart > s.may && apart > s.change.halfWidth)
     return fmt::format(
-        "{} is {:.4g} {} in the mean of {} steps within 2.5 %, of their quarters {:.4g} {}: difference {:.3g}, "
+        "the mean of {} is {:.4g} {} over {} steps within 2.5 %, but {:.4g} {} over their quarters: difference {:.3g}, "
         "allowed {:.3g}, explained by scatter {:.3g}",
         c.name, s.mean, c.unit, s.runs.size(), s.finerMean, c.unit, apart, s.may, s.change.halfWidth);
   if (s.deviation > s.may && s.deviation * s.deviation > kFisher95 * s.finerDeviation * s.finerDeviation)
-    return fmt::format("{} scatters by {:.3g} {} over {} steps within 2.5 %, by {:.3g} {} over their quarters: caused "
-                       "by the step",
+    return fmt::format("{} scatters by {:.3g} {} over {} steps within 2.5 %, but by {:.3g} {} over their quarters: the "
+                       "step causes this scatter",
                        c.name, s.deviation, c.unit, s.runs.size(), s.finerDeviation, c.unit);
   return {};
 }
@@ -141,7 +141,7 @@ Judgement judge(const VehicleTrial& run, const VehicleTrial& finer, bool onBed) 
   if (run.end == TrialEnd::refused) return {MapVerdict::refused, run.cause};
   if (run.end == TrialEnd::stopped) {
     const bool same = finer.end == TrialEnd::stopped && kindOf(finer.blamed) == kindOf(run.blamed);
-    // If the step is the cause, a shorter one passes this point; if not, it fails in the same way.
+    // If the step is the cause, a shorter step passes this point; if not, it fails in the same way.
     const bool beyond =
         finer.end == TrialEnd::sound || (finer.end == TrialEnd::stopped && !same && finer.reached > run.reached);
     const bool confirmed = blamesStep(run.blamed) ? beyond : same;
@@ -168,7 +168,7 @@ Judgement judge(const std::vector<TrialPair>& pairs, bool onBed) {
               fmt::format("{}; at the neighbouring step {:.5g} s: {}", alone.why, p.run.step, wrong)};
   }
   for (const ComparedFigure& c : comparedFigures(onBed)) {
-    if (!std::isfinite(first.run.figures.*c.value)) continue; // not to be had in this scene
+    if (!std::isfinite(first.run.figures.*c.value)) continue; // the figure is not available in this scene
     if (std::string wrong = errorOfStep(c, scatterOf(c, pairs)); !wrong.empty())
       return {first.run.figures.blow > vehicle::BlowMeter::kBlow ? MapVerdict::warned : MapVerdict::silentlyWrong,
               wrong};

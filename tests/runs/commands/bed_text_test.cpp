@@ -79,10 +79,10 @@ TEST(BedNotes, CountTheGrainsAtTheSurfaceOfABedThatIsCoarserBelow) {
   const coupling::Simulation simulation(setup::simulationSetup(setup::parseScene(text, "scene.toml")), base::cpuExec(2),
                                         [](double, double) {});
   ASSERT_GT(simulation.ground().structure->meanDiameter, 0.085) << "mean over all grains";
-  bool told = false;
+  bool printed = false;
   for (const std::string& note : bedNotes(simulation))
-    told |= note.find("track pads are only 3.5 mean grain diameters wide") == 0;
-  EXPECT_TRUE(told) << "0.28 m over 0.08 m";
+    printed |= note.find("track pads are only 3.5 mean grain diameters wide") == 0;
+  EXPECT_TRUE(printed) << "0.28 m over 0.08 m";
 }
 
 TEST(PorosityWarning, NamesLeaningGravityWhereTheBedHasMovedAfterItsPreparation) {

@@ -96,6 +96,19 @@ TEST_F(CommandLine, UnknownCommandNamesTheNearest) {
             std::string::npos);
 }
 
+TEST_F(CommandLine, AnOptionOfOtherCommandsNamesThem) {
+  const std::string errors = call("run grain.toml --seeds 3").errors;
+  EXPECT_NE(errors.find("; --seeds is an option of: "), std::string::npos) << errors;
+  for (const char* const command : {"sweep", "compare", "check"})
+    EXPECT_NE(errors.find(command), std::string::npos) << errors;
+  EXPECT_NE(call("run grain.toml --thread 1").errors.find("; did you mean --threads?"), std::string::npos);
+}
+
+TEST_F(CommandLine, AMissingSceneIsNotCalledUnreadable) {
+  const std::string errors = call("run missing.toml").errors;
+  EXPECT_NE(errors.find("missing.toml: no such file; check the path"), std::string::npos) << errors;
+}
+
 TEST_F(CommandLine, SpheresAreNotWrittenOverAFileUnlessForced) {
   writeCube();
   std::ofstream(folder_ / "s.csv") << "precious";

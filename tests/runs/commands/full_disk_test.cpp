@@ -79,7 +79,7 @@ protected:
 
 TEST_F(FullDisk, LimitToTheSizeOfAnyFileLosesNothing) {
   std::set<std::string> met;
-  // The fastest-growing file meets the limit first; without it, another does. Many grains have a large checkpoint.
+  // The fastest-growing file reaches the limit first; without it, another file. Many grains have a large checkpoint.
   const std::string csv = " --set output.grains_csv=false",
                     frames = csv + " --set output.frames=false --set output.picture_width=2400",
                     picture = frames + " --set output.picture=false", many = picture + " --set 'terrain.size=[3, 3]'";

@@ -98,8 +98,8 @@ TEST_F(MechanismJudge, PlanAndRunNameTheSpringThatAsksForMillionsOfSteps) {
   write("bead.toml", "version = 1\n[run]\nduration = 10\noutput_interval = 0.1\n[[body]]\nname = \"bead\"\nmass = "
                      "1e-3\npoint = true\n[[spring]]\nname = \"rod\"\nbodies = [\"world\", \"bead\"]\npoint_a = "
                      "[0, 0, 1]\nstiffness = 1e9\n");
-  const std::string note = "note: bead.toml: run.time_step = \"auto\" is 6.283e-08 s, 1.59e+08 steps, because spring "
-                           "'rod' has a period of 6.28e-06 s";
+  const std::string note = "note: bead.toml: run.time_step = \"auto\" is 6.283e-08 s (the run takes 1.59e+08 steps), "
+                           "because spring 'rod' has a period of 6.28e-06 s";
   EXPECT_NE(call("plan bead.toml").out.find(note), std::string::npos) << call("plan bead.toml").out;
   const Outcome run = call("run bead.toml --steps 10 --out r" + kBare);
   EXPECT_EQ(run.code, 0) << run.errors;

@@ -215,7 +215,7 @@ TEST_F(MechanismRun, TooLongAStepForAnExplicitSpringIsRefusedWithItsLimit) {
 TEST_F(MechanismRun, StudyWritesTablesAndNamesTheNearestCase) {
   const Outcome o = call("study multibody --quick --cases pendulum,torsion --out s");
   ASSERT_EQ(o.code, 0) << o.errors;
-  EXPECT_NE(o.out.find("cheapest setting for a given precision"), std::string::npos);
+  EXPECT_NE(o.out.find("cheapest integrator and step for a given precision"), std::string::npos);
   EXPECT_EQ(contents(folder_ / "s" / "multibody.csv").rfind("case,integrator,step [s],steps,error [-]", 0), 0u);
   EXPECT_NE(contents(folder_ / "s" / "cheapest.csv").find("torsion,0.1,"), std::string::npos);
   const Outcome wrong = call("study multibody --cases pendulm --out w");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Numbers printed by `grouser plan` compared with those of the scene.
+// Numbers printed by `grouser plan`, compared with the numbers in the scene.
 #include "runs/commands/plan.hpp"
 
 #include "base/math.hpp"
@@ -68,18 +68,18 @@ TEST(PlanValues, DepthOfTheBedIsToldByAnElasticLayerUnderTheTracks) {
     return 100 * forecast::layerSettlement(tracks, depth, 0.25) /
            forecast::layerSettlement(tracks, base::kInfinity, 0.25);
   };
-  const auto told = [&](const std::vector<forecast::LoadedRectangle>& tracks) {
+  const auto printed = [&](const std::vector<forecast::LoadedRectangle>& tracks) {
     return fmt::format(
         "0.4 m: an elastic layer settles {:.0f} % as much as a half-space under these tracks; 0.8 m: {:.0f} %",
         share(tracks, 0.4), share(tracks, 0.8));
   };
-  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.4"})), "bed depth"), told(two));
+  EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.4"})), "bed depth"), printed(two));
   EXPECT_EQ(after(planText(setup::loadScene(scene, {"terrain.depth=0.75"})), "bed depth"),
             "0.75 m: an elastic layer settles 49 % as much as a half-space under these tracks; 1.5 m: 64 %");
   EXPECT_EQ(
       after(planText(setup::loadScene(scene, {"terrain.depth=0.4", "vehicle.tracks=single", "vehicle.chassis=guided"})),
             "bed depth"),
-      told({two[0]}));
+      printed({two[0]}));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// `grouser run --resume`: the folder of a resumed run equals that of an uninterrupted one.
+// `grouser run --resume`: the folder of a resumed run equals the folder of an uninterrupted run.
 #include "runs/commands/run_scene.hpp"
 #include "runs/setup/load_scene.hpp"
 
@@ -123,7 +123,7 @@ protected:
     EXPECT_EQ(c.rows, d.rows);
     EXPECT_EQ(c.frames, d.frames);
     EXPECT_EQ(c.state.grains->rebuilds, d.state.grains->rebuilds);
-    EXPECT_EQ(c.state.grains->books, d.state.grains->books);
+    EXPECT_EQ(c.state.grains->energySums, d.state.grains->energySums);
   }
 
   fs::path resumed_; ///< the folder of the resumed run

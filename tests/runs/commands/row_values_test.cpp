@@ -200,7 +200,7 @@ TEST_F(RowValues, ForceAndTorqueOnASurfaceAreMeansSinceTheLastRow) {
     const Vec3d arm = which == 0 ? Vec3d{0.03, -0.02, 0} : Vec3d{0.01, 0.04, 0};
     double least = 0, most = 0;
     for (std::size_t r = 1; r < time.size(); ++r) {
-      // The impulse on the grain is its change of momentum less that of gravity; the surface receives the opposite.
+      // The impulse on the grain is its change of momentum minus gravity's impulse; the surface receives the opposite.
       const double v0 = grains.number(2 * (r - 1) + which, "velocity.z [m/s]"),
                    v1 = grains.number(2 * r + which, "velocity.z [m/s]"), span = time[r] - time[r - 1];
       const double mean = -mass * ((v1 - v0) / span + 9.81);

@@ -79,7 +79,7 @@ TEST(Channels, OfTheBedReadLedgerAndWhatHasPressedAGrainMost) {
   TerrainReading bed;
   coupling::Ledger& l = bed.ledger;
   l.grainContacts = 1, l.boundaryContacts = 2, l.partContacts = 3, l.deepestOverlap = 0.5;
-  l.squeezedPairs = 4, l.squeezedAtBoundaries = 5, l.squeezedByParts = 6;
+  l.deepPairs = 4, l.deepAtBoundaries = 5, l.deepByParts = 6;
   l.cappedNow = 7, l.cutImpulse = 8, l.fastestGrain = 9;
   bed.radius = 0.25, bed.crushed = 10, bed.rebuilds = 11;
   const auto alone = valuesOf(terrainColumns(), bed);

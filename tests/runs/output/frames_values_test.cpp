@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A frame whose numbers all differ, read back: grains, parts at their poses, borders.
+// A frame with all different numbers, read back: grains, parts at their poses, borders.
 #include "runs/output/frames_reader.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/sinkage.hpp"

@@ -57,7 +57,7 @@ protected:
             {"ledger/residual", "J", "residual", 1, {}}};
   }
 
-  /// Ten rows whose numbers identify their place.
+  /// Ten rows with numbers that identify their position.
   static Row numbered(int r) {
     RowBuilder row(channels());
     row.begin(100 * r, 0.1 * r);

@@ -245,7 +245,7 @@ TEST_F(Soils, AreCalibratedAtTheirSizeAndWithTheirValuesAlone) {
     EXPECT_TRUE(soilLine(use).ends_with("; scaled, not calibrated at this size")) << soilLine(use);
     EXPECT_NE(warning.find("calibrated for grains of 8 mm to 20 mm, not "), std::string::npos) << warning;
   }
-  EXPECT_NE(of(0.06).second.find("not 60 mm (6 times the soil's)"), std::string::npos) << of(0.06).second;
+  EXPECT_NE(of(0.06).second.find("not 60 mm (6 times the soil's grain radius)"), std::string::npos) << of(0.06).second;
   EXPECT_NE(of(0.06).second.find("grouser soil loam --grain-radius 0.06"), std::string::npos);
   const support::SoilUse changed = of(0.02, {"material.loam.friction=0.6"}).first;
   EXPECT_FALSE(changed.calibrated);

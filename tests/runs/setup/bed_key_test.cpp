@@ -411,7 +411,7 @@ TEST(BedKey, WasDecidedForEveryKeyOfAScene) {
                                 "material.foundation_modulus", "mechanism.above_bed",
                                 // Output only.
                                 "output.fields_cell", "output.fields_low", "output.fields_high"};
-  // Motions of meshes equal those of other surfaces.
+  // Meshes have the same motions as other surfaces.
   for (const char* key : {"pivot", "amplitude", "frequency", "phase", "free", "mass", "load", "load_ramp"})
     decided.insert(std::string("mesh.") + key);
   for (const Change& c : reviewed()) decided.insert(c.key);

@@ -247,9 +247,9 @@ material = "soil"
 )";
 
 TEST(MeetingPairs, HaveTheValuesThatAct) {
-  const std::vector<MeetingPair> pairs = meetingPairs(parsed(kPairs));
+  const std::vector<MaterialPair> pairs = materialPairs(parsed(kPairs));
   ASSERT_EQ(pairs.size(), 3u);
-  const MeetingPair &soil = pairs[0], &lid = pairs[1], &plane = pairs[2];
+  const MaterialPair &soil = pairs[0], &lid = pairs[1], &plane = pairs[2];
   EXPECT_EQ(soil.what, "grain on grain");
   EXPECT_DOUBLE_EQ(soil.stiffness, 1e5);
   EXPECT_NEAR(soil.restitution, 0.4, 1e-12);
@@ -269,7 +269,7 @@ TEST(MeetingPairs, HaveTheValuesThatAct) {
 
 TEST(MeetingPairs, OfTwoGrainsHaveThePairsMass) {
   // damping = 500 /s refers to the pair's mass, m / 2, or to m on a wall.
-  const std::vector<MeetingPair> pairs = meetingPairs(parsed(
+  const std::vector<MaterialPair> pairs = materialPairs(parsed(
       "[run]\nduration = 1\n[material.ball]\nstiffness = 2e5\ndamping = 500\nattraction = true\n"
       "[[plane]]\nmaterial = \"ball\"\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\nmaterial = \"ball\"\n"));
   ASSERT_EQ(pairs.size(), 2u);
@@ -282,17 +282,17 @@ TEST(MeetingPairs, OfTwoGrainsHaveThePairsMass) {
 }
 
 TEST(MeetingPairs, OfHertzGrainsHaveTheirEffectiveModulus) {
-  const std::vector<MeetingPair> pairs =
-      meetingPairs(parsed("[run]\nduration = 1\n[material.glass]\nlaw = \"hertz\"\nyoung = 6e7\n"
-                          "poisson = 0.25\nrestitution = 0.6\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\n"
-                          "material = \"glass\"\n"));
+  const std::vector<MaterialPair> pairs =
+      materialPairs(parsed("[run]\nduration = 1\n[material.glass]\nlaw = \"hertz\"\nyoung = 6e7\n"
+                           "poisson = 0.25\nrestitution = 0.6\n[[grain]]\nposition = [0, 0, 0.5]\nradius = 0.02\n"
+                           "material = \"glass\"\n"));
   ASSERT_EQ(pairs.size(), 1u);
   EXPECT_NEAR(pairs[0].stiffness, 6e7 / (2 * (1 - 0.0625)), 1) << "E / (2 (1 - nu^2)) of two equal materials";
   EXPECT_NEAR(pairs[0].restitution, 0.6, 1e-6);
 }
 
 TEST(MeetingPairs, OfTheVehicleHaveTheFrictionOfItsFile) {
-  for (const MeetingPair& pair : meetingPairs(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml")))
+  for (const MaterialPair& pair : materialPairs(loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml")))
     if (pair.touched == ContactPartner::Kind::vehicle) {
       const double given =
           vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml").contact.frictionGround;
@@ -309,17 +309,17 @@ std::pair<double, double> stickingOf(const std::vector<std::string>& overrides) 
   std::vector<std::string> all{"material.soil.cohesion=8"};
   all.insert(all.end(), overrides.begin(), overrides.end());
   const scene::Scene scene = loadScene(GROUSER_SOURCE_DIR "/tests/scenes/coupled.toml", all);
-  double told = base::kNaN;
-  for (const MeetingPair& pair : meetingPairs(scene))
-    if (pair.touched == ContactPartner::Kind::vehicle) told = pair.cohesion;
+  double printed = base::kNaN;
+  for (const MaterialPair& pair : materialPairs(scene))
+    if (pair.touched == ContactPartner::Kind::vehicle) printed = pair.cohesion;
   const double radius = *scene.terrain->grainRadius;
-  return {told, groundSetup(scene, 1e-4).grains->partLaws.laws.at(0).pull(radius) / (2 * base::kPi * radius)};
+  return {printed, groundSetup(scene, 1e-4).grains->partLaws.laws.at(0).pull(radius) / (2 * base::kPi * radius)};
 }
 
 TEST(MeetingPairs, SoilSticksToAVehicleByTheShareThatIsGiven) {
   EXPECT_EQ(stickingOf({}), std::pair(0.0, 0.0)) << "no adhesion unless requested";
-  const auto [told, taken] = stickingOf({"vehicle.adhesion=0.25"});
-  EXPECT_NEAR(told, 2, 1e-12);
+  const auto [printed, taken] = stickingOf({"vehicle.adhesion=0.25"});
+  EXPECT_NEAR(printed, 2, 1e-12);
   EXPECT_NEAR(taken, 2, 1e-12);
   // Grains of 19 mm have a mutual adhesion of 8 J/m2: R_eff is 9.5 mm. R of 38 mm grains on a plane is 38 mm.
   const auto [toldOfLarge, takenOfLarge] = stickingOf({"vehicle.adhesion=0.25", "material.soil.adhesion_radius=0.019"});

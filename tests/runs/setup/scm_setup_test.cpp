@@ -116,13 +116,14 @@ TEST(ScmSetup, NamesWhatIsMissingOrWrong) {
   std::string reposeOnly = kScene;
   reposeOnly.replace(reposeOnly.find("lete_sand"), 9, "cmu_sand");
   const std::pair<std::string, const char*> cases[] = {
-      {reposeOnly + "[scm]\nconstants = \"measured\"\n", "the soil cmu_sand has no measured n; add it to [scm]"},
+      {reposeOnly + "[scm]\nconstants = \"measured\"\n", "the soil cmu_sand has no measured n, k_c, k_phi, "},
       {kScene + "[scm]\nconstants_draw = -1\n", "constants_draw = -1"},
       {kScene + "[scm]\nconstants_draw = 1.5\n", "constants_draw"},
       {kScene + "[scm]\nconstants_draw = 3\nn = 1\nk_c = 0\nk_phi = 5e6\nc = 1e3\nphi = 30\nK = 0.01\n",
        "constants_draw = 3 has no effect, since"},
-      {other, "requires scm.n [-]: the soil gravel has no published n; add it to [scm]"},
-      {noSoil, "the soil file m does not exist; add it to [scm]"},
+      {other, "requires scm.n [-], scm.k_c [N/m^(n+1)], scm.k_phi [N/m^(n+2)], scm.K [m]: the soil gravel has no "
+              "published n, k_c, k_phi, K; add them to [scm]"},
+      {noSoil, "the soil file m does not exist; add them to [scm]"},
       {noVehicle, "has no effect without a [vehicle] or a [[body]]"},
       {kScene + "[scm]\nk_c = -5e6\n", "has no bearing capacity"},
       {kScene + "[scm]\nnode_spacing = 0.2\n", "exceeds the shoe length, 0.136 m"},

@@ -69,7 +69,7 @@ TEST_F(TerrainNotes, SinglePixelsAreWarnedOfBySlopeAtTheirSides) {
       const TerrainRemarks remarks = terrainRemarks(spike(height, cubic ? "" : "interpolation = \"bilinear\"\n"));
       ASSERT_EQ(remarks.warnings.size(), slope > 2 ? 1u : 0u) << slope;
       if (slope < 2) continue;
-      const std::string rise = fmt::format("slope is {:.3g} m/m", slope);
+      const std::string rise = fmt::format("slope of {:.3g} m/m", slope);
       EXPECT_NE(remarks.warnings.front().find(rise), std::string::npos) << remarks.warnings.front();
     }
 }

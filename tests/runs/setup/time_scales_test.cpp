@@ -48,7 +48,7 @@ std::string rotor(const std::string& drive) {
          drive;
 }
 
-/// A grain whose contacts last milliseconds, beside `surface`.
+/// A grain with contacts of milliseconds, beside `surface`.
 std::string grainBeside(const std::string& surface) {
   return "version = 1\n[run]\nduration = 2\noutput_interval = 0.1\ngravity = [0, 0, 0]\n[material.soil]\nstiffness = "
          "1e4\n[[grain]]\nradius = 0.1\nposition = [0, 0, 1]\nmaterial = \"soil\"\n" +
@@ -196,10 +196,11 @@ TEST(TimeScales, SpringThatNeedsMillionsOfStepsIsNamedWithTheWayOut) {
   const auto note = [](const std::vector<std::string>& more) {
     return springStepNote(parseScene(stiffSpring(), "scene.toml", more));
   };
-  EXPECT_NE(note({}).find(
-                "run.time_step = \"auto\" is 6.283e-08 s, 1.59e+08 steps, because spring 'rod' has a period of "
-                "6.28e-06 s; run.springs = \"implicit\" is stable at any step size: run.time_step = 0.001 resolves"),
-            std::string::npos)
+  EXPECT_NE(
+      note({}).find(
+          "run.time_step = \"auto\" is 6.283e-08 s (the run takes 1.59e+08 steps), because spring 'rod' has a period "
+          "of 6.28e-06 s; run.springs = \"implicit\" is stable at any step size: run.time_step = 0.001 resolves"),
+      std::string::npos)
       << note({});
   EXPECT_NE(note({"run.springs=explicit"}).find("run.springs = \"implicit\" allows run.time_step = 0.001"),
             std::string::npos);
@@ -215,14 +216,13 @@ TEST(TimeScales, StepThatDoesNotResolveASpringIsSaidAndNotRefused) {
     chooseTimeStep(scene);
     return springStepNote(scene);
   };
-  EXPECT_NE(
-      note({"run.time_step=1e-3"})
-          .find(
-              "spring 'rod' has a period of 6.28e-06 s, 0.00628 steps of run.time_step = 0.001 s; implicit springs are "
-              "stable but oscillate too slowly; to resolve the oscillation, set it to 3.141e-07 s or less"),
-      std::string::npos)
+  EXPECT_NE(note({"run.time_step=1e-3"})
+                .find("spring 'rod' has a period of 6.28e-06 s, i.e. 0.00628 steps of run.time_step = 0.001 s; "
+                      "implicit springs are stable but oscillate too slowly; to resolve the oscillation, set the step "
+                      "to 3.141e-07 s or less"),
+            std::string::npos)
       << note({"run.time_step=1e-3"});
-  EXPECT_NE(note({"run.time_step=1e-3", "run.integrator=symplectic_euler"}).find("stable but damps it"),
+  EXPECT_NE(note({"run.time_step=1e-3", "run.integrator=symplectic_euler"}).find("stable but damps the oscillation"),
             std::string::npos);
   EXPECT_NE(note({"run.time_step=1e-6", "run.springs=explicit"}).find("oscillate too fast"), std::string::npos);
   EXPECT_EQ(note({"run.time_step=3.14e-7"}), "");

@@ -63,7 +63,7 @@ protected:
       const coupling::Ledger l = simulation.ledger();
       for (const double v :
            {l.kinetic, l.potential, l.elastic, l.dissipated.total(), l.residual, static_cast<double>(l.grainContacts),
-            simulation.settled().time, simulation.settled().agitation, simulation.time()})
+            simulation.settled().time, simulation.settled().energyRatio, simulation.time()})
         o.row.push_back(v);
     };
     note();
@@ -188,8 +188,8 @@ TEST_F(KeptBed, DamagedOrForeignIsToldAndSettledAnew) {
     std::ofstream(file, std::ios::binary) << bad;
     ::testing::internal::CaptureStderr();
     const Outcome again = runIn(folder_);
-    const std::string told = ::testing::internal::GetCapturedStderr();
-    EXPECT_NE(told.find(file.string()), std::string::npos) << told;
+    const std::string printed = ::testing::internal::GetCapturedStderr();
+    EXPECT_NE(printed.find(file.string()), std::string::npos) << printed;
     EXPECT_TRUE(again.settled);
     EXPECT_EQ(again.hash, first.hash);
     EXPECT_FALSE(runIn(folder_).settled) << "a new bed replaces the damaged one";

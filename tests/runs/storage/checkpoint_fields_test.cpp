@@ -131,7 +131,7 @@ const NamedChange kHashed[] = {
 /// Sums for rows and alarms: without effect on the next step.
 const NamedChange kUnhashed[] = {
     {"travel since the list", [](coupling::SimulationState& s) { s.grains->travelled[1].x ^= 1; }},
-    {"books", [](coupling::SimulationState& s) { s.grains->books[1] += 1; }},
+    {"books", [](coupling::SimulationState& s) { s.grains->energySums[1] += 1; }},
     {"energy guard", [](coupling::SimulationState& s) { s.guard[1] += 1; }},
     {"ledger at the start", [](coupling::SimulationState& s) { s.ledgerAtStart[1] += 1; }},
     {"crossings", [](coupling::SimulationState& s) { s.grains->crossings[1].y += 1; }},
@@ -144,7 +144,7 @@ const NamedChange kUnhashed[] = {
     {"book of the mechanism", [](coupling::SimulationState& s) { s.mechanism->bodies.back() += 1; }},
     {"grains taken out", [](coupling::SimulationState& s) { s.taken.mass += 1; }},
     {"sums of an obstacle", [](coupling::SimulationState& s) { s.vehicle->contacts.surfaces.sums[0].elastic += 1; }},
-    {"books of the hitch", [](coupling::SimulationState& s) { s.vehicle->hitchBooks[0] += 1; }},
+    {"books of the hitch", [](coupling::SimulationState& s) { s.vehicle->hitchSums[0] += 1; }},
     {"speeds that were asked for", [](coupling::SimulationState& s) { s.vehicle->asked[1] += 1; }},
     {"steps without way", [](coupling::SimulationState& s) { s.vehicle->stalledSteps += 50; }},
     {"what was pressed most", [](coupling::SimulationState& s) { s.vehicle->contacts.bed.deepest[1] ^= 1; }},

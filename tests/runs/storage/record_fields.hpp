@@ -25,20 +25,20 @@ template <class T, std::size_t... kIndex> constexpr bool takes(std::index_sequen
   return requires { T{(static_cast<void>(kIndex), Anything{})...}; };
 }
 
-inline constexpr std::size_t kMostMembers = 28;
+inline constexpr std::size_t kMaxMembers = 28;
 
 /// Members of an aggregate without arrays: its largest number of initialisers.
-template <class T, std::size_t kMost = kMostMembers> constexpr std::size_t memberCount() {
-  if constexpr (takes<T>(std::make_index_sequence<kMost>{}))
-    return kMost;
+template <class T, std::size_t kMax = kMaxMembers> constexpr std::size_t memberCount() {
+  if constexpr (takes<T>(std::make_index_sequence<kMax>{}))
+    return kMax;
   else
-    return memberCount<T, kMost - 1>();
+    return memberCount<T, kMax - 1>();
 }
 
 // clang-format off
 template <class T> auto membersOf(T& s) {
   constexpr std::size_t n = memberCount<std::remove_const_t<T>>();
-  static_assert(n >= 1 && n <= kMostMembers);
+  static_assert(n >= 1 && n <= kMaxMembers);
 #define GROUSER_MEMBERS(count, ...) \
   else if constexpr (n == (count)) { auto& [__VA_ARGS__] = s; return std::tie(__VA_ARGS__); }
   if constexpr (n == 1) { auto& [a] = s; return std::tie(a); }

@@ -130,9 +130,9 @@ TEST_F(KeptSpheres, DamagedOrForeignFileIsToldAndCutAnew) {
     put(file, bad);
     ::testing::internal::CaptureStderr();
     const auto [set, says] = cut(part());
-    const std::string told = ::testing::internal::GetCapturedStderr();
-    EXPECT_EQ(told.rfind("WARNING: " + file.string(), 0), 0u) << told;
-    EXPECT_EQ(told.find("WARNING", 1), std::string::npos) << "one message: " << told;
+    const std::string printed = ::testing::internal::GetCapturedStderr();
+    EXPECT_EQ(printed.rfind("WARNING: " + file.string(), 0), 0u) << printed;
+    EXPECT_EQ(printed.find("WARNING", 1), std::string::npos) << "one message: " << printed;
     EXPECT_TRUE(wasCut(says)) << says;
     expectSame(set, alone);
     EXPECT_FALSE(wasCut(cut(part()).second)) << "a new set replaces the damaged one";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Selection of a machine's GPU by a process: without one, by its number alone.
+// Selection of a machine's GPU by a process: without a GPU, only by its number.
 #include "runs/support/device_choice.hpp"
 
 #include "base/error.hpp"

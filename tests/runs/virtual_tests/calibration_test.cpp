@@ -39,7 +39,7 @@ TEST(CalibrationSearch, DoesNotGoOnForEverWithScatter) {
 /// A soil with a pull that also increases its angle, as in cohesive grains.
 struct Sticky {
   double wayToPhi = 9, pullToPhi = 0.012, pullToC = 0.005, most = 1e9;
-  bool tell(StrengthSearch& search) const {
+  bool report(StrengthSearch& search) const {
     const StrengthPoint at = search.at();
     return search.tried(24 + wayToPhi * at.way + pullToPhi * at.pull, std::min(most, 0.3 + pullToC * at.pull));
   }
@@ -49,7 +49,7 @@ TEST(CalibrationSearch, FindsAngleAndCohesionThatDependOnBothNumbers) {
   StrengthSearch search({{29.8, 1, 12}}, {{3.7, 0.5, 0.0165}}, {0.48, 220});
   const Sticky soil;
   int trials = 1;
-  while (soil.tell(search)) ++trials;
+  while (soil.report(search)) ++trials;
   EXPECT_LE(trials, 5);
   const StrengthPoint found = search.nearest();
   EXPECT_NEAR(24 + 9 * found.way + 0.012 * found.pull, 29.8, 1);
@@ -94,7 +94,7 @@ TEST(CalibrationSearch, StaysInRangeAndEndsWhereNothingReaches) {
   StrengthSearch search({{50, 1, 12}}, {{3.7, 0.5, 0.0165}}, {0.5, 100});
   const Sticky soil{.pullToPhi = 0, .most = 1};
   int trials = 1;
-  while (soil.tell(search)) {
+  while (soil.report(search)) {
     ++trials;
     EXPECT_GE(search.at().way, -1);
     EXPECT_LE(search.at().way, 2);
@@ -126,7 +126,7 @@ TEST(CalibrationSearch, StrengthGoesFromNoFrictionToAllOfIt) {
 TEST(CalibrationTargets, SinkageIsThatOfBekkersForm) {
   CalibrationTargets t;
   t.wanted = {{Quantity::exponent, 0.793}, {Quantity::cohesionModulus, 102}, {Quantity::frictionModulus, 5301}};
-  ASSERT_TRUE(t.wantsSinkage());
+  ASSERT_TRUE(t.requestsSinkage());
   const double z = t.sinkageAt(0.28);
   EXPECT_NEAR((102 / 0.28 + 5301) * std::pow(z, 0.793), 47.5, 1e-9);
   CalibrationTargets one;

@@ -58,10 +58,10 @@ TEST(CurveSearch, StaysInItsRangesAndEndsAtTheNearestBound) {
     return std::vector<double>{20 * (x[0] - 3), 10 * (x[1] - 0.5)}; // the minimum for the first is outside its range
   };
   CurveSearch s({{"friction", 0, 1, false}, {"rolling_friction", 0, 1, false}}, {0.2, 0.2}, 20);
-  bool goesOn = true;
-  while (goesOn) {
+  bool continues = true;
+  while (continues) {
     for (const double x : s.at()) EXPECT_TRUE(x >= 0 && x <= 1) << x;
-    goesOn = s.tried(away(s.at()));
+    continues = s.tried(away(s.at()));
   }
   const CurveSearch::Trial& found = s.trials()[s.nearest()];
   EXPECT_NEAR(found.values[0], 1, 1e-3);

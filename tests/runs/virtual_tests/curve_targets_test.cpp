@@ -72,7 +72,7 @@ TEST_F(CurveTargetsTest, RefusesWhatDoesNotFit) {
       {targets + "[plates]\nfile = \"plates.csv\"\nsinkages = []\n" + search + start, "is empty"},
       {targets + "[plates]\nfile = \"plates.csv\"\nsinkages = [0.01, 0.005]\n" + search + start, "not ascending"},
       {targets + plates + "contact_pressure = 9000\n" + search + start,
-       "at a sinkage of 8.25 mm, after the first compared sinkage, 4 mm"},
+       "at a sinkage of 8.25 mm, but the first comparison starts at 4 mm"},
       {targets + "[plates]\nfile = \"other.csv\"\nsinkages = [0.01]\n" + search + start, "cannot be read"},
       {targets + plates + search + "[start]\nfriction = 0.5\n[bed]\ngrain_radius = 0.002\n", "has no initial value"},
       {targets + plates + "[search]\nfriction = [0.3, 0.8]\n[start]\nfriction = 0.5\n[bed]\ngrain_radius = 0.002\n",
@@ -104,7 +104,7 @@ TEST(CurveResiduals, AreLogarithmsOverTheScatterAndTheAngleOverItsTolerance) {
   EXPECT_EQ(r[2], -1);
   EXPECT_NEAR(points[0].deviations(), 1, 1e-12);
   const std::vector<CurvePoint> high{{0.06, exact, {22e3, 0}}};
-  EXPECT_NEAR(curveResiduals(high, {}, targets)[0], std::log(1.1) / kLeastScatter, 1e-12)
+  EXPECT_NEAR(curveResiduals(high, {}, targets)[0], std::log(1.1) / kMinScatter, 1e-12)
       << "the scatter of simulated beds is the least";
   EXPECT_NEAR(high[0].deviations(), 10, 1e-12) << "the table shows measured standard deviations";
 }

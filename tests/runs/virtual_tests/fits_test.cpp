@@ -230,7 +230,7 @@ TEST(ShearForm, OneLoadGoesThroughTheOrigin) {
   EXPECT_NEAR(fit.shearModulus, 0.010, 2e-4);
 }
 
-/// Share of trials whose interval contains `truth`: statistic `which` of `trial`.
+/// Share of trials with an interval that contains `truth`: statistic `which` of `trial`.
 template <class Trial> double coverage(int trials, double truth, const Trial& trial) {
   int held = 0;
   for (int t = 1; t <= trials; ++t) {

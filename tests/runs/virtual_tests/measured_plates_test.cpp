@@ -61,8 +61,8 @@ TEST_F(MeasuredPlatesTest, FindsWhereEachPlateFirstBearsTheContactPressure) {
   EXPECT_NEAR(plates[1].contact, 0.0004, 1e-12);
   EXPECT_EQ(readMeasuredPlates(folder_ / "plates.csv", {0.005})[0].contact, 0) << "without a contact pressure";
   const std::pair<double, const char*> cases[] = {
-      {2e4, "trial 1 never reaches plates.contact_pressure = 20000 Pa; choose one between 0 and 10000 Pa"},
-      {200, "trial 3 begins above plates.contact_pressure = 200 Pa; choose one between 300 and 30000 Pa"}};
+      {2e4, "trial 1 never reaches plates.contact_pressure = 20000 Pa; choose a pressure between 0 and 10000 Pa"},
+      {200, "trial 3 begins above plates.contact_pressure = 200 Pa; choose a pressure between 300 and 30000 Pa"}};
   for (const auto& [pressure, message] : cases) try {
       readMeasuredPlates(folder_ / "plates.csv", {0.005}, pressure);
       FAIL() << message;
@@ -90,9 +90,9 @@ TEST_F(MeasuredPlatesTest, NamesLineColumnAndRemedy) {
       {head + "1,60,5\n", "pressure_kPa = \"\" is not a number"},
       {head + "1.5,60,0,0\n", "whole number"},
       {head + "1,-60,0,0\n", "outside (0, 10000]"},
-      {head + "1,60,0,0\n1,80,9,9\n", "use a separate number for each test"},
-      {head + "1,60,0,0\n1,60,4,9\n", "no test reaches 5 mm; remove this sinkage"},
-      {head + "1,60,0,0\n1,60,9,-9\n", "carries -5 kPa at 5 mm"},
+      {head + "1,60,0,0\n1,80,9,9\n", "use a different trial number for each test"},
+      {head + "1,60,0,0\n1,60,4,9\n", "no test reaches a sinkage of 5 mm; remove it"},
+      {head + "1,60,0,0\n1,60,9,-9\n", "is -5 kPa at a sinkage of 5 mm"},
       {head + "1,60,0,nan\n", "is not a number"}};
   for (const auto& [text, message] : cases)
     EXPECT_NE(errorOf(text).find(message), std::string::npos) << text << "\n" << errorOf(text);

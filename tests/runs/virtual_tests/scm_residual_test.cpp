@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Residuals of curves whose model error and scatter are known.
+// Residuals of curves with known model error and scatter.
 #include "runs/virtual_tests/scm_fit.hpp"
 #include "runs/virtual_tests/scm_residual.hpp"
 

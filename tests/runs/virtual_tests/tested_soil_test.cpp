@@ -206,10 +206,10 @@ TEST(SoilPreparation, FrictionsAreTriedUntilThePorosityIsThere) {
   EXPECT_LE(trials.size(), 5u);
   trials.clear();
   while ((friction = nextFriction(trials, 0.5, 0.002)) > 0) trials.push_back({friction, porosity(friction)});
-  EXPECT_EQ(nearestTrial(trials, 0.5)[0], kMostSettlingFriction) << "out of reach: the loosest bed";
+  EXPECT_EQ(nearestTrial(trials, 0.5)[0], kMaxSettlingFriction) << "out of reach: the loosest bed";
   trials.clear();
   while ((friction = nextFriction(trials, 0.2, 0.002)) > 0) trials.push_back({friction, porosity(friction)});
-  EXPECT_EQ(nearestTrial(trials, 0.2)[0], kLeastSettlingFriction) << "out of reach: the densest bed";
+  EXPECT_EQ(nearestTrial(trials, 0.2)[0], kMinSettlingFriction) << "out of reach: the densest bed";
 }
 
 PublishedValue published(Quantity quantity, double value) { return {quantity, value, {}, {}, "a source"}; }

@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The same plate on the same bed with the same contact law in grouser and in LIGGGHTS, seed by seed.
+"""Compares grouser with LIGGGHTS for the same plate on the same bed with the same contact law, for several seeds.
 
     runs/validation/studies/reference/plate.py --grouser build/bin/grouser --seeds 16 --out out/plate_reference
 
-For each seed grouser pours and settles a bed of spheres in a bin; both programs then read positions and radii of the
-grains and push a plate into it at the same speed. Linear spring and dashpot, tangential spring of 2/7, Coulomb
-friction, same time step. Compared: mean force on the plate in slices of depth, and over all of them. Finished runs are
-kept in the folder and not repeated, so an interrupted call can be repeated.
+For each seed, grouser pours and settles a bed of spheres in a bin. Then both programs read positions and radii of the
+grains, and push a plate into this bed at the same speed. Both use linear springs and dashpots, a ratio of tangential to
+normal stiffness of 2/7, Coulomb friction, and the same time step. The script compares the mean force on the plate in
+slices of depth and over all slices but the first. It keeps finished runs, so that an interrupted call can be repeated.
 
-LIGGGHTS: Debian's package `liggghts` (3.8.0). Python: numpy, h5py, matplotlib of Debian.
+Requires LIGGGHTS (Debian package `liggghts`, 3.8.0) and the Python packages numpy, h5py and matplotlib of Debian.
 """
 import argparse
 import concurrent.futures
@@ -24,14 +24,14 @@ import h5py
 import numpy
 
 D = 0.02                     # mean diameter of the grains [m]
-SPREAD = 0.25                # radii uniform within +- this fraction of the mean
+SPREAD = 0.25                # half width of the uniform radius distribution / mean radius
 DENSITY, STIFFNESS, FRICTION, RESTITUTION = 2500.0, 1e5, 0.5, 0.3
 GRAVITY = 9.81
-RATIO_T, RATIO_DAMPING = 2 / 7, 0.5  # tangential over normal stiffness, and damping
-SOLID = 0.58                 # expected solid fraction, for the number of grains only
-REST = 0.6                   # [s] pouring; total duration twice that
-SLICES = 5                   # slices of depth; the first one is excluded (contact with single grains)
-BAR = 0.05                   # [-]
+RATIO_T, RATIO_DAMPING = 2 / 7, 0.5  # tangential / normal stiffness, tangential / normal damping
+SOLID = 0.58                 # expected solid fraction; determines only the number of grains
+REST = 0.6                   # [s] time for pouring; the total duration is twice as long
+SLICES = 5                   # number of slices of depth; the first one is excluded (contact with single grains)
+BAR = 0.05                   # [-] tolerance of the difference
 
 
 def student95(freedom):
@@ -42,7 +42,7 @@ def student95(freedom):
 
 
 def interval(values):
-    """Mean and half width of its 95 % interval."""
+    """Mean of the values, and half width of its 95 % interval."""
     values = numpy.asarray(values, float)
     if len(values) < 2:
         return float(values.mean()), math.inf
@@ -50,9 +50,9 @@ def interval(values):
 
 
 def damping():
-    """gamma [1/s] of F_n = k overlap + gamma m_eff v_n whose restitution is RESTITUTION at the mean mass.
+    """gamma [1/s] in F_n = k overlap + gamma m_eff v_n that results in RESTITUTION at the mean mass.
 
-    Attractive dashpot: zeta = -ln e / sqrt(pi^2 + ln^2 e); the choice is arbitrary but the same in both programs.
+    zeta = -ln e / sqrt(pi^2 + ln^2 e) is valid for attractive dashpots; both programs use the same value.
     """
     mass = DENSITY * math.pi / 6 * D ** 3
     log = math.log(RESTITUTION)
@@ -61,12 +61,12 @@ def damping():
 
 
 class Case:
-    """Sizes in metres, converted from mean diameters."""
+    """Sizes in metres, converted from options in mean grain diameters."""
 
     def __init__(self, options):
         self.bin, self.deep, self.plate = options.bin * D, options.deep * D, options.plate * D
         self.speed, self.sinkage = options.speed, options.sinkage * options.plate * D
-        self.tall = self.sinkage + 4 * D  # height of the plate: no grains on top
+        self.tall = self.sinkage + 4 * D  # height of the plate, so that no grains reach its top
         smallest = DENSITY * math.pi / 6 * (D * (1 - SPREAD)) ** 3
         contact = math.pi / math.sqrt(STIFFNESS / (smallest / 2) - (damping() / 2) ** 2)
         self.step = float(f"{contact / options.steps:.3g}")
@@ -130,14 +130,14 @@ def press_grouser(case, grouser, folder, top):
         with open(folder / "press" / "timeseries.csv") as file:
             rows = [(top + 0.5 * case.tall - float(row["surfaces.plate.position.z [m]"]),
                      float(row["surfaces.plate.force.z [N]"])) for row in csv.DictReader(file)]
-        # Forces are means since the previous row: they belong to the middle of the interval.
+        # Forces are means since the previous row, so that they belong to the middle of this interval.
         rows = [(0.5 * (before[0] + row[0]), row[1]) for before, row in zip(rows, rows[1:])]
         numpy.savetxt(table, rows, delimiter=",", fmt="%.9g", header=f"sinkage [m],force [N]; {seconds:.1f} s")
     return numpy.loadtxt(table, delimiter=",")
 
 
 def write_plate(path, case, top):
-    """The plate as an STL of twelve triangles."""
+    """Writes the plate as an STL file of twelve triangles."""
     middle, half = 0.5 * case.bin, 0.5 * case.plate
     low = numpy.array([middle - half, middle - half, top])
     high = numpy.array([middle + half, middle + half, top + case.tall])
@@ -158,7 +158,7 @@ def write_plate(path, case, top):
 
 
 def liggghts_input(case, top):
-    """Types: 1 grains, 2 floor and plate, 3 smooth sides."""
+    """Input file. Atom types: 1 grains, 2 floor and plate, 3 smooth sides."""
     steps = round(case.sinkage / case.speed / case.step)
     every = max(1, steps // 1000)
     pairs = lambda value: " ".join([repr(value)] * 9)
@@ -254,7 +254,7 @@ def report(case, results, folder):
               f"{100 * half:4.2f}   {verdict(difference, half)}")
         lines.append(f"{label},{which[0] * share:.3f},{(which[-1] + 1) * share:.3f},{ma:.5g},{ha:.3g},{mb:.5g},{hb:.3g},"
                      f"{difference:.5f},{half:.5f},{len(results)},{verdict(difference, half)}")
-    print("  +-: 95 % intervals of Student's distribution over the seeds; differences paired by seed")
+    print("  +-: 95 % intervals over the seeds (Student's t); differences are paired by seed")
     (folder / "plate_reference.csv").write_text("\n".join(lines) + "\n")
 
 
@@ -283,21 +283,21 @@ def main():
     parser.add_argument("--liggghts", default="liggghts")
     parser.add_argument("--out", default="out/plate_reference")
     parser.add_argument("--seeds", type=int, default=16)
-    parser.add_argument("--bin", type=float, default=16, help="width of the bin [grains]")
-    parser.add_argument("--deep", type=float, default=8, help="depth of the bed [grains]")
-    parser.add_argument("--plate", type=float, default=8, help="side of the square plate [grains]")
-    parser.add_argument("--sinkage", type=float, default=0.3, help="[plates]")
-    parser.add_argument("--speed", type=float, default=0.05, help="[m/s]")
-    parser.add_argument("--steps", type=float, default=20, help="steps in the shortest contact")
-    parser.add_argument("--jobs", type=int, default=1, help="parallel runs of grouser")
-    parser.add_argument("--only", choices=["grouser"], help="run grouser only, e.g. without LIGGGHTS; a later "
-                        "call, also on another machine with a copy of the folder, does the rest")
+    parser.add_argument("--bin", type=float, default=16, help="width of the square bin [grain diameters]")
+    parser.add_argument("--deep", type=float, default=8, help="depth of the bed [grain diameters]")
+    parser.add_argument("--plate", type=float, default=8, help="side length of the square plate [grain diameters]")
+    parser.add_argument("--sinkage", type=float, default=0.3, help="final sinkage [side lengths]")
+    parser.add_argument("--speed", type=float, default=0.05, help="speed of the plate [m/s]")
+    parser.add_argument("--steps", type=float, default=20, help="number of steps per shortest contact")
+    parser.add_argument("--jobs", type=int, default=1, help="number of parallel runs of grouser")
+    parser.add_argument("--only", choices=["grouser"], help="only run grouser, e.g. where LIGGGHTS is missing; a later "
+                        "call, also with a copy of the folder on another machine, does the rest")
     options = parser.parse_args()
     case = Case(options)
     out = pathlib.Path(options.out)
     out.mkdir(parents=True, exist_ok=True)
-    print(f"bin {options.bin:g} d, {options.deep:g} d deep, {case.grains} grains of {1e3 * D:g} mm +- {100 * SPREAD:g} %; "
-          f"plate {options.plate:g} d at {case.speed} m/s to {case.sinkage:.3f} m; step {case.step} s")
+    print(f"bin {options.bin:g} d wide, bed {options.deep:g} d deep, {case.grains} grains of d = {1e3 * D:g} mm +- "
+          f"{100 * SPREAD:g} %; plate {options.plate:g} d, {case.speed} m/s to {case.sinkage:.3f} m; step {case.step} s")
     seeds = range(1, options.seeds + 1)
 
     def prepare(seed):
@@ -318,7 +318,7 @@ def main():
         results.append((slice_means(ours, case.sinkage), slice_means(theirs, case.sinkage)))
         tables.append((ours, theirs))
         a, b = (sum(r[1:]) for r in results[-1])
-        print(f"seed {seed}: LIGGGHTS over grouser {b / a:.4f}", flush=True)
+        print(f"seed {seed}: force in LIGGGHTS / grouser {b / a:.4f}", flush=True)
     report(case, results, out)
     draw(out, tables, case)
 

@@ -47,7 +47,7 @@ TEST(MobilityMap, HasARunForEachLevelAndValue) {
 
 TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   EventOptions options = slopesOfSand();
-  EXPECT_EQ(faultOf(options, "scm.c=5"), "--axis scm.c=5: needs at least two values; use --set for a single one");
+  EXPECT_EQ(faultOf(options, "scm.c=5"), "--axis scm.c=5: requires at least two values; for a single value, use --set");
   EXPECT_EQ(faultOf(options, "scm.c"),
             "--axis scm.c: value is missing; write key=value,value..., e.g. --axis scm.c=0,1000,2000");
   EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 is listed twice; remove one");
@@ -61,9 +61,9 @@ TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   EventOptions rigid;
   rigid.only = {"grade"};
   EXPECT_EQ(faultOf(rigid, "spec.contact.friction_ground=0.4,0.8"),
-            "--levels: required, as the default levels differ between the values of --axis");
+            "--levels: required, because the default levels differ between the values of --axis");
   options.levels = {0.3};
-  EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--levels: a map needs at least two levels");
+  EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--levels: a map requires at least two levels");
   options.levels = {}, options.only = {"pivot_turn"};
   EXPECT_EQ(faultOf(options, "scm.c=5,6"), "--event pivot_turn: has no levels to map; use e.g. grade");
   options.only = {"gap"};

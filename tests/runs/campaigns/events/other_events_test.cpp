@@ -83,8 +83,8 @@ TEST_F(EventSetFile, WarnsOfOtherVehiclesAndSpeeds) {
   EventSet here = deformable();
   here.vehicle = "robot", here.speed = 0.7;
   const std::string text = differencesText({}, here, granular(folder_), 5);
-  EXPECT_NE(text.find("WARNING: vehicle: robot here, light_tracked there"), std::string::npos) << text;
-  EXPECT_NE(text.find("WARNING: commanded speed [m/s]: 0.7 here, 1.2 there"), std::string::npos) << text;
+  EXPECT_NE(text.find("WARNING: different vehicle: robot and light_tracked\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("WARNING: different commanded speed [m/s]: 0.7 and 1.2\n"), std::string::npos) << text;
 }
 
 TEST_F(EventSetFile, RefusesFoldersWithoutResults) {

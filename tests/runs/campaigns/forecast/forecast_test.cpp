@@ -197,9 +197,9 @@ TEST(MachineFit, DemandGrowsWithGrainsAndFrames) {
   bare.output.frames = false;
   EXPECT_EQ(demandOf(bare, 1'000'000, 1e-5, false).frames, 0);
   EXPECT_EQ(demandOf(scene, 0, 1e-5, false).frames, 0);
-  scene::Scene told = bare;
-  told.output.grainsCsv = true;
-  EXPECT_GT(demandOf(told, 1'000'000, 1e-5, false).disk(), demandOf(bare, 1'000'000, 1e-5, false).disk() + 3e8);
+  scene::Scene printed = bare;
+  printed.output.grainsCsv = true;
+  EXPECT_GT(demandOf(printed, 1'000'000, 1e-5, false).disk(), demandOf(bare, 1'000'000, 1e-5, false).disk() + 3e8);
 }
 
 class KeptTimes : public FolderTest {

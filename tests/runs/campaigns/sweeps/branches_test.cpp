@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sweeps whose runs branch from one vehicle at rest.
+// Sweeps with runs that branch from one vehicle at rest.
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 

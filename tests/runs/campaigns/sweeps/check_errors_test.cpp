@@ -97,10 +97,10 @@ TEST(CheckErrors, TheBarOfScatteredRunsHoldsAnErrorOfFirstOrder) {
 
 TEST(CheckErrors, FewSeedsShowNothingEqualUnlessTheyScatterLittle) {
   EXPECT_EQ(judgeSeeds({0.0, 0.04}, 0.05, 8), jobs::Verdict::equal);
-  EXPECT_EQ(judgeSeeds({0.0, 0.04}, 0.05, 7), jobs::Verdict::notShown);
+  EXPECT_EQ(judgeSeeds({0.0, 0.04}, 0.05, 7), jobs::Verdict::inconclusive);
   EXPECT_EQ(judgeSeeds({0.0, 0.02}, 0.05, 3), jobs::Verdict::equal);
   EXPECT_EQ(judgeSeeds({0.2, 0.1}, 0.05, 3), jobs::Verdict::differs);
-  EXPECT_EQ(judgeSeeds({0.0, 0.06}, 0.05, 20), jobs::Verdict::notShown);
+  EXPECT_EQ(judgeSeeds({0.0, 0.06}, 0.05, 20), jobs::Verdict::inconclusive);
 }
 
 TEST(CheckErrors, TheBarIsTheRootOfTheSumOfSquares) {

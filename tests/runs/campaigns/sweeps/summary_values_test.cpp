@@ -58,7 +58,7 @@ TEST_F(SummaryValues, OfAVehicleAreMeansOverTheSteadyPartOfEachQuantityAndTheirP
   writer.constant(output::kPitchRadius, 0.25);
   RowBuilder row(channels);
   for (int r = 0; r <= 30; ++r) {
-    // Before 2 s all values are far off; then u goes from -1 to 1 in 11 rows.
+    // Before 2 s all values are far off; then u increases from -1 to 1 in 11 rows.
     const double u = r < 20 ? 50 : (r - 25) / 5.0;
     row.begin(100 * r, 0.1 * r);
     row.set("vehicle/left/sprocket_speed", 3 + u), row.set("vehicle/right/sprocket_speed", 2 - 0.5 * u);

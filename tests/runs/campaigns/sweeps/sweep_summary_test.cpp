@@ -104,9 +104,9 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   EXPECT_NEAR(number("impulse residual [N s]"), 5, 1e-8);
   EXPECT_EQ(csv.at(0, "drawbar pull [N]"), "") << "values missing in the results stay empty";
   // A report uses the same steady part; its end depends on [stop].
-  const auto told = nlohmann::json(runFigures(folder_ / "sprocket_speed=2"));
-  ASSERT_TRUE(told["steady_from"].is_number()) << told.dump();
-  EXPECT_NEAR(told["steady_from"].get<double>(), 2, 1e-12);
+  const auto printed = nlohmann::json(runFigures(folder_ / "sprocket_speed=2"));
+  ASSERT_TRUE(printed["steady_from"].is_number()) << printed.dump();
+  EXPECT_NEAR(printed["steady_from"].get<double>(), 2, 1e-12);
 }
 
 } // namespace

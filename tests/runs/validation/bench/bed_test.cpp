@@ -124,7 +124,7 @@ TEST_F(BenchCommands, PrintFiguresAndWriteThemAsJson) {
   const Outcome bed = call("bench bed --grains 100 --settle 0.01 --steps 5 --threads 1 --device cpu --hash "
                            "--json bed.json");
   ASSERT_EQ(bed.code, 0) << bed.errors;
-  for (const char* part : {"particle-steps/s", "us (median", "neighbours listed", "rebuild ", "bytes per grain",
+  for (const char* part : {"particle-steps/s", "us (median", "listed neighbours", "rebuild ", "bytes per grain",
                            "at the peak", "machine ", "commit ", "state-hash "})
     EXPECT_NE(bed.out.find(part), std::string::npos) << part << "\n" << bed.out;
   const nlohmann::json b = nlohmann::json::parse(contents(folder_ / "bed.json"));

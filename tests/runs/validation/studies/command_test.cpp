@@ -98,9 +98,9 @@ TEST_F(PieceStudy, PartsShareTheRunsAndALastCallMakesTheTables) {
   fs::remove(runs / "rough_seed1.csv");
   fs::create_directories(runs / "rough_seed1");
   fs::rename(folder_ / "results" / "bed_rough_seed1.txt", runs / "rough_seed1" / "bed.txt");
-  const Outcome goesOn = call(words + " --part 1/2 --resume");
-  ASSERT_EQ(goesOn.code, 0) << goesOn.errors;
-  EXPECT_EQ(goesOn.errors.find("lift"), std::string::npos) << goesOn.errors;
+  const Outcome continues = call(words + " --part 1/2 --resume");
+  ASSERT_EQ(continues.code, 0) << continues.errors;
+  EXPECT_EQ(continues.errors.find("lift"), std::string::npos) << continues.errors;
   EXPECT_EQ(withoutLastColumn(contents(runs / "rough_seed1.csv")), withoutLastColumn(first)) << "except for wall time";
   EXPECT_FALSE(fs::exists(runs / "rough_seed1"));
 
@@ -154,7 +154,7 @@ TEST_F(PieceStudy, GivenOptionsWinOverThoseOfAQuickPass) {
 
 TEST_F(PieceStudy, RefusesPlatesAndBedsThatCannotBe) {
   const std::pair<const char*, std::vector<const char*>> mistakes[] = {
-      {"--strip-thickness 4", {"--strip-thickness 4 [d], case base", "4.38 d", "increase it"}},
+      {"--strip-thickness 4", {"--strip-thickness 4 [d], case base", "4.38 d", "increase this value"}},
       {"--sinkage 2 --strip-depth 0.5",
        {"--sinkage 2 [plate widths], case base", "at most 0.396", "--strip-depth = 0.5"}},
       {"--cases deep --sinkage 2 --strip-depth 0.5", {"case deep", "at most 0.896", "--strip-depth = 0.5"}},
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
             "impact",
             "--quick --phases 4 --leaving 1 --collisions 20 --repeats 1",
             {"impact.csv", "orders.csv", "cheapest.csv", "convergence.csv", "speeds.csv", "impact.png"},
-            {"order of the worst error", "cheapest step", "published", "linear clamped on a plane", "closed forms"}},
+            {"order of the worst error", "cheapest step", "published", "linear clamped law", "closed-form values"}},
         StudyCall{"stability",
                   "--quick --grains 20 --column 3",
                   {"stability.csv", "limits.csv", "stability.png"},

@@ -86,7 +86,7 @@ TEST_F(FeaturesStudy, GoesOnWithWhatIsThereAndKnowsItsFeatures) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "results/runs/off_rolling.csv"));
   const Outcome none = call(words + "colour --force");
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.error().find("--features colour: unknown; choose from friction, rolling"), std::string::npos)
+  EXPECT_NE(none.error().find("--features colour: unknown feature; choose from friction, rolling"), std::string::npos)
       << none.errors;
 }
 

@@ -44,7 +44,7 @@ TEST_F(PlateReference, ComparesWhatBothProgramsHaveMeasured) {
   // Results of grouser are kept.
   EXPECT_EQ(contents(first / "bed.txt"), bed);
   EXPECT_EQ(contents(first / "grouser.csv"), pushed);
-  EXPECT_NE(both.out.find("LIGGGHTS over grouser 1.1000"), std::string::npos) << both.out;
+  EXPECT_NE(both.out.find("force in LIGGGHTS / grouser 1.1000"), std::string::npos) << both.out;
   EXPECT_TRUE(fs::exists(folder_ / "results" / "plate_reference.csv"));
   // A mean difference of a tenth over two seeds with equal scatter: no agreement.
   EXPECT_EQ(both.out.find("equal"), std::string::npos) << both.out;

@@ -57,7 +57,7 @@ TEST(Bearing, PressureIsTerzaghisSumAndItsAngleIsFoundAgain) {
     EXPECT_NEAR(virtual_tests::bearingAngle(shape, q, weight, b, z), radians(27.5),
                 1e-9); // bisection to 2^-60 of 60 deg
   }
-  // Linear in the sinkage: the mean over a slice is that of its middle.
+  // Linear in the sinkage: the mean over a slice is the value in its middle.
   EXPECT_NEAR(virtual_tests::meanBearing(virtual_tests::PlateShape::strip, radians(30), weight, b, 0.02, 0.08),
               virtual_tests::bearingPressure(virtual_tests::PlateShape::strip, radians(30), weight, b, z), 1e-6);
 }
@@ -99,7 +99,7 @@ TEST(StudyEstimate, IntervalsAreStudents) {
   const std::vector<double> five{1, 2, 3, 4, 5};
   EXPECT_NEAR(jobs::interval95(five).halfWidth, 2.776 * std::sqrt(0.5), 1e-12);
   EXPECT_TRUE(std::isinf(jobs::interval95(std::vector<double>{7}).halfWidth));
-  // Equal variances and sizes: Welch's freedom is 2 (n - 1) = 8, of which the quantile is 2.306.
+  // Equal variances and sizes: Welch's freedom is 2 (n - 1) = 8, with the quantile 2.306.
   const std::vector<double> more{2, 3, 4, 5, 6};
   const support::Estimate difference = jobs::relativeDifference(five, more);
   EXPECT_NEAR(difference.value, 1.0 / 3, 1e-12);
@@ -111,10 +111,10 @@ TEST(StudyEstimate, IntervalsAreStudents) {
 
 TEST(StudyEstimate, AWideIntervalIsNeverAgreement) {
   EXPECT_EQ(jobs::judge({0.01, 0.03}, 0.05), jobs::Verdict::equal);
-  EXPECT_EQ(jobs::judge({0.00, 0.06}, 0.05), jobs::Verdict::notShown);
-  EXPECT_EQ(jobs::judge({0.04, 0.02}, 0.05), jobs::Verdict::notShown);
+  EXPECT_EQ(jobs::judge({0.00, 0.06}, 0.05), jobs::Verdict::inconclusive);
+  EXPECT_EQ(jobs::judge({0.04, 0.02}, 0.05), jobs::Verdict::inconclusive);
   EXPECT_EQ(jobs::judge({-0.10, 0.04}, 0.05), jobs::Verdict::differs);
-  EXPECT_EQ(jobs::judge(jobs::interval95(std::vector<double>{0.0}), 0.05), jobs::Verdict::notShown)
+  EXPECT_EQ(jobs::judge(jobs::interval95(std::vector<double>{0.0}), 0.05), jobs::Verdict::inconclusive)
       << "one seed has no interval";
 }
 

@@ -9,7 +9,7 @@
 namespace grouser::support {
 
 /// Prints to stderr and ignores write errors (closed stream, lost terminal, full disk), which must not end a run.
-template <class... Args> void tell(fmt::format_string<Args...> format, Args&&... args) {
+template <class... Args> void printStderr(fmt::format_string<Args...> format, Args&&... args) {
   std::fputs(fmt::format(format, std::forward<Args>(args)...).c_str(), stderr);
 }
 
