@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMaxNamed = 3;   ///< maximum number of suggested keys
 constexpr std::size_t kTellingKey = 3; ///< minimum length of a key that identifies its section; x and z occur in many
-constexpr int kOtherSection = 2;       ///< maximum penalty for another section; less than the cost of two letters
+constexpr int kOtherSection = 2;       ///< maximum penalty for another section; less than the cost of one wrong letter
 
 std::string sectionOf(const std::string& full) { return full.substr(0, full.rfind('.')); }
 std::string keyOf(const std::string& full) { return full.substr(full.rfind('.') + 1); }

@@ -347,11 +347,12 @@ std::string nearestWord(std::string_view word, const std::vector<std::string>& v
 
 namespace {
 
-/// Wraps `text` to lines of at most 120 columns.
+/// Wraps `text` to lines of at most 120 columns. No line begins with "+" or "-", which Markdown would show as a list.
 std::string wrapped(const std::string& text) {
   std::string lines, line;
   std::istringstream words(text);
-  for (std::string word; words >> word;) {
+  for (std::string word, sign; words >> word;) {
+    while ((words >> std::ws).peek() == '+' || words.peek() == '-') words >> sign, word += ' ' + sign;
     if (!line.empty() && line.size() + 1 + word.size() > 120) lines += line + '\n', line.clear();
     line += (line.empty() ? "" : " ") + word;
   }

@@ -38,7 +38,7 @@ struct PatchState {
   double dissipated; ///< cumulative [J]
 };
 
-/// Contact pressure at one point in one step.
+/// Normal contact force at one point in one step.
 template <class T> struct PointPressure {
   T size;                ///< magnitude of the normal force [N]
   T elastic, dissipated; ///< [J]

@@ -55,7 +55,7 @@ constexpr ScalarField kTrackFields[] = {
     {"drive_power", "W", "power of the drive at the sprocket, mean since the last row", &TrackObservation::drivePower},
     {"idler_force", "N", "tensioner force on the idler, positive away from the sprocket",
      &TrackObservation::idlerForce},
-    {"idler_slide", "m", "idler displacement from the drawn position, positive away from the sprocket",
+    {"idler_slide", "m", "idler displacement from the design position, positive away from the sprocket",
      &TrackObservation::idlerSlide},
     {"speed", "m/s", "speed of the hull at this track", &TrackObservation::speed},
     {"slip", "-", "1 - speed / (sprocket speed x pitch radius)", &TrackObservation::slip},
@@ -105,7 +105,7 @@ std::vector<Quantity> quantitiesOfTrack(const std::string& side, int shoes, int 
   for (const ScalarField& f : kTrackFields) list.push_back({folder + f.name, f.unit, f.help, 1, {}});
   Quantity arms{folder + "arm_angle",
                 "rad",
-                "angle of each road wheel's arm from the drawn position, wheel up positive",
+                "angle of each road wheel's arm from the design position, positive if the wheel moves up",
                 wheels,
                 {}};
   for (int i = 0; i < wheels; ++i) arms.columns.push_back(std::to_string(i));

@@ -35,7 +35,7 @@ struct TrackObservation {
   std::vector<double> forwardForce;   ///< ground force along the shoe, positive forward (while in ground contact) [N]
   std::vector<double> leftForce;      ///< lateral ground force on the shoe, positive left [N]
   std::vector<double> shear;          ///< resultant of forward and left force / pad area [Pa]; NaN if unknown
-  std::vector<double> armAngle;       ///< per road wheel: arm angle from the drawn position, positive wheel up [rad]
+  std::vector<double> armAngle;       ///< per road wheel: arm angle from the design position, positive upward [rad]
   double sprocketSpeed = 0;           ///< [rad/s]
   double driveTorque = 0;             ///< torque of the hull on the sprocket, positive forward [N m]
   double meanTorque = 0;              ///< mean of driveTorque since restartMeans() [N m]

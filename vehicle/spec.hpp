@@ -66,7 +66,7 @@ struct ArmSpec : MassSpec {
   double pivotAngle{};                        ///< elevation angle of the pivot seen from the axle [rad]
   double stiffness{};                         ///< torsion bar [N m/rad]
   double damping{};                           ///< [N m s/rad]
-  double preload{}; ///< vertical wheel load supported by the torsion bar in the drawn position [N]
+  double preload{}; ///< vertical wheel load supported by the torsion bar in the design position [N]
 };
 
 /// Return rollers. Without positions there are no rollers, and no mesh is required.

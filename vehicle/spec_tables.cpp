@@ -106,7 +106,7 @@ Table<ArmSpec> armTable() {
   t.add("damping", &ArmSpec::damping, "N m s/rad", "damping about the pivot; required for sprung arms")
       .atLeast(0)
       .atMost(1e9);
-  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the drawn position; required for sprung arms")
+  t.add("preload", &ArmSpec::preload, "N", "vertical wheel load in the design position; required for sprung arms")
       .atLeast(0)
       .atMost(1e7);
   addMass(t);

@@ -149,7 +149,7 @@ std::optional<Wrap> closeLoop(const Frame& f, int topGap, int bottomGap, WrapCou
   return wrap;
 }
 
-/// Returns the better of two loops: more pins in the sprocket, then the idler nearer to its drawn position.
+/// Returns the better of two loops: more pins in the sprocket, then the idler nearer to its design position.
 bool better(const Wrap& a, const Wrap& b, double idlerX) {
   if (a.counts.sprocket != b.counts.sprocket) return a.counts.sprocket > b.counts.sprocket;
   return std::fabs(a.idlerX - idlerX) < std::fabs(b.idlerX - idlerX);
@@ -158,7 +158,7 @@ bool better(const Wrap& a, const Wrap& b, double idlerX) {
 /// Result of a search over all splits.
 struct Found {
   std::optional<Wrap> best;    ///< with the idler within its slide range
-  std::optional<Wrap> nearest; ///< with the idler nearest to its drawn position
+  std::optional<Wrap> nearest; ///< with the idler nearest to its design position
 };
 
 /// True if a strand of `pitches` from `from` can reach the idler within its slide range: the strand is about as long as

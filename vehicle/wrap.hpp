@@ -53,8 +53,8 @@ struct Wrap {
 
 /// Computes the exact shoe positions. Tries every split of the shoes over the sections, solves for idler x and first
 /// pin angle by Newton's method so that both free strands have whole pitches, and selects the convex loop with most
-/// pins in the sprocket, then with the idler nearest to its drawn position. Throws base::InputError, with the gap and a
-/// remedy, if no loop closes within the idler's slide range.
+/// pins in the sprocket, then with the idler nearest to its design position. Throws base::InputError, with the gap and
+/// a remedy, if no loop closes within the idler's slide range.
 Wrap wrapTrack(const VehicleSpec& spec);
 /// Same as wrapTrack(), but returns empty if no loop closes.
 std::optional<Wrap> findWrap(const VehicleSpec& spec);
@@ -67,7 +67,7 @@ struct ClosureFault {
 /// Returns the closure fault; with the advised value, the vehicle passes the test `sound`.
 ClosureFault closureFault(const VehicleSpec& spec, const std::function<bool(const VehicleSpec&)>& sound);
 
-/// Length of the shortest pin loop around sprocket, road wheels and idler in their drawn positions [m].
+/// Length of the shortest pin loop around sprocket, road wheels and idler in their design positions [m].
 double hullLength(const VehicleSpec& spec);
 
 /// Orientation of a part with its x axis along `angle` in the track plane (from +x towards +z): a rotation by

@@ -53,9 +53,10 @@ void addCheck(CLI::App& app, const Invocation&) {
   check->add_option("scene", c.scene, "scene file")->required();
   check->add_option("--set", c.options.fixed, kSetHelp)->allow_extra_args(false);
   check
-      ->add_option("--seeds", c.options.seeds,
-                   "number of seeds per case, counted up from run.seed; with --budget or --of, the maximum number; a "
-                   "scene that does not depend on the seed runs once per case; default: 8, or 24 with --of")
+      ->add_option(
+          "--seeds", c.options.seeds,
+          "number of seeds per case (consecutive, from run.seed); with --budget or --of, the maximum number; a "
+          "scene that does not depend on the seed runs once per case; default: 8, or 24 with --of")
       ->check(support::wholeNumber(2, 1000));
   check
       ->add_option("--bar", c.options.percent,
@@ -84,7 +85,7 @@ void addCheck(CLI::App& app, const Invocation&) {
                     "estimate which runs would exceed the limit; these are skipped and listed");
   addProcessOptions(
       *check, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
-      "folder of the runs and results; default: out/NAME_check");
+      "output folder; default: out/NAME_check");
   check->callback([command] { checkCommand(*command); });
 }
 

@@ -91,7 +91,7 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
       ->check(support::positive("a percentage"));
   addProcessOptions(
       *compare, {c.options.sweep.jobs, c.options.sweep.seconds, c.options.sweep.force, c.folder, c.device, c.threads},
-      "folder of the runs and tables; default: out/NAME_compare");
+      "output folder; default: out/NAME_compare");
   compare->callback([command] { compareCommand(*command); });
 }
 

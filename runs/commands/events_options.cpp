@@ -59,7 +59,7 @@ void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& de
   app.add_option("--jobs", c.jobs, "number of concurrent runs; they share the CPU cores")
       ->check(support::wholeNumber(1, 1024))
       ->capture_default_str();
-  support::addOut(app, c.folder, "folder of the results; default: " + defaultFolder);
+  support::addOut(app, c.folder, "output folder; default: " + defaultFolder);
   app.add_flag("--force", c.force, "repeat finished runs, and overwrite the results in the output folder");
 }
 

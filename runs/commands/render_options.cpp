@@ -57,7 +57,7 @@ void addRender(CLI::App& app, const Invocation& invocation) {
   render->add_option("frames", c.frames, "frames.h5 of a run, or the run's folder")
       ->required()
       ->transform(support::orItsFolder("frames.h5"));
-  support::addOut(*render, c.folder, "folder of the pictures; default: pictures/ beside the file");
+  support::addOut(*render, c.folder, "output folder for the pictures; default: pictures/ next to the file");
   render->add_option("--film", c.film, "also write a film to this file (.mp4, .mkv or .mov); requires ffmpeg");
   render->add_option("--fps", c.framesPerSecond, "frames per second of the film")
       ->check(support::positive("a number"))

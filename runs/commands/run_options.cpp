@@ -79,8 +79,9 @@ void addSweep(CLI::App& app, const Invocation&) {
           "--seeds", c.lists.seeds,
           "number of seeds per combination (run.seed = 1, 2, ...), for means and differences with 95 % intervals")
       ->check(support::wholeNumber(1, 1000));
-  addProcessOptions(*sweep, {c.jobs, c.seconds, c.force, c.folder, c.device, c.threads},
-                    "folder of the runs and summary.csv; default: out/NAME_sweep, with --ground out/NAME_sweep_GROUND");
+  addProcessOptions(
+      *sweep, {c.jobs, c.seconds, c.force, c.folder, c.device, c.threads},
+      "output folder for the runs and summary.csv; default: out/NAME_sweep, with --ground out/NAME_sweep_GROUND");
   CLI::Option* from =
       sweep
           ->add_option("--from-checkpoint", c.checkpoint,

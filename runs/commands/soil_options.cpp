@@ -66,9 +66,9 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
            "maximum plate pressure [Pa]; the test ends earlier if the sinkage reaches 0.3 plate widths");
   keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
            "inertial number of the plate tests: (speed / width) d sqrt(density / pressure) [-]");
-  keys.add(
-      soil, "--plate-waves", &PlanOptions::plateWaves, support::between(1e-4, 10),
-      "maximum ratio of the moving plate's wave pressure to the track pressure [-]; limits the speed in firm soil");
+  keys.add(soil, "--plate-waves", &PlanOptions::plateWaves, support::between(1e-4, 10),
+           "maximum stress-wave pressure (density x wave speed x plate speed) of a moving plate, relative to the track "
+           "pressure [-]; limits the plate speed in firm soil");
   keys.add(soil, "--shear-inertial-number", &PlanOptions::shearInertialNumber, support::between(1e-6, 0.1),
            "inertial number of the shear tests: rate d sqrt(density/stress) [-]");
   keys.add(soil, "--shear-strain", &PlanOptions::shearStrain, support::between(0.05, 5),

@@ -49,8 +49,8 @@ std::vector<Row> readRows(const fs::path& folder, const std::vector<Channel>& ch
     fault = fmt::format("cannot be read ({})", error.what());
   }
   if (!fault.empty())
-    throw base::InputError(fmt::format("{}: {}, so the rows before the checkpoint are lost; restore the file of the "
-                                       "run, or continue without these rows with --force",
+    throw base::InputError(fmt::format("{}: {}, so the rows before the checkpoint are lost; restore the original "
+                                       "file, or continue without these rows with --force",
                                        path.string(), fault));
   return rows;
 }
@@ -65,7 +65,7 @@ std::int64_t keptFrames(const fs::path& folder, std::int64_t step, std::int64_t 
   }
   if (found < count)
     throw base::InputError(fmt::format("{}: does not contain the {} frames up to step {} that the checkpoint requires; "
-                                       "restore the file of the run, or continue without these frames with --force",
+                                       "restore the original file, or continue without these frames with --force",
                                        (folder / "frames.h5").string(), count, step));
   return atEnd && found == count + 1 ? found : count;
 }

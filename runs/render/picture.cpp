@@ -150,7 +150,7 @@ Drawn drawn(const output::Frame& frame, const std::vector<output::FramePart>& pa
     }
   }
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    // Rigid surfaces are visible from the side of the grains only.
+    // Rigid surfaces are visible only from the side that faces grains.
     const bool surface = parts[i].kind == output::PartKind::surface;
     scene.meshes.push_back({parts[i].mesh, frame.partPoses[i], partColour(parts[i].kind), surface, {}});
     std::vector<Vec3d> corners;

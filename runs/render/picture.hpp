@@ -15,8 +15,8 @@ inline constexpr double kRutElevation = 24, kRutAzimuth = -140, kRutDistance = 1
 
 Colour partColour(output::PartKind kind);
 
-/// Grains of a picture of the bed, without distant grains: a grain is distant if along any axis its distance from the
-/// middle 98 % of the grains exceeds the width of these 98 %. With less than 100 grains, all grains.
+/// Grains of a picture of the bed, without outliers: a grain is an outlier if, along any axis, its distance from the
+/// middle 98 % of the grains exceeds their extent along this axis. Returns all grains if there are fewer than 100.
 std::vector<Ball> visibleGrains(const std::vector<base::Vec3f>& positions, const std::vector<float>& radii);
 
 /// Whether the parts extend in the horizontal plane only, e.g. a mechanism that moves along x and y.

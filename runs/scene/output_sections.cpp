@@ -56,11 +56,11 @@ Table<PlotSection> plotTable() {
   t.add("title", &S::title, "", "title above the panel");
   t.add("x_label", &S::xLabel, "", "axis label: quantity and unit");
   t.add("y_label", &S::yLabel, "", "axis label: quantity and unit").required();
-  t.add("x_scale", &S::xScale, "-", "factor of x, e.g. for a change of unit");
+  t.add("x_scale", &S::xScale, "-", "factor applied to x, e.g. to convert units");
   t.add("x_offset", &S::xOffset, "as the axis", "offset added to x_scale times x");
   t.add("x_from_start", &S::xFromStart, "", "subtract the first value of x before scaling");
   t.add("x_range", &S::xRange, "as the axis", "axis limits; default: the range of the values");
-  t.add("y_scale", &S::yScale, "-", "factor applied to y, e.g. for a change of unit");
+  t.add("y_scale", &S::yScale, "-", "factor applied to y, e.g. to convert units");
   t.add("y_offset", &S::yOffset, "as the axis", "offset added to y_scale times y");
   t.add("y_from_start", &S::yFromStart, "", "subtract the first value of each y before scaling");
   t.add("y_range", &S::yRange, "as the axis", "axis limits; default: the range of the values");

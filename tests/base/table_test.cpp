@@ -364,8 +364,19 @@ TEST(FormerKeys, AreNotShownAndTheirValuesAreChecked) {
   }
 }
 
+TEST(DescribeFields, NoLineBeginsLikeAList) {
+  std::string help = "xx";
+  for (int i = 0; i < 60; ++i) help += " abc +"; // the 120th column is before a sign
+  EXPECT_EQ(describeFields("s", help + " d", {}, {}).find("\n+ "), std::string::npos);
+}
+
 TEST(Document, MissingFileIsAnInputError) {
-  EXPECT_THROW(Document::load("/nonexistent/x.toml"), InputError);
+  try {
+    Document::load("/nonexistent/x.toml");
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_STREQ(e.what(), "/nonexistent/x.toml: no such file; check the path");
+  }
   EXPECT_THROW(Document::load("/"), InputError);
 }
 

@@ -70,8 +70,9 @@ void addPivot(std::vector<Figure>& figures, const Motion& m, const sweeps::RunSe
   if (!course.rigid()) return;
   const double weight = course.shape.mass * kGravity, mu = course.shape.friction;
   const double slip = trial.rate * tread / 2 - rate * tread / 2;
-  figures.push_back({"friction in the direction of slip [N m]", turningMoment(course.shape, mu, weight, rate, slip)});
-  figures.push_back({"mu W L / 4 [N m]", turningMoment(course.shape, mu, weight)});
+  figures.push_back(
+      {"turning moment of friction opposite to the slip [N m]", turningMoment(course.shape, mu, weight, rate, slip)});
+  figures.push_back({"turning moment mu W L / 4 [N m]", turningMoment(course.shape, mu, weight)});
 }
 
 } // namespace

@@ -17,7 +17,7 @@ namespace grouser::sweeps {
 
 class CheckBeds {
 public:
-  /// `file` and `fixed`: scene file and overrides. Seeds are counted up from run.seed of the scene.
+  /// `file` and `fixed`: scene file and overrides. Seeds are consecutive, starting at run.seed of the scene.
   CheckBeds(const std::filesystem::path& file, const std::vector<std::string>& fixed, const CheckCases& cases);
 
   /// [cases] first case that has the same bed for the same seed; without a cache, the case itself.

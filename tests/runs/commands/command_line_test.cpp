@@ -104,11 +104,6 @@ TEST_F(CommandLine, AnOptionOfOtherCommandsNamesThem) {
   EXPECT_NE(call("run grain.toml --thread 1").errors.find("; did you mean --threads?"), std::string::npos);
 }
 
-TEST_F(CommandLine, AMissingSceneIsNotCalledUnreadable) {
-  const std::string errors = call("run missing.toml").errors;
-  EXPECT_NE(errors.find("missing.toml: no such file; check the path"), std::string::npos) << errors;
-}
-
 TEST_F(CommandLine, SpheresAreNotWrittenOverAFileUnlessForced) {
   writeCube();
   std::ofstream(folder_ / "s.csv") << "precious";
