@@ -80,7 +80,8 @@ def draw(path):
     words = list(dict.fromkeys(values[0] for values, _ in rows))
     numeric = all(number(word) is not None for word in words)
     place = {word: number(word) if numeric else index for index, word in enumerate(words)}  # text: evenly spaced
-    shown = PANELS + (PULL_PANELS if any(figures.get("drawbar pull [N]", (0,))[0] != 0 for _, figures in rows) else ())
+    pulls = [figures["drawbar pull [N]"][0] for _, figures in rows if "drawbar pull [N]" in figures]
+    shown = PANELS + (PULL_PANELS if any(math.isfinite(pull) and pull != 0 for pull in pulls) else ())
     figure = drawing.Figure(figsize=(8.0, 3.25 * len(shown) / 2))
     panels = figure.subplots(len(shown) // 2, 2, sharex=True).flatten()
     for axis, (label, factor, columns) in zip(panels, shown):
