@@ -227,7 +227,8 @@ def figures(run, options):
         checked = barred.get(name)
         bar = "none"
         if checked and checked["bar"] is not None:
-            parts = ", ".join([*(e["axis"].replace("_", " ") for e in checked["errors"]), counted(checked["seeds"], "seed")])
+            parts = ", ".join([*(e["axis"].replace("_", " ") for e in checked["errors"]),
+                               *([counted(checked["seeds"], "seed")] if check["check"]["seeds_matter"] else [])])
             bar = f'{figure_with_bar(checked["value"], checked["bar"], "", f"{plain} checked")} ({esc(parts)})'
         if value is not None:
             values[plain] = [value]
@@ -241,7 +242,7 @@ def figures(run, options):
         words = f'<strong class="bad">Inconclusive: {esc(reason)}.</strong> {words}'
     if check:
         words += (f" Error bars: last check of this scene, in <code>{esc(check['folder'])}</code>, commit "
-                  f"<code>{esc(check['check']['program']['commit'])}</code>, over the seeds of that check.")
+                  f"<code>{esc(check['check']['program']['commit'])}</code>.")
     else:
         words += " No error bars yet: run <code>grouser check</code> on this scene."
     headings = ["figure", "this run", "unit", *(["checked value and its 95 % bar"] if check else [])]

@@ -11,6 +11,7 @@ import page as pages
 from grouser.series import counted
 
 PLACES = 12e6  # maximum number of grain positions in all frames of a run; determines most of the page size
+HEIGHTS = 12e6  # maximum number of heights of deformable soil in all frames of a run; beyond it only the last frame
 LARGEST = 10e6  # page size up to which another run is added [bytes]; e-mail accepts 15 MB
 CODES = 65535  # number of codes of a coordinate; the last code marks absent grains
 
@@ -161,6 +162,36 @@ def add_grains(made, name, drawn, middle, data):
         "units": {"height": "m", "speed": "m/s", "moved": "m"}}
 
 
+def soil_of(frames, picked):
+    """Surface of deformable soil: vertices [v, 3] and triangles [t, 3] of the last frame, and heights [frames, v] [m].
+    A vertex that an earlier frame lacks was undisturbed there. None without deformable soil."""
+    if not len(frames.parts):
+        return None
+    last = frames[picked[-1]]
+    try:
+        vertices, triangles = last.soil("position"), last.soil("triangles")
+    except KeyError:
+        return None
+    kept = picked if len(picked) * len(vertices) <= HEIGHTS else picked[-1:]
+    heights = numpy.tile(vertices[:, 2] + last.soil("sinkage"), (len(kept), 1))
+    place = {node: k for k, node in enumerate(map(tuple, vertices[:, :2].tolist()))}
+    for row, k in zip(heights, kept):
+        position = frames[k].soil("position")
+        at = numpy.array([place.get(node, -1) for node in map(tuple, position[:, :2].tolist())])
+        row[at[at >= 0]] = position[at >= 0, 2]
+    return SimpleNamespace(vertices=vertices, triangles=triangles, heights=heights)
+
+
+def add_soil(made, name, soil, middle, data):
+    low, high = float(soil.heights.min()), float(soil.heights.max())
+    unit = (high - low) / CODES or 1.0
+    codes = ((soil.heights - low) / unit).round().astype(numpy.uint16)
+    codes[1:] -= codes[:-1].copy()  # differences from the previous frame, which compress well
+    data["soil"] = {"vertices": made.array(f"{name}.soil", (soil.vertices - middle).astype(numpy.float32)),
+                    "triangles": made.array(f"{name}.soil_corners", soil.triangles.astype(numpy.uint32)),
+                    "heights": made.array(f"{name}.heights", codes), "low": low - float(middle[2]), "unit": unit}
+
+
 class AtEnd:
     """Grains of the checkpoint as the only frame of a run without frames."""
     parts, ground, poses = [], None, None
@@ -202,12 +233,14 @@ def data_of(made, run, place, options, places):
     picked = chosen_frames(count, options.frames)
     drawn, total, left, lost = grains_of(made, frames, picked, options.grains, places)
     shapes = shapes_of(frames)
-    ground = frames.ground
+    soil = soil_of(frames, picked)
+    ground = None if soil else frames.ground
     poses = numpy.array([frames[k].poses for k in picked]) if shapes else None
     if drawn is None and poses is None:
         return None
     corners = None if poses is None else numpy.concatenate([frames[k].parts.vertices for k in (picked[0], picked[-1])])
-    low, high = box_of(None if drawn is None else drawn["places"], corners, None if ground is None else ground.vertices)
+    low, high = box_of(None if drawn is None else drawn["places"], corners,
+                       soil.vertices if soil else None if ground is None else ground.vertices)
     reach = 0.0 if drawn is None else float(drawn["radius"].max())  # the box contains the centres of grains only
     low, high = low - reach, high + reach
     middle = 0.5 * (low + high)
@@ -225,6 +258,10 @@ def data_of(made, run, place, options, places):
             data["shapes"].append({"vertices": made.array(f"{name}.shape{k}", vertices.astype(numpy.float32)),
                                    "triangles": made.array(f"{name}.corners{k}", triangles.astype(numpy.uint32)),
                                    "parts": parts, "clear": any(part in hiding for part in parts)})
+    if soil:
+        add_soil(made, name, soil, middle, data)
+        if len(soil.heights) < len(picked):
+            data["words"] += " The surface of the soil is that of the last frame in all frames."
     if ground is not None:
         vertices = made.array(f"{name}.ground", (ground.vertices - middle).astype(numpy.float32))
         steep = is_steep(ground) & (drawn is not None)

@@ -130,6 +130,7 @@ class Space {
       }
     }
     this.poses = data.poses ? report.arrays[data.poses] : null;
+    if (data.soil) this.addSoil(data.soil);
     for (const ground of data.grounds || []) {
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[ground.vertices], 3));
@@ -138,6 +139,36 @@ class Space {
       this.scene.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: 0xb59f7a, side: THREE.DoubleSide,
         ...clearness(ground.clear) })));
     }
+  }
+
+  /** Surface of deformable soil. The heights of a frame are differences from the previous frame. */
+  addSoil(soil) {
+    const codes = report.arrays[soil.heights], [frames, count] = codes.shape;
+    for (let i = count; i < codes.length; ++i) codes[i] += codes[i - count];
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[soil.vertices], 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
+    geometry.setIndex(new THREE.BufferAttribute(report.arrays[soil.triangles], 1));
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide }));
+    mesh.frustumCulled = false;
+    this.scene.add(mesh);
+    this.soil = { codes, frames, count, geometry, low: soil.low, unit: soil.unit };
+  }
+
+  /** Moves the soil to its heights in a frame; soil below its first height is darker. */
+  placeSoil(frame) {
+    const { codes, frames, count, geometry, low, unit } = this.soil;
+    const { position, color } = geometry.attributes, brown = [0.74, 0.65, 0.5], last = (frames - 1) * count;
+    const begin = Math.min(frame, frames - 1) * count;
+    let deepest = 1;
+    for (let i = 0; i < count; ++i) deepest = Math.max(deepest, codes[i] - codes[last + i]);
+    for (let i = 0; i < count; ++i) {
+      position.array[3 * i + 2] = low + unit * codes[begin + i];
+      const light = 1 - 0.5 * Math.max(0, codes[i] - codes[begin + i]) / deepest;
+      for (let c = 0; c < 3; ++c) color.array[3 * i + c] = brown[c] * light;
+    }
+    position.needsUpdate = color.needsUpdate = true;
+    geometry.computeVertexNormals();
   }
 
   /** A scale bar of a round length along x, in front of the bounding box. */
@@ -310,6 +341,7 @@ class Space {
   show(frame) {
     this.frame = frame;
     if (this.points) this.placeGrains(frame);
+    if (this.soil) this.placeSoil(frame);
     const count = this.data.names ? this.data.names.length : 0;
     for (const { mesh, part } of this.parts) {
       const p = 7 * (frame * count + part), q = this.poses;

@@ -3,6 +3,7 @@
 """The report of a run on deformable soil."""
 import unittest
 
+import numpy
 from fixture import ROOT
 from report_pages import PageTest
 
@@ -30,7 +31,24 @@ class DeformableSoil(PageTest):
         titles = self.browser.value("report.plots.map(p => p.entry.title)")
         for title in ("Rut across", "Rut along", "Pressure under the tracks", "Energies of deformable soil"):
             self.assertIn(title, titles)
+        self.ruts_are_in_the_view()
         self.assertTrue(self.browser.value("[...document.images].every(i => i.complete && i.naturalWidth > 0)"))
+
+    def ruts_are_in_the_view(self):
+        """The surface at the end and in an earlier frame, to half a unit of 16 bits and the rounding of single precision."""
+        value = self.browser.value
+        drawn = "Array.from(report.space.soil.geometry.attributes.position.array)"
+        middle, unit = numpy.array(value("report.space.data.middle")), value("report.space.soil.unit")
+        with grouser.open_run("soil") as run:
+            self.assertGreater(run.frames[-1].soil("sinkage").max(), 100 * unit)
+            for k in (-1, len(run.frames) // 2):
+                value(f"report.space.show({k % len(run.frames)})")
+                surface = numpy.array(value(drawn)).reshape(-1, 3) + middle
+                place = dict(zip(map(tuple, surface[:, :2].round(3).tolist()), surface[:, 2]))
+                position = run.frames[k].soil("position").astype(float)
+                height = [place[tuple(node)] for node in position[:, :2].round(3).tolist()]
+                self.assertLess(numpy.abs(height - position[:, 2]).max(), 0.51 * unit + 1e-6)
+        self.assertEqual(value("report.space.scene.children.filter(c => c.isMesh && c.material.vertexColors).length"), 1)
 
 
 if __name__ == "__main__":

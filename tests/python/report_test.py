@@ -102,7 +102,7 @@ class Refused(FolderTest):
             (self.folder / "run" / name).write_bytes(whole)
         for name in ("manifest.json", "scene.toml", "results.h5"):
             (self.folder / "run" / name).rename(self.folder / "kept")
-            self.refuses("run", ["run: ", name, "run it again"], "--out", "damaged.html")
+            self.refuses("run", ["run: ", name, "from a copy"], "--out", "damaged.html")
             (self.folder / "kept").rename(self.folder / "run" / name)
         for name in ("results.h5", "frames.h5"):  # damage inside: opening the file does not detect it
             whole = (self.folder / "run" / name).read_bytes()
