@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
         Impossible{"StopThatStopsNothing", {"idler", "stop_stiffness", "1e-3"}, {"softer than the tensioner spring"}},
         Impossible{"SoftAsFoam", {"contact", "foundation_modulus", "1e6"}, {"a tenth of their 60 mm", "4.60e+07"}},
         Impossible{"HeavierThanAPlanet", {"chassis", "mass", "1e300"}, {"is outside [0.001, 1e+06]"}},
-        Impossible{"MassOfNothing", {"chassis", "mass", "nan"}, {"not finite; give"}},
+        Impossible{"MassOfNothing", {"chassis", "mass", "nan"}, {"not finite; use a finite number"}},
         Impossible{"InertiaBelowZero", {"shoe", "inertia", "[-1, 1, 1]"}, {"is outside (0, 1e+08]"}},
         Impossible{"BarOfDiamond", {"arm", "stiffness", "1e308"}, {"is outside [0, 1e+09]"}},
         Impossible{"NoMass", {"shoe", "mass", "0"}, {"is outside"}},

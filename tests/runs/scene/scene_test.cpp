@@ -239,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"SizeOfThree",
                "size = [6, 4]",
                "size = [6, 4, 1]",
-               {"terrain.size = [6, 4, 1]", "give two numbers [a, b]"}},
+               {"terrain.size = [6, 4, 1]", "expected two numbers [a, b]"}},
         Broken{"ZeroSize", "size = [6, 4]", "size = [6, 0]", {"terrain.size = [6, 0] [m] is outside (0, 100000]"}},
         Broken{"WhiteBelowBlack",
                "height_range = [0, 0.3]",

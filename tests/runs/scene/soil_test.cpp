@@ -171,7 +171,7 @@ TEST_F(Soils, MistakesInASoilsFileNameItsLine) {
   expectFileError("[0.008, 0.02]", "[0.015, 0.02]", {"does not include grain_radius = 0.01"});
   expectFileError("unit = \"deg\"", "unit = \"rad\"", {"loam.toml:22", "unit = \"rad\"", "unit = \"deg\""});
   expectFileError("low = 29", "low = 31", {"published.0.low", "exceeds value"});
-  expectFileError("quantity = \"phi\"", "quantity = \"ph\"", {"none of n, k_c", "did you mean \"phi\"?"});
+  expectFileError("quantity = \"phi\"", "quantity = \"ph\"", {"is not one of n, k_c", "did you mean \"phi\"?"});
   expectFileError("title = \"loam\"\n", "", {"[soil] lacks the required key title"});
   expectFileError("density = 2600", "soil = \"loam\"", {"loam.toml:7: material.soil", "is a key of scene files only"});
   expectFileError("stiffness = 2e5", "young = 2e5", {"loam.toml:9: material.young", "requires law = \"hertz\""});

@@ -120,7 +120,7 @@ TEST(TimeScales, TimeGivenTwiceIsAJumpThatNeedsNoSteps) {
             std::string::npos);
   std::string position = rotor("time = [0, 1, 1, 2]\nvalues = [0, 1, 5, 7]\n");
   position.replace(position.find("\"torque\""), 8, "\"position\"");
-  EXPECT_NE(errorOf(position).find("must increase, but does not at entry 2; sort it (a position cannot jump)"),
+  EXPECT_NE(errorOf(position).find("must increase, but does not at entry 2; sort the list (a position cannot jump)"),
             std::string::npos)
       << errorOf(position);
 }
