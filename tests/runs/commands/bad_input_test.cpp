@@ -21,7 +21,7 @@ namespace {
 /// Damaged scene files.
 std::vector<Mistake> sceneFiles() {
   return {
-      {"SceneMissing", nothing, "run nosuch.toml", {"nosuch.toml", "cannot be read", "check the path"}},
+      {"SceneMissing", nothing, "run nosuch.toml", {"nosuch.toml", "no such file", "check the path"}},
       {"SceneIsFolder",
        [](const fs::path& f) { fs::create_directory(f / "scene.toml"); },
        "run scene.toml",
