@@ -202,7 +202,8 @@ Document Document::load(const std::filesystem::path& path, const std::vector<std
   std::ifstream file(path, std::ios::binary);
   if (!file)
     throw InputError(fmt::format("{}: {}", path.string(),
-                                 there ? "cannot be read; check its permissions" : "no such file; check the path"));
+                                 there || error ? "cannot be read; check the path and its permissions"
+                                                : "no such file; check the path"));
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   return parse(text, path.string(), overrides);
 }

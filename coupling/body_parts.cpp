@@ -61,7 +61,7 @@ public:
   void addOnVehicle(ContactParts& all, std::size_t first) const {
     for (std::size_t part = 0; part < first; ++part) {
       const ContactPart& p = all.parts[part];
-      if (!p.touchesGround && all.surfaces[static_cast<std::size_t>(p.surface)]->spheres.empty()) continue;
+      if (!p.canTouchGround && all.surfaces[static_cast<std::size_t>(p.surface)]->spheres.empty()) continue;
       for (std::size_t j = 0; j < shapes_.size(); ++j) {
         const BodyShape& s = shapes_[j];
         if (!mayTouch(p.body, s.body)) continue;
@@ -115,7 +115,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
                          .foundation = ground < 0 ? contact::PatchLaw{} : laws.on(ground, s),
                          .material = ofVehicle + s.material,
                          .reach = norm(halfExtent(s.shape)) + norm(s.pose_B.position),
-                         .touchesGround = ground >= 0 && !body.fixed,
+                         .canTouchGround = ground >= 0 && !body.fixed,
                          .fixed = body.fixed,
                          .ofBody = true,
                          .shown = shown + s.body - setup.ofVehicle.bodies});

@@ -33,8 +33,8 @@ struct ContactPart {
   contact::PatchLaw foundation{}; ///< law of contacts with rigid ground
   int material{};                 ///< index of its material in the list for all parts
   double reach{};                 ///< bounding radius of the surface about its body's centre of mass [m]
-  bool meetsGrains = true;        ///< true: in contact with grains
-  bool touchesGround{};           ///< true: in contact with rigid ground as a foot; a hull touches it as an obstacle
+  bool canTouchGrains = true;     ///< true: in contact with grains
+  bool canTouchGround{};          ///< true: in contact with rigid ground as a foot; a hull touches it as an obstacle
   bool fixed{};                   ///< immovable body: no contact with surfaces at rest
   bool ofBody{};                  ///< belongs to a [[body]], not to the vehicle
   bool isHull{};                  ///< true: in contact with rigid ground as an obstacle

@@ -13,7 +13,7 @@ std::vector<contact::GrainPart> partsThatMeet(const ContactParts& parts, const G
   const int grainMaterials = static_cast<int>(setup.partLaws.massPerCube.size());
   std::vector<contact::GrainPart> all;
   for (const ContactPart& part : parts.parts)
-    all.push_back({part.surface, {}, {}, part.meetsGrains, part.material * grainMaterials, part.shape});
+    all.push_back({part.surface, {}, {}, part.canTouchGrains, part.material * grainMaterials, part.shape});
   return all;
 }
 

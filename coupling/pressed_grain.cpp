@@ -99,8 +99,8 @@ void addRigid(std::vector<PressedGrain::Presser>& by, const GroundSetup& setup,
 
 } // namespace
 
-PressedGrain excessiveOverlap(const terrain::Grains& grains, const GroundSetup& setup,
-                              const std::function<base::Pose(std::size_t)>& surfacePose, std::uint32_t id) {
+PressedGrain pressedGrain(const terrain::Grains& grains, const GroundSetup& setup,
+                          const std::function<base::Pose(std::size_t)>& surfacePose, std::uint32_t id) {
   const terrain::GrainSnapshot block = grains.snapshot();
   const std::optional<Found> own = findGrain(grains, block, id);
   if (!own) return {};

@@ -42,7 +42,7 @@ struct PressedGrain {
 
 /// Finds all contacts of grain `id` with grains, walls, floor and surfaces except meshes, at the end of a run.
 /// `surfacePose`: current pose of surface i. Collective.
-PressedGrain excessiveOverlap(const terrain::Grains& grains, const GroundSetup& setup,
-                              const std::function<base::Pose(std::size_t)>& surfacePose, std::uint32_t id);
+PressedGrain pressedGrain(const terrain::Grains& grains, const GroundSetup& setup,
+                          const std::function<base::Pose(std::size_t)>& surfacePose, std::uint32_t id);
 
 } // namespace grouser::coupling

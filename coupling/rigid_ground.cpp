@@ -20,7 +20,7 @@ LoadQuanta RigidGround::meet(const PartsOnGround& on) {
   std::vector<Contacts::Pair> pairs;
   std::vector<int> feet;
   for (std::size_t c = 0; c < on.parts.count(); ++c)
-    if (const ContactPart& part = on.parts.parts[c]; part.touchesGround)
+    if (const ContactPart& part = on.parts.parts[c]; part.canTouchGround)
       feet.push_back(static_cast<int>(c)), pairs.push_back({feet.back(), 0, part.foundation});
   feet_ = std::make_unique<Contacts>(Contacts::Model{on.quanta, on.timeStep}, on.parts.pointsOf(feet),
                                      on.parts.pointsOfPart(), std::vector{field}, pairs,

@@ -57,7 +57,7 @@ std::vector<scm::Pad> padsOf(const PartsOnGround& on) {
     for (const int body : on.vehicle->tracks[t].shoes)
       for (std::size_t c = 0; c < on.parts.count(); ++c)
         if (const ContactPart& part = on.parts.parts[c];
-            part.touchesGround && !part.ofBody && part.body == static_cast<std::size_t>(body)) {
+            part.canTouchGround && !part.ofBody && part.body == static_cast<std::size_t>(body)) {
           pad.part = static_cast<int>(c), pad.track = static_cast<int>(t);
           pads.push_back(pad);
         }
@@ -69,7 +69,7 @@ std::vector<scm::Solid> solidsOf(const PartsOnGround& on) {
   std::vector<scm::Solid> solids;
   for (std::size_t c = 0; c < on.parts.count(); ++c) {
     const ContactPart& part = on.parts.parts[c];
-    if (!part.touchesGround || !part.ofBody) continue;
+    if (!part.canTouchGround || !part.ofBody) continue;
     scm::Solid solid{.part = static_cast<int>(c), .half = halfExtent(part.shape)};
     if (part.mesh) {
       solid.gap = [mesh = part.mesh](const base::Vec3d& p) {

@@ -71,9 +71,9 @@ void ShapedGear::compute(const PartMotion* motion, contact::PartLoad* loads) {
         const std::size_t pair = track.firstPair + i * track.gear.size() + g;
         const Near near = nearby(motion, track.shoes[i], wheel, pair * kPatches);
         if (wheel.isSprocket)
-          meetSprocket(near);
+          collideSprocket(near);
         else
-          meetWheel(near);
+          collideWheel(near);
       }
     }
   pressRims();
@@ -98,7 +98,7 @@ ShapedGear::Near ShapedGear::nearby(const PartMotion* motion, int shoePart, cons
           {shoe.velocity - wheel.velocity - cross(wheel.spin, apart), shoe.spin - wheel.spin}};
 }
 
-void ShapedGear::meetWheel(const Near& near) {
+void ShapedGear::collideWheel(const Near& near) {
   // Most nearby wheels touch only the plates. Compare height and offset of the axle with the rim radius.
   const Vec3d apart = near.axle - near.origin;
   const double x = dot(apart, near.x), radius = near.of.radius;
@@ -176,7 +176,7 @@ void ShapedGear::collideHorn(const Near& near, double side, int patch) {
                  contact::pressFace(law_, patches_.timeStep(), face), loads_);
 }
 
-void ShapedGear::meetSprocket(const Near& near) {
+void ShapedGear::collideSprocket(const Near& near) {
   contact::BossInGap boss;
   boss.boss = near.origin + near.x * pin_;
   boss.alongX = near.x, boss.alongZ = near.z;

@@ -57,10 +57,10 @@ private:
   };
 
   Near nearby(const contact::PartMotion* motion, int shoe, const Wheel& wheel, std::size_t patches) const;
-  void meetWheel(const Near& near);
+  void collideWheel(const Near& near);
   void collidePlate(const Near& near, double level, double halfLength, double from, double to, int patch);
   void collideHorn(const Near& near, double side, int patch);
-  void meetSprocket(const Near& near);
+  void collideSprocket(const Near& near);
   void pressRims();
 
   contact::PatchLaw law_;

@@ -303,7 +303,7 @@ terrain::SoilFields fieldsOf(Simulation& s, const terrain::FieldGrid& grid) {
 
 /// Returns the grain that has stopped the run, with its contacts, including vehicle and meshes.
 PressedGrain Simulation::pressed(std::uint32_t grain) {
-  PressedGrain pressed = excessiveOverlap(
+  PressedGrain pressed = pressedGrain(
       *laid_.grains, setup_.ground, [this](std::size_t i) { return surfaces_->pose(i, steps_); }, grain);
   std::vector<std::pair<std::string, double>> parts;
   if (touching_) parts = granular_->onParts()->pressing(grain);
@@ -406,7 +406,7 @@ void Simulation::checkEnergy(const Ledger& now) {
     if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   if (vehicle_ && now.dissipated.ofParts() > now.dissipated.ofGrains())
-    remedy += "; shoe contacts dissipated most on " + maxDissipating(vehicle_->assembly(), vehicle_->save());
+    remedy += "; shoe contacts dissipated most on " + mostDissipatingPart(vehicle_->assembly(), vehicle_->save());
   throw EnergyAlarm(fmt::format("step {}, time {:.4g} s: {}; {}", steps_, time(), verdict, remedy));
 }
 

@@ -109,12 +109,12 @@ ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoe
                          .points = static_cast<int>(meshOfPart_[partOf(c)]),
                          .foundation = foundation,
                          .reach = reach_[c],
-                         .meetsGrains = isShoe || !shoesAlone,
+                         .canTouchGrains = isShoe || !shoesAlone,
                          .isHull = part.kind == vehicle::PartKind::kChassis,
                          .shown = partOf(c)});
   }
   for (const int part : assembly.groundParts)
-    all.parts[static_cast<std::size_t>(contactIndex(part))].touchesGround = true;
+    all.parts[static_cast<std::size_t>(contactIndex(part))].canTouchGround = true;
   all.pointSets = sets_.size();
   all.points = [this](int set) { return points(static_cast<std::size_t>(set)); };
   all.onObstacle = [](const ContactPart& part, const Obstacle& o) {

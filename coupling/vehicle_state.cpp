@@ -23,7 +23,7 @@ std::vector<std::uint32_t> VehicleState::words() const {
   return words;
 }
 
-std::string maxDissipating(const vehicle::Assembly& assembly, const VehicleState& state) {
+std::string mostDissipatingPart(const vehicle::Assembly& assembly, const VehicleState& state) {
   std::map<std::string, double> by;
   for (std::size_t k = 0; k < state.contacts.track.states.size(); ++k) {
     const vehicle::PartPair& pair = assembly.pairs[k / static_cast<std::size_t>(contact::kClusters)];

@@ -39,6 +39,6 @@ struct VehicleState {
 
 /// Message with the three largest dissipations in shoe contacts since the start [J], by sprocket, idler, wheels and
 /// rollers of each side, and rigid ground.
-std::string maxDissipating(const vehicle::Assembly& assembly, const VehicleState& state);
+std::string mostDissipatingPart(const vehicle::Assembly& assembly, const VehicleState& state);
 
 } // namespace grouser::coupling

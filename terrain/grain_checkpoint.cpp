@@ -178,10 +178,10 @@ GrainState GrainCheckpoint::state(const GrainSystem& system) {
   s.layout = system.constants.layout();
   s.total = static_cast<std::int64_t>(system.present()), s.gone = system.gone;
   s.skin = system.constants.model.skin, s.rebuilds = system.rebuilds;
-  s.energySums = system.accounting.save(system.comm);
+  s.ledgerSums = system.accounting.save(system.comm);
   if (system.impulses) {
     const std::vector<std::int64_t> words = system.impulses->totals().words();
-    s.energySums.insert(s.energySums.end(), words.begin(), words.end());
+    s.ledgerSums.insert(s.ledgerSums.end(), words.begin(), words.end());
   }
   saveFields(system.arrays, slots, s);
   saveMotion(system.arrays.fields(), slots, s);
@@ -268,7 +268,7 @@ void GrainCheckpoint::loadAsListed(GrainSystem& system) const {
   loadBoundarySprings(system);
   if (system.distribution) system.distribution->subdomain().forgetRoles();
   system.neighbours.forget();
-  std::vector<std::int64_t> sums = own_.energySums;
+  std::vector<std::int64_t> sums = own_.ledgerSums;
   // A state of penalty contacts has no solver totals.
   if (system.impulses && sums.size() == system.accounting.words() + ImpulseTotals::kWords) {
     system.impulses->setTotals(sums.data() + sums.size() - ImpulseTotals::kWords);

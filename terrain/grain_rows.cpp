@@ -51,7 +51,7 @@ std::vector<std::uint32_t> GrainState::words() const {
 GrainState GrainState::withoutRows() const {
   GrainState out;
   out.layout = layout, out.total = total, out.gone = gone, out.skin = skin, out.rebuilds = rebuilds,
-  out.energySums = energySums;
+  out.ledgerSums = ledgerSums;
   return out;
 }
 

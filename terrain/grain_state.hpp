@@ -57,7 +57,7 @@ struct GrainState {
 
   /// Energy accounting since the start (GrainEnergyAccounting), if there is a ledger; with complementarity contacts
   /// followed by the totals of their solver (ImpulseTotals).
-  std::vector<std::int64_t> energySums;
+  std::vector<std::int64_t> ledgerSums;
 
   // State at the last neighbour list, so that a resumed run builds the next list at the same step.
   std::vector<base::Vec3<std::uint32_t>> travelled; ///< [rows] displacement since then [units], as wrapping words

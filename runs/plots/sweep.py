@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a sweep: sweep.py SUMMARY.csv|INTERVALS.csv FILE.png
 
-Sinkage, slip, torque, tension and, if there is one, drawbar pull over the first swept key, one line per combination of
-the other keys; with INTERVALS.csv also error bars (95 % intervals over the seeds).
+Sinkage, slip, torque, tension and, if the vehicle pulls, drawbar pull and motion resistance over the first swept key,
+one line per combination of the other keys; with INTERVALS.csv also error bars (95 % intervals over the seeds).
 """
 import math
 
@@ -15,13 +15,14 @@ PANELS = (
     ("drive torque, both sprockets [N m]", 1, (("drive torque [N m]", "-", ""),)),
     ("track tension [N]", 1, (("tension mean [N]", "-", "mean"), ("tension peak [N]", "--", "peak"))),
 )
-# Added if a vehicle pulls a load or is held by a hitch.
+# Added if a drawbar pull exceeds this share of the gross traction; without a hitch, the pull is close to zero.
+PULL_SHARE = 0.05
 PULL_PANELS = (
     ("drawbar pull [N]", 1, (("drawbar pull [N]", "-", ""),)),
     ("motion resistance [N]", 1, (("motion resistance [N]", "-", ""),)),
 )
 NOTE = "Means over the steady part"
-OF_OTHER_FIGURES = "direction of motion changes: "  # prefix of a reason that does not apply to these panels
+OF_PULL = "direction of motion changes: "  # prefix of a reason that applies to the pull panels only
 
 
 def number(text):
@@ -42,18 +43,20 @@ def points(path):
         for row in table:
             if number(row["mean"]) is not None:
                 half = number(row["half width"])
-                one = number(row["mean"]), half if half is not None and math.isfinite(half) else math.nan, is_doubtful(row)
+                half = half if half is not None and math.isfinite(half) else math.nan
+                one = number(row["mean"]), half, is_doubtful(row, row["figure"])
                 found.setdefault(tuple(row[key] for key in keys), {})[row["figure"]] = one
         return keys, list(found.items()), True
     keys = names[1:names.index("status")]
-    return keys, [(tuple(row[key] for key in keys), {name: (number(text), math.nan, is_doubtful(row))
+    return keys, [(tuple(row[key] for key in keys), {name: (number(text), math.nan, is_doubtful(row, name))
                                                      for name, text in row.items() if number(text) is not None})
                   for row in table if row["status"] in ("finished", "incomplete")], False
 
 
-def is_doubtful(row):
+def is_doubtful(row, column):
     doubt = row.get("inconclusive") or ""
-    return row.get("status") == "incomplete" or bool(doubt) and not doubt.startswith(OF_OTHER_FIGURES)
+    applies = not doubt.startswith(OF_PULL) or column in [name for _, _, columns in PULL_PANELS for name, _, _ in columns]
+    return row.get("status") == "incomplete" or bool(doubt) and applies
 
 
 def curves(keys, rows):
@@ -64,9 +67,14 @@ def curves(keys, rows):
     return [(", ".join(f"{k} = {v}" for k, v in zip(keys[1:], values)), some) for values, some in found.items()]
 
 
-def note(rows, seeds):
+def has_pull(figures):
+    pull, traction = (figures.get(name, (math.nan,))[0] for name in ("drawbar pull [N]", "gross traction [N]"))
+    return abs(pull) > PULL_SHARE * abs(traction)
+
+
+def note(rows, seeds, panels):
     """Caption: the values shown, and the marks of inconclusive values."""
-    shown = [figures[column] for _, figures in rows for _, _, columns in PANELS for column, _, _ in columns if column in figures]
+    shown = [figures[column] for _, figures in rows for _, _, columns in panels for column, _, _ in columns if column in figures]
     text = NOTE + (" of each run" if not seeds else ", with 95 % intervals over the seeds"
                    if any(math.isfinite(half) for _, half, _ in shown) else ", without intervals: one seed each")
     return text + ("; crosses: inconclusive" if any(doubtful for _, _, doubtful in shown) else "")
@@ -80,8 +88,7 @@ def draw(path):
     words = list(dict.fromkeys(values[0] for values, _ in rows))
     numeric = all(number(word) is not None for word in words)
     place = {word: number(word) if numeric else index for index, word in enumerate(words)}  # text: evenly spaced
-    pulls = [figures["drawbar pull [N]"][0] for _, figures in rows if "drawbar pull [N]" in figures]
-    shown = PANELS + (PULL_PANELS if any(math.isfinite(pull) and pull != 0 for pull in pulls) else ())
+    shown = PANELS + (PULL_PANELS if any(has_pull(figures) for _, figures in rows) else ())
     figure = drawing.Figure(figsize=(8.0, 3.25 * len(shown) / 2))
     panels = figure.subplots(len(shown) // 2, 2, sharex=True).flatten()
     for axis, (label, factor, columns) in zip(panels, shown):
@@ -105,7 +112,7 @@ def draw(path):
     for axis in panels[-2:]:
         axis.set_xlabel(keys[0])
     panels[0].invert_yaxis()
-    figure.suptitle(note(rows, seeds), fontsize=9)
+    figure.suptitle(note(rows, seeds, shown), fontsize=9)
     drawing.legend_below(figure, panels)
     return figure
 

@@ -228,7 +228,7 @@ def figures(run, options):
         bar = "none"
         if checked and checked["bar"] is not None:
             parts = ", ".join([*(e["axis"].replace("_", " ") for e in checked["errors"]),
-                               *([counted(checked["seeds"], "seed")] if check["check"]["seeds_matter"] else [])])
+                               *([counted(checked["seeds"], "seed")] if check["check"].get("seeds_matter") else [])])
             bar = f'{figure_with_bar(checked["value"], checked["bar"], "", f"{plain} checked")} ({esc(parts)})'
         if value is not None:
             values[plain] = [value]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Grains and parts of a run over time for the 3-D view: a selection of frames and grains if there are many, positions
 as 16-bit integers, each shape once."""
+import math
 from types import SimpleNamespace
 
 import numpy
@@ -10,8 +11,7 @@ import grouser
 import page as pages
 from grouser.series import counted
 
-PLACES = 12e6  # maximum number of grain positions in all frames of a run; determines most of the page size
-HEIGHTS = 12e6  # maximum number of heights of deformable soil in all frames of a run; beyond it only the last frame
+PLACES = 12e6  # maximum number of grain positions, and of soil heights, in all frames of a run: most of the page
 LARGEST = 10e6  # page size up to which another run is added [bytes]; e-mail accepts 15 MB
 CODES = 65535  # number of codes of a coordinate; the last code marks absent grains
 
@@ -162,9 +162,10 @@ def add_grains(made, name, drawn, middle, data):
         "units": {"height": "m", "speed": "m/s", "moved": "m"}}
 
 
-def soil_of(frames, picked):
-    """Surface of deformable soil: vertices [v, 3] and triangles [t, 3] of the last frame, and heights [frames, v] [m].
-    A vertex that an earlier frame lacks was undisturbed there. None without deformable soil."""
+def soil_of(frames, picked, most):
+    """Surface of deformable soil: vertices [v, 3] and triangles [t, 3] of the last frame, and heights [1 + frames, v]
+    [m]: the undisturbed surface, then at most `most` heights of every `stride`-th frame up to the last. A vertex that
+    an earlier frame lacks was undisturbed there. None without deformable soil."""
     if not len(frames.parts):
         return None
     last = frames[picked[-1]]
@@ -172,24 +173,28 @@ def soil_of(frames, picked):
         vertices, triangles = last.soil("position"), last.soil("triangles")
     except KeyError:
         return None
-    kept = picked if len(picked) * len(vertices) <= HEIGHTS else picked[-1:]
-    heights = numpy.tile(vertices[:, 2] + last.soil("sinkage"), (len(kept), 1))
+    stride = max(1, math.ceil(len(picked) * len(vertices) / most))
+    kept = picked[::-stride][::-1]
+    heights = numpy.tile(vertices[:, 2] + last.soil("sinkage"), (1 + len(kept), 1))
     place = {node: k for k, node in enumerate(map(tuple, vertices[:, :2].tolist()))}
-    for row, k in zip(heights, kept):
+    for row, k in zip(heights[1:], kept):
         position = frames[k].soil("position")
         at = numpy.array([place.get(node, -1) for node in map(tuple, position[:, :2].tolist())])
         row[at[at >= 0]] = position[at >= 0, 2]
-    return SimpleNamespace(vertices=vertices, triangles=triangles, heights=heights)
+    return SimpleNamespace(vertices=vertices, triangles=triangles, heights=heights, stride=stride)
 
 
 def add_soil(made, name, soil, middle, data):
     low, high = float(soil.heights.min()), float(soil.heights.max())
     unit = (high - low) / CODES or 1.0
     codes = ((soil.heights - low) / unit).round().astype(numpy.uint16)
-    codes[1:] -= codes[:-1].copy()  # differences from the previous frame, which compress well
+    codes[1:] -= codes[:-1].copy()  # differences from the previous row, which compress well
     data["soil"] = {"vertices": made.array(f"{name}.soil", (soil.vertices - middle).astype(numpy.float32)),
                     "triangles": made.array(f"{name}.soil_corners", soil.triangles.astype(numpy.uint32)),
-                    "heights": made.array(f"{name}.heights", codes), "low": low - float(middle[2]), "unit": unit}
+                    "heights": made.array(f"{name}.heights", codes), "low": low - float(middle[2]), "unit": unit,
+                    "stride": soil.stride}
+    if soil.stride > 1:
+        data["words"] += f" The surface of the soil changes only once in {soil.stride} frames."
 
 
 class AtEnd:
@@ -233,7 +238,7 @@ def data_of(made, run, place, options, places):
     picked = chosen_frames(count, options.frames)
     drawn, total, left, lost = grains_of(made, frames, picked, options.grains, places)
     shapes = shapes_of(frames)
-    soil = soil_of(frames, picked)
+    soil = soil_of(frames, picked, places)
     ground = None if soil else frames.ground
     poses = numpy.array([frames[k].poses for k in picked]) if shapes else None
     if drawn is None and poses is None:
@@ -260,8 +265,6 @@ def data_of(made, run, place, options, places):
                                    "parts": parts, "clear": any(part in hiding for part in parts)})
     if soil:
         add_soil(made, name, soil, middle, data)
-        if len(soil.heights) < len(picked):
-            data["words"] += " The surface of the soil is that of the last frame in all frames."
     if ground is not None:
         vertices = made.array(f"{name}.ground", (ground.vertices - middle).astype(numpy.float32))
         steep = is_steep(ground) & (drawn is not None)

@@ -141,9 +141,9 @@ class Space {
     }
   }
 
-  /** Surface of deformable soil. The heights of a frame are differences from the previous frame. */
+  /** Surface of deformable soil. Heights: the undisturbed surface, then frames, as differences from the previous row. */
   addSoil(soil) {
-    const codes = report.arrays[soil.heights], [frames, count] = codes.shape;
+    const codes = report.arrays[soil.heights], [rows, count] = codes.shape;
     for (let i = count; i < codes.length; ++i) codes[i] += codes[i - count];
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[soil.vertices], 3));
@@ -152,14 +152,14 @@ class Space {
     const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide }));
     mesh.frustumCulled = false;
     this.scene.add(mesh);
-    this.soil = { codes, frames, count, geometry, low: soil.low, unit: soil.unit };
+    this.soil = { codes, rows, count, geometry, low: soil.low, unit: soil.unit, stride: soil.stride };
   }
 
-  /** Moves the soil to its heights in a frame; soil below its first height is darker. */
+  /** Moves the soil to its heights in a frame; soil below the undisturbed surface is darker. */
   placeSoil(frame) {
-    const { codes, frames, count, geometry, low, unit } = this.soil;
-    const { position, color } = geometry.attributes, brown = [0.74, 0.65, 0.5], last = (frames - 1) * count;
-    const begin = Math.min(frame, frames - 1) * count;
+    const { codes, rows, count, geometry, low, unit, stride } = this.soil;
+    const { position, color } = geometry.attributes, brown = [0.74, 0.65, 0.5], last = (rows - 1) * count;
+    const begin = Math.max(0, rows - 1 - Math.ceil((this.time.length - 1 - frame) / stride)) * count;
     let deepest = 1;
     for (let i = 0; i < count; ++i) deepest = Math.max(deepest, codes[i] - codes[last + i]);
     for (let i = 0; i < count; ++i) {

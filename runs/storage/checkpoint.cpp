@@ -107,7 +107,7 @@ template <class Archive, class State> void exchange(Archive& archive, State& s) 
         [&](const char* name, auto& column) { archive.perContact(path(name).c_str(), column, g.contacts); });
     archive("/grains/skin", g.skin);
     archive("/grains/rebuilds", g.rebuilds);
-    archive("/grains/books", g.energySums);
+    archive("/grains/books", g.ledgerSums);
   }
   if (archive.present("/surfaces", s.surfaces)) {
     archive("/surfaces/states", s.surfaces->surfaces);

@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -151,14 +152,16 @@ std::string nearestOptionHint(const CLI::App& app, int argc, const char* const* 
     std::vector<std::string> owners;
     for (const CLI::App* sub : app.get_subcommands(all))
       if (sub->get_option_no_throw(option)) owners.push_back(sub->get_name());
-    if (!owners.empty()) return fmt::format("; {} is an option of: {}", option, fmt::join(owners, ", "));
     std::vector<std::string> names;
     for (const CLI::Option* o : level->get_options())
       for (const std::string& name : o->get_lnames()) names.push_back("--" + name);
     const std::string nearest = base::nearestWord(option, names);
-    const bool isNear = base::editDistance(option, nearest) <= 1 + static_cast<int>(option.size()) / 4;
-    const bool isCut = nearest.starts_with(option) || option.starts_with(nearest);
-    return !nearest.empty() && (isNear || isCut) ? fmt::format("; did you mean {}?", nearest) : "";
+    const int edits = nearest.empty() ? std::numeric_limits<int>::max() : base::editDistance(option, nearest);
+    const bool isCut = !nearest.empty() && (nearest.starts_with(option) || option.starts_with(nearest));
+    // One letter is a slip; more may be an option of another command.
+    if (!owners.empty() && edits > 1 && !isCut)
+      return fmt::format("; {} is an option of: {}", option, fmt::join(owners, ", "));
+    return isCut || edits <= 1 + static_cast<int>(option.size()) / 4 ? fmt::format("; did you mean {}?", nearest) : "";
   }
   return "";
 }

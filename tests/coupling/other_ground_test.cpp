@@ -42,7 +42,7 @@ public:
     const vehicle::ShoeSpec& spec = on.vehicle->spec.shoe;
     for (std::size_t part = 0; part < on.parts.count(); ++part)
       for (const double x : kEdges)
-        if (on.parts.parts[part].touchesGround) edges_.push_back({part, {x, 0, spec.padBottom - spec.grouserHeight}});
+        if (on.parts.parts[part].canTouchGround) edges_.push_back({part, {x, 0, spec.padBottom - spec.grouserHeight}});
     // Per edge: contact flag, x and y of the touchdown [m]; at the end the dissipated energy [J].
     const std::size_t numbers = 3 * edges_.size() + 1;
     if (!state_.empty() && state_.size() != numbers)

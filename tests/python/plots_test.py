@@ -169,9 +169,9 @@ class Doubtful(FolderTest):
             (self.folder / "intervals.csv").write_text(intervals)
         return grouser.open_sweep(self.folder)
 
-    def slips(self, table):
+    def slips(self, table, label="slip [-]"):
         figure = sweep.draw(table)
-        panel = next(axes for axes in figure.axes if axes.get_ylabel() == "slip [-]")
+        panel = next(axes for axes in figure.axes if axes.get_ylabel() == label)
         bars = [bar for container in panel.containers for bar in container[2]]
         found = {}
         for line in panel.lines:
@@ -184,6 +184,16 @@ class Doubtful(FolderTest):
         marks, title, _ = self.slips("summary.csv")
         self.assertEqual(marks, {"o": [(2, 0.1), (4, 0.2)], "x": [(1, 0.9), (3, 0.8)]})
         self.assertIn("crosses: inconclusive", title)
+
+    def test_a_pull_has_a_panel_with_the_crosses_of_a_reversed_run(self):
+        def table(traction):
+            text = SUMMARY.replace("pull [N],", "pull [N],gross traction [N],", 1)
+            (self.folder / "pull.csv").write_text(re.sub(r"(\d\d),([xyzw])\n", rf"\1,{traction},\2\n", text))
+            return "pull.csv"
+        marks, title, _ = self.slips(table(100), "drawbar pull [N]")
+        self.assertEqual(marks, {"o": [(2, 60)], "x": [(1, 50), (3, 70), (4, 80)]})
+        self.assertEqual(len(sweep.draw(table(100)).axes), 6)
+        self.assertEqual(len(sweep.draw(table(10000)).axes), 4, "without a hitch the pull is close to zero")
 
     def test_means_have_no_bar_where_the_interval_is_not_known(self):
         self.written(INTERVALS)

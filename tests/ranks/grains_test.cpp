@@ -175,7 +175,7 @@ TEST(GrainsOnRanks, EqualBitsAboveAFloorOfFixedGrains) {
     Grains alone(base::cpuExec(1), m, sides, start), grains(base::cpuExec(1), m, sides, start, shared({}, true));
     advance(alone, 1200), advance(grains, 1200);
     EXPECT_EQ(allWords(grains), alone.state().words());
-    EXPECT_EQ(grains.state().energySums, alone.state().energySums);
+    EXPECT_EQ(grains.state().ledgerSums, alone.state().ledgerSums);
     EXPECT_GT(alone.ledger().impulse.z, 0) << "they have bounced";
     EXPECT_EQ(grains.ledger().contacts, alone.ledger().contacts);
     EXPECT_EQ(norm(grains.ledger().impulse - alone.ledger().impulse), 0);
@@ -298,7 +298,7 @@ TEST(GrainsOnRanks, EqualBitsWhenResumedFromAnyBlockOfRows) {
   const GrainState again = second.state();
   EXPECT_EQ(again.words(), saved.words());
   EXPECT_EQ(again.travelled, saved.travelled);
-  EXPECT_EQ(again.energySums, saved.energySums);
+  EXPECT_EQ(again.ledgerSums, saved.ledgerSums);
   second.setSteps(1234);
   advance(second, kSteps - 1234);
   EXPECT_EQ(allWords(second), expected());

@@ -42,7 +42,7 @@ PressedGrain pressedIn(const std::string& text, std::uint32_t id) {
   const scene::Scene scene = setup::parseScene(text, "scene.toml");
   const SimulationSetup setup = setup::simulationSetup(scene);
   const LaidGround ground = buildGround(setup.ground, base::cpuExec(1));
-  return excessiveOverlap(
+  return pressedGrain(
       *ground.grains, setup.ground, [&](std::size_t i) { return setup.ground.surfaces[i].start; }, id);
 }
 

@@ -70,6 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, OneAnswerScenes,
                                            Golden{"rain", 5000, "8a17bedf97e980b9", {"run.skin=0.7"}},
                                            Golden{"mixture", 1500, "1742bd9c0aae9052", {"run.skin=0.5"}},
                                            Golden{"cohesive", 4000, "ceff62949db09252", {"run.skin=0.5"}},
+                                           Golden{"fluid", 150, "da6a4216243b45df", {}},
                                            Golden{"bed", 500, "c58144d619c8531b", {"run.skin=0.6"}}),
                          [](const ::testing::TestParamInfo<Golden>& each) { return std::string(each.param.scene); });
 

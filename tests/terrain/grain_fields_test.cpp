@@ -52,7 +52,7 @@ TEST(GrainFields, StateNamesEachColumnForHashAndFiles) {
   EXPECT_EQ(row.places, inFiles);
   const std::size_t columns = inFiles.size() + 1; // and `id`
   EXPECT_EQ(sizeof(GrainState), sizeof(GrainLayout) + sizeof state.total + sizeof(decltype(state.gone)) +
-                                    columns * sizeof(std::vector<int>) + sizeof(decltype(state.energySums)) +
+                                    columns * sizeof(std::vector<int>) + sizeof(decltype(state.ledgerSums)) +
                                     sizeof state.skin + sizeof state.rebuilds);
 }
 

@@ -144,7 +144,7 @@ std::vector<std::uint32_t> wordsAfter(const LaneKind& kind, int lanes, int threa
   EXPECT_TRUE(skin > 0.2 || grains.system().rebuilds > 5) << "the list was rebuilt during the run";
   const GrainState state = grains.state();
   std::vector<std::uint32_t> words = state.words();
-  for (const std::int64_t sum : state.energySums)
+  for (const std::int64_t sum : state.ledgerSums)
     words.push_back(static_cast<std::uint32_t>(sum)), words.push_back(static_cast<std::uint32_t>(sum >> 32));
   return words;
 }

@@ -34,7 +34,7 @@ TEST(GrainRemoval, OfAGrainThatTouchesNothingChangesNoBitOfTheOthers) {
     if (!remove) s.remove({apart});
     EXPECT_EQ(s.gone, std::vector{apart});
     EXPECT_EQ(s.id.back(), start.size() - 1);
-    s.energySums.clear();
+    s.ledgerSums.clear();
     return s.words();
   };
   EXPECT_EQ(run(true), run(false));

@@ -12,7 +12,7 @@ namespace grouser::terrain {
 inline std::vector<std::uint32_t> wordsOf(const Grains& grains) {
   const GrainState state = grains.state();
   std::vector<std::uint32_t> words = state.words();
-  for (const std::int64_t sum : state.energySums)
+  for (const std::int64_t sum : state.ledgerSums)
     words.push_back(static_cast<std::uint32_t>(sum)), words.push_back(static_cast<std::uint32_t>(sum >> 32));
   return words;
 }

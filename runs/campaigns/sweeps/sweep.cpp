@@ -35,10 +35,11 @@ std::string inconclusiveText(const SweepPlan& plan, const SweepFigures& figures)
   return fmt::format("WARNING: {} of {} runs {} inconclusive ({})\n", count, plan.runs.size(),
                      count == 1 ? "is" : "are", first);
 }
-std::string shortRunsText(const SweepFigures& figures, const std::vector<SweepOutcome>& outcomes) {
+std::string shortRunsText(const SweepPlan& plan, const SweepFigures& figures,
+                          const std::vector<SweepOutcome>& outcomes) {
   int finished = 0, tooShort = 0;
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (!output::hasEnded(outcomes[i].status)) continue;
+    if (!output::hasEnded(outcomes[i].status) || !plan.runs[i].scene.vehicle) continue;
     ++finished;
     if (!std::isfinite(figures.from[i])) ++tooShort;
   }
@@ -103,7 +104,7 @@ int runSweep(const SweepPlan& given, const SweepOptions& options) {
     fmt::print("intervals {}\n", tables.back().string());
   }
   fmt::print("summary   {}\n", tables.front().string());
-  fmt::print("{}", shortRunsText(figures, outcomes));
+  fmt::print("{}", shortRunsText(plan, figures, outcomes));
   if (options.plot) output::drawPicture("sweep.py", {tables.back()}, options.folder / kSummaryPlot);
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const SweepOutcome& o) { return o.status == output::RunStatus::failed; });

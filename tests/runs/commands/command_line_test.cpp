@@ -101,6 +101,7 @@ TEST_F(CommandLine, AnOptionOfOtherCommandsNamesThem) {
   EXPECT_NE(errors.find("; --seeds is an option of: "), std::string::npos) << errors;
   for (const char* const command : {"sweep", "compare", "check"})
     EXPECT_NE(errors.find(command), std::string::npos) << errors;
+  EXPECT_NE(call("compare grain.toml --ground rigid,scm").errors.find("; did you mean --grounds?"), std::string::npos);
   EXPECT_NE(call("run grain.toml --thread 1").errors.find("; did you mean --threads?"), std::string::npos);
 }
 

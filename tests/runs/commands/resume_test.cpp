@@ -123,7 +123,7 @@ protected:
     EXPECT_EQ(c.rows, d.rows);
     EXPECT_EQ(c.frames, d.frames);
     EXPECT_EQ(c.state.grains->rebuilds, d.state.grains->rebuilds);
-    EXPECT_EQ(c.state.grains->energySums, d.state.grains->energySums);
+    EXPECT_EQ(c.state.grains->ledgerSums, d.state.grains->ledgerSums);
   }
 
   fs::path resumed_; ///< the folder of the resumed run

@@ -131,7 +131,7 @@ const NamedChange kHashed[] = {
 /// Sums for rows and alarms: without effect on the next step.
 const NamedChange kUnhashed[] = {
     {"travel since the list", [](coupling::SimulationState& s) { s.grains->travelled[1].x ^= 1; }},
-    {"books", [](coupling::SimulationState& s) { s.grains->energySums[1] += 1; }},
+    {"books", [](coupling::SimulationState& s) { s.grains->ledgerSums[1] += 1; }},
     {"energy guard", [](coupling::SimulationState& s) { s.guard[1] += 1; }},
     {"ledger at the start", [](coupling::SimulationState& s) { s.ledgerAtStart[1] += 1; }},
     {"crossings", [](coupling::SimulationState& s) { s.grains->crossings[1].y += 1; }},
