@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/commands/plan.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/setup/meeting_pairs.hpp"
+#include "runs/setup/material_pairs.hpp"
 #include "runs/setup/scene_surfaces.hpp"
 #include "runs/setup/scm_constants.hpp"
 #include "runs/setup/scm_setup.hpp"

@@ -62,7 +62,7 @@ void addPlanOptions(CLI::App& soil, PlanKeys& keys) {
   keys.add(soil, "--depth", &PlanOptions::depth, support::between(0.5, 100), "bed depth [plate widths]");
   keys.add(soil, "--thickness", &PlanOptions::thickness, support::between(3.5, 1000),
            "bed thickness along the strip [mean grain diameters]");
-  keys.add(soil, "--pressure", &PlanOptions::greatestPressure, support::between(1e3, 1e7),
+  keys.add(soil, "--pressure", &PlanOptions::maxPressure, support::between(1e3, 1e7),
            "maximum plate pressure [Pa]; the test ends earlier if the sinkage reaches 0.3 plate widths");
   keys.add(soil, "--inertial-number", &PlanOptions::inertialNumber, support::between(1e-6, 0.1),
            "inertial number of the plate tests: (speed / width) d sqrt(density / pressure) [-]");

@@ -21,6 +21,7 @@ PULL_PANELS = (
     ("drawbar pull [N]", 1, (("drawbar pull [N]", "-", ""),)),
     ("motion resistance [N]", 1, (("motion resistance [N]", "-", ""),)),
 )
+PULLS = {column for _, _, columns in PULL_PANELS for column, _, _ in columns}
 NOTE = "Means over the steady part"
 OF_PULL = "direction of motion changes: "  # prefix of a reason that applies to the pull panels only
 
@@ -55,8 +56,7 @@ def points(path):
 
 def is_doubtful(row, column):
     doubt = row.get("inconclusive") or ""
-    applies = not doubt.startswith(OF_PULL) or column in [name for _, _, columns in PULL_PANELS for name, _, _ in columns]
-    return row.get("status") == "incomplete" or bool(doubt) and applies
+    return row.get("status") == "incomplete" or bool(doubt) and (column in PULLS or not doubt.startswith(OF_PULL))
 
 
 def curves(keys, rows):

@@ -138,6 +138,12 @@ def box_of(places, corners, ground):
     return points.min(axis=0), points.max(axis=0)
 
 
+def differences(codes):
+    """Each frame as the difference from the previous frame, modulo 65536: zeros where nothing moves compress well."""
+    codes[1:] = codes[1:] - codes[:-1]
+    return codes
+
+
 def add_grains(made, name, drawn, middle, data):
     places, radius = drawn["places"] - middle, drawn["radius"]
     low = numpy.nanmin(places, axis=(0, 1))
@@ -145,8 +151,7 @@ def add_grains(made, name, drawn, middle, data):
     there = numpy.isfinite(places)
     codes = numpy.full(places.shape, CODES, dtype=numpy.uint16)
     codes[there] = ((places - low) / unit).round()[there].astype(numpy.uint16)
-    codes = codes.transpose(0, 2, 1).copy()
-    codes[1:] = codes[1:] - codes[:-1]  # modulo 65536; zeros for grains at rest, which compress well
+    codes = differences(codes.transpose(0, 2, 1).copy())
     fastest = float(drawn["speed"].max())
     moved = numpy.linalg.norm(drawn["places"] - drawn["places"][0], axis=2)
     most_moved = float(numpy.nanquantile(moved, 0.99)) if numpy.isfinite(moved).any() else 0.0
@@ -160,6 +165,11 @@ def add_grains(made, name, drawn, middle, data):
                    "speed": [0.0, float(numpy.quantile(drawn["speed"], 0.995)) or fastest or 1.0],
                    **({"moved": [0.0, most_moved or 1.0]} if len(places) > 1 else {})},
         "units": {"height": "m", "speed": "m/s", "moved": "m"}}
+
+
+def nodes_of(vertices):
+    """One number for the x and y of each vertex."""
+    return numpy.ascontiguousarray(vertices[:, :2], dtype=numpy.float32).view(numpy.complex64)[:, 0]
 
 
 def soil_of(frames, picked, most):
@@ -176,19 +186,21 @@ def soil_of(frames, picked, most):
     stride = max(1, math.ceil(len(picked) * len(vertices) / most))
     kept = picked[::-stride][::-1]
     heights = numpy.tile(vertices[:, 2] + last.soil("sinkage"), (1 + len(kept), 1))
-    place = {node: k for k, node in enumerate(map(tuple, vertices[:, :2].tolist()))}
+    nodes = nodes_of(vertices)
+    order = numpy.argsort(nodes)
     for row, k in zip(heights[1:], kept):
         position = frames[k].soil("position")
-        at = numpy.array([place.get(node, -1) for node in map(tuple, position[:, :2].tolist())])
-        row[at[at >= 0]] = position[at >= 0, 2]
+        found = numpy.searchsorted(nodes, nodes_of(position), sorter=order)
+        at = order[numpy.minimum(found, len(nodes) - 1)]
+        here = nodes[at] == nodes_of(position)
+        row[at[here]] = position[here, 2]
     return SimpleNamespace(vertices=vertices, triangles=triangles, heights=heights, stride=stride)
 
 
 def add_soil(made, name, soil, middle, data):
     low, high = float(soil.heights.min()), float(soil.heights.max())
     unit = (high - low) / CODES or 1.0
-    codes = ((soil.heights - low) / unit).round().astype(numpy.uint16)
-    codes[1:] -= codes[:-1].copy()  # differences from the previous row, which compress well
+    codes = differences(((soil.heights - low) / unit).round().astype(numpy.uint16))
     data["soil"] = {"vertices": made.array(f"{name}.soil", (soil.vertices - middle).astype(numpy.float32)),
                     "triangles": made.array(f"{name}.soil_corners", soil.triangles.astype(numpy.uint32)),
                     "heights": made.array(f"{name}.heights", codes), "low": low - float(middle[2]), "unit": unit,

@@ -11,6 +11,19 @@ function colourOf(share, out, at) {
   for (let c = 0; c < 3; ++c) out[at + c] = kColours[k][c] * (1 - t) + kColours[k + 1][c] * t;
 }
 
+/** Restores frames of `size` codes that are stored as differences from the previous frame. */
+function addUp(codes, size) {
+  for (let i = size; i < codes.length; ++i) codes[i] += codes[i - size];
+}
+
+/** Geometry of a mesh with its vertices and triangles. */
+function geometryOf(mesh) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[mesh.vertices], 3));
+  geometry.setIndex(new THREE.BufferAttribute(report.arrays[mesh.triangles], 1));
+  return geometry;
+}
+
 /** Material options of a part, transparent if it would hide the grains. */
 function clearness(clear) {
   return { transparent: !!clear, depthWrite: !clear, opacity: clear ? 0.2 : 1 };
@@ -90,8 +103,7 @@ class Space {
   addGrains(g) {
     const codes = report.arrays[g.places];
     const [frames, , count] = codes.shape;
-    // Each frame is stored as the difference from the previous frame.
-    for (let i = 3 * count; i < codes.length; ++i) codes[i] += codes[i - 3 * count];
+    addUp(codes, 3 * count);
     this.grains = { codes, count, frames, speed: report.arrays[g.speed], ...g };
     this.grains.speed = report.arrays[g.speed];
     const geometry = new THREE.BufferGeometry();
@@ -113,9 +125,7 @@ class Space {
     this.parts = [];
     const colours = { shoe: 0x6d7278, sprocket: 0xd98a3d, wheel: 0xb7bcc2, chassis: 0x7f9bb8 };
     for (const shape of data.shapes || []) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[shape.vertices], 3));
-      geometry.setIndex(new THREE.BufferAttribute(report.arrays[shape.triangles], 1));
+      const geometry = geometryOf(shape);
       const flat = geometry.toNonIndexed();
       flat.computeVertexNormals();
       for (const part of shape.parts) {
@@ -132,9 +142,7 @@ class Space {
     this.poses = data.poses ? report.arrays[data.poses] : null;
     if (data.soil) this.addSoil(data.soil);
     for (const ground of data.grounds || []) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[ground.vertices], 3));
-      geometry.setIndex(new THREE.BufferAttribute(report.arrays[ground.triangles], 1));
+      const geometry = geometryOf(ground);
       geometry.computeVertexNormals();
       this.scene.add(new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: 0xb59f7a, side: THREE.DoubleSide,
         ...clearness(ground.clear) })));
@@ -144,24 +152,22 @@ class Space {
   /** Surface of deformable soil. Heights: the undisturbed surface, then frames, as differences from the previous row. */
   addSoil(soil) {
     const codes = report.arrays[soil.heights], [rows, count] = codes.shape;
-    for (let i = count; i < codes.length; ++i) codes[i] += codes[i - count];
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(report.arrays[soil.vertices], 3));
+    addUp(codes, count);
+    let deepest = 1;
+    for (let i = 0; i < count; ++i) deepest = Math.max(deepest, codes[i] - codes[(rows - 1) * count + i]);
+    const geometry = geometryOf(soil);
     geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
-    geometry.setIndex(new THREE.BufferAttribute(report.arrays[soil.triangles], 1));
     const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide }));
     mesh.frustumCulled = false;
     this.scene.add(mesh);
-    this.soil = { codes, rows, count, geometry, low: soil.low, unit: soil.unit, stride: soil.stride };
+    this.soil = { codes, rows, count, deepest, geometry, low: soil.low, unit: soil.unit, stride: soil.stride };
   }
 
   /** Moves the soil to its heights in a frame; soil below the undisturbed surface is darker. */
   placeSoil(frame) {
-    const { codes, rows, count, geometry, low, unit, stride } = this.soil;
-    const { position, color } = geometry.attributes, brown = [0.74, 0.65, 0.5], last = (rows - 1) * count;
+    const { codes, rows, count, deepest, geometry, low, unit, stride } = this.soil;
+    const { position, color } = geometry.attributes, brown = [0.74, 0.65, 0.5];
     const begin = Math.max(0, rows - 1 - Math.ceil((this.time.length - 1 - frame) / stride)) * count;
-    let deepest = 1;
-    for (let i = 0; i < count; ++i) deepest = Math.max(deepest, codes[i] - codes[last + i]);
     for (let i = 0; i < count; ++i) {
       position.array[3 * i + 2] = low + unit * codes[begin + i];
       const light = 1 - 0.5 * Math.max(0, codes[i] - codes[begin + i]) / deepest;

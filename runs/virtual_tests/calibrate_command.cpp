@@ -116,7 +116,7 @@ private:
 
   /// Minimum stiffness [N/m] or Young's modulus [Pa] that satisfies the overlap limit.
   double softest() const {
-    const double d = 2 * soil_.grainRadius, p = command_.plan.greatestPressure;
+    const double d = 2 * soil_.grainRadius, p = command_.plan.maxPressure;
     if (soil_.young == 0) return p * d / kDeepest;
     // F = p d^2 = 4/3 E* sqrt(d / 4) overlap^(3/2), E* = E / 2 / (1 - nu^2).
     const double overlap = kDeepest * d;

@@ -98,7 +98,7 @@ void CurveCalibration::finish() {
   output::drawPicture("plate_curves.py", {tables / "curves.csv", tables / "points.csv"}, folder_ / "curves.png");
   const std::string call =
       fmt::format("grouser soil --calibrate {}{} --seeds {} --pressure {:g}", bed_.soil.file.filename().string(),
-                  command_.place.quick ? " --quick" : "", command_.plan.seeds, command_.plan.greatestPressure);
+                  command_.place.quick ? " --quick" : "", command_.plan.seeds, command_.plan.maxPressure);
   const std::string file = bed_.soil.name + ".toml";
   support::replaceTextFile(
       folder_ / file, soilFileText(bed_.soil, fmt::format("Calibrated by `{}` on beds {:g} m deep.", call, bed_.depth),

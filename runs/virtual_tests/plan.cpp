@@ -55,8 +55,8 @@ double volumeOf(const Soil& soil, const PlateSinkage& plate) {
 double plateCost(const Soil& soil, const PlateSinkage& plate) {
   const double lifts = plate.strip.depth * plate.strip.breadth / plate.lift;
   const double d = soil.grains.diameter(), breadth = plate.strip.breadth * d;
-  const double way = std::min(1.2 * plate.strip.sinkage * breadth,
-                              d + kYielding * breadth * plate.greatestPressure / plate.firstModulus);
+  const double way =
+      std::min(1.2 * plate.strip.sinkage * breadth, d + kYielding * breadth * plate.maxPressure / plate.firstModulus);
   const double push = way / std::sqrt(plate.pace(soil).first() * plate.fastest(soil));
   return volumeOf(soil, plate) / soil.meanVolume() * (plate.strip.coarsening > 0 ? 0.3 : 1.0) *
          (0.6 * kLiftFall * std::max(1.0, lifts) + push);
@@ -208,11 +208,11 @@ TestPlan planOf(const TestedSoil& soil, const PlanOptions& options) {
   plan.grains.spread = soil.spread, plan.grains.preparationFriction = soil.friction;
   plan.grains.stepsPerContact = options.stepsPerContact;
   plan.grains.impactSpeed = impactLikePressure(
-      soil, std::max(options.greatestPressure, *std::max_element(options.loads.begin(), options.loads.end())));
+      soil, std::max(options.maxPressure, *std::max_element(options.loads.begin(), options.loads.end())));
   PlateTest& small = plan.small.strip;
   small.breadth = options.plateGrains, small.bin = options.bin, small.depth = options.depth;
   small.thickness = options.thickness, small.inertialNumber = options.inertialNumber;
-  plan.small.greatestPressure = options.greatestPressure;
+  plan.small.maxPressure = options.maxPressure;
   plan.small.added = options.plateWaves * kTrackPressure, plan.small.firstModulus = modulusOfColumns(soil);
   plan.wide = plan.large = plan.small;
   plan.wide.strip.bin *= 2;
@@ -251,7 +251,7 @@ nlohmann::ordered_json TestPlan::recipe() const {
       {"depth", options.depth},
       {"thickness_d", options.thickness},
       {"graded_thickness_d", large.strip.coarsening > 0 ? options.gradedThickness : 0.0},
-      {"most_pressure_Pa", options.greatestPressure},
+      {"most_pressure_Pa", options.maxPressure},
       {"inertial_number", options.inertialNumber},
       {"plate_waves", options.plateWaves},
       {"steps_per_contact", options.stepsPerContact},

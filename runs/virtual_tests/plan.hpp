@@ -39,7 +39,7 @@ struct PlanOptions {
   double shearStrain = 0.4;                                   ///< [-]
   double shearHeight = 0.14;                                  ///< [m] height of a shear sample, at least ten grains
   std::vector<double> loads = {10e3, 25e3, 50e3, 100e3};      ///< [Pa] normal stresses of the shear tests
-  double greatestPressure = 100e3;                            ///< [Pa] maximum pressure of the plates
+  double maxPressure = 100e3;                                 ///< [Pa] maximum pressure of the plates
   int seeds = 8, largeSeeds = 3;
   int reposeSeeds = 0;      ///< number of tilted beds
   MeasuredPlatesBed plates; ///< one test per plate and seed

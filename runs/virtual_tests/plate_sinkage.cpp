@@ -115,7 +115,7 @@ double recentPressure(const std::vector<std::vector<double>>& rows, double phase
 class Course {
 public:
   Course(Press& press, const PlateSinkage& test, const PlatePace& pace, const PlateProgress& report)
-      : press_(press), pace_(pace), tell_(report), most_(test.greatestPressure),
+      : press_(press), pace_(pace), report_(report), most_(test.maxPressure),
         deepest_(test.strip.sinkage * pace.breadth), step_(deepest_ / kRows) {}
 
   std::vector<std::vector<double>> rows() {
@@ -124,9 +124,9 @@ public:
     hold();
     begin(-1);
     while (press_.sinkage() > turned - kBack * pace_.breadth && !(recentPressure(rows_, 1) < kUnloaded * most))
-      row(1, step_ / kFiner), tell_(1 - 0.07 * (1 - kBedShare), "unloading");
+      row(1, step_ / kFiner), report_(1 - 0.07 * (1 - kBedShare), "unloading");
     begin(1);
-    while (press_.sinkage() < turned + step_) row(2, step_ / kFiner), tell_(1, "reloading");
+    while (press_.sinkage() < turned + step_) row(2, step_ / kFiner), report_(1, "reloading");
     press_.check();
     return std::move(rows_);
   }
@@ -138,7 +138,7 @@ private:
       row(0, step_);
       reached = recentPressure(rows_, 0);
       const double share = std::max(press_.sinkage() / deepest_, reached / most_);
-      tell_(kBedShare + (1 - kBedShare) * 0.9 * std::clamp(share, 0.0, 1.0), "loading");
+      report_(kBedShare + (1 - kBedShare) * 0.9 * std::clamp(share, 0.0, 1.0), "loading");
     }
   }
 
@@ -169,7 +169,7 @@ private:
 
   Press& press_;
   PlatePace pace_;
-  const PlateProgress& tell_;
+  const PlateProgress& report_;
   double most_, deepest_, step_;
   std::vector<std::vector<double>> rows_;
   std::vector<double> sinkage_, pressure_; ///< rows of the present phase

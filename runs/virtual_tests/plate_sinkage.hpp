@@ -11,11 +11,11 @@ namespace grouser::virtual_tests {
 
 struct PlateSinkage {
   PlateTest strip;
-  double greatestPressure = 100e3; ///< [Pa] pressure at which loading ends, unless strip.sinkage is reached first
-  double lift = 12;                ///< [d] thickness of the lifts, for all breadths
-  double quiet = 20e3;             ///< [Pa] reference pressure of strip.inertialNumber
-  double added = 2e3;              ///< [Pa] pressure that waves may add (PlatePace)
-  double firstModulus = 1e6;       ///< [Pa] initial estimate of the modulus of the bed, for the initial speed
+  double maxPressure = 100e3; ///< [Pa] pressure at which loading ends, unless strip.sinkage is reached first
+  double lift = 12;           ///< [d] thickness of the lifts, for all breadths
+  double quiet = 20e3;        ///< [Pa] reference pressure of strip.inertialNumber
+  double added = 2e3;         ///< [Pa] pressure that waves may add (PlatePace)
+  double firstModulus = 1e6;  ///< [Pa] initial estimate of the modulus of the bed, for the initial speed
 
   double fastest(const Soil& soil) const; ///< [m/s] maximum speed, from strip.inertialNumber
   PlatePace pace(const Soil& soil) const;

@@ -10,7 +10,7 @@
 #include "runs/setup/ground_setup.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "runs/setup/meeting_pairs.hpp"
+#include "runs/setup/material_pairs.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "tests/message_of.hpp"

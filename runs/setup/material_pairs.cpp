@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "runs/setup/meeting_pairs.hpp"
+#include "runs/setup/material_pairs.hpp"
 
 #include "base/math.hpp"
 #include "base/sphere.hpp"
