@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "contact/complementarity_options.hpp"
 #include "contact/contact_law.hpp"
 #include "contact/impulse_cone.hpp"
 #include "contact/rolling_resistance.hpp"
-
-#include <limits>
 
 /// Contact as one row of the complementarity problem of a step (Moreau 1988; Tasora and Anitescu 2011, Comput. Methods
 /// Appl. Mech. Eng. 200:439), with u the relative velocity at the end of the step and x the impulse:
@@ -15,23 +14,6 @@
 /// Compliant contacts discretise the penalty law by implicit Euler: the force k (overlap - h u_n) - c u_n yields the
 /// softness 1 / (h (h k + c)) and the offset -k overlap / (h k + c). Rigid contacts have zero softness.
 namespace grouser::contact {
-
-enum class ImpulseFriction { coulomb, associated }; ///< see cutToCoulomb(), projectOnCone()
-enum class Compliance { law, rigid };               ///< springs of the contact law, or no springs
-
-/// Options of complementarity contacts.
-struct ComplementarityOptions {
-  ImpulseFriction friction{ImpulseFriction::coulomb};
-  Compliance compliance{Compliance::law};
-  double residual{};   ///< tolerance of a step [m/s], > 0
-  int iterations{200}; ///< maximum per step, > 0
-  double recovery{};   ///< maximum separation speed of overlapping rigid contacts [m/s], >= 0
-  double impact{};     ///< minimum approach speed [m/s] for Newton restitution of a new contact
-  /// Maximum gap of a pair at rest that enters the problem [m]; also limited to a fraction of the smallest radius.
-  double reach = std::numeric_limits<double>::infinity();
-  bool strict{false}; ///< true: exceeding the residual ends the run
-  bool operator==(const ComplementarityOptions&) const = default;
-};
 
 /// Options in a kernel's precision.
 template <class T> struct ImpulseRules {

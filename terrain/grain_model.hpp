@@ -3,7 +3,8 @@
 
 #include "base/fixed_point.hpp"
 #include "base/position.hpp"
-#include "contact/impulse_law.hpp"
+#include "contact/complementarity_options.hpp"
+#include "contact/contact_law.hpp"
 #include "terrain/height_field.hpp"
 
 #include <cstdint>

@@ -59,9 +59,11 @@ private:
     Vec velocity, spin;
   };
 
+  GROUSER_HD const ImpulseMotion<Real>& motionAfter(std::int64_t i) const { return s.motion[s.now][i]; }
+
   GROUSER_HD static Relative between(const ImpulseMotion<Real>& own, const ImpulseMotion<Real>& other,
-                                     const ImpulseRowRecord<Real>& row) {
-    return {relativeVelocity(own, other, row.push, row.armOwn, row.armOther), own.spin - other.spin};
+                                     const ImpulseRowRecord<Real>& row, Real armOther = 0) {
+    return {relativeVelocity(own, other, row.push, row.armOwn, armOther), own.spin - other.spin};
   }
 
   GROUSER_HD void endGrainRows(int i, Total& total) const {
@@ -70,13 +72,15 @@ private:
     for (std::uint32_t k = 0; k < s.grainRows[i]; ++k) {
       const std::int64_t at = d.neighbours.at(i, k);
       const ImpulseRowRecord<Real> row = s.grains.row[at];
-      const std::uint32_t listed = row.place & kPlaceBits;
+      const ImpulseRowOther<Real> side = s.grains.other[at];
+      const std::uint32_t listed = side.place & kPlaceBits;
       const std::int64_t home = d.neighbours.at(i, listed);
-      const bool ground = row.other == kFixedPartner;
+      const bool ground = side.slot == kFixedPartner;
       ImpulseMotion<Real> otherBefore{}, otherAfter{};
-      if (!ground) otherBefore = motionAtStart<Real>(d, static_cast<int>(row.other)), otherAfter = s.motion[row.other];
-      const Relative start = between(motionAtStart<Real>(d, i), otherBefore, row),
-                     end = between(s.motion[i], otherAfter, row);
+      if (!ground)
+        otherBefore = motionAtStart<Real>(d, static_cast<int>(side.slot)), otherAfter = motionAfter(side.slot);
+      const Relative start = between(motionAtStart<Real>(d, i), otherBefore, row, side.arm),
+                     end = between(motionAfter(i), otherAfter, row, side.arm);
       float* const history = Step::historyAt(home);
       if (endRow(s.grains, at, row, start, end, history, nullptr, ground ? 1 : 0.5, total))
         touching[listed / 64] |= std::uint64_t{1} << (listed & 63u);
@@ -94,17 +98,17 @@ private:
     for (std::uint32_t k = 0; k < s.boundRows[place - 1]; ++k) {
       const std::int64_t at = std::int64_t{place} - 1 + k * s.near;
       const ImpulseRowRecord<Real> row = s.bounds.row[at];
-      const int boundary = static_cast<int>(row.place & kPlaceBits);
+      const int boundary = static_cast<int>(s.bounds.other[at].place & kPlaceBits);
       const SurfacePose* const pose = boundary >= first ? d.placements + (boundary - first) : nullptr;
       const base::Vec3d point = x - row.push.template as<double>() * static_cast<double>(row.armOwn);
-      Relative start = between(motionAtStart<Real>(d, i), {}, row), end = between(s.motion[i], {}, row);
+      Relative start = between(motionAtStart<Real>(d, i), {}, row), end = between(motionAfter(i), {}, row);
       if (pose) {
         const Vec moves = pose->motion.velocityAt(point).template as<Real>(),
                   turns = pose->motion.spin.template as<Real>();
         start.velocity -= moves, end.velocity -= moves, start.spin -= turns, end.spin -= turns;
         if (pose->inverseMass > 0)
-          end.velocity -=
-              pose->axis.template as<Real>() * (static_cast<Real>(pose->gains) + s.surfaceChange[boundary - first]);
+          end.velocity -= pose->axis.template as<Real>() *
+                          (static_cast<Real>(pose->gains) + s.surfaceChange[s.now][boundary - first]);
       }
       float* const history =
           Kernel::hasHistory() ? d.historyOf(std::int64_t{place} - 1, boundary, Kernel::historyWidth()) : nullptr;
@@ -128,8 +132,8 @@ private:
       const ImpulseRowRecord<Real> row = s.parts.row[at];
       const PartRowRecord<Real> on = s.parts.part[at];
       const base::Vec3d point = x - row.push.template as<double>() * static_cast<double>(row.armOwn);
-      const BodyMotion<Real> body = s.bodyMotion[on.body];
-      Relative start = between(motionAtStart<Real>(d, i), {}, row), end = between(s.motion[i], {}, row);
+      const BodyMotion<Real> body = s.bodyMotion[s.now][on.body];
+      Relative start = between(motionAtStart<Real>(d, i), {}, row), end = between(motionAfter(i), {}, row);
       start.velocity -= part.velocityAt(point).template as<Real>(), start.spin -= part.spin.template as<Real>();
       end.velocity -= body.at(on.arm), end.spin -= body.spin;
       float history[6];
@@ -187,7 +191,7 @@ private:
     const Vec shear = x - row.push * along;
     const double first = static_cast<double>(dot(start.velocity, row.push)),
                  last = static_cast<double>(dot(end.velocity, row.push)), normal = static_cast<double>(along);
-    const bool impact = row.place & kImpactBit;
+    const bool impact = rows.other[at].place & kImpactBit;
     // Friction dissipation uses the slip at the end of the step. Rigid contacts have no springs, so all tangential
     // work, which the mean velocity determines, is frictional.
     const Real mean = impact || s.rules.rigid ? Real(0.5) : Real(0);
@@ -219,7 +223,7 @@ private:
     if (s.rules.rigid) {
       spring = contact::keptImpulse(rows.impulse[s.now][at], s.rules);
       if (rows.rolling) angle = contact::keptImpulse(rows.turning[s.now][at], s.rules);
-    } else if (!(row.place & kImpactBit)) {
+    } else if (!(rows.other[at].place & kImpactBit)) {
       // The spring stretches by the tangential displacement minus the slip.
       if (row.shearSoftness > 0) spring = turnedSpring<Real>(history, turned) + way * h;
       if (rows.rolling)

@@ -7,6 +7,7 @@
 #include "terrain/impulse_rows.cuh"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace grouser::terrain {
@@ -25,7 +26,7 @@ inline void sumCounts(base::Array<std::uint32_t>& counts, const base::Comm& comm
 template <class Real> class ImpulseBodies {
 public:
   explicit ImpulseBodies(const base::Exec& exec)
-      : laws_(exec), bodyOfPart_(exec), inverses_(exec), rows_(exec), pushes_(exec), motion_(exec) {}
+      : exec_(exec), laws_(exec), bodyOfPart_(exec), inverses_(exec), rows_(exec), pushes_(exec), motion_(exec) {}
 
   /// Starts a step with the body velocities without grain contacts.
   void begin(contact::BodyResponse& bodies, const contact::GrainPartContacts& contacts, double timeStep) {
@@ -46,14 +47,15 @@ public:
         std::any_of(bodies.inverses().begin(), bodies.inverses().end(), [](const auto& b) { return b.mass > 0; });
     rows_.assign(std::vector<std::uint32_t>(count));
     pushes_.resize(6 * count);
-    impulses_.assign(count, {});
-    respond();
+    for (State& state : states_) state.impulses.assign(count, {});
+    motion_.resize(states_.size() * count);
+    for (std::size_t k = 0; k < states_.size(); ++k) respond(k);
   }
 
   void into(ImpulseData<Real>& data) {
     data.partLaws = laws_.data(), data.bodyOfPart = bodyOfPart_.data(), data.body = inverses_.data();
-    data.bodyRows = rows_.data(), data.bodyPushes = anyMovable_ ? pushes_.data() : nullptr,
-    data.bodyMotion = motion_.data();
+    data.bodyRows = rows_.data(), data.bodyPushes = anyMovable_ ? pushes_.data() : nullptr;
+    for (std::size_t k = 0; k < states_.size(); ++k) data.bodyMotion[k] = motionOf(k);
     data.bodyPush = push_, data.bodyTurn = turn_;
   }
 
@@ -63,27 +65,53 @@ public:
   /// True if any body can move.
   bool anyMovable() const { return anyMovable_; }
   void clearPushes() { pushes_.zero(); }
-  /// Computes the body velocities from the impulses of all ranks. Collective.
-  void move(const base::Comm& comm) {
+  /// Computes the body velocities in buffer `generation` from the impulses of all ranks. Collective.
+  void move(std::size_t generation, const base::Comm& comm) {
     std::vector<std::int64_t> pushes = pushes_.toHost();
     comm.sum(pushes.data(), pushes.size());
-    for (std::size_t b = 0; b < impulses_.size(); ++b) {
+    std::vector<contact::BodyImpulse>& impulses = states_[generation].impulses;
+    for (std::size_t b = 0; b < impulses.size(); ++b) {
       const std::int64_t* const q = pushes.data() + 6 * b;
-      impulses_[b] = {push_.checked({q[0], q[1], q[2]}, "impulses on a body"),
-                      turn_.checked({q[3], q[4], q[5]}, "impulses on a body")};
+      impulses[b] = {push_.checked({q[0], q[1], q[2]}, "impulses on a body"),
+                     turn_.checked({q[3], q[4], q[5]}, "impulses on a body")};
     }
-    respond();
+    respond(generation);
+  }
+  /// Share of the bodies in the curvature of the step from the extrapolated impulses to the trial [J].
+  double curvature(const ImpulseControl<Real>& c) const {
+    const State &now = states_[c.now], &before = states_[c.before], &tried = states_[c.tried];
+    const auto step = [&](const base::Vec3d& to, const base::Vec3d& at, const base::Vec3d& former) {
+      return to - (at + (at - former) * static_cast<double>(c.ahead));
+    };
+    double sum = 0;
+    for (std::size_t b = 0; b < rows_.size(); ++b) {
+      const contact::BodyImpulse &x = tried.impulses[b], &y = now.impulses[b], &z = before.impulses[b];
+      const contact::BodyVelocity &u = tried.velocities[b], &v = now.velocities[b], &w = before.velocities[b];
+      sum += dot(step(x.linear, y.linear, z.linear), step(u.linear, v.linear, w.linear)) +
+             dot(step(x.angular, y.angular, z.angular), step(u.angular, v.angular, w.angular));
+    }
+    return sum;
   }
 
 private:
-  void respond() {
-    bodies_->respond(impulses_, velocities_);
+  /// Impulses on the bodies, and the resulting velocities.
+  struct State {
+    std::vector<contact::BodyImpulse> impulses;
+    std::vector<contact::BodyVelocity> velocities;
+  };
+
+  BodyMotion<Real>* motionOf(std::size_t generation) { return motion_.data() + generation * rows_.size(); }
+
+  void respond(std::size_t generation) {
+    State& state = states_[generation];
+    bodies_->respond(state.impulses, state.velocities);
     std::vector<BodyMotion<Real>> motion;
-    for (const contact::BodyVelocity& v : velocities_)
+    for (const contact::BodyVelocity& v : state.velocities)
       motion.push_back({v.linear.template as<Real>(), v.angular.template as<Real>()});
-    motion_.assign(motion);
+    base::copyToDevice(exec_, motionOf(generation), motion.data(), motion.size() * sizeof(motion[0]));
   }
 
+  base::Exec exec_;
   contact::BodyResponse* bodies_{nullptr};
   const contact::GrainPartContacts* contacts_{nullptr}; ///< source of laws and quanta
   bool anyMovable_{false};
@@ -92,10 +120,9 @@ private:
   base::Array<contact::BodyResponse::Inverse> inverses_;
   base::Array<std::uint32_t> rows_;
   base::Array<std::int64_t> pushes_;
-  base::Array<BodyMotion<Real>> motion_;
+  base::Array<BodyMotion<Real>> motion_; ///< [buffer][body]
   base::FixedPoint push_, turn_;
-  std::vector<contact::BodyImpulse> impulses_;
-  std::vector<contact::BodyVelocity> velocities_;
+  std::array<State, 3> states_; ///< by buffer
 };
 
 } // namespace grouser::terrain

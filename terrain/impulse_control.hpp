@@ -31,16 +31,18 @@ template <class Real> struct ImpulseControl {
   double theta = 1, halved = 0;
   IterationSums last{};
 
-  /// Initialises the control from the sums of the initial impulses.
-  GROUSER_HD void begin(const IterationSums& sums) {
-    last = sums, halved = sums.worst, evaluations = 1;
-    done = !(last.worst > residual);
-  }
-
-  /// Accepts a trial, or shortens the step if the curvature is too high. Switches to the relaxation if Coulomb's law,
-  /// which has no potential, does not converge.
+  /// Takes the sums of an evaluation: stops, accepts the trial, or repeats it with a shorter step if the curvature is
+  /// too high, or with the relaxation if Coulomb's law, which has no potential, does not converge.
   GROUSER_HD void take(const IterationSums& sums) {
-    ++evaluations;
+    ++evaluations, last = sums;
+    done = !(last.worst > residual) || iterations >= maxIterations;
+    if (iterations == 0 || last.worst < 0.5 * halved) halved = last.worst, halvedAt = iterations;
+    if (done) return;
+    if (iterations - halvedAt > kPatience && !associated) {
+      associated = relaxed = true;
+      before = now, ahead = 0, theta = 1;
+      return;
+    }
     if (tau < Real(kMaxTau) && sums.curvature > static_cast<double>(tau) * sums.length) {
       tau *= 2;
       return;
@@ -49,13 +51,7 @@ template <class Real> struct ImpulseControl {
     const double next = restarts ? 1 : 0.5 * theta * (sqrt(theta * theta + 4) - theta);
     ahead = restarts ? Real(0) : static_cast<Real>(theta * (1 - theta) / (theta * theta + next));
     theta = next, tau = tau * Real(kLongerStep) > Real(kMinTau) ? tau * Real(kLongerStep) : Real(kMinTau);
-    before = now, now = tried, tried = 3 - now - before;
-    last = sums, ++iterations;
-    done = !(last.worst > residual) || iterations >= maxIterations;
-    if (last.worst < 0.5 * halved) halved = last.worst, halvedAt = iterations;
-    if (iterations - halvedAt <= kPatience || associated || done) return;
-    associated = relaxed = true;
-    before = now, ahead = 0, theta = 1;
+    before = now, now = tried, tried = 3 - now - before, ++iterations;
   }
 };
 

@@ -3,72 +3,71 @@
 
 #include "terrain/impulse_setup.cuh"
 
-/// An iteration has two kernels. In the first, each grain steps in its own rows and adds their impulses to its
-/// velocity; in the second, it computes the gradient of its rows from the velocities of all grains.
+/// An iteration has two kernels. In the first, each grain computes the gradient of its rows from the velocities of all
+/// grains, and their residual; in the second, it steps along the gradient from the extrapolated impulses, and adds the
+/// new impulses to its velocity.
 namespace grouser::terrain {
 
-/// Adds the impulses of a grain to its velocity. `kTry`: after a gradient step from the extrapolated impulses;
-/// otherwise the current impulses.
-template <class Real, bool kTry> struct MoveByImpulses : ImpulseKernel<Real> {
+/// Adds the current impulses of a grain to its velocity.
+template <class Real, bool kRolls> struct MoveByImpulses : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 150;
   using Base = ImpulseKernel<Real>;
   using Base::d, Base::s;
   using typename Base::Kernel, typename Base::Vec;
+  using Impulse = contact::Impulse<Real, TurnOf<Real, kRolls>>;
 
   GROUSER_HD void operator()(int i) const {
-    if (s.control->done || (s.ghost && s.ghost[i] != 0)) return; // ghosts are set by the halo exchange
+    const int now = s.control->now;
+    if (s.ghost && s.ghost[i] != 0) return; // set by the halo exchange
+    Push sum;
+    if (!hasNoRows(d, s, i))
+      forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
+        const ImpulseRowRecord<Real> row = rows.row[at];
+        sum.add(row, impulseAt<kRolls>(rows, now, at));
+        pushOther(rows, at, row, impulseAt<kRolls>(rows, now, at));
+      });
+    move(i, sum, now);
+  }
+
+protected:
+  /// Sum of impulses on a grain.
+  struct Push {
+    Vec linear{}, angular{}; ///< [N s], [N m s]
+    GROUSER_HD void add(const ImpulseRowRecord<Real>& row, const Impulse& x) {
+      linear += x.linear, angular -= cross(row.push, x.linear) * row.armOwn;
+      if constexpr (kRolls) angular += x.rolling;
+    }
+  };
+
+  /// Sets the velocity of a grain in an iteration.
+  GROUSER_HD void move(int i, const Push& sum, int generation) const {
     if (hasNoRows(d, s, i)) {
-      s.motion[i] = {}; // fixed
+      s.motion[generation][i] = {}; // fixed
       return;
     }
     const GrainSize<Real> size = Kernel::sizeOf(i);
-    Vec pushed{}, turned{};
-    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
-      const ImpulseRowRecord<Real> row = rows.row[at];
-      contact::Impulse<Real> x;
-      if constexpr (kTry) {
-        x = stepped(rows, at, row);
-        rows.impulse[s.control->tried][at] = x.linear;
-        if (rows.rolling) rows.turning[s.control->tried][at] = x.rolling;
-      } else {
-        x = impulseAt(rows, s.control->now, at);
-      }
-      pushed += x.linear;
-      int surface = 0;
-      if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
-        base::atomicAdd64(
-            s.surfacePushes + surface,
-            -s.push.quantise(dot((x.linear - row.push * rows.end[at].pull).template as<double>(), pose->axis)));
-      if (rows.part && s.bodyPushes) pushBody(rows.part[at], x.linear - row.push * rows.end[at].pull, x.rolling);
-      turned += x.rolling - cross(row.push, x.linear) * row.armOwn;
-    });
     const ImpulseMotion<Real>& free = s.free[i];
-    s.motion[i] = {free.velocity + pushed * (Real(1) / size.mass),
-                   free.spin + turned * (Real(1) / Base::inertiaOf(size))};
+    s.motion[generation][i] = {free.velocity + sum.linear * (Real(1) / size.mass),
+                               free.spin + sum.angular * (Real(1) / Base::inertiaOf(size))};
   }
 
-private:
-  /// Adds the opposite of an impulse on a grain to the impulse on a body.
-  GROUSER_HD void pushBody(const PartRowRecord<Real>& on, const Vec& impulse, const Vec& rolling) const {
+  /// Adds the opposite of an impulse on a grain to the impulses on a force-driven surface or a body.
+  GROUSER_HD void pushOther(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
+                            const Impulse& x) const {
+    int surface = 0;
+    if (const SurfacePose* const pose = freeSurface(d, s, rows, at, surface))
+      base::atomicAdd64(
+          s.surfacePushes + surface,
+          -s.push.quantise(dot((x.linear - row.push * rows.end[at].pull).template as<double>(), pose->axis)));
+    if (!rows.part || !s.bodyPushes) return;
+    const PartRowRecord<Real> on = rows.part[at];
+    const Vec impulse = x.linear - row.push * rows.end[at].pull;
+    Vec moment = cross(on.arm, impulse);
+    if constexpr (kRolls) moment += x.rolling;
     const base::Vec3l linear = s.bodyPush.quantise(-impulse.template as<double>()),
-                      angular = s.bodyTurn.quantise(-(cross(on.arm, impulse) + rolling).template as<double>());
+                      angular = s.bodyTurn.quantise(-moment.template as<double>());
     std::int64_t* const pushes = s.bodyPushes + std::int64_t{6} * on.body;
     for (int a = 0; a < 3; ++a) base::atomicAdd64(pushes + a, linear[a]), base::atomicAdd64(pushes + 3 + a, angular[a]);
-  }
-
-  GROUSER_HD contact::Impulse<Real> stepped(const ImpulseRowsView<Real>& rows, std::int64_t at,
-                                            const ImpulseRowRecord<Real>& row) const {
-    auto [y, gy] = Base::ahead(rows, at);
-    const Real shearWeight = WeighRows<Real>::shearWeight(s), step = Real(1) / (s.control->tau * row.weight);
-    const Real along = dot(gy.linear, row.push);
-    y.linear -= (gy.linear - row.push * along) * (step / shearWeight) + row.push * (along * step);
-    contact::ImpulseMetric<Real> metric{shearWeight, Real(0)};
-    if (rows.rolling) {
-      const Real weight = rows.rolling[at].weight;
-      y.rolling -= gy.rolling * (Real(1) / (s.control->tau * weight));
-      metric.rolling = weight / row.weight;
-    }
-    return contact::allowed(y, row.push, coneAt(rows, at), metric, s.control->associated);
   }
 };
 
@@ -80,24 +79,20 @@ template <class Real> GROUSER_HD double perUnitOf(const ImpulseData<Real>& s, in
   return sum == kContacts ? 1.0 : sum == kSquares ? s.perSquare : s.perEnergy;
 }
 
-/// Computes the gradient of each row from the velocities, and the sums that control the next iteration. `kTry` as in
-/// MoveByImpulses.
-template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
-  static constexpr double kNanoseconds = 150;
-  using Base = ImpulseKernel<Real>;
-  using Base::d, Base::s;
-  using typename Base::Kernel, typename Base::Vec;
+/// Sums over grains [quanta], from sums over the rows of each grain.
+template <class Real, bool kRolls> struct IterationKernel : MoveByImpulses<Real, kRolls> {
+  using Base = MoveByImpulses<Real, kRolls>;
+  using Base::s;
   static constexpr int kOnCpu = 32; ///< grains per CPU task
 
   std::int64_t count;
-  double nanoseconds() const { return kOnCpu * kNanoseconds; }
+  double nanoseconds() const { return kOnCpu * Base::kNanoseconds; }
 
   /// Sums over the rows of a grain.
   struct RowSums {
     double of[kImpulseSums] = {};
-    float worst = 0;
+    float worst = 0; ///< maximum squared residual [m2/s2]
   };
-  /// Sums over grains [quanta].
   struct Sums {
     std::int64_t of[kImpulseSums * kSumSizes] = {};
     float worst = 0;
@@ -105,11 +100,14 @@ template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
       if (value == 0) return;
       const double large = value * perUnit, small = large * kFinerSums;
       const bool fits = fabs(small) < 0x1p50;
-      of[sum * kSumSizes + fits] += wholeQuanta(fits ? small : large);
+      const std::int64_t quanta = wholeQuanta(fits ? small : large);
+      of[sum * kSumSizes] += fits ? 0 : quanta, of[sum * kSumSizes + 1] += fits ? quanta : 0;
     }
   };
 
-  GROUSER_HD void operator()(int item) const {
+protected:
+  /// Calls `run` for the grains of an item, and adds the sums.
+  template <class Run> GROUSER_HD void forGrains(int item, const Run& run) const {
     if (s.control->done) return;
     Sums sums;
 #if defined(__CUDA_ARCH__)
@@ -125,131 +123,207 @@ template <class Real, bool kTry> struct FindGradient : ImpulseKernel<Real> {
     if (sums.worst > 0) base::atomicMax32(s.worst, base::bitsAs<std::uint32_t>(sums.worst));
   }
 
+  /// Adds the sums over a grain's rows: those from `kFirst` to before `kEnd`.
+  template <int kFirst, int kEnd> GROUSER_HD void add(Sums& sums, const RowSums& mine) const {
+    for (int k = kFirst; k < kEnd; ++k) sums.add(k, mine.of[k], perUnitOf(s, k));
+    const float worst = mine.worst < kNoResidual ? sqrtf(mine.worst) : kNoResidual;
+    if (worst > sums.worst) sums.worst = worst;
+  }
+};
+
+/// Computes the gradient of each row from the velocities, and its residual.
+template <class Real, bool kRolls> struct FindGradient : IterationKernel<Real, kRolls> {
+  using Base = IterationKernel<Real, kRolls>;
+  using Base::d, Base::s;
+  using typename Base::Impulse;
+  using typename Base::RowSums, typename Base::Sums, typename Base::Vec;
+
+  GROUSER_HD void operator()(int item) const {
+    Base::forGrains(item, [&](int i, Sums& sums) { run(i, sums); });
+  }
+
 private:
   GROUSER_HD void run(int i, Sums& sums) const {
     if (hasNoRows(d, s, i)) return;
-    const ImpulseMotion<Real> own = s.motion[i];
+    const ImpulseMotion<Real> own = s.motion[s.control->now][i];
     RowSums mine;
     forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) { find(rows, at, own, mine); });
-    for (int k = 0; k < kImpulseSums; ++k) sums.add(k, mine.of[k], perUnitOf(s, k));
-    if (mine.worst > sums.worst) sums.worst = mine.worst;
+    Base::template add<kSquares, kImpulseSums>(sums, mine);
   }
 
   GROUSER_HD void find(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseMotion<Real>& own,
                        RowSums& sums) const {
-    const ImpulseRowRecord<Real> row = rows.row[at];
-    const bool alone = row.other == kFixedPartner;
-    const ImpulseMotion<Real> other = alone ? ImpulseMotion<Real>{} : s.motion[row.other];
-    const int made = kTry ? s.control->tried : s.control->now;
-    const contact::Impulse<Real> x = impulseAt(rows, made, at);
-    contact::Impulse<Real> a;
-    a.linear = relativeVelocity(own, other, row.push, row.armOwn, row.armOther) + x.linear * row.shearSoftness +
-               row.push * ((row.softness - row.shearSoftness) * dot(x.linear, row.push)) + row.offset;
+    const int now = s.control->now;
+    const ImpulseRowRecord<Real> row = readOnly(rows.row + at);
+    const ImpulseRowOther<Real> side = readOnly(rows.other + at);
+    const ImpulseMotion<Real> other =
+        side.slot == kFixedPartner ? ImpulseMotion<Real>{} : readOnly(s.motion[now] + side.slot);
+    const Impulse x = impulseAt<kRolls>(rows, now, at);
+    Impulse a;
+    a.linear = relativeVelocity(own, other, row.push, row.armOwn, side.arm) + x.linear * row.shearSoftness +
+               row.push * ((row.softness - row.shearSoftness) * dot(x.linear, row.push)) + side.offset;
     int surface = 0;
-    if (const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface))
-      a.linear -= pose->axis.template as<Real>() * s.surfaceChange[surface];
+    if (const SurfacePose* const pose = freeSurface(d, s, rows, at, surface))
+      a.linear -= pose->axis.template as<Real>() * s.surfaceChange[now][surface];
     Vec turns = other.spin;
     if (rows.part) {
-      const BodyMotion<Real> body = s.bodyMotion[rows.part[at].body];
+      const BodyMotion<Real> body = s.bodyMotion[now][rows.part[at].body];
       a.linear -= body.at(rows.part[at].arm), turns = body.spin;
     }
-    rows.gradient[made][at] = a.linear;
-    if (rows.rolling) {
-      const RollingRowRecord<Real>& roll = rows.rolling[at];
-      a.rolling = contact::detail::tangentOf(own.spin - turns, row.push) + x.rolling * roll.softness + roll.offset;
-      rows.turnGradient[made][at] = a.rolling;
-    }
-    if (!(row.place & kCountsBit)) return;
-    addResidual(rows, at, row, x, a, sums);
-    if constexpr (kTry) addProducts(rows, at, row, x, a, sums);
+    rows.gradient[now][at] = a.linear;
+    if constexpr (kRolls)
+      if (rows.rolling) {
+        const RollingRowRecord<Real>& roll = rows.rolling[at];
+        a.rolling = contact::detail::tangentOf(own.spin - turns, row.push) + x.rolling * roll.softness + roll.offset;
+        rows.turnGradient[now][at] = a.rolling;
+      }
+    if (row.counts()) addResidual(rows, at, row, side, x, a, sums);
   }
 
   /// Natural map residual: change of the impulse by a projected gradient step, in units of velocity.
   GROUSER_HD void addResidual(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
-                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, RowSums& sums) const {
-    contact::Impulse<Real> z{x.linear - a.linear * (Real(1) / row.mobility), {}};
+                              const ImpulseRowOther<Real>& side, const Impulse& x, const Impulse& a,
+                              RowSums& sums) const {
+    Impulse z{x.linear - a.linear * side.inertia, {}};
     contact::ImpulseMetric<Real> metric{Real(1), Real(0)};
-    if (rows.rolling) {
-      const Real arm = row.armOwn > row.armOther ? row.armOwn : row.armOther;
-      metric.rolling = Real(2.5) / (arm * arm); // mass / moment of inertia of a solid sphere
-      z.rolling = x.rolling - a.rolling * (Real(1) / (row.mobility * metric.rolling));
-    }
-    const contact::Impulse<Real> off =
-        x - contact::allowed(z, row.push, coneAt(rows, at), metric, s.control->associated);
-    const double mobility = static_cast<double>(row.mobility);
-    const double square = mobility * mobility *
-                          (norm2(off.linear.template as<double>()) +
-                           static_cast<double>(metric.rolling) * norm2(off.rolling.template as<double>()));
-    sums.of[kSquares] += square, sums.of[kContacts] += 1;
-    const bool sound = square + 0 * norm2(a.linear.template as<double>()) == square; // a NaN would be projected to zero
-    const float residual = sound ? static_cast<float>(sqrt(square)) : kNoResidual;
-    if (residual > sums.worst) sums.worst = residual;
+    if constexpr (kRolls)
+      if (rows.rolling) {
+        const Real arm = row.armOwn > side.arm ? row.armOwn : side.arm;
+        metric.rolling = Real(2.5) / (arm * arm); // mass / moment of inertia of a solid sphere
+        z.rolling = x.rolling - a.rolling * (Real(1) / (side.mobility * metric.rolling));
+      }
+    const Impulse off = x - contact::allowed(z, row.push, coneAt<kRolls>(rows, at, row), metric, s.control->associated);
+    Real square = norm2(off.linear * side.mobility);
+    if constexpr (kRolls) square += metric.rolling * norm2(off.rolling * side.mobility);
+    sums.of[kSquares] += static_cast<double>(square), sums.of[kContacts] += 1;
+    const bool sound = square + 0 * norm2(a.linear) == square; // a NaN would be projected to zero
+    const auto residual2 = sound ? static_cast<float>(square) : kNoResidual;
+    if (residual2 > sums.worst) sums.worst = residual2;
+  }
+};
+
+/// Takes a step in each row, and computes the velocities. Adds the curvature, length and direction of the step to the
+/// sums.
+template <class Real, bool kRolls> struct StepImpulses : IterationKernel<Real, kRolls> {
+  using Base = IterationKernel<Real, kRolls>;
+  using Base::d, Base::s;
+  using typename Base::Impulse;
+  static constexpr Real kShearWeight = shearWeight<Real>(kRolls);
+  using typename Base::Kernel, typename Base::Push, typename Base::RowSums, typename Base::Sums, typename Base::Vec;
+
+  GROUSER_HD void operator()(int item) const {
+    Base::forGrains(item, [&](int i, Sums& sums) { run(i, sums); });
   }
 
-  /// Adds the curvature d N d and squared length of the step d from y to x, and its product with the change since the
-  /// last iteration, in the metric. A negative product restarts the extrapolation (O'Donoghue and Candes 2015, Found.
-  /// Comput. Math. 15:715; with the step instead of the gradient, which Coulomb's law does not follow).
-  GROUSER_HD void addProducts(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
-                              const contact::Impulse<Real>& x, const contact::Impulse<Real>& a, RowSums& sums) const {
-    const auto [y, gy] = Base::ahead(rows, at);
-    const contact::Impulse<Real> step = x - y, way = x - impulseAt(rows, s.control->now, at);
-    const auto product = [](const Vec& p, const Vec& q) {
-      return dot(p.template as<double>(), q.template as<double>());
-    };
-    const double along = static_cast<double>(dot(step.linear, row.push)), weight = static_cast<double>(row.weight),
-                 shearWeight = WeighRows<Real>::shearWeight(s);
-    const auto inMetric = [&](const contact::Impulse<Real>& other) {
-      double sum = weight * (along * static_cast<double>(dot(other.linear, row.push)) * (1 - shearWeight) +
-                             shearWeight * product(step.linear, other.linear));
-      if (rows.rolling) sum += static_cast<double>(rows.rolling[at].weight) * product(step.rolling, other.rolling);
-      return sum;
-    };
-    const contact::Impulse<Real> change = a - gy;
-    sums.of[kCurvature] += product(step.linear, change.linear) + product(step.rolling, change.rolling);
-    sums.of[kLength] += inMetric(step), sums.of[kAgainst] -= inMetric(way);
+private:
+  GROUSER_HD void run(int i, Sums& sums) const {
+    if (s.ghost && s.ghost[i] != 0) return; // set by the halo exchange
+    const int now = s.control->now, before = s.control->before, tried = s.control->tried;
+    const Real ahead = s.control->ahead;
+    Push sum, steps;
+    if (hasNoRows(d, s, i)) return Base::move(i, sum, tried);
+    RowSums mine;
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
+      const ImpulseRowRecord<Real> row = readOnly(rows.row + at);
+      const Impulse current = impulseAt<kRolls>(rows, now, at), g = gradientAt<kRolls>(rows, now, at);
+      const Impulse y = current + (current - impulseAt<kRolls>(rows, before, at)) * ahead;
+      const Impulse x = stepped(rows, at, row, y, g + (g - gradientAt<kRolls>(rows, before, at)) * ahead);
+      rows.impulse[tried][at] = x.linear;
+      if constexpr (kRolls)
+        if (rows.rolling) rows.turning[tried][at] = x.rolling;
+      sum.add(row, x), steps.add(row, x - y);
+      Base::pushOther(rows, at, row, x);
+      if (row.counts()) addStep(rows, at, row, x - y, x - current, mine);
+    });
+    Base::move(i, sum, tried);
+    const GrainSize<Real> size = Kernel::sizeOf(i);
+    const Vec change = steps.linear * (Real(1) / size.mass), turn = steps.angular * (Real(1) / Base::inertiaOf(size));
+    mine.of[kCurvature] += static_cast<double>(dot(change, steps.linear) + dot(turn, steps.angular));
+    Base::template add<0, kSquares>(sums, mine);
   }
+
+  /// Takes the projected gradient step from the extrapolated impulse `y` with the gradient `g`.
+  GROUSER_HD Impulse stepped(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
+                             Impulse y, const Impulse& g) const {
+    const Real step = Real(1) / (s.control->tau * row.weight());
+    const Real along = dot(g.linear, row.push);
+    y.linear -= (g.linear - row.push * along) * (step * (Real(1) / kShearWeight)) + row.push * (along * step);
+    contact::ImpulseMetric<Real> metric{kShearWeight, Real(0)};
+    if constexpr (kRolls)
+      if (rows.rolling) {
+        const Real weight = rows.rolling[at].weight;
+        y.rolling -= g.rolling * (Real(1) / (s.control->tau * weight));
+        metric.rolling = weight / row.weight();
+      }
+    return contact::allowed(y, row.push, coneAt<kRolls>(rows, at, row), metric, s.control->associated);
+  }
+
+  /// Adds the share of the contact's compliance in the curvature step N step, the squared length of the step in the
+  /// metric, and its product with the change `way` since the last iteration. A negative product restarts the
+  /// extrapolation (O'Donoghue and Candes 2015, Found. Comput. Math. 15:715; with the step instead of the gradient,
+  /// which Coulomb's law does not follow).
+  GROUSER_HD void addStep(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row,
+                          const Impulse& step, const Impulse& way, RowSums& sums) const {
+    const Real along = dot(step.linear, row.push);
+    const Vec shear = step.linear - row.push * along;
+    const Vec measured = (row.push * along + shear * kShearWeight) * row.weight(); // [m/s]
+    Real curvature = row.softness * along * along + dot(shear * row.shearSoftness, shear),
+         length = dot(measured, step.linear), product = dot(measured, way.linear);
+    if constexpr (kRolls)
+      if (rows.rolling) {
+        const RollingRowRecord<Real>& roll = rows.rolling[at];
+        const Vec turned = step.rolling * roll.weight;
+        curvature += dot(step.rolling * roll.softness, step.rolling);
+        length += dot(turned, step.rolling), product += dot(turned, way.rolling);
+      }
+    sums.of[kCurvature] += static_cast<double>(curvature);
+    sums.of[kLength] += static_cast<double>(length), sums.of[kAgainst] -= static_cast<double>(product);
+  }
+};
+
+/// Sums of an iteration.
+struct IterationTotals {
+  base::WideSum of[kImpulseSums * kSumSizes];
+  std::uint32_t worst; ///< see ImpulseData
 };
 
 /// Sums the banks of an iteration and clears them.
 template <class Real> struct SumBanks {
   static constexpr int kCount = kImpulseSums * kSumSizes;
   ImpulseData<Real> s;
-  base::WideSum* totals;
+  IterationTotals* totals;
   GROUSER_HD void operator()(int k) const {
+    if (k == kCount) {
+      totals->worst = *s.worst, *s.worst = 0;
+      return;
+    }
     base::WideSum total;
     for (int bank = 0; bank < kSumBanks; ++bank) {
       base::WideSum& share = s.sums[bank * kCount + k];
       total += share, share = {};
     }
-    totals[k] = total;
+    totals->of[k] = total;
   }
 };
 
-/// Converts the sums of an iteration to real numbers. `worst`: see ImpulseData.
+/// Converts the sums of an iteration to real numbers.
 template <class Real>
-GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const base::WideSum* totals, std::uint32_t worst) {
+GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const IterationTotals& totals) {
   const auto sum = [&](int which) {
-    const base::WideSum* const of = totals + which * kSumSizes;
+    const base::WideSum* const of = totals.of + which * kSumSizes;
     const double perUnit = perUnitOf(s, which);
     return of[0].toDouble() / perUnit + of[1].toDouble() / (perUnit * kFinerSums);
   };
   return {sum(kCurvature), sum(kLength),   sum(kAgainst),
-          sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(worst))};
+          sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(totals.worst))};
 }
 
 /// Updates the iteration control on the device.
 template <class Real> struct Decide {
   ImpulseData<Real> s;
-  const base::WideSum* totals;
-  bool first;
+  const IterationTotals* totals;
   GROUSER_HD void operator()(int) const {
-    if (s.control->done) return;
-    const IterationSums sums = iterationSums(s, totals, *s.worst);
-    *s.worst = 0;
-    if (first)
-      s.control->begin(sums);
-    else
-      s.control->take(sums);
+    if (!s.control->done) s.control->take(iterationSums(s, *totals));
   }
 };
 

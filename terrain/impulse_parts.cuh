@@ -60,7 +60,7 @@ private:
     const PartRowRecord<Real> on{(point - part.centre).template as<Real>(), body};
     const Vec moves = part.velocityAt(point).template as<Real>();
     Touch touch = Base::touchOf(static_cast<int>(patches.slot[e]), size, push, gap, arms, moves,
-                                part.spin.template as<Real>(), s.bodyMotion[body].at(on.arm) - moves);
+                                part.spin.template as<Real>(), s.bodyMotion[s.now][body].at(on.arm) - moves);
     touch.held = found.former[k] >= 0;
     const std::int64_t former = contact::PartPatches::first(e) + (touch.held ? found.former[k] : 0);
     float history[6] = {};

@@ -7,6 +7,8 @@
 #include "terrain/grain_kernel_data.cuh"
 #include "terrain/impulse_control.hpp"
 
+#include <type_traits>
+
 /// Rows of the complementarity problem of a step, as seen by its kernels. Each grain of a pair has its own row, with
 /// opposite impulses that are bitwise equal: a grain sums its rows in the order of its neighbours' ids, and writes only
 /// its own rows.
@@ -14,20 +16,31 @@ namespace grouser::terrain {
 
 inline constexpr std::uint32_t kFixedPartner = ~0u; ///< denotes a wall, floor, surface or fixed grain
 
-/// Constants of a row during a step.
-template <class Real> struct ImpulseRowRecord {
-  base::Vec3<Real> push;   ///< unit normal towards the grain
-  base::Vec3<Real> offset; ///< [m/s], including prescribed velocities
+/// Constants of a row during a step that every kernel of an iteration reads.
+template <class Real> struct alignas(16) ImpulseRowRecord {
+  base::Vec3<Real> push; ///< unit normal towards the grain
+  Real armOwn;           ///< distance from the grain's centre to the contact point [m]
   Real softness, shearSoftness;
   Real friction;
-  Real armOwn, armOther; ///< distance from centre to contact point [m]
-  Real weight;           ///< weight in the metric, the inverse of the step size [1/kg]
-  Real mobility;         ///< sum of the inverse masses and the softness [1/kg]: scales residuals to velocities
-  std::uint32_t other;   ///< slot, or kFixedPartner
-  std::uint32_t place;   ///< index in the neighbour list, boundary, or patch, with two flags
+  Real signedWeight; ///< see weight(); negative if the other side of the pair contributes to the sums
+
+  /// Weight in the metric, the inverse of the step size [1/kg].
+  GROUSER_HD Real weight() const { return counts() ? signedWeight : -signedWeight; }
+  /// True on one side of a pair (smaller id), which contributes to the sums.
+  GROUSER_HD bool counts() const { return signedWeight > 0; }
 };
-/// Flags of ImpulseRowRecord::place. `kCountsBit`: this side of the pair (smaller id) contributes to the sums.
-inline constexpr std::uint32_t kImpactBit = 1u << 31, kCountsBit = 1u << 30, kPlaceBits = kCountsBit - 1;
+
+/// Other constants of a row, for its gradient.
+template <class Real> struct alignas(16) ImpulseRowOther {
+  base::Vec3<Real> offset; ///< [m/s], including prescribed velocities
+  Real arm;                ///< distance from the other side's centre to the contact point [m]
+  Real mobility;           ///< sum of the inverse masses and the softness [1/kg]: scales residuals to velocities
+  Real inertia;            ///< 1 / mobility [kg]
+  std::uint32_t slot;      ///< the other grain, or kFixedPartner
+  std::uint32_t place;     ///< index in the neighbour list, boundary, or patch, with a flag
+};
+/// Flag of ImpulseRowOther::place.
+inline constexpr std::uint32_t kImpactBit = 1u << 31, kPlaceBits = kImpactBit - 1;
 
 /// Constants of the rolling resistance of a row.
 template <class Real> struct RollingRowRecord {
@@ -61,9 +74,10 @@ template <class Real> struct BodyMotion {
 /// iteration.
 template <class Real> struct ImpulseRowsView {
   ImpulseRowRecord<Real>* row;
+  ImpulseRowOther<Real>* other;
   RollingRowRecord<Real>* rolling; ///< null without rolling resistance
   base::Vec3<Real>* impulse[3];    ///< [N s]
-  base::Vec3<Real>* gradient[3];   ///< a in impulse_law.hpp [m/s]
+  base::Vec3<Real>* gradient[3];   ///< a in impulse_law.hpp [m/s]; not of the trial
   base::Vec3<Real>* turning[3];    ///< rolling impulse [N m s]; null without rolling resistance
   base::Vec3<Real>* turnGradient[3];
   ImpulseRowEnd<Real>* end;
@@ -80,26 +94,26 @@ inline constexpr double kFinerSums = 0x1p40;
 /// Arguments of the kernels of a step.
 template <class Real> struct ImpulseData {
   contact::ImpulseRules<Real> rules;
-  ImpulseRowsView<Real> grains;  ///< by place of the neighbour list; a grain's rows occupy the first places of its list
-  ImpulseRowsView<Real> bounds;  ///< [row of the grain][index in the list of grains near boundaries]
-  ImpulseRowsView<Real> parts;   ///< [listed grain-part pair][kPatches]
-  std::uint32_t* grainRows;      ///< [slot] number of rows with other grains
-  std::uint32_t* boundRows;      ///< [index in the list near boundaries] number of rows
-  std::uint32_t* partRows;       ///< [listed grain-part pair] number of rows
-  std::uint32_t* degree;         ///< [slot] number of all rows, including ghosts
-  std::int64_t near;             ///< number of grains listed near boundaries
-  ImpulseMotion<Real>* free;     ///< [slot] velocities at the end of the step without contacts
-  ImpulseMotion<Real>* motion;   ///< [slot] velocities with the impulses of this iteration, including ghosts
-  const std::uint32_t* ghost;    ///< [slot] nonzero for ghosts; null without ghosts
-  std::int64_t margin;           ///< maximum gap of a row [units]
-  std::int64_t minMargin;        ///< gap below which a pair at rest has a row [units]
-  ImpulseControl<Real>* control; ///< state of the iterations
-  int now;                       ///< buffer index of the rows before and after the iterations
+  ImpulseRowsView<Real> grains; ///< by place of the neighbour list; a grain's rows occupy the first places of its list
+  ImpulseRowsView<Real> bounds; ///< [row of the grain][index in the list of grains near boundaries]
+  ImpulseRowsView<Real> parts;  ///< [listed grain-part pair][kPatches]
+  std::uint32_t* grainRows;     ///< [slot] number of rows with other grains
+  std::uint32_t* boundRows;     ///< [index in the list near boundaries] number of rows
+  std::uint32_t* partRows;      ///< [listed grain-part pair] number of rows
+  std::uint32_t* degree;        ///< [slot] number of all rows, including ghosts
+  std::int64_t near;            ///< number of grains listed near boundaries
+  ImpulseMotion<Real>* free;    ///< [slot] velocities at the end of the step without contacts
+  ImpulseMotion<Real>* motion[3]; ///< [slot] velocities with the impulses of each buffer, including ghosts
+  const std::uint32_t* ghost;     ///< [slot] nonzero for ghosts; null without ghosts
+  std::int64_t margin;            ///< maximum gap of a row [units]
+  std::int64_t minMargin;         ///< gap below which a pair at rest has a row [units]
+  ImpulseControl<Real>* control;  ///< state of the iterations
+  int now;                        ///< buffer index of the rows before and after the iterations
   // Force-driven surfaces.
-  std::uint32_t* surfaceRows;  ///< [surface] number of rows on all ranks
-  std::int64_t* surfacePushes; ///< [surface] impulse of this rank's rows along its axis
-  base::FixedPoint push;       ///< quantum of surfacePushes [N s]
-  const Real* surfaceChange;   ///< [surface] speed change along its axis due to contacts [m/s]
+  std::uint32_t* surfaceRows;   ///< [surface] number of rows on all ranks
+  std::int64_t* surfacePushes;  ///< [surface] impulse of this rank's rows along its axis
+  base::FixedPoint push;        ///< quantum of surfacePushes [N s]
+  const Real* surfaceChange[3]; ///< [surface] speed change along its axis due to the impulses of each buffer [m/s]
   // Parts of bodies.
   contact::PartPatches patches;               ///< empty without parts
   const contact::BasicLaw<Real>* partLaws;    ///< by PartPatches::law()
@@ -109,7 +123,7 @@ template <class Real> struct ImpulseData {
   std::int64_t* bodyPushes;                   ///< [body][6] impulse and moment of this rank's rows; null if no body
                                               ///< can move
   base::FixedPoint bodyPush, bodyTurn;        ///< quanta of bodyPushes [N s], [N m s]
-  const BodyMotion<Real>* bodyMotion;         ///< [body] velocity with the impulses of this iteration
+  const BodyMotion<Real>* bodyMotion[3];      ///< [body] velocity with the impulses of each buffer
   bool rolls;                                 ///< any row has rolling resistance
   base::WideSum* sums;                        ///< [kSumBanks][kImpulseSums][kSumSizes]
   double perEnergy, perSquare;                ///< large quanta per unit
@@ -127,7 +141,11 @@ template <class Real, class Each> GROUSER_HD void forPartRowsOf(const ImpulseDat
 /// Calls each(rows, place) for all rows of a grain, in summation order.
 template <class Real, class Each>
 GROUSER_HD void forRowsOf(const GrainKernelData& d, const ImpulseData<Real>& s, int i, const Each& each) {
-  for (std::uint32_t k = 0; k < s.grainRows[i]; ++k) each(s.grains, d.neighbours.at(i, k));
+  const std::uint32_t grains = s.grainRows[i];
+#if defined(__CUDA_ARCH__)
+#pragma unroll 2
+#endif
+  for (std::uint32_t k = 0; k < grains; ++k) each(s.grains, d.neighbours.at(i, k));
   forPartRowsOf(s, i, [&](int, std::int64_t at) { each(s.parts, at); });
   const std::uint32_t at = d.boundaryCount > 0 ? d.boundaryOf[i] : 0;
   if (at == 0) return;
@@ -147,15 +165,19 @@ GROUSER_HD base::Vec3<Real> relativeVelocity(const ImpulseMotion<Real>& own, con
   return (own.velocity - other.velocity) - cross(own.spin * armOwn + other.spin * armOther, push);
 }
 
-template <class Real> GROUSER_HD contact::ImpulseCone<Real> coneAt(const ImpulseRowsView<Real>& rows, std::int64_t at) {
-  return {rows.row[at].friction, rows.rolling ? rows.rolling[at].arm : Real(0)};
+template <bool kRolls, class Real> GROUSER_HD contact::ImpulseCone<Real>
+coneAt(const ImpulseRowsView<Real>& rows, std::int64_t at, const ImpulseRowRecord<Real>& row) {
+  if constexpr (kRolls) return {row.friction, rows.rolling ? rows.rolling[at].arm : Real(0)};
+  return {row.friction, Real(0)};
 }
 
 /// Returns the force-driven surface of a row, or null.
-template <class Real> GROUSER_HD const SurfacePose*
-freeSurface(const GrainKernelData& d, const ImpulseRowRecord<Real>& row, bool atBoundary, int& surface) {
-  surface = static_cast<int>(row.place & kPlaceBits) - (d.boundaryCount - d.surfaceCount);
-  if (!atBoundary || surface < 0 || !(d.placements[surface].inverseMass > 0)) return nullptr;
+template <class Real> GROUSER_HD const SurfacePose* freeSurface(const GrainKernelData& d, const ImpulseData<Real>& s,
+                                                                const ImpulseRowsView<Real>& rows, std::int64_t at,
+                                                                int& surface) {
+  if (rows.row != s.bounds.row || d.surfaceCount == 0) return nullptr;
+  surface = static_cast<int>(rows.other[at].place & kPlaceBits) - (d.boundaryCount - d.surfaceCount);
+  if (surface < 0 || !(d.placements[surface].inverseMass > 0)) return nullptr;
   return d.placements + surface;
 }
 
@@ -164,13 +186,35 @@ template <class Real> GROUSER_HD bool hasNoRows(const GrainKernelData& d, const 
   return (s.ghost && s.ghost[i] != 0) || ((d.features & kFixed) && isFixed(d.motion[i].velocity));
 }
 
-template <class Real>
-GROUSER_HD contact::Impulse<Real> impulseAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
-  return {rows.impulse[generation][at], rows.rolling ? rows.turning[generation][at] : base::Vec3<Real>{}};
+/// Value that no thread of the kernel writes; its load may precede earlier stores.
+template <class T> GROUSER_HD T readOnly(const T* from) {
+#if defined(__CUDA_ARCH__)
+  using Word = std::conditional_t<alignof(T) % 16 == 0, int4, std::conditional_t<alignof(T) % 8 == 0, long long, int>>;
+  T value;
+  for (std::size_t k = 0; k < sizeof(T) / sizeof(Word); ++k)
+    reinterpret_cast<Word*>(&value)[k] = __ldg(reinterpret_cast<const Word*>(from) + k);
+  return value;
+#else
+  return *from;
+#endif
 }
-template <class Real>
-GROUSER_HD contact::Impulse<Real> gradientAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
-  return {rows.gradient[generation][at], rows.rolling ? rows.turnGradient[generation][at] : base::Vec3<Real>{}};
+
+/// Torque of a row; `kRolls`: whether any row has rolling resistance.
+template <class Real, bool kRolls> using TurnOf = std::conditional_t<kRolls, base::Vec3<Real>, contact::NoTurn>;
+
+template <bool kRolls, class Real> GROUSER_HD contact::Impulse<Real, TurnOf<Real, kRolls>>
+impulseAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
+  if constexpr (kRolls)
+    return {rows.impulse[generation][at], rows.rolling ? rows.turning[generation][at] : base::Vec3<Real>{}};
+  else
+    return {readOnly(rows.impulse[generation] + at), {}};
+}
+template <bool kRolls, class Real> GROUSER_HD contact::Impulse<Real, TurnOf<Real, kRolls>>
+gradientAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
+  if constexpr (kRolls)
+    return {rows.gradient[generation][at], rows.rolling ? rows.turnGradient[generation][at] : base::Vec3<Real>{}};
+  else
+    return {readOnly(rows.gradient[generation] + at), {}};
 }
 
 } // namespace grouser::terrain

@@ -63,32 +63,12 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     return {size.radius + (gap < 0 ? gap : Real(0)), Real(0)};
   }
 
-  /// Extrapolated impulse and gradient.
-  struct Ahead {
-    contact::Impulse<Real> impulse, gradient;
-  };
-  GROUSER_HD Ahead ahead(const ImpulseRowsView<Real>& rows, std::int64_t at) const {
-    const int now = s.control->now, before = s.control->before;
-    const Real more = s.control->ahead;
-    const contact::Impulse<Real> x = impulseAt(rows, now, at), g = gradientAt(rows, now, at);
-    return {x + (x - impulseAt(rows, before, at)) * more, g + (g - gradientAt(rows, before, at)) * more};
-  }
-
   /// Stores a row and its initial impulse.
   GROUSER_HD void put(const ImpulseRowsView<Real>& rows, std::int64_t at, const contact::ImpulseRow<Real>& row,
                       const Arms& arms, Real overlap, std::uint32_t other, std::uint32_t place,
                       bool counts = true) const {
-    rows.row[at] = {row.push,
-                    row.offset,
-                    row.softness,
-                    row.shearSoftness,
-                    row.cone.friction,
-                    arms.own,
-                    arms.other,
-                    Real(0),
-                    Real(0),
-                    other,
-                    place | (row.impact ? kImpactBit : 0u) | (counts ? kCountsBit : 0u)};
+    rows.row[at] = {row.push, arms.own, row.softness, row.shearSoftness, row.cone.friction, Real(counts ? 1 : -1)};
+    rows.other[at] = {row.offset, arms.other, Real(0), Real(0), other, place | (row.impact ? kImpactBit : 0u)};
     rows.end[at] = {overlap, row.pull, row.damping, row.shearDamping};
     const contact::Impulse<Real> start = contact::cutToCoulomb(row.start, row.push, row.cone);
     rows.impulse[s.now][at] = start.linear;
@@ -300,6 +280,10 @@ template <class Real> struct CountRows : ImpulseKernel<Real> {
   }
 };
 
+/// Weight of shear relative to the normal direction in the metric [-]: 1 + m R^2 / I of a solid sphere; 1 + 2 m R^2 / I
+/// if rolling rows also rotate the grain.
+template <class Real> GROUSER_HD constexpr Real shearWeight(bool rolls) { return rolls ? Real(6) : Real(3.5); }
+
 /// Computes the metric of each row. It bounds the effect of all rows of both grains on the row's velocity: each grain's
 /// mass is split among its rows (Tonge, Benevolenski and Voroshilov 2012, ACM Trans. Graph. 31:105). With this step
 /// size the objective of the convex problem never increases.
@@ -319,14 +303,15 @@ private:
   GROUSER_HD void weigh(const ImpulseRowsView<Real>& rows, std::int64_t at, const GrainSize<Real>& own,
                         std::uint32_t degree) const {
     ImpulseRowRecord<Real>& row = rows.row[at];
-    const bool alone = row.other == kFixedPartner;
-    const GrainSize<Real> other = alone ? own : Kernel::sizeOf(static_cast<int>(row.other));
-    const Real many = static_cast<Real>(degree), more = alone ? Real(0) : static_cast<Real>(s.degree[row.other]);
+    ImpulseRowOther<Real>& side = rows.other[at];
+    const bool alone = side.slot == kFixedPartner;
+    const GrainSize<Real> other = alone ? own : Kernel::sizeOf(static_cast<int>(side.slot));
+    const Real many = static_cast<Real>(degree), more = alone ? Real(0) : static_cast<Real>(s.degree[side.slot]);
     // Across a gap the arms are longer than the radii.
-    const Real a = row.armOwn / own.radius, b = row.armOther / other.radius, longer = a > b ? a : b;
+    const Real a = row.armOwn / own.radius, b = side.arm / other.radius, longer = a > b ? a : b;
     const Real arm2 = longer > 1 ? longer * longer : Real(1);
     int surface = 0;
-    const SurfacePose* const pose = freeSurface(d, row, rows.row == s.bounds.row, surface);
+    const SurfacePose* const pose = freeSurface(d, s, rows, at, surface);
     const Real given = pose ? static_cast<Real>(pose->inverseMass) : Real(0);
     Real masses = many / own.mass + more / other.mass + (pose ? s.surfaceRows[surface] * given : Real(0));
     Real yields = alone ? given : Real(1) / other.mass, turns = 0;
@@ -338,10 +323,10 @@ private:
       const base::Mat3d& turn = s.body[on.body].inertia;
       turns = rowsOfBody * static_cast<Real>(turn.m[0][0] + turn.m[1][1] + turn.m[2][2]);
     }
-    const Real shear = (shearWeight(s) * masses * arm2 + row.shearSoftness) / shearWeight(s);
+    const Real shear = (shearWeight<Real>(s.rolls) * masses * arm2 + row.shearSoftness) / shearWeight<Real>(s.rolls);
     const Real normal = masses + row.softness;
-    row.weight = normal > shear ? normal : shear;
-    row.mobility = Real(1) / own.mass + yields + row.softness;
+    row.signedWeight *= normal > shear ? normal : shear;
+    side.mobility = Real(1) / own.mass + yields + row.softness, side.inertia = Real(1) / side.mobility;
     if (!rows.rolling) return;
     RollingRowRecord<Real>& roll = rows.rolling[at];
     // Rolling and shear both rotate the grain, so each counts twice.
@@ -357,11 +342,6 @@ private:
     for (const base::Vec3d& axis : lever) turning += dot(axis, body.inertia * axis);
     return static_cast<Real>(body.mass + (s.rolls ? 2 : 1) * turning);
   }
-
-public:
-  /// Weight of shear relative to the normal direction [-]: 1 + m R^2 / I of a solid sphere; 1 + 2 m R^2 / I if rolling
-  /// rows also rotate the grain.
-  GROUSER_HD static Real shearWeight(const ImpulseData<Real>& s) { return s.rolls ? Real(6) : Real(3.5); }
 };
 
 } // namespace grouser::terrain

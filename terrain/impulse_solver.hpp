@@ -3,8 +3,8 @@
 
 #include "base/exec.hpp"
 #include "contact/body_response.hpp"
+#include "contact/complementarity_options.hpp"
 #include "contact/grain_part_contacts.hpp"
-#include "contact/impulse_law.hpp"
 #include "terrain/grain_constants.hpp"
 
 #include <cstdint>

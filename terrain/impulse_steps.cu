@@ -25,20 +25,21 @@ using contact::ComplementarityOptions;
 template <class Real> struct RowMemory {
   using Vectors = base::Array<base::Vec3<Real>>;
   explicit RowMemory(const base::Exec& exec)
-      : row(exec), rolling(exec), end(exec),
+      : row(exec), other(exec), rolling(exec), end(exec),
         part(exec), impulse{Vectors(exec), Vectors(exec), Vectors(exec)}, gradient{Vectors(exec), Vectors(exec),
                                                                                    Vectors(exec)},
         turning{Vectors(exec), Vectors(exec), Vectors(exec)}, turnGradient{Vectors(exec), Vectors(exec),
                                                                            Vectors(exec)} {}
 
   base::Array<ImpulseRowRecord<Real>> row;
+  base::Array<ImpulseRowOther<Real>> other;
   base::Array<RollingRowRecord<Real>> rolling;
   base::Array<ImpulseRowEnd<Real>> end;
   base::Array<PartRowRecord<Real>> part; ///< empty without parts
   std::array<Vectors, 3> impulse, gradient, turning, turnGradient;
 
   void resize(std::size_t places, bool rolls) {
-    row.resize(places), end.resize(places);
+    row.resize(places), other.resize(places), end.resize(places);
     for (auto* three : {&impulse, &gradient})
       for (Vectors& v : *three) v.resize(places);
     if (!rolls) return;
@@ -48,7 +49,7 @@ template <class Real> struct RowMemory {
   }
   ImpulseRowsView<Real> view() {
     ImpulseRowsView<Real> v{};
-    v.row = row.data(), v.rolling = rolling.data(), v.end = end.data(), v.part = part.data();
+    v.row = row.data(), v.other = other.data(), v.rolling = rolling.data(), v.end = end.data(), v.part = part.data();
     for (std::size_t k = 0; k < 3; ++k) {
       v.impulse[k] = impulse[k].data(), v.gradient[k] = gradient[k].data();
       v.turning[k] = turning[k].data(), v.turnGradient[k] = turnGradient[k].data();
@@ -56,7 +57,7 @@ template <class Real> struct RowMemory {
     return v;
   }
   std::size_t bytes() const {
-    std::size_t sum = row.bytes() + rolling.bytes() + end.bytes() + part.bytes();
+    std::size_t sum = row.bytes() + other.bytes() + rolling.bytes() + end.bytes() + part.bytes();
     for (const auto* three : {&impulse, &gradient, &turning, &turnGradient})
       for (const Vectors& v : *three) sum += v.bytes();
     return sum;
@@ -67,9 +68,11 @@ template <class Real> class ImpulseSolverOf : public ImpulseSolver {
 public:
   ImpulseSolverOf(const base::Exec& exec, const GrainConstants& c)
       : exec_(exec), options_(*c.model.complementarity), grains_(exec), bounds_(exec), onParts_(exec), bodies_(exec),
-        partRows_(exec), grainRows_(exec), boundRows_(exec), degree_(exec), free_(exec), motion_(exec),
-        sums_(exec, std::size_t{kSumBanks} * SumBanks<Real>::kCount), totalSums_(exec, SumBanks<Real>::kCount),
-        worst_(exec, 1), control_(exec, 1), surfaceRows_(exec), surfacePushes_(exec), surfaceChange_(exec) {
+        partRows_(exec), grainRows_(exec), boundRows_(exec), degree_(exec),
+        free_(exec), motion_{Motions(exec), Motions(exec), Motions(exec)},
+        sums_(exec, std::size_t{kSumBanks} * SumBanks<Real>::kCount), evaluation_(exec, 1), worst_(exec, 1),
+        control_(exec, 1), surfaceRows_(exec),
+        surfacePushes_(exec), surfaceChange_{Reals(exec), Reals(exec), Reals(exec)} {
     const auto real = [](double value) { return static_cast<Real>(value); };
     const ContactLaw& law = c.model.materials.count() > 0 ? c.model.materials.grains.front() : c.model.law;
     data_.rules = {real(c.model.timeStep), real(options_.recovery), real(options_.impact), real(law.stiffness),
@@ -90,11 +93,13 @@ public:
 
   std::size_t bytes() const override {
     return grains_.bytes() + bounds_.bytes() + onParts_.bytes() + partRows_.bytes() + grainRows_.bytes() +
-           boundRows_.bytes() + degree_.bytes() + free_.bytes() + motion_.bytes();
+           boundRows_.bytes() + degree_.bytes() + free_.bytes() + 3 * motion_[0].bytes();
   }
 
 private:
   using ContactLaw = contact::ContactLaw;
+  using Motions = base::Array<ImpulseMotion<Real>>;
+  using Reals = base::Array<Real>;
 
   template <class Body> void forSlots(const char* name, const GrainKernelData& d, const Body& body) const {
     base::forEach(exec_, name, d.count, body);
@@ -113,10 +118,11 @@ private:
     grains_.resize(system.neighbours.places(), rolls);
     bounds_.resize(near * static_cast<std::size_t>(d.boundaryCount), rolls);
     grainRows_.resize(slots), boundRows_.resize(near), degree_.resize(slots), free_.resize(slots);
-    motion_.resize(slots);
+    for (Motions& m : motion_) m.resize(slots);
     data_.grains = grains_.view(), data_.bounds = bounds_.view();
     data_.grainRows = grainRows_.data(), data_.boundRows = boundRows_.data(), data_.degree = degree_.data();
-    data_.near = static_cast<std::int64_t>(near), data_.free = free_.data(), data_.motion = motion_.data();
+    data_.near = static_cast<std::int64_t>(near), data_.free = free_.data();
+    for (std::size_t k = 0; k < motion_.size(); ++k) data_.motion[k] = motion_[k].data();
     data_.ghost = system.ghosts(), data_.sums = sums_.data(), data_.worst = worst_.data();
     data_.now = 0, data_.control = control_.data();
     force_ = system.forceData<Real>();
@@ -141,20 +147,38 @@ private:
     if (std::all_of(masses.begin(), masses.end(), [](double m) { return m == 0; })) return;
     inverseMass_ = masses;
     surfaceRows_.assign(std::vector<std::uint32_t>(masses.size()));
-    surfacePushes_.resize(masses.size()), surfaceChange_.assign(std::vector<Real>(masses.size()));
+    surfacePushes_.resize(masses.size());
+    for (std::size_t k = 0; k < surfaceChange_.size(); ++k) {
+      surfaceChange_[k].assign(std::vector<Real>(masses.size()));
+      data_.surfaceChange[k] = surfaceChange_[k].data();
+      pushes_[k].assign(masses.size(), 0);
+    }
     data_.push = base::fixedPointFor(system.boundaries.strongest() * system.constants.model.timeStep, 40);
     data_.surfaceRows = surfaceRows_.data(), data_.surfacePushes = surfacePushes_.data();
-    data_.surfaceChange = surfaceChange_.data();
   }
 
-  void moveSurfaces(const base::Comm& comm) {
+  /// Computes the speeds of the surfaces in buffer `generation` from the impulses of all ranks. Collective.
+  void moveSurfaces(std::size_t generation, const base::Comm& comm) {
     if (inverseMass_.empty()) return;
-    std::vector<std::int64_t> pushes = surfacePushes_.toHost();
-    comm.sum(pushes.data(), pushes.size());
+    std::vector<std::int64_t> quanta = surfacePushes_.toHost();
+    comm.sum(quanta.data(), quanta.size());
     std::vector<Real> change;
-    for (std::size_t k = 0; k < pushes.size(); ++k)
-      change.push_back(static_cast<Real>(data_.push.checked(pushes[k], "impulses on a surface") * inverseMass_[k]));
-    surfaceChange_.assign(change);
+    for (std::size_t k = 0; k < quanta.size(); ++k) {
+      pushes_[generation][k] = data_.push.checked(quanta[k], "impulses on a surface");
+      change.push_back(static_cast<Real>(pushes_[generation][k] * inverseMass_[k]));
+    }
+    surfaceChange_[generation].assign(change);
+  }
+
+  /// Share of the surfaces in the curvature of the step from the extrapolated impulses to the trial [J].
+  double curvatureOfSurfaces(const ImpulseControl<Real>& c) const {
+    double sum = 0;
+    for (std::size_t k = 0; k < inverseMass_.size(); ++k) {
+      const double now = pushes_[c.now][k];
+      const double step = pushes_[c.tried][k] - (now + (now - pushes_[c.before][k]) * static_cast<double>(c.ahead));
+      sum += step * step * inverseMass_[k];
+    }
+    return sum;
   }
 
   bool bodiesMove() const { return parts_.contacts && bodies_.anyMovable(); }
@@ -189,28 +213,42 @@ private:
     return system.distribution ? system.distribution->subdomain().haloExchange().bytesSent() : 0;
   }
 
-  template <bool kTry> void evaluate(GrainSystem& system, const GrainKernelData& d) {
-    using Gradient = FindGradient<Real, kTry>;
+  template <class Kernel> void forGrains(const char* name, const GrainKernelData& d) const {
+    Kernel body = kernel<Kernel>(d);
+    body.count = d.count;
+    base::forEach(exec_, name, exec_.onCpu() ? (d.count + Kernel::kOnCpu - 1) / Kernel::kOnCpu : d.count, body);
+  }
+  /// Enqueues an iteration.
+  void iterate(const GrainKernelData& d) { data_.rolls ? iterate<true>(d) : iterate<false>(d); }
+  template <bool kRolls> void iterate(const GrainKernelData& d) {
+    forGrains<FindGradient<Real, kRolls>>("gradient of rows", d);
+    forGrains<StepImpulses<Real, kRolls>>("step impulses", d);
+    base::forEach(exec_, "sum rows", SumBanks<Real>::kCount + 1, SumBanks<Real>{data_, evaluation_.data()});
+  }
+
+  void clearPushes() {
     if (!inverseMass_.empty()) surfacePushes_.zero();
     if (bodiesMove()) bodies_.clearPushes();
-    forSlots("move by impulses", d, kernel<MoveByImpulses<Real, kTry>>(d));
-    exchange(system, contact::fieldOf(motion_));
-    moveSurfaces(system.comm);
-    if (bodiesMove()) bodies_.move(system.comm);
-    Gradient gradient = kernel<Gradient>(d);
-    gradient.count = d.count;
-    base::forEach(exec_, "gradient of rows",
-                  exec_.onCpu() ? (d.count + Gradient::kOnCpu - 1) / Gradient::kOnCpu : d.count, gradient);
-    base::forEach(exec_, "sum rows", SumBanks<Real>::kCount, SumBanks<Real>{data_, totalSums_.data()});
+  }
+  /// Exchanges the velocities of ghosts in buffer `generation`, and computes those of surfaces and bodies. Collective.
+  void moveOthers(GrainSystem& system, std::size_t generation) {
+    exchange(system, contact::fieldOf(motion_[generation]));
+    moveSurfaces(generation, system.comm);
+    if (bodiesMove()) bodies_.move(generation, system.comm);
   }
 
   /// Returns the sums over all ranks.
   IterationSums summed(const base::Comm& comm) {
-    std::vector<base::WideSum> totals = totalSums_.toHost();
-    std::uint64_t least = ~std::uint64_t{worst_.toHost().front()};
-    worst_.zero();
-    if (!comm.alone()) totals = base::summedBanks(totals, totals.size(), comm), comm.minimum(&least, 1);
-    return iterationSums(data_, totals.data(), static_cast<std::uint32_t>(~least));
+    IterationTotals totals = evaluation_.at(0);
+    if (!comm.alone()) {
+      const std::vector<base::WideSum> mine(std::begin(totals.of), std::end(totals.of));
+      const std::vector<base::WideSum> all = base::summedBanks(mine, mine.size(), comm);
+      std::copy(all.begin(), all.end(), totals.of);
+      std::uint64_t least = ~std::uint64_t{totals.worst};
+      comm.minimum(&least, 1);
+      totals.worst = static_cast<std::uint32_t>(~least);
+    }
+    return iterationSums(data_, totals);
   }
 
   void solve(GrainSystem& system, const GrainKernelData& d) {
@@ -222,12 +260,14 @@ private:
     sums_.zero(), worst_.zero();
     const auto start = std::chrono::steady_clock::now();
     const std::int64_t sent = bytesSent(system);
-    evaluate<false>(system, d);
+    clearPushes();
+    forSlots("move by impulses", d, kernel<MoveByImpulses<Real, true>>(d));
+    moveOthers(system, static_cast<std::size_t>(control.now));
     // Ranks, bodies and force-driven surfaces need the host in each iteration.
-    if (!system.comm.alone() || bodiesMove() || !inverseMass_.empty())
-      control = iterateFromHost(system, d, control);
+    if (system.distribution || !system.comm.alone() || bodiesMove() || !inverseMass_.empty())
+      iterateFromHost(system, d, control);
     else
-      control = iterateOnDevice(system, d);
+      control = iterateOnDevice(d);
     data_.now = control.now;
     cost_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     cost_.evaluations += control.evaluations, cost_.bytes += bytesSent(system) - sent;
@@ -235,27 +275,29 @@ private:
     checkReport(report_, options_, system.steps);
   }
 
-  ImpulseControl<Real> iterateFromHost(GrainSystem& system, const GrainKernelData& d, ImpulseControl<Real> control) {
-    control.begin(summed(system.comm));
+  void iterateFromHost(GrainSystem& system, const GrainKernelData& d, ImpulseControl<Real>& control) {
     while (!control.done) {
       control_.assign({control});
-      evaluate<true>(system, d);
-      control.take(summed(system.comm));
+      clearPushes();
+      iterate(d);
+      moveOthers(system, static_cast<std::size_t>(control.tried));
+      IterationSums sums = summed(system.comm);
+      if (bodiesMove()) sums.curvature += bodies_.curvature(control);
+      sums.curvature += curvatureOfSurfaces(control);
+      control.take(sums);
     }
-    return control;
   }
 
   /// Launches several iterations at once; those after convergence return immediately. The first launch has as many as
   /// the last step needed, later ones have kAhead.
-  ImpulseControl<Real> iterateOnDevice(GrainSystem& system, const GrainKernelData& d) {
-    const auto decide = [&](bool first) {
-      base::forEach(exec_, "decide", 1, Decide<Real>{data_, totalSums_.data(), first});
-    };
-    decide(true);
-    int ahead = exec_.onCpu() ? 0 : report_.iterations;
+  ImpulseControl<Real> iterateOnDevice(const GrainKernelData& d) {
+    int ahead = exec_.onCpu() ? 1 : report_.iterations + 1;
     for (;;) {
-      for (int k = 0; k < ahead; ++k) evaluate<true>(system, d), decide(false);
-      const ImpulseControl<Real> control = control_.toHost().front();
+      for (int k = 0; k < ahead; ++k) {
+        iterate(d);
+        base::forEach(exec_, "decide", 1, Decide<Real>{data_, evaluation_.data()});
+      }
+      const ImpulseControl<Real> control = control_.at(0);
       if (control.done) return control;
       ahead = exec_.onCpu() ? 1 : kAhead;
     }
@@ -288,15 +330,17 @@ private:
   ImpulseBodies<Real> bodies_;
   base::Array<std::uint32_t> partRows_;
   base::Array<std::uint32_t> grainRows_, boundRows_, degree_;
-  base::Array<ImpulseMotion<Real>> free_, motion_;
+  base::Array<ImpulseMotion<Real>> free_;
+  std::array<Motions, 3> motion_;
   base::Array<base::WideSum> sums_;
-  base::Array<base::WideSum> totalSums_;
+  base::Array<IterationTotals> evaluation_; ///< one element
   base::Array<std::uint32_t> worst_;
   base::Array<ImpulseControl<Real>> control_; ///< one element
   std::vector<double> inverseMass_;           ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;
   base::Array<std::int64_t> surfacePushes_;
-  base::Array<Real> surfaceChange_; ///< [m/s]
+  std::array<base::Array<Real>, 3> surfaceChange_; ///< [m/s]
+  std::array<std::vector<double>, 3> pushes_;      ///< [buffer][surface] [N s]
 };
 
 } // namespace

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -28,9 +29,20 @@ namespace fs = std::filesystem;
 struct CompareCommand {
   std::string scene, device, folder;
   std::vector<std::string> grounds, contacts;
+  std::vector<double> steps;
   std::optional<int> threads;
   sweeps::CompareOptions options;
 };
+
+/// Values of --steps, ascending.
+std::vector<double> stepsOf(std::vector<double> steps, const sweeps::CompareOptions& options) {
+  if (options.contacts.empty())
+    throw base::InputError("--steps requires --contact: it multiplies the time step of each contact method");
+  std::sort(steps.begin(), steps.end());
+  if (std::adjacent_find(steps.begin(), steps.end()) != steps.end())
+    throw base::InputError("--steps: a value is listed twice; remove one");
+  return steps;
+}
 
 void compareCommand(CompareCommand command) {
   sweeps::CompareOptions& options = command.options;
@@ -39,6 +51,7 @@ void compareCommand(CompareCommand command) {
         "compare requires either --grounds or --contact with two or more values, separated by commas");
   if (!command.grounds.empty()) options.grounds = sweeps::groundsOf(command.grounds);
   if (!command.contacts.empty()) options.contacts = sweeps::contactsOf(command.contacts);
+  if (!command.steps.empty()) options.steps = stepsOf(command.steps, options);
   addDeviceOverrides(options.fixed, command.device, command.threads);
   sweeps::checkGivenOnce(options.fixed);
   for (const std::string& set : options.fixed)
@@ -74,6 +87,13 @@ void addCompare(CLI::App& app, const Invocation& invocation) {
       ->add_option("--contact", c.contacts,
                    fmt::format("two or more of {}, separated by commas; instead of --grounds",
                                fmt::join(base::wordsOf<scene::ContactMethod>(), ", ")))
+      ->delimiter(',');
+  compare
+      ->add_option(
+          "--steps", c.steps,
+          "multiples of the time step of each contact method, separated by commas, e.g. 0.25,0.5,1: error over "
+          "run time, with the smallest step of the first method as reference; requires --contact")
+      ->check(support::positive("a number"))
       ->delimiter(',');
   compare
       ->add_option("--seeds", c.options.seeds,

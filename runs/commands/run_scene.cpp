@@ -142,24 +142,22 @@ void describeSqueezed(const coupling::Simulation& simulation, session::Recorder&
   fmt::print("{}", recorder.squeezed().text());
 }
 
-/// Prints the statistics of the complementarity solver; without `verbose` only steps that exceed the tolerance.
-void describeSolver(const coupling::Simulation& simulation, bool verbose) {
+/// Prints the cost and accuracy of the complementarity solver.
+void describeSolver(const coupling::Simulation& simulation, const output::Summary& summary) {
   if (!simulation.ground().grains || !simulation.ground().grains->system().impulses) return;
   const terrain::ImpulseTotals& all = simulation.ground().grains->system().impulses->totals();
   const terrain::ImpulseCost& cost = simulation.ground().grains->system().impulses->cost();
   const auto evaluations = static_cast<double>(std::max<std::int64_t>(1, cost.evaluations));
   const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
-  const auto steps = static_cast<double>(std::max<std::int64_t>(1, all.steps));
-  if (verbose)
-    fmt::print("solver    {:.1f} iterations per step, {:.3g} us per iteration{}, maximum residual {:.2g} m/s (limit "
-               "{:.2g} m/s){}\n",
-               static_cast<double>(all.iterations) / steps, 1e6 * cost.seconds / evaluations,
-               cost.bytes > 0 ? fmt::format(", {:.3g} kB sent per iteration (rank 0)",
-                                            1e-3 * static_cast<double>(cost.bytes) / evaluations)
-                              : "",
-               all.worst, asked.residual,
-               all.relaxed > 0 ? fmt::format(", {} solved by the convex relaxation", base::counted(all.relaxed, "step"))
-                               : "");
+  fmt::print(
+      "solver    {:.1f} iterations per step, {:.3g} us per iteration{}, maximum residual {:.2g} m/s (limit "
+      "{:.2g} m/s), maximum overlap {:.2g} radii{}\n",
+      summary.figures.at("solver_iterations_a_step"), 1e6 * cost.seconds / evaluations,
+      cost.bytes > 0
+          ? fmt::format(", {:.3g} kB sent per iteration (rank 0)", 1e-3 * static_cast<double>(cost.bytes) / evaluations)
+          : "",
+      all.worst, asked.residual, summary.figures.at("solver_max_overlap"),
+      all.relaxed > 0 ? fmt::format(", {} solved by the convex relaxation", base::counted(all.relaxed, "step")) : "");
   if (all.missed > 0)
     fmt::print("WARNING: {} of {} exceed the tolerance run.residual; raise complementarity.iterations or run.residual, "
                "or use a smaller time_step\n",
@@ -319,7 +317,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
         1e6 * drove / static_cast<double>(std::max<std::int64_t>(1, simulation.steps() - begin));
     if (options.hash) summary.stateHash = simulation.stateHash();
     if (options.replay && total == all) describeReplay(recorded, provenance, summary.stateHash);
-    describeSolver(simulation, options.verbose);
+    describeSolver(simulation, summary);
     describeSqueezed(simulation, run.recorder(), summary);
     if (options.verbose) {
       describeLedger(simulation);

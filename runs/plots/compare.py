@@ -25,7 +25,7 @@ PANELS = (
 
 def bars(axis, label, variants, values, halves):
     places = range(len(variants))
-    axis.bar(places, [value if value is not None else 0 for value in values], color=[COLOURS.get(v, "C0") for v in variants],
+    axis.bar(places, [value if value is not None else 0 for value in values], color=[COLOURS.get(v.split("_x")[0], "C0") for v in variants],
              width=0.6)
     for place, value, half in zip(places, values, halves):
         if value is None:
@@ -33,7 +33,8 @@ def bars(axis, label, variants, values, halves):
         elif half:
             axis.errorbar(place, value, yerr=half, color="black", capsize=3)
     axis.axhline(0, color="black", linewidth=0.6)
-    axis.set_xticks(places, variants, fontsize=8)
+    tilt = {"rotation": 45, "ha": "right"} if len(variants) > 3 else {}
+    axis.set_xticks(places, variants, fontsize=8, **tilt)
     axis.set_ylabel(label, fontsize=8)
     axis.tick_params(axis="y", labelsize=7)
     axis.grid(False, axis="x")

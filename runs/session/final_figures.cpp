@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/session/final_figures.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace grouser::session {
@@ -19,10 +20,11 @@ void noteBed(const coupling::Simulation& simulation, output::Summary& summary) {
   }
 }
 
-void noteSolver(const terrain::ImpulseTotals& all, output::Summary& summary) {
+void noteSolver(const terrain::ImpulseTotals& all, const SqueezedRecord& squeezed, output::Summary& summary) {
   summary.figures["solver_iterations_a_step"] =
       all.steps > 0 ? static_cast<double>(all.iterations) / static_cast<double>(all.steps) : 0;
   summary.figures["solver_worst_residual"] = all.worst;
+  summary.figures["solver_max_overlap"] = std::max(squeezed.overlap, squeezed.share);
   summary.figures["solver_missed_steps"] = static_cast<double>(all.missed);
   summary.figures["solver_relaxed_steps"] = static_cast<double>(all.relaxed);
 }
@@ -62,7 +64,7 @@ void noteFigures(RunSession& run, output::Summary& summary) {
   summary.figures["integration_error_J"] = ledger.integrationError;
   noteBed(simulation, summary);
   if (const auto& grains = simulation.ground().grains; grains && grains->system().impulses)
-    noteSolver(grains->system().impulses->totals(), summary);
+    noteSolver(grains->system().impulses->totals(), run.recorder().squeezed(), summary);
   if (simulation.vehicle()) noteDrive(*simulation.vehicle(), run.writer(), summary);
   if (simulation.setup().crushes()) noteCrushing(simulation, summary);
   noteSqueezed(run.recorder(), summary);

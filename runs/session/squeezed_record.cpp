@@ -15,6 +15,7 @@ SqueezedRecord::SqueezedRecord(const std::vector<output::Channel>& channels, std
     if (c.path == "terrain/squeezed") pairsAt_ = at;
     if (c.path == "terrain/squeezed_at_boundaries") boundariesAt_ = at;
     if (c.path == "terrain/squeezed_by_parts") partsAt_ = at;
+    if (c.path == "terrain/max_overlap") overlapAt_ = at;
     if (c.path == "terrain/part_overlap") shareAt_ = at;
     if (c.path == "terrain/part_overlap_by") byAt_ = at;
     at += static_cast<std::size_t>(c.width);
@@ -25,7 +26,7 @@ void SqueezedRecord::add(const output::Row& row) {
   const auto most = [&row](double& of, const std::optional<std::size_t>& at) {
     if (at) of = std::max(of, row.values[*at]);
   };
-  most(pairs, pairsAt_), most(atBoundaries, boundariesAt_), most(byParts, partsAt_);
+  most(pairs, pairsAt_), most(atBoundaries, boundariesAt_), most(byParts, partsAt_), most(overlap, overlapAt_);
   if (!shareAt_ || !byAt_ || !(row.values[*shareAt_] > share)) return; // NaN without parts
   share = row.values[*shareAt_], time = row.time;
   const auto part = static_cast<std::size_t>(row.values[*byAt_]);

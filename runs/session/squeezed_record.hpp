@@ -20,6 +20,8 @@ public:
   /// Maximum numbers of overlaps above 0.2 radius in a row: between grains; with planes, floor and surfaces; with
   /// parts.
   double pairs = 0, atBoundaries = 0, byParts = 0;
+  /// Largest overlap between grains or with planes, floor and surfaces in a row, in radii.
+  double overlap = 0;
   /// Largest overlap with a part, in radii; 0 without contact.
   double share = 0, time = 0;
   std::string by; ///< name of this part
@@ -30,7 +32,8 @@ public:
   std::string deepest() const;
 
 private:
-  std::optional<std::size_t> pairsAt_, boundariesAt_, partsAt_, shareAt_, byAt_; ///< column indices in a row
+  std::optional<std::size_t> pairsAt_, boundariesAt_, partsAt_, overlapAt_, shareAt_,
+      byAt_; ///< column indices in a row
   std::vector<std::string> parts_;
 };
 

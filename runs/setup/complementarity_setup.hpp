@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "contact/impulse_law.hpp"
+#include "contact/complementarity_options.hpp"
 #include "runs/setup/contact_pairs.hpp"
 
 #include <optional>

@@ -10,6 +10,7 @@
 #include "runs/output/plots.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/step_limit.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/text_file.hpp"
@@ -55,10 +56,17 @@ std::vector<Variant> variantsOf(const fs::path& scene, const CompareOptions& opt
     variants.push_back({option, word, ground == TerrainKind::granular,
                         naming(option, word, [&] { return groundOverrides(scene, options.fixed, ground); })});
   }
-  for (const ContactMethod contact : options.contacts) {
-    const std::string word(base::wordOf(contact));
-    variants.push_back({"--contact", word, true, contactOverrides(scene, options.fixed, contact)});
-  }
+  for (const ContactMethod contact : options.contacts)
+    for (const double step : options.steps) {
+      const std::string word(base::wordOf(contact)), option = "--contact";
+      std::vector<std::string> overrides = contactOverrides(scene, options.fixed, contact);
+      if (step != 1)
+        naming(option, word, [&] {
+          const double own = setup::chooseTimeStep(setup::loadScene(scene, overrides));
+          putOverride(overrides, fmt::format("run.time_step={:.9g}", step * own));
+        });
+      variants.push_back({option, step == 1 ? word : fmt::format("{}_x{:g}", word, step), true, std::move(overrides)});
+    }
   return variants;
 }
 
@@ -83,7 +91,7 @@ std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::
 
 void writeComparison(const fs::path& scene, const Comparison& comparison, const CompareOptions& options) {
   const fs::path& folder = options.sweep.folder;
-  const std::string text = comparisonText(comparison, options.percent);
+  const std::string text = comparisonText(comparison, options.percent, options.steps.size() > 1);
   fmt::print("\n{}\n", text);
   nlohmann::ordered_json json = {{"command", options.words},
                                  {"machine", support::machineText()},

@@ -14,6 +14,7 @@ struct CompareOptions {
   SweepOptions sweep;
   std::vector<scene::TerrainKind> grounds;    ///< at least two, or empty
   std::vector<scene::ContactMethod> contacts; ///< at least two, or empty
+  std::vector<double> steps{1};               ///< multiples of the time step of each contact method, ascending
   int seeds = 3;                              ///< runs per variant with grains; other variants have one run
   std::vector<std::string> fixed;             ///< "key=value" for all runs
   double percent = 5;                         ///< tolerance of the verdict "equal" [% of the larger mean]

@@ -69,8 +69,8 @@ VariantResult resultOf(const std::string& variant, bool random, const SweepPlan&
     if (!output::hasEnded(outcomes[i].status)) continue;
     const RunManifest manifest(folder / plan.runs[i].name);
     result.preparation += manifest.figure("wall_preparation_s"), result.cpuTime += manifest.figure("cpu_steps_s");
-    result.wallTime += manifest.wallTime(),
-        result.perSecond += manifest.wallTime() / manifest.number("simulated_time_s");
+    const double wall = manifest.figure("wall_steps_s");
+    result.wallTime += wall, result.perSecond += wall / manifest.number("simulated_time_s");
     ++result.ended;
   }
   const double ended = result.ended > 0 ? result.ended : base::kNaN;
@@ -106,8 +106,20 @@ std::string reasonWithoutFigures(const Comparison& all, const VariantResult& res
   if (!result.doubt.empty()) return result.doubt;
   for (std::size_t c = 0; c < all.columns.size(); ++c)
     if (isShown(all.columns[c]) && std::isfinite(result.figures[c].value)) return {};
-  return result.ended > 0 ? "its runs end before the vehicle reaches full speed; raise run.duration"
-                          : "no run has finished";
+  if (result.ended == 0) return "no run has finished";
+  return all.hasVehicle
+             ? "its runs end before the vehicle reaches full speed; raise run.duration"
+             : "compare has figures of vehicles, surfaces and meshes only; the time series of each run is in "
+               "its folder";
+}
+
+/// Difference of a variant from the first one, in percent of the latter's mean.
+std::string percentText(const Comparison& all, const VariantResult& variant, std::size_t column) {
+  const VariantResult& first = all.variants.front();
+  if (&variant == &first) return "reference";
+  const support::Estimate change = variantDifference(first, variant, column);
+  const double scale = 100 / std::fabs(first.figures[column].value);
+  return figureText({scale * change.value, scale * change.halfWidth});
 }
 
 } // namespace
@@ -135,6 +147,7 @@ Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& 
   SweepFigures figures = figuresOf(plan, outcomes, folder);
   Comparison all;
   all.columns = figures.columns;
+  all.hasVehicle = plan.runs.front().scene.vehicle.has_value();
   std::vector<std::string> variants;
   for (const SweepRun& run : plan.runs)
     if (variants.empty() || variants.back() != run.values.front()) variants.push_back(run.values.front());
@@ -148,7 +161,7 @@ Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& 
   return all;
 }
 
-std::string comparisonText(const Comparison& all, double percent) {
+std::string comparisonText(const Comparison& all, double percent, bool fromFirst) {
   const auto word = [&](std::size_t g) { return all.variants[g].variant; };
   std::string text =
       "means over the steady part; +- is the half width of the 95 % interval over seeds, where available\n";
@@ -175,6 +188,13 @@ std::string comparisonText(const Comparison& all, double percent) {
   for (const VariantResult& g : all.variants)
     if (const std::string why = reasonWithoutFigures(all, g); !why.empty())
       text += fmt::format("WARNING: {} is inconclusive: {}\n", g.variant, why);
+  if (fromFirst) {
+    text += fmt::format("\ndifference from {} [% of its mean]\n", word(0));
+    for (std::size_t c = 0; c < all.columns.size(); ++c)
+      if (isShown(all.columns[c]) && isKnown(c))
+        line(all.columns[c], [&](const VariantResult& g) { return percentText(all, g, c); });
+    return text;
+  }
   for (const VariantDifference& d : all.differences) {
     if (std::all_of(d.verdicts.begin(), d.verdicts.end(), [](const std::string& v) { return v.empty(); })) continue;
     text += fmt::format("\n{} - {}; equal means within {:g} % of the larger mean\n", word(d.to), word(d.from), percent);

@@ -38,6 +38,7 @@ struct Comparison {
   std::vector<std::string> columns;
   std::vector<VariantResult> variants;
   std::vector<VariantDifference> differences; ///< all pairs of variants
+  bool hasVehicle = true;
 };
 
 /// Difference b - a with its 95 % half width: Welch's interval between two samples; if one variant has no scatter, the
@@ -55,8 +56,9 @@ std::string figureText(const support::Estimate& e);
 Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& outcomes,
                         const std::vector<std::string>& random, double percent, const std::filesystem::path& folder);
 
-/// Text of the main figures, their differences, and the cost.
-std::string comparisonText(const Comparison& comparison, double percent);
+/// Text of the main figures, their differences, and the cost. `fromFirst`: only differences from the first variant, in
+/// percent, as one table.
+std::string comparisonText(const Comparison& comparison, double percent, bool fromFirst = false);
 /// One row per figure and pair of variants.
 std::string comparisonCsv(const Comparison& comparison);
 nlohmann::ordered_json comparisonJson(const Comparison& comparison);

@@ -6,6 +6,7 @@
 #include "runs/campaigns/sweeps/compare.hpp"
 #include "runs/campaigns/sweeps/grounds.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/setup/step_limit.hpp"
 #include "tests/runs/program_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 
 namespace grouser::sweeps {
 
@@ -240,6 +242,28 @@ TEST_F(CompareRuns, ContactMethodsHaveRunsOfTheSameSeeds) {
   EXPECT_EQ(plan.runs[1].scene.run.contact, scene::ContactMethod::penalty);
   EXPECT_EQ(plan.runs[2].scene.run.contact, scene::ContactMethod::complementarity);
   EXPECT_EQ(plan.runs[2].values, (Words{"complementarity", "1"}));
+}
+
+TEST_F(CompareRuns, ContactMethodsHaveMultiplesOfTheirOwnSteps) {
+  CompareOptions options;
+  options.contacts = {scene::ContactMethod::penalty, scene::ContactMethod::complementarity}, options.seeds = 2;
+  options.steps = {0.25, 1};
+  options.fixed = {"run.duration=0.02",   "output.picture=false", "output.plots=false",
+                   "output.frames=false", "grains.0.number=100",  "run.threads=1"};
+  const SweepPlan plan = planCompare(shipped("drum.toml"), options);
+  ASSERT_EQ(plan.runs.size(), 8u);
+  EXPECT_EQ(plan.runs[0].name, "penalty_x0.25,seed=1");
+  EXPECT_EQ(plan.runs[6].name, "complementarity,seed=1");
+  const auto step = [&](std::size_t k) { return setup::chooseTimeStep(plan.runs[k].scene); };
+  EXPECT_NEAR(step(0), 0.25 * step(2), 1e-6 * step(2));
+  EXPECT_NEAR(step(4), 0.25 * step(6), 1e-6 * step(6));
+  EXPECT_GT(step(6), 10 * step(2));
+  options.sweep.program = programUnderTest(), options.sweep.folder = folder_ / "out", options.sweep.plot = false;
+  EXPECT_EQ(runCompare(shipped("drum.toml"), options), 0);
+  std::ifstream file(folder_ / "out" / "compare.txt");
+  const std::string text(std::istreambuf_iterator<char>(file), {});
+  EXPECT_NE(text.find("difference from penalty_x0.25 [% of its mean]"), std::string::npos) << text;
+  EXPECT_NE(text.find(" reference"), std::string::npos) << text;
 }
 
 } // namespace
