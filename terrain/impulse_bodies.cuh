@@ -49,7 +49,8 @@ public:
     pushes_.resize(6 * count);
     for (State& state : states_) state.impulses.assign(count, {});
     motion_.resize(states_.size() * count);
-    for (std::size_t k = 0; k < states_.size(); ++k) respond(k);
+    bodies_->respond(states_[0].impulses, states_[0].velocities);
+    for (std::size_t k = 0; k < states_.size(); ++k) states_[k].velocities = states_[0].velocities, upload(k);
   }
 
   void into(ImpulseData<Real>& data) {
@@ -79,17 +80,12 @@ public:
   }
   /// Share of the bodies in the curvature of the step from the extrapolated impulses to the trial [J].
   double curvature(const ImpulseControl<Real>& c) const {
-    const State &now = states_[c.now], &before = states_[c.before], &tried = states_[c.tried];
-    const auto step = [&](const base::Vec3d& to, const base::Vec3d& at, const base::Vec3d& former) {
-      return to - (at + (at - former) * static_cast<double>(c.ahead));
-    };
     double sum = 0;
-    for (std::size_t b = 0; b < rows_.size(); ++b) {
-      const contact::BodyImpulse &x = tried.impulses[b], &y = now.impulses[b], &z = before.impulses[b];
-      const contact::BodyVelocity &u = tried.velocities[b], &v = now.velocities[b], &w = before.velocities[b];
-      sum += dot(step(x.linear, y.linear, z.linear), step(u.linear, v.linear, w.linear)) +
-             dot(step(x.angular, y.angular, z.angular), step(u.angular, v.angular, w.angular));
-    }
+    for (std::size_t b = 0; b < rows_.size(); ++b)
+      sum += dot(c.stepOf([&](int k) { return states_[k].impulses[b].linear; }),
+                 c.stepOf([&](int k) { return states_[k].velocities[b].linear; })) +
+             dot(c.stepOf([&](int k) { return states_[k].impulses[b].angular; }),
+                 c.stepOf([&](int k) { return states_[k].velocities[b].angular; }));
     return sum;
   }
 
@@ -103,10 +99,13 @@ private:
   BodyMotion<Real>* motionOf(std::size_t generation) { return motion_.data() + generation * rows_.size(); }
 
   void respond(std::size_t generation) {
-    State& state = states_[generation];
-    bodies_->respond(state.impulses, state.velocities);
+    bodies_->respond(states_[generation].impulses, states_[generation].velocities);
+    upload(generation);
+  }
+
+  void upload(std::size_t generation) {
     std::vector<BodyMotion<Real>> motion;
-    for (const contact::BodyVelocity& v : state.velocities)
+    for (const contact::BodyVelocity& v : states_[generation].velocities)
       motion.push_back({v.linear.template as<Real>(), v.angular.template as<Real>()});
     base::copyToDevice(exec_, motionOf(generation), motion.data(), motion.size() * sizeof(motion[0]));
   }

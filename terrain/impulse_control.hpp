@@ -31,11 +31,22 @@ template <class Real> struct ImpulseControl {
   double theta = 1, halved = 0;
   IterationSums last{};
 
+  /// Difference of the trial from the extrapolated iterate, of a quantity by buffer.
+  template <class Value> auto stepOf(const Value& value) const {
+    const auto current = value(now);
+    return value(tried) - (current + (current - value(before)) * static_cast<double>(ahead));
+  }
+
+  /// True if an evaluation with these sums is the last one.
+  GROUSER_HD bool endsWith(const IterationSums& sums) const {
+    return !(sums.worst > residual) || iterations >= maxIterations;
+  }
+
   /// Takes the sums of an evaluation: stops, accepts the trial, or repeats it with a shorter step if the curvature is
   /// too high, or with the relaxation if Coulomb's law, which has no potential, does not converge.
   GROUSER_HD void take(const IterationSums& sums) {
     ++evaluations, last = sums;
-    done = !(last.worst > residual) || iterations >= maxIterations;
+    done = endsWith(sums);
     if (iterations == 0 || last.worst < 0.5 * halved) halved = last.worst, halvedAt = iterations;
     if (done) return;
     if (iterations - halvedAt > kPatience && !associated) {

@@ -8,26 +8,13 @@
 /// new impulses to its velocity.
 namespace grouser::terrain {
 
-/// Adds the current impulses of a grain to its velocity.
-template <class Real, bool kRolls> struct MoveByImpulses : ImpulseKernel<Real> {
+/// Velocities due to impulses. `kRolls`: whether any row has rolling resistance.
+template <class Real, bool kRolls> struct ImpulsePushes : ImpulseKernel<Real> {
   static constexpr double kNanoseconds = 150;
   using Base = ImpulseKernel<Real>;
   using Base::d, Base::s;
   using typename Base::Kernel, typename Base::Vec;
   using Impulse = contact::Impulse<Real, TurnOf<Real, kRolls>>;
-
-  GROUSER_HD void operator()(int i) const {
-    const int now = s.control->now;
-    if (s.ghost && s.ghost[i] != 0) return; // set by the halo exchange
-    Push sum;
-    if (!hasNoRows(d, s, i))
-      forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
-        const ImpulseRowRecord<Real> row = rows.row[at];
-        sum.add(row, impulseAt<kRolls>(rows, now, at));
-        pushOther(rows, at, row, impulseAt<kRolls>(rows, now, at));
-      });
-    move(i, sum, now);
-  }
 
 protected:
   /// Sum of impulses on a grain.
@@ -71,7 +58,28 @@ protected:
   }
 };
 
-/// Residual of a row with a NaN or an infinite gradient [m/s].
+/// Adds the current impulses of a grain to its velocity.
+template <class Real> struct MoveByImpulses : ImpulsePushes<Real, true> {
+  using Base = ImpulsePushes<Real, true>;
+  using Base::d, Base::s;
+  using typename Base::Impulse, typename Base::Push;
+
+  GROUSER_HD void operator()(int i) const {
+    if (s.ghost && s.ghost[i] != 0) return; // set by the halo exchange
+    const int now = s.control->now;
+    Push sum;
+    if (!hasNoRows(d, s, i))
+      forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
+        const ImpulseRowRecord<Real> row = rows.row[at];
+        const Impulse x = impulseAt<true>(rows, now, at);
+        sum.add(row, x);
+        Base::pushOther(rows, at, row, x);
+      });
+    Base::move(i, sum, now);
+  }
+};
+
+/// Residual, and squared residual, of a row with a NaN or an infinite gradient [m/s], [m2/s2].
 inline constexpr float kNoResidual = 3e38f;
 
 /// Scale of a sum [large quanta per unit].
@@ -79,9 +87,9 @@ template <class Real> GROUSER_HD double perUnitOf(const ImpulseData<Real>& s, in
   return sum == kContacts ? 1.0 : sum == kSquares ? s.perSquare : s.perEnergy;
 }
 
-/// Sums over grains [quanta], from sums over the rows of each grain.
-template <class Real, bool kRolls> struct IterationKernel : MoveByImpulses<Real, kRolls> {
-  using Base = MoveByImpulses<Real, kRolls>;
+/// Kernel of an iteration that sums over the rows of each grain, and these sums over grains as integers.
+template <class Real, bool kRolls> struct IterationKernel : ImpulsePushes<Real, kRolls> {
+  using Base = ImpulsePushes<Real, kRolls>;
   using Base::s;
   static constexpr int kOnCpu = 32; ///< grains per CPU task
 
@@ -93,6 +101,7 @@ template <class Real, bool kRolls> struct IterationKernel : MoveByImpulses<Real,
     double of[kImpulseSums] = {};
     float worst = 0; ///< maximum squared residual [m2/s2]
   };
+  /// Sums over grains [quanta].
   struct Sums {
     std::int64_t of[kImpulseSums * kSumSizes] = {};
     float worst = 0;
@@ -239,7 +248,7 @@ private:
     const GrainSize<Real> size = Kernel::sizeOf(i);
     const Vec change = steps.linear * (Real(1) / size.mass), turn = steps.angular * (Real(1) / Base::inertiaOf(size));
     mine.of[kCurvature] += static_cast<double>(dot(change, steps.linear) + dot(turn, steps.angular));
-    Base::template add<0, kSquares>(sums, mine);
+    Base::template add<kCurvature, kSquares>(sums, mine);
   }
 
   /// Takes the projected gradient step from the extrapolated impulse `y` with the gradient `g`.

@@ -7,6 +7,7 @@
 #include "terrain/grain_kernel_data.cuh"
 #include "terrain/impulse_control.hpp"
 
+#include <cstring>
 #include <type_traits>
 
 /// Rows of the complementarity problem of a step, as seen by its kernels. Each grain of a pair has its own row, with
@@ -27,7 +28,7 @@ template <class Real> struct alignas(16) ImpulseRowRecord {
   /// Weight in the metric, the inverse of the step size [1/kg].
   GROUSER_HD Real weight() const { return counts() ? signedWeight : -signedWeight; }
   /// True on one side of a pair (smaller id), which contributes to the sums.
-  GROUSER_HD bool counts() const { return signedWeight > 0; }
+  GROUSER_HD bool counts() const { return !(signedWeight < 0); }
 };
 
 /// Other constants of a row, for its gradient.
@@ -85,7 +86,7 @@ template <class Real> struct ImpulseRowsView {
 };
 
 /// Sums of an iteration over all rows, as integers with quanta of two sizes, so that the order of grains does not
-/// matter. Each grain sums its own rows in a fixed order.
+/// matter. Each grain sums its own rows in a fixed order. The first three describe a step, the others the residual.
 enum ImpulseSum : int { kCurvature, kLength, kAgainst, kSquares, kContacts, kImpulseSums };
 inline constexpr int kSumSizes = 2, kSumBanks = 64;
 /// Ratio of the two quanta.
@@ -186,13 +187,15 @@ template <class Real> GROUSER_HD bool hasNoRows(const GrainKernelData& d, const 
   return (s.ghost && s.ghost[i] != 0) || ((d.features & kFixed) && isFixed(d.motion[i].velocity));
 }
 
-/// Value that no thread of the kernel writes; its load may precede earlier stores.
+/// Value that no thread of the kernel writes: its load may precede earlier stores, and is not coherent with them.
 template <class T> GROUSER_HD T readOnly(const T* from) {
+  static_assert(std::is_trivially_copyable_v<T> && alignof(T) >= alignof(int));
 #if defined(__CUDA_ARCH__)
   using Word = std::conditional_t<alignof(T) % 16 == 0, int4, std::conditional_t<alignof(T) % 8 == 0, long long, int>>;
+  Word words[sizeof(T) / sizeof(Word)];
+  for (std::size_t k = 0; k < sizeof(T) / sizeof(Word); ++k) words[k] = __ldg(reinterpret_cast<const Word*>(from) + k);
   T value;
-  for (std::size_t k = 0; k < sizeof(T) / sizeof(Word); ++k)
-    reinterpret_cast<Word*>(&value)[k] = __ldg(reinterpret_cast<const Word*>(from) + k);
+  memcpy(&value, words, sizeof(T));
   return value;
 #else
   return *from;
@@ -202,6 +205,7 @@ template <class T> GROUSER_HD T readOnly(const T* from) {
 /// Torque of a row; `kRolls`: whether any row has rolling resistance.
 template <class Real, bool kRolls> using TurnOf = std::conditional_t<kRolls, base::Vec3<Real>, contact::NoTurn>;
 
+/// Impulse and gradient in a buffer that the calling kernel does not write: see readOnly().
 template <bool kRolls, class Real> GROUSER_HD contact::Impulse<Real, TurnOf<Real, kRolls>>
 impulseAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
   if constexpr (kRolls)

@@ -151,7 +151,7 @@ private:
     for (std::size_t k = 0; k < surfaceChange_.size(); ++k) {
       surfaceChange_[k].assign(std::vector<Real>(masses.size()));
       data_.surfaceChange[k] = surfaceChange_[k].data();
-      pushes_[k].assign(masses.size(), 0);
+      surfaceImpulses_[k].assign(masses.size(), 0);
     }
     data_.push = base::fixedPointFor(system.boundaries.strongest() * system.constants.model.timeStep, 40);
     data_.surfaceRows = surfaceRows_.data(), data_.surfacePushes = surfacePushes_.data();
@@ -164,8 +164,8 @@ private:
     comm.sum(quanta.data(), quanta.size());
     std::vector<Real> change;
     for (std::size_t k = 0; k < quanta.size(); ++k) {
-      pushes_[generation][k] = data_.push.checked(quanta[k], "impulses on a surface");
-      change.push_back(static_cast<Real>(pushes_[generation][k] * inverseMass_[k]));
+      surfaceImpulses_[generation][k] = data_.push.checked(quanta[k], "impulses on a surface");
+      change.push_back(static_cast<Real>(surfaceImpulses_[generation][k] * inverseMass_[k]));
     }
     surfaceChange_[generation].assign(change);
   }
@@ -174,8 +174,7 @@ private:
   double curvatureOfSurfaces(const ImpulseControl<Real>& c) const {
     double sum = 0;
     for (std::size_t k = 0; k < inverseMass_.size(); ++k) {
-      const double now = pushes_[c.now][k];
-      const double step = pushes_[c.tried][k] - (now + (now - pushes_[c.before][k]) * static_cast<double>(c.ahead));
+      const double step = c.stepOf([&](int buffer) { return surfaceImpulses_[buffer][k]; });
       sum += step * step * inverseMass_[k];
     }
     return sum;
@@ -261,7 +260,7 @@ private:
     const auto start = std::chrono::steady_clock::now();
     const std::int64_t sent = bytesSent(system);
     clearPushes();
-    forSlots("move by impulses", d, kernel<MoveByImpulses<Real, true>>(d));
+    forSlots("move by impulses", d, kernel<MoveByImpulses<Real>>(d));
     moveOthers(system, static_cast<std::size_t>(control.now));
     // Ranks, bodies and force-driven surfaces need the host in each iteration.
     if (system.distribution || !system.comm.alone() || bodiesMove() || !inverseMass_.empty())
@@ -280,10 +279,12 @@ private:
       control_.assign({control});
       clearPushes();
       iterate(d);
-      moveOthers(system, static_cast<std::size_t>(control.tried));
       IterationSums sums = summed(system.comm);
-      if (bodiesMove()) sums.curvature += bodies_.curvature(control);
-      sums.curvature += curvatureOfSurfaces(control);
+      if (!control.endsWith(sums)) {
+        moveOthers(system, static_cast<std::size_t>(control.tried));
+        if (bodiesMove()) sums.curvature += bodies_.curvature(control);
+        sums.curvature += curvatureOfSurfaces(control);
+      }
       control.take(sums);
     }
   }
@@ -339,8 +340,8 @@ private:
   std::vector<double> inverseMass_;           ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;
   base::Array<std::int64_t> surfacePushes_;
-  std::array<base::Array<Real>, 3> surfaceChange_; ///< [m/s]
-  std::array<std::vector<double>, 3> pushes_;      ///< [buffer][surface] [N s]
+  std::array<base::Array<Real>, 3> surfaceChange_;     ///< [m/s]
+  std::array<std::vector<double>, 3> surfaceImpulses_; ///< [buffer][surface] [N s]
 };
 
 } // namespace

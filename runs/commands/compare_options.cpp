@@ -39,7 +39,8 @@ std::vector<double> stepsOf(std::vector<double> steps, const sweeps::CompareOpti
   if (options.contacts.empty())
     throw base::InputError("--steps requires --contact: it multiplies the time step of each contact method");
   std::sort(steps.begin(), steps.end());
-  if (std::adjacent_find(steps.begin(), steps.end()) != steps.end())
+  const auto sameWord = [](double a, double b) { return fmt::format("{:g}", a) == fmt::format("{:g}", b); };
+  if (std::adjacent_find(steps.begin(), steps.end(), sameWord) != steps.end())
     throw base::InputError("--steps: a value is listed twice; remove one");
   return steps;
 }

@@ -151,7 +151,7 @@ void describeSolver(const coupling::Simulation& simulation, const output::Summar
   const contact::ComplementarityOptions& asked = *simulation.ground().grains->model().complementarity;
   fmt::print(
       "solver    {:.1f} iterations per step, {:.3g} us per iteration{}, maximum residual {:.2g} m/s (limit "
-      "{:.2g} m/s), maximum overlap {:.2g} radii{}\n",
+      "{:.2g} m/s), maximum overlap at any output {:.2g} radii{}\n",
       summary.figures.at("solver_iterations_a_step"), 1e6 * cost.seconds / evaluations,
       cost.bytes > 0
           ? fmt::format(", {:.3g} kB sent per iteration (rank 0)", 1e-3 * static_cast<double>(cost.bytes) / evaluations)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a comparison: compare.py COMPARE.json FILE.png
 
-One panel per figure, with a bar and 95 % interval for each kind of ground or contact method, and the wall time per
+One panel per figure, with a bar and 95 % interval for each variant (a kind of ground, or a contact method
+and multiple of its step), and the wall time per
 simulated second.
 """
 import json

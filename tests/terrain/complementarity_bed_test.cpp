@@ -31,8 +31,11 @@ EndOfBed endOfBed(Grains& grains) {
 
 constexpr int kBedSteps = 100;
 
-EndOfBed bedAfterSteps(const base::Exec& exec, Compliance compliance, double skin) {
-  Grains grains = thrown(exec, impulsiveGravel(compliance, skin));
+EndOfBed bedAfterSteps(const base::Exec& exec, Compliance compliance, double skin,
+                       Precision precision = Precision::single) {
+  GrainModel m = impulsiveGravel(compliance, skin);
+  m.precision = precision;
+  Grains grains = thrown(exec, m);
   advance(grains, kBedSteps);
   return endOfBed(grains);
 }
@@ -48,7 +51,8 @@ TEST_P(ComplementarityBed, HasTheSameBitsForThreadsAndRebuildIntervals) {
 
 TEST_P(ComplementarityBed, HasTheSameBitsOnCuda) {
   if (!base::cudaAvailable()) GTEST_SKIP() << "no CUDA device";
-  EXPECT_EQ(bedAfterSteps(base::cudaExec(), GetParam(), 0.3), bedAfterSteps(base::cpuExec(1), GetParam(), 0.3));
+  for (const Precision p : {Precision::single, Precision::double_})
+    EXPECT_EQ(bedAfterSteps(base::cudaExec(), GetParam(), 0.3, p), bedAfterSteps(base::cpuExec(1), GetParam(), 0.3, p));
 }
 
 TEST_P(ComplementarityBed, GoesOnToTheSameBits) {

@@ -68,8 +68,8 @@ VariantResult resultOf(const std::string& variant, bool random, const SweepPlan&
   for (const std::size_t i : runs) {
     if (!output::hasEnded(outcomes[i].status)) continue;
     const RunManifest manifest(folder / plan.runs[i].name);
-    result.preparation += manifest.figure("wall_preparation_s"), result.cpuTime += manifest.figure("cpu_steps_s");
-    const double wall = manifest.figure("wall_steps_s");
+    result.preparation += manifest.figure("wall_preparation_s"), result.cpuTime += manifest.ofAllSteps("cpu_steps_s");
+    const double wall = manifest.ofAllSteps("wall_steps_s");
     result.wallTime += wall, result.perSecond += wall / manifest.number("simulated_time_s");
     ++result.ended;
   }
@@ -116,10 +116,12 @@ std::string reasonWithoutFigures(const Comparison& all, const VariantResult& res
 /// Difference of a variant from the first one, in percent of the latter's mean.
 std::string percentText(const Comparison& all, const VariantResult& variant, std::size_t column) {
   const VariantResult& first = all.variants.front();
+  if (!std::isfinite(first.figures[column].value)) return "-";
   if (&variant == &first) return "reference";
   const support::Estimate change = variantDifference(first, variant, column);
   const double scale = 100 / std::fabs(first.figures[column].value);
-  return figureText({scale * change.value, scale * change.halfWidth});
+  const bool doubtful = !first.doubt.empty() || !variant.doubt.empty();
+  return (doubtful ? "? " : "") + figureText({scale * change.value, scale * change.halfWidth});
 }
 
 } // namespace

@@ -16,7 +16,7 @@ namespace grouser::sweeps {
 
 /// Results of one variant over its runs.
 struct VariantResult {
-  std::string variant;                     ///< "granular", "penalty"
+  std::string variant;                     ///< "granular", "penalty", "penalty_x0.5"
   bool random = false;                     ///< whether it has several seeds; otherwise values have no interval
   int runs = 0, ended = 0;                 ///< planned runs; runs with figures
   std::string doubt;                       ///< reason why all figures are inconclusive; else empty

@@ -46,9 +46,13 @@ double RunManifest::stepsOverTimed() const {
   return before > 0 ? (steps - (from > 0 ? from : 0)) / (steps - before) : 1; // NaN for a run resumed at its end
 }
 
-double RunManifest::wallTime() const {
+double RunManifest::wholeOverTimed() const {
   const double whole = stepsOverTimed();
-  return (std::isfinite(whole) ? whole : 1) * number("wall_time_s");
+  return std::isfinite(whole) ? whole : 1;
 }
+
+double RunManifest::wallTime() const { return wholeOverTimed() * number("wall_time_s"); }
+
+double RunManifest::ofAllSteps(const char* key) const { return wholeOverTimed() * figure(key); }
 
 } // namespace grouser::sweeps

@@ -20,9 +20,13 @@ public:
   /// Number of all steps / number of timed steps: the wall time of a resumed run starts at its checkpoint. Excludes
   /// steps before a branch.
   double stepsOverTimed() const;
-  double wallTime() const; ///< wall time of all steps, extrapolated for a resumed run [s]; NaN if missing
+  double wallTime() const; ///< wall time of the run, extrapolated for a resumed run [s]; NaN if missing
+  /// Figure of the timed steps, extrapolated to all steps for a resumed run; NaN if missing.
+  double ofAllSteps(const char* key) const;
 
 private:
+  double wholeOverTimed() const; ///< stepsOverTimed(), or 1 if that is unknown
+
   nlohmann::json json_;
 };
 
