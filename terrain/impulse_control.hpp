@@ -20,7 +20,8 @@ template <class Real> struct ImpulseControl {
   static constexpr double kMaxTau = 16, kMinTau = 1e-3, kLongerStep = 0.97;
   static constexpr int kPatience = 100; ///< iterations within which the residual must halve
 
-  double residual{}; ///< tolerance [m/s]
+  double residual{};   ///< tolerance [m/s]
+  double resolution{}; ///< rounding error of the curvature per contact [J]
   int maxIterations{};
   bool associated{false};
   bool relaxed{false}; ///< switched from Coulomb's law to the relaxation
@@ -54,7 +55,8 @@ template <class Real> struct ImpulseControl {
       before = now, ahead = 0, theta = 1;
       return;
     }
-    if (tau < Real(kMaxTau) && sums.curvature > static_cast<double>(tau) * sums.length) {
+    const double excess = sums.curvature - static_cast<double>(tau) * sums.length;
+    if (tau < Real(kMaxTau) && excess > resolution * sums.contacts) {
       tau *= 2;
       return;
     }

@@ -253,7 +253,7 @@ private:
   void solve(GrainSystem& system, const GrainKernelData& d) {
     ImpulseControl<Real> control;
     control.residual = options_.residual, control.maxIterations = options_.iterations;
-    control.tau = static_cast<Real>(totals_.tau);
+    control.tau = static_cast<Real>(totals_.tau), control.resolution = 1 / (data_.perEnergy * kFinerSums);
     control.associated = options_.friction == contact::ImpulseFriction::associated;
     control_.assign({control});
     sums_.zero(), worst_.zero();

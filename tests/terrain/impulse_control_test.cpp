@@ -59,6 +59,15 @@ TEST(ImpulseControl, HighCurvatureRepeatsTheTrialWithAShorterStep) {
   EXPECT_EQ(c.evaluations, before.evaluations + 1);
 }
 
+TEST(ImpulseControl, CurvatureWithinItsRoundingErrorIsAccepted) {
+  ImpulseControl<float> c = control();
+  c.resolution = 0.1;
+  c.take(sums(1, 1.05));
+  EXPECT_EQ(c.iterations, 1);
+  c.take(sums(1, 1.2));
+  EXPECT_EQ(c.iterations, 1);
+}
+
 TEST(ImpulseControl, TheRelaxationStartsFromTheCurrentImpulses) {
   ImpulseControl<float> c = control();
   int steps = 0;
