@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "base/number.hpp"
 #include "base/vec.hpp"
 
 #include <cmath>
