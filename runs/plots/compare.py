@@ -49,6 +49,9 @@ def draw(path):
     rows = {row["figure"]: row["means"] for row in results["rows"]}
     panels = [(label, factor, rows[name]) for name, label, factor in PANELS
               if any(mean["mean"] is not None for mean in rows.get(name, ()))]
+    if not panels:  # no vehicle: forces of the grains on surfaces and meshes
+        panels = [(name, 1, means) for name, means in rows.items()
+                  if " force " in name and any(mean["mean"] for mean in means)][:7]
     if not panels:
         return None
     columns = 4

@@ -183,10 +183,13 @@ std::string comparisonText(const Comparison& all, double percent, bool fromFirst
     if (isShown(all.columns[c]) && isKnown(c))
       line(all.columns[c], [c](const VariantResult& g) { return figureText(g.figures[c]); });
   line("runs", [](const VariantResult& g) { return fmt::format("{} of {}", g.ended, g.runs); });
-  line("preparation per run [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.preparation); });
-  line("wall time of the steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.wallTime); });
-  line("CPU time of the steps [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.cpuTime); });
-  line("wall time per second [s]", [](const VariantResult& g) { return fmt::format("{:.3g}", g.perSecond); });
+  const auto seconds = [&](const std::string& name, double VariantResult::*value) {
+    line(name, [value](const VariantResult& g) { return g.ended > 0 ? fmt::format("{:.3g}", g.*value) : "-"; });
+  };
+  seconds("preparation per run [s]", &VariantResult::preparation);
+  seconds("wall time of the steps [s]", &VariantResult::wallTime);
+  seconds("CPU time of the steps [s]", &VariantResult::cpuTime);
+  seconds("wall time per second [s]", &VariantResult::perSecond);
   for (const VariantResult& g : all.variants)
     if (const std::string why = reasonWithoutFigures(all, g); !why.empty())
       text += fmt::format("WARNING: {} is inconclusive: {}\n", g.variant, why);
