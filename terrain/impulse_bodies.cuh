@@ -48,15 +48,14 @@ public:
     rows_.assign(std::vector<std::uint32_t>(count));
     pushes_.resize(6 * count);
     for (State& state : states_) state.impulses.assign(count, {});
-    motion_.resize(states_.size() * count);
-    bodies_->respond(states_[0].impulses, states_[0].velocities);
-    for (std::size_t k = 0; k < states_.size(); ++k) states_[k].velocities = states_[0].velocities, upload(k);
+    motion_.resize(kBuffers * count);
+    respond(0);
   }
 
   void into(ImpulseData<Real>& data) {
     data.partLaws = laws_.data(), data.bodyOfPart = bodyOfPart_.data(), data.body = inverses_.data();
     data.bodyRows = rows_.data(), data.bodyPushes = anyMovable_ ? pushes_.data() : nullptr;
-    for (std::size_t k = 0; k < states_.size(); ++k) data.bodyMotion[k] = motionOf(k);
+    for (int k = 0; k < kBuffers; ++k) data.bodyMotion[k] = motionOf(anyMovable_ ? k : 0);
     data.bodyPush = push_, data.bodyTurn = turn_;
   }
 
@@ -67,7 +66,7 @@ public:
   bool anyMovable() const { return anyMovable_; }
   void clearPushes() { pushes_.zero(); }
   /// Computes the body velocities in buffer `generation` from the impulses of all ranks. Collective.
-  void move(std::size_t generation, const base::Comm& comm) {
+  void move(int generation, const base::Comm& comm) {
     std::vector<std::int64_t> pushes = pushes_.toHost();
     comm.sum(pushes.data(), pushes.size());
     std::vector<contact::BodyImpulse>& impulses = states_[generation].impulses;
@@ -90,20 +89,20 @@ public:
   }
 
 private:
+  static constexpr int kBuffers = 3;
+
   /// Impulses on the bodies, and the resulting velocities.
   struct State {
     std::vector<contact::BodyImpulse> impulses;
     std::vector<contact::BodyVelocity> velocities;
   };
 
-  BodyMotion<Real>* motionOf(std::size_t generation) { return motion_.data() + generation * rows_.size(); }
-
-  void respond(std::size_t generation) {
-    bodies_->respond(states_[generation].impulses, states_[generation].velocities);
-    upload(generation);
+  BodyMotion<Real>* motionOf(int generation) {
+    return motion_.data() + static_cast<std::size_t>(generation) * rows_.size();
   }
 
-  void upload(std::size_t generation) {
+  void respond(int generation) {
+    bodies_->respond(states_[generation].impulses, states_[generation].velocities);
     std::vector<BodyMotion<Real>> motion;
     for (const contact::BodyVelocity& v : states_[generation].velocities)
       motion.push_back({v.linear.template as<Real>(), v.angular.template as<Real>()});
@@ -121,7 +120,7 @@ private:
   base::Array<std::int64_t> pushes_;
   base::Array<BodyMotion<Real>> motion_; ///< [buffer][body]
   base::FixedPoint push_, turn_;
-  std::array<State, 3> states_; ///< by buffer
+  std::array<State, kBuffers> states_; ///< by buffer
 };
 
 } // namespace grouser::terrain

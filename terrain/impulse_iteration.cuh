@@ -26,12 +26,8 @@ protected:
     }
   };
 
-  /// Sets the velocity of a grain in an iteration.
+  /// Sets the velocity of a free grain in an iteration.
   GROUSER_HD void move(int i, const Push& sum, int generation) const {
-    if (hasNoRows(d, s, i)) {
-      s.motion[generation][i] = {}; // fixed
-      return;
-    }
     const GrainSize<Real> size = Kernel::sizeOf(i);
     const ImpulseMotion<Real>& free = s.free[i];
     s.motion[generation][i] = {free.velocity + sum.linear * (Real(1) / size.mass),
@@ -67,14 +63,17 @@ template <class Real> struct MoveByImpulses : ImpulsePushes<Real, true> {
   GROUSER_HD void operator()(int i) const {
     if (s.ghost && s.ghost[i] != 0) return; // set by the halo exchange
     const int now = s.control->now;
+    if (hasNoRows(d, s, i)) {
+      s.motion[now][i] = {}; // fixed
+      return;
+    }
     Push sum;
-    if (!hasNoRows(d, s, i))
-      forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
-        const ImpulseRowRecord<Real> row = rows.row[at];
-        const Impulse x = impulseAt<true>(rows, now, at);
-        sum.add(row, x);
-        Base::pushOther(rows, at, row, x);
-      });
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
+      const ImpulseRowRecord<Real> row = rows.row[at];
+      const Impulse x = impulseAt<true>(rows, now, at);
+      sum.add(row, x);
+      Base::pushOther(rows, at, row, x);
+    });
     Base::move(i, sum, now);
   }
 };
@@ -229,8 +228,11 @@ private:
     if (s.ghost && s.ghost[i] != 0) return; // set by the halo exchange
     const int now = s.control->now, before = s.control->before, tried = s.control->tried;
     const Real ahead = s.control->ahead;
+    if (hasNoRows(d, s, i)) {
+      s.motion[tried][i] = {}; // fixed
+      return;
+    }
     Push sum, steps;
-    if (hasNoRows(d, s, i)) return Base::move(i, sum, tried);
     RowSums mine;
     forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
       const ImpulseRowRecord<Real> row = readOnly(rows.row + at);

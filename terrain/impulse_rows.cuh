@@ -205,20 +205,22 @@ template <class T> GROUSER_HD T readOnly(const T* from) {
 /// Torque of a row; `kRolls`: whether any row has rolling resistance.
 template <class Real, bool kRolls> using TurnOf = std::conditional_t<kRolls, base::Vec3<Real>, contact::NoTurn>;
 
-/// Impulse and gradient in a buffer that the calling kernel does not write: see readOnly().
+/// Impulse or gradient from buffers that the calling kernel does not write: see readOnly(). `rolling`: null without
+/// rolling resistance.
 template <bool kRolls, class Real> GROUSER_HD contact::Impulse<Real, TurnOf<Real, kRolls>>
-impulseAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
+loadPair(const base::Vec3<Real>* linear, const base::Vec3<Real>* rolling, std::int64_t at) {
+  TurnOf<Real, kRolls> turn{};
   if constexpr (kRolls)
-    return {rows.impulse[generation][at], rows.rolling ? rows.turning[generation][at] : base::Vec3<Real>{}};
-  else
-    return {readOnly(rows.impulse[generation] + at), {}};
+    if (rolling) turn = readOnly(rolling + at);
+  return {readOnly(linear + at), turn};
 }
-template <bool kRolls, class Real> GROUSER_HD contact::Impulse<Real, TurnOf<Real, kRolls>>
-gradientAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
-  if constexpr (kRolls)
-    return {rows.gradient[generation][at], rows.rolling ? rows.turnGradient[generation][at] : base::Vec3<Real>{}};
-  else
-    return {readOnly(rows.gradient[generation] + at), {}};
+template <bool kRolls, class Real>
+GROUSER_HD auto impulseAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
+  return loadPair<kRolls>(rows.impulse[generation], rows.turning[generation], at);
+}
+template <bool kRolls, class Real>
+GROUSER_HD auto gradientAt(const ImpulseRowsView<Real>& rows, int generation, std::int64_t at) {
+  return loadPair<kRolls>(rows.gradient[generation], rows.turnGradient[generation], at);
 }
 
 } // namespace grouser::terrain

@@ -158,7 +158,7 @@ private:
   }
 
   /// Computes the speeds of the surfaces in buffer `generation` from the impulses of all ranks. Collective.
-  void moveSurfaces(std::size_t generation, const base::Comm& comm) {
+  void moveSurfaces(int generation, const base::Comm& comm) {
     if (inverseMass_.empty()) return;
     std::vector<std::int64_t> quanta = surfacePushes_.toHost();
     comm.sum(quanta.data(), quanta.size());
@@ -230,7 +230,7 @@ private:
     if (bodiesMove()) bodies_.clearPushes();
   }
   /// Exchanges the velocities of ghosts in buffer `generation`, and computes those of surfaces and bodies. Collective.
-  void moveOthers(GrainSystem& system, std::size_t generation) {
+  void moveOthers(GrainSystem& system, int generation) {
     exchange(system, contact::fieldOf(motion_[generation]));
     moveSurfaces(generation, system.comm);
     if (bodiesMove()) bodies_.move(generation, system.comm);
@@ -261,7 +261,7 @@ private:
     const std::int64_t sent = bytesSent(system);
     clearPushes();
     forSlots("move by impulses", d, kernel<MoveByImpulses<Real>>(d));
-    moveOthers(system, static_cast<std::size_t>(control.now));
+    moveOthers(system, control.now);
     // Ranks, bodies and force-driven surfaces need the host in each iteration.
     if (system.distribution || !system.comm.alone() || bodiesMove() || !inverseMass_.empty())
       iterateFromHost(system, d, control);
@@ -281,7 +281,7 @@ private:
       iterate(d);
       IterationSums sums = summed(system.comm);
       if (!control.endsWith(sums)) {
-        moveOthers(system, static_cast<std::size_t>(control.tried));
+        moveOthers(system, control.tried);
         if (bodiesMove()) sums.curvature += bodies_.curvature(control);
         sums.curvature += curvatureOfSurfaces(control);
       }

@@ -8,6 +8,7 @@ SERIES: timeseries.csv of one run a seed, penalty contacts before the --, comple
 taken from 1.6 s on.
 """
 import csv
+import math
 import statistics
 import sys
 
@@ -28,8 +29,11 @@ def series(path):
 
 
 def interval(values):
-    half = T95[len(values)] * statistics.stdev(values) / len(values) ** 0.5
-    return f"{statistics.mean(values):.4g} +- {half:.2g}"
+    """Mean with its half width; only the mean without scatter, or of a number of seeds that T95 lacks; "" for NaN."""
+    if not all(math.isfinite(value) for value in values):
+        return ""
+    half = T95[len(values)] * statistics.stdev(values) / len(values) ** 0.5 if len(values) in T95 else 0
+    return f"{statistics.mean(values):.4g}" + (f" +- {half:.2g}" if half > 0 else "")
 
 
 def main():

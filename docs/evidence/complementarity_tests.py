@@ -17,7 +17,8 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-T95 = {2: 12.706, 3: 4.303, 4: 3.182, 5: 2.776}  # Student's t, by number of seeds
+from complementarity import interval
+
 DENSITY, GRAVITY = 2500, 9.81
 
 
@@ -120,13 +121,6 @@ def cost(run):
     keys = {"wall time of the steps [s]": "wall_steps_s", "iterations per step": "solver_iterations_a_step",
             "steps above the tolerance": "solver_missed_steps", "relaxed steps": "solver_relaxed_steps"}
     return {"steps": manifest["steps"], **{name: manifest["figures"].get(key, math.nan) for name, key in keys.items()}}
-
-
-def interval(values):
-    if not np.isfinite(values).all():
-        return ""
-    half = T95[len(values)] * np.std(values, ddof=1) / len(values) ** 0.5 if len(values) in T95 else math.nan
-    return f"{np.mean(values):.4g} +- {half:.2g}" if half > 0 else f"{np.mean(values):.4g}"
 
 
 def main():

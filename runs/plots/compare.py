@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Plot of a comparison: compare.py COMPARE.json FILE.png
 
-One panel per figure, with a bar and 95 % interval for each variant (a kind of ground, or a contact method
-and multiple of its step), and the wall time per
-simulated second.
+One panel per figure, with a bar and 95 % interval for each variant (a kind of ground, or a contact method and a multiple
+of its step), and the wall time per simulated second.
 """
 import json
 from pathlib import Path
@@ -26,8 +25,8 @@ PANELS = (
 
 def bars(axis, label, variants, values, halves):
     places = range(len(variants))
-    axis.bar(places, [value if value is not None else 0 for value in values], color=[COLOURS.get(v.split("_x")[0], "C0") for v in variants],
-             width=0.6)
+    axis.bar(places, [value if value is not None else 0 for value in values], width=0.6,
+             color=[COLOURS.get(v.split("_x")[0], "C0") for v in variants])
     for place, value, half in zip(places, values, halves):
         if value is None:
             axis.text(place, 0, "none", ha="center", va="bottom", fontsize=7)

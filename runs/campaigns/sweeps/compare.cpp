@@ -49,6 +49,24 @@ template <class Make> auto naming(const std::string& option, const std::string& 
   }
 }
 
+/// Adds a variant for each multiple of the method's own time step.
+void addContact(std::vector<Variant>& variants, const fs::path& scene, const CompareOptions& options,
+                ContactMethod contact) {
+  const std::string word(base::wordOf(contact)), option = "--contact";
+  const std::vector<std::string> overrides = contactOverrides(scene, options.fixed, contact);
+  const bool isOwn = options.steps == std::vector<double>{1};
+  const double own =
+      isOwn ? 0 : naming(option, word, [&] { return setup::chooseTimeStep(setup::loadScene(scene, overrides)); });
+  for (const double step : options.steps) {
+    Variant variant{option, word, true, overrides};
+    if (step != 1) {
+      variant.word += fmt::format("_x{:g}", step);
+      putOverride(variant.overrides, fmt::format("run.time_step={:.9g}", step * own));
+    }
+    variants.push_back(std::move(variant));
+  }
+}
+
 std::vector<Variant> variantsOf(const fs::path& scene, const CompareOptions& options) {
   std::vector<Variant> variants;
   for (const TerrainKind ground : options.grounds) {
@@ -56,17 +74,7 @@ std::vector<Variant> variantsOf(const fs::path& scene, const CompareOptions& opt
     variants.push_back({option, word, ground == TerrainKind::granular,
                         naming(option, word, [&] { return groundOverrides(scene, options.fixed, ground); })});
   }
-  for (const ContactMethod contact : options.contacts)
-    for (const double step : options.steps) {
-      const std::string word(base::wordOf(contact)), option = "--contact";
-      std::vector<std::string> overrides = contactOverrides(scene, options.fixed, contact);
-      if (step != 1)
-        naming(option, word, [&] {
-          const double own = setup::chooseTimeStep(setup::loadScene(scene, overrides));
-          putOverride(overrides, fmt::format("run.time_step={:.9g}", step * own));
-        });
-      variants.push_back({option, step == 1 ? word : fmt::format("{}_x{:g}", word, step), true, std::move(overrides)});
-    }
+  for (const ContactMethod contact : options.contacts) addContact(variants, scene, options, contact);
   return variants;
 }
 
@@ -107,22 +115,12 @@ void writeComparison(const fs::path& scene, const Comparison& comparison, const 
   if (options.sweep.plot) output::drawPicture("compare.py", {folder / kJson}, folder / kPlot);
 }
 
-} // namespace
-
-std::vector<TerrainKind> groundsOf(const std::vector<std::string>& words) {
-  return differentOf<TerrainKind>(words, "--grounds", "a kind of ground");
-}
-
-std::vector<ContactMethod> contactsOf(const std::vector<std::string>& words) {
-  return differentOf<ContactMethod>(words, "--contact", "a contact method");
-}
-
-SweepPlan planCompare(const fs::path& scene, const CompareOptions& options) {
+SweepPlan planOf(const fs::path& scene, const std::vector<Variant>& variants, int seeds) {
   SweepPlan plan;
   plan.scene = scene;
   plan.keys = {kVariantKey, kSeedKey};
-  for (const Variant& variant : variantsOf(scene, options))
-    for (int seed = 1; seed <= (variant.random ? options.seeds : 1); ++seed) {
+  for (const Variant& variant : variants)
+    for (int seed = 1; seed <= (variant.random ? seeds : 1); ++seed) {
       SweepRun run;
       run.name = variant.random ? fmt::format("{},seed={}", variant.word, seed) : variant.word;
       run.overrides = variant.overrides;
@@ -138,15 +136,30 @@ SweepPlan planCompare(const fs::path& scene, const CompareOptions& options) {
   return plan;
 }
 
+} // namespace
+
+std::vector<TerrainKind> groundsOf(const std::vector<std::string>& words) {
+  return differentOf<TerrainKind>(words, "--grounds", "a kind of ground");
+}
+
+std::vector<ContactMethod> contactsOf(const std::vector<std::string>& words) {
+  return differentOf<ContactMethod>(words, "--contact", "a contact method");
+}
+
+SweepPlan planCompare(const fs::path& scene, const CompareOptions& options) {
+  return planOf(scene, variantsOf(scene, options), options.seeds);
+}
+
 int runCompare(const fs::path& scene, const CompareOptions& options) {
   if (!options.sweep.force) checkSweepFiles(options.sweep.folder);
-  const SweepPlan plan = planCompare(scene, options);
+  const std::vector<Variant> variants = variantsOf(scene, options);
+  const SweepPlan plan = planOf(scene, variants, options.seeds);
   scene::printNotes(plan.runs.front().scene);
   const auto outcomes = runMissing(plan, options.sweep, "compare", [&](const std::vector<SweepOutcome>& now) {
     writeSummary(plan, now, options.sweep.folder);
   });
   std::vector<std::string> random;
-  for (const Variant& variant : variantsOf(scene, options))
+  for (const Variant& variant : variants)
     if (variant.random) random.push_back(variant.word);
   writeComparison(scene, comparisonOf(plan, outcomes, random, options.percent, options.sweep.folder), options);
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),

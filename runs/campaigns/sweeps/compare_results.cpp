@@ -25,7 +25,7 @@ constexpr const char* kShown[] = {"speed [m/s]",           "slip [-]",          
                                   "sinkage max [m]",       "drive torque [N m]", "drive power [W]",
                                   "tension mean [N]",      "gross traction [N]", "drawbar pull [N]",
                                   "motion resistance [N]", "pitch mean [deg]"};
-constexpr const char* kPitch = "pitch mean [deg]";
+constexpr const char *kSpeed = "speed [m/s]", *kPitch = "pitch mean [deg]"; // speed: of every vehicle
 constexpr const char* kInconclusive = "inconclusive";
 
 bool isShown(const std::string& column) {
@@ -107,10 +107,10 @@ std::string reasonWithoutFigures(const Comparison& all, const VariantResult& res
   for (std::size_t c = 0; c < all.columns.size(); ++c)
     if (isShown(all.columns[c]) && std::isfinite(result.figures[c].value)) return {};
   if (result.ended == 0) return "no run has finished";
-  return all.hasVehicle
-             ? "its runs end before the vehicle reaches full speed; raise run.duration"
-             : "compare has figures of vehicles, surfaces and meshes only; the time series of each run is in "
-               "its folder";
+  const bool hasVehicle = std::find(all.columns.begin(), all.columns.end(), kSpeed) != all.columns.end();
+  return hasVehicle ? "its runs end before the vehicle reaches full speed; raise run.duration"
+                    : "compare has figures of vehicles, surfaces and meshes only; the time series of each run is in "
+                      "its folder";
 }
 
 /// Difference of a variant from the first one, in percent of the latter's mean.
@@ -149,7 +149,6 @@ Comparison comparisonOf(const SweepPlan& plan, const std::vector<SweepOutcome>& 
   SweepFigures figures = figuresOf(plan, outcomes, folder);
   Comparison all;
   all.columns = figures.columns;
-  all.hasVehicle = plan.runs.front().scene.vehicle.has_value();
   std::vector<std::string> variants;
   for (const SweepRun& run : plan.runs)
     if (variants.empty() || variants.back() != run.values.front()) variants.push_back(run.values.front());

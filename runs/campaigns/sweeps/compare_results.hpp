@@ -38,7 +38,6 @@ struct Comparison {
   std::vector<std::string> columns;
   std::vector<VariantResult> variants;
   std::vector<VariantDifference> differences; ///< all pairs of variants
-  bool hasVehicle = true;
 };
 
 /// Difference b - a with its 95 % half width: Welch's interval between two samples; if one variant has no scatter, the

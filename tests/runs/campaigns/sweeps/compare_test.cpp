@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "runs/campaigns/sweeps/compare.hpp"
 #include "runs/campaigns/sweeps/grounds.hpp"
+#include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "tests/runs/program_fixture.hpp"
@@ -248,7 +249,7 @@ TEST_F(CompareRuns, ContactMethodsHaveMultiplesOfTheirOwnSteps) {
   CompareOptions options;
   options.contacts = {scene::ContactMethod::penalty, scene::ContactMethod::complementarity}, options.seeds = 2;
   options.steps = {0.25, 1};
-  options.fixed = {"run.duration=0.02",   "output.picture=false", "output.plots=false",
+  options.fixed = {"run.duration=0.15",   "output.picture=false", "output.plots=false",
                    "output.frames=false", "grains.0.number=100",  "run.threads=1"};
   const SweepPlan plan = planCompare(shipped("drum.toml"), options);
   ASSERT_EQ(plan.runs.size(), 8u);
@@ -264,6 +265,17 @@ TEST_F(CompareRuns, ContactMethodsHaveMultiplesOfTheirOwnSteps) {
   const std::string text(std::istreambuf_iterator<char>(file), {});
   EXPECT_NE(text.find("difference from penalty_x0.25 [% of its mean]"), std::string::npos) << text;
   EXPECT_NE(text.find(" reference"), std::string::npos) << text;
+  const double overlap = RunManifest(folder_ / "out" / "complementarity,seed=1").figure("solver_max_overlap");
+  EXPECT_GT(overlap, 1e-4);
+  EXPECT_LT(overlap, 0.1);
+}
+
+TEST_F(CompareRuns, TheCostOfAResumedRunIsExtrapolatedToAllSteps) {
+  std::ofstream(folder_ / "manifest.json")
+      << R"({"steps": 1000, "figures": {"resumed_at_step": 750, "wall_steps_s": 2}})";
+  EXPECT_EQ(RunManifest(folder_).ofAllSteps("wall_steps_s"), 8);
+  std::ofstream(folder_ / "manifest.json") << R"({"steps": 1000, "figures": {"wall_steps_s": 2}})";
+  EXPECT_EQ(RunManifest(folder_).ofAllSteps("wall_steps_s"), 2);
 }
 
 } // namespace
