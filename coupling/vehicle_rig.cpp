@@ -173,7 +173,7 @@ vehicle::GroundLoads VehicleRig::groundLoads(const ForceMeans& means) const {
 }
 
 vehicle::ObserverOptions VehicleRig::observerOptions() const {
-  return {.stone = thickestStone_, .heading = heading_, .gravity = gravity_};
+  return {.stone = thickestStone_, .heading = heading_, .gravity = gravity_, .step = timeStep_};
 }
 
 vehicle::Observation VehicleRig::observe(Means of) const {

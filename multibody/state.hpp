@@ -13,8 +13,8 @@ namespace grouser::multibody {
 /// Readings of a joint in the last step. Forces are means over the step with kSymplecticEuler, and values at its end
 /// with kRattle.
 struct JointReading {
-  Vec3d force; ///< force of A on B: hard rows plus axis force, world components [N]; for a shoe joint the track
-               ///< tension
+  Vec3d force; ///< force of A on B: hard rows plus axis force, world components [N]; of all solutions in redundant
+               ///< loops, the solver's (Solver::reactions(); shoes: vehicle/pin_reactions.hpp)
   Vec3d
       torque; ///< torque of A on B about the joint point (origin of frame_B), with axis torque, world components [N m]
   double position = 0;    ///< angle [rad], unwrapped over full turns, or slide [m]; 0 if the type has no axis; for a

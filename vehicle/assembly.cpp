@@ -207,8 +207,8 @@ private:
       track_.shoeParts.push_back(addPart(PartKind::kShoe, track_.shoes.back(), s.mesh, trackIndex()));
     }
     // Pins rotate about -y, so that a fold about a wheel is positive. The universal joint also rotates about the shoe's
-    // x axis; half a loop away that axis is never along the line to the spherical joint, so no constraint is lost or
-    // duplicated.
+    // x axis; half a loop away this axis points at the spherical joint only for instants, in a sagging chain. The
+    // reactions then pass through a pole, but not the motion (pin_reactions.hpp).
     const Pose front_B = multibody::frameWithZX({0.5 * s.pitch, 0, 0}, -kLeft, kForward);
     const Pose rear_B = multibody::frameWithZX({-0.5 * s.pitch, 0, 0}, -kLeft, kForward);
     for (int i = 0; i < s.count; ++i) {

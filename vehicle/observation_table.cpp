@@ -72,7 +72,7 @@ constexpr ShoeField kShoeFields[] = {
     {"pad_height", "m", "lowest point of each shoe's pad plate", &TrackObservation::padHeight},
     {"sinkage", "m", "depth of the pad centre below the undisturbed surface, along its normal, in ground contact",
      &TrackObservation::sinkage},
-    {"tension", "N", "force in the pin joint ahead of each shoe", &TrackObservation::tension},
+    {"tension", "N", "pull along the chain in the pin ahead of each shoe", &TrackObservation::tension},
     {"ground_pressure", "Pa", "ground force normal to the pad / pad area", &TrackObservation::groundPressure},
     {"on_ground", "-", "1 if the shoe is in ground contact and loaded, else 0", &TrackObservation::onGround},
 };
@@ -86,6 +86,9 @@ constexpr ShoeField kForceFields[] = {
     {"left_force", "N", "ground force across the shoe, left positive, mean since the last row",
      &TrackObservation::leftForce},
     {"shear", "Pa", "resultant shear force on each pad / pad area", &TrackObservation::shear},
+    {"pin_lateral_force", "N", "force along the pin ahead of each shoe, of the shoe on the next one, left positive",
+     &TrackObservation::pinLateral},
+    {"pin_moment", "N m", "moment across the pin ahead of each shoe, magnitude", &TrackObservation::pinMoment},
 };
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "vehicle/pin_reactions.hpp"
 #include "vehicle/track_watch.hpp"
 
 #include <algorithm>
@@ -107,13 +108,15 @@ double suspendedSag(const VehicleSpec& spec, double gravity) {
 }
 
 Observer::Observer(const Assembly& vehicle, const ObserverOptions& options)
-    : vehicle_(&vehicle), stone_(options.stone), gravity_(options.gravity), heading_(options.heading) {
+    : vehicle_(&vehicle), stone_(options.stone), step_(options.step), gravity_(options.gravity),
+      heading_(options.heading) {
   for (int i = 0; i < static_cast<int>(vehicle.tracks.size()); ++i)
     travel_.emplace_back(vehicle, i, options.averageTeeth);
   driven_.resize(vehicle.tracks.size());
 }
 
 void Observer::update(const multibody::State& state, double dt) {
+  step_ = dt;
   for (Travel& travel : travel_) travel.update(state, dt);
   for (std::size_t i = 0; i < driven_.size(); ++i) {
     const multibody::JointReading& sprocket = state.joint[vehicle_->tracks[i].sprocketJoint];
@@ -209,7 +212,6 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
     o.padHeight.push_back(height);
     o.onGround.push_back(carries ? 1 : 0);
     o.sinkage.push_back(carries && surface ? vehicle::sinkage(spec, pose, surface) : kNaN);
-    o.tension.push_back(base::norm(state.joint[t.shoeJoints[i]].force));
     const auto along = [&](const Vec3d& axis) {
       return known ? base::dot(force, base::rotate(pose.orientation, axis)) : kNaN;
     };
@@ -217,6 +219,10 @@ TrackObservation Observer::observeTrack(int track, const multibody::State& state
     o.normalForce.push_back(normal), o.forwardForce.push_back(forward), o.leftForce.push_back(left);
     o.groundPressure.push_back(normal / padArea);
     o.shear.push_back(std::sqrt(forward * forward + left * left) / padArea);
+  }
+  for (const PinReaction& pin : pinReactions(*vehicle_, track, state, step_)) {
+    o.tension.push_back(pin.tension), o.pinLateral.push_back(pin.lateral);
+    o.pinMoment.push_back(pin.bending);
   }
   const multibody::JointReading& sprocket = state.joint[t.sprocketJoint];
   const multibody::JointReading& slide = state.joint[t.slideJoint];

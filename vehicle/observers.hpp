@@ -28,7 +28,9 @@ struct GroundLoads {
 struct TrackObservation {
   std::vector<double> padHeight;      ///< lowest point of the pad plate (without grousers) [m]
   std::vector<double> sinkage;        ///< sinkage() of each shoe [m]; NaN without ground contact
-  std::vector<double> tension;        ///< constraint force in the pin joint ahead of each shoe [N]
+  std::vector<double> tension;        ///< pull along the chain in the pin ahead of each shoe (PinReaction) [N]
+  std::vector<double> pinLateral;     ///< force along this pin, of the shoe on the next one, left positive [N]
+  std::vector<double> pinMoment;      ///< moment across this pin, magnitude [N m]
   std::vector<double> groundPressure; ///< normal ground force on the pad / pad area [Pa]; NaN if unknown
   std::vector<double> onGround;       ///< 1 if in ground contact and loaded, else 0
   std::vector<double> normalForce;    ///< ground force normal to the pad, positive for compression [N]
@@ -83,6 +85,7 @@ struct ObserverOptions {
   double stone{};       ///< [m] stones up to this size between road wheel and plates raise no alarm
   double heading{};     ///< [rad] initial heading of the vehicle, from which headings are continuous
   base::Vec3d gravity{0, 0, -kStandardGravity}; ///< gravity of the run [m/s2]; reference for loads
+  double step{};                                ///< time step until the first update() [s]
 };
 
 /// Observer of a vehicle: call update() after every step, observe() for output.
@@ -129,6 +132,7 @@ private:
 
   const Assembly* vehicle_;
   double stone_;                  ///< [m]
+  double step_;                   ///< length of the last step [s]
   base::Vec3d gravity_;           ///< [m/s2]
   std::vector<DriveSums> driven_; ///< one per track
   double updates_ = 0;

@@ -189,9 +189,10 @@ class Simulation:
         (of mass of the hull) [m] and its velocity [m/s], speed [m/s], heading (from x to y, continuous over turns),
         pitch (nose up), roll (right side down) [rad], turn_rate (to the left) [rad/s], ground_force, drawbar_pull [N],
         drive_start [s] (None until known), and `left` and `right`, each with sprocket_speed [rad/s], drive_torque
-        [N m], drive_power [W], speed [m/s], slip [-] (NaN while the sprocket is stopped) and, per shoe: tension,
-        normal_force, shear_force [N], sinkage [m]. Torques, powers and forces (except tension) are means over the last
-        step() call; before the first call and after restore() they are unknown (zero or NaN).
+        [N m], drive_power [W], speed [m/s], slip [-] (NaN while the sprocket is stopped) and, per shoe: tension
+        (pull along the chain in the pin ahead), normal_force, shear_force [N], sinkage [m]. Torques, powers and forces
+        (except tension) are means over the last step() call; before the first call and after restore() they are
+        unknown (zero or NaN).
         """
         if self._seen[0] != self.steps:
             state = self._run.vehicle()

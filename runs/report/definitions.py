@@ -16,8 +16,8 @@ FIGURES = {
     "drive torque": ("drive torque, both sprockets", "torque of the hull on the sprockets, sum over both; "
                      "plots and series show each sprocket separately"),
     "drive power": ("drive power, both sprockets", "sum over both sprockets of torque x sprocket speed"),
-    "tension mean": ("mean track tension", "force in the pin joints, mean over all pins of both tracks"),
-    "tension peak": ("peak track tension", "largest force in any pin joint at any output time"),
+    "tension mean": ("mean track tension", "pull along the chain in the pin joints, mean over all pins of both tracks"),
+    "tension peak": ("peak track tension", "largest pull along the chain in any pin joint at any output time"),
     "gross traction": ("gross traction", "drive torque of both sprockets / pitch radius"),
     "drawbar pull": ("drawbar pull", "force of the vehicle on its hitch in the direction of motion; without a hitch "
                      "mass x acceleration"),

@@ -22,7 +22,8 @@ Table<Output> outputTable() {
   t.add("record", &S::record, "", "names of the bodies, joints, springs and drives in the time series; default: all");
   t.add("frames", &S::frames, "", "write frames.h5 and frames.xdmf (for ParaView)");
   t.add("contact_forces", &S::contactForces, "", "add the resultant contact force on each grain to the frames");
-  t.add("shoe_forces", &S::shoeForces, "", "add ground force and shear force on each track shoe to results.h5");
+  t.add("shoe_forces", &S::shoeForces, "",
+        "add ground force and shear force on each track shoe, and lateral force and moment of each pin, to results.h5");
   t.add("gear_contacts", &S::gearContacts, "",
         "add the number of grain contacts of each vehicle part, and the number of grains caught in the running gear, "
         "to each row; each row then costs a pass over all contacts of parts");

@@ -50,21 +50,27 @@ protected:
   }
 };
 
-TEST_F(ObserverValues, TensionIsTheForceInThePinAheadOfEachShoe) {
+TEST_F(ObserverValues, TensionIsThePullAlongTheChainInThePinAheadOfEachShoe) {
+  const Quat R = attitude(0.7, 0.2, -0.1);
+  place({{5, -3, 2}, R});
+  const Vec3d left_W = base::rotate(R, {0, 1, 0});
+  const auto pull = [](std::size_t track, std::size_t i) { return static_cast<double>(i + 1 + 100 * track); };
   for (std::size_t track = 0; track < 2; ++track)
     for (std::size_t i = 0; i < 46; ++i) {
-      const double k = static_cast<double>(i + 1) + 100 * static_cast<double>(track);
-      // |(3, -4, 12)| = 13. The pin ahead of shoe i joins it to shoe i + 1.
-      const int joint = v.tracks[track].shoeJoints[i];
-      EXPECT_EQ(v.model.joints()[joint].bodyA, v.tracks[track].shoes[i]);
-      EXPECT_EQ(v.model.joints()[joint].bodyB, v.tracks[track].shoes[(i + 1) % 46]);
-      state.joint[joint].force = Vec3d{3, -4, 12} * k;
+      // The pin ahead of shoe i joins it to shoe i + 1. Equal shoes: the bisector of their axes connects their centres.
+      const vehicle::Track& t = v.tracks[track];
+      const int joint = t.shoeJoints[i], behind = t.shoes[i], ahead = t.shoes[(i + 1) % 46];
+      EXPECT_EQ(v.model.joints()[joint].bodyA, behind);
+      EXPECT_EQ(v.model.joints()[joint].bodyB, ahead);
+      const Vec3d way = state.pose[ahead].position - state.pose[behind].position, along = way * (1 / base::norm(way));
+      // Force on the shoe ahead: backward by the pull; radial and lateral forces are no tension.
+      state.joint[joint].force =
+          (base::cross(along, left_W) * 4.0 + left_W * (i % 2 ? 12.0 : -7.0) - along) * pull(track, i);
     }
   const auto o = Observer(v).observe(state, {}, nullptr);
-  for (std::size_t i = 0; i < 46; ++i) {
-    EXPECT_NEAR(o.tracks[0].tension[i], 13.0 * static_cast<double>(i + 1), kRound);
-    EXPECT_NEAR(o.tracks[1].tension[i], 13.0 * static_cast<double>(i + 101), kRound);
-  }
+  for (std::size_t track = 0; track < 2; ++track)
+    for (std::size_t i = 0; i < 46; ++i)
+      EXPECT_NEAR(o.tracks[track].tension[i], pull(track, i), kRound) << track << " " << i;
 }
 
 TEST_F(ObserverValues, SlipComparesTheHullAtEachTrackWithItsOwnSprocket) {
@@ -330,6 +336,7 @@ TEST_F(ObserverValues, TableWritesEachQuantityUnderItsOwnName) {
     shoes("arm_angle", t.armAngle), shoes("normal_force", t.normalForce), shoes("forward_force", t.forwardForce);
     shoes("left_force", t.leftForce), shoes("shear", t.shear);
     shoes("pad_height", t.padHeight), shoes("sinkage", t.sinkage), shoes("tension", t.tension);
+    shoes("pin_lateral_force", t.pinLateral), shoes("pin_moment", t.pinMoment);
     shoes("ground_pressure", t.groundPressure), shoes("on_ground", t.onGround);
     o.tracks.push_back(t);
   }

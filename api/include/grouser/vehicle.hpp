@@ -19,7 +19,7 @@ struct Track {
   double drivePower = 0;       ///< mean drive power over the last step() call [W]
   double speed = 0;            ///< hull speed at this track, along the hull [m/s]
   double slip = 0;             ///< 1 - speed / (sprocket speed x pitch radius) [-]; NaN while the sprocket is at rest
-  std::vector<double> tension; ///< tension in the pin ahead of each shoe [N]
+  std::vector<double> tension; ///< pull along the chain in the pin ahead of each shoe [N]
   std::vector<double> sinkage; ///< sinkage of each shoe [m]; NaN without ground contact
   std::vector<double> normalForce; ///< mean ground force normal to each pad [N]
   std::vector<double> shearForce;  ///< magnitude of the mean ground force tangential to each pad [N]

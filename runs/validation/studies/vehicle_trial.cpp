@@ -12,6 +12,7 @@
 #include "runs/setup/time_scales.hpp"
 #include "runs/support/locations.hpp"
 #include "runs/support/text_file.hpp"
+#include "vehicle/pin_reactions.hpp"
 
 #include <fmt/format.h>
 
@@ -61,11 +62,12 @@ scene::Scene parsed(const VehicleCase& what, double step, const fs::path& folder
 }
 
 /// Mean tension of all pin joints in the last step [N].
-double pinTension(const coupling::VehicleRig& rig) {
+double pinTension(const coupling::Simulation& run) {
+  const coupling::VehicleRig& rig = *run.vehicle();
   double sum = 0, pins = 0;
-  for (const vehicle::Track& track : rig.assembly().tracks)
-    for (const int joint : track.shoeJoints)
-      sum += base::norm(rig.state().joint[static_cast<std::size_t>(joint)].force), ++pins;
+  for (int track = 0; track < static_cast<int>(rig.assembly().tracks.size()); ++track)
+    for (const vehicle::PinReaction& pin : vehicle::pinReactions(rig.assembly(), track, rig.state(), run.timeStep()))
+      sum += pin.tension, ++pins;
   return sum / pins;
 }
 
@@ -73,7 +75,7 @@ double pinTension(const coupling::VehicleRig& rig) {
 /// single step, and samples would miss their impulse.
 class Window {
 public:
-  void step(const coupling::VehicleRig& rig) { pull_ += pinTension(rig), ++steps_; }
+  void step(const coupling::Simulation& run) { pull_ += pinTension(run), ++steps_; }
   void take(const coupling::Simulation& run) {
     const coupling::VehicleRig& rig = *run.vehicle();
     const vehicle::Observation now = rig.observe();
@@ -125,7 +127,7 @@ void drive(coupling::Simulation& run, const VehicleCase& what, VehicleTrial& tri
     while (run.steps() < end) {
       if (run.steps() == begin) workBefore = run.ledger().driveWork, began = run.time(), run.restartMeans();
       run.step();
-      if (run.steps() > begin) window.step(*run.vehicle());
+      if (run.steps() > begin) window.step(run);
       f.lowest = std::min(f.lowest, run.vehicle()->state().pose[chassis].position.z);
       if (run.steps() % 256 == 0) jobs::stopStudyOnRequest();
       // The samples are evenly spaced at any step.
