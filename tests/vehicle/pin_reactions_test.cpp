@@ -63,9 +63,9 @@ TEST(PinReactions, SelfStressOfTheRingIsNotPartOfThem) {
   multibody::State state = multibody::makeState(v.model);
   const vehicle::Track& t = v.tracks[1];
   for (std::size_t i = 0; i < t.shoes.size(); ++i) {
-    const double k = static_cast<double>(i);
-    state.joint[t.shoeJoints[i]].force = {3000 - 40 * k, 300 * (i % 3), -20 * k};
-    state.joint[t.shoeJoints[i]].torque = {70 - k, 0, 5 * (i % 4)};
+    const auto k = static_cast<double>(i), third = static_cast<double>(i % 3), fourth = static_cast<double>(i % 4);
+    state.joint[t.shoeJoints[i]].force = {3000 - 40 * k, 300 * third, -20 * k};
+    state.joint[t.shoeJoints[i]].torque = {70 - k, 0, 5 * fourth};
   }
   const auto bare = vehicle::pinReactions(v, 1, state, 0);
   addSelfStress(v, t, 5e6, {-2e5, 0, 3e5}, state);
@@ -84,8 +84,10 @@ TEST(PinReactions, NoSelfStressReducesTheirNorm) {
   const vehicle::Assembly v = vehicle::assemble(test::readySpec());
   multibody::State state = multibody::makeState(v.model);
   const vehicle::Track& t = v.tracks[0];
-  for (std::size_t i = 0; i < t.shoes.size(); ++i)
-    state.joint[t.shoeJoints[i]].force.y = 100.0 * (i % 5), state.joint[t.shoeJoints[i]].torque.x = 30.0 * (i % 7);
+  for (std::size_t i = 0; i < t.shoes.size(); ++i) {
+    state.joint[t.shoeJoints[i]].force.y = 100 * static_cast<double>(i % 5);
+    state.joint[t.shoeJoints[i]].torque.x = 30 * static_cast<double>(i % 7);
+  }
   const double length = v.spec.shoe.padHalfWidth;
   const auto least = vehicle::pinReactions(v, 0, state, 0);
   for (std::size_t i = 0; i < t.shoes.size(); ++i)
