@@ -221,7 +221,9 @@ struct RunWriter::Impl {
       : folder(where), options(std::move(given)) {
     if (options.comm.first()) series = std::make_unique<Series>(where, provenance, std::move(channels), options);
     options.comm.wait(); // now the folder exists
-    if (options.former) rows = static_cast<std::int64_t>(options.former->rows.size());
+    if (!options.former) return;
+    rows = static_cast<std::int64_t>(options.former->rows.size());
+    if (options.frames) framesAdded = options.former->frames;
   }
 };
 
@@ -317,8 +319,7 @@ void RunWriter::bed(const terrain::BedStructure& bed) {
 void RunWriter::setParts(std::vector<FramePart> parts, const base::TriangleMesh& ground) {
   Impl& w = *impl_;
   if (!w.options.frames) return;
-  if (w.options.former && w.options.former->frames > 0) {
-    w.framesAdded = w.options.former->frames;
+  if (w.framesAdded > 0) {
     w.frames.emplace(FramesFile::goOn(w.folder, std::move(parts), ground, w.framesAdded, w.options.comm));
   } else {
     w.frames.emplace(w.folder, std::move(parts), ground, w.options.comm);

@@ -33,6 +33,16 @@ Box boxAround(const terrain::Grains& grains) {
   return box;
 }
 
+/// Grid of the frames of a resumed run. The first rank reads the file and broadcasts the grid: it opens the file for
+/// writing soon after, while a slower rank would still read.
+std::optional<terrain::FieldGrid> formerGrid(const std::filesystem::path& folder, const base::Comm& comm) {
+  std::vector<terrain::FieldGrid> found;
+  if (comm.first())
+    if (const std::optional<terrain::FieldGrid> grid = output::formerFieldGrid(folder)) found.push_back(*grid);
+  found = base::Comm::valuesOf<terrain::FieldGrid>(comm.broadcast(base::Comm::bytesOf(found)));
+  return found.empty() ? std::nullopt : std::optional(found.front());
+}
+
 } // namespace
 
 std::optional<terrain::FieldGrid> fieldGridOf(const setup::OutputSetup& output, const terrain::Grains& grains,
@@ -42,7 +52,7 @@ std::optional<terrain::FieldGrid> fieldGridOf(const setup::OutputSetup& output, 
   const double edge = *output.fieldsCell;
   if (output.fieldsLow) return terrain::fieldGrid(*output.fieldsLow, *output.fieldsHigh, edge, periodic);
   Box box;
-  const std::optional<terrain::FieldGrid> kept = former ? output::formerFieldGrid(*former) : std::nullopt;
+  const std::optional<terrain::FieldGrid> kept = former ? formerGrid(*former, grains.system().comm) : std::nullopt;
   if (kept) {
     Vec3d size;
     for (int a = 0; a < 3; ++a) size[a] = kept->cell[a] * kept->cells[static_cast<std::size_t>(a)];

@@ -139,7 +139,7 @@ void Recorder::begin(const RunRequest& options, const storage::Checkpoint* forme
   const coupling::SimulationSetup& setup = simulation_.setup();
   if (const auto& grains = simulation_.ground().grains)
     fieldGrid_ = fieldGridOf(record_.output, *grains, setup.ground.grains->boundaries.periodic,
-                             former ? std::optional(writer_.folder()) : std::nullopt);
+                             former && writer_.frames() > 0 ? std::optional(writer_.folder()) : std::nullopt);
   if (const coupling::VehicleRig* rig = simulation_.vehicle()) {
     parts_ = frameParts(*rig);
     if (simulation_.ground().grains)
