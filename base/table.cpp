@@ -109,9 +109,12 @@ double readReal(const Node& node, const Node& whole, const Field& field, const s
   if (!std::isfinite(x))
     throw InputError(fmt::format("{}: {} = {}{} is not finite; use a finite number", node.origin, fullKey,
                                  nodeText(whole), unitText(field)));
-  if (low || high)
-    throw InputError(fmt::format("{}: {} = {}{} is outside {}; choose a value in that range ({})", node.origin, fullKey,
-                                 nodeText(whole), unitText(field), field.rangeText(), field.help));
+  if (low || high) {
+    const std::string slip = field.hasUsualSpan() ? field.unitSlip(x) : "";
+    throw InputError(fmt::format("{}: {} = {}{} is outside {}; {}choose a value in that range ({})", node.origin,
+                                 fullKey, nodeText(whole), unitText(field), field.rangeText(),
+                                 slip.empty() ? "" : slip + "; ", field.help));
+  }
   return x;
 }
 
@@ -260,7 +263,7 @@ Section Section::section(const std::string& key) const {
   if (!node->isMap())
     throw InputError(fmt::format("{}: {} = {} has the wrong type; make it a table: [{}]", node->origin, full,
                                  nodeText(*node), full));
-  return {*node, full};
+  return {*node, full, unusual_};
 }
 
 FieldValue Section::value(const Field& field) const {
@@ -280,7 +283,7 @@ std::vector<std::pair<std::string, Section>> Section::named(const std::string& k
     if (!e.node.isMap())
       throw InputError(fmt::format("{}: {} = {} is not a section; use [{}.NAME]", e.node.origin, full, nodeText(e.node),
                                    parent.path()));
-    sections.emplace_back(e.key, Section(e.node, full));
+    sections.emplace_back(e.key, Section(e.node, full, unusual_));
   }
   return sections;
 }
@@ -297,16 +300,47 @@ std::vector<Section> Section::list(const std::string& key) const {
   if (!list || !std::all_of(list->begin(), list->end(), [](const Node& n) { return n.isMap(); }))
     throw InputError(fmt::format("{}: {} has the wrong type; make it a list of sections, each under [[{}]]",
                                  node->origin, full, full));
-  for (std::size_t i = 0; i < list->size(); ++i) sections.emplace_back((*list)[i], fmt::format("{}.{}", full, i));
+  for (std::size_t i = 0; i < list->size(); ++i)
+    sections.emplace_back((*list)[i], fmt::format("{}.{}", full, i), unusual_);
   return sections;
 }
 
-void Section::fail(const std::string& key, const std::string& message) const {
+void Section::noteIfUnusual(const std::string& key, const Field& field, const std::string& name) const {
+  const Node* node = field.hasUsualSpan() && unusual_ ? node_->find(key) : nullptr;
+  if (!node) return;
+  double value = 0; // component of the largest magnitude
+  const auto take = [&value](double x) { value = std::fabs(x) > std::fabs(value) ? x : value; };
+  std::visit(Overloaded{[&](double x) { take(x); },
+                        [&](const std::array<double, 2>& a) { std::for_each(a.begin(), a.end(), take); },
+                        [&](const Vec3d& v) { take(v.x), take(v.y), take(v.z); },
+                        [&](const std::vector<double>& v) { std::for_each(v.begin(), v.end(), take); },
+                        [](const auto&) {}},
+             detail::readValue(*node, field, key));
+  if (const std::string text = field.unusualText(value); !text.empty())
+    keep(fmt::format("{}: {} = {}{} {}", node->origin, name, nodeText(*node), unitText(field), text));
+}
+
+void Section::noteUnusual(const std::vector<Field>& fields) const {
+  for (const Field& field : fields)
+    noteIfUnusual(field.key, field, path_.empty() ? field.key : path_ + "." + field.key);
+}
+
+std::string Section::described(const std::string& key, const std::string& message) const {
   const std::string full = path_.empty() ? key : key.empty() ? path_ : path_ + "." + key;
   const Node* node = node_->find(key);
-  if (!node || node->isMap()) throw InputError(fmt::format("{}: {} {}", node ? node->origin : origin(), full, message));
-  throw InputError(fmt::format("{}: {} = {} {}", node->origin, full, nodeText(*node), message));
+  if (!node || node->isMap()) return fmt::format("{}: {} {}", node ? node->origin : origin(), full, message);
+  return fmt::format("{}: {} = {} {}", node->origin, full, nodeText(*node), message);
 }
+
+void Section::keep(const std::string& note) const {
+  if (unusual_ && std::find(unusual_->begin(), unusual_->end(), note) == unusual_->end()) unusual_->push_back(note);
+}
+
+void Section::fail(const std::string& key, const std::string& message) const {
+  throw InputError(described(key, message));
+}
+
+void Section::note(const std::string& key, const std::string& message) const { keep(described(key, message)); }
 
 int editDistance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
@@ -359,6 +393,12 @@ std::string wrapped(const std::string& text) {
   return lines + line;
 }
 
+/// "(0, 60]; usually 4 to 50"
+std::string rangeCell(const Field& field) {
+  const std::string range = field.rangeText(), usual = field.usualText();
+  return range + (range.empty() || usual.empty() ? "" : "; ") + (usual.empty() ? "" : "usually " + usual);
+}
+
 } // namespace
 
 std::string describeFields(const std::string& name, const std::string& help, const std::vector<Field>& fields,
@@ -375,7 +415,7 @@ std::string describeFields(const std::string& name, const std::string& help, con
       fallback = quoted(f.autoWord);
     else if (fallback.empty() || fallback == "\"\"")
       fallback = "none";
-    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key, f.unit, fallback, f.rangeText(), f.help);
+    text += fmt::format("| `{}` | {} | {} | {} | {} |\n", f.key, f.unit, fallback, rangeCell(f), f.help);
   }
   return text;
 }

@@ -53,6 +53,9 @@ struct Field {
   std::string autoWord;                ///< word that means "not set", e.g. "auto"
   std::vector<std::string> formerKeys; ///< accepted for one version; read by Document::renameKeys
   std::vector<std::string> choices;    ///< words of an enum; empty: any text
+  double usualMin = 0;                 ///< usual span of the magnitude, see plausible()
+  double usualMax = std::numeric_limits<double>::infinity();
+  std::string slip; ///< likely mistake outside the usual span, besides another unit
 
   Field& above(double a) { return min = a, minOpen = true, *this; }
   Field& atLeast(double a) { return min = a, minOpen = false, *this; }
@@ -62,10 +65,23 @@ struct Field {
   /// Permits `word` instead of a value; the member must be a `std::optional` and is then empty.
   Field& orWord(std::string word) { return autoWord = std::move(word), *this; }
 
+  /// Usual span of the magnitude; for vectors and lists, of the largest component. A value outside it (except 0) is
+  /// accepted with a note, which names the unit in which the value would be usual, or else `mistake`.
+  Field& plausible(double least, double greatest, std::string mistake = "") {
+    return usualMin = least, usualMax = greatest, slip = std::move(mistake), *this;
+  }
+  bool hasUsualSpan() const { return usualMin > 0 || usualMax < std::numeric_limits<double>::infinity(); }
+
   Field& formerly(std::string former) { return formerKeys.push_back(std::move(former)), *this; }
 
   /// Allowed range for messages: "(0, 10]", "one of cpu, cuda", or "" if unrestricted.
   std::string rangeText() const;
+  /// Usual span for messages and help: "4 to 50", "at most 100", or "".
+  std::string usualText() const;
+  /// "is outside the usual span, 4 to 50 deg; in radians? 0.54 rad = 30.94 deg"; empty for a usual value.
+  std::string unusualText(double value) const;
+  /// "in radians? 0.54 rad = 30.94 deg": the unit in which `value` would be allowed and usual, else empty.
+  std::string unitSlip(double value) const;
 };
 
 /// Former and current name of a renamed key.
@@ -272,7 +288,9 @@ private:
 /// A view of one table of a file.
 class Section {
 public:
-  Section(const Node& node, std::string path) : node_(&node), path_(std::move(path)) {}
+  /// `unusual` collects the notes on unusual values that read() finds; null: no notes.
+  Section(const Node& node, std::string path, std::vector<std::string>* unusual = nullptr)
+      : node_(&node), path_(std::move(path)), unusual_(unusual) {}
 
   const Node& node() const { return *node_; }
   const std::string& path() const { return path_; }           ///< "material.soil"; empty at the root
@@ -295,6 +313,7 @@ public:
   template <class S>
   S read(const Table<S>& table, S defaults = {}, const std::vector<std::string>& subsections = {}) const {
     table.read(*node_, path_, defaults, subsections);
+    if (unusual_) noteUnusual(table.fields());
     return defaults;
   }
 
@@ -304,10 +323,19 @@ public:
   /// Throws InputError "file:line: path.key = value <message>", with the line of the key, or of the section if the key
   /// is absent.
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
+  /// Adds a note with the same text to Document::unusual().
+  void note(const std::string& key, const std::string& message) const;
+  /// Adds a note if the value of `key` is outside the usual span of `field`; `name`: its name in the note.
+  void noteIfUnusual(const std::string& key, const Field& field, const std::string& name) const;
 
 private:
+  void noteUnusual(const std::vector<Field>& fields) const;
+  std::string described(const std::string& key, const std::string& message) const;
+  void keep(const std::string& note) const;
+
   const Node* node_;
   std::string path_;
+  std::vector<std::string>* unusual_;
 };
 
 /// Parsed TOML file with overrides applied. The file must contain `version = 1`.
@@ -334,14 +362,18 @@ public:
   void put(const std::string& section, const std::string& key, const Node& value);
   /// One line per renamed key, with its location and the required change to the file.
   const std::vector<std::string>& notes() const { return notes_; }
+  /// One line per value outside the usual span of its field, with location and likely unit, for all sections that have
+  /// been read.
+  const std::vector<std::string>& unusual() const { return unusual_; }
 
   /// Root section, valid as long as the document exists. Sections may be read with `version` among their subsections.
-  Section root() const& { return {root_, ""}; }
+  Section root() const& { return {root_, "", &unusual_}; }
   Section root() const&& = delete;
 
 private:
   Node root_;
   std::vector<std::string> notes_;
+  mutable std::vector<std::string> unusual_; // filled while sections are read
 };
 
 /// Number of edits (insert, delete, replace, swap of neighbours; case ignored) between two words.

@@ -170,7 +170,45 @@ std::optional<SpecFault> hornFault(const VehicleSpec& s, const PartMeshes& meshe
   return {};
 }
 
+/// A length of a part in its mesh, and the key of the spec that it should about agree with.
+struct PartLength {
+  double inMesh, inSpec; ///< [m]
+  const char *what, *key;
+};
+PartLength lengthOf(const std::string& section, const VehicleSpec& s, const TriangleMesh& mesh) {
+  const auto along = [](const Vec3d& v) { return std::fabs(v.x); };
+  if (section == "chassis") return {most(mesh, all, along), std::fabs(s.idler.x), "length", "idler.x"};
+  if (section == "shoe") return {most(mesh, all, along), 0.5 * s.shoe.pitch, "half length", "half of shoe.pitch"};
+  const double radius = most(mesh, all, radiusAt);
+  if (section == "sprocket") return {radius, s.sprocketPinRadius(), "radius", "the pin radius"};
+  if (section == "roller") return {radius, s.roller.radius, "radius", "roller.radius"};
+  if (section == "idler") return {radius, s.idler.radius, "radius", "idler.radius"};
+  return {radius, s.roadWheel.radius, "radius", "road_wheel.radius"};
+}
+
 } // namespace
+
+std::optional<SpecFault> unitFault(const std::string& section, const VehicleSpec& spec, const TriangleMesh& mesh) {
+  struct Unit {
+    const char* name;
+    double metre; ///< length of a unit [m]
+    double agree; ///< largest ratio of the lengths in mesh and spec after conversion
+  };
+  constexpr Unit kUnits[] = {
+      {"feet", 0.3048, 1.3}, {"inches", 0.0254, 1.4}, {"centimetres", 0.01, 1.6}, {"millimetres", 0.001, 3}};
+  const PartLength length = lengthOf(section, spec, mesh);
+  if (section == "chassis" && length.inMesh < 20 * length.inSpec) return {}; // a hull may be longer than its tracks
+  for (const Unit& unit : kUnits) {
+    const double ratio = length.inMesh * unit.metre / length.inSpec;
+    if (ratio > unit.agree || ratio < 1 / unit.agree) continue;
+    return SpecFault{section, "mesh",
+                     fmt::format("has a {} of {:.4g} m, {:.4g} times {} = {:.4g} m, so its vertices are in {}; convert "
+                                 "all meshes to metres (scale by {:g})",
+                                 length.what, length.inMesh, length.inMesh / length.inSpec, length.key, length.inSpec,
+                                 unit.name, unit.metre)};
+  }
+  return {};
+}
 
 std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes) {
   if (auto fault = rimFault("road_wheel", spec.roadWheel.radius, spec.roadWheel.mesh, meshes.roadWheel)) return fault;

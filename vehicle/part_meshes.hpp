@@ -6,6 +6,7 @@
 #include "vehicle/spec.hpp"
 
 #include <optional>
+#include <string>
 
 namespace grouser::vehicle {
 
@@ -18,5 +19,9 @@ struct PartMeshes {
 /// teeth that do not fit the pins, horns that reach a wheel's hub, or a hull that reaches below the tracks. Empty if
 /// the dimensions agree within 1 mm.
 std::optional<SpecFault> meshFault(const VehicleSpec& spec, const PartMeshes& meshes);
+
+/// A fault if the mesh of a section ("shoe", "chassis") is larger than the spec by the factor between metres and
+/// another unit, e.g. 1000 for millimetres.
+std::optional<SpecFault> unitFault(const std::string& section, const VehicleSpec& spec, const base::TriangleMesh& mesh);
 
 } // namespace grouser::vehicle

@@ -103,6 +103,12 @@ VehicleSpec readVehicleSpec(const SpecSource& source) {
   return spec;
 }
 
+std::vector<std::string> unusualSpecValues(const SpecSource& source) {
+  const base::Document document = documentOf(source);
+  sectionsOf(document.root());
+  return document.unusual();
+}
+
 void refuse(const SpecSource& source, const SpecFault& fault) {
   const base::Document document = documentOf(source);
   document.root().section(fault.section).fail(fault.key, fault.message);

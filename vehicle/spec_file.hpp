@@ -13,6 +13,9 @@ namespace grouser::vehicle {
 /// Reads a vehicle file and applies the changed keys. Throws base::InputError (file:line, key, value, range) for
 /// unknown, missing or out-of-range keys, and for an impossible running gear (runningGearFault).
 VehicleSpec readVehicleSpec(const SpecSource& source);
+/// Notes on values outside the usual span of their key (base::Document::unusual()). Throws as readVehicleSpec() does,
+/// but does not check the running gear.
+std::vector<std::string> unusualSpecValues(const SpecSource& source);
 
 /// Throws a fault in a spec file as base::InputError, with its location.
 [[noreturn]] void refuse(const SpecSource& source, const SpecFault& fault);

@@ -158,7 +158,7 @@ void sweepCommand(const SweepCommand& command) {
   addDeviceOverrides(fixed, command.device, command.threads);
   if (command.ground) fixed = sweeps::groundOverrides(command.scene, command.lists, fixed, *command.ground);
   const sweeps::SweepPlan plan = sweeps::planSweep(command.scene, command.lists, fixed);
-  if (!plan.runs.empty()) scene::printNotes(plan.runs.front().scene);
+  sweeps::printNotes(plan);
   sweeps::SweepOptions options;
   options.program = fs::read_symlink("/proc/self/exe");
   options.folder = folder;

@@ -18,7 +18,7 @@ base::Table<Fluid> fluidTable() {
   using S = Fluid;
   base::Table<S> t("fluid", "Weakly compressible particle fluid (SPH) in a tank with solid walls; the fluid acts on "
                             "planes, boxes, cylinders, meshes, rigid terrain and bodies with shapes");
-  t.add("spacing", &S::spacing, "m", "initial particle spacing").required().atLeast(1e-5).atMost(10);
+  t.add("spacing", &S::spacing, "m", "initial particle spacing").plausible(1e-4, 1).required().atLeast(1e-5).atMost(10);
   t.add("dimensions", &S::dimensions, "",
         "number of dimensions, 2 or 3; with 2, the fluid is confined to the plane y = 0, and masses and forces are per "
         "metre of width")
@@ -26,28 +26,34 @@ base::Table<Fluid> fluidTable() {
       .atMost(3);
   t.add("tank_low", &S::tankLow, "m",
         "lower inner corner of the tank; default: borders and lowest point of the terrain")
+      .plausible(0, 1000)
       .atLeast(-kFarthest)
       .atMost(kFarthest);
   t.add("tank_high", &S::tankHigh, "m", "upper inner corner of the tank; required with tank_low")
+      .plausible(0, 1000)
       .atLeast(-kFarthest)
       .atMost(kFarthest);
   t.add("lid", &S::lid, "", "whether the tank has a lid");
   t.add("level", &S::level, "m", "z of the initial free surface; the tank is filled up to it with fluid at rest")
+      .plausible(0, 1000)
       .atLeast(-kFarthest)
       .atMost(kFarthest);
-  t.add("density", &S::density, "kg/m3", "fluid density at zero pressure").atLeast(1).atMost(1e5);
+  t.add("density", &S::density, "kg/m3", "fluid density at zero pressure").plausible(300, 15000).atLeast(1).atMost(1e5);
   t.add("viscosity", &S::viscosity, "Pa s",
         "dynamic viscosity (Morris operator); with values above 0, the fluid does not slip along walls")
+      .plausible(1e-5, 1000, "kinematic viscosity? multiply it by the density")
       .atLeast(0)
       .atMost(1e6);
   t.add("sound_speed", &S::soundSpeed, "m/s",
         "numerical speed of sound, which should be at least 10 times the maximum flow speed; default: 10 "
         "max(expected_speed, sqrt(maximum pressure at rest / density))")
+      .plausible(0.5, 2000)
       .above(0)
       .atMost(1e4);
   t.add("expected_speed", &S::expectedSpeed, "m/s",
         "expected maximum flow speed; default: sqrt(2 g depth), or twice the track speed of a vehicle if larger; the "
         "initial speed of a [[fluid.box]] replaces smaller values")
+      .plausible(0.05, 100)
       .above(0)
       .atMost(1e3);
   t.add("smoothing", &S::smoothing, "-", "smoothing length / spacing").atLeast(1.2).atMost(2);
@@ -68,9 +74,9 @@ base::Table<Fluid> fluidTable() {
 base::Table<FluidBox> fluidBoxTable() {
   using S = FluidBox;
   base::Table<S> t("[fluid.box]", "Box that is initially filled with fluid at hydrostatic pressure");
-  t.add("low", &S::low, "m", "lower corner").required().atLeast(-kFarthest).atMost(kFarthest);
-  t.add("high", &S::high, "m", "upper corner").required().atLeast(-kFarthest).atMost(kFarthest);
-  t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e3).atMost(1e3);
+  t.add("low", &S::low, "m", "lower corner").plausible(0, 1000).required().atLeast(-kFarthest).atMost(kFarthest);
+  t.add("high", &S::high, "m", "upper corner").plausible(0, 1000).required().atLeast(-kFarthest).atMost(kFarthest);
+  t.add("velocity", &S::velocity, "m/s", "initial velocity").plausible(0, 100).atLeast(-1e3).atMost(1e3);
   return t;
 }
 
@@ -82,6 +88,7 @@ base::Table<FluidProbe> fluidProbeTable() {
         "measured quantity: pressure at the position, or level: z of the position plus the wetted length of a vertical "
         "wire that starts there");
   t.add("position", &S::position, "m", "position of the probe; for a level, the lower end of the wire")
+      .plausible(0, 1000)
       .required()
       .atLeast(-kFarthest)
       .atMost(kFarthest);

@@ -16,14 +16,15 @@ using base::Table;
 Table<Grain> grainTable() {
   using S = Grain;
   Table<S> t("[grain]", "A single grain, for small scenes");
-  t.add("position", &S::position, "m", "position of the centre").required();
-  t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e4).atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "initial angular velocity").atLeast(-1e6).atMost(1e6);
-  t.add("radius", &S::radius, "m", "radius of the sphere").above(0).atMost(1e3).required();
+  t.add("position", &S::position, "m", "position of the centre").plausible(0, 1000).required();
+  t.add("velocity", &S::velocity, "m/s", "initial velocity").plausible(0, 300).atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "initial angular velocity").plausible(0, 1e4).atLeast(-1e6).atMost(1e6);
+  t.add("radius", &S::radius, "m", "radius of the sphere").plausible(1e-6, 2).above(0).atMost(1e3).required();
   t.add("material", &S::material, "", "name of the material").required();
   t.add("above_bed", &S::aboveBed, "m",
         "gap between the grain and the highest grain below it after the bed has settled; replaces the z coordinate of "
         "position")
+      .plausible(0, 100)
       .atLeast(0)
       .atMost(1e4);
   t.add("fixed", &S::fixed, "", "whether the grain is fixed, e.g. as part of rough ground");
@@ -35,14 +36,17 @@ Table<GrainFill> fillTable() {
   Table<S> t("[grains]", "A set of grains: a lattice, a random fill of a box, or a file of positions and radii");
   t.add("form", &S::form, "", "lattice or random (in a box), or file (one grain per line)");
   t.add("low", &S::low, "m",
-        "lower corner of the box that contains all grains completely; not allowed with form = \"file\"");
-  t.add("high", &S::high, "m", "upper corner of the box");
+        "lower corner of the box that contains all grains completely; not allowed with form = \"file\"")
+      .plausible(0, 1000);
+  t.add("high", &S::high, "m", "upper corner of the box").plausible(0, 1000);
   t.add("radius", &S::radius, "m",
         "grain radius, or minimum radius if radius_to is set; not allowed with form = \"file\"")
+      .plausible(1e-6, 2)
       .above(0)
       .atMost(1e3);
   t.add("radius_to", &S::radiusTo, "m",
         "maximum grain radius; radii are uniformly distributed between radius and radius_to")
+      .plausible(1e-6, 2)
       .above(0)
       .atMost(1e3);
   t.add("spacing", &S::spacing, "-", "lattice spacing, in units of the maximum grain radius").atLeast(2).atMost(100);
@@ -56,16 +60,19 @@ Table<GrainFill> fillTable() {
         "optionally a header with these names; searched for in the scene's folder, the working folder and the assets "
         "folder");
   t.add("velocity", &S::velocity, "m/s", "initial velocity; with form = \"file\", only for lines without a velocity")
+      .plausible(0, 300)
       .atLeast(-1e4)
       .atMost(1e4);
   t.add("spin", &S::spin, "rad/s",
         "initial angular velocity; with form = \"file\", only for lines without an angular velocity")
+      .plausible(0, 1e4)
       .atLeast(-1e6)
       .atMost(1e6);
   t.add("material", &S::material, "", "name of the material").required();
   t.add("above_bed", &S::aboveBed, "m",
         "gap between the lowest point of these grains and the highest grain below them after the bed has settled; all "
         "grains of the section are raised or lowered together")
+      .plausible(0, 100)
       .atLeast(0)
       .atMost(1e4);
   return t;
@@ -74,15 +81,17 @@ Table<GrainFill> fillTable() {
 Table<Source> sourceTable() {
   using S = Source;
   Table<S> t("[source]", "Source of grains that enter during the run at random positions in a box");
-  t.add("low", &S::low, "m", "lower corner of the box in which the centres of new grains are placed").required();
-  t.add("high", &S::high, "m", "upper corner of the box").required();
-  t.add("velocity", &S::velocity, "m/s", "initial velocity").atLeast(-1e4).atMost(1e4);
-  t.add("spin", &S::spin, "rad/s", "initial angular velocity").atLeast(-1e6).atMost(1e6);
-  t.add("radius", &S::radius, "m", "radius of each grain").above(0).atMost(10).required();
+  t.add("low", &S::low, "m", "lower corner of the box in which the centres of new grains are placed")
+      .plausible(0, 1000)
+      .required();
+  t.add("high", &S::high, "m", "upper corner of the box").plausible(0, 1000).required();
+  t.add("velocity", &S::velocity, "m/s", "initial velocity").plausible(0, 300).atLeast(-1e4).atMost(1e4);
+  t.add("spin", &S::spin, "rad/s", "initial angular velocity").plausible(0, 1e4).atLeast(-1e6).atMost(1e6);
+  t.add("radius", &S::radius, "m", "radius of each grain").plausible(1e-6, 2).above(0).atMost(10).required();
   t.add("material", &S::material, "", "name of the material").required();
   t.add("number", &S::number, "-", "number of grains that enter at the same time").atLeast(1).atMost(1e6);
-  t.add("every", &S::every, "s", "time between two entries").above(0).required();
-  t.add("start", &S::start, "s", "time of the first entry").atLeast(0);
+  t.add("every", &S::every, "s", "time between two entries").plausible(1e-5, 100).above(0).required();
+  t.add("start", &S::start, "s", "time of the first entry").plausible(0, 1000).atLeast(0);
   t.add("total", &S::total, "-", "total number of grains").atLeast(1).atMost(1e8).required();
   return t;
 }

@@ -21,27 +21,46 @@ Table<Hitch> hitchTable() {
   t.add("position", &S::position, "m",
         "position of the hitch in the vehicle frame (forward, left, up; origin midway between the sprockets); "
         "\"auto\": midway between the rearmost sprockets or idlers")
+      .plausible(0, 20)
       .atLeast(-100)
       .atMost(100)
       .orWord("auto");
-  t.add("start", &S::start, "s", "delay of the load after the start of the drive").atLeast(0).atMost(1e5);
-  t.add("ramp", &S::ramp, "s", "ramp duration of a constant force, or of the carriage speed").atLeast(0).atMost(1e3);
+  t.add("start", &S::start, "s", "delay of the load after the start of the drive")
+      .plausible(0, 300)
+      .atLeast(0)
+      .atMost(1e5);
+  t.add("ramp", &S::ramp, "s", "ramp duration of a constant force, or of the carriage speed")
+      .plausible(0, 60)
+      .atLeast(0)
+      .atMost(1e3);
   t.add("force", &S::force, "N",
         "force on the hull, positive backwards; for kind = \"ramp\": initial force, default: 0")
+      .plausible(0, 1e6)
       .atLeast(-1e8)
       .atMost(1e8);
-  t.add("rate", &S::rate, "N/s", "for kind = \"ramp\": rate of change of the force").atLeast(-1e8).atMost(1e8);
-  t.add("mass", &S::mass, "kg", "mass of the sled").above(0).atMost(1e7);
-  t.add("friction", &S::friction, "-", "friction coefficient between sled and ground").atLeast(0).atMost(10);
-  t.add("length", &S::length, "m", "length of the sled rope, which is initially taut; default: 3").above(0).atMost(1e3);
-  t.add("slip", &S::slip, "-",
-        "track slip imposed by the carriage: hull speed = (1 - slip) x sprocket speed x pitch radius; negative values "
-        "push the vehicle")
-      .atLeast(-10)
+  t.add("rate", &S::rate, "N/s", "for kind = \"ramp\": rate of change of the force")
+      .plausible(0, 1e6)
+      .atLeast(-1e8)
+      .atMost(1e8);
+  t.add("mass", &S::mass, "kg", "mass of the sled").plausible(0.1, 1e5).above(0).atMost(1e7);
+  t.add("friction", &S::friction, "-", "friction coefficient between sled and ground")
+      .plausible(1e-3, 3, "tan of the friction angle, not the angle")
+      .atLeast(0)
       .atMost(10);
+  t.add("length", &S::length, "m", "length of the sled rope, which is initially taut; default: 3")
+      .plausible(0.05, 100)
+      .above(0)
+      .atMost(1e3);
+  t.add("slip", &S::slip, "-",
+        "track slip imposed by the carriage: hull speed = (1 - slip) x sprocket speed x pitch radius; 1 holds the hull "
+        "still, negative values push the vehicle, up to twice the speed of its tracks")
+      .plausible(0, 1)
+      .atLeast(-1)
+      .atMost(1);
   t.add("stiffness", &S::stiffness, "N/m",
         "stiffness of the rope (sled) or bar (carriage); \"auto\": stiffness for an oscillation of the hull (and sled) "
         "at 10 Hz")
+      .plausible(10, 1e9)
       .above(0)
       .atMost(1e12)
       .orWord("auto");

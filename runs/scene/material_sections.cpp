@@ -35,6 +35,7 @@ void addPlasticity(Table<Material>& t) {
   t.add("surface_energy", &S::surfaceEnergy, "J/m2",
         "eepa, eepa_linear: surface energy gamma in the pull-off force 1.5 pi gamma a, where a is the contact radius "
         "after loading; default: 0, no adhesion")
+      .plausible(1e-5, 1000)
       .atLeast(0)
       .atMost(1e6);
   t.add("adhesion_exponent", &S::adhesionExponent, "-",
@@ -51,64 +52,18 @@ void addPlasticity(Table<Material>& t) {
   t.add("adhesion_stiffness", &S::adhesionStiffness, "N/m",
         "luding: adhesive stiffness k_c; the adhesive force during unloading is at most k_c x at overlap x; default: "
         "0, no adhesion")
+      .plausible(1, 1e10)
       .atLeast(0)
       .atMost(1e12);
 }
 
-/// Keys of a material that is a soil.
-void addSoil(Table<Material>& t) {
+/// Keys of sliding and rolling friction.
+void addFriction(Table<Material>& t) {
   using S = Material;
-  t.leaveOutEmpty();
-  t.add("soil", &S::soil, "",
-        "soil name (see `grouser soils`) or path of a soil file; the values of the file, scaled to the grain size of "
-        "the scene, are the defaults of the keys below");
-  t.add("soil_hash", &S::soilHash, "",
-        "hash of the soil file, which grouser writes to resolved scenes; a run prints a note if the file now has a "
-        "different hash");
-  t.add("grain_radius", &S::grainRadius, "m",
-        "grain radius to which stiffness and cohesion of the soil are scaled; default: terrain.grain_radius of a bed "
-        "of this material, otherwise the common radius of all grains of this material")
-      .above(0)
+  t.add("friction", &S::friction, "-", "Coulomb friction coefficient")
+      .plausible(1e-3, 3, "tan of the friction angle, not the angle")
+      .atLeast(0)
       .atMost(10);
-}
-
-} // namespace
-
-Table<Material> materialTable() {
-  using S = Material;
-  Table<S> t("material.NAME", "Material; other sections refer to it by NAME");
-  addSoil(t);
-  t.add("density", &S::density, "kg/m3", "density of the solid, not bulk density").atLeast(1e-3).atMost(1e5);
-  t.add(
-      "law", &S::law, "",
-      "contact law: linear (springs) or hertz (Hertz-Mindlin); elastic-plastic with adhesion: eepa (based on Hertz), "
-      "eepa_linear and luding (based on linear springs); all with dashpots and Coulomb friction (docs/contact_law.md)");
-  t.add("stiffness", &S::stiffness, "N/m",
-        fmt::format("linear, eepa_linear, luding: normal stiffness k of a contact between two bodies of this material "
-                    "(eepa_linear, luding: during virgin loading); default: {}",
-                    brief(S::kStiffness)))
-      .atLeast(1e-3)
-      .atMost(1e12);
-  t.add("young", &S::young, "Pa", "hertz, eepa: Young's modulus of the solid; required").atLeast(1).atMost(1e13);
-  t.add("poisson", &S::poisson, "-",
-        fmt::format("hertz, eepa: Poisson's ratio of the solid; default: {}", brief(S::kPoisson)))
-      .atLeast(0)
-      .atMost(0.5);
-  t.add("restitution", &S::restitution, "-",
-        fmt::format("coefficient of restitution, rebound speed / impact speed; default: {} unless damping is set; "
-                    "minimum 1e-6, or 0 with attraction or complementarity",
-                    brief(S::kRestitution)))
-      .atLeast(0)
-      .atMost(1);
-  t.add("damping", &S::damping, "1/s",
-        "linear: damping coefficient gamma in F_n = k overlap + gamma m_eff v_n (v_n: approach speed), instead of "
-        "restitution")
-      .atLeast(0)
-      .atMost(1e9);
-  t.add("attraction", &S::attraction, "",
-        "whether the dashpot may cause a tensile force while surfaces separate; otherwise the sum of spring and "
-        "dashpot force is at least 0 (to model cohesion, set cohesion)");
-  t.add("friction", &S::friction, "-", "Coulomb friction coefficient").atLeast(0).atMost(10);
   static_assert(S::kTangentialStiffnessRatio == 2.0 / 7, "as the help says");
   t.add("tangential_stiffness_ratio", &S::tangentialStiffnessRatio, "-",
         "linear: tangential / normal stiffness; default: 2/7")
@@ -129,9 +84,74 @@ Table<Material> materialTable() {
   t.add("rolling_damping_ratio", &S::rollingDampingRatio, "-", "damping ratio of the rolling spring")
       .atLeast(0)
       .atMost(1);
+}
+
+/// Keys of a material that is a soil.
+void addSoil(Table<Material>& t) {
+  using S = Material;
+  t.leaveOutEmpty();
+  t.add("soil", &S::soil, "",
+        "soil name (see `grouser soils`) or path of a soil file; the values of the file, scaled to the grain size of "
+        "the scene, are the defaults of the keys below");
+  t.add("soil_hash", &S::soilHash, "",
+        "hash of the soil file, which grouser writes to resolved scenes; a run prints a note if the file now has a "
+        "different hash");
+  t.add("grain_radius", &S::grainRadius, "m",
+        "grain radius to which stiffness and cohesion of the soil are scaled; default: terrain.grain_radius of a bed "
+        "of this material, otherwise the common radius of all grains of this material")
+      .plausible(1e-6, 0.5)
+      .above(0)
+      .atMost(10);
+}
+
+} // namespace
+
+Table<Material> materialTable() {
+  using S = Material;
+  Table<S> t("material.NAME", "Material; other sections refer to it by NAME");
+  addSoil(t);
+  t.add("density", &S::density, "kg/m3", "density of the solid, not bulk density")
+      .plausible(100, 25000)
+      .atLeast(1e-3)
+      .atMost(1e5);
+  t.add(
+      "law", &S::law, "",
+      "contact law: linear (springs) or hertz (Hertz-Mindlin); elastic-plastic with adhesion: eepa (based on Hertz), "
+      "eepa_linear and luding (based on linear springs); all with dashpots and Coulomb friction (docs/contact_law.md)");
+  t.add("stiffness", &S::stiffness, "N/m",
+        fmt::format("linear, eepa_linear, luding: normal stiffness k of a contact between two bodies of this material "
+                    "(eepa_linear, luding: during virgin loading); default: {}",
+                    brief(S::kStiffness)))
+      .plausible(10, 1e10)
+      .atLeast(1e-3)
+      .atMost(1e12);
+  t.add("young", &S::young, "Pa", "hertz, eepa: Young's modulus of the solid; required")
+      .plausible(2e4, 1.3e12)
+      .atLeast(1)
+      .atMost(1e13);
+  t.add("poisson", &S::poisson, "-",
+        fmt::format("hertz, eepa: Poisson's ratio of the solid; default: {}", brief(S::kPoisson)))
+      .atLeast(0)
+      .atMost(0.5);
+  t.add("restitution", &S::restitution, "-",
+        fmt::format("coefficient of restitution, rebound speed / impact speed; default: {} unless damping is set; "
+                    "minimum 1e-6, or 0 with attraction or complementarity",
+                    brief(S::kRestitution)))
+      .atLeast(0)
+      .atMost(1);
+  t.add("damping", &S::damping, "1/s",
+        "linear: damping coefficient gamma in F_n = k overlap + gamma m_eff v_n (v_n: approach speed), instead of "
+        "restitution")
+      .atLeast(0)
+      .atMost(1e9);
+  t.add("attraction", &S::attraction, "",
+        "whether the dashpot may cause a tensile force while surfaces separate; otherwise the sum of spring and "
+        "dashpot force is at least 0 (to model cohesion, set cohesion)");
+  addFriction(t);
   t.add("cohesion", &S::cohesion, "J/m2",
         "work of adhesion w (twice the surface energy for equal surfaces): each contact has the constant adhesive "
         "force 2 pi w R_eff (DMT); 0: no cohesion")
+      .plausible(1e-5, 1000)
       .atLeast(0)
       .atMost(1e6);
   t.add("adhesion_radius", &S::adhesionRadius, "m",
@@ -139,17 +159,20 @@ Table<Material> materialTable() {
         "R_eff, so that the tensile strength of a bed does not depend on grain size; two materials use the geometric "
         "mean of their values, or the only value set; default: no scaling, so that coarser beds have a lower tensile "
         "strength")
+      .plausible(1e-6, 0.5)
       .above(0)
       .atMost(10);
   addPlasticity(t);
   t.add("foundation_modulus", &S::foundationModulus, "N/m3",
         "modulus of the Winkler foundation (pressure / overlap) in contacts of bodies with bodies, rigid ground, "
         "planes and obstacles")
+      .plausible(1e5, 1e12)
       .atLeast(1e3)
       .atMost(1e14);
   t.add("crushing_strength", &S::crushingStrength, "Pa",
         "crushing strength sigma_f of the grains: in contacts with vehicle parts and meshes, a grain crushes at the "
         "normal force sigma_f d^2 (d: diameter; docs/contact_law.md#crushing); default: no crushing")
+      .plausible(1e4, 5e9)
       .above(0)
       .atMost(1e13);
   return t;
@@ -162,21 +185,28 @@ Table<ContactPair> contactTable() {
   Table<S> t("contact.\"a|b\"",
              "Contact parameters of the material pair a, b, that override the mixing rule (twice the stiffnesses in "
              "series, minimum of friction and restitution, geometric mean of cohesion; docs/contact_law.md)");
-  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair").atLeast(1e-3).atMost(1e12);
+  t.add("stiffness", &S::stiffness, "N/m", "normal stiffness of the pair")
+      .plausible(10, 1e10)
+      .atLeast(1e-3)
+      .atMost(1e12);
   t.add("restitution", &S::restitution, "-",
         "coefficient of restitution of the pair; minimum 1e-6, or 0 with attraction or complementarity")
       .atLeast(0)
       .atMost(1);
   t.add("damping", &S::damping, "1/s", "damping gamma of the pair, instead of restitution").atLeast(0).atMost(1e9);
-  t.add("friction", &S::friction, "-", "Coulomb friction coefficient of the pair").atLeast(0).atMost(10);
+  t.add("friction", &S::friction, "-", "Coulomb friction coefficient of the pair")
+      .plausible(1e-3, 3, "tan of the friction angle, not the angle")
+      .atLeast(0)
+      .atMost(10);
   t.add("rolling_friction", &S::rollingFriction, "-", "rolling friction of the pair").atLeast(0).atMost(2);
-  t.add("cohesion", &S::cohesion, "J/m2", "work of adhesion of the pair").atLeast(0).atMost(1e6);
+  t.add("cohesion", &S::cohesion, "J/m2", "work of adhesion of the pair").plausible(1e-5, 1000).atLeast(0).atMost(1e6);
   t.add("plasticity", &S::plasticity, "-",
         "plasticity lambda of the pair, if both materials are elastic-plastic; 0: elastic")
       .atLeast(0)
       .atMost(0.99);
   t.add("surface_energy", &S::surfaceEnergy, "J/m2",
         "surface energy gamma of the pair, if both are eepa or eepa_linear")
+      .plausible(1e-5, 1000)
       .atLeast(0)
       .atMost(1e6);
   return t;

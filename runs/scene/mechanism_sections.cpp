@@ -23,27 +23,37 @@ Table<BodySection> bodyTable() {
       .required();
   t.add("mass", &S::mass, "kg",
         "mass; default: density times volume of the shapes; required if the body has no shapes and is not fixed")
+      .plausible(1e-6, 2e6)
       .above(0)
       .atMost(1e12);
   t.add("density", &S::density, "kg/m3",
         "density of the shapes, instead of mass; mass and inertia are sums over the shapes, so that the common volume "
         "of overlapping shapes counts twice; default: density of the material")
+      .plausible(10, 25000)
       .above(0)
       .atMost(1e6);
   t.add("inertia", &S::inertia, "kg m2",
         "moments of inertia about the centre of mass in the body axes: xx, yy, zz, optionally also the matrix entries "
-        "xy, xz, yz; default: moments of the uniform box, or of the uniform shapes");
+        "xy, xz, yz; default: moments of the uniform box, or of the uniform shapes")
+      .plausible(1e-12, 1e8);
   t.add("box", &S::box, "m",
         "edge lengths of the box that represents the body in pictures; default: from mass and inertia")
+      .plausible(1e-4, 200)
       .above(0)
       .atMost(1e5);
-  t.add("position", &S::position, "m", "initial position of the centre of mass").atLeast(-1e6).atMost(1e6);
+  t.add("position", &S::position, "m", "initial position of the centre of mass")
+      .plausible(0, 1000)
+      .atLeast(-1e6)
+      .atMost(1e6);
   t.add("axis", &S::axis, "-", "axis of the rotation from the world axes to the initial body axes; requires angle");
-  t.add("angle", &S::angle, "deg", "angle of the rotation about axis, right-handed").atLeast(-3600).atMost(3600);
+  t.add("angle", &S::angle, "deg", "angle of the rotation about axis, right-handed, in degrees")
+      .plausible(0, 360)
+      .atLeast(-3600)
+      .atMost(3600);
   t.add("orientation", &S::orientation, "-",
         "initial orientation as a unit quaternion w, x, y, z (body to world), instead of axis and angle");
-  t.add("velocity", &S::velocity, "m/s", "initial velocity of the centre of mass, world components");
-  t.add("spin", &S::spin, "rad/s", "initial angular velocity, world components");
+  t.add("velocity", &S::velocity, "m/s", "initial velocity of the centre of mass, world components").plausible(0, 300);
+  t.add("spin", &S::spin, "rad/s", "initial angular velocity, world components").plausible(0, 1500);
   t.add("fixed", &S::fixed, "", "whether the body is fixed in the world");
   t.add("point", &S::point, "",
         "whether the body is a point mass, without extent or inertia; supports spherical joints, distance joints and "
@@ -52,9 +62,10 @@ Table<BodySection> bodyTable() {
   t.add("probe_size", &S::probe, "m",
         "edge lengths of a box in the body frame; the mass of all grains with centres inside this box is recorded as "
         "grain_mass")
+      .plausible(1e-4, 100)
       .above(0)
       .atMost(1e5);
-  t.add("probe_position", &S::probePosition, "m", "centre of the probe box in the body frame");
+  t.add("probe_position", &S::probePosition, "m", "centre of the probe box in the body frame").plausible(0, 1000);
   return t;
 }
 
@@ -62,12 +73,17 @@ Table<ShapeSection> shapeTable() {
   using S = ShapeSection;
   Table<S> t("[body.shape]", "Contact shape of the preceding [[body]]; a body may have several shapes");
   t.add("kind", &S::kind, "", "kind of shape: sphere, box, cylinder, capsule, cone or mesh").required();
-  t.add("size", &S::size, "m", "edge lengths of a box").above(0).atMost(1e5);
+  t.add("size", &S::size, "m", "edge lengths of a box").plausible(1e-4, 100).above(0).atMost(1e5);
   t.add("radius", &S::radius, "m", "radius of a sphere, cylinder or capsule, or of the base of a cone")
+      .plausible(1e-4, 100)
       .above(0)
       .atMost(1e5);
-  t.add("tip_radius", &S::tipRadius, "m", "tip radius of a truncated cone; default: 0").atLeast(0).atMost(1e5);
+  t.add("tip_radius", &S::tipRadius, "m", "tip radius of a truncated cone; default: 0")
+      .plausible(0, 100)
+      .atLeast(0)
+      .atMost(1e5);
   t.add("length", &S::length, "m", "length of a cylinder, height of a cone, or length of a capsule without its caps")
+      .plausible(1e-4, 100)
       .above(0)
       .atMost(1e5);
   t.add("file", &S::file, "",
@@ -79,16 +95,19 @@ Table<ShapeSection> shapeTable() {
                     "less if spheres would protrude from the mesh by more than a fiftieth of the smallest grain radius "
                     "or of the smallest thickness",
                     MeshSection::kShareOfDiagonal))
+      .plausible(1e-5, 1)
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("position", &S::position, "m",
         "position of the centre in the body frame (cone: point at half its height; mesh: origin of the file)")
+      .plausible(0, 100)
       .atLeast(-1e5)
       .atMost(1e5);
   t.add("axis", &S::axis, "-",
         "axis of a cylinder, capsule or cone (from base to tip) in the body frame, default: z; for a box or mesh the "
         "rotation axis, together with angle");
-  t.add("angle", &S::angle, "deg", "rotation angle of a box or mesh about axis, right-handed")
+  t.add("angle", &S::angle, "deg", "rotation angle of a box or mesh about axis, right-handed, in degrees")
+      .plausible(0, 360)
       .atLeast(-3600)
       .atMost(3600);
   return t;
@@ -105,24 +124,28 @@ Table<JointSection> jointTable() {
         "rotations), prismatic (a translation), cylindrical (rotation and translation), fixed (none), distance (all "
         "motions at a constant distance of two points)");
   t.add("bodies", &S::bodies, "", "names of the two bodies, e.g. [\"world\", \"rod\"]").required();
-  t.add("point", &S::point, "m", "initial position of the joint in the world");
+  t.add("point", &S::point, "m", "initial position of the joint in the world").plausible(0, 1000);
   t.add("axis", &S::axis, "-",
         "initial axis of rotation or translation in the world; for a universal joint, the axis of the first body");
   t.add("second_axis", &S::secondAxis, "-", "axis of the second body of a universal joint, perpendicular to axis");
   t.add("point_a", &S::pointA, "m",
-        "position of the joint in the frame of the first body, instead of point; requires point_b");
-  t.add("point_b", &S::pointB, "m", "position of the joint in the frame of the second body");
+        "position of the joint in the frame of the first body, instead of point; requires point_b")
+      .plausible(0, 1000);
+  t.add("point_b", &S::pointB, "m", "position of the joint in the frame of the second body").plausible(0, 1000);
   t.add("axis_a", &S::axisA, "-", "axis in the frame of the first body, instead of axis; requires axis_b");
   t.add("axis_b", &S::axisB, "-", "axis in the frame of the second body; for a universal joint, the second axis");
   t.add("length", &S::length, "m",
         "distance between point_a and point_b of a distance joint; default: the initial distance")
+      .plausible(1e-4, 1000)
       .above(0)
       .atMost(1e5);
   t.add("damping", &S::damping, "N m s/rad or N s/m",
         "damping of the free axis; for a cylindrical joint, damping of the rotation")
       .atLeast(0);
   t.add("slide_damping", &S::slideDamping, "N s/m", "damping of the translation of a cylindrical joint").atLeast(0);
-  t.add("limits", &S::limits, "rad or m", "positions of the lower and upper end stop on the free axis");
+  t.add("limits", &S::limits, "rad or m",
+        "positions of the lower and upper end stop on the free axis; angles in radians")
+      .plausible(0, 20);
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "stiffness of the end stops; required with limits")
       .atLeast(0);
   t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m",
@@ -137,8 +160,9 @@ Table<SpringSection> springTable() {
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("bodies", &S::bodies, "",
         "names of the two connected bodies; to connect them along a joint axis, set joint instead");
-  t.add("point_a", &S::pointA, "m", "end point on the first body, in its frame; default: (0, 0, 0)");
-  t.add("point_b", &S::pointB, "m", "end point on the second body, in its frame; default: (0, 0, 0)");
+  t.add("point_a", &S::pointA, "m", "end point on the first body, in its frame; default: (0, 0, 0)").plausible(0, 1000);
+  t.add("point_b", &S::pointB, "m", "end point on the second body, in its frame; default: (0, 0, 0)")
+      .plausible(0, 1000);
   t.add("joint", &S::joint, "",
         "name of a revolute, prismatic or cylindrical joint, instead of bodies; the spring acts on the free axis of "
         "the joint");
@@ -149,8 +173,11 @@ Table<SpringSection> springTable() {
   t.add("preload", &S::preload, "N or N m", "force at free_position; positive values push the bodies apart");
   t.add("free_position", &S::freePosition, "m or rad",
         "length of the spring, or position of the joint axis, at which the force equals preload; default: the initial "
-        "value");
-  t.add("limits", &S::limits, "rad or m", "positions of the lower and upper end stop on the axis of a joint");
+        "value")
+      .plausible(0, 100);
+  t.add("limits", &S::limits, "rad or m",
+        "positions of the lower and upper end stop on the axis of a joint; angles in radians")
+      .plausible(0, 20);
   t.add("stop_stiffness", &S::stopStiffness, "N m/rad or N/m", "stiffness of the end stops; required with limits")
       .atLeast(0);
   t.add("stop_damping", &S::stopDamping, "N m s/rad or N s/m",
@@ -166,11 +193,13 @@ Table<BushingSection> bushingTable() {
       "Elastic bushing: springs and dampers between two bodies in all six degrees of freedom, initially unloaded");
   t.add("name", &S::name, "", "name in results and messages").required();
   t.add("bodies", &S::bodies, "", "names of the two bodies").required();
-  t.add("point", &S::point, "m", "initial position of the centre in the world").required();
+  t.add("point", &S::point, "m", "initial position of the centre in the world").plausible(0, 1000).required();
   t.add("axis", &S::axis, "-", "initial direction of the bushing's z axis in the world; default: the world axes");
-  t.add("stiffness", &S::stiffness, "N/m", "stiffness along the bushing's x, y, z").atLeast(0);
+  t.add("stiffness", &S::stiffness, "N/m", "stiffness along the bushing's x, y, z").plausible(1, 1e11).atLeast(0);
   t.add("damping", &S::damping, "N s/m", "damping along the bushing's x, y, z").atLeast(0);
-  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "stiffness about the bushing's x, y, z").atLeast(0);
+  t.add("rotation_stiffness", &S::rotationStiffness, "N m/rad", "stiffness about the bushing's x, y, z")
+      .plausible(1e-2, 1e10)
+      .atLeast(0);
   t.add("rotation_damping", &S::rotationDamping, "N m s/rad", "damping about the bushing's x, y, z").atLeast(0);
   return t;
 }
@@ -188,10 +217,14 @@ Table<DriveSection> driveTable() {
   t.add("polynomial", &S::polynomial, "unit of value / s^i",
         "coefficients c0, c1, c2... of c0 + c1 t + c2 t^2..., instead of value");
   t.add("amplitude", &S::amplitude, "as value", "amplitude of the sine");
-  t.add("frequency", &S::frequency, "Hz", "frequency of the sine").atLeast(0).atMost(1e6);
-  t.add("phase", &S::phase, "deg", "phase of the sine at t = 0").atLeast(-3600).atMost(3600);
+  t.add("frequency", &S::frequency, "Hz", "frequency of the sine").plausible(1e-3, 1000).atLeast(0).atMost(1e6);
+  t.add("phase", &S::phase, "deg", "phase of the sine at t = 0, in degrees")
+      .plausible(1, 360)
+      .atLeast(-3600)
+      .atMost(3600);
   t.add("time", &S::time, "s",
         "times of the table, in increasing order; a repeated time defines a jump (not allowed for position)")
+      .plausible(0, 3600)
       .atLeast(0);
   t.add("values", &S::values, "as value",
         "values of the table; speed and torque are interpolated linearly, position by a smooth spline that starts and "
@@ -336,6 +369,7 @@ Table<MechanismPlacement> placementTable() {
   t.add("above_bed", &MechanismPlacement::aboveBed, "m",
         "minimum gap between each shape and the highest grain below it after the bed has settled; bodies, joints and "
         "attachments to the world are raised or lowered together to this gap")
+      .plausible(0, 100)
       .atLeast(0)
       .atMost(1e5);
   return t;
@@ -354,11 +388,24 @@ void checkPlacement(const Section& section, MechanismPlacement& placement, const
                               "positions of the bodies");
 }
 
+/// Notes a value in degrees or revolutions per minute; its unit depends on what the drive imposes.
+void noteDriveValue(const Section& section, DriveSection& drive, const Scene&) {
+  if (drive.imposes != multibody::DriveKind::kSpeed && drive.imposes != multibody::DriveKind::kPosition) return;
+  const bool speed = drive.imposes == multibody::DriveKind::kSpeed;
+  base::Field field;
+  field.unit = speed ? "rad/s" : "rad or m";
+  field.plausible(0, speed ? 200 : 50);
+  field.type = base::FieldType::Real;
+  section.noteIfUnusual("value", field, section.path() + ".value");
+  field.type = base::FieldType::RealList;
+  section.noteIfUnusual("values", field, section.path() + ".values");
+}
+
 /// Section of one kind of mechanism part. Empty texts and lists are not written.
-template <class Part>
-SectionEntry part(const std::string& name, std::vector<Part> MechanismSections::*parts, base::Table<Part> table) {
+template <class Part> SectionEntry part(const std::string& name, std::vector<Part> MechanismSections::*parts,
+                                        base::Table<Part> table, CheckOf<Part> check = {}) {
   const auto where = [parts](auto& scene) -> auto& { return scene.mechanism.*parts; };
-  return list<Part>(name, where, table.leaveOutEmpty());
+  return list<Part>(name, where, table.leaveOutEmpty(), check);
 }
 
 } // namespace
@@ -369,7 +416,7 @@ SectionList mechanismSections() {
           part("joint", &M::joints, jointTable()),
           part("spring", &M::springs, springTable()),
           part("bushing", &M::bushings, bushingTable()),
-          part("drive", &M::drives, driveTable()),
+          part<DriveSection>("drive", &M::drives, driveTable(), noteDriveValue),
           part("coupling", &M::couplings, couplingTable()),
           optional<MechanismPlacement>(
               "mechanism", [](auto& scene) -> auto& { return scene.mechanism.placement; }, placementTable(),

@@ -30,6 +30,12 @@ LoadedMesh loadMesh(const base::Section& section, const std::string& file, doubl
     section.fail("scale", fmt::format("[m] results in a mesh of length {:.4g} m with a sphere radius of {:.3g} m, "
                                       "outside [{:g}, {:g}] m; correct it (length of one unit of the file)",
                                       longest, byDefault, spheredecomp::kSmallestRadius, spheredecomp::kLargestRadius));
+  constexpr double kLongest = 50, kShortest = 1e-3; // [m] usual meshes
+  if (longest > kLongest || longest < kShortest)
+    section.note("file", fmt::format("is a mesh of {:.4g} x {:.4g} x {:.4g} m with scale = {:g}; {}", size.x, size.y,
+                                     size.z, scale,
+                                     longest > kLongest ? fmt::format("in millimetres? set scale = {:g}", 1e-3 * scale)
+                                                        : "check scale, the length of one unit of the file [m]"));
   loaded.sphereRadius = sphereRadius.value_or(byDefault);
   if (loaded.sphereRadius > 0.5 * longest)
     section.fail("sphere_radius",

@@ -38,11 +38,13 @@ Table<Output> outputTable() {
   t.add("fields_cell", &S::fieldsCell, "m",
         "cell size of the soil fields (stress, strain rate, porosity, velocity, coordination number) in each frame; "
         "default: no fields")
+      .plausible(1e-4, 20)
       .above(0);
   t.add("fields_low", &S::fieldsLow, "m",
         "lower corner of the box divided into cells; default: the initial bounding box of the grains, extended upwards "
-        "by one cell");
-  t.add("fields_high", &S::fieldsHigh, "m", "upper corner of the box divided into cells");
+        "by one cell")
+      .plausible(0, 1000);
+  t.add("fields_high", &S::fieldsHigh, "m", "upper corner of the box divided into cells").plausible(0, 1000);
   t.add("plots", &S::plots, "", "draw plots of the time series (requires Python with matplotlib)");
   return t;
 }

@@ -26,10 +26,24 @@ void addContactKeys(Table<RunSettings>& t) {
       .orWord("auto");
 }
 
+void addIntervals(Table<RunSettings>& t) {
+  using S = RunSettings;
+  t.add("output_interval", &S::outputInterval, "s", "time between rows of the time series")
+      .plausible(1e-6, 10)
+      .above(0);
+  t.add("frame_interval", &S::frameInterval, "s", "time between frames for ParaView").plausible(1e-6, 100).above(0);
+  t.add("checkpoint_interval", &S::checkpointInterval, "s",
+        "simulated time between checkpoints for --resume; 0: only at the end of the run or when it is stopped")
+      .plausible(1e-4, 1e4)
+      .atLeast(0)
+      .atMost(1e5);
+}
+
 Table<RunSettings> runTable() {
   using S = RunSettings;
   Table<S> t("run", "Time, gravity and hardware of a run");
   t.add("duration", &S::duration, "s", "simulated time, counted from the end of settling")
+      .plausible(1e-6, 3600)
       .atLeast(1e-12)
       .atMost(1e5)
       .required();
@@ -37,6 +51,7 @@ Table<RunSettings> runTable() {
         "time step; \"auto\": duration of the shortest contact / steps_per_contact (1e-4 s without grains), at most "
         "half the largest step at which beds come to rest, 0.2 of the Rayleigh time of hertz grains, 0.1 s and the "
         "duration; for mechanisms, from their oscillation periods; given steps must not exceed the stability limit")
+      .plausible(1e-9, 0.05)
       .atLeast(1e-12)
       .atMost(0.1)
       .orWord("auto");
@@ -57,13 +72,8 @@ Table<RunSettings> runTable() {
         "step is an error, and a body that rotates too fast during the run ends the run")
       .atLeast(2)
       .atMost(1e6);
-  t.add("gravity", &S::gravity, "m/s2", "gravitational acceleration").atLeast(-1000).atMost(1000);
-  t.add("output_interval", &S::outputInterval, "s", "time between rows of the time series").above(0);
-  t.add("frame_interval", &S::frameInterval, "s", "time between frames for ParaView").above(0);
-  t.add("checkpoint_interval", &S::checkpointInterval, "s",
-        "simulated time between checkpoints for --resume; 0: only at the end of the run or when it is stopped")
-      .atLeast(0)
-      .atMost(1e5);
+  t.add("gravity", &S::gravity, "m/s2", "gravitational acceleration").plausible(1.2, 30).atLeast(-1000).atMost(1000);
+  addIntervals(t);
   t.add("seed", &S::seed, "-", "seed of the random number generator").atLeast(0);
   t.add("device", &S::device, "", "device for the grains; \"auto\": a GPU if available");
   t.add("precision", &S::precision, "",
@@ -72,6 +82,7 @@ Table<RunSettings> runTable() {
   t.add("impact_speed", &S::impactSpeed, "m/s",
         "maximum expected impact speed, used to choose and check the time step of hertz materials; with "
         "complementarity, the \"auto\" step moves a grain of this speed by at most 0.08 of its diameter")
+      .plausible(1e-3, 300)
       .above(0)
       .atMost(1e4);
   t.add("threads", &S::threads, "-", "number of CPU threads; 0: all cores; no effect on results")
@@ -102,8 +113,9 @@ Table<RunSettings> runTable() {
   t.add("periodic", &S::periodic, "",
         "whether the boundaries along x, y are periodic: grains that leave on one side enter on the opposite side");
   t.add("domain_x", &S::domainX, "m",
-        "positions of the periodic boundaries along x; default: the borders of the terrain");
-  t.add("domain_y", &S::domainY, "m", "positions of the periodic boundaries along y");
+        "positions of the periodic boundaries along x; default: the borders of the terrain")
+      .plausible(1e-4, 2000);
+  t.add("domain_y", &S::domainY, "m", "positions of the periodic boundaries along y").plausible(1e-4, 2000);
   return t;
 }
 

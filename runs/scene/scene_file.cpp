@@ -10,8 +10,12 @@
 #include "runs/scene/soil_calibration.hpp"
 #include "runs/support/locations.hpp"
 #include "runs/support/print_stderr.hpp"
+#include "vehicle/spec_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 namespace grouser::scene {
 
@@ -46,16 +50,18 @@ Scene sceneOf(base::Document read, const std::filesystem::path& file, const std:
   scene.file = file, scene.overrides = overrides;
   scene.document = std::make_shared<const base::Document>(std::move(read));
   const base::Section root = scene.document->root();
-  try {
-    allowOnlyKnown(root, sections);
-    for (const SectionEntry& entry : sections) entry.read(root, scene);
-  } catch (const base::UnknownKey& unknown) {
-    std::vector<std::string> all;
-    for (const SectionEntry& entry : sections) all.insert(all.end(), entry.keys.begin(), entry.keys.end());
-    throw base::amongAllKeys(unknown, all);
-  }
-  detail::scaleSoils(scene);
-  detail::checkTogether(scene);
+  withUnusualValues(scene, [&] {
+    try {
+      allowOnlyKnown(root, sections);
+      for (const SectionEntry& entry : sections) entry.read(root, scene);
+    } catch (const base::UnknownKey& unknown) {
+      std::vector<std::string> all;
+      for (const SectionEntry& entry : sections) all.insert(all.end(), entry.keys.begin(), entry.keys.end());
+      throw base::amongAllKeys(unknown, all);
+    }
+    detail::scaleSoils(scene);
+    detail::checkTogether(scene);
+  });
   return scene;
 }
 
@@ -85,12 +91,35 @@ std::string unsettledWarning(const Scene& scene) {
                      scene.vehicle ? ", under the vehicle" : "", Terrain{}.settleTimeLimit);
 }
 
+void withUnusualValues(const Scene& scene, const std::function<void()>& act) {
+  try {
+    act();
+  } catch (const base::InputError& error) {
+    if (scene.document->unusual().empty()) throw;
+    throw base::InputError(fmt::format("{}; note: {}", error.what(), fmt::join(scene.document->unusual(), "; note: ")));
+  }
+}
+
+std::vector<std::string> unusualValues(const Scene& scene) {
+  std::vector<std::string> notes;
+  const auto add = [&notes](const std::vector<std::string>& more) {
+    for (const std::string& note : more)
+      if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  };
+  if (scene.document) add(scene.document->unusual());
+  for (const auto& [material, soil] : scene.soils)
+    if (soil->document) add(soil->document->unusual());
+  if (scene.vehicle) add(vehicle::unusualSpecValues(scene.vehicle->source()));
+  return notes;
+}
+
 void printNotes(const Scene& scene) {
   if (!scene.document) return;
   for (const std::string& warning : soilWarnings(scene)) support::printStderr("WARNING: {}\n", warning);
   if (const std::string warning = unsettledWarning(scene); !warning.empty())
     support::printStderr("WARNING: {}\n", warning);
   for (const std::string& note : scene.document->notes()) support::printStderr("grouser: note: {}\n", note);
+  for (const std::string& note : unusualValues(scene)) support::printStderr("grouser: note: {}\n", note);
   for (const std::string& note : soilNotes(scene)) support::printStderr("grouser: note: {}\n", note);
 }
 
@@ -101,7 +130,12 @@ std::string resolvedToml(const Scene& scene) {
 }
 
 std::string fieldHelp() {
-  std::string text = "## Keys of a scene file\n\nEvery file begins with `version = 1`. Only `[run]` is required.\n";
+  std::string text =
+      "## Keys of a scene file\n\nEvery file begins with `version = 1`. Only `[run]` is required.\n\nThe column range "
+      "has the allowed range and, after *usually*, the usual magnitude of the value (for vectors and\n"
+      "lists: of the largest component). A value outside the allowed range is an error. A value outside "
+      "the usual span, except\n0, is accepted with a note that names the unit in which it would be "
+      "usual. Both are in the unit of the key.\n";
   for (const SectionEntry& entry : allSections()) text.append("\n").append(entry.describe());
   return text;
 }

@@ -4,6 +4,7 @@
 #include "runs/scene/scene.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,14 @@ Scene readSceneText(std::string_view text, const std::filesystem::path& file,
 
 /// Warning about a random bed that does not settle; empty if there is none, or if nothing depends on the settled bed.
 std::string unsettledWarning(const Scene& scene);
+
+/// Notes on values outside the usual span of their key, which suggest another unit: in the scene, its soil files and
+/// its vehicle file. Throws InputError for an invalid vehicle file.
+std::vector<std::string> unusualValues(const Scene& scene);
+
+/// Calls `act` and appends notes on unusual values to its InputErrors: a value in a wrong unit can make another key
+/// invalid.
+void withUnusualValues(const Scene& scene, const std::function<void()>& act);
 
 /// Prints warnings and notes on the scene to stderr, one per line, e.g. about renamed keys.
 void printNotes(const Scene& scene);

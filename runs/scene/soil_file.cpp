@@ -41,6 +41,7 @@ Table<SoilGrains> grainsTable() {
   using S = SoilGrains;
   Table<S> t("bed", "Grain size for which [material] is valid, and arrangement of the bed");
   t.add("grain_radius", &S::radius, "m", "median radius of the distribution for which [material] is valid")
+      .plausible(1e-6, 0.5)
       .above(0)
       .atMost(10)
       .required();
@@ -50,6 +51,7 @@ Table<SoilGrains> grainsTable() {
   t.add("porosity", &S::porosity, "-", "porosity of a random bed; default: as poured").atLeast(0.2).atMost(0.7);
   t.add("calibrated_radii", &S::calibratedRadii, "m",
         "minimum and maximum grain_radius of the measurements; default: grain_radius")
+      .plausible(1e-6, 0.5)
       .above(0)
       .atMost(10);
   return t;
@@ -79,19 +81,41 @@ Table<ReachedConstant> reachedTable() {
       .atMost(kWidest)
       .required();
   t.add("unit", &S::unit, "", "as in [[published]]").required();
-  t.add("grain_radius", &S::grainRadius, "m", "grain radius of the measurement").above(0).atMost(10).required();
+  t.add("grain_radius", &S::grainRadius, "m", "grain radius of the measurement")
+      .plausible(1e-6, 0.5)
+      .above(0)
+      .atMost(10)
+      .required();
   t.add("command", &S::command, "", "command that measured the constant").required();
   return t;
 }
 
-template <class Constant> void checkUnit(const Section& section, const Constant& c) {
+/// Field of a scene with the usual span of a constant.
+base::Field fieldOf(SoilQuantity quantity) {
+  const bool ofGrains = quantity == SoilQuantity::grainDensity;
+  const std::string key = quantity == SoilQuantity::reposeAngle        ? "repose_angle"
+                          : quantity == SoilQuantity::unloadingModulus ? "unloading_stiffness"
+                          : ofGrains                                   ? "density"
+                                                                       : std::string(base::wordOf(quantity));
+  for (base::Field field : ofGrains ? detail::materialTable().fields() : detail::scmTable().fields()) {
+    if (field.key != key) continue;
+    field.min = -kWidest, field.max = kWidest; // [[published]] has its own range
+    return field;
+  }
+  return {};
+}
+
+template <class Constant> void checkConstant(const Section& section, const Constant& c) {
+  for (const char* key : {"value", "low", "high"})
+    section.noteIfUnusual(key, fieldOf(c.quantity),
+                          fmt::format("{}.{} of {}", section.path(), key, base::wordOf(c.quantity)));
   if (c.unit != unitOf(c.quantity))
     section.fail("unit", fmt::format("does not match quantity = \"{}\"; set value in {} and unit = \"{}\"",
                                      base::wordOf(c.quantity), unitOf(c.quantity), unitOf(c.quantity)));
 }
 
 void checkPublished(const Section& section, const PublishedConstant& c) {
-  checkUnit(section, c);
+  checkConstant(section, c);
   if (c.low && *c.low > c.value) section.fail("low", "exceeds value; set the minimum of the sources");
   if (c.high && *c.high < c.value) section.fail("high", "is below value; set the maximum of the sources");
 }
@@ -168,7 +192,7 @@ Soil readSoil(const fs::path& file) {
   }
   for (const Section& section : root.list("reached")) {
     soil.reached.push_back(section.read(reachedTable()));
-    checkUnit(section, soil.reached.back());
+    checkConstant(section, soil.reached.back());
   }
   if (soil.head.calibrated && soil.reached.empty())
     root.section("soil").fail("calibrated",

@@ -29,32 +29,51 @@ template <class S> void addSurface(Table<S>& t) {
   t.template add<std::string>("material", &S::material, "", "name of the material").required();
   t.template add<std::optional<std::string>>("name", &S::name, "",
                                              "name in results.h5 and timeseries.csv; default: kind and number");
-  t.template add<Vector>("velocity", &S::velocity, "m/s", "prescribed velocity").atLeast(-1e4).atMost(1e4);
+  t.template add<Vector>("velocity", &S::velocity, "m/s", "prescribed velocity")
+      .plausible(0, 100)
+      .atLeast(-1e4)
+      .atMost(1e4);
   t.template add<Vector>("spin", &S::spin, "rad/s", "prescribed angular velocity, world components")
+      .plausible(0, 200)
       .atLeast(-1e5)
       .atMost(1e5);
   t.template add<Vector>("pivot", &S::pivot, "m",
-                         "centre of rotation, which moves with velocity; default: centre of the surface");
-  t.template add<Vector>("amplitude", &S::amplitude, "m", "amplitude vector of a sinusoidal oscillation");
-  t.template add<Number>("frequency", &S::frequency, "Hz", "frequency of the oscillation").above(0).atMost(1e5);
+                         "centre of rotation, which moves with velocity; default: centre of the surface")
+      .plausible(0, 1000);
+  t.template add<Vector>("amplitude", &S::amplitude, "m", "amplitude vector of a sinusoidal oscillation")
+      .plausible(0, 5);
+  t.template add<Number>("frequency", &S::frequency, "Hz", "frequency of the oscillation")
+      .plausible(1e-3, 1e4)
+      .above(0)
+      .atMost(1e5);
   t.template add<Number>("phase", &S::phase, "deg",
-                         "phase of the sine at the start; with -90, the surface starts at rest")
+                         "phase of the sine at the start, in degrees; with -90, the surface starts at rest")
+      .plausible(1, 360)
       .atLeast(-360)
       .atMost(360);
   t.template add<Number>("start", &S::start, "s", "start time of velocity, spin and oscillation")
+      .plausible(0, 1000)
       .atLeast(0)
       .atMost(1e5);
-  t.template add<Number>("until", &S::until, "s", "end time of velocity, spin and oscillation").above(0).atMost(1e5);
+  t.template add<Number>("until", &S::until, "s", "end time of velocity, spin and oscillation")
+      .plausible(0, 3600)
+      .above(0)
+      .atMost(1e5);
   t.template add<std::optional<Axis>>(
       "free", &S::free, "",
       "axis along which the surface moves freely under load, grain forces and weight from the start of the run, in "
       "addition to velocity, spin and amplitude (e.g. a wheel under load, or a plate that is pulled or turned)");
-  t.template add<Number>("mass", &S::mass, "kg", "mass of a free surface; required with free").above(0).atMost(1e12);
+  t.template add<Number>("mass", &S::mass, "kg", "mass of a free surface; required with free")
+      .plausible(1e-6, 1e6)
+      .above(0)
+      .atMost(1e12);
   t.template add<Number>("load", &S::load, "N",
                          "force on a free surface along the free axis; along z, negative values press down")
+      .plausible(0, 1e7)
       .atLeast(-1e12)
       .atMost(1e12);
   t.template add<Number>("load_ramp", &S::loadRamp, "s", "duration of the load's ramp from 0; default: 0")
+      .plausible(0, 100)
       .atLeast(0)
       .atMost(1e5);
   t.template add<std::optional<PlacedWhen>>(
@@ -65,6 +84,7 @@ template <class S> void addSurface(Table<S>& t) {
   t.template add<Number>("above_bed", &S::aboveBed, "m",
                          "gap between the surface and the highest grain below it after the bed has settled; replaces "
                          "the z coordinate of position or point")
+      .plausible(0, 100)
       .atLeast(0)
       .atMost(1e4);
 }
@@ -73,7 +93,10 @@ template <class S> void addSurface(Table<S>& t) {
 template <class S> void addTurn(Table<S>& t, const std::string& from) {
   t.add("axis", &S::axis, "-",
         "axis of the rotation to the initial orientation, relative to the " + from + " axes; requires angle");
-  t.add("angle", &S::angle, "deg", "angle of the rotation about axis, right-handed").atLeast(-3600).atMost(3600);
+  t.add("angle", &S::angle, "deg", "angle of the rotation about axis, right-handed, in degrees")
+      .plausible(0, 360)
+      .atLeast(-3600)
+      .atMost(3600);
   t.add("orientation", &S::orientation, "-",
         "initial orientation as a unit quaternion w, x, y, z, instead of axis and angle");
 }
@@ -81,7 +104,7 @@ template <class S> void addTurn(Table<S>& t, const std::string& from) {
 Table<Plane> planeTable() {
   using S = Plane;
   Table<S> t("[plane]", "Rigid plane, fixed or moving; the normal points out of the solid");
-  t.add("point", &S::point, "m", "a point of the plane; reference point of loads");
+  t.add("point", &S::point, "m", "a point of the plane; reference point of loads").plausible(0, 1000);
   t.add("normal", &S::normal, "-", "outward normal of the solid; any non-zero length");
   addSurface(t);
   return t;
@@ -90,8 +113,12 @@ Table<Plane> planeTable() {
 Table<BoxSection> boxTable() {
   using S = BoxSection;
   Table<S> t("[box]", "Rigid solid box, fixed or moving");
-  t.add("position", &S::position, "m", "position of the centre").required();
-  t.add("size", &S::size, "m", "edge lengths along x, y, z before rotation").above(0).atMost(1e5).required();
+  t.add("position", &S::position, "m", "position of the centre").plausible(0, 1000).required();
+  t.add("size", &S::size, "m", "edge lengths along x, y, z before rotation")
+      .plausible(1e-4, 100)
+      .above(0)
+      .atMost(1e5)
+      .required();
   addTurn(t, "world's");
   addSurface(t);
   return t;
@@ -100,10 +127,10 @@ Table<BoxSection> boxTable() {
 Table<CylinderSection> cylinderTable() {
   using S = CylinderSection;
   Table<S> t("[cylinder]", "Rigid cylinder, fixed or moving; solid with flat ends, or hollow");
-  t.add("position", &S::position, "m", "position of the centre").required();
+  t.add("position", &S::position, "m", "position of the centre").plausible(0, 1000).required();
   t.add("axis", &S::axis, "-", "direction of the axis; any non-zero length");
-  t.add("radius", &S::radius, "m", "radius").above(0).atMost(1e5).required();
-  t.add("length", &S::length, "m", "length along the axis").above(0).atMost(1e5).required();
+  t.add("radius", &S::radius, "m", "radius").plausible(1e-4, 100).above(0).atMost(1e5).required();
+  t.add("length", &S::length, "m", "length along the axis").plausible(1e-4, 100).above(0).atMost(1e5).required();
   t.add("hollow", &S::hollow, "",
         "whether the cylinder is a drum or pipe of zero thickness, open at both ends, with contact inside and outside");
   addSurface(t);
@@ -118,13 +145,15 @@ Table<MeshSection> meshTable() {
         "and the assets folder")
       .required();
   t.add("scale", &S::scale, "m", "length of one unit of the file").above(0).atMost(1e6);
-  t.add("position", &S::position, "m", "position of the file's origin, the reference point of loads");
+  t.add("position", &S::position, "m", "position of the file's origin, the reference point of loads")
+      .plausible(0, 1000);
   addTurn(t, "file's");
   t.add("sphere_radius", &S::sphereRadius, "m",
         fmt::format("radius of the spheres that represent the mesh (they round the edges of the mesh); default: {} of "
                     "the diagonal, or less if spheres would protrude by more than a fiftieth of the smallest grain "
                     "radius, or of a quarter of the track pitch of a vehicle",
                     S::kShareOfDiagonal))
+      .plausible(1e-5, 1)
       .atLeast(spheredecomp::kSmallestRadius)
       .atMost(spheredecomp::kLargestRadius);
   t.add("sphere_refinement", &S::sphereRefinement, "-",

@@ -32,9 +32,13 @@ void addArrangement(Table<Terrain>& t) {
         "to a nearly regular packing)");
   t.add("grain_radius", &S::grainRadius, "m",
         "median grain radius; required for a granular bed, except with radius_distribution = \"sieve\"")
+      .plausible(1e-6, 0.5)
       .above(0)
       .atMost(10);
-  t.add("depth", &S::depth, "m", "depth of the bed; required for a random arrangement").above(0).atMost(1e3);
+  t.add("depth", &S::depth, "m", "depth of the bed; required for a random arrangement")
+      .plausible(1e-3, 20)
+      .above(0)
+      .atMost(1e3);
   t.add("radius_distribution", &S::radiusDistribution, "",
         "random: grain-size distribution, which is single, uniform or lognormal by number (lognormal: truncated at two "
         "standard deviations of ln r), or sieve by mass (sieve_size, sieve_passing); default: uniform");
@@ -44,7 +48,10 @@ void addArrangement(Table<Terrain>& t) {
                     S::kSpread))
       .above(0)
       .atMost(0.9);
-  t.add("sieve_size", &S::sieveSize, "m", "sieve: openings (grain diameters), in ascending order").above(0).atMost(20);
+  t.add("sieve_size", &S::sieveSize, "m", "sieve: openings (grain diameters), in ascending order")
+      .plausible(1e-6, 0.5)
+      .above(0)
+      .atMost(20);
   t.add("sieve_passing", &S::sievePassing, "-", "sieve: mass fraction that passes each opening, from 0 to 1")
       .atLeast(0)
       .atMost(1);
@@ -56,12 +63,14 @@ void addArrangement(Table<Terrain>& t) {
       .atMost(0.7);
   t.add("fine_depth", &S::fineDepth, "m",
         "random: depth down to which radii follow the distribution; grains are coarser below")
+      .plausible(0, 20)
       .atLeast(0)
       .atMost(1e3);
   t.add("coarsening", &S::coarsening, "-", "random: increase of grain_radius per metre of depth below fine_depth")
       .above(0)
       .atMost(1);
   t.add("coarsest_radius", &S::coarsestRadius, "m", "random: maximum grain_radius of a bed graded by depth")
+      .plausible(1e-6, 0.5)
       .above(0)
       .atMost(10);
   t.add("layers", &S::layers, "-", "lattice: number of grain layers above the floor, instead of depth")
@@ -90,8 +99,13 @@ Table<Terrain> terrainTable() {
         "PNG, 8 or 16 bit; row 0 is the far edge (largest y), each pixel is a grid point; searched for in the scene's "
         "folder, the working folder and the assets folder")
       .required();
-  t.add("size", &S::size, "m", "extent in x, from 0, and in y, centred at 0").above(0).atMost(1e5).required();
+  t.add("size", &S::size, "m", "extent in x, from 0, and in y, centred at 0")
+      .plausible(0.01, 2000)
+      .above(0)
+      .atMost(1e5)
+      .required();
   t.add("height_range", &S::heightRange, "m", "heights of black and white pixels, [min, max]")
+      .plausible(0, 1000)
       .atLeast(-1e4)
       .atMost(1e4)
       .required();
@@ -109,6 +123,7 @@ Table<Terrain> terrainTable() {
   t.add("tile", &S::tile, "m",
         "size in x, y of a tile that settles with periodic boundaries and is then copied over the terrain; requires a "
         "level floor")
+      .plausible(1e-3, 100)
       .above(0);
   t.add("floor", &S::floor, "", "shape of the rigid floor: follow (parallel to the surface, below the bed) or flat");
   t.add("floor_grains", &S::floorGrains, "",
@@ -116,11 +131,13 @@ Table<Terrain> terrainTable() {
   t.add("walls", &S::walls, "", "whether vertical walls along the edges of the map confine the bed");
   t.add("wall_friction", &S::wallFriction, "-",
         "friction coefficient of the walls; with 0, the walls carry no weight of the bed")
+      .plausible(1e-3, 3, "tan of the friction angle, not the angle")
       .atLeast(0)
       .atMost(10);
   t.add("settle_time_limit", &S::settleTimeLimit, "s",
         "time limit of settling, after which the run ends with an error; 0: no settling, so a random bed starts as a "
         "loose column regardless of porosity")
+      .plausible(0, 300)
       .atLeast(0)
       .atMost(1e4);
   t.add("settle_kinetic_energy", &S::settleKineticEnergy, "-",

@@ -28,18 +28,22 @@ Table<Vehicle> vehicleTable() {
   t.add("position", &S::position, "m",
         "initial x and y of the point midway between the sprockets; \"auto\": rear of the vehicle at the border of the "
         "terrain, middle across the heading")
+      .plausible(0, 5000)
       .atLeast(-1e6)
       .atMost(1e6)
       .orWord("auto");
-  t.add("heading", &S::heading, "deg", "heading from the x axis, counter-clockwise seen from above")
+  t.add("heading", &S::heading, "deg", "heading from the x axis, counter-clockwise seen from above, in degrees")
+      .plausible(1, 360)
       .atLeast(-360)
       .atMost(360);
   t.add("clearance", &S::clearance, "m", "initial gap between the lowest grouser and the highest ground below")
+      .plausible(0, 1)
       .atLeast(0)
       .atMost(10);
   t.add("sphere_radius", &S::sphereRadius, "m",
         "radius of the spheres that represent the parts in contacts; \"auto\": 0.02, or less if spheres would protrude "
         "by more than a twentieth of the smallest grain radius or of a quarter of the pitch")
+      .plausible(1e-3, 0.3)
       .above(0)
       .atMost(1)
       .orWord("auto");
@@ -75,6 +79,7 @@ Table<Vehicle> vehicleTable() {
   t.add("hull_sphere_radius", &S::hullSphereRadius, "m",
         "radius of the spheres that represent the hull in contacts, if it has any; \"auto\": 0.02, or sphere_radius if "
         "larger")
+      .plausible(1e-3, 0.5)
       .above(0)
       .atMost(1)
       .orWord("auto");
@@ -93,32 +98,48 @@ Table<Driver> driverTable() {
         "file with governors that control the speeds)");
   t.add("sprocket_speed", &S::sprocketSpeed, "rad/s",
         "speed of both sprockets, positive forward; default: 0 if no speed is set")
+      .plausible(0, 60)
       .atLeast(-100)
       .atMost(100);
-  t.add("left", &S::left, "rad/s", "speed of the left sprocket; requires right").atLeast(-100).atMost(100);
-  t.add("right", &S::right, "rad/s", "speed of the right sprocket; requires left").atLeast(-100).atMost(100);
-  t.add("torque", &S::torque, "N m", "torque on each sprocket, positive forward").atLeast(-1e7).atMost(1e7);
+  t.add("left", &S::left, "rad/s", "speed of the left sprocket; requires right")
+      .plausible(0, 60)
+      .atLeast(-100)
+      .atMost(100);
+  t.add("right", &S::right, "rad/s", "speed of the right sprocket; requires left")
+      .plausible(0, 60)
+      .atLeast(-100)
+      .atMost(100);
+  t.add("torque", &S::torque, "N m", "torque on each sprocket, positive forward")
+      .plausible(0, 1e5)
+      .atLeast(-1e7)
+      .atMost(1e7);
   t.add("left_torque", &S::leftTorque, "N m", "torque on the left sprocket; requires right_torque")
+      .plausible(0, 1e5)
       .atLeast(-1e7)
       .atMost(1e7);
   t.add("right_torque", &S::rightTorque, "N m", "torque on the right sprocket; requires left_torque")
+      .plausible(0, 1e5)
       .atLeast(-1e7)
       .atMost(1e7);
   t.add("tension_ramp", &S::tensionRamp, "s", "ramp duration of the idler spring forces (track tension)")
+      .plausible(0, 20)
       .atLeast(0)
       .atMost(1e3);
   t.add("weight_ramp", &S::weightRamp, "s",
         "ramp duration of the vehicle's weight and the preload of the suspension arms, after tension_ramp")
+      .plausible(0, 30)
       .atLeast(0)
       .atMost(1e3);
   t.add("drive_start", &S::driveStart, "s",
         "start time of the sprockets; \"auto\": when the vehicle has come to rest after weight_ramp, or at the end of "
         "weight_ramp if the hull is fixed")
+      .plausible(0, 300)
       .atLeast(0)
       .atMost(1e5)
       .orWord("auto");
   t.add("drive_ramp", &S::driveRamp, "s",
         "ramp duration of the sprocket speeds; \"auto\": 0.3 for constant speeds, 0 for a table")
+      .plausible(0, 60)
       .atLeast(0)
       .atMost(1e3)
       .orWord("auto");
@@ -131,6 +152,7 @@ Table<Driver> driverTable() {
       .atMost(0.5);
   t.add("rest_time_limit", &S::restTimeLimit, "s",
         "time limit after weight_ramp; a vehicle that is not at rest by then ends the run with an error")
+      .plausible(0, 100)
       .above(0)
       .atMost(1e4);
   return t;
@@ -140,10 +162,19 @@ Table<SpeedTable> speedTable() {
   using S = SpeedTable;
   Table<S> t("driver.table", "Sprocket speeds over time, instead of constant speeds; interpolated linearly");
   t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time defines a jump")
+      .plausible(0, 3600)
       .atLeast(0)
       .required();
-  t.add("left", &S::left, "rad/s", "speed of the left sprocket at these times").atLeast(-100).atMost(100).required();
-  t.add("right", &S::right, "rad/s", "speed of the right sprocket at these times").atLeast(-100).atMost(100).required();
+  t.add("left", &S::left, "rad/s", "speed of the left sprocket at these times")
+      .plausible(0, 60)
+      .atLeast(-100)
+      .atMost(100)
+      .required();
+  t.add("right", &S::right, "rad/s", "speed of the right sprocket at these times")
+      .plausible(0, 60)
+      .atLeast(-100)
+      .atMost(100)
+      .required();
   return t;
 }
 
@@ -151,10 +182,19 @@ Table<TorqueTable> torqueTable() {
   using S = TorqueTable;
   Table<S> t("driver.torques", "Sprocket torques over time, instead of constant torques; interpolated linearly");
   t.add("time", &S::time, "s", "times after drive_start, in increasing order; a repeated time defines a jump")
+      .plausible(0, 3600)
       .atLeast(0)
       .required();
-  t.add("left", &S::left, "N m", "torque on the left sprocket at these times").atLeast(-1e7).atMost(1e7).required();
-  t.add("right", &S::right, "N m", "torque on the right sprocket at these times").atLeast(-1e7).atMost(1e7).required();
+  t.add("left", &S::left, "N m", "torque on the left sprocket at these times")
+      .plausible(0, 1e5)
+      .atLeast(-1e7)
+      .atMost(1e7)
+      .required();
+  t.add("right", &S::right, "N m", "torque on the right sprocket at these times")
+      .plausible(0, 1e5)
+      .atLeast(-1e7)
+      .atMost(1e7)
+      .required();
   return t;
 }
 
@@ -165,20 +205,27 @@ Table<Course> courseTable() {
              "follows a circle or path");
   t.add("speed", &S::speed, "m/s",
         "target hull speed at the middle of the track-ground contact length; negative: backwards")
+      .plausible(0, 20)
       .atLeast(-50)
       .atMost(50)
       .required();
   t.add("acceleration", &S::acceleration, "m/s2", "acceleration at the start and deceleration at the end of a path")
+      .plausible(0.01, 10)
       .above(0)
       .atMost(100);
   t.add("radius", &S::radius, "m",
         "radius of a circle, positive to the left, instead of a path; default: straight ahead")
+      .plausible(0.5, 1000)
       .atLeast(-1e6)
       .atMost(1e6);
-  t.add("x", &S::x, "m", "x of the corners of a path; the vehicle stops at the last one").atLeast(-1e6).atMost(1e6);
-  t.add("y", &S::y, "m", "y of the corners of a path").atLeast(-1e6).atMost(1e6);
+  t.add("x", &S::x, "m", "x of the corners of a path; the vehicle stops at the last one")
+      .plausible(0, 5000)
+      .atLeast(-1e6)
+      .atMost(1e6);
+  t.add("y", &S::y, "m", "y of the corners of a path").plausible(0, 5000).atLeast(-1e6).atMost(1e6);
   t.add("look_ahead", &S::lookAhead, "m",
         "look-ahead distance on the path; \"auto\": distance from the first to the last road wheel")
+      .plausible(0.05, 50)
       .above(0)
       .atMost(1e3)
       .orWord("auto");
@@ -197,16 +244,19 @@ Table<Stop> stopTable() {
   using S = Stop;
   Table<S> t("stop", "Conditions that end a run with a vehicle before run.duration (exit code 0)");
   t.add("distance", &S::distance, "m", "maximum horizontal distance from the initial position; default: no limit")
+      .plausible(0.01, 5000)
       .above(0)
       .atMost(1e6);
   t.add("edge", &S::edge, "m",
         "minimum distance between the middle of a shoe and the edge of the terrain; default: the run ends with an "
         "error if a shoe leaves the terrain")
+      .plausible(0, 10)
       .atLeast(0)
       .atMost(1e6);
   t.add("immobile", &S::immobile, "s",
         "maximum time in which the hull moves slower than a twentieth of the speed of the driven tracks; default: no "
         "limit")
+      .plausible(0.01, 60)
       .above(0)
       .atMost(1e5);
   return t;

@@ -5,12 +5,14 @@
 #include "base/math.hpp"
 #include "runs/scene/bed_radii.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/setup/map_notes.hpp"
 #include "terrain/heightmap.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fmt/format.h>
+#include <utility>
 
 namespace grouser::setup {
 
@@ -107,6 +109,7 @@ TerrainRemarks terrainRemarks(const scene::Scene& scene) {
                                    "used as height; save it as greyscale to avoid this note");
   if (map.transparent)
     remarks.notes.push_back(name + " has transparent pixels; the alpha channel is ignored; save the image without it");
+  for (std::string& note : mapNotes(scene, map)) remarks.notes.push_back(std::move(note));
   if (!scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return remarks;
   if (const std::optional<SteepPlace> edge = steepestEdge(surfaceOf(scene, map), bedOptions(scene).smallestRadius()))
     remarks.warnings.push_back(

@@ -21,7 +21,7 @@ std::optional<terrain::HeightField> floorShape(const scene::Scene& scene);
 /// Warnings and notes on a valid height-map.
 struct TerrainRemarks {
   std::vector<std::string> warnings; ///< steep edges through which grains may pass during settling
-  std::vector<std::string> notes;    ///< colour, transparent pixels
+  std::vector<std::string> notes;    ///< colour, transparent pixels, mapNotes()
 };
 TerrainRemarks terrainRemarks(const scene::Scene& scene);
 

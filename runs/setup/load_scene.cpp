@@ -102,11 +102,13 @@ void checkSurfaces(const Section& root, const ContactPairs& pairs, const scene::
 }
 
 scene::Scene checked(scene::Scene scene) {
-  const Section root = scene.document->root();
-  checkMechanism(root, scene);
-  const ContactPairs pairs(scene);
-  checkSurfaces(root, pairs, scene);
-  checkGrainSpace(scene, pairs.kinds);
+  scene::withUnusualValues(scene, [&scene] {
+    const Section root = scene.document->root();
+    checkMechanism(root, scene);
+    const ContactPairs pairs(scene);
+    checkSurfaces(root, pairs, scene);
+    checkGrainSpace(scene, pairs.kinds);
+  });
   return scene;
 }
 

@@ -99,11 +99,14 @@ void checkParts(const scene::Scene& scene) {
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
   const double radius = scene.vehicle->sphereRadius.value_or(0); // an automatic radius fits each part
   const auto read = [&](const char* section, const std::string& name) {
+    base::TriangleMesh mesh;
     try {
-      return spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
+      mesh = spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / name).string());
     } catch (const base::InputError& error) {
       vehicle::refuseMesh(scene.vehicle->source(), section, error.what());
     }
+    if (const auto fault = vehicle::unitFault(section, spec, mesh)) vehicle::refuse(scene.vehicle->source(), *fault);
+    return mesh;
   };
   vehicle::PartMeshes meshes;
   meshes.chassis = read("chassis", spec.chassis.mesh);

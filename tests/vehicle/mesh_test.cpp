@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A separate generator creates the meshes: these tests compare meshes and specification.
 #include "base/math.hpp"
+#include "vehicle/part_meshes.hpp"
 #include "vehicle/spec_file.hpp"
 
 #include <gtest/gtest.h>
@@ -8,7 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 
 using namespace grouser;
 using base::Vec3d;
@@ -82,4 +86,41 @@ TEST(Meshes, Sprocket_HasItsGapsWhereTheWrapPutsThePins) {
   // The seat arc of radius 18.5 mm about the pin; the tip is 20 mm beyond it.
   for (const double r : bottom) EXPECT_NEAR(r, s.sprocketPinRadius() - 0.0185, kFacet);
   EXPECT_NEAR(rim, s.sprocketPinRadius() + 0.020, kFacet);
+}
+
+TEST(Meshes, VerticesInAnotherUnitThanMetres_AreNamedWithTheFactor) {
+  for (const char* name : {"light_tracked", "m113_like", "robot"}) {
+    const vehicle::VehicleSpec spec =
+        vehicle::readVehicleSpec(std::string(GROUSER_SOURCE_DIR "/assets/vehicles/") + name + ".toml");
+    const std::pair<const char*, std::string> parts[] = {{"chassis", spec.chassis.mesh},
+                                                         {"shoe", spec.shoe.mesh},
+                                                         {"sprocket", spec.sprocket.mesh},
+                                                         {"road_wheel", spec.roadWheel.mesh},
+                                                         {"idler", spec.idler.mesh}};
+    for (const auto& [section, file] : parts) {
+      const auto fault = [&, section = section, file = file](double perMetre) {
+        base::TriangleMesh mesh;
+        std::ifstream in(spec.meshFolder + "/" + file);
+        for (std::string line; std::getline(in, line);) {
+          std::istringstream words(line);
+          std::string key;
+          Vec3d p;
+          if (words >> key && key == "v" && words >> p.x >> p.y >> p.z) mesh.vertices.push_back(p * perMetre);
+        }
+        const std::optional<vehicle::SpecFault> found = vehicle::unitFault(section, spec, mesh);
+        return found ? found->section + "." + found->key + " " + found->message : std::string();
+      };
+      EXPECT_EQ(fault(1), "") << name << " " << section;
+      EXPECT_EQ(fault(1.3), "") << name << " " << section << ": another size, not another unit";
+      const std::string mm = fault(1000), cm = fault(100), inches = fault(1 / 0.0254);
+      EXPECT_EQ(mm.find(std::string(section) + ".mesh has a"), 0u) << mm;
+      EXPECT_NE(mm.find("vertices are in millimetres; convert all meshes to metres (scale by 0.001)"),
+                std::string::npos)
+          << name << " " << section << mm;
+      EXPECT_NE(cm.find("in centimetres"), std::string::npos) << name << " " << section << cm;
+      EXPECT_NE(inches.find("in inches"), std::string::npos) << name << " " << section << inches;
+      if (std::string(section) != "chassis")
+        EXPECT_NE(fault(1 / 0.3048).find("in feet"), std::string::npos) << name << " " << section << fault(1 / 0.3048);
+    }
+  }
 }

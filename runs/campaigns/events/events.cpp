@@ -10,7 +10,6 @@
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/render/film.hpp"
-#include "runs/scene/scene_file.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/not_written.hpp"
 #include "runs/support/print_stderr.hpp"
@@ -98,7 +97,7 @@ void eventsCommand(const EventsCommand& command) {
     fmt::print("{}", timesText(timesOf(plan, folder)));
     return;
   }
-  scene::printNotes(plan.sweep.runs.front().scene);
+  sweeps::printNotes(plan.sweep);
   const auto outcomes = doRuns(command, "events", plan.sweep, folder, call);
   if (outcomes.empty()) return;
   const std::vector<EventRow> rows = eventRows(plan, outcomes, folder);

@@ -5,7 +5,6 @@
 #include "runs/campaigns/events/event_forecast.hpp"
 #include "runs/campaigns/events/event_runs.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/scene/scene_file.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/text_file.hpp"
@@ -182,7 +181,7 @@ void mapCommand(const MapCommand& command) {
     fmt::print("{}", timesText(timesOf(map, folder)));
     return;
   }
-  scene::printNotes(all.runs.front().scene);
+  sweeps::printNotes(all);
   const auto outcomes = doRuns(events, "map", all, folder, call);
   if (outcomes.empty()) return;
   judgeColumns(map, outcomes, folder);

@@ -13,6 +13,7 @@
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/provenance.hpp"
 #include "runs/support/json_text.hpp"
@@ -91,6 +92,7 @@ public:
   }
 
   void run() {
+    scene::printNotes(scene_);
     if (!options_.figures.empty()) return runToGoals();
     const CheckChoice choice = choose();
     record_.beyondBudget = choice.beyondBudget;

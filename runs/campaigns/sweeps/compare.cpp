@@ -8,7 +8,6 @@
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/output/plots.hpp"
-#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "runs/support/build_info.hpp"
@@ -154,7 +153,7 @@ int runCompare(const fs::path& scene, const CompareOptions& options) {
   if (!options.sweep.force) checkSweepFiles(options.sweep.folder);
   const std::vector<Variant> variants = variantsOf(scene, options);
   const SweepPlan plan = planOf(scene, variants, options.seeds);
-  scene::printNotes(plan.runs.front().scene);
+  printNotes(plan);
   const auto outcomes = runMissing(plan, options.sweep, "compare", [&](const std::vector<SweepOutcome>& now) {
     writeSummary(plan, now, options.sweep.folder);
   });

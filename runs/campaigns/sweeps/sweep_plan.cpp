@@ -6,7 +6,9 @@
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
 
@@ -188,6 +190,16 @@ std::vector<Axis> axesOf(const SweepLists& lists) {
 }
 
 } // namespace
+
+void printNotes(const SweepPlan& plan) {
+  if (plan.runs.empty()) return;
+  scene::printNotes(plan.runs.front().scene);
+  const std::vector<std::string> first = scene::unusualValues(plan.runs.front().scene);
+  std::set<std::string> printed(first.begin(), first.end());
+  for (const SweepRun& run : plan.runs)
+    for (const std::string& note : scene::unusualValues(run.scene))
+      if (printed.insert(note).second) support::printStderr("grouser: note: {}\n", note);
+}
 
 std::vector<std::string> splitValues(std::string_view list) {
   std::vector<std::string> values;

@@ -13,6 +13,7 @@
 namespace grouser::scene::detail {
 
 base::Table<Material> materialTable();
+base::Table<Scm> scmTable();
 /// Checks of a material beyond its table, and the defaults of its law.
 void completeMaterial(const base::Section& section, Material& m);
 

@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "tests/png_fixture.hpp"
 
 #include <fmt/format.h>
@@ -105,6 +106,65 @@ TEST_F(TerrainNotes, InterpolationIsMonotoneUnlessTheSceneSaysOtherwise) {
 
 TEST_F(TerrainNotes, OtherInterpolationIsAnotherBed) {
   EXPECT_NE(bedOrigin(bed(""), 1e-5), bedOrigin(bed("interpolation = \"smooth\"\n"), 1e-5));
+}
+
+/// A vehicle on deformable soil with the shape of a map of assets/heightmaps.
+scene::Scene drive(const std::string& map, const std::string& size, const std::string& heights) {
+  return parseScene("version = 1\n[run]\nduration = 1\n[material.ground]\n[scm]\nn = 1.1\nk_c = 990\nk_phi = 1.5e6\n"
+                    "c = 1040\nphi = 28\nK = 0.025\n[terrain]\nheightmap = \"heightmaps/" +
+                        map + "\"\nsize = " + size + "\nheight_range = " + heights +
+                        "\nmaterial = \"ground\"\nkind = \"scm\"\n[vehicle]\nspec = \"vehicles/light_tracked.toml\"\n" +
+                        "[driver]\nsprocket_speed = 1.0\n",
+                    "drive.toml");
+}
+
+std::string notesOf(const scene::Scene& scene) {
+  std::string all;
+  for (const std::string& note : terrainRemarks(scene).notes) all += note + "\n";
+  return all;
+}
+
+TEST(MapNotes, ReliefThatCannotBeMeantIsNoted) {
+  const std::string high = notesOf(drive("hills.png", "[20, 10]", "[0, 500]"));
+  EXPECT_NE(high.find("terrain.height_range = [0, 500] m results in a relief of"), std::string::npos) << high;
+  EXPECT_NE(high.find("in millimetres? set height_range = [0, 0.5]"), std::string::npos) << high;
+  EXPECT_NE(notesOf(drive("hills.png", "[20, 10]", "[0, 100]")).find("in centimetres? set height_range = [0, 1]"),
+            std::string::npos);
+  EXPECT_EQ(notesOf(drive("hills.png", "[20, 10]", "[0, 1]")), "");
+  EXPECT_EQ(notesOf(drive("step.png", "[20, 10]", "[0, 1]")), "") << "a steep step is no steep terrain";
+}
+
+TEST(MapNotes, StretchedPixelsAreNoted) {
+  const std::string stretched = notesOf(drive("hills.png", "[90, 10]", "[0, 1]"));
+  EXPECT_NE(stretched.find("terrain.size = [90, 10] m stretches the map of"), std::string::npos) << stretched;
+  EXPECT_NE(stretched.find("along x; set size to the proportions of the map"), std::string::npos) << stretched;
+  EXPECT_NE(notesOf(drive("hills.png", "[10, 20]", "[0, 1]")).find("along y;"), std::string::npos);
+  EXPECT_EQ(notesOf(drive("step.png", "[90, 10]", "[0, 0.1]")), "") << "varies along x only";
+  EXPECT_EQ(notesOf(drive("flat.png", "[90, 10]", "[0, 0]")), "");
+}
+
+TEST(MapNotes, HeightStepsOfEightBitsAreNotedIfTheyAreCoarseForTheGround) {
+  const std::string coarse = notesOf(drive("hills8.png", "[40, 20]", "[0, 5]"));
+  EXPECT_NE(coarse.find("has 8 bits, so height_range = [0, 5] m results in height steps of 19.6 mm, above a fifth of "
+                        "the node spacing"),
+            std::string::npos)
+      << coarse;
+  EXPECT_NE(coarse.find("save the map with 16 bits, or reduce the range"), std::string::npos);
+  EXPECT_EQ(notesOf(drive("hills8.png", "[40, 20]", "[0, 0.5]")), "");
+  EXPECT_EQ(notesOf(drive("hills.png", "[40, 20]", "[0, 5]")), "") << "16 bits";
+}
+
+TEST(MapNotes, ScenesOfTheRepositoryHaveNone) {
+  int maps = 0;
+  for (const char* folder : {"runs/scenes", "docs/evidence"})
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(GROUSER_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      const scene::Scene scene = scene::readScene(entry.path());
+      if (!scene.terrain) continue;
+      ++maps;
+      EXPECT_EQ(notesOf(scene), "") << entry.path();
+    }
+  EXPECT_GT(maps, 25);
 }
 
 } // namespace
