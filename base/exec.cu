@@ -2,10 +2,12 @@
 #include "base/exec.hpp"
 
 #include "base/counted.hpp"
+#include "base/cpu_threads.hpp"
 #include "base/error.hpp"
 #include "base/host_memory.hpp"
 #include "base/loop_shares.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -55,7 +57,8 @@ std::string whyNoGpu() {
 
 Exec cpuExec(int threads) {
   Exec exec;
-  exec.threads = threads > 0 ? threads : omp_get_num_procs();
+  // OMP_THREAD_LIMIT also limits an explicit number.
+  exec.threads = threads > 0 ? std::min(threads, omp_get_thread_limit()) : cpuThreads().count;
   return exec;
 }
 
@@ -98,7 +101,11 @@ bool cudaAvailable() { return cudaDevices() > 0; }
 std::string describe(const Exec& exec) {
   if (exec.onCpu()) {
     const std::string why = whyNoGpu();
-    return counted(exec.threads, "thread") + " on " + processorName() + (why.empty() ? "" : "; no GPU: " + why);
+    const CpuThreads usual = lowestLimit(threadLimits());
+    const std::string limit = usual.cause.empty() ? ""
+                                                  : "; default: " + std::to_string(usual.count) + " of " +
+                                                        counted(usual.machine, "core") + " (" + usual.cause + ")";
+    return counted(exec.threads, "thread") + " on " + processorName() + limit + (why.empty() ? "" : "; no GPU: " + why);
   }
 #if defined(__CUDACC__)
   int index = 0;

@@ -4,6 +4,7 @@
 #include "base/unknown_key.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>

@@ -4,6 +4,7 @@
 
     cmake/documents.py PREFIX SHARE DOC PYTHON      the last three relative to PREFIX, or absolute; respects DESTDIR
 
+Prints the installed files without DESTDIR, separated by semicolons (a list of CMake).
 Links point to installed files, or become plain text if the file is not installed; build/bin/grouser becomes grouser,
 and a path such as runs/scenes/quickstart.toml that of the installed file.
 """
@@ -60,13 +61,17 @@ def fitted(text, document, prefix, share, doc, python):
 
 
 def install(prefix, share, doc, python):
-    stage = Path(os.environ.get("DESTDIR", "") + os.path.join(prefix, doc))
+    stage, made = os.environ.get("DESTDIR", ""), []
     for document in [path for top in DOCUMENTS for path in (ROOT / top, *(ROOT / top).rglob("*.md")) if path.suffix == ".md"]:
         name = str(document.relative_to(ROOT))
-        file = stage / name
+        made.append(os.path.join(prefix, doc, name))
+        file = Path(stage + made[-1])
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(fitted(document.read_text(encoding="utf-8"), name, prefix, share, doc, python), encoding="utf-8")
+        file.chmod(0o644)
+    print(";".join(made), end="")
 
 
 if __name__ == "__main__":
+    os.umask(0o022)  # readable for all users
     install(*sys.argv[1:])

@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Compiler flags for bitwise equal results on all machines and backends, warnings, and two helper functions for rooms.
 
+option(GROUSER_WERROR "Treat warnings as errors (for developers)" OFF)
+
 add_library(grouser_flags INTERFACE)
+# Programs of users also need C++20; all other options are for the code of grouser alone.
+target_compile_features(grouser_flags INTERFACE cxx_std_20)
 target_include_directories(grouser_flags INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 # For bitwise equal results: no implicit fused multiply-add, no fast-math, no -march=native. x86-64-v2 (SSE4.2, every
 # processor since 2009) has no fused multiply-add; it has an instruction for rounding.
 target_compile_options(grouser_flags INTERFACE
-  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wredundant-decls;-Wzero-as-null-pointer-constant;-Werror>>
-  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-march=x86-64-v2>
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor;-Wredundant-decls;-Wzero-as-null-pointer-constant;$<$<BOOL:${GROUSER_WERROR}>:-Werror>>>
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off;-march=x86-64-v2>>
   # SIMD values (base/simd.hpp) are passed only between inlined functions, so the ABI has no effect.
-  $<$<COMPILE_LANGUAGE:CXX>:-Wno-psabi>)
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wno-psabi>>)
 
 # Output of `grouser --version`.
 string(TOUPPER "${CMAKE_BUILD_TYPE}" build_type)
@@ -21,7 +25,7 @@ string(REGEX REPLACE " +" " " GROUSER_FLAGS "${GROUSER_FLAGS}")
 
 if(GROUSER_SANITIZE)
   target_compile_options(grouser_flags INTERFACE
-    $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${GROUSER_SANITIZE} -fno-omit-frame-pointer>)
+    $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${GROUSER_SANITIZE} -fno-omit-frame-pointer>>)
   target_link_options(grouser_flags INTERFACE -fsanitize=${GROUSER_SANITIZE})
 endif()
 
@@ -43,14 +47,20 @@ if(GROUSER_CUDA)
   find_package(CUDAToolkit REQUIRED)
   target_compile_definitions(grouser_flags INTERFACE GROUSER_CUDA=1)
   target_link_libraries(grouser_flags INTERFACE CUDA::cudart_static)
+  set(fatal)
+  if(GROUSER_WERROR)
+    set(fatal -Werror all-warnings)
+  endif()
   target_compile_options(grouser_flags INTERFACE
-    $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false -Werror all-warnings -Xcompiler=-Wall,-Wextra,-ffp-contract=off,-march=x86-64-v2,-fopenmp>)
+    $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CUDA>:--fmad=false ${fatal} -Xcompiler=-Wall,-Wextra,-ffp-contract=off,-march=x86-64-v2,-fopenmp>>)
 endif()
 
 # grouser_room(NAME SOURCES... ): a static library grouser_NAME. *.cu files are CUDA if enabled, else plain C++.
 function(grouser_room name)
   add_library(grouser_${name} STATIC ${ARGN})
-  target_link_libraries(grouser_${name} PUBLIC grouser_flags OpenMP::OpenMP_CXX)
+  # A program of a user only links OpenMP; the option -fopenmp would activate the user's own directives.
+  target_link_libraries(grouser_${name} PUBLIC grouser_flags $<BUILD_INTERFACE:OpenMP::OpenMP_CXX>
+    $<INSTALL_INTERFACE:$<LINK_ONLY:OpenMP::OpenMP_CXX>>)
   grouser_cu_as_cxx(${ARGN})
 endfunction()
 

@@ -52,7 +52,13 @@ tracked vehicles on granular terrain, to build other programs:
 find_package(grouser), grouser::grouser.")
 
 # Plots, reports, films and MPI require the recommended packages; the program names missing packages.
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3, python3-numpy, python3-h5py")
+# The extension module is for one version of Python 3, so the dependencies are those that dh_python3 would write.
+set(python "python3 (>= 3.11)")
+if(GROUSER_PYTHON_MODULE_VERSION MATCHES "^3\\.([0-9]+)$")
+  math(EXPR next "${CMAKE_MATCH_1} + 1")
+  set(python "python3 (>= ${GROUSER_PYTHON_MODULE_VERSION}~), python3 (<< 3.${next})")
+endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${python}, python3-numpy, python3-h5py")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-matplotlib, openmpi-bin, libjs-three, libjs-dygraphs")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, bash-completion, paraview, grouser${suffix}-dev")
@@ -61,9 +67,10 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "grouser${suffix} (= ${PROJECT_VERSION}), g++, libassimp-dev, \
 libcli11-dev, libeigen3-dev, libfmt-dev, libhdf5-openmpi-dev, libopenmpi-dev, libpng-dev, libstb-dev, \
 libtomlplusplus-dev, nlohmann-json3-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
 
-# Permissions of files as required by Debian policy; no Python bytecode.
+# Permissions of files as required by Debian policy, whatever the umask; no Python bytecode.
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${executable})
 set(debian ${PROJECT_SOURCE_DIR}/cmake/debian)
 foreach(script postinst prerm)
   configure_file(${debian}/${script} debian/${script} @ONLY)

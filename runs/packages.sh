@@ -14,10 +14,14 @@ GROUSER_TESTS=(libgtest-dev clang-format-14)
 # Without these packages, tests of pages in a browser and of the web site are skipped.
 GROUSER_PAGES=(chromium-headless-shell mkdocs)
 
-install_packages() { # install_packages PACKAGE...: installs these, and the packages to build and run grouser
-  local missing=() package
+is_installed() { dpkg-query -W -f='${Status}' "$1" 2>/dev/null | grep -q 'ok installed'; }
+
+# install_packages PACKAGE...: installs these, and the packages to build and run grouser. Debian 12 has packages of clang 14;
+# other releases have other versions, and their default version is installed instead.
+install_packages() {
+  local missing=() package k
   for package in "${GROUSER_BUILD[@]}" "${GROUSER_RUN[@]}" libgtest-dev "$@"; do
-    dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'ok installed' || missing+=("$package")
+    is_installed "$package" || is_installed "${package/-14/}" || missing+=("$package")
   done
   [ ${#missing[@]} -eq 0 ] && return 0
   echo "installing: ${missing[*]}"
@@ -27,10 +31,15 @@ install_packages() { # install_packages PACKAGE...: installs these, and the pack
     sudo=(sudo)
   fi
   "${sudo[@]}" apt-get update -qq
+  for k in "${!missing[@]}"; do
+    apt-cache show "${missing[k]}" >/dev/null 2>&1 || missing[k]=${missing[k]/-14/}
+  done
   DEBIAN_FRONTEND=noninteractive "${sudo[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# configure_and_build FOLDER TARGET...: builds the targets, with CUDA if the toolkit and a GPU are present.
+# configure_and_build FOLDER TARGET...: builds the targets, with CUDA if the toolkit and a GPU are present. CONFIGURE:
+# additional options of cmake.
+CONFIGURE=()
 configure_and_build() {
   local folder=$1 preset=cpu
   shift
@@ -41,6 +50,6 @@ configure_and_build() {
   command -v ccache >/dev/null && launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   local log=$folder/configure.log
   mkdir -p "$folder"
-  cmake --preset "$preset" -B "$folder" "${launcher[@]}" >"$log" 2>&1 || { tail -n 20 "$log" >&2; return 1; }
+  cmake --preset "$preset" -B "$folder" "${launcher[@]}" "${CONFIGURE[@]}" >"$log" 2>&1 || { tail -n 20 "$log" >&2; return 1; }
   cmake --build "$folder" --target "$@"
 }

@@ -7,15 +7,86 @@
 #SBATCH --gpus-per-node=4
 #SBATCH --cpus-per-task=8
 #SBATCH --time=04:00:00
-#SBATCH --signal=B:TERM@120
-# Two minutes before the time limit the job receives SIGTERM and all ranks stop after writing a checkpoint. To continue:
+#SBATCH --signal=B:USR1@300
+#SBATCH --requeue
+#SBATCH --open-mode=append
+# Before the time limit, all ranks receive SIGUSR1, write a checkpoint and stop. They have 60 s for this, plus the time
+# in which the disk writes the checkpoint (its size: grouser plan). To continue:
 #   sbatch runs/slurm.sh SCENE --resume
+# A job that SLURM requeues continues by itself. Environment variables (docs/large_runs.md#slurm):
+#   GROUSER_DISK_MBPS      speed of the disk of the results, default 100 MB/s
+#   GROUSER_STOP_SECONDS   time for the checkpoint, instead of the computed one
+#   GROUSER_REQUEUE=1      requeues the job at its time limit
+#   GROUSER_LAUNCHER=srun  starts the ranks by srun --mpi=pmix, instead of mpirun
 set -euo pipefail
 scene=${1:?usage: sbatch runs/slurm.sh SCENE [OPTIONS...]}
 shift
-export OMP_NUM_THREADS=${SLURM_CPUS_PER_TASK:-1}
-trap 'kill -TERM "$launcher"; wait "$launcher"' TERM
-mpirun -np "${SLURM_NTASKS:?start it with sbatch}" --map-by "ppr:${SLURM_NTASKS_PER_NODE:-4}:node:PE=${SLURM_CPUS_PER_TASK:-1}" \
-  "${GROUSER:-$(command -v build/bin/grouser || echo grouser)}" run "$scene" --device cuda "$@" &
-launcher=$!
-wait "$launcher"
+tasks=${SLURM_NTASKS:?start it with sbatch} cores=${SLURM_CPUS_PER_TASK:-1}
+grouser=${GROUSER:-$(command -v build/bin/grouser || echo grouser)}
+export OMP_NUM_THREADS=$cores
+fail() { echo "runs/slurm.sh: $*" >&2; exit 2; }
+number() { # number NAME DEFAULT: value of a variable
+  [[ ${!1:-$2} =~ ^[1-9][0-9]{0,5}$ ]] || fail "$1 = '${!1}' must be a whole number from 1 to 999999"
+  echo "${!1:-$2}"
+}
+
+# Settings of the scene, and the results folder, from the options.
+settings=() out=out/$(basename "$scene" .toml) resumes=0 next=""
+for word in "$@"; do
+  case $next in
+    --set) word=--set=$word ;;
+    --out) word=--out=$word ;;
+  esac
+  next=""
+  case $word in
+    --set | --out) next=$word ;;
+    --set=*) settings+=("$word") ;;
+    --out=*) out=${word#--out=} ;;
+    --resume*) resumes=1 ;;
+  esac
+done
+
+# Time for the last checkpoint.
+rate=$(number GROUSER_DISK_MBPS 100)
+plan=$(mktemp)
+bytes=0
+if "$grouser" plan "$scene" "${settings[@]}" --json "$plan" >/dev/null; then
+  bytes=$(sed -n 's/.*"checkpoint_bytes": *\([0-9]*\).*/\1/p' "$plan")
+fi
+rm -f "$plan"
+seconds=$(number GROUSER_STOP_SECONDS $((60 + ${bytes:-0} / (rate * 1000000))))
+
+# The job's time limit, less this time, and half a minute for MPI and SLURM.
+limit=()
+end=${SLURM_JOB_END_TIME:-$(date -d "$(squeue -h -j "${SLURM_JOB_ID:-}" -o %e 2>/dev/null)" +%s 2>/dev/null || true)}
+if [[ $end =~ ^[0-9]+$ ]] && [ "$end" -gt "$(date +%s)" ]; then
+  left=$((end - $(date +%s) - seconds - 30))
+  [ $left -gt 0 ] || fail "the last checkpoint needs $((seconds + 30)) s before the time limit; raise --time"
+  limit=(timeout --foreground --signal=USR1 "$left")
+  echo "runs/slurm.sh: stops in $left s, $((seconds + 30)) s before the time limit, to write a checkpoint" >&2
+elif [ "$seconds" -gt 270 ]; then
+  echo "runs/slurm.sh: WARNING: the time limit is unknown, and a checkpoint needs $seconds s; submit with" \
+    "sbatch --signal=B:USR1@$((seconds + 30))" >&2
+fi
+
+# A requeued job has the options of its first start.
+again=()
+if [ "${SLURM_RESTART_COUNT:-0}" -gt 0 ] && [ $resumes -eq 0 ]; then
+  if [ -f "$out/checkpoint.h5" ]; then again=(--resume); else again=(--force); fi
+fi
+case ${GROUSER_LAUNCHER:-mpirun} in
+  mpirun) launch=(mpirun -np "$tasks" --map-by "ppr:${SLURM_NTASKS_PER_NODE:-4}:node:PE=$cores") ;;
+  srun) launch=(srun --mpi=pmix --kill-on-bad-exit=1 --cpus-per-task="$cores") ;;
+  *) fail "GROUSER_LAUNCHER = '$GROUSER_LAUNCHER' must be mpirun or srun" ;;
+esac
+"${limit[@]}" "${launch[@]}" "$grouser" run "$scene" "$@" "${again[@]}" &
+job=$!
+# mpirun and srun forward SIGUSR1. After SIGTERM, mpirun would kill the ranks within a second.
+trap 'kill -USR1 "$job" 2>/dev/null || true' USR1 TERM
+while true; do # a signal ends wait early, while the ranks still write their checkpoint
+  status=0
+  wait "$job" || status=$?
+  kill -0 "$job" 2>/dev/null || break
+done
+if [ "$status" -eq 124 ] && [ "${GROUSER_REQUEUE:-0}" = 1 ]; then scontrol requeue "${SLURM_JOB_ID:?}"; fi
+exit "$status"

@@ -30,4 +30,12 @@ foreach(component program development)
  -- ${CPACK_PACKAGE_CONTACT}  ${now}
 ")
   grouser_call(gzip -9nf ${folder}/changelog)
+  # pip names the tool that removes a package.
+  file(GLOB installers ${stage}/${component}/usr/lib/python3/dist-packages/*.dist-info/INSTALLER)
+  foreach(installer IN LISTS installers)
+    file(WRITE ${installer} "debian\n")
+  endforeach()
+  # These files and folders have the umask of this call, or the permissions of the checkout.
+  file(CHMOD_RECURSE ${folder} DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
+       WORLD_EXECUTE FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
 endforeach()

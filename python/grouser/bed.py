@@ -58,8 +58,8 @@ _UNITS = {"time": "s", "highest": "m", "lowest": "m", "mean_height": "m", "mean_
 
 def _quantities(group: h5py.Group | None) -> dict[str, Quantity]:
     found: dict[str, Quantity] = {}
-    for name in group or ():
-        value = group[name][:, 0]
+    for name, dataset in (group or {}).items():
+        value = dataset[:, 0]
         found[name] = Quantity(value[0] if len(value) == 1 else value, _UNITS.get(name, "-"), "", name)
     return found
 

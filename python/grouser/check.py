@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 
@@ -12,7 +12,7 @@ import numpy
 
 from .errors import FileError
 from .files import fields_of, read_csv, read_json
-from .series import Estimate, Series, counted, number, split_unit
+from .series import Estimate, Series, counted, no_values, number, split_unit
 from .sweep import value_of
 
 
@@ -44,9 +44,9 @@ class BarredSeries(Series):
     `s - t` add the half widths; the sum is an upper bound, since errors of one check are not independent. A series
     without half widths counts as exact."""
 
-    by_seeds: numpy.ndarray = None  #: half width of the 95 % interval over the seeds
-    by_step: numpy.ndarray = None  #: half width of the step
-    bar: numpy.ndarray = None  #: both combined
+    by_seeds: numpy.ndarray = field(default_factory=no_values)  #: half width of the 95 % interval over the seeds
+    by_step: numpy.ndarray = field(default_factory=no_values)  #: half width of the step
+    bar: numpy.ndarray = field(default_factory=no_values)  #: both combined
 
     def _bars(self) -> dict[str, numpy.ndarray]:
         return {"by_seeds": self.by_seeds, "by_step": self.by_step, "bar": self.bar}
@@ -116,8 +116,8 @@ class Check:
                 if f"{heading} both +-" not in columns:
                     continue
                 name, unit = split_unit(heading)
-                bars = [columns[f"{heading} {what} +-"] for what in ("seeds", "step", "both")]
-                series[name] = BarredSeries(values, unit, "", name, columns["time [s]"], None, (), *bars)
+                seeds, step, both = (columns[f"{heading} {what} +-"] for what in ("seeds", "step", "both"))
+                series[name] = BarredSeries(values, unit, "", name, columns["time [s]"], None, (), seeds, step, both)
         return series
 
 

@@ -30,11 +30,12 @@ class DeviceError(GrouserError):
 
 
 class StoppedError(GrouserError):
-    """Exit codes 129, 130 and 143: SIGHUP, SIGINT or SIGTERM stopped the program; `resume=True` continues the run."""
+    """Exit codes 129, 130, 138 and 143: SIGHUP, SIGINT, SIGUSR1 or SIGTERM stopped the program; `resume=True` continues
+    the run."""
 
 
 KINDS: dict[int, type[GrouserError]] = {2: InputError, 3: SimulationError, 4: DeviceError, 129: StoppedError,
-                                        130: StoppedError, 143: StoppedError}
+                                        130: StoppedError, 138: StoppedError, 143: StoppedError}
 
 
 def briefly(function: Callable[..., Any]) -> Callable[..., Any]:

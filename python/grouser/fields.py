@@ -2,11 +2,11 @@
 """Soil fields on a grid, from frames.h5."""
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy
 
-from .series import Quantity
+from .series import Quantity, no_values
 
 #: Fields in frames of scenes with output.fields_cell: name, (unit, shape of a cell's value, definition).
 FIELDS = {"stress": ("Pa", (3, 3), "mean stress in a cell (Love-Weber), negative in compression"),
@@ -24,12 +24,12 @@ class Field(Quantity):
     """A soil field over time: `value` has the shape [frames, z, y, x], for vectors [..., 3], for tensors [..., 3, 3].
     The centre of cell [k, j, i] is (x[i], y[j], z[k])."""
 
-    time: numpy.ndarray = None  #: [frames] [s]
-    x: numpy.ndarray = None  #: [nx] centres of the cells along x [m]
-    y: numpy.ndarray = None  #: [ny] centres of the cells along y [m]
-    z: numpy.ndarray = None  #: [nz] centres of the cells along z [m]
-    origin: numpy.ndarray = None  #: [3] lower corner of the grid [m]
-    spacing: numpy.ndarray = None  #: [3] edge lengths of a cell [m]
+    time: numpy.ndarray = field(default_factory=no_values)  #: [frames] [s]
+    x: numpy.ndarray = field(default_factory=no_values)  #: [nx] centres of the cells along x [m]
+    y: numpy.ndarray = field(default_factory=no_values)  #: [ny] centres of the cells along y [m]
+    z: numpy.ndarray = field(default_factory=no_values)  #: [nz] centres of the cells along z [m]
+    origin: numpy.ndarray = field(default_factory=no_values)  #: [3] lower corner of the grid [m]
+    spacing: numpy.ndarray = field(default_factory=no_values)  #: [3] edge lengths of a cell [m]
 
     @property
     def cell_volume(self) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import overload
 
 import h5py
 import numpy
@@ -165,6 +166,12 @@ class Frames:
     def __len__(self) -> int:
         return len(self._names)
 
+    @overload
+    def __getitem__(self, index: int) -> Frame: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> list[Frame]: ...
+
     def __getitem__(self, index: int | slice) -> Frame | list[Frame]:
         """A frame, or for a slice a list of frames. IndexError if out of range."""
         if isinstance(index, slice):
@@ -208,7 +215,7 @@ class Frames:
         frame contains the grain."""
         rows: list[numpy.ndarray | None] = []
         for frame in self:
-            at = numpy.flatnonzero(frame.id == id) if len(frame) else ()
+            at = numpy.flatnonzero(frame.id == id) if len(frame) else numpy.empty(0, int)
             rows.append(frame.grains(name)[at[0]] if len(at) else None)
         there = next((row for row in rows if row is not None), None)
         if there is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import os
 import re
 import subprocess
 from functools import cache
@@ -20,7 +21,7 @@ _ANY = ("NAME", "a|b", "SECTION")  # placeholders for a name in the program's ta
 def _sections(vehicle: bool = False) -> dict[tuple[str, ...], list[str]]:
     """{("driver", "table"): its keys}; {} if the program cannot be run."""
     try:
-        words = [find_program(), "fields", *(["--vehicle"] if vehicle else [])]
+        words: list[str | os.PathLike] = [find_program(), "fields", *(["--vehicle"] if vehicle else [])]
         text = subprocess.run(words, capture_output=True, text=True, check=True).stdout
     except (OSError, subprocess.CalledProcessError):
         return {}

@@ -132,6 +132,7 @@ class Job:
         return "\n".join(self._errors) or f"{' '.join(self.command)}: exit code {code} without a message"
 
     def _read_output(self) -> None:
+        assert self._process.stdout  # a pipe
         with self._process.stdout as output:
             for line in output:
                 self._lines.append(line)

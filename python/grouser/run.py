@@ -72,8 +72,9 @@ class Run:
 
     def close(self) -> None:
         """Closes results.h5 and frames.h5."""
-        if self._opened and self.__dict__.get("frames") is not None:
-            self.frames.close()
+        frames: Frames | None = self.__dict__.get("frames")  # only if it was opened
+        if self._opened and frames is not None:
+            frames.close()
         self._opened.close()
 
     @property

@@ -171,7 +171,7 @@ class Scene:
         time. InputError for an invalid scene. Leaves no files."""
         with tempfile.TemporaryDirectory() as folder:
             file = self.write(Path(folder) / f"{self.name}.toml")
-            words = ["plan", file, *([] if probe else ["--no-probe"])]
+            words: list[str | os.PathLike] = ["plan", file, *([] if probe else ["--no-probe"])]
             return self._worded(Job(words, self.folder, worded=lambda text: self._worded(text, file)).wait(), file)
 
     def _worded(self, text: str, file: Path) -> str:

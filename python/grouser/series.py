@@ -5,10 +5,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from numbers import Number
+from typing import Any
 
 import numpy
+
+
+def no_values() -> numpy.ndarray:
+    return numpy.empty(0)
 
 
 class Brief:
@@ -34,8 +39,9 @@ class Quantity:
     help: str = ""  #: definition, in one line
     name: str = ""  #: with dots, as in timeseries.csv: "vehicle.pitch_radius"
 
-    def __array__(self, dtype=None, copy=None) -> numpy.ndarray:
-        return numpy.array(self.value, dtype=dtype, copy=bool(copy))
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> numpy.ndarray:
+        array = numpy.asarray(self.value, dtype=dtype)
+        return array.copy() if copy else array
 
     def __float__(self) -> float:
         return float(self.value)
@@ -126,7 +132,8 @@ class Quantity:
         value = function(left.value, right.value)
         if value.shape != numpy.shape(whole.value):
             raise ValueError(f"{told}: shapes {numpy.shape(left.value)} and {numpy.shape(right.value)} differ")
-        bars = {name: sum(one._bars()[name] for one in (left, right) if name in one._bars()) for name in whole._bars()}
+        bars = {name: numpy.add.reduce([one._bars()[name] for one in (left, right) if name in one._bars()])
+                for name in whole._bars()}
         return whole._with(value, f"{left.name} {sign} {right.name}", bars)
 
 
@@ -151,8 +158,8 @@ class Series(Quantity):
     """A quantity over time: `value` has the shape [rows] or [rows, columns]. `for row in series` iterates over the rows
     of `value`."""
 
-    time: numpy.ndarray = None  #: [rows] [s]
-    step: numpy.ndarray = None  #: [rows] [-]
+    time: numpy.ndarray = field(default_factory=no_values)  #: [rows] [s]
+    step: numpy.ndarray | None = None  #: [rows] [-]; None in `Check.series`, whose rows are those of several runs
     labels: tuple[str, ...] = ()  #: column names, e.g. ("x", "y", "z"); empty: one column without name, or one per shoe
 
     def _summary(self) -> str:
@@ -197,7 +204,7 @@ class Series(Quantity):
 
     def _taken(self, rows: slice | numpy.ndarray) -> Series:
         by_row = {"value": self.value, "time": self.time, "step": self.step, **self._bars()}
-        return replace(self, **{name: field[rows] for name, field in by_row.items() if field is not None})
+        return replace(self, **{name: values[rows] for name, values in by_row.items() if values is not None})
 
     def at(self, time: float) -> numpy.ndarray:
         """The row nearest to `time` [s]: shape () or [columns]. ValueError if there are no rows, or if `time` is more
@@ -254,7 +261,8 @@ def estimate_text(value: float, half: float | None) -> tuple[str, str, int]:
         value, half = value / 10.0**power, half / 10.0**power
     else:
         power = 0
-    return *(f"{round(one, places) + 0.0:.{max(0, places)}f}" for one in (value, half)), power
+    digits = max(0, places)
+    return f"{round(value, places) + 0.0:.{digits}f}", f"{round(half, places) + 0.0:.{digits}f}", power
 
 
 def number(value: float | None) -> float:

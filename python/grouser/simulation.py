@@ -74,10 +74,11 @@ class Simulation:
                 sim.step(100)
 
     scene: a Scene or a scene file. folder: output folder, as of `grouser run`; None: no output. device: "auto", "cpu"
-    or "cuda"; None: as in the scene. threads: number of CPU threads, 0: all cores; None: as in the scene. overwrite:
-    replace existing results in `folder`. cache: reuse settled beds and mesh spheres from earlier runs. settling:
-    callback(time [s], kinetic energy ratio), called while the bed settles. checkpoint: file from which the simulation
-    continues; the scene must be the same, but a branch (another folder, or none) may change the drive and the hitch.
+    or "cuda"; None: as in the scene. threads: number of CPU threads, 0: all available cores, at most
+    OMP_NUM_THREADS; None: as in the scene. overwrite: replace existing results in `folder`. cache: reuse settled beds
+    and mesh spheres from earlier runs. settling: callback(time [s], kinetic energy ratio), called while the bed
+    settles. checkpoint: file from which the simulation continues; the scene must be the same, but a branch (another
+    folder, or none) may change the drive and the hitch.
 
     An input takes effect at the next step and remains in effect until it is set again or released. Inputs are stored
     with their steps in checkpoints and results; therefore `grouser run --replay FOLDER` reproduces the run without the

@@ -65,7 +65,7 @@ class SoilTest:
             self.constants: dict[str, Constant] = {
                 name: Constant(Estimate(number(one["value"]), number(one["half_width"]), one["unit"], name),
                                tuple((number(p.get("value")), p["source"]) for p in one["published"]),
-                               tuple(one["span"]) if one.get("span") else None, one.get("verdict", "-"),
+                               (one["span"][0], one["span"][1]) if one.get("span") else None, one.get("verdict", "-"),
                                one.get("inconclusive") or "")
                 for name, one in self.json["constants"].items()}
 

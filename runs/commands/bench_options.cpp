@@ -18,7 +18,8 @@ namespace {
 /// Options common to the benchmarks of beds and steps.
 void addCommon(CLI::App& sub, bench::BenchCommand& c) {
   sub.add_option("--device", c.device, "auto, cpu or cuda");
-  sub.add_option("--threads", c.threads, "number of CPU threads; 0: all cores")->check(support::wholeNumber(0, 1024));
+  sub.add_option("--threads", c.threads, "number of CPU threads; 0: all available cores, at most OMP_NUM_THREADS")
+      ->check(support::wholeNumber(0, 1024));
   sub.add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));
 }
 
@@ -170,7 +171,7 @@ void addContacts(CLI::App& benches, const Invocation& invocation) {
       ->check(support::wholeNumber(0, 10'000'000))
       ->capture_default_str();
   contacts->add_option("--device", c.device, "auto, cpu or cuda")->capture_default_str();
-  contacts->add_option("--threads", c.threads, "number of CPU threads; 0: all cores")
+  contacts->add_option("--threads", c.threads, "number of CPU threads; 0: all available cores, at most OMP_NUM_THREADS")
       ->check(support::wholeNumber(0, 1024));
   contacts->add_option("--json", c.json, "write the results to this file")->check(support::writableFile("--json"));
   contacts->add_option("--plot", c.plot, "plot the results to this PNG file");

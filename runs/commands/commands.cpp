@@ -39,6 +39,7 @@
 #include "spheredecomp/quality.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <optional>

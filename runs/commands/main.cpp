@@ -143,10 +143,11 @@ int main(int argc, char** argv) {
   app.formatter(commands::helpFormatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", support::versionText());
-  app.footer("Exit codes: 0 success, 1 internal error, 2 invalid input, 3 unsound simulation or results that could not "
-             "be written, 4 device or memory error, 129, 130 and 143 stopped by SIGHUP, SIGINT and SIGTERM.\nSettled "
-             "beds and sphere sets are cached in $GROUSER_CACHE (default: $XDG_CACHE_HOME/grouser or "
-             "~/.cache/grouser), up to $GROUSER_CACHE_GIB GiB (default: 2).");
+  app.footer(
+      "Exit codes: 0 success, 1 internal error, 2 invalid input, 3 unsound simulation or results that could not "
+      "be written, 4 device or memory error, 129, 130, 138 and 143 stopped by SIGHUP, SIGINT, SIGUSR1 "
+      "and SIGTERM.\nSettled beds and sphere sets are cached in $GROUSER_CACHE (default: $XDG_CACHE_HOME/grouser or "
+      "~/.cache/grouser), up to $GROUSER_CACHE_GIB GiB (default: 2).");
   try {
     parseAndRun(app, argc, argv, ranks);
     return printedAll() ? 0 : failToPrint(ranks);

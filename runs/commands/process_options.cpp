@@ -15,7 +15,8 @@ void addProcessOptions(CLI::App& app, const ProcessOptions& options, const std::
   support::addOut(app, options.folder, outHelp);
   app.add_option("--device", options.device, "auto, cpu or cuda; default: run.device of the scene");
   app.add_option("--threads", options.threads,
-                 "number of CPU threads per run; default: all cores, divided among the jobs")
+                 "number of CPU threads per run; default: all available cores (at most OMP_NUM_THREADS), divided among "
+                 "the jobs")
       ->check(support::wholeNumber(0, 1024));
   CLI::Option* resume =
       app.add_flag("--resume")->description("continue an earlier call (the default if the options are the same)");

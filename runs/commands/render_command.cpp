@@ -5,6 +5,7 @@
 #include "runs/jobs/shared_work.hpp"
 #include "runs/render/film.hpp"
 #include "runs/render/frame_painter.hpp"
+#include "runs/support/device_choice.hpp"
 #include "runs/support/output_place.hpp"
 #include "runs/support/progress.hpp"
 
@@ -16,6 +17,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 namespace grouser::commands {
 
@@ -95,9 +97,6 @@ fs::path unfinished(const fs::path& picture) {
   return picture.parent_path() / fmt::format(".{}.part", picture.filename().string());
 }
 
-/// Number of CPU cores that this rank may use.
-int coresOf(const RenderCommand& c) { return std::max(1, omp_get_num_procs() / c.comm.size()); }
-
 /// Throws if a picture or the film already exists or cannot be written.
 void checkTargets(const RenderCommand& c, const fs::path& folder, const std::vector<std::size_t>& frames) {
   std::error_code error;
@@ -139,7 +138,7 @@ void paintShare(const RenderCommand& c, const render::FramePainter& painter, con
     mine.push_back(frames[i]), pictures.push_back(picturePath(folder, frames[i]));
   const Sweeper sweeper(pictures);
   const int processes = std::max(1, std::min(c.processes, static_cast<int>(mine.size())));
-  const int threads = c.threads > 0 ? c.threads : std::max(1, coresOf(c) / processes);
+  const int threads = c.threads > 0 ? c.threads : std::max(1, support::threadsOfRank(c.comm) / processes);
   support::Progress progress("pictures", c.comm.first());
   std::size_t done = 0;
   const auto paint = [&](std::size_t i) {

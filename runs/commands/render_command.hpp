@@ -31,7 +31,7 @@ struct RenderCommand {
   std::vector<std::size_t> frame;   ///< numbers of single frames; empty: all
   bool labels = true;
   int processes = 1;
-  int threads = 0;    ///< threads per process; 0: all cores, shared among the processes
+  int threads = 0; ///< threads per process; 0: all available cores, at most OMP_NUM_THREADS, shared among the processes
   bool force = false; ///< overwrite pictures and film
   base::Comm comm;    ///< ranks that share the frames
 };

@@ -86,7 +86,8 @@ void addRender(CLI::App& app, const Invocation& invocation) {
       ->capture_default_str();
   render
       ->add_option("--threads", c.threads,
-                   "number of CPU threads per process; default: all cores, divided among the processes")
+                   "number of CPU threads per process; default: all available cores (at most OMP_NUM_THREADS), divided "
+                   "among the processes")
       ->check(support::wholeNumber(0, 1024));
   render->add_flag("--force", c.force, "overwrite existing pictures and film");
   render->callback([command] { renderCommand(*command); });

@@ -19,7 +19,8 @@ void addRun(CLI::App& app, const Invocation& invocation) {
   run->add_option("--set", c.overrides, kSetHelp)->allow_extra_args(false);
   run->add_option("--device", c.device, "auto, cpu or cuda; default: run.device of the scene");
   run->add_option("--threads", c.threads,
-                  "number of CPU threads; 0: all cores; default: run.threads of the scene; the results do not depend "
+                  "number of CPU threads; 0: all available cores, at most OMP_NUM_THREADS; default: run.threads of the "
+                  "scene; the results do not depend "
                   "on it")
       ->check(support::wholeNumber(0, 1024));
   support::addOut(*run, c.folder, "results folder; default: out/NAME, where NAME is the scene name");
@@ -105,7 +106,9 @@ void addPlan(CLI::App& app, const Invocation&) {
   plan->add_option("--ranks", p.ranks, "also print how the grains would be distributed over this number of MPI ranks")
       ->check(support::wholeNumber(1, 100'000));
   plan->add_option("--device", p.device, "auto, cpu or cuda; default: run.device of the scene");
-  plan->add_option("--threads", p.threads, "number of CPU threads; 0: all cores; default: run.threads of the scene")
+  plan->add_option(
+          "--threads", p.threads,
+          "number of CPU threads; 0: all available cores, at most OMP_NUM_THREADS; default: run.threads of the scene")
       ->check(support::wholeNumber(0, 1024));
   support::addOut(*plan, p.folder,
                   "results folder of the planned run; default: out/NAME, where NAME is the scene name");

@@ -43,7 +43,8 @@ void addDeviceOptions(CLI::App& app, std::string& device, int& threads) {
   app.add_option("--device", device, "auto, cpu or cuda")
       ->check(CLI::IsMember({"auto", "cpu", "cuda"}))
       ->capture_default_str();
-  app.add_option("--threads", threads, "number of CPU threads; 0: all cores; no effect on results")
+  app.add_option("--threads", threads,
+                 "number of CPU threads; 0: all available cores, at most OMP_NUM_THREADS; no effect on results")
       ->check(support::wholeNumber(0, 1024))
       ->capture_default_str();
 }

@@ -33,7 +33,7 @@ struct MeanError {
 MeanError meanOf(const std::vector<double>& values);
 double medianOf(std::vector<double> values);
 
-/// Throws Stopped after SIGINT, SIGTERM or SIGHUP.
+/// Throws Stopped after SIGINT, SIGTERM, SIGHUP or SIGUSR1.
 void stopStudyOnRequest();
 
 } // namespace grouser::jobs

@@ -5,6 +5,7 @@
 #include "runs/output/xdmf.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace grouser::output {
 

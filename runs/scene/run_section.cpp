@@ -85,7 +85,7 @@ Table<RunSettings> runTable() {
       .plausible(1e-3, 300)
       .above(0)
       .atMost(1e4);
-  t.add("threads", &S::threads, "-", "number of CPU threads; 0: all cores; no effect on results")
+  t.add("threads", &S::threads, "-", "number of CPU threads; 0: all available; no effect on results")
       .atLeast(0)
       .atMost(1024);
   t.add("integrator", &S::integrator, "",

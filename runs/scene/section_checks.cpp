@@ -5,6 +5,7 @@
 #include "runs/support/locations.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include "runs/setup/scm_constants.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace grouser::setup {
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/device_choice.hpp"
 
+#include "base/cpu_threads.hpp"
 #include "base/error.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
 #include <string_view>
+#include <vector>
 
 namespace grouser::support {
 
@@ -43,11 +47,27 @@ DeviceChoice deviceChoice(const std::string& word) {
 }
 
 base::Exec chooseDevice(DeviceChoice device, int threads, const base::Ranks* ranks) {
+  // Ranks exchange their cores before they choose, since hosts may differ in their devices.
+  if (threads == 0 && ranks && !ranks->comm().alone()) threads = threadsOfRank(ranks->comm());
   if (device == DeviceChoice::cuda || (device == DeviceChoice::automatic && base::cudaAvailable()))
     return base::cudaExec(gpuOf(ranks ? ranks->rankOnHost() : 0, std::max(1, base::cudaDevices())));
-  if (threads == 0 && ranks && ranks->ranksOnHost() > 1)
-    threads = std::max(1, base::cpuExec().threads / ranks->ranksOnHost());
   return base::cpuExec(threads);
+}
+
+int threadsOfRank(const base::Comm& comm) {
+  if (comm.alone()) return base::cpuThreads().count;
+  base::ompNumThreads(); // rejects an invalid value
+  base::ThreadLimits limits = base::threadLimits();
+  const std::vector<std::uint64_t> mine = base::affinityMask();
+  const std::vector<std::vector<std::uint64_t>> masks = comm.gatherAll(mine);
+  std::vector<std::vector<std::uint64_t>> ofHost;
+  for (int r = 0; r < comm.size(); ++r)
+    if (comm.hostOf(r) == comm.hostOf(comm.rank())) ofHost.push_back(masks[static_cast<std::size_t>(r)]);
+  // OMP_PROC_BIND binds the calling thread alone; its mask then says nothing about the cores of the process.
+  limits.affinity = base::coresIn(mine) == limits.affinity
+                        ? base::shareOfCores(mine, ofHost)
+                        : std::max(1, limits.affinity / static_cast<int>(ofHost.size()));
+  return base::lowestLimit(limits, static_cast<int>(ofHost.size())).count;
 }
 
 } // namespace grouser::support

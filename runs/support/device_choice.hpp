@@ -30,9 +30,13 @@ int gpuOf(int rankOnHost, int gpus);
 /// starting with the GPU of this process. Throws like gpuOf().
 std::string firstGpuOf(int place);
 
-/// Device of a run; `threads` 0: all cores. Ranks of one host use its GPUs in turn and share its cores. Throws
-/// DeviceError if the device is missing.
+/// Device of a run; `threads` 0: base::cpuThreads(), or threadsOfRank(). Ranks of one host use its GPUs in turn. Throws
+/// DeviceError if the device is missing. All ranks must call it.
 base::Exec chooseDevice(DeviceChoice device, int threads, const base::Ranks* ranks);
+
+/// Default number of threads of this rank: ranks of a host share its CPU quota and the cores that several of them may
+/// use; a core bound to one rank belongs to this rank alone. All ranks must call it.
+int threadsOfRank(const base::Comm& comm);
 
 } // namespace grouser::support
 

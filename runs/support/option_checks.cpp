@@ -5,6 +5,7 @@
 #include "runs/support/output_place.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>

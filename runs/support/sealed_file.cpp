@@ -6,6 +6,7 @@
 #include "runs/support/descriptor.hpp"
 #include "runs/support/not_written.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstring>

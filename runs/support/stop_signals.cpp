@@ -9,8 +9,10 @@ namespace grouser::support {
 namespace {
 
 volatile std::sig_atomic_t signalReceived = 0;
-/// SIGHUP: the terminal was closed.
-constexpr std::pair<int, const char*> kKept[] = {{SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}};
+/// SIGHUP: the terminal was closed. SIGUSR1: a batch system ends the job soon; mpirun forwards it without killing
+/// ranks.
+constexpr std::pair<int, const char*> kKept[] = {
+    {SIGINT, "SIGINT"}, {SIGTERM, "SIGTERM"}, {SIGHUP, "SIGHUP"}, {SIGUSR1, "SIGUSR1"}};
 struct sigaction former[std::size(kKept)];
 int watchers = 0;
 

@@ -6,8 +6,8 @@
 
 namespace grouser::support {
 
-/// A signal has stopped the run; all files are complete. The exit code is 128 + signal: 129, 130 or 143. The program
-/// adds the command that resumes or repeats the run to the message.
+/// A signal has stopped the run; all files are complete. The exit code is 128 + signal: 129, 130, 138 or 143. The
+/// program adds the command that resumes or repeats the run to the message.
 class Stopped : public std::runtime_error {
 public:
   /// Whether the stopped call has left results that can be continued.
@@ -22,8 +22,8 @@ private:
   Left left_;
 };
 
-/// During the lifetime of a StopSignals object, the first SIGINT, SIGTERM or SIGHUP is stored, so that the run can stop
-/// at the end of its step. A second signal ends the program at once. Objects may be nested. Not thread-safe.
+/// During the lifetime of a StopSignals object, the first SIGINT, SIGTERM, SIGHUP or SIGUSR1 is stored, so that the run
+/// can stop at the end of its step. A second signal ends the program at once. Objects may be nested. Not thread-safe.
 class StopSignals {
 public:
   StopSignals();

@@ -8,7 +8,7 @@ from cpp_outline import without_comments
 
 SUFFIXES = {'.hpp', '.cpp', '.cu', '.cuh'}
 SCRIPTS = {'.py', '.sh', '.cmake', '.js', '.css'}  # and CMakeLists.txt, and files that begin with #!
-OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html', '.mp4'}
+OTHERS = {'.md', '.toml', '.txt', '.json', '.csv', '.png', '.svg', '.obj', '.html', '.mp4', '.pyi', '.typed', '.in'}
 TOPS = ['base', 'contact', 'fluid', 'spheredecomp', 'multibody', 'terrain', 'scm', 'vehicle', 'coupling', 'assets', 'api', 'runs',
         'tests', 'docs', 'cmake', 'python']
 GENERATED = {'grouser_commit.hpp'}  # written by the build

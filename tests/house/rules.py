@@ -291,6 +291,13 @@ def sizes(house):
                        f'{MAX_PUBLIC_FUNCTIONS}')
 
 
+def joins(house):
+    """Code that calls fmt::join includes <fmt/ranges.h>: since fmt 11, <fmt/format.h> does not declare it."""
+    for path in house.code:
+        if 'fmt::join' in house.plain[path] and '<fmt/ranges.h>' not in house.text[path]:
+            yield f'{path}: fmt::join without #include <fmt/ranges.h>'
+
+
 def licence(house):
     """Code files begin with the licence line, scripts after #!."""
     for path in house.code + house.scripts:
@@ -300,5 +307,5 @@ def licence(house):
             yield f'{path}:{number + 1}: expected the licence line: SPDX-License-Identifier: BSD-3-Clause'
 
 
-RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, licence, prose, commits,
+RULES = [places, order, chains, scenes, privacy, circles, thrust, mpi, libm, sums, kernels, sizes, joins, licence, prose, commits,
          links, long_tests, mutants, evidence, words]

@@ -30,6 +30,15 @@ def faults(rule, files):
         return list(rule(House(folder)))
 
 
+class Joins(unittest.TestCase):
+    def test_needs_the_header_of_ranges(self):
+        call = 'std::string f() { return fmt::join(words, ","); }\n'
+        told = faults(rules.joins, {'base/x.cpp': include('fmt', 'format.h') + call})
+        self.assertEqual(told, ['base/x.cpp: fmt::join without #include <fmt/ranges.h>'])
+        self.assertEqual(faults(rules.joins, {'base/x.cpp': include('fmt', 'ranges.h') + call, 'base/y.cpp': '// fmt::join\n'}),
+                         [])
+
+
 class Places(unittest.TestCase):
     def test_code_lies_in_a_room(self):
         for bad in ('tools/x.cpp', 'tools/deep/x.h', 'x.cpp', 'tools/x.py'):

@@ -1,10 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The Python package: scenes as text, calls and their errors, invalid files."""
+import ast
 import json
 import os
 import re
+import shutil
 import signal
+import subprocess
 import tempfile
 import time
 import tomllib
@@ -17,7 +20,6 @@ from fixture import MINIMAL, ROOT, FolderTest
 import grouser
 from grouser.bed import metres_of
 from grouser.toml import document_text
-
 
 
 class Toml(unittest.TestCase):
@@ -36,6 +38,32 @@ class Toml(unittest.TestCase):
         for wrong in (object(), b"abc"):
             with self.assertRaises(TypeError):
                 document_text({"a": wrong})
+
+
+class Types(unittest.TestCase):
+    """The package declares types (py.typed). They agree with the extension module and with its own code."""
+
+    def test_stub_has_the_names_of_the_extension_module(self):
+        from grouser.simulation import _core
+        module = _core()
+        stub = ast.parse((ROOT / "python/grouser/_core.pyi").read_text())
+        found = next(node for node in stub.body if isinstance(node, ast.ClassDef))
+        listed = {node.name for node in found.body if isinstance(node, ast.FunctionDef)} - {"__init__"}
+        self.assertEqual(listed, {name for name in vars(module.Simulation) if not name.startswith("_")})
+        self.assertEqual((type(module.version), type(module.commit)), (str, str))
+
+    def test_all_functions_have_annotations_that_mypy_accepts(self):
+        for file in (ROOT / "python/grouser").glob("*.py"):
+            for node in ast.walk(ast.parse(file.read_text())):
+                if isinstance(node, ast.FunctionDef) and node.name != "__init__":
+                    given = [*node.args.posonlyargs, *node.args.args, *node.args.kwonlyargs]
+                    missing = [one.arg for one in given if one.annotation is None and one.arg not in ("self", "cls")]
+                    self.assertFalse(missing, f"{file.name}:{node.lineno}")
+                    self.assertIsNotNone(node.returns, f"{file.name}:{node.lineno}")
+        if shutil.which("mypy"):
+            done = subprocess.run(["mypy", "--ignore-missing-imports", "--disallow-untyped-defs", "--cache-dir=/dev/null",
+                                   "grouser"], cwd=ROOT / "python", capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stdout)
 
 
 class Scenes(FolderTest):

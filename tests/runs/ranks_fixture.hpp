@@ -20,9 +20,10 @@ protected:
   }
 
   Outcome shell(const std::string& commands) const {
-    return ProgramTest::shell("export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
-                              "OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1; " +
-                              commands);
+    return ProgramTest::shell(
+        "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe OMP_NUM_THREADS=1; " +
+        commands);
   }
   /// `grouser WORDS`, without a launcher on 1 rank.
   Outcome run(int ranks, const std::string& words, const std::string& before = "") const {

@@ -17,6 +17,11 @@ namespace detail {
 struct Run;
 struct SceneData;
 void setInstalledShare(const char* folder);
+#if defined(GROUSER_INSTALLED_PATH) && !defined(GROUSER_INSTALLED_SHARE) // from pkg-config, whose words have no quotes
+#define GROUSER_TEXT_OF(...) #__VA_ARGS__
+#define GROUSER_TEXT(...) GROUSER_TEXT_OF(__VA_ARGS__)
+#define GROUSER_INSTALLED_SHARE GROUSER_TEXT(GROUSER_INSTALLED_PATH)
+#endif
 #ifdef GROUSER_INSTALLED_SHARE // from the target grouser::grouser: folder of vehicles, soils and height-maps
 inline const bool kShareIsKnown = (setInstalledShare(GROUSER_INSTALLED_SHARE), true);
 #endif

@@ -40,8 +40,9 @@ private:
 
 /// Options of a simulation. No option changes the results.
 struct Options {
-  std::string device;           ///< "auto", "cpu" or "cuda"; empty: as in the scene
-  std::optional<int> threads;   ///< number of CPU threads, 0: all cores; empty: as in the scene
+  std::string device; ///< "auto", "cpu" or "cuda"; empty: as in the scene
+  std::optional<int>
+      threads; ///< number of CPU threads, 0: all available cores, at most OMP_NUM_THREADS; empty: as in the scene
   std::filesystem::path folder; ///< output folder, as of `grouser run`; empty: no output
   bool overwrite = false;       ///< replace existing results in `folder`
   bool cache = true;            ///< reuse settled beds and mesh spheres of earlier runs, and store new ones

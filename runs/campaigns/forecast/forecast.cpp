@@ -423,7 +423,7 @@ private:
 
   void memory() {
     const Demand all = demand();
-    f_.process = all.process, f_.device = all.device;
+    f_.process = all.process, f_.device = all.device, f_.checkpoint = all.checkpoint;
     if (f_.disk == 0) f_.disk = all.disk();
   }
 

@@ -35,6 +35,7 @@ struct Forecast {
   double process = 0;                        ///< peak memory of the process [B]
   double device = 0;                         ///< GPU memory [B]; 0 on a CPU
   double disk = 0;                           ///< disk space of the results [B]
+  double checkpoint = 0;                     ///< size of checkpoint.h5 [B]
   double diskSpeed = 0;                      ///< write speed of frames and checkpoints [B/s]; 0: not measured
   std::string onDevice;                      ///< description of the device
   std::vector<spheredecomp::CutReport> cuts; ///< reports on the sphere sets of parts and meshes

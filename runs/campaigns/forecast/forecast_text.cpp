@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdint>
+
 namespace grouser::forecast {
 
 namespace {
@@ -94,6 +96,7 @@ std::string forecastJson(const Forecast& f) {
   };
   put("preparation", f.preparation), put("steps", f.steps), put("output", f.output);
   json["process_bytes"] = f.process, json["device_bytes"] = f.device, json["disk_bytes"] = f.disk;
+  json["checkpoint_bytes"] = static_cast<std::int64_t>(f.checkpoint);
   if (!f.warning.empty()) json["warning"] = f.warning;
   return support::jsonText(json, 2) + "\n";
 }

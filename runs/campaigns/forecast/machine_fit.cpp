@@ -15,6 +15,7 @@
 #include "terrain/grain_state.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

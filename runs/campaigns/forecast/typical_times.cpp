@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/campaigns/forecast/typical_times.hpp"
 
+#include "base/cpu_threads.hpp"
 #include "base/math.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
 #include "runs/setup/bed_options.hpp"
@@ -11,7 +12,7 @@
 namespace grouser::forecast {
 
 int usefulThreads(const base::Exec& exec) {
-  return exec.onCpu() ? std::max(1, std::min(exec.threads, base::cpuExec().threads)) : 1;
+  return exec.onCpu() ? std::max(1, std::min(exec.threads, base::lowestLimit(base::threadLimits()).cores)) : 1;
 }
 
 double pairsBelowTracks(const scene::Scene& scene) {

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
+
 namespace grouser::bench {
 
 using Json = nlohmann::ordered_json;

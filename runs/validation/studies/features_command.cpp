@@ -15,6 +15,7 @@
 #include "runs/validation/studies/features.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

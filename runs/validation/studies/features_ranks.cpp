@@ -4,6 +4,7 @@
 #include "runs/validation/studies/features.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
@@ -32,7 +33,8 @@ BedTimes timesOf(const FeaturesCommand& c, bool ranks, const std::filesystem::pa
   support::Environment environment;
   if (ranks) {
     words = {"mpirun", "-np", std::to_string(kRanks)};
-    environment = {{"OMPI_MCA_rmaps_base_oversubscribe", "1"}};
+    environment = {{"OMPI_MCA_rmaps_base_oversubscribe", "1"}, // Open MPI 4, then 5
+                   {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"}};
     if (geteuid() == 0)
       for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"})
         environment.emplace_back(name, "1");

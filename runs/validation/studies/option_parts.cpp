@@ -5,6 +5,8 @@
 #include "base/table.hpp"
 #include "runs/support/option_checks.hpp"
 
+#include <fmt/ranges.h>
+
 namespace grouser::studies {
 
 void addPlace(CLI::App& app, jobs::StudyPlace& place, const std::string& name, const std::string& quick) {

@@ -7,6 +7,8 @@
 #include "runs/validation/studies/fluid_cases.hpp"
 #include "runs/validation/studies/option_parts.hpp"
 
+#include <fmt/ranges.h>
+
 namespace grouser::studies {
 
 namespace {
@@ -161,7 +163,10 @@ void addPrecision(CLI::App& study, PrecisionCommand& c) {
                     ->check(support::wholeNumber(2, 10'000))
                     ->capture_default_str(),
                 c.drift.runs, 3);
-  precision->add_option("--threads", c.threads, "number of CPU threads; 0: all cores; the results do not depend on it")
+  precision
+      ->add_option(
+          "--threads", c.threads,
+          "number of CPU threads; 0: all available cores, at most OMP_NUM_THREADS; the results do not depend on it")
       ->check(support::wholeNumber(0, 1024));
   addPlace(*precision, c.place, "precision", "use few grains, configurations and runs (takes seconds)");
   doStudy(*precision, c, studyPrecisionCommand, quick);

@@ -310,14 +310,18 @@ TEST_F(CommandLine, TerminatedRunEndsWith143AndIsResumed) {
   EXPECT_NE(on.out.find(" step " + std::to_string(step + 100) + "\n"), std::string::npos) << on.out;
 }
 
-TEST_F(CommandLine, ALostTerminalLeavesACheckpoint) {
+TEST_F(CommandLine, ALostTerminalAndTheSignalOfABatchSystemLeaveACheckpoint) {
   writeGrain("long.toml");
-  const Outcome stopped = shell("\"$grouser\" run long.toml --set run.duration=100 --set output.frames=false --out run"
-                                " & pid=$!\nwhile [ ! -s run/timeseries.csv ]; do sleep 0.01; done\n"
-                                "kill -HUP $pid\nwait $pid\nexit $?");
-  EXPECT_EQ(stopped.code, 129) << stopped.errors;
-  EXPECT_NE(stopped.errors.find("grouser: stopped by SIGHUP"), std::string::npos) << stopped.errors;
-  EXPECT_TRUE(fs::exists(folder_ / "run" / "checkpoint.h5"));
+  for (const auto& [name, code] : {std::pair<std::string, int>{"HUP", 129}, {"USR1", 138}}) {
+    const Outcome stopped = shell("\"$grouser\" run long.toml --set run.duration=100 --set output.frames=false --out " +
+                                  name + " & pid=$!\nwhile [ ! -s " + name +
+                                  "/timeseries.csv ]; do sleep 0.01; done\n"
+                                  "kill -" +
+                                  name + " $pid\nwait $pid\nexit $?");
+    EXPECT_EQ(stopped.code, code) << stopped.errors;
+    EXPECT_NE(stopped.errors.find("grouser: stopped by SIG" + name), std::string::npos) << stopped.errors;
+    EXPECT_TRUE(fs::exists(folder_ / name / "checkpoint.h5"));
+  }
 }
 
 TEST_F(CommandLine, ClosedOrFullStandardStreamsHarmNoRun) {

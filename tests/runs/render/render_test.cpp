@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <omp.h>
+#include <stdexcept>
 
 namespace grouser::render {
 namespace {

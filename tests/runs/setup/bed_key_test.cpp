@@ -12,6 +12,7 @@
 #include "runs/scene/scene_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
