@@ -45,7 +45,7 @@ def find_program() -> Path:
     candidates = [Path(given)] if given else [here.parents[1] / "build/bin/grouser", *installed]
     for candidate in candidates + ([Path(found)] if found and not given else []):
         if candidate.is_file() and os.access(candidate, os.X_OK):
-            return candidate
+            return candidate.absolute()
     raise FileNotFoundError(
         f"GROUSER_PROGRAM: {given} is not an executable file" if given else
         "program grouser not found: build it (cmake --build build --target grouser), install it, or set the "

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import os
 import re
+import shlex
 import tempfile
 import tomllib
 from collections.abc import Callable, Iterable, Mapping
@@ -20,6 +21,7 @@ from .soil import SoilTest
 from .sweep import Sweep
 from .toml import document_text, key_text, value_text
 
+_NEXT = re.compile(r"((?:resume|start again) with: )")  # before a command in a message of the program
 _MARK = "# Written by the Python package grouser, which may write it anew."
 
 Tell = Callable[[Progress], None] | None
@@ -175,8 +177,11 @@ class Scene:
             return self._worded(Job(words, self.folder, worded=lambda text: self._worded(text, file)).wait(), file)
 
     def _worded(self, text: str, file: Path) -> str:
-        """A message of the program, with the name of the scene instead of the scene file and line."""
-        return re.sub(re.escape(str(file)) + r"(:\d+)*", lambda _: self._called, text)
+        """A message of the program, with the name of the scene instead of the scene file and line. The command that
+        resumes a stopped program keeps the scene file, and starts in the folder in which the program ran."""
+        words, *command = _NEXT.split(text, maxsplit=1)
+        words = re.sub(re.escape(str(file)) + r"(:\d+)*", lambda _: self._called, words)
+        return words + f"cd {shlex.quote(str(self.folder))} && ".join(command)
 
     @briefly
     def sweep(self, out: str | os.PathLike, values: Mapping[str, Iterable[Any]] | None = None, *, seeds: int = 0,

@@ -70,7 +70,7 @@ def state(found):
     if found.status == "finished":
         return ""
     missing = found.json.get("missing")
-    why = f"out of time, {counted(missing['tests'], 'test')} of {esc(missing['trial'])} missing" if missing else \
+    why = f"out of time, {esc(counted(missing['tests'], 'test'))} of {esc(missing['trial'])} missing" if missing else \
         "still running, or stopped"
     return f'<p class="bad">WARNING: this search is not finished ({why}); <code>--resume</code> continues it.</p>'
 

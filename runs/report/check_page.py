@@ -43,7 +43,7 @@ def figures(check):
         term(figure.name), figure_with_bar(figure.bar.value, known(figure.bar.half_width), "", figure.name,
                                           figure.inconclusive),
         esc(figure.bar.unit), f"\u00b1 {number(known(figure.by_seeds.half_width), '', figure.name + ' seeds', 2)}",
-        str(figure.seeds), *(axis_words(figure.errors[a]) if a in figure.errors else "not run" for a in axes)])
+        esc(figure.seeds), *(axis_words(figure.errors[a]) if a in figure.errors else "not run" for a in axes)])
         for figure in check]
     headings = ["figure", "value and 95 % error bar", "unit", "bar of the seeds", "seeds",
                 *(a.replace("_", " ") for a in axes)]
@@ -194,7 +194,7 @@ def provenance(check):
                   ("program", f"grouser {esc(program.get('version', ''))}, commit "
                               f"<code>{esc(program.get('commit', ''))}</code>"),
                   ("machine", esc(machine_of(check))),
-                  ("seeds", ", ".join(map(str, seeds))), ("origin", f"<code>{esc(j.get('origin', ''))}</code>"),
+                  ("seeds", ", ".join(map(esc, seeds))), ("origin", f"<code>{esc(j.get('origin', ''))}</code>"),
                   ("same bits with a different skin", esc(str(j.get("skin", "")))),
                   ("not run", "; ".join(f"{esc(axis.replace('_', ' '))}: {esc(why)}"
                                         for axis, why in check.not_run.items()))])

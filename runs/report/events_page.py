@@ -84,7 +84,7 @@ def figures(rows, drawn):
         seeds = sorted({figure["runs"] for row in of for figure in row["figures"]})
         told = f"Levels: {esc(level)}. " if level else ""
         what = "95 % prediction interval for one more draw of the constants, from" if drawn else "95 % interval over"
-        told += f"\u00b1 half width of the {what} {' or '.join(map(str, seeds))} runs." if seeds[-1] > 1 else \
+        told += f"\u00b1 half width of the {what} {' or '.join(map(esc, seeds))} runs." if seeds[-1] > 1 else \
             "One run per level: no error bars."
         told += definitions.note({grouser.series.split_unit(figure["name"])[0]: [known(figure["mean"])]
                                   for row in of for figure in row["figures"]})

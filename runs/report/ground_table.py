@@ -18,7 +18,7 @@ def section(folder):
     variants = [g["variant"] for g in compared["variants"]]
     rows = [row for row in compared["rows"] if not row["figure"].startswith(UNSHOWN)
             and any(mean["mean"] is not None for mean in row["means"])]
-    told = facts([(g["variant"], f"{g['ended']} of {counted(g['runs'], 'run')} finished, "
+    told = facts([(g["variant"], f"{esc(g['ended'])} of {esc(counted(g['runs'], 'run'))} finished, "
                                 f"{number(g['wall_time_s'], 's')} for the steps of a run, "
                                 f"{number(g['wall_time_per_second'], 's')} per simulated second")
                   for g in compared["variants"] if g["wall_time_s"] is not None])

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Framework of a report: sections, tables, plots, and the self-contained HTML file."""
 import base64
+import hashlib
 import html
 import json
 import math
+import re
 import zlib
 from pathlib import Path
 
@@ -194,13 +196,8 @@ class Page:
                 f'<figcaption>{esc(caption[:1].upper() + caption[1:])}</figcaption></figure>')
 
     def html(self):
-        libraries, named = "", []
-        for files, package in self.libraries:
-            named.append(package)
-            for name in files:
-                libraries += f"<script>{self.script(library_text(DEBIAN / name, package))}</script>\n"
-        own = "".join(f"<script>{self.script((HERE / name).read_text(encoding='utf-8'))}</script>\n"
-                      for name in ("report.js", "view.js"))
+        scripts = [self.script(library_text(DEBIAN / name, package)) for files, package in self.libraries for name in files]
+        scripts += [self.script((HERE / name).read_text(encoding="utf-8")) for name in ("report.js", "view.js")]
         links = "".join(f'<li><a href="#{i}">{esc(t)}</a></li>' for i, t, _ in self.sections)
         warnings = "".join(f'<div class="bad" role="note">{warning}</div>' for warning in self.warnings)
         body = warnings + "".join(f'<section id="{i}" aria-labelledby="{i}-h"><h2 id="{i}-h">{esc(t)}</h2>{inner}</section>'
@@ -210,17 +207,22 @@ class Page:
         style = style.split("/*# sourceMappingURL")[0] + (HERE / "report.css").read_text(encoding="utf-8")
         data = json.dumps(self.data, allow_nan=False).replace("<", "\\u003c")
         parts = {"title": esc(self.title), "kind": esc(self.kind), "folder": esc(self.folder),
-                 "style": style, "links": links, "body": body, "data": data, "libraries": libraries, "own": own,
-                 "licences": esc(licences(named))}
-        for name, text in parts.items():
-            frame = frame.replace(f"<!--{name}-->", text)
-        return frame
+                 "style": style, "links": links, "body": body, "data": data,
+                 "code": "".join(f"<script>{script}</script>\n" for script in scripts),
+                 "styles": allowed([style]), "scripts": allowed(scripts),
+                 "licences": esc(licences([package for _, package in self.libraries]))}
+        return re.sub("<!--([a-z]+)-->", lambda place: parts[place[1]], frame)
 
     @staticmethod
     def script(text):
         """Text of a script for inlining, without closing tags and source map references."""
         lines = (line for line in text.split("\n") if not line.startswith("//# sourceMappingURL"))
         return "\n".join(lines).replace("</script", "<\\/script").replace("<!--", "<\\!--")
+
+
+def allowed(texts):
+    """Sources of a Content-Security-Policy: the browser uses these inline scripts or styles only, and no attributes."""
+    return " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()}'" for text in texts)
 
 
 def library_text(file, package):

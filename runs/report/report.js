@@ -28,6 +28,12 @@ report.unpack = async function (packed) {
   return array;
 };
 
+/** Text as HTML: dygraphs interprets axis labels as HTML. */
+report.escaped = function (text) {
+  const codes = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "'": "&#39;" };
+  return String(text).replace(/[&<>"']/g, (c) => codes[c]);
+};
+
 report.shown = function (value) {
   if (value === null || value === undefined || Number.isNaN(value)) return "none";
   return Number(value.toPrecision(5)).toString().replace(/-/g, "\u2212");
@@ -154,8 +160,8 @@ class Plot {
                    y: log.includes("y") ? 0 : greatest(this.entry.range || rows.flatMap((row) => row.slice(1).flat())) };
     const window_ = kept || (log.includes("x") && rows.length ? [rows[0][0], rows[rows.length - 1][0]] : null);
     this.graph = new Dygraph(this.place, rows, {
-      labels, series, customBars: bars, xlabel: this.entry.x, ylabel: this.entry.y, gridLineColor: line,
-      axisLineColor: line, strokeWidth: this.entry.points ? 0 : 1.6, drawPoints: !!this.entry.points,
+      labels, series, customBars: bars, xlabel: report.escaped(this.entry.x), ylabel: report.escaped(this.entry.y),
+      gridLineColor: line, axisLineColor: line, strokeWidth: this.entry.points ? 0 : 1.6, drawPoints: !!this.entry.points,
       pointSize: 3.5, rightGap: 30, highlightCircleSize: 5, connectSeparatedPoints: true, fillAlpha: 0.22, legend: "never",
       yRangePad: 8, xRangePad: log.includes("x") ? 0 : this.entry.marks ? 16 : 4,
       logscale: log.includes("y"), dateWindow: window_, animatedZooms: false,
@@ -252,6 +258,8 @@ async function begin() {
   // Without rounding digits: 0.59 for 0.5900000000000001.
   for (const number of document.querySelectorAll("main data"))
     number.title = number.value === "" || Number.isNaN(Number(number.value)) ? number.value : String(Number(Number(number.value).toPrecision(15)));
+  // The page has its own legends; the legends of dygraphs have style attributes, which the policy of the page blocks.
+  if (data.plots.length) Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
   report.plots = data.plots.map((entry, index) => new Plot(entry, index));
   if (data.explorer) explorer(data.explorer);
   if (data.spaces) report.openSpaces(data.spaces);

@@ -109,6 +109,7 @@ def make(options):
         end(packages.MISSING, "the Python package grouser, installed with the program, is missing; set PYTHONPATH to "
                               "the folder that contains it")
     check_places(options)
+    import page
     try:
         kind = kind_of(options.folder)
     except OSError as error:
@@ -121,7 +122,7 @@ def make(options):
     except grouser.FileError as error:
         end(WRONG, str(error).replace("\n", " "))
     except FileNotFoundError as error:
-        end(packages.MISSING if "javascript" in str(error.filename) else WRONG, f"{error.filename}: {error.strerror}")
+        end(packages.MISSING if str(error.filename).startswith(str(page.DEBIAN)) else WRONG, f"{error.filename}: {error.strerror}")
     except KeyError as error:
         end(WRONG, f"{options.folder}: damaged {kind}, or written by another version: {error} is missing")
     except OSError as error:

@@ -296,7 +296,7 @@ def switches(manifest):
         if len(line) > 33 and line[32:34].strip():  # no column boundary here
             what, why = line[7:].strip(), ""
         if what:
-            rows.append([f'<span class="{word}">{word}</span>' if word else "", esc(what), esc(why)])
+            rows.append([f'<span class="{esc(word)}">{esc(word)}</span>' if word else "", esc(what), esc(why)])
     if not rows:
         return "<p>The version that wrote this run did not record its features; <code>grouser plan</code> lists the " \
                "features of a scene.</p>"
@@ -325,7 +325,7 @@ def provenance(run):
     soils = [(f"soil of {material}", f"{esc(use['soil'])}, {esc(use['file'])} <code>{esc(use['hash'])}</code>, grains of "
               f"{number(use['grain_radius_m'], 'm')}, scaled by {number(use['scale'])}")
              for material, use in m.get("soils", {}).items()]
-    files = table(["file", "bytes"], [[f"<code>{esc(name)}</code>", str(f["bytes"])]
+    files = table(["file", "bytes"], [[f"<code>{esc(name)}</code>", esc(f["bytes"])]
                                       for name, f in m.get("files", {}).items()], numeric=(1,))
     return facts(rows + soils) + folded("Files of the run", files)
 
@@ -356,7 +356,8 @@ def is_film(file):
 
 def films(folders, options, most=LARGEST_FILM):
     """The films in the folders, or the film of --film: embedded up to `most` bytes in total; others listed by name."""
-    files = [options.film] if options.film else [f for folder in folders for f in sorted(folder.iterdir())
+    files = [options.film] if options.film else [f for folder in folders if folder.is_dir()
+                                                 for f in sorted(folder.iterdir())
                                                  if is_film(f)]
     shown, beside, taken = [], [], 0
     for file in files:

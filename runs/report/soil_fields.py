@@ -7,6 +7,7 @@ from page import esc, number
 WIDTH, HEIGHT = 760.0, 260.0  # maximum size of a section [px]
 #: Colours from low to high: viridis, equally spaced.
 RAMP = numpy.array([[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]], dtype=float)
+RAMP_BAR = '<span class="ramp"></span>'  # with these colours in report.css
 #: Title, unit, field, definition, and function from field values [..., cells] to the scalar that is drawn.
 SECTIONS = (
     ("Mean stress in the soil", "Pa", "stress", "pressure (a third of the trace), positive in compression",
@@ -38,12 +39,8 @@ def drawn(title, values, spacing, unit, words):
         f'fill="{colour((values[k, i] - low) / (high - low) if high > low else 0.5)}"/>'
         for k in range(rows) for i in range(columns) if numpy.isfinite(values[k, i]))
     picture = (f'<svg viewBox="0 0 {columns * w:.1f} {rows * h:.1f}" width="{columns * w:.0f}" role="img" '
-               f'aria-label="{esc(title)}" style="max-width:100%">{cells}</svg>')
-    stops = ",".join(colour(share) for share in numpy.linspace(0, 1, 5))
-    bar = (f'<div><span style="display:inline-block;width:12rem;height:.7rem;margin:0 .5rem;'
-           f'background:linear-gradient(to right,{stops})"></span></div>')
-    bar = bar.replace("<div>", f"<div>{number(low, unit, title + ' least')}").replace(
-        "</div>", f"{number(high, unit, title + ' largest')}</div>")
+               f'aria-label="{esc(title)}">{cells}</svg>')
+    bar = (f"<div>{number(low, unit, title + ' least')}{RAMP_BAR}{number(high, unit, title + ' largest')}</div>")
     return f"<figure><strong>{esc(title)}</strong><br>{picture}{bar}<figcaption>{words}</figcaption></figure>"
 
 

@@ -73,14 +73,11 @@ def rut_map(soil):
     share = (sinkage - low) / (high - low) * (len(soil_fields.RAMP) - 1)
     at = numpy.minimum(share.astype(int), len(soil_fields.RAMP) - 2)
     colours = soil_fields.RAMP[at] + (share - at)[..., None] * (soil_fields.RAMP[at + 1] - soil_fields.RAMP[at])
-    stops = ",".join(soil_fields.colour(s) for s in numpy.linspace(0, 1, 5))
-    bar = (f'<div>{number(low, "m", "sinkage least")}<span style="display:inline-block;width:12rem;height:.7rem;'
-           f'margin:0 .5rem;background:linear-gradient(to right,{stops})"></span>{number(high, "m", "sinkage largest")}'
-           "</div>")
+    bar = f'<div>{number(low, "m", "sinkage least")}{soil_fields.RAMP_BAR}{number(high, "m", "sinkage largest")}</div>'
     words = (f"Sinkage of the surface at the end, x from {soil.x[0]:.2f} m to {soil.x[-1]:.2f} m to the right, y from "
              f"{soil.y[0]:.2f} m to {soil.y[-1]:.2f} m upwards; nodes {number(soil.spacing, 'm')} apart.")
     return (f'<figure><strong>Map of the ruts</strong><br><img src="{png(colours.round())}" alt="Map of the ruts" '
-            f'style="width:100%;image-rendering:pixelated">{bar}<figcaption>{words}</figcaption></figure>')
+            f'class="map">{bar}<figcaption>{words}</figcaption></figure>')
 
 
 def road_wheels(run, side):

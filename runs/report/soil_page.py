@@ -94,7 +94,7 @@ def details(soil):
     for test in soil.json.get("tests", []):
         p = test["porosity"]
         # In the file, 0 means that a test does not record the quantity.
-        rows.append([esc(test["name"]), str(test["tests"]),
+        rows.append([esc(test["name"]), esc(test["tests"]),
                      with_bar(p["value"], p["half_width"], "", test["name"] + " porosity"),
                      *(number(test[what]) if test[what] else "" for what in ("grains", "steps", "seconds"))])
     return table(["test", "tests", "porosity", "grains", "steps", "wall time [s]"], rows,

@@ -21,7 +21,7 @@ def find():
 
 
 class Browser:
-    """`open(file)`, `value("1 + 1")`, `press("Tab")`, `errors` (of the console), `requests` (addresses)."""
+    """`open(file)`, `value("1 + 1")`, `press("Tab")`, `errors` (of the console), `requests` (addresses), `dialogs`."""
 
     def __init__(self):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
@@ -35,7 +35,7 @@ class Browser:
         os.close(to_read)
         os.close(to_write)
         self.number, self.rest, self.session = 0, b"", None
-        self.errors, self.requests, self.loaded = [], [], False
+        self.errors, self.requests, self.dialogs, self.loaded = [], [], [], False
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
@@ -78,6 +78,8 @@ class Browser:
             self.errors.append(told["entry"]["text"])
         elif kind == "Network.requestWillBeSent":
             self.requests.append(told["request"]["url"])
+        elif kind == "Page.javascriptDialogOpening":
+            self.dialogs.append(told["message"])
         elif kind == "Page.loadEventFired":
             self.loaded = True
 
@@ -111,7 +113,7 @@ class Browser:
             time.sleep(0.05)
 
     def open(self, file):
-        self.errors, self.requests, self.loaded = [], [], False
+        self.errors, self.requests, self.dialogs, self.loaded = [], [], [], False
         self.call("Page.navigate", url=f"file://{file}")
         self.until("document.readyState === 'complete' && location.href.startsWith('file:')")
 
