@@ -24,6 +24,7 @@ matplotlib.rcParams.update({
     "lines.linewidth": 1.4,
     "legend.frameon": False,
     "font.size": 10,
+    "text.parse_math": False,  # names and titles of scenes may contain $
 })
 
 EXIT_STATUS = """Exit status: 0 (also if there is nothing to draw); 2: wrong arguments; 3: missing Python package, named
@@ -49,10 +50,26 @@ class Ticks(ticker.Formatter):
         return text if power == 0 else f"{text}e{power}".replace("e-", "e\u2212")
 
 
+class LogTicks(ticker.LogFormatterSciNotation):
+    """Tick labels of a logarithmic axis as plain text: 10\u207b\u00b2 instead of $10^{-2}$."""
+
+    def __call__(self, value, at=None):
+        text = re.sub(r"[$]|\\mathdefault|\\times", lambda found: "\u00d7" if "times" in found[0] else "",
+                      super().__call__(value, at))
+        return re.sub(r"\^\{(.*?)\}", lambda power: power[1].translate(RAISED), text).strip("{}")
+
+
+RAISED = str.maketrans("0123456789-\u2212", "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079\u207b\u207b")
+
+
 def save(figure, path, dpi):
-    """Writes a picture with readable linear axes: complete tick labels, no ranges below rounding."""
+    """Writes a picture with readable axes: complete tick labels without mathtext, no linear ranges below rounding."""
     for axes in figure.axes:
         for axis, limits, widen in ((axes.xaxis, axes.get_xlim, axes.set_xlim), (axes.yaxis, axes.get_ylim, axes.set_ylim)):
+            for now, change in ((axis.get_major_formatter(), axis.set_major_formatter),
+                                (axis.get_minor_formatter(), axis.set_minor_formatter)):
+                if type(now) is ticker.LogFormatterSciNotation:
+                    change(LogTicks(labelOnlyBase=now.labelOnlyBase, minor_thresholds=now.minor_thresholds))
             if axis.get_scale() != "linear" or not isinstance(axis.get_major_formatter(), ticker.ScalarFormatter):
                 continue
             low, high = limits()
@@ -63,6 +80,11 @@ def save(figure, path, dpi):
                 widen(low - 1e-3 * most, high + 1e-3 * most)
             axis.set_major_formatter(Ticks())
     figure.savefig(path, dpi=dpi)
+
+
+def label(name):
+    """A user's name as the label of a curve: matplotlib omits labels that begin with _ from legends."""
+    return f"\u200b{name}" if name and name.startswith("_") else name
 
 
 def legend_above(axes, columns=3, size=8):

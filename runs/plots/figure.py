@@ -33,9 +33,9 @@ def panel(axes, run, plot):
     if plot["sum"]:
         curves = [sum(curves)]
     for values, label in zip(curves, plot.get("labels", [None] * len(curves))):
-        axes.plot(x, values, label=label, linewidth=1.2)
+        axes.plot(x, values, label=drawing.label(label), linewidth=1.2)
     for k, (level, label) in enumerate(zip(plot.get("levels", []), plot.get("level_labels", []))):
-        axes.axhline(level, color="black", linewidth=1.0, linestyle=("--", ":", "-.")[k % 3], label=label)
+        axes.axhline(level, color="black", linewidth=1.0, linestyle=("--", ":", "-.")[k % 3], label=drawing.label(label))
     axes.set_xlabel(plot["x_label"])
     axes.set_ylabel(plot["y_label"])
     axes.set_xlim(plot.get("x_range"))

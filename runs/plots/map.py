@@ -37,11 +37,6 @@ def column_of(column):
     return sorted(column["rows"], key=lambda row: row["level"])
 
 
-def plain(word):
-    """Text with mathtext escaped."""
-    return word.replace("$", r"\$")
-
-
 def band(column, levels):
     """Hardest go and easiest no-go, or the ends of the levels, which are sorted from easiest to hardest."""
     limit = column["limits"][0] if column["limits"] else {"go": None, "no_go": None}
@@ -87,10 +82,10 @@ def draw(path):
     axis.set_ylim(edges(levels)[0], max([edges(levels)[-1], *(1.05 * b for b in blocks if b is not None)]))
     margin = 0.04 * (places[-1] - places[0])
     axis.set_xlim(places[0] - margin, places[-1] + margin)
-    axis.set_xlabel(plain(results["key"]))
+    axis.set_xlabel(results["key"])
     axis.set_ylabel(results["level_is"])
     if not values:
-        axis.set_xticks(places, [plain(column["value"]) for column in columns])
+        axis.set_xticks(places, [column["value"] for column in columns])
     drawing.legend_above(axis, columns=5)
     figure.suptitle(f"{results['title']}: {results['vehicle']} on {results['soil']}, ground {results['ground']}, "
                     f"commit {results['commit']}", fontsize=9)

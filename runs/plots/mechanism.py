@@ -19,7 +19,7 @@ def paths(axis, bodies):
     flat = int(numpy.argmin(spread[::-1]))  # equal extents: omits the last axis
     across, up = [k for k in range(3) if k != 2 - flat]
     for name, values in list(bodies.items())[:MOST_BODIES]:
-        line, = axis.plot(values[:, across], values[:, up], label=name, linewidth=1.0)
+        line, = axis.plot(values[:, across], values[:, up], label=drawing.label(name), linewidth=1.0)
         axis.plot(values[-1:, across], values[-1:, up], "o", markersize=4, color=line.get_color())
     axis.set_aspect("equal", adjustable="datalim")
     axis.set_xlabel(f"{AXES[across]} [m]")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Plots: complete tick labels, legends next to the curves, no empty or duplicate panels."""
+import json
 import re
 import sys
 import unittest
@@ -16,9 +17,14 @@ import grouser
 import bed
 import check
 import check_page
+import compare
 import drawing
 import drive
+import event_drawbar
+import events
+import figure
 import ledger
+import map as mobility_map
 import mechanism
 import page
 import run_page
@@ -252,6 +258,62 @@ class Doubtful(FolderTest):
         def seconds(**figures):
             return float(re.search(r'value="([^"]+)"', run_page.wall_time({"wall_time_s": 10.0, "steps": 3000, "figures": figures}))[1])
         self.assertEqual([seconds(), seconds(resumed_at_step=1500), seconds(resumed_at_step=3000)], [10, 20, 10])
+
+
+class Texts(FolderTest):
+    """Names, titles and values are drawn as they are: $ does not start a formula, and _ does not hide a label."""
+
+    BAD = (r"$\frac$", "$x", "_arm", r"a\$b$c", "<b>&amp;</b>", "50 % $_{", "100 $ to 200 $")
+
+    def texts(self, figure):
+        drawing.save(figure, "picture.png", 80)
+        return [text.get_text().lstrip("\u200b") for text in figure.findobj(drawing.matplotlib.text.Text)]
+
+    def test_of_selected_columns(self):
+        for bad in self.BAD[:5]:
+            title = bad.replace("<b>", "b")
+            scene = "[[output.plot]]\n" + "".join(f"{key} = {json.dumps(value)}\n" for key, value in (
+                ("x", "time"), ("y", ["ledger.kinetic"]), ("labels", [bad]), ("title", title), ("x_label", bad), ("y_label", bad),
+                ("levels", [1.0]), ("level_labels", [bad + "1"]), ("sum", False), *(
+                    (f"{axis}_{what}", value) for axis in "xy" for what, value in (("scale", 1.0), ("offset", 0.0), ("from_start", False)))))
+            with h5py.File(written("results.h5"), "r+") as results:
+                results.attrs["scene"] = scene
+                results["ledger/kinetic"].attrs["unit"] = bad
+            with h5py.File("results.h5") as results:
+                texts = self.texts(figure.plot(series.Run(results)))
+            self.assertEqual([text for text in (bad, bad + "1", title) if text not in texts], [])
+
+    def test_of_bodies(self):
+        bodies = {f"bodies/{name.replace('/', '')}/position": numpy.stack([TIME + k, TIME, 0 * TIME], 1)
+                  for k, name in enumerate(self.BAD)}
+        error = 1e-12 * numpy.exp(-TIME)
+        with h5py.File(written("results.h5", **bodies, **{"ledger/elastic": error, "constraints/position_error": error})) as file:
+            drawn = mechanism.plot(series.Run(file))
+        texts = self.texts(drawn)
+        self.assertEqual([name for name in self.BAD if name.replace("/", "") not in texts], [])
+        self.assertFalse([text for text in texts if "mathdefault" in text], "tick labels of a logarithmic axis")
+
+    def test_of_tables_and_campaigns(self):
+        def put(value, name="in.json"):
+            (self.folder / name).write_text(value if isinstance(value, str) else json.dumps(value), encoding="utf-8")
+            return name
+        for bad in self.BAD[:2]:
+            row = {"event": bad, "level": 1.0, "verdict": bad, "why": bad, "figures": [
+                {"name": "speed [m/s]", "mean": 1.0, "half_width": 0.1}, {"name": "drawbar pull [N]", "mean": 1.0, "half_width": 0.1}]}
+            told = {"vehicle": bad, "soil": bad, "seeds": 3, "commit": bad, "rows": [row, {**row, "level": 2.0}]}
+            shown = [self.texts(events.draw(put(told)))]
+            told["rows"] = [{**one, "event": "drawbar"} for one in told["rows"]]
+            shown.append(self.texts(event_drawbar.draw(put(told))))
+            columns = [{"value": bad + n, "speed_m_s": 1.0, "limits": [], "rows": told["rows"]} for n in "12"]
+            shown.append(self.texts(mobility_map.draw(put({"columns": columns, "key": bad, "level_is": bad, "title": bad, "vehicle": bad,
+                                                           "soil": bad, "ground": bad, "commit": bad}))))
+            means = [{"mean": 1.0, "half_width": 0.1}] * 2
+            shown.append(self.texts(compare.draw(put({"scene": f"{bad.replace('/', '')}.toml", "variants": [
+                {"variant": bad + n, "wall_time_per_second": 1.0} for n in "12"], "rows": [{"figure": f"{bad} force x", "means": means}]}))))
+            table = f'run,"{bad}",status,slip [-]\na,"{bad}",finished,0.1\nb,"{bad}2",finished,0.2\n'
+            shown.append(self.texts(sweep.draw(put(table, "summary.csv"))))
+            plain = str.maketrans("_", " ", "/")
+            self.assertTrue(all(any(bad.translate(plain) in text.translate(plain) for text in texts) for texts in shown), bad)
 
 
 class Numbers(unittest.TestCase):
