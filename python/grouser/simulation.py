@@ -90,7 +90,8 @@ class Simulation:
 
     Several simulations can exist at the same time; only one thread at a time may use each of them. Start processes with
     multiprocessing's "spawn" method: a forked process cannot run the threads of a simulation. `step()` releases the
-    GIL; Ctrl-C interrupts it between two steps. Methods raise InputError, SimulationError and DeviceError.
+    GIL; Ctrl-C interrupts it between two steps. When the interpreter exits, it ends steps in daemon threads between two
+    steps, and these threads with SystemExit. Methods raise InputError, SimulationError and DeviceError.
     """
 
     __slots__ = ("__weakref__", "_run", "_seen", "warnings")
@@ -196,11 +197,11 @@ class Simulation:
         unknown (zero or NaN).
         """
         if self._seen[0] != self.steps:
-            state = self._run.vehicle()
-            for side in ("left", "right"):
-                state[side] = SimpleNamespace(**state[side]) if state[side] else None
-            self._seen = (self.steps, SimpleNamespace(**state))
-        return self._seen[1]
+            self._seen = (self.steps, self._run.vehicle())
+        state = dict(self._seen[1])  # a copy: changes by the caller remain in it
+        for side in ("left", "right"):
+            state[side] = SimpleNamespace(**state[side]) if state[side] else None
+        return SimpleNamespace(**state)
 
     @property
     @briefly

@@ -11,8 +11,12 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <optional>
+#include <thread>
+#include <unistd.h>
 #include <utility>
 
 namespace py = pybind11;
@@ -46,12 +50,70 @@ py::array vector(const Vec3& v) { return copied(std::vector<double>{v.x, v.y, v.
 
 Vec3 threeOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
+/// The interpreter exits, and ends daemon threads. Becomes SystemExit, which ends a thread without a message.
+struct Exiting : std::exception {
+  const char* what() const noexcept override { return "the interpreter exits"; }
+};
+
+/// Threads inside the library, which run without the GIL. When the interpreter exits, it ends each other thread that
+/// requests the GIL, by an exception that C++ code must not stop: the process would abort. Therefore wait(), an exit
+/// function of Python, lets these threads leave the library first. Afterwards only the exiting thread may enter it.
+class ExitGuard {
+public:
+  /// Held by a thread inside the library; constructed and destroyed with the GIL.
+  class Inside {
+  public:
+    explicit Inside(ExitGuard& guard) : guard_(guard) { guard_.requireEntry(), ++guard_.inside_; }
+    Inside(const Inside&) = delete;
+    Inside& operator=(const Inside&) = delete;
+    ~Inside() { --guard_.inside_; }
+
+  private:
+    ExitGuard& guard_;
+  };
+
+  /// Whether this thread must leave the library; with or without the GIL.
+  bool mustLeave() const { return exits_ && std::this_thread::get_id() != exiting_; }
+  void requireEntry() const {
+    if (mustLeave()) throw Exiting();
+  }
+
+  /// Waits until the other threads have left the library. Ctrl-C ends the process at once.
+  void wait() {
+    if (getpid() != process_) return; // a forked process has no copy of these threads
+    exiting_ = std::this_thread::get_id(), exits_ = true;
+    const auto start = std::chrono::steady_clock::now();
+    for (bool isNoted = false; inside_ > 0;) {
+      {
+        py::gil_scoped_release release;
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+      if (PyErr_CheckSignals() != 0) std::signal(SIGINT, SIG_DFL), std::raise(SIGINT);
+      if (isNoted || std::chrono::steady_clock::now() - start < std::chrono::seconds(5)) continue;
+      isNoted = true;
+      PySys_WriteStderr("grouser: waiting for a simulation in another thread; Ctrl-C ends the process\n");
+    }
+  }
+
+private:
+  const pid_t process_ = getpid();
+  std::atomic<bool> exits_{false};
+  std::thread::id exiting_;
+  std::atomic<int> inside_{0};
+};
+
+ExitGuard& exitGuard() {
+  static ExitGuard guard;
+  return guard;
+}
+
 /// A simulation used by one thread at a time.
 class Simulation {
 public:
   Simulation(const std::string& scene, const std::filesystem::path& place, grouser::Options options,
              const std::optional<std::filesystem::path>& checkpoint) {
     const grouser::Scene of = grouser::Scene::fromText(scene, place.parent_path(), place.filename().string());
+    const ExitGuard::Inside inside(exitGuard());
     py::gil_scoped_release release;
     run_.emplace(checkpoint ? grouser::Simulation::resumed(of, *checkpoint, options)
                             : grouser::Simulation(of, options));
@@ -62,12 +124,14 @@ public:
     filledAt_ = -1;
     free([&](grouser::Simulation& run) {
       run.step(count, [&] {
+        if (exitGuard().mustLeave()) return false;
         py::gil_scoped_acquire acquire;
         interrupted = PyErr_CheckSignals() != 0;
         return !interrupted;
       });
     });
     if (interrupted) throw py::error_already_set();
+    exitGuard().requireEntry();
   }
 
   /// A view of a buffer that is refilled after a step, or replaced if Python still references the old view.
@@ -103,6 +167,7 @@ public:
 
   template <class Call> void free(const Call& call) {
     grouser::Simulation& run = used();
+    const ExitGuard::Inside inside(exitGuard());
     const Busy busy(busy_);
     py::gil_scoped_release release;
     call(run);
@@ -182,9 +247,13 @@ py::dict grainsOf(Simulation& simulation) {
 PYBIND11_MODULE(_core, m) {
   m.attr("version") = grouser::version();
   m.attr("commit") = grouser::commit();
+  exitGuard();
+  py::module_::import("atexit").attr("register")(py::cpp_function([] { exitGuard().wait(); }));
   py::register_exception_translator([](std::exception_ptr thrown) { // NOLINT(performance-unnecessary-value-param)
     try {
       if (thrown) std::rethrow_exception(thrown);
+    } catch (const Exiting&) {
+      PyErr_SetNone(PyExc_SystemExit);
     } catch (const grouser::InputError& error) {
       raise("InputError", 2, error.what());
     } catch (const grouser::SimulationError& error) {
@@ -201,6 +270,7 @@ PYBIND11_MODULE(_core, m) {
         grouser::Options o;
         o.device = device, o.threads = threads, o.folder = folder, o.overwrite = overwrite, o.cache = cache;
         o.settling = [settling](double time, double energy) {
+          exitGuard().requireEntry();
           py::gil_scoped_acquire acquire;
           if (PyErr_CheckSignals() != 0) throw py::error_already_set();
           if (settling) settling(time, energy);

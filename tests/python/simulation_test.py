@@ -5,6 +5,8 @@ import os
 import gc
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -255,6 +257,147 @@ class Process(FolderTest):
             with self.assertRaises(grouser.InputError):
                 sim.step(2**62)
             self.assertEqual(sim.steps, 0)
+
+
+class Copies(FolderTest):
+    def test_the_state_of_a_vehicle_is_a_copy(self):
+        with grouser.Simulation(vehicle_scene(), threads=1) as sim:
+            sim.step(20)
+            held, again = sim.vehicle, sim.vehicle
+            self.assertIsNot(held, again)
+            kept = {name: numpy.copy(getattr(held, name)) for name in ("position", "velocity", "ground_force")}
+            tension, time_ = held.left.tension.copy(), held.time
+            again.speed, again.left.slip, again.right = 99.0, 99.0, None
+            again.extra = 1
+            self.assertNotEqual(held.speed, 99.0)
+            self.assertNotEqual(held.left.slip, 99.0)
+            self.assertEqual(sim.vehicle.speed, held.speed)
+            self.assertEqual(sim.vehicle.right.drive_torque, held.right.drive_torque)
+            self.assertFalse(hasattr(sim.vehicle, "extra"))
+            sim.step(50)
+            self.assertEqual(held.time, time_)
+            self.assertGreater(sim.vehicle.time, time_)
+            for name, value in kept.items():
+                numpy.testing.assert_array_equal(getattr(held, name), value)
+            numpy.testing.assert_array_equal(held.left.tension, tension)
+            self.assertTrue((sim.vehicle.left.tension != tension).any())
+
+    def test_all_observations_are_copies_that_outlive_the_simulation(self):
+        def arrays(*found):
+            for one in found:
+                for value in vars(one).values():
+                    if isinstance(value, numpy.ndarray):
+                        yield value
+        for scene, arrays_of in ((vehicle_scene(), lambda sim: [*arrays(sim.vehicle, sim.vehicle.left),
+                                                                *arrays(*sim.bodies().values())]),
+                                 (grouser.Scene(FALL), lambda sim: [sim.positions, sim.positions[:, 2], *arrays(sim.grains())])):
+            sim = grouser.Simulation(scene, threads=1)
+            sim.step(5)
+            held, ledger = arrays_of(sim), sim.energies()
+            before, kinetic = [value.copy() for value in held], ledger.kinetic
+            self.assertGreater(len(held), 5)
+            self.assertFalse(any(value.flags.writeable for value in held))
+            sim.step(20)
+            sim.energies().kinetic = -1
+            self.assertGreater(sim.energies().kinetic, 0)
+            sim.close()
+            del sim
+            gc.collect()
+            self.assertEqual(ledger.kinetic, kinetic)
+            for value, was in zip(held, before):
+                numpy.testing.assert_array_equal(value, was)
+
+
+#: Threads that are inside the library when the interpreter exits.
+INSIDE = """import atexit, sys, threading, time
+sys.path[:0] = {path!r}
+import grouser
+from simulation_test import FALL, vehicle_scene
+scene = grouser.Scene(FALL) if {kind!r} == "grains" else vehicle_scene()
+if {kind!r} == "grains":
+    scene["run.gravity"] = [0, 0, 0]
+ready, stopped = threading.Event(), []
+def work():
+    sim = grouser.Simulation(scene, threads=1)
+    try:
+        ready.set()
+        while True:
+            sim.step({count})
+    except SystemExit:
+        stopped.append(sim.steps)
+        raise
+thread = threading.Thread(target=work, daemon=True)
+other = grouser.Simulation(grouser.Scene(FALL), threads=1)
+def at_exit():  # runs after the wait for the thread
+    other.step(1)
+    print("steps", other.steps, flush=True)
+atexit.register(at_exit)
+thread.start()
+ready.wait()
+time.sleep({pause})
+{end}
+"""
+
+
+class Exit(FolderTest):
+    def ended(self, kind="grains", count=10**9, pause=0.1, end="", code=INSIDE, seconds=60):
+        text = code.format(path=sys.path[:2] + [str(ROOT / "tests/python")], kind=kind, count=count, pause=pause, end=end)
+        return subprocess.run(["/usr/bin/python3", "-B", "-c", text], capture_output=True, text=True, timeout=seconds)
+
+    def test_a_daemon_thread_in_a_step_does_not_abort_the_process(self):
+        for kind in ("grains", "vehicle"):
+            for count in (1, 50, 10**9):
+                done = self.ended(kind, count)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), (kind, count))
+                self.assertEqual(done.stdout, "steps 1\n")
+
+    def test_the_exit_code_is_that_of_the_main_thread(self):
+        for end, code, words in (("sys.exit(7)", 7, ""), ("raise ValueError('the end')", 1, "ValueError: the end"),
+                                 ("import os, signal; os.kill(os.getpid(), signal.SIGINT); time.sleep(9)", -signal.SIGINT,
+                                  "KeyboardInterrupt")):
+            done = self.ended(end=end)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertNotIn("Exception in thread", done.stderr)
+            self.assertEqual(done.stdout, "steps 1\n")
+
+    def test_a_bed_that_settles_in_a_daemon_thread_does_not_abort_the_process(self):
+        code = """import sys, threading
+sys.path[:0] = {path!r}
+import grouser
+settles = threading.Event()
+scene = grouser.Scene.read("{end}")
+thread = threading.Thread(target=grouser.Simulation, args=(scene,), daemon=True, kwargs=dict(
+    threads=1, cache=False, settling=lambda time, energy: settles.set()))
+thread.start()
+settles.wait()
+"""
+        done = self.ended(end=ROOT / "tests/scenes/coupled.toml", code=code)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_forked_process_does_not_wait_for_threads_of_its_parent(self):
+        end = "import os\nchild = os.fork()\nif child: assert os.waitpid(child, 0)[1] == 0\nelse: atexit.unregister(at_exit)"
+        done = self.ended(end=end)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_thread_that_does_not_leave_the_library_can_be_interrupted(self):
+        code = """import signal, sys, threading, time
+sys.path[:0] = {path!r}
+import grouser
+held = threading.Event()
+def settling(time_, energy):
+    held.set()
+    time.sleep(600)  # a callback that keeps its thread
+scene = grouser.Scene.read("{end}")
+threading.Thread(target=grouser.Simulation, args=(scene,), daemon=True, kwargs=dict(
+    threads=1, cache=False, settling=settling)).start()
+held.wait()
+timer = threading.Timer(0.5, signal.raise_signal, (signal.SIGINT,))
+timer.daemon = True
+timer.start()
+"""
+        done = self.ended(end=ROOT / "tests/scenes/coupled.toml", code=code)
+        self.assertEqual(done.returncode, -signal.SIGINT, done.stderr)
 
 
 if __name__ == "__main__":
