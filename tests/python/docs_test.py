@@ -268,6 +268,29 @@ class Tutorial(Followed):
         self.assertIn("is outside [0, 1000]", refused.stderr)
 
 
+class QuickStart(FolderTest):
+    def test_builds_the_python_module_and_prints_how_to_use_it(self):
+        """With an empty build: the lines that the script prints at its end work in another folder."""
+        house = self.folder / "a house"
+        (house / "runs").mkdir(parents=True)
+        (house / "runs/quickstart").write_text((ROOT / "runs/quickstart").read_text())
+        (house / "runs/packages.sh").write_text(
+            'install_packages() { :; }\n'
+            'configure_and_build() { echo "$@" >targets; mkdir -p "$1/bin"; ln -s /bin/true "$1/bin/grouser"; }\n')
+        (house / "python").symlink_to(ROOT / "python")
+        done = subprocess.run(["bash", str(house / "runs/quickstart")], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual((house / "targets").read_text().split(), ["build", "grouser", "grouser_python"])
+        lines = done.stdout.rstrip().split("\n")[-2:]
+        environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        told = subprocess.run(["bash", "-c", "\n".join(lines)], capture_output=True, text=True, env=environment)
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertRegex(told.stdout, r"^\d\.\d+ m/s, state hash [0-9a-f]{16}\n$")
+        page = (ROOT / "docs/quickstart.md").read_text()
+        for line in ("export PYTHONPATH=$PWD/python", "/usr/bin/python3 python/examples/hello_world.py"):
+            self.assertIn(f"    {line}\n", page)
+
+
 class Site(FolderTest):
     def site(self, root):
         return subprocess.run([str(root / "docs/site"), str(self.folder / "site")], capture_output=True, text=True)
