@@ -43,6 +43,32 @@ size = [0.02, 0.02, 0.02]
 [output]""").replace('[[grains]]', '[[box]]\nname = "wall"\nmaterial = "sand"\nposition = [0.2, 0, 0.1]\nsize = [0.01, 0.1, 0.1]\n[[grains]]')
 
 
+EACH = [{"run": "a", "verdict": "go", "why": "far"}, {"run": "b", "verdict": "no-go", "why": "stuck"}]
+ROW = {"event": "grade", "title": "Up a slope", "level": 0.1, "level_is": "slope", "picture": "", "verdict": "partly",
+       "runs": 2, "go": 1, "failed": 0, "pending": 0, "why": "throws", "each": EACH,
+       "figures": [{"name": "speed", "runs": 2, "mean": 1.0, "half_width": 0.1}]}
+OTHER = {**copy.deepcopy(ROW), "level": 0.2, "each": [], "why": "one", "failed": "two"}
+EVENTS = {"command": "c", "commit": "0123", "machine": "this", "vehicle": "light", "soil": "sand", "seeds": "three",
+        "speed_m_s": 0.5, "rows": [ROW, OTHER], "left_out": {"a": "why"}, "limits": [
+            {"event": "grade", "level_is": "slope", "go": 0.2, "no_go": None, "reference": "some", "agrees": True}]}
+CONSTANT = {"value": 0.8, "half_width": 0.1, "unit": "-", "published": [{"value": 0.79, "source": "a book"}],
+            "span": [0.7, 0.9], "verdict": "inside", "inconclusive": ""}
+SOIL = {"soil": "sand", "care": "coarse", "grain_radius_m": 0.007, "version": "0.1.0", "commit": "0123abc", "machine": "m",
+        "constants": {"n": CONSTANT, "phi": {**CONSTANT, "published": [], "inconclusive": "doubt"}},
+        "plates": [{"k": {"value": 244.0, "half_width": 1.0, "unit": "kPa"}}], "breadth_m": [0.1],
+        "shear": {"peak": {"value": 31.0, "half_width": 0.5, "unit": "deg"}}, "tests_with_shorter_steps": ["a", "b"],
+        "tests": [{"name": "plate", "tests": "two", "porosity": {"value": 0.4, "half_width": 0.1}, "grains": 3, "steps": 4,
+                   "seconds": 5}]}
+VALUE = {"value": 27.0, "half_width": 0.7, "unit": "deg"}
+TRIALS = [{"name": name, "kind": "shear", "measured": {"phi": VALUE}, "parameters": {"law": "hertz", "young": young}}
+          for name, young in (("one", 1e7), ("two", 2e7))]
+CALIBRATION = {"soil": "sand", "targets_file": "wanted.toml", "care": "full", "status": "finished", "grain_radius_m": 0.007,
+         "targets": [{"quantity": "phi", "wanted": 31.1, "unit": "deg", "tolerance": 1.0}], "trials": TRIALS,
+         "outcomes": [{"what": "phi", "wanted": 31.1, "tolerance": 1.0, "reached": VALUE, "verdict": "near"}],
+         "missing": {"trial": "two", "tests": "some"}, "command": "c", "machine": "m", "version": "0", "commit": "1",
+         "soil_file": "sand.toml", "tests": "final"}
+
+
 class Poison:
     """Replaces texts by the vectors, in turn; `used` lists them."""
 
@@ -208,17 +234,9 @@ class Shown(PageTest):
 
     def test_events(self):
         self.kind = "events"
-        each = [{"run": "a", "verdict": "go", "why": "far"}, {"run": "b", "verdict": "no-go", "why": "stuck"}]
-        row = {"event": "grade", "title": "Up a slope", "level": 0.1, "level_is": "slope", "picture": "", "verdict": "partly",
-               "runs": 2, "go": 1, "failed": 0, "pending": 0, "why": "throws", "each": each,
-               "figures": [{"name": "speed", "runs": 2, "mean": 1.0, "half_width": 0.1}]}
-        other = {**copy.deepcopy(row), "level": 0.2, "each": [], "why": "one", "failed": "two"}
-        told = {"command": "c", "commit": "0123", "machine": "this", "vehicle": "light", "soil": "sand", "seeds": "three",
-                "speed_m_s": 0.5, "rows": [row, other], "left_out": {"a": "why"}, "limits": [
-                    {"event": "grade", "level_is": "slope", "go": 0.2, "no_go": None, "reference": "some", "agrees": True}]}
         poison, folder = Poison(), self.folder / "events"
         folder.mkdir()
-        told = poison.json(told, (), {"left_out"})
+        told = poison.json(EVENTS, (), {"left_out"})
         for word in ("event", "title", "level_is"):  # rows of one event
             told["rows"][1][word] = told["rows"][0][word]
         told["rows"][1]["figures"][0]["name"] = told["rows"][0]["figures"][0]["name"]
@@ -226,31 +244,15 @@ class Shown(PageTest):
         self.shows("events", poison)
 
     def test_a_soil_and_a_calibration(self):
-        constant = {"value": 0.8, "half_width": 0.1, "unit": "-", "published": [{"value": 0.79, "source": "a book"}],
-                    "span": [0.7, 0.9], "verdict": "inside", "inconclusive": ""}
-        soil = {"soil": "sand", "care": "coarse", "grain_radius_m": 0.007, "version": "0.1.0", "commit": "0123abc", "machine": "m",
-                "constants": {"n": constant, "phi": {**constant, "published": [], "inconclusive": "doubt"}},
-                "plates": [{"k": {"value": 244.0, "half_width": 1.0, "unit": "kPa"}}], "breadth_m": [0.1],
-                "shear": {"peak": {"value": 31.0, "half_width": 0.5, "unit": "deg"}}, "tests_with_shorter_steps": ["a", "b"],
-                "tests": [{"name": "plate", "tests": "two", "porosity": {"value": 0.4, "half_width": 0.1}, "grains": 3, "steps": 4,
-                           "seconds": 5}]}
         poison, folder = Poison(), self.folder / "soil"
         folder.mkdir()
-        (folder / "soil.json").write_text(json.dumps(poison.json(soil, {"care"}, {"shear"})))
+        (folder / "soil.json").write_text(json.dumps(poison.json(SOIL, {"care"}, {"shear"})))
         self.kind = "soil"
         self.shows("soil", poison, title=f"{poison.used[0]} (soil)")
-        value = {"value": 27.0, "half_width": 0.7, "unit": "deg"}
-        trials = [{"name": name, "kind": "shear", "measured": {"phi": value}, "parameters": {"law": "hertz", "young": young}}
-                  for name, young in (("one", 1e7), ("two", 2e7))]
-        found = {"soil": "sand", "targets_file": "wanted.toml", "care": "full", "status": "finished", "grain_radius_m": 0.007,
-                 "targets": [{"quantity": "phi", "wanted": 31.1, "unit": "deg", "tolerance": 1.0}], "trials": trials,
-                 "outcomes": [{"what": "phi", "wanted": 31.1, "tolerance": 1.0, "reached": value, "verdict": "near"}],
-                 "missing": {"trial": "two", "tests": "some"}, "command": "c", "machine": "m", "version": "0", "commit": "1",
-                 "soil_file": "sand.toml", "tests": "final"}
         for status in ("finished", "unfinished"):
             poison, folder = Poison(), self.folder / f"found_{status}"
             shutil.copytree(self.folder / "soil", folder / "final")
-            told = poison.json({**found, "status": status, "outcomes": found["outcomes"] if status == "finished" else []},
+            told = poison.json({**CALIBRATION, "status": status, "outcomes": CALIBRATION["outcomes"] if status == "finished" else []},
                                {"care", "status", "tests", "soil_file", "quantity"})
             for trial in told["trials"]:  # further keys
                 trial["parameters"][IMAGE] = IMAGE
@@ -313,6 +315,10 @@ class Leaves(FolderTest):
         for run in (self.folder / "check").glob("*,seed=*"):  # without these, the page is quicker
             shutil.rmtree(run)
         (self.folder / "check/series.csv").unlink()
+        for name, kind, told in (("soil", "soil test", SOIL), ("events", "series of events", EVENTS), ("calibration", "calibration", CALIBRATION)):
+            (self.folder / name).mkdir()
+            (self.folder / name / f"{name}.json").write_text(json.dumps({**told, "tests": "../soil"} if name == "calibration" else told))
+            self.assertGreater(self.none_escapes(self.folder / name / f"{name}.json", kind), 10)
         self.assertGreater(self.none_escapes(self.folder / "check/check.json", "check"), 20)
 
 
