@@ -191,8 +191,6 @@ Strands cutBeside(const vehicle::Assembly& v, int track, const multibody::State&
 
 class PinTension : public ::testing::TestWithParam<const char*> {};
 
-} // namespace
-
 /// A slow turn, in which one sprocket drives and the other one brakes: the tension of the strands balances the
 /// tensioner on the idler, and the drive torque on the sprocket. Means over a tooth passage of the faster track.
 TEST_P(PinTension, BalancesIdlerAndSprocket) {
@@ -229,3 +227,5 @@ TEST_P(PinTension, BalancesIdlerAndSprocket) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Vehicles, PinTension, ::testing::Values("light_tracked", "m113_like", "robot"));
+
+} // namespace
