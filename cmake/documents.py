@@ -69,9 +69,9 @@ def install(prefix, share, doc, python):
         file.parent.mkdir(parents=True, exist_ok=True)
         file.write_text(fitted(document.read_text(encoding="utf-8"), name, prefix, share, doc, python), encoding="utf-8")
         file.chmod(0o644)
-    print(";".join(made), end="")
+    return made
 
 
 if __name__ == "__main__":
     os.umask(0o022)  # readable for all users
-    install(*sys.argv[1:])
+    print(";".join(install(*sys.argv[1:])), end="")

@@ -70,7 +70,6 @@ libtomlplusplus-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, pkg-config")
 
 # Permissions of files as required by Debian policy, whatever the umask; no Python bytecode.
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS ${executable})
 set(debian ${PROJECT_SOURCE_DIR}/cmake/debian)
 foreach(script postinst prerm)
   configure_file(${debian}/${script} debian/${script} @ONLY)
@@ -80,5 +79,6 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${debian}/finish.cmake)
 set(CPACK_GROUSER_SUFFIX "${suffix}")
+set(CPACK_GROUSER_ARCHITECTURE ${CMAKE_CXX_LIBRARY_ARCHITECTURE})
 set(CPACK_GROUSER_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
 include(CPack)

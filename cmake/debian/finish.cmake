@@ -15,6 +15,17 @@ grouser_call(gzip -9nf ${pages})
 if(CPACK_GROUSER_SUFFIX)
   file(RENAME ${stage}/program/usr/share/doc/grouser ${stage}/program/usr/share/doc/grouser${CPACK_GROUSER_SUFFIX})
 endif()
+
+# The file of pkg-config is in the folder of the architecture.
+set(lib ${stage}/development/usr/lib)
+if(CPACK_GROUSER_ARCHITECTURE)
+  file(READ ${lib}/pkgconfig/grouser.pc text)
+  string(REGEX REPLACE "\nprefix=[^\n]*" "\nprefix=/usr" text "${text}")
+  file(WRITE ${lib}/${CPACK_GROUSER_ARCHITECTURE}/pkgconfig/grouser.pc "${text}")
+  file(CHMOD ${lib}/${CPACK_GROUSER_ARCHITECTURE}/pkgconfig/grouser.pc PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  file(REMOVE_RECURSE ${lib}/pkgconfig)
+endif()
+
 grouser_call(date -R)
 set(now "${said}")
 foreach(component program development)
@@ -35,7 +46,10 @@ foreach(component program development)
   foreach(installer IN LISTS installers)
     file(WRITE ${installer} "debian\n")
   endforeach()
-  # These files and folders have the umask of this call, or the permissions of the checkout.
-  file(CHMOD_RECURSE ${folder} DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ
-       WORLD_EXECUTE FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  # Some folders have the umask of this call, some files the permissions of the checkout.
+  set(readable OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ)
+  set(searchable ${readable} OWNER_EXECUTE GROUP_EXECUTE WORLD_EXECUTE)
+  file(CHMOD ${stage}/${component} PERMISSIONS ${searchable})
+  file(CHMOD_RECURSE ${stage}/${component}/usr DIRECTORY_PERMISSIONS ${searchable})
+  file(CHMOD_RECURSE ${folder} FILE_PERMISSIONS ${readable} DIRECTORY_PERMISSIONS ${searchable})
 endforeach()

@@ -364,7 +364,7 @@ class Installed(FolderTest):
                              ("run runs/scenes/a.toml", "run /srv/data/grouser/runs/scenes/a.toml"),
                              ("PYTHONPATH=python x", "PYTHONPATH=/srv/python x")):
             self.assertEqual(documents.fitted(text, "docs/x.md", "/opt", *layout), fitted)
-        subprocess.run([ROOT / "cmake/documents.py", "/opt", *layout], check=True,
+        subprocess.run([ROOT / "cmake/documents.py", "/opt", *layout], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "DESTDIR": str(self.folder)})
         self.assertTrue((self.folder / "srv/doc/grouser/docs/control.md").is_file())
         self.assertEqual([file.name for file in self.folder.iterdir()], ["srv"])
@@ -391,7 +391,7 @@ class Installed(FolderTest):
             (share / there).parent.mkdir(parents=True, exist_ok=True)
             copy(ROOT / source, share / there)
         shutil.copytree(ROOT / "docs", doc / "docs", ignore=shutil.ignore_patterns("*.md"))
-        subprocess.run([ROOT / "cmake/documents.py", "/opt", *self.LAYOUT], check=True,
+        subprocess.run([ROOT / "cmake/documents.py", "/opt", *self.LAYOUT], check=True, stdout=subprocess.DEVNULL,
                        env={**os.environ, "DESTDIR": str(self.folder)})
         def follow():
             done = subprocess.run([ROOT / "tests/install/documents", "/opt", self.folder], capture_output=True, text=True)
