@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -19,7 +20,8 @@ _TURNED, _SEE_MESSAGE = "direction of motion changes: ", "see message"
 
 #: Columns of summary.csv between the swept keys and the figures.
 _ABOUT = ("status", "message", "wall time [s]", "steps", "simulated time [s]")
-_BEHIND = ("state hash", "commit")
+_NOTICES = "warnings and notes"
+_BEHIND = ("state hash", "commit", _NOTICES)
 
 
 def value_of(text: str) -> float:
@@ -42,6 +44,7 @@ class SweepRun:
     figures: dict[str, float]  #: {"sinkage mean": ...}; NaN if missing; units are in Sweep.units
     state_hash: str
     folder: Path
+    notices: tuple[str, ...] = ()  #: "WARNING: ..." and "note: ..." that the run printed
 
     def doubt(self, figure: str) -> str:
         """Reason why a figure of the run is inconclusive, else ""."""
@@ -103,7 +106,9 @@ class Sweep:
                 SweepRun(row["run"], {key: row[key] for key in self.keys}, row["status"], row["message"],
                          row["message"] if row.get("inconclusive") == _SEE_MESSAGE else row.get("inconclusive", ""),
                          {split_unit(c)[0]: value_of(row[c]) for c in figures},
-                         row["state hash"], self.folder / row["run"]) for row in rows]
+                         row["state hash"], self.folder / row["run"],
+                         tuple(re.findall(r"(?:WARNING|note): .*?(?=; (?:WARNING|note): |$)", row.get(_NOTICES) or "")))
+                for row in rows]
 
     def __repr__(self) -> str:
         told = f"{self.folder}: {counted(len(self.runs), 'run')} over {', '.join(self.keys) or 'no key'}"

@@ -3,6 +3,7 @@
 
 #include "base/math.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/session/preparation.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/placement.hpp"
 #include "runs/support/print_stderr.hpp"
@@ -31,15 +32,6 @@ double pressedDiameter(const coupling::Simulation& simulation, double padWidth) 
   return random && random->grading.any() && random->grading.fineDepth >= kFine * padWidth
              ? 2 * random->radii.meanPower(1)
              : simulation.ground().structure->meanDiameter;
-}
-
-/// Preparation of the bed, or of the tile from which the bed is copied; null without a target porosity.
-const coupling::PreparationSetup* preparationOf(const coupling::GroundSetup& ground) {
-  if (!ground.grains || !ground.grains->bed) return nullptr;
-  const coupling::BedSetup& bed = *ground.grains->bed;
-  if (bed.alone) return preparationOf(*bed.alone);
-  if (bed.tile) return preparationOf(*bed.tile->ground);
-  return bed.preparation ? &*bed.preparation : nullptr;
 }
 
 } // namespace
@@ -135,7 +127,7 @@ std::string porosityWarning(double wanted, const terrain::BedStructure& bed, con
 }
 
 std::string porosityWarning(const coupling::Simulation& simulation) {
-  const coupling::PreparationSetup* preparation = preparationOf(simulation.setup().ground);
+  const coupling::PreparationSetup* preparation = session::preparationOf(simulation.setup().ground);
   const std::optional<terrain::BedStructure>& bed = simulation.ground().structure;
   return preparation && bed ? porosityWarning(preparation->porosity, *bed, simulation.setup().gravity) : "";
 }

@@ -9,6 +9,7 @@
 #include "runs/campaigns/sweeps/grounds.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/campaigns/sweeps/sweep.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
@@ -159,7 +160,7 @@ void sweepCommand(const SweepCommand& command) {
   addDeviceOverrides(fixed, command.device, command.threads);
   if (command.ground) fixed = sweeps::groundOverrides(command.scene, command.lists, fixed, *command.ground);
   const sweeps::SweepPlan plan = sweeps::planSweep(command.scene, command.lists, fixed);
-  sweeps::printNotes(plan);
+  sweeps::printNotesOf(plan);
   sweeps::SweepOptions options;
   options.program = fs::read_symlink("/proc/self/exe");
   options.folder = folder;

@@ -40,8 +40,9 @@ std::vector<double> stepsOf(std::vector<double> steps, const sweeps::CompareOpti
     throw base::InputError("--steps requires --contact: it multiplies the time step of each contact method");
   std::sort(steps.begin(), steps.end());
   const auto sameWord = [](double a, double b) { return fmt::format("{:g}", a) == fmt::format("{:g}", b); };
-  if (std::adjacent_find(steps.begin(), steps.end(), sameWord) != steps.end())
-    throw base::InputError("--steps: a value is listed twice; remove one");
+  if (const auto same = std::adjacent_find(steps.begin(), steps.end(), sameWord); same != steps.end())
+    throw base::InputError(
+        fmt::format("--steps: {} and {} are the same value to six digits; remove one", same[0], same[1]));
   return steps;
 }
 

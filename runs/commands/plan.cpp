@@ -301,8 +301,9 @@ std::string planText(const scene::Scene& scene, const forecast::CountedGrains* c
   for (const std::string& note : bedNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   for (const std::string& note : setup::freeSurfaceNotes(scene)) text += fmt::format("\nnote: {}\n", note);
   if (!scene.mechanism.empty()) {
-    if (const std::string warning = setup::bodyContactsNote(scene); !warning.empty())
+    if (const std::string warning = setup::movingSurfacesWarning(scene); !warning.empty())
       text += fmt::format("\nWARNING: {}\n", warning);
+    if (const std::string note = setup::bedWallsNote(scene); !note.empty()) text += fmt::format("\nnote: {}\n", note);
     if (const std::string warning = setup::tensionStepWarningAtStart(scene, step); !warning.empty())
       text += fmt::format("\nWARNING: {}\n", warning);
     if (const std::string note = setup::springStepNote(scene); !note.empty()) text += fmt::format("\nnote: {}\n", note);

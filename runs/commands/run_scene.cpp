@@ -177,6 +177,26 @@ void describeSteps(const coupling::Mechanism& mechanism, bool verbose, output::S
   summary.figures["mechanism_step_largest_s"] = r.largest;
 }
 
+/// Warns about bodies that have passed through the floor or the walls of a bed, which do not touch them.
+void warnOfBodiesOutside(const coupling::Simulation& simulation) {
+  const auto& ground = simulation.ground();
+  const coupling::Mechanism* mechanism = simulation.mechanism();
+  if (!mechanism || !ground.walls || !ground.rigid || !ground.grains) return;
+  std::vector<std::string> outside;
+  const std::vector<bool> touching = mechanism->touchingBodies();
+  for (std::size_t body = 0; body < touching.size(); ++body) {
+    if (!touching[body]) continue;
+    const base::Vec3d p = mechanism->state().pose[body].position;
+    const terrain::Rectangle& w = *ground.walls;
+    if (p.z < ground.rigid->bounds().lowest || p.x < w.xMin || p.x > w.xMax || p.y < w.yMin || p.y > w.yMax)
+      outside.push_back(mechanism->model().bodies()[body].name);
+  }
+  if (!outside.empty())
+    fmt::print("WARNING: the bodies {} end outside the bed: its walls and floor have contact with grains only; enlarge "
+               "terrain.size or terrain.depth\n",
+               fmt::join(outside, ", "));
+}
+
 /// Performs the steps up to the end of the run, with progress on stderr.
 void drive(session::RunSession& run) {
   coupling::Simulation& simulation = run.simulation();
@@ -326,6 +346,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
           "time\n",
           prepared, drove, simulation.steps() - begin, timeStep, summary.figures["microseconds_a_step"], cpu);
     }
+    warnOfBodiesOutside(simulation);
     if (simulation.mechanism()) describeSteps(*simulation.mechanism(), options.verbose, summary);
     describeSharing(simulation, waiting, options.verbose, summary);
     run.writer().finish(summary);

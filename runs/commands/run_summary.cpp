@@ -20,11 +20,15 @@ struct Line {
   double scale;
   const char* unit;
   const char* note;
+  bool ofHitch; ///< printed only for scenes with [hitch]
 };
-constexpr Line kLines[] = {{"speed", "speed [m/s]", 1, "m/s", ""},
-                           {"slip", "slip [-]", 100, "%", ""},
-                           {"sinkage", "sinkage mean [m]", 1e3, "mm", ", mean of the shoes in ground contact"},
-                           {"torque", "drive torque [N m]", 1, "N m", ", both sprockets"}};
+constexpr const char* kSinkage = "sinkage mean [m]";
+constexpr Line kLines[] = {{"speed", "speed [m/s]", 1, "m/s", "", false},
+                           {"slip", "slip [-]", 100, "%", "", false},
+                           {"sinkage", kSinkage, 1e3, "mm", ", mean of the shoes in ground contact", false},
+                           {"torque", "drive torque [N m]", 1, "N m", ", both sprockets", false},
+                           {"pull", "drawbar pull [N]", 1e-3, "kN", ", drawbar pull", true},
+                           {"motion", "motion resistance [N]", 1e-3, "kN", ", motion resistance", true}};
 
 constexpr double kUnsteady = 0.08; ///< half range of the speed in the steady part over its mean, above which runs warn
 constexpr double kSlow = 0.05;     ///< [m/s] no such warning below this mean speed
@@ -53,7 +57,27 @@ double barOf(const nlohmann::json& run, const char* name) {
   return base::kInfinity;
 }
 
+/// Height of the pads above rigid ground, on their grousers [m]; NaN on other ground, and if the pads sink.
+double padHeight(const nlohmann::json& run) {
+  if (!run.value("rigid_ground", false)) return base::kNaN;
+  for (const nlohmann::json& f : run.at("figures"))
+    if (f.at("name") == kSinkage && f.at("value").is_number() && f.at("value") < 0) return -f.at("value").get<double>();
+  return base::kNaN;
+}
+
+/// ", drawbar pull, mean from 2.5 to 4 s": remark after the value of a line.
+std::string noteOf(const nlohmann::json& run, const Line& line) {
+  if (const double height = padHeight(run); line.figure == std::string(kSinkage) && std::isfinite(height))
+    return fmt::format(": the shoes stand on their grousers, with the pads {:.3g} mm above the rigid ground",
+                       line.scale * height);
+  if (!line.ofHitch || !run.at("steady_from").is_number() || !run.at("until").is_number()) return line.note;
+  return fmt::format("{}, mean from {:.4g} to {:.4g} s", line.note, run.at("steady_from").get<double>(),
+                     run.at("until").get<double>());
+}
+
 std::string valueOf(const nlohmann::json& run, const Line& line) {
+  if (line.ofHitch && !run.value("hitch", false)) return {};
+  if (line.figure == std::string(kSinkage) && std::isfinite(padHeight(run))) return "none";
   for (const nlohmann::json& f : run.at("figures")) {
     if (f.at("name") != line.figure || !f.at("value").is_number()) continue;
     const double value = line.scale * f.at("value").get<double>(), bar = line.scale * barOf(run, line.figure);
@@ -86,7 +110,7 @@ std::string driveFiguresText(const std::filesystem::path& folder, const std::fil
     if (text.empty() && other.is_object())
       text += fmt::format("{:<10}{:<24}{}\n", "", folder.filename().string(), beside.filename().string());
     const std::string columns = second.empty() ? value : fmt::format("{:<24}{}", value, second);
-    text += fmt::format("{:<10}{}{}\n", line.label, columns, line.note);
+    text += fmt::format("{:<10}{}{}\n", line.label, columns, noteOf(run, line));
   }
   return text.empty() ? text : warningsOf(run, incomplete) + text;
 }

@@ -12,9 +12,9 @@ namespace grouser::commands {
 std::string energyText(const output::Summary& summary);
 
 /// Figures of a finished run of a vehicle, one per line: means of speed, slip, sinkage and drive torque over the steady
-/// part, with error bars if the scene has been checked. Empty without a vehicle. `beside`: folder of another run to
-/// print in a second column; empty: no second column. A reason why the figures are inconclusive precedes them, unless
-/// it equals `incomplete`, which has already been printed.
+/// part, with [hitch] also of drawbar pull and motion resistance, with error bars if the scene has been checked. Empty
+/// without a vehicle. `beside`: folder of another run to print in a second column; empty: no second column. A reason
+/// why the figures are inconclusive precedes them, unless it equals `incomplete`, which has already been printed.
 std::string driveFiguresText(const std::filesystem::path& folder, const std::filesystem::path& beside,
                              const std::string& incomplete);
 

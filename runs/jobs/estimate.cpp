@@ -100,7 +100,7 @@ bool isExact(const support::Estimate& e) { return e.halfWidth <= 1e-9 * std::fab
 
 std::string plusMinus(const support::Estimate& estimate, int digits) {
   if (isExact(estimate)) return fmt::format("{:.{}f}", estimate.value, digits);
-  if (!std::isfinite(estimate.halfWidth)) return fmt::format("{:.{}f} +- ?", estimate.value, digits);
+  if (!std::isfinite(estimate.halfWidth)) return fmt::format("{:.{}f} (no interval)", estimate.value, digits);
   return fmt::format("{:.{}f} +- {:.{}f}", estimate.value, digits, estimate.halfWidth, digits);
 }
 
@@ -121,11 +121,9 @@ std::string valueText(const support::Estimate& estimate) {
     const double unit = std::pow(10.0, power);
     const int digits = std::clamp(power - last, 0, 11);
     const std::string text = fmt::format("{:.{}f}", e.value / unit, digits);
-    return e.halfWidth == 0
-               ? fmt::format("{}e{}", text, power)
-               : fmt::format("({} +- {})e{}", text,
-                             std::isfinite(e.halfWidth) ? fmt::format("{:.{}f}", e.halfWidth / unit, digits) : "?",
-                             power);
+    return e.halfWidth == 0             ? fmt::format("{}e{}", text, power)
+           : std::isfinite(e.halfWidth) ? fmt::format("({} +- {:.{}f})e{}", text, e.halfWidth / unit, digits, power)
+                                        : fmt::format("{}e{} (no interval)", text, power);
   }
   const int digits = std::clamp(-last, 0, kMaxDigits);
   if (e.halfWidth == 0) return fmt::format("{:.{}f}", e.value, digits);
@@ -133,6 +131,7 @@ std::string valueText(const support::Estimate& estimate) {
 }
 
 std::string percent(const support::Estimate& estimate, int digits) {
+  if (!std::isfinite(estimate.halfWidth)) return fmt::format("{:.{}f} % (no interval)", 100 * estimate.value, digits);
   return plusMinus({100 * estimate.value, 100 * estimate.halfWidth}, digits) + " %";
 }
 

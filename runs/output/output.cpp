@@ -8,6 +8,7 @@
 #include "runs/output/manifest.hpp"
 #include "runs/storage/checkpoint.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/folder_use.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/not_written.hpp"
 #include "runs/support/output_place.hpp"
@@ -79,19 +80,16 @@ std::string dotted(std::string path) {
 void checkOutputFolder(const fs::path& folder, bool force, const OptionNames& names) {
   support::requireFolder(folder);
   std::error_code error;
-  if (!force && fs::exists(folder, error) && !fs::is_empty(folder, error))
-    throw base::InputError(fmt::format(
-        "{}: the folder is not empty; choose another with {}, {}or overwrite it with {}", folder.string(), names.out,
-        fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("resume with {}, ", names.resume) : "",
-        names.force));
+  if (force || !fs::exists(folder, error) || fs::is_empty(folder, error)) return;
+  support::requireUnused(folder, names.out);
+  throw base::InputError(fmt::format(
+      "{}: the folder is not empty; choose another with {}, {}or overwrite it with {}", folder.string(), names.out,
+      fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("resume with {}, ", names.resume) : "",
+      names.force));
 }
 
 void claimFolder(support::FileLock& lock, const fs::path& folder, const OptionNames& names) {
-  std::error_code error;
-  if (fs::is_directory(folder, error) && !lock.take(folder))
-    throw base::InputError(
-        fmt::format("{}: another run is writing to this folder; wait until it ends, or choose another folder with {}",
-                    folder.string(), names.out));
+  support::claimUnused(lock, folder, names.out);
 }
 
 /// Rows of a run in results.h5 and timeseries.csv, and the manifest; only the first rank writes them.

@@ -206,7 +206,8 @@ def page(folder, options):
     made = pages.Page(f"{check.folder.resolve().name} (check)", "check", folder)
     if check.json.get("inconclusive"):
         made.warnings.append(f"<p>WARNING: all figures are inconclusive: {esc(check.json['inconclusive'])}</p>")
-    made.section("figures", "Figures with error bars", goals(check) + figures(check))
+    notes = damage.add_notices(made, [(n["kind"] == "warning", n["text"], len(n["runs"])) for n in check.json.get("notices", [])])
+    made.section("figures", "Figures with error bars", goals(check) + figures(check) + notes)
     made.section("shares", "Causes of the error bars", shares(made, check))
     made.section("plots", "Series with error bands", bands(made, check))
     made.section("costs", "Cost", costs(made, check))

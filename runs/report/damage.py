@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs with missing or damaged files."""
+"""Runs with missing or damaged files, and with warnings."""
 import grouser
+from grouser.series import counted
 from page import esc
 
 NEEDED = ("results.h5", "manifest.json", "scene.toml")
@@ -68,3 +69,11 @@ def warn(made, faults, words=""):
     more = f"<p>And {len(faults) - MOST_LISTED} more.</p>" if len(faults) > MOST_LISTED else ""
     count = f"{len(faults)} runs have" if len(faults) > 1 else "1 run has"
     made.warnings.append(f"<p>{count} missing or damaged files.{words}</p><ul>{''.join(told)}</ul>{more}")
+
+
+def add_notices(made, found):
+    """Lists the warnings of the runs at the top of the page: [(whether a warning, text, number of runs)]. Returns HTML
+    of the notes."""
+    lines = [f"{'WARNING' if is_warning else 'note'} in {counted(runs, 'run')}: {esc(text)}" for is_warning, text, runs in found]
+    made.warnings.extend(f"<p>{line}</p>" for line in lines if line.startswith("WARNING"))
+    return "".join(f"<p>{line}</p>" for line in lines if line.startswith("note"))

@@ -6,6 +6,7 @@ import itertools
 import math
 import re
 import subprocess
+from collections import Counter
 
 import numpy
 
@@ -256,6 +257,13 @@ def first_seeds(sweep, faults):
     return [run.folder for run in found.values()]
 
 
+def notices_of(sweep):
+    """Different warnings and notes of the runs: [(whether a warning, text, number of runs)], warnings first."""
+    found = Counter(text for run in sweep.runs for text in dict.fromkeys(run.notices))
+    return sorted(((text.startswith("WARNING: "), text.split(": ", 1)[1], runs) for text, runs in found.items()),
+                  key=lambda one: not one[0])
+
+
 def page(folder, options):
     sweep = grouser.open_sweep(folder)
     made = pages.Page(f"{sweep.folder.resolve().name} (sweep)", "sweep", folder)
@@ -272,7 +280,8 @@ def page(folder, options):
     faults = faults_of([run.folder for run in sweep.runs if run.status in ("finished", "incomplete")])
     damage.warn(made, faults, " Figures are those of summary.csv; unreadable runs are missing in the 3-D view and the "
                 "ledgers.")
-    made.section("figures", "Figures", told + means_table(sweep) + folded("All runs", runs_table(sweep, faults),
+    notes = damage.add_notices(made, notices_of(sweep))
+    made.section("figures", "Figures", told + means_table(sweep) + notes + folded("All runs", runs_table(sweep, faults),
                                                                            opened=not sweep.means or bool(faults)))
     if grounds := ground_table.section(folder):
         made.section("grounds", "Comparison", grounds)

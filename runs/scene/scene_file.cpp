@@ -113,14 +113,20 @@ std::vector<std::string> unusualValues(const Scene& scene) {
   return notes;
 }
 
+std::vector<SceneNote> sceneNotes(const Scene& scene) {
+  std::vector<SceneNote> notes;
+  if (!scene.document) return notes;
+  for (std::string& warning : soilWarnings(scene)) notes.push_back({true, std::move(warning)});
+  if (std::string warning = unsettledWarning(scene); !warning.empty()) notes.push_back({true, std::move(warning)});
+  for (const std::string& note : scene.document->notes()) notes.push_back({false, note});
+  for (std::string& note : unusualValues(scene)) notes.push_back({false, std::move(note)});
+  for (std::string& note : soilNotes(scene)) notes.push_back({false, std::move(note)});
+  return notes;
+}
+
 void printNotes(const Scene& scene) {
-  if (!scene.document) return;
-  for (const std::string& warning : soilWarnings(scene)) support::printStderr("WARNING: {}\n", warning);
-  if (const std::string warning = unsettledWarning(scene); !warning.empty())
-    support::printStderr("WARNING: {}\n", warning);
-  for (const std::string& note : scene.document->notes()) support::printStderr("grouser: note: {}\n", note);
-  for (const std::string& note : unusualValues(scene)) support::printStderr("grouser: note: {}\n", note);
-  for (const std::string& note : soilNotes(scene)) support::printStderr("grouser: note: {}\n", note);
+  for (const SceneNote& note : sceneNotes(scene))
+    support::printStderr("{}: {}\n", note.isWarning ? "WARNING" : "grouser: note", note.text);
 }
 
 std::string resolvedToml(const Scene& scene) {

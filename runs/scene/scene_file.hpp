@@ -30,7 +30,13 @@ std::vector<std::string> unusualValues(const Scene& scene);
 /// invalid.
 void withUnusualValues(const Scene& scene, const std::function<void()>& act);
 
-/// Prints warnings and notes on the scene to stderr, one per line, e.g. about renamed keys.
+/// Warnings and notes on a scene, e.g. about renamed keys.
+struct SceneNote {
+  bool isWarning;
+  std::string text;
+};
+std::vector<SceneNote> sceneNotes(const Scene& scene);
+/// Prints them to stderr, one per line.
 void printNotes(const Scene& scene);
 
 /// The scene with every default filled in, as TOML that loads to the same scene.

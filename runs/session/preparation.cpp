@@ -16,6 +16,14 @@
 
 namespace grouser::session {
 
+const coupling::PreparationSetup* preparationOf(const coupling::GroundSetup& ground) {
+  if (!ground.grains || !ground.grains->bed) return nullptr;
+  const coupling::BedSetup& bed = *ground.grains->bed;
+  if (bed.alone) return preparationOf(*bed.alone);
+  if (bed.tile) return preparationOf(*bed.tile->ground);
+  return bed.preparation ? &*bed.preparation : nullptr;
+}
+
 Caches cachesOf(bool beds, const RunRequest& request) {
   Caches kept;
   const std::optional<support::KeptFiles> files =
@@ -60,9 +68,18 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
   if (former) requireSameStep(*former, setup.timeStep, record.provenance, request);
   if (former) return std::make_unique<coupling::Simulation>(std::move(setup), exec, former->state, comm, spheres);
   const bool hasBed = setup.ground.grains && setup.ground.grains->bed;
-  const double limit = hasBed ? setup.ground.grains->bed->settle.timeLimit : 0;
+  // A prepared bed settles twice: with the friction of its preparation, and with its own.
+  const coupling::PreparationSetup* const preparation = preparationOf(setup.ground);
+  const double limit = hasBed ? (preparation ? 2 : 1) * setup.ground.grains->bed->settle.timeLimit : 0;
+  const std::string severalBeds =
+      preparation ? fmt::format("settling  for terrain.porosity = {:g}, samples of the bed settle first, to find the "
+                                "friction of its preparation by trials; each starts at 0 s, and the bed comes last",
+                                preparation->porosity)
+                  : "settling  several beds, one after another; each starts at 0 s";
   std::unique_ptr<support::Progress> settling;
   std::optional<support::Stopwatch> begun;
+  double reached = 0; // by the bed that settles now [s]
+  int restarts = 0;   // of the simulated time
   FailedBed failed(setup.ground, record, request, exec);
   coupling::SettleProgress settle = [&](double time, double energyRatio) {
     if (const int signal = SignalWatch(comm).receivedAt(0))
@@ -74,6 +91,11 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
       settling = std::make_unique<support::Progress>("settling", comm.first(), 0, support::Progress::End::limit);
     if (time > 0 && !begun) begun.emplace(); // at time 0, it may wait for another run
     if (begun) kept.settling = begun->seconds();
+    if (time < reached) {
+      if (++restarts == 1) settling->note(severalBeds);
+      settling->restart(fmt::format("settling, bed {}", restarts + 1));
+    }
+    reached = time;
     settling->update(time / limit, fmt::format("t {:.2f} s, kinetic energy ratio {:.2g}", time, energyRatio));
   };
   settle.failed = [&](const terrain::Grains& bed, const std::string& message, base::Cause cause) {

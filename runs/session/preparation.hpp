@@ -15,6 +15,9 @@
 /// From a compiled scene to a simulation that is ready to step: settled or resumed.
 namespace grouser::session {
 
+/// Preparation of the bed, or of the tile from which the bed is copied; null without a target porosity.
+const coupling::PreparationSetup* preparationOf(const coupling::GroundSetup& ground);
+
 /// Caches of settled beds and sphere sets; empty: not used.
 struct Caches {
   std::optional<storage::BedCache> beds;

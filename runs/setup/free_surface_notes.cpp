@@ -44,20 +44,20 @@ std::vector<std::string> freeSurfaceNotes(const scene::Scene& scene) {
   return notes;
 }
 
-std::string bodyContactsNote(const scene::Scene& scene) {
-  if (!scene.mechanism.touches()) return "";
-  std::string others;
-  const auto add = [&](bool has, const char* what) {
-    if (has) others += (others.empty() ? "" : ", ") + std::string(what);
-  };
-  const auto moves = [](const coupling::SurfaceSetup& s) { return s.moves; };
+std::string movingSurfacesWarning(const scene::Scene& scene) {
   const std::vector<SceneSurface> surfaces = surfacesOf(scene);
-  add(std::any_of(surfaces.begin(), surfaces.end(), moves), "planes, boxes, cylinders and meshes that move");
-  add(scene.terrain && scene.terrain->granular(), "the walls and floor of the terrain");
-  return others.empty()
-             ? ""
-             : fmt::format("bodies pass through {}, which have contact with grains only; use a driven [[body]] instead",
-                           others);
+  const auto moves = [](const coupling::SurfaceSetup& s) { return s.moves; };
+  if (!scene.mechanism.touches() || std::none_of(surfaces.begin(), surfaces.end(), moves)) return "";
+  return "bodies pass through planes, boxes, cylinders and meshes that move, which have contact with grains only; use "
+         "a "
+         "driven [[body]] instead";
+}
+
+std::string bedWallsNote(const scene::Scene& scene) {
+  if (!scene.mechanism.touches() || !scene.terrain || !scene.terrain->granular()) return "";
+  return "the walls and the floor of the bed have contact with grains only, so a body that reaches them passes "
+         "through; "
+         "keep bodies inside the bed, or add a fixed [[body]] there";
 }
 
 } // namespace grouser::setup

@@ -22,7 +22,8 @@ std::vector<Notice> noticesOf(const scene::Scene& scene, const coupling::Simulat
     add(warning, spheredecomp::protrusionWarning(cut));
   for (const std::string& text : meshNotes(scene)) add(note, text);
   for (const std::string& text : freeSurfaceNotes(scene)) add(note, text);
-  add(warning, bodyContactsNote(scene));
+  add(warning, movingSurfacesWarning(scene));
+  add(note, bedWallsNote(scene));
   if (!simulation.mechanism()) return notices;
   add(warning, tensionStepWarningAtStart(scene, simulation.timeStep()));
   add(note, springStepNote(scene));

@@ -31,13 +31,17 @@ Progress::~Progress() {
 bool Progress::due() const { return shown_ && Clock::now() >= next_; }
 
 void Progress::update(double fraction, const std::string& detail) {
-  const Clock::time_point now = Clock::now();
   if (!shown_) return;
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
   left_.add(elapsed, fraction);
-  if (now < next_) return;
+  if (due()) update(fraction, detail, left_.at(elapsed));
+}
+
+void Progress::update(double fraction, const std::string& detail, std::optional<double> left) {
+  const Clock::time_point now = Clock::now();
+  if (!shown_ || now < next_) return;
   next_ = now + (terminal_ ? Clock::duration(kTerminalPause) : Clock::duration(kPlainPause));
-  const std::string text = line(what_, fraction, left_.at(elapsed), detail, end_);
+  const std::string text = line(what_, fraction, left, detail, end_);
   if (terminal_) {
     clearLine();
     printStderr("{}", text);
@@ -47,6 +51,8 @@ void Progress::update(double fraction, const std::string& detail) {
   }
   std::fflush(stderr);
 }
+
+void Progress::restart(std::string what) { what_ = std::move(what), left_ = TimeLeft(), start_ = Clock::now(); }
 
 void Progress::note(const std::string& line) {
   if (!shown_) return;
@@ -59,7 +65,7 @@ void Progress::note(const std::string& line) {
 void Progress::finish(const std::string& detail) {
   if (!shown_) return;
   clearLine();
-  const double elapsed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double elapsed = std::chrono::duration<double>(Clock::now() - begun_).count();
   printStderr("{}: {}, took {}\n", what_, detail, duration(elapsed));
 }
 

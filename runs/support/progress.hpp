@@ -24,8 +24,12 @@ public:
 
   /// `fraction` done, 0 to 1; `detail` such as "t 1.20 s". May be called every step: usually it only reads the clock.
   void update(double fraction, const std::string& detail);
+  /// The same with a remaining time [s] that the caller has estimated; empty: unknown.
+  void update(double fraction, const std::string& detail, std::optional<double> left);
   /// Returns true if the next update would print, so that callers can skip computing `detail`.
   bool due() const;
+  /// Starts a new piece of work with this label: the fraction restarts at 0.
+  void restart(std::string what);
   /// Prints a line with a result on stdout, without disturbing the progress on stderr.
   void note(const std::string& line);
   /// Prints the last line, with the elapsed time.
@@ -47,6 +51,7 @@ private:
   TimeLeft left_;
   bool open_ = false; ///< the line on the terminal is not yet terminated
   Clock::time_point start_, next_;
+  Clock::time_point begun_ = start_; ///< start of the first piece of work
 };
 
 } // namespace grouser::support

@@ -66,6 +66,14 @@ class Files(FolderTest):
                 opener()
             self.assertTrue(str(caught.exception).startswith(f"{self.folder / name}: "), caught.exception)
 
+    def test_warnings_and_notes_of_the_runs_are_listed(self):
+        (self.folder / "summary.csv").write_text(
+            "run,k,status,message,wall time [s],steps,simulated time [s],way [m],state hash,commit,warnings and notes\n"
+            'a,1,finished,,1,1,1,1,x,c,"note: a bed, 3 m; WARNING: coarse: 2; see log"\nb,2,finished,,1,1,1,1,x,c,\n')
+        sweep = grouser.open_sweep(self.folder)
+        self.assertEqual([run.notices for run in sweep.runs], [("note: a bed, 3 m", "WARNING: coarse: 2; see log"), ()])
+        self.assertEqual(list(sweep.units), ["way"])
+
     def test_damaged_files_of_a_run_are_told(self):
         run = grouser.Scene(MINIMAL).run("cut")
         run.close()

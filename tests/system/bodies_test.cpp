@@ -196,7 +196,8 @@ TEST(Bodies, FastBodiesAreRefusedOrStopTheRun) {
 TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
   const auto sceneOf = [](const std::string& text) { return setup::parseScene(text, "bodies.toml"); };
   const scene::Scene alone = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 1));
-  EXPECT_EQ(setup::bodyContactsNote(alone), "");
+  EXPECT_EQ(setup::movingSurfacesWarning(alone), "");
+  EXPECT_EQ(setup::bedWallsNote(alone), "");
   EXPECT_TRUE(setup::freeSurfaceNotes(alone).empty());
   const scene::Scene dense = sceneOf(head("", "density = 2500\n") + grain("[0, 0, 0]") +
                                      "[[body]]\nname = \"ball\"\nposition = [0, 0, 0.2]\nmaterial = \"glass\"\n"
@@ -204,10 +205,20 @@ TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
   EXPECT_TRUE(setup::freeSurfaceNotes(dense).empty()) << "its shape determines its mass";
   const scene::Scene light = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 0.01) +
                                      "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\nvelocity = [0, 0, -0.1]\n");
-  EXPECT_EQ(setup::bodyContactsNote(light), "bodies pass through planes, boxes, cylinders and meshes that move, which "
-                                            "have contact with grains only; use a driven [[body]] instead");
+  EXPECT_EQ(setup::movingSurfacesWarning(light), "bodies pass through planes, boxes, cylinders and meshes that move, "
+                                                 "which have contact with grains only; use a driven [[body]] instead");
+  EXPECT_EQ(setup::bedWallsNote(light), "");
   ASSERT_EQ(setup::freeSurfaceNotes(light).size(), 1u);
   EXPECT_NE(setup::freeSurfaceNotes(light)[0].find("body \"cube\" has a mass of 0.01 kg"), std::string::npos);
+}
+
+TEST(Bodies, ShippedScenesOfBodiesOnBedsDoNotWarn) {
+  for (const char* name : {"blade", "cone", "boulder", "bucket", "rover"}) {
+    const scene::Scene scene = setup::loadScene(std::string(GROUSER_SOURCE_DIR) + "/runs/scenes/" + name + ".toml");
+    EXPECT_EQ(setup::movingSurfacesWarning(scene), "") << name;
+    EXPECT_NE(setup::bedWallsNote(scene).find("keep bodies inside the bed, or add a fixed [[body]]"), std::string::npos)
+        << name;
+  }
 }
 
 TEST(Bodies, PeriodicSidesAreRefused) {

@@ -3,9 +3,11 @@
 
 #include "base/counted.hpp"
 #include "base/error.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/campaigns/sweeps/runner.hpp"
 #include "runs/output/output.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/folder_use.hpp"
 #include "runs/support/json_text.hpp"
 
 #include <fmt/format.h>
@@ -71,6 +73,7 @@ jobs::Recipe recipeOf(const EventsCommand& command, const fs::path& folder, cons
 
 void checkFolder(const EventsCommand& command, const fs::path& folder, const jobs::Recipe& call) {
   if (command.plan) return;
+  if (command.pieces.part.empty()) support::requireUnused(folder);
   const bool continues = command.pieces.resume || !command.pieces.part.empty() || call.isThere();
   std::error_code unreadable;
   if (!command.force && !continues && fs::is_directory(folder, unreadable) && !fs::is_empty(folder, unreadable))
@@ -128,6 +131,7 @@ std::vector<sweeps::SweepOutcome> doRuns(const EventsCommand& command, const std
   call.keep();
   auto outcomes = sweeps::runMissing(partOf(plan, command.pieces.share()), sweep, what,
                                      [](const std::vector<sweeps::SweepOutcome>&) {});
+  fmt::print("{}", sweeps::noticesText(sweeps::runNotices(plan, folder), plan.runs.size()));
   if (command.pieces.part.empty()) return outcomes;
   fmt::print("part      {} of the runs; to write the tables, repeat the command with --resume and without --part\n",
              command.pieces.part);

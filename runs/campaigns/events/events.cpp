@@ -7,6 +7,7 @@
 #include "runs/campaigns/events/event_report.hpp"
 #include "runs/campaigns/events/event_runs.hpp"
 #include "runs/campaigns/events/other_events.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/output/output.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/render/film.hpp"
@@ -56,6 +57,7 @@ void writeTables(const EventsCommand& command, const EventPlan& plan, const std:
   fmt::print("\n{}\n", text);
   nlohmann::ordered_json json = headJson(command, plan);
   json.update(eventsJson(rows, limits, plan));
+  json["notices"] = sweeps::noticesJson(sweeps::runNotices(plan.sweep, folder));
   support::replaceTextFile(folder / kTable, eventsCsv(rows));
   support::replaceTextFile(folder / kText, text);
   support::replaceTextFile(folder / kJson, support::jsonText(json, 2) + "\n");
@@ -97,7 +99,7 @@ void eventsCommand(const EventsCommand& command) {
     fmt::print("{}", timesText(timesOf(plan, folder)));
     return;
   }
-  sweeps::printNotes(plan.sweep);
+  sweeps::printNotesOf(plan.sweep);
   const auto outcomes = doRuns(command, "events", plan.sweep, folder, call);
   if (outcomes.empty()) return;
   const std::vector<EventRow> rows = eventRows(plan, outcomes, folder);

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/campaigns/events/event_forecast.hpp"
 #include "runs/campaigns/events/event_runs.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/json_text.hpp"
@@ -181,7 +182,7 @@ void mapCommand(const MapCommand& command) {
     fmt::print("{}", timesText(timesOf(map, folder)));
     return;
   }
-  sweeps::printNotes(all);
+  sweeps::printNotesOf(all);
   const auto outcomes = doRuns(events, "map", all, folder, call);
   if (outcomes.empty()) return;
   judgeColumns(map, outcomes, folder);
@@ -189,6 +190,7 @@ void mapCommand(const MapCommand& command) {
   fmt::print("\n{}\n", text);
   nlohmann::ordered_json json = headJson(events, first);
   json.update(mapJson(map));
+  json["notices"] = sweeps::noticesJson(sweeps::runNotices(all, folder));
   support::replaceTextFile(folder / kMapTable, mapCsv(map));
   support::replaceTextFile(folder / kMapText, text);
   support::replaceTextFile(folder / kMapJson, support::jsonText(json, 2) + "\n");

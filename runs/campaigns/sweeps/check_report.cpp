@@ -5,6 +5,7 @@
 #include "base/math.hpp"
 #include "runs/campaigns/sweeps/check_goals_text.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/jobs/study_place.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/json_text.hpp"
@@ -105,6 +106,7 @@ std::string shareText(const CheckFigure& f, const support::Estimate& change) {
   const double value = std::fabs(f.value.value);
   if (value == 0 || value <= f.value.halfWidth) return "";
   const support::Estimate percents{100 * change.value / value, 100 * change.halfWidth / value};
+  if (!std::isfinite(percents.halfWidth)) return fmt::format("{:+.3g} %", percents.value);
   return changeText(percents) + " %";
 }
 
@@ -153,6 +155,32 @@ std::string omittedText(const std::vector<CheckOmission>& omitted) {
   return text;
 }
 
+/// Whether the runs have shown the error of any time step.
+bool isStepVaried(const CheckFigure& f) {
+  return std::any_of(f.barOfStep.begin(), f.barOfStep.end(), [](double bar) { return std::isfinite(bar); });
+}
+
+/// States that the error bars exclude the time step, or why there are none; empty if they include it.
+std::string barsNote(const CheckRecord& record, const CheckResults& results) {
+  if (results.figures.empty()) return "";
+  const auto fewer = [](const CheckFigure& a, const CheckFigure& b) { return a.errors.size() < b.errors.size(); };
+  const std::vector<AxisError>& errors =
+      std::max_element(results.figures.begin(), results.figures.end(), fewer)->errors;
+  const auto isStep = [](const auto& one) { return one.axis == CheckAxis::step; };
+  if (std::any_of(errors.begin(), errors.end(), isStep)) return "";
+  const std::vector<CheckCase>& cases = record.cases.cases;
+  const bool isAsked = std::any_of(cases.begin(), cases.end(), isStep);
+  const std::string remedy = isAsked ? "no run with a smaller time step has finished, see the list of runs below"
+                                     : "add step to --axes to include it";
+  std::vector<std::string> parts;
+  if (results.seeded) parts.emplace_back("seeds");
+  for (const AxisError& e : errors)
+    if (e.axis != CheckAxis::precision || !results.seeded) parts.emplace_back(base::wordOf(e.axis));
+  if (parts.empty() || (isAsked && !results.seeded))
+    return fmt::format("no error bars, because they require the error of the time step: {}\n", remedy);
+  return fmt::format("error bars include {}, but not the time step: {}\n", fmt::join(parts, ", "), remedy);
+}
+
 /// All axes of a figure.
 std::string linesOf(const CheckRecord& record, const CheckResults& results, const CheckFigure& f) {
   std::string text = fmt::format("{}  {}{}\n", f.name, jobs::valueText({f.value.value, f.bar}),
@@ -163,7 +191,7 @@ std::string linesOf(const CheckRecord& record, const CheckResults& results, cons
   for (const AxisError& e : f.errors)
     text += fmt::format("  {:<12} {:>26}  {:>18}  {:<9}  {}\n", base::wordOf(e.axis), changeText(e.change),
                         shareText(f, e.change), jobs::verdictText(e.verdict), remark(results, f, e));
-  return text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f));
+  return isStepVaried(f) ? text + fmt::format("  {:<12} {}\n", "cheapest", cheapestText(record, results, f)) : text;
 }
 
 /// One line per figure of reproducible runs: error bar, order of the step, and cheapest step with an error within 1 %.
@@ -208,6 +236,9 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
             {"bar_percent", results.percent},
             {"skin", bitsText(results.skin)}};
   if (!results.doubt.empty()) json["inconclusive"] = results.doubt;
+  std::vector<RunNotice> notices = runNotices(record.runs.plan, record.folder);
+  for (RunNotice& n : notices) n.text = placeless(n.text, record);
+  json["notices"] = noticesJson(notices);
   if (!record.looks.seeds.empty()) json["looks"] = record.looks.seeds, json["of"] = goalsJson(record);
   json["cases"] = Json::array();
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) json["cases"].push_back(caseJson(record, c));
@@ -259,6 +290,7 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
   static const std::vector<std::string> kOfVehicle = {
       "speed [m/s]",        "slip [-]",         "sinkage mean [m]", "sinkage max [m]",
       "drive torque [N m]", "tension mean [N]", "tension peak [N]", "motion resistance [N]"};
+  if (results.hitched && figure.name == "drawbar pull [N]") return true;
   const auto has = [&](const auto& test) { return std::any_of(results.figures.begin(), results.figures.end(), test); };
   const auto ofVehicle = [](const CheckFigure& f) {
     return std::find(kOfVehicle.begin(), kOfVehicle.end(), f.name) != kOfVehicle.end();
@@ -274,9 +306,10 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
 }
 
 std::string checkText(const CheckRecord& record, const CheckResults& results) {
-  std::string text = fmt::format("\n{}: values with error bars; changes relative to the unchanged scene, with verdicts "
-                                 "for a tolerance of {:g} %\n",
-                                 record.scene, results.percent);
+  std::string text = noticesText(runNotices(record.runs.plan, record.folder), record.runs.plan.runs.size());
+  text += fmt::format("\n{}: values with error bars; changes relative to the unchanged scene, with verdicts for a "
+                      "tolerance of {:g} %\n{}",
+                      record.scene, results.percent, barsNote(record, results));
   int printed = 0, more = 0;
   for (const CheckFigure& f : results.figures) {
     if (!isHeadline(results, f) || !isAboveRounding(f)) continue;
@@ -285,6 +318,7 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     text += results.seeded || hasSoilAxes(f) ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);
+  text += rigidGroundNote(record.runs.plan);
   text += goalsText(record, results.percent) + "\nruns\n";
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
     const CaseCost& cost = record.costs[c];

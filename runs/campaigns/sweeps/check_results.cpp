@@ -109,7 +109,8 @@ public:
       hasStep = hasStep || e.axis == CheckAxis::step;
       if (e.axis != CheckAxis::precision || !cases_.seeded) parts.push_back(e.bar);
     }
-    const bool known = hasStep || cases_.seeded;
+    const bool isStepAsked = stepCase(cases_, 1).has_value();
+    const bool known = cases_.seeded || hasStep || (!isStepAsked && !parts.empty());
     figure_.bar = known ? totalBar(figure_.value.halfWidth, parts) : std::numeric_limits<double>::infinity();
     for (const std::size_t c : asked_.stepCases) figure_.barOfStep.push_back(barOfStep(c));
     return figure_;
@@ -303,6 +304,7 @@ CheckResults checkResults(const CheckCases& cases, const CheckRuns& runs, const 
   results.seeded = cases.seeded, results.percent = percent, results.levels = levels;
   const RunsByCase byCase(runs, cases.cases.size());
   results.skin = sameBits(cases, byCase, runs, outcomes, folder);
+  results.hitched = !runs.plan.runs.empty() && runs.plan.runs.front().scene.hitch.has_value();
   const bool hasVehicle = !runs.plan.runs.empty() && runs.plan.runs.front().scene.vehicle.has_value();
   const SweepFigures figures = figuresOf(runs, outcomes, folder, hasVehicle, results.doubt);
   for (std::size_t c = 0; c < cases.cases.size(); ++c) {

@@ -57,7 +57,8 @@ struct CheckFigure {
   double scale = 0;        ///< largest value of all figures in the same unit, for the rounding threshold
   int seeds = 0;           ///< number of runs
   std::vector<AxisError> errors;
-  /// totalBar() of all axes (with seed dependence except precision). Infinite without seed dependence and finer steps.
+  /// totalBar() of all axes (with seed dependence except precision). Without seed dependence infinite if there are
+  /// none, or if the time step is an axis without a finished run.
   double bar = 0;
   /// Error bar at each step of the step axis and the base, in the figure's unit; NaN if unknown.
   std::vector<double> barOfStep;
@@ -68,8 +69,9 @@ enum class SameBits { yes, no, notRun };
 
 struct CheckResults {
   bool seeded = false;
-  double percent = 5; ///< percentage of a figure's mean: tolerance of the verdicts
-  SeedLevels levels;  ///< levels of all intervals
+  bool hitched = false; ///< whether the scene has [hitch]: drawbar pull is then a main figure
+  double percent = 5;   ///< percentage of a figure's mean: tolerance of the verdicts
+  SeedLevels levels;    ///< levels of all intervals
   std::vector<CheckFigure> figures;
   std::vector<std::size_t> stepCases; ///< cases of barOfStep: the base, and finished cases of the step axis
   SameBits skin = SameBits::notRun;

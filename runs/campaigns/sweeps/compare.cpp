@@ -5,6 +5,7 @@
 #include "runs/campaigns/sweeps/compare_results.hpp"
 #include "runs/campaigns/sweeps/grounds.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/output/plots.hpp"
@@ -96,16 +97,20 @@ std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::
   return values;
 }
 
-void writeComparison(const fs::path& scene, const Comparison& comparison, const CompareOptions& options) {
+void writeComparison(const SweepPlan& plan, const Comparison& comparison, const CompareOptions& options) {
   const fs::path& folder = options.sweep.folder;
-  const std::string text = comparisonText(comparison, options.percent, options.steps.size() > 1);
+  const std::vector<RunNotice> notices = runNotices(plan, folder);
+  const std::string text = noticesText(notices, plan.runs.size()) +
+                           comparisonText(comparison, options.percent, options.steps.size() > 1) +
+                           rigidGroundNote(plan);
   fmt::print("\n{}\n", text);
   nlohmann::ordered_json json = {{"command", options.words},
                                  {"machine", support::machineText()},
                                  {"commit", support::buildInfo().commit},
-                                 {"scene", scene.string()},
+                                 {"scene", plan.scene.string()},
                                  {"set", options.fixed},
-                                 {"bar_percent", options.percent}};
+                                 {"bar_percent", options.percent},
+                                 {"notices", noticesJson(notices)}};
   json.update(comparisonJson(comparison));
   support::replaceTextFile(folder / kText, text);
   support::replaceTextFile(folder / kTable, comparisonCsv(comparison));
@@ -150,17 +155,18 @@ SweepPlan planCompare(const fs::path& scene, const CompareOptions& options) {
 }
 
 int runCompare(const fs::path& scene, const CompareOptions& options) {
+  claim(options.sweep);
   if (!options.sweep.force) checkSweepFiles(options.sweep.folder);
   const std::vector<Variant> variants = variantsOf(scene, options);
   const SweepPlan plan = planOf(scene, variants, options.seeds);
-  printNotes(plan);
+  printNotesOf(plan);
   const auto outcomes = runMissing(plan, options.sweep, "compare", [&](const std::vector<SweepOutcome>& now) {
     writeSummary(plan, now, options.sweep.folder);
   });
   std::vector<std::string> random;
   for (const Variant& variant : variants)
     if (variant.random) random.push_back(variant.word);
-  writeComparison(scene, comparisonOf(plan, outcomes, random, options.percent, options.sweep.folder), options);
+  writeComparison(plan, comparisonOf(plan, outcomes, random, options.percent, options.sweep.folder), options);
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
                                     [](const SweepOutcome& o) { return o.status == output::RunStatus::failed; });
   for (std::size_t i = 0; i < outcomes.size(); ++i)

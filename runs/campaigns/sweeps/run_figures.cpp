@@ -49,6 +49,9 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   json["inconclusive"] = found.doubtOf(std::size_t{0});
   json["steady_from"] = jsonNumber(found.from.front());
   json["speed_range"] = speedRange(scene, found.speedRange.front());
+  json["until"] = jsonNumber(manifest.number("simulated_time_s"));
+  json["hitch"] = scene.hitch.has_value();
+  json["rigid_ground"] = isOnRigidGround(scene);
   json["check"] = keptCheck(scene, manifest.text("inputs"));
   return json;
 }

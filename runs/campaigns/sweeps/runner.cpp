@@ -4,6 +4,7 @@
 #include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/exec.hpp"
+#include "base/math.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/campaigns/sweeps/run_progress.hpp"
@@ -15,7 +16,6 @@
 #include "runs/support/build_info.hpp"
 #include "runs/support/child_process.hpp"
 #include "runs/support/device_choice.hpp"
-#include "runs/support/file_lock.hpp"
 #include "runs/support/gpu_sharing.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -84,10 +84,7 @@ void awaitFormer(const fs::path& folder) {
   for (;; std::this_thread::sleep_for(kLook)) {
     support::FileLock lock;
     if (lock.take(folder)) return;
-    if (std::chrono::steady_clock::now() - begun > kPatience)
-      throw base::InputError(fmt::format(
-          "{}: another run is writing to this folder; wait until it ends, or choose another folder with --out",
-          folder.string()));
+    if (std::chrono::steady_clock::now() - begun > kPatience) support::claimUnused(lock, folder);
   }
 }
 
@@ -120,7 +117,7 @@ class Runner {
 public:
   Runner(const SweepPlan& plan, const SweepOptions& options, const std::string& what, const OutcomesChanged& changed)
       : plan_(plan), options_(options), changed_(changed), gpus_(options.jobs > 1 && mayUseGpu(plan)),
-        outcomes_(plan.runs.size()), work_(plan.runs.size()), progress_(what) {
+        outcomes_(plan.runs.size()), work_(plan.runs.size()), timeOf_(plan.runs.size()), progress_(what) {
     for (std::size_t i = 0; i < plan.runs.size(); ++i) {
       const bool anew =
           options.force && std::find(options.made.begin(), options.made.end(), plan.runs[i].name) == options.made.end();
@@ -137,7 +134,8 @@ public:
         progress_.note(fmt::format("{} has failed before: {}", title(i), outcomes_[i].message));
       } else {
         waiting_.push_back(i);
-        work_[i] = workOf(plan.runs[i]), due_ += work_[i];
+        work_[i] = stepWorkOf(plan.runs[i]), due_ += work_[i];
+        timeOf_[i] = times_.add(plan.runs[i]);
         const bool isHalfDone = former == RunStatus::stopped || former == RunStatus::running; // killed
         std::error_code error;
         if (isHalfDone && fs::exists(folder(i) / storage::kCheckpointName, error)) goesOn_.insert(i);
@@ -224,6 +222,7 @@ private:
     program.environment = gpus_.environment();
     program.environment.emplace_back(support::kFirstGpu, support::firstGpuOf(place));
     program.log = folder(i) / kRunLog, program.append = continues;
+    times_.begin(timeOf_[i], shareReached(i));
     if (continues) progress_.note(fmt::format("{} resumes from its checkpoint", title(i)));
     running_.emplace_back(i, place, program);
     outcomes_[i].status = RunStatus::running;
@@ -276,10 +275,18 @@ private:
                                                countEnded(outcomes_), outcomes_.size()));
   }
 
+  /// Share of the expected duration that a run has reached.
+  double shareReached(std::size_t i) const {
+    return std::min(1.0, timeReached(folder(i)) / expectedEnd(plan_.runs[i]));
+  }
+
   void finish(std::size_t i, const support::ProcessEnd& end, double seconds) {
     ++ended_, done_ += work_[i];
+    times_.end(timeOf_[i], base::kNaN, base::kNaN, base::kNaN);
     if (end.status == 0) {
       const RunManifest manifest(folder(i));
+      times_.end(timeOf_[i], manifest.figure("wall_preparation_s"), manifest.figure("wall_settling_s"),
+                 manifest.figure("wall_steps_s"));
       const bool whole = manifest.text("status") != base::wordOf(RunStatus::incomplete);
       outcomes_[i] = {whole ? RunStatus::finished : RunStatus::incomplete, manifest.text("incomplete")};
       progress_.note(fmt::format("{} {} in {}", title(i), base::wordOf(outcomes_[i].status),
@@ -298,11 +305,13 @@ private:
     double done = done_;
     std::string names;
     for (const Running& run : running_) {
-      const SweepRun& planned = plan_.runs[run.index];
-      done += work_[run.index] * std::min(1.0, timeReached(folder(run.index)) / expectedEnd(planned));
+      const double share = shareReached(run.index);
+      done += work_[run.index] * share;
+      times_.reach(timeOf_[run.index], share, std::chrono::duration<double>(Clock::now() - run.since).count());
       names += (names.empty() ? "" : "; ") + plan_.runs[run.index].name;
     }
-    progress_.update(done / due_, fmt::format("{} of {} runs finished, now {}", ended_, todo_, names));
+    progress_.update(done / due_, fmt::format("{} of {} runs finished, now {}", ended_, todo_, names),
+                     times_.left(options_.jobs));
   }
 
   const SweepPlan& plan_;
@@ -315,13 +324,19 @@ private:
   std::list<Running> running_;
   std::size_t todo_ = 0, ended_ = 0;
   bool stopping_ = false;
-  std::vector<double> work_;  ///< workOf() of each pending run
+  std::vector<double> work_;        ///< stepWorkOf() of each pending run
+  std::vector<std::size_t> timeOf_; ///< its index in times_
+  RunTimes times_;
   double due_ = 0, done_ = 0; ///< total work of the pending runs, and of those that have ended
   Clock::time_point begin_ = Clock::now();
   support::Progress progress_;
 };
 
 } // namespace
+
+void claim(const SweepOptions& options) {
+  if (!options.shared) support::claimUnused(*options.lock, options.folder);
+}
 
 std::string endedText(const std::vector<SweepOutcome>& outcomes) {
   const auto incomplete = std::count_if(outcomes.begin(), outcomes.end(),
@@ -350,11 +365,7 @@ std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& 
   if (error || !fs::is_directory(options.folder))
     throw base::InputError(
         fmt::format("{}: cannot create the folder; choose another with --out", options.folder.string()));
-  support::FileLock alone; // two sweeps in one folder would remove each other's files
-  if (!options.shared && !alone.take(options.folder))
-    throw base::InputError(fmt::format(
-        "{}: another sweep or check is running in this folder; wait until it ends, or choose another with --out",
-        options.folder.string()));
+  claim(options); // two sweeps in one folder would remove each other's files
   Runner runner(plan, options, what, changed);
   runner.run();
   return runner.outcomes();

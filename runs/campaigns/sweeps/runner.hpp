@@ -3,9 +3,11 @@
 
 #include "runs/campaigns/sweeps/sweep_plan.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
+#include "runs/support/folder_use.hpp"
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +28,12 @@ struct SweepOptions {
   std::optional<std::filesystem::path> from; ///< checkpoint from which all runs branch; empty path: settling runs
   bool keepFailures = false;                 ///< failed runs are results and are not repeated
   bool shared = false;                       ///< whether other calls perform other runs in the same folder
+  std::shared_ptr<support::FileLock> lock = std::make_shared<support::FileLock>(); ///< see claim()
 };
+
+/// Locks the folder, if it exists and is not shared, until the last copy of the options is destroyed. Throws InputError
+/// if another command uses the folder.
+void claim(const SweepOptions& options);
 
 using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;
 

@@ -4,6 +4,7 @@
 #include "base/counted.hpp"
 #include "runs/campaigns/sweeps/branches.hpp"
 #include "runs/campaigns/sweeps/check_cases.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
@@ -14,8 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <map>
 #include <set>
 
 namespace grouser::sweeps {
@@ -49,27 +48,11 @@ std::string shortRunsText(const SweepPlan& plan, const SweepFigures& figures,
                      tooShort, base::counted(finished, "run"));
 }
 
-/// Warnings in the logs of the runs: the first kShownWarnings texts, each with the number of runs that printed it.
-std::string runWarnings(const SweepPlan& plan, const fs::path& folder) {
-  constexpr std::size_t kShownWarnings = 5;
-  const std::string begin = "WARNING: ";
-  std::map<std::string, std::size_t> found;
-  for (const SweepRun& run : plan.runs) {
-    std::ifstream log(folder / run.name / kRunLog);
-    std::set<std::string> own;
-    for (std::string line; std::getline(log, line);)
-      if (line.starts_with(begin) && line.find("inconclusive") == std::string::npos) // see inconclusiveText()
-        own.insert(line.substr(begin.size()));
-    for (const std::string& text : own) ++found[text];
-  }
-  std::string all;
-  std::size_t shown = 0;
-  for (auto at = found.begin(); at != found.end() && shown < kShownWarnings; ++at, ++shown)
-    all += fmt::format("WARNING in {} of {} runs: {}\n", at->second, plan.runs.size(), at->first);
-  if (found.size() > kShownWarnings)
-    all += fmt::format("WARNING: {} more in the files {} of the runs\n",
-                       base::counted(found.size() - kShownWarnings, "warning"), kRunLog);
-  return all;
+/// Warnings and notes in the logs of the runs, except those of inconclusiveText().
+std::string noticesOf(const SweepPlan& plan, const fs::path& folder) {
+  std::vector<RunNotice> notices = runNotices(plan, folder);
+  std::erase_if(notices, [](const RunNotice& n) { return n.text.find("inconclusive") != std::string::npos; });
+  return noticesText(notices, plan.runs.size());
 }
 
 /// Warning about several seeds if no scene of the plan is random; else empty.
@@ -87,6 +70,7 @@ std::string seedsWarning(const SweepPlan& plan) {
 } // namespace
 
 int runSweep(const SweepPlan& given, const SweepOptions& options) {
+  claim(options);
   if (!options.force) checkSweepFiles(options.folder);
   const SweepPlan plan = options.from ? branched(given, options) : given;
   support::printStderr("{}", seedsWarning(plan));
@@ -96,10 +80,10 @@ int runSweep(const SweepPlan& given, const SweepOptions& options) {
   for (const char* name : {kIntervalsFile, kSummaryPlot}) fs::remove(options.folder / name);
   std::vector<fs::path> tables = {options.folder / kSummaryFile};
   const SweepFigures figures = sweepFigures(plan, outcomes, options.folder);
-  fmt::print("{}{}", runWarnings(plan, options.folder), inconclusiveText(plan, figures));
+  fmt::print("{}{}", noticesOf(plan, options.folder), inconclusiveText(plan, figures));
   const SeedIntervals intervals = seedIntervals(plan, figures);
   if (!intervals.groups.empty()) {
-    fmt::print("{}", intervalsText(intervals));
+    fmt::print("{}{}", intervalsText(intervals), rigidGroundNote(plan));
     tables.push_back(writeIntervals(intervals, options.folder));
     fmt::print("intervals {}\n", tables.back().string());
   }

@@ -23,7 +23,8 @@ namespace {
 constexpr const char* kShown[] = {"sinkage mean [m]", "sinkage max [m]",    "slip [-]",
                                   "speed [m/s]",      "drive torque [N m]", "tension mean [N]"};
 
-bool isShown(const std::string& column) {
+bool isShown(const SeedIntervals& intervals, const std::string& column) {
+  if (intervals.hitched && (column == "drawbar pull [N]" || column == "motion resistance [N]")) return true;
   return std::find(std::begin(kShown), std::end(kShown), column) != std::end(kShown) ||
          column.find(" force ") != std::string::npos;
 }
@@ -92,6 +93,7 @@ std::string differenceText(const support::Estimate& first, const SeedGroup& grou
 SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& given) {
   SeedIntervals all;
   all.columns = given.columns;
+  all.hitched = std::any_of(plan.runs.begin(), plan.runs.end(), [](const SweepRun& run) { return run.scene.hitch; });
   const auto seed = std::find(plan.keys.begin(), plan.keys.end(), kSeedKey);
   if (seed == plan.keys.end()) return all;
   const std::ptrdiff_t at = seed - plan.keys.begin();
@@ -151,7 +153,7 @@ std::string intervalsText(const SeedIntervals& intervals) {
   for (std::size_t c = 0; c < intervals.columns.size(); ++c) {
     const bool isKnown = std::any_of(intervals.groups.begin(), intervals.groups.end(),
                                      [c](const SeedGroup& g) { return std::isfinite(g.figures[c].value); });
-    if (!isShown(intervals.columns[c]) || !isKnown) continue;
+    if (!isShown(intervals, intervals.columns[c]) || !isKnown) continue;
     text += intervals.columns[c] + "\n";
     for (const SeedGroup& group : intervals.groups) {
       if (!std::isfinite(group.figures[c].value)) continue;

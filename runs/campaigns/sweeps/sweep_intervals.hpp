@@ -26,6 +26,7 @@ struct SeedIntervals {
   std::vector<std::string> keys;    ///< swept keys except the seed
   std::vector<std::string> columns; ///< columns of the figures
   std::vector<SeedGroup> groups;    ///< in the order of the runs; empty if the seed is not swept
+  bool hitched = false;             ///< whether a scene has [hitch]: drawbar pull is then a main figure
 };
 
 SeedIntervals seedIntervals(const SweepPlan& plan, const SweepFigures& figures);

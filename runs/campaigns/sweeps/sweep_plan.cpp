@@ -6,14 +6,14 @@
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/scene/scene.hpp"
-#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
-#include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
+#include <map>
 #include <set>
 
 namespace grouser::sweeps {
@@ -23,6 +23,36 @@ using base::InputError;
 namespace {
 
 constexpr std::size_t kLongestName = 120; // maximum length of folder names; file systems allow 255
+
+/// The value without quotes and blanks around words, and with all numbers in one form: equal for "[0.1, 2]" and
+/// "[1e-1,2.0]".
+std::string oneForm(const std::string& value) {
+  const auto isOfWord = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '+' || c == '-';
+  };
+  const auto isQuote = [](char c) { return c == '"' || c == '\''; };
+  std::string form;
+  for (std::size_t i = 0; i < value.size();) {
+    if (isQuote(value[i])) {
+      const std::size_t end = std::min(value.find(value[i], i + 1), value.size());
+      form += value.substr(i + 1, end - i - 1), i = end + 1;
+      continue;
+    }
+    std::string word;
+    for (; i < value.size() && isOfWord(value[i]); ++i) word += value[i];
+    std::string digits = word;
+    std::erase(digits, '_'); // separates digits in TOML
+    char* end = nullptr;
+    const double number = std::strtod(digits.c_str(), &end);
+    const bool isNumber = end != digits.c_str() && *end == 0 && !std::isalpha(static_cast<unsigned char>(word.front()));
+    form += isNumber ? fmt::format("{}", number + 0.0) : word; // -0 becomes 0
+    if (i < value.size() && !isQuote(value[i])) {
+      if (value[i] != ' ' && value[i] != '\t') form += value[i];
+      ++i;
+    }
+  }
+  return form;
+}
 
 /// One value of an axis.
 struct Point {
@@ -189,17 +219,17 @@ std::vector<Axis> axesOf(const SweepLists& lists) {
   return axes;
 }
 
-} // namespace
-
-void printNotes(const SweepPlan& plan) {
-  if (plan.runs.empty()) return;
-  scene::printNotes(plan.runs.front().scene);
-  const std::vector<std::string> first = scene::unusualValues(plan.runs.front().scene);
-  std::set<std::string> printed(first.begin(), first.end());
+/// Throws if two runs have equal scenes, such as those of "--case a: x=1" and "--case b: x=1.0".
+void checkRunsDiffer(const SweepPlan& plan) {
+  std::map<std::string, std::string> nameOf;
   for (const SweepRun& run : plan.runs)
-    for (const std::string& note : scene::unusualValues(run.scene))
-      if (printed.insert(note).second) support::printStderr("grouser: note: {}\n", note);
+    if (const auto [same, isNew] = nameOf.try_emplace(scene::resolvedToml(run.scene), run.name); !isNew)
+      throw InputError(fmt::format("sweep: the runs {} and {} are equal, because all keys have the same values; remove "
+                                   "one of the values or cases",
+                                   same->second, run.name));
 }
+
+} // namespace
 
 std::vector<std::string> splitValues(std::string_view list) {
   std::vector<std::string> values;
@@ -234,8 +264,12 @@ KeyValues keyValues(const std::string& set, const std::string& option, const std
   for (std::size_t i = 0; i < given.values.size(); ++i) {
     if (given.values[i].empty())
       throw InputError(fmt::format("{} {}: value {} of the list is empty; remove the extra comma", option, set, i + 1));
-    if (std::count(given.values.begin(), given.values.end(), given.values[i]) > 1)
-      throw InputError(fmt::format("{} {}: {} is listed twice; remove one", option, set, given.values[i]));
+    for (std::size_t k = 0; k < i; ++k)
+      if (given.values[k] == given.values[i])
+        throw InputError(fmt::format("{} {}: {} is listed twice; remove one", option, set, given.values[i]));
+      else if (oneForm(given.values[k]) == oneForm(given.values[i]))
+        throw InputError(fmt::format("{} {}: {} and {} are the same value; remove one", option, set, given.values[k],
+                                     given.values[i]));
   }
   return given;
 }
@@ -294,6 +328,7 @@ SweepPlan planSweep(const std::filesystem::path& scene, const SweepLists& lists,
       more = at[k] != 0;
     }
   }
+  checkRunsDiffer(plan);
   return plan;
 }
 

@@ -43,9 +43,6 @@ struct SweepPlan {
   std::vector<SweepRun> runs;    ///< the last key changes fastest
 };
 
-/// Prints the notes on the first scene (scene::printNotes), and each note on unusual values in the other scenes once.
-void printNotes(const SweepPlan& plan);
-
 /// Splits a list at commas outside quotes, brackets and braces: "[1, 2],[3, 4]" has two values.
 std::vector<std::string> splitValues(std::string_view list);
 

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/drive_length.hpp"
@@ -279,10 +280,22 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
   for (const double value : figures) cells.push_back(support::csvCell(value));
   cells.push_back(manifest.text("state_hash"));
   cells.push_back(manifest.commit());
+  cells.push_back(support::csvCell(noticesOfRun(run, folder)));
   return cells;
 }
 
 } // namespace
+
+bool isOnRigidGround(const scene::Scene& scene) {
+  return scene.vehicle && scene.terrain && scene.terrain->kind == scene::TerrainKind::rigid;
+}
+
+std::string rigidGroundNote(const SweepPlan& plan) {
+  const auto isRigid = [](const SweepRun& run) { return isOnRigidGround(run.scene); };
+  if (std::none_of(plan.runs.begin(), plan.runs.end(), isRigid)) return "";
+  return "note: shoes do not sink into rigid ground; a negative sinkage is the height of the pads above it, on their "
+         "grousers\n";
+}
 
 double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
   const double duration = std::isfinite(end) ? end : scene.run.duration;
@@ -353,7 +366,7 @@ fs::path writeSummary(const SweepPlan& plan, const std::vector<SweepOutcome>& ou
   for (const char* column : {"status", "message", "inconclusive", "wall time [s]", "steps", "simulated time [s]"})
     header.emplace_back(column);
   for (const std::string& column : figures.columns) header.push_back(support::csvCell(column));
-  header.insert(header.end(), {"state hash", "commit"});
+  header.insert(header.end(), {"state hash", "commit", "warnings and notes"});
   std::string text = fmt::format("{}\n", fmt::join(header, ","));
   for (std::size_t i = 0; i < plan.runs.size(); ++i)
     text += fmt::format("{}\n",

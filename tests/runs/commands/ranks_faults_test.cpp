@@ -113,7 +113,7 @@ for i in $(seq 600); do [ -e o/checkpoint.h5 ] && break; sleep 0.05; done
 "$grouser" run bed.toml --out o --force --steps 1; echo "code $code $?"
 kill $first; wait $first)");
   EXPECT_NE(o.out.find("code 2 2\n"), std::string::npos) << o.out << o.errors;
-  EXPECT_NE(o.errors.find("o: another run is writing to this folder"), std::string::npos) << o.errors;
+  EXPECT_NE(o.errors.find("o: in use by process"), std::string::npos) << o.errors;
   EXPECT_EQ(run(1, "hash o/checkpoint.h5").code, 0);
   EXPECT_EQ(run(1, "run bed.toml --out nowhere --resume").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "nowhere")) << "the lock must not create the folder";

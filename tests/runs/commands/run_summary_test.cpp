@@ -72,6 +72,30 @@ TEST_F(RunSummary, WarnsIfTheSpeedStillVariesInTheSteadyPart) {
   EXPECT_LT(warning, surging.out.find(line(surging.out, "speed"))) << surging.out;
 }
 
+TEST_F(RunSummary, OnRigidGroundShoesDoNotSink) {
+  const Outcome run = call("run scene.toml --out a", withSharedCache());
+  ASSERT_EQ(run.code, 0) << run.errors;
+  // light_tracked.toml: grousers of 15 mm. The column of the results remains the height below the pads.
+  EXPECT_NE(line(run.out, "sinkage").find("none: the shoes stand on their grousers, with the pads 1"),
+            std::string::npos)
+      << run.out;
+  EXPECT_NE(line(run.out, "sinkage").find(" mm above the rigid ground"), std::string::npos) << run.out;
+  EXPECT_EQ(run.out.find("sinkage   -"), std::string::npos) << run.out;
+  EXPECT_EQ(line(run.out, "pull"), "") << "no hitch";
+}
+
+TEST_F(RunSummary, AHitchAddsDrawbarPullAndMotionResistanceWithTheirInterval) {
+  const Outcome run = call("run scene.toml --out a --set hitch.kind=force --set hitch.force=2000 --set hitch.ramp=0.01",
+                           withSharedCache());
+  ASSERT_EQ(run.code, 0) << run.errors;
+  const std::string pull = line(run.out, "pull"), motion = line(run.out, "motion");
+  // The drive starts at 0.01 s and its ramp ends at 0.06 s, so the steady part begins at 0.155 s or up to a tooth
+  // later.
+  EXPECT_NE(pull.find(" 2 kN, drawbar pull, mean from 0.1"), std::string::npos) << run.out;
+  EXPECT_NE(pull.find(" to 0.25 s"), std::string::npos) << run.out;
+  EXPECT_NE(motion.find(" kN, motion resistance, mean from 0.1"), std::string::npos) << run.out;
+}
+
 TEST_F(RunSummary, ASceneWithoutVehicleHasEnergyAndResults) {
   put(folder_ / "ball.toml", "version = 1\n[run]\nduration = 0.1\n[material.glass]\nstiffness = 1e4\n[[plane]]\n"
                              "material = \"glass\"\n[[grain]]\nposition = [0, 0, 0.02]\nradius = 0.01\n"

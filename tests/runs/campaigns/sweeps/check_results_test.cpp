@@ -202,11 +202,26 @@ TEST_F(CheckResults, RoundingIsToldByTheLargestFigureOfItsUnit) {
   EXPECT_TRUE(isAboveRounding(figure("left over [m] at the end")));
 }
 
-TEST_F(CheckResults, WithoutFinerStepsThereIsNoBar) {
+TEST_F(CheckResults, WithoutFinerStepsTheBarIsOfTheOtherAxesUnlessTheStepIsAsked) {
   record_.cases.seeded = false;
   add(CheckAxis::base, "base", 0, {3.8});
+  EXPECT_TRUE(std::isinf(depth().bar)) << "no axis at all";
   add(CheckAxis::precision, "double", 0, {3.9});
-  EXPECT_TRUE(std::isinf(depth().bar));
+  EXPECT_NEAR(depth().bar, 0.1, 1e-12);
+  record_.costs = costsOf(record_);
+  const std::string text = checkText(record_, results());
+  EXPECT_NE(text.find("error bars include precision, but not the time step: add step to --axes"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("cheapest"), std::string::npos) << text;
+  add(CheckAxis::step, "half", 1, {});
+  EXPECT_TRUE(std::isinf(depth().bar)) << "its runs have not finished";
+  record_.costs = costsOf(record_);
+  const std::string missing = checkText(record_, results());
+  EXPECT_NE(missing.find("no error bars, because they require the error of the time step: no run with a smaller time "
+                         "step has finished"),
+            std::string::npos)
+      << missing;
+  EXPECT_EQ(missing.find("?"), std::string::npos) << missing;
 }
 
 TEST_F(CheckResults, RunsWithoutAHashSayNothingOfTheSkin) {

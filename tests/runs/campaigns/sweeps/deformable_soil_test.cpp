@@ -89,6 +89,14 @@ TEST_F(DeformableSoil, AnErrorOfTheParametersStandsBesideThatOfTheNodes) {
   EXPECT_NE(o.out.find("step, skin, depth, width, floor, grain_size, spheres, precision skipped: not among --axes"),
             std::string::npos)
       << o.out;
+  // The total of both axes; before, it was unknown without the axis step.
+  const double bar = std::hypot(parameter.at("bar").get<double>(), nodes.at("bar").get<double>());
+  EXPECT_NEAR(error.at("bar").get<double>(), bar, 1e-9 * bar);
+  EXPECT_NE(o.out.find("error bars include node_spacing, parameter, but not the time step: add step to --axes"),
+            std::string::npos)
+      << o.out;
+  for (const char* none : {"+- ?", "(no interval)", "cheapest"})
+    EXPECT_EQ(o.out.find(none), std::string::npos) << none << "\n" << o.out;
 }
 
 } // namespace

@@ -108,5 +108,41 @@ TEST_F(SweepOrder, ShareDoneIsOfTheTimeAtWhichRunsAreExpectedToEnd) {
   EXPECT_EQ(timeReached(folder_), 0);
 }
 
+TEST(RunTimes, AKindWithoutARunHasNoTime) {
+  RunTimes times;
+  const std::size_t rigid = times.add("rigid", "", 10), soil = times.add("scm", "", 1000),
+                    bed = times.add("bed", "", 50);
+  EXPECT_FALSE(times.left(1)) << "nothing has run";
+  times.begin(rigid, 0);
+  times.reach(rigid, 0, 5);
+  EXPECT_FALSE(times.left(1)) << "it still prepares";
+  times.end(rigid, 1, 0, 4);
+  EXPECT_FALSE(times.left(1)) << "rigid ground says nothing about soil and grains";
+  times.begin(soil, 0);
+  times.end(soil, 1, 0, 2);
+  times.begin(bed, 0);
+  // Rows from 30 s on, 1 % of the run per second.
+  for (int k = 1; k <= 10; ++k) times.reach(bed, 0.01 * k, 30 + k);
+  ASSERT_TRUE(times.left(1));
+  EXPECT_NEAR(*times.left(1), 90, 1e-9);
+  times.reach(bed, 0.1, 45);
+  EXPECT_NEAR(*times.left(1), 85, 1e-9) << "it counts down between rows";
+}
+
+TEST(RunTimes, OfOneKindFollowWorkPreparationAndJobs) {
+  RunTimes times;
+  const std::size_t first = times.add("bed", "seed 1", 100), second = times.add("bed", "seed 1", 200),
+                    third = times.add("bed", "seed 2", 100);
+  times.begin(first, 0);
+  times.end(first, 31, 30, 10); // 30 of 31 s settle the bed; 0.1 s per unit of work
+  EXPECT_NEAR(*times.left(1), (1 + 20) + (31 + 10), 1e-9) << "the second shares the bed of the first";
+  EXPECT_NEAR(*times.left(2), 41, 1e-9) << "no less than the longest run";
+  times.begin(second, 0);
+  times.reach(second, 0, 0.5);
+  EXPECT_NEAR(*times.left(1), (0.5 + 20) + 41, 1e-9);
+  times.end(second, 1, 0, 20), times.begin(third, 0.5);
+  EXPECT_NEAR(*times.left(1), 16 + 5, 1e-9) << "resumed at half; mean preparation";
+}
+
 } // namespace
 } // namespace grouser::sweeps

@@ -109,9 +109,10 @@ TEST_F(Sweep, AnEntryOfAListIsNamedByItsWholeKey) {
 }
 
 TEST_F(Sweep, ValuesThatLookAlikeAsFolderNamesGetTheirOwn) {
-  const SweepPlan plan = planSweep(scene(), {{"grain.0.velocity=[0,0,1],[0, 0, 1]"}});
-  EXPECT_EQ(plan.runs[0].name, "velocity=0_0_1");
-  EXPECT_EQ(plan.runs[1].name, "velocity=0_0_1~2");
+  std::ofstream(scene(), std::ios::app) << "[material.\"a b\"]\n[material.a_b]\n";
+  const SweepPlan plan = planSweep(scene(), {{"grain.0.material=\"a b\",a_b"}});
+  EXPECT_EQ(plan.runs[0].name, "material=a_b");
+  EXPECT_EQ(plan.runs[1].name, "material=a_b~2");
 }
 
 TEST_F(Sweep, OneValueIsASweepOfOneRun) {

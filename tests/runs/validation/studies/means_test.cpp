@@ -32,7 +32,8 @@ TEST(ValueText, HasNoMoreDigitsThanItsIntervalAllows) {
   EXPECT_EQ(jobs::valueText({0.07294, 0.00903}), "0.0729 +- 0.0090");
   EXPECT_EQ(jobs::valueText({1234567, 21000}), "(1.235 +- 0.021)e6");
   EXPECT_EQ(jobs::valueText({0.5, 7e-10}), "(5.0000000000 +- 0.0000000070)e-1") << "not 0.5 +- 7.0e-10";
-  EXPECT_EQ(jobs::valueText({0.25, std::numeric_limits<double>::infinity()}), "0.25000 +- ?");
+  EXPECT_EQ(jobs::valueText({0.25, std::numeric_limits<double>::infinity()}), "0.25000 (no interval)");
+  EXPECT_EQ(jobs::percent({0.25, std::numeric_limits<double>::infinity()}), "25.0 % (no interval)");
 }
 
 TEST(ValueText, LeavesOutAnIntervalOfRounding) {
