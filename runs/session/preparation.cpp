@@ -78,8 +78,8 @@ std::unique_ptr<coupling::Simulation> makeSimulation(coupling::SimulationSetup s
                   : "settling  several beds, one after another; each starts at 0 s";
   std::unique_ptr<support::Progress> settling;
   std::optional<support::Stopwatch> begun;
-  double reached = 0; // by the bed that settles now [s]
-  int restarts = 0;   // of the simulated time
+  double reached = 0; // simulated time of the bed that settles now [s]
+  int restarts = 0;   // number of beds that have settled before it
   FailedBed failed(setup.ground, record, request, exec);
   coupling::SettleProgress settle = [&](double time, double energyRatio) {
     if (const int signal = SignalWatch(comm).receivedAt(0))

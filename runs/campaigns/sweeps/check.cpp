@@ -297,7 +297,7 @@ private:
 void runCheck(const fs::path& scene, const CheckOptions& options) {
   if (!options.budget.empty()) budgetSeconds(options.budget);
   support::requireFolder(options.sweep.folder);
-  claim(options.sweep);
+  const Claim claim(options.sweep);
   if (!options.sweep.force) checkFolderOfCheck(options.sweep.folder);
   Check(scene, options).run();
 }

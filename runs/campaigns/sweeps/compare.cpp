@@ -155,7 +155,7 @@ SweepPlan planCompare(const fs::path& scene, const CompareOptions& options) {
 }
 
 int runCompare(const fs::path& scene, const CompareOptions& options) {
-  claim(options.sweep);
+  const Claim claim(options.sweep);
   if (!options.sweep.force) checkSweepFiles(options.sweep.folder);
   const std::vector<Variant> variants = variantsOf(scene, options);
   const SweepPlan plan = planOf(scene, variants, options.seeds);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/campaigns/sweeps/run_notices.hpp"
 
-#include "runs/campaigns/sweeps/runner.hpp"
+#include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/print_stderr.hpp"

@@ -8,6 +8,7 @@
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/campaigns/sweeps/run_progress.hpp"
+#include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -334,8 +335,13 @@ private:
 
 } // namespace
 
-void claim(const SweepOptions& options) {
-  if (!options.shared) support::claimUnused(*options.lock, options.folder);
+Claim::Claim(const SweepOptions& options) : use_(options.use) {
+  if (!options.shared) support::claimUnused(use_->lock, options.folder);
+  ++use_->claims;
+}
+
+Claim::~Claim() {
+  if (--use_->claims == 0) use_->lock.release();
 }
 
 std::string endedText(const std::vector<SweepOutcome>& outcomes) {
@@ -365,7 +371,7 @@ std::vector<SweepOutcome> runMissing(const SweepPlan& plan, const SweepOptions& 
   if (error || !fs::is_directory(options.folder))
     throw base::InputError(
         fmt::format("{}: cannot create the folder; choose another with --out", options.folder.string()));
-  claim(options); // two sweeps in one folder would remove each other's files
+  const Claim claim(options); // two sweeps in one folder would remove each other's files
   Runner runner(plan, options, what, changed);
   runner.run();
   return runner.outcomes();

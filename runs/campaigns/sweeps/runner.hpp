@@ -15,8 +15,6 @@
 /// Runs scenes, each in a separate process.
 namespace grouser::sweeps {
 
-inline constexpr const char* kRunLog = "log.txt"; ///< printed output of a run, in its folder
-
 struct SweepOptions {
   std::filesystem::path program; ///< grouser executable
   std::filesystem::path folder;  ///< contains the folders of the runs, summary.csv and summary.png
@@ -28,12 +26,26 @@ struct SweepOptions {
   std::optional<std::filesystem::path> from; ///< checkpoint from which all runs branch; empty path: settling runs
   bool keepFailures = false;                 ///< failed runs are results and are not repeated
   bool shared = false;                       ///< whether other calls perform other runs in the same folder
-  std::shared_ptr<support::FileLock> lock = std::make_shared<support::FileLock>(); ///< see claim()
+  /// Lock on the folder, and the number of claims that hold it.
+  struct Use {
+    support::FileLock lock;
+    int claims = 0;
+  };
+  std::shared_ptr<Use> use = std::make_shared<Use>(); ///< see Claim
 };
 
-/// Locks the folder, if it exists and is not shared, until the last copy of the options is destroyed. Throws InputError
-/// if another command uses the folder.
-void claim(const SweepOptions& options);
+/// Holds the lock on the folder of these options, if it exists and is not shared, until the last claim of the same
+/// options is destroyed. The constructor throws InputError if another command uses the folder.
+class Claim {
+public:
+  explicit Claim(const SweepOptions& options);
+  ~Claim();
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
+
+private:
+  std::shared_ptr<SweepOptions::Use> use_;
+};
 
 using OutcomesChanged = std::function<void(const std::vector<SweepOutcome>&)>;
 

@@ -70,7 +70,7 @@ std::string seedsWarning(const SweepPlan& plan) {
 } // namespace
 
 int runSweep(const SweepPlan& given, const SweepOptions& options) {
-  claim(options);
+  const Claim claim(options);
   if (!options.force) checkSweepFiles(options.folder);
   const SweepPlan plan = options.from ? branched(given, options) : given;
   support::printStderr("{}", seedsWarning(plan));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Warnings and notes of runs: each kind once, with the number of runs, in texts and files of all campaigns.
 #include "runs/campaigns/sweeps/run_notices.hpp"
-#include "runs/campaigns/sweeps/runner.hpp"
+#include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 
