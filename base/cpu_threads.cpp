@@ -150,6 +150,22 @@ int coresIn(const std::vector<std::uint64_t>& mask) {
   return count;
 }
 
+void unbindFirstThread() {
+  std::vector<int> cores;
+  for (int place = 0; place < omp_get_num_places(); ++place) {
+    std::vector<int> ids(static_cast<std::size_t>(omp_get_place_num_procs(place)));
+    omp_get_place_proc_ids(place, ids.data());
+    cores.insert(cores.end(), ids.begin(), ids.end());
+  }
+  if (cores.empty()) return; // not bound
+  cpu_set_t* const set = CPU_ALLOC(kMaxCores);
+  const std::size_t bytes = CPU_ALLOC_SIZE(kMaxCores);
+  CPU_ZERO_S(bytes, set);
+  for (const int core : cores) CPU_SET_S(static_cast<std::size_t>(core), bytes, set);
+  sched_setaffinity(0, bytes, set);
+  CPU_FREE(set);
+}
+
 int shareOfCores(const std::vector<std::uint64_t>& mine, const std::vector<std::vector<std::uint64_t>>& all) {
   double share = 0;
   for (std::size_t i = 0; i < 64 * mine.size(); ++i) {

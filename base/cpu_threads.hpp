@@ -45,6 +45,9 @@ std::optional<double> cpuQuota(const std::string& own, const std::filesystem::pa
 /// Cores that this process may use, one bit each.
 std::vector<std::uint64_t> affinityMask();
 int coresIn(const std::vector<std::uint64_t>& mask);
+/// OMP_PROC_BIND binds the first thread to one place. Lets this thread use all places again, for a program that it
+/// starts.
+void unbindFirstThread();
 /// Share of `mine` if processes with equal bits share these cores; `all`: masks of all processes of the host, including
 /// this one. At least 1.
 int shareOfCores(const std::vector<std::uint64_t>& mine, const std::vector<std::vector<std::uint64_t>>& all);

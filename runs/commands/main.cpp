@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/comm.hpp"
+#include "base/cpu_threads.hpp"
 #include "base/error.hpp"
 #include "runs/commands/command_entry.hpp"
 #include "runs/commands/manual.hpp"
@@ -41,6 +42,7 @@ void occupyStandardStreams() {
 void waitBriefly(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
   setenv("GOMP_SPINCOUNT", "5000", 1);
+  base::unbindFirstThread();
   execv("/proc/self/exe", argv); // returns only on failure: then use the default
 }
 

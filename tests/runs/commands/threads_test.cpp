@@ -32,20 +32,23 @@ protected:
 TEST_F(Threads, LimitsOfTheEnvironmentAreFollowedAndPrinted) {
   const std::string hash = bed("", "--threads 1").hash();
   EXPECT_TRUE(hash.starts_with("state-hash")) << hash;
-  const std::string cores = std::to_string(std::thread::hardware_concurrency());
+  const Outcome free = bed("");
+  const std::string all = device(free).substr(0, device(free).find(" on "));
   struct Case {
     const char *before, *words;
     std::string starts, cause;
   };
-  for (const Case& c : {Case{"OMP_NUM_THREADS=1", "", "1 thread on ", "OMP_NUM_THREADS = 1"},
-                        Case{"OMP_NUM_THREADS=1,3", "", "1 thread on ", "OMP_NUM_THREADS = 1"},
-                        Case{"OMP_THREAD_LIMIT=1", "", "1 thread on ", "OMP_THREAD_LIMIT = 1"},
-                        Case{"taskset -c 0", "", "1 thread on ", "the CPU affinity of the process"},
-                        // An explicit number has priority, except over OMP_THREAD_LIMIT.
-                        Case{"OMP_NUM_THREADS=1", "--threads 2", "2 threads on ", "OMP_NUM_THREADS = 1"},
-                        Case{"OMP_NUM_THREADS=abc", "--threads 2", "2 threads on ", ""},
-                        Case{"OMP_THREAD_LIMIT=1", "--threads 2", "1 thread on ", "OMP_THREAD_LIMIT = 1"},
-                        Case{"OMP_DYNAMIC=true", "--threads 3", "3 threads on ", ""}}) {
+  for (const Case& c :
+       {Case{"OMP_NUM_THREADS=1", "", "1 thread on ", "OMP_NUM_THREADS = 1"},
+        Case{"OMP_NUM_THREADS=1,3", "", "1 thread on ", "OMP_NUM_THREADS = 1"},
+        Case{"OMP_THREAD_LIMIT=1", "", "1 thread on ", "OMP_THREAD_LIMIT = 1"},
+        Case{"taskset -c 0", "", "1 thread on ", "the CPU affinity of the process"},
+        // An explicit number has priority, except over OMP_THREAD_LIMIT.
+        Case{"OMP_NUM_THREADS=1", "--threads 2", "2 threads on ", "OMP_NUM_THREADS = 1"},
+        Case{"OMP_NUM_THREADS=abc", "--threads 2", "2 threads on ", ""},
+        Case{"OMP_THREAD_LIMIT=1", "--threads 2", "1 thread on ", "OMP_THREAD_LIMIT = 1"},
+        // The program restarts itself; it must not inherit the core to which OpenMP binds its first thread.
+        Case{"OMP_PROC_BIND=true", "", all, ""}, Case{"OMP_DYNAMIC=true", "--threads 3", "3 threads on ", ""}}) {
     const Outcome o = bed(c.before, c.words);
     EXPECT_EQ(o.hash(), hash) << c.before << ' ' << c.words << o.errors;
     EXPECT_EQ(device(o).rfind(c.starts, 0), 0u) << c.before << ' ' << c.words << ": " << device(o);
