@@ -124,6 +124,7 @@ TEST_F(CheckResults, TheStepsOrderIsOfBothSides) {
   ASSERT_TRUE(e.order);
   EXPECT_NEAR(*e.order, 1, 1e-9);
   EXPECT_NEAR(e.change.value, -0.2, 1e-9); // extrapolated to zero step
+  EXPECT_DOUBLE_EQ(depth().value.value, 11) << "the value is that of the unchanged scene";
 }
 
 TEST_F(CheckResults, PrecisionIsNoPartOfABarOverSeeds) {
