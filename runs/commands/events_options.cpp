@@ -31,6 +31,8 @@ void addEventRuns(CLI::App& app, events::EventsCommand& c, const std::string& de
                  "commanded speed [m/s], doubled in the event acceleration; default: 1.2 for the light vehicle; for "
                  "other vehicles this value is scaled with the square root of the pitch radius")
       ->check(support::positive("a speed in metres per second"));
+  app.add_option("--gravity", o.gravity, "gravity [m/s2]; slopes incline it; default: 9.81")
+      ->check(support::positive("an acceleration in metres per second squared"));
   const events::BedCare &full = events::kFullCare, &quick = events::kQuickCare;
   app.add_option("--seeds", o.seeds,
                  fmt::format("number of seeds (random beds) per level; default: {}, or {} with --quick", full.seeds,

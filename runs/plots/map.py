@@ -2,7 +2,7 @@
 """Mobility map: map.py MAP.json FILE.png
 
 Go or no-go of an event over its levels and the values of a key. Cells: mean speed / commanded speed. Band: limit
-between go and no-go. Dashed line: upper bound by the closed form.
+between go and no-go. Dashed line: bound by the closed form.
 """
 import json
 import math
@@ -75,7 +75,7 @@ def draw(path):
     blocks = [column["limits"][0]["blocks"] if column["limits"] else None for column in columns]
     if any(block is not None for block in blocks):
         axis.plot(places, [math.nan if block is None else block for block in blocks], "--", color="black",
-                  label="upper bound (closed form)")
+                  label="bound (closed form)")
     for verdict, (mark, colour) in MARKS.items():
         if any(row["verdict"].startswith(verdict) for column in columns for row in column["rows"]):
             axis.plot([], [], mark, color=colour, markeredgewidth=2, label=verdict)

@@ -28,16 +28,6 @@ double lateMean(const sweeps::RunSeries& series, const std::string& column, doub
   return count ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Change of a quantity over the second half of the motion, and the duration of that half.
-struct LateChange {
-  double change = 0, seconds = 0;
-};
-LateChange lateChange(const Motion& m, const std::vector<double>& values) {
-  if (m.time.size() < 3) return {};
-  const std::size_t half = m.time.size() / 2;
-  return {values.back() - values[half], m.time.back() - m.time[half]};
-}
-
 std::vector<double> slopes(const std::vector<double>& time, const std::vector<double>& values) {
   std::vector<double> found;
   for (std::size_t i = 1; i < time.size(); ++i) found.push_back((values[i] - values[i - 1]) / (time[i] - time[i - 1]));
@@ -55,20 +45,20 @@ void addAcceleration(std::vector<Figure>& figures, const Motion& m, const Trial&
   }
   figures.push_back({"time to 90 % of the speed [s]", timeAt(time, speed, 0.9 * trial.speed)});
   if (course.rigid())
-    figures.push_back({"the same by friction alone [s]", 0.9 * trial.speed / (course.shape.friction * kGravity)});
+    figures.push_back(
+        {"the same by friction alone [s]", 0.9 * trial.speed / (course.shape.friction * course.shape.gravity)});
 }
 
 void addPivot(std::vector<Figure>& figures, const Motion& m, const sweeps::RunSeries& series, double driveStart,
               const Trial& trial, const Course& course) {
-  const LateChange turn = lateChange(m, m.turned);
-  const double rate = turn.change / turn.seconds, rp = course.shape.pitchRadius, tread = course.shape.tread;
+  const double rate = lateMotion(m).turnRate(), rp = course.shape.pitchRadius, tread = course.shape.tread;
   const double left = lateMean(series, "vehicle.left.mean_torque [N m]", driveStart),
                right = lateMean(series, "vehicle.right.mean_torque [N m]", driveStart);
   figures.push_back({"rate of turn [rad/s]", rate});
   figures.push_back({"rate over commanded [-]", rate / trial.rate});
   figures.push_back({"moment of the drives [N m]", (right - left) / rp * tread / 2});
   if (!course.rigid()) return;
-  const double weight = course.shape.mass * kGravity, mu = course.shape.friction;
+  const double weight = course.shape.weight(), mu = course.shape.friction;
   const double slip = trial.rate * tread / 2 - rate * tread / 2;
   figures.push_back(
       {"turning moment of friction opposite to the slip [N m]", turningMoment(course.shape, mu, weight, rate, slip)});
@@ -117,12 +107,12 @@ std::vector<Figure> figuresOf(Event event, const Motion& m, const sweeps::RunSer
   case Event::pivotTurn:
     addPivot(figures, m, series, driveStart, trial, course);
     break;
-  case Event::steadyTurn: {
-    const LateChange way = lateChange(m, m.way), turn = lateChange(m, m.turned);
-    const double speed = way.change / way.seconds;
-    figures.push_back({"radius driven [m]", way.change / turn.change});
-    figures.push_back({"rate of turn [rad/s]", turn.change / turn.seconds});
-    figures.push_back({"lateral acceleration [g]", speed * turn.change / turn.seconds / kGravity});
+  case Event::steadyTurn:
+  case Event::turningRadius: {
+    const LateMotion late = lateMotion(m);
+    figures.push_back({"radius driven [m]", late.radius()});
+    figures.push_back({"rate of turn [rad/s]", late.turnRate()});
+    figures.push_back({"lateral acceleration [g]", late.way / late.seconds * late.turnRate() / kGravity});
     break;
   }
   case Event::halfRound: {
@@ -133,7 +123,7 @@ std::vector<Figure> figuresOf(Event event, const Motion& m, const sweeps::RunSer
     break;
   }
   case Event::drawbar: {
-    const double pull = lateMean(series, kPullColumn, driveStart), weight = course.shape.mass * kGravity;
+    const double pull = lateMean(series, kPullColumn, driveStart), weight = course.shape.weight();
     figures.push_back({kPull, pull});
     figures.push_back({"pull over weight [-]", pull / weight});
     if (course.rigid()) figures.push_back({"mu W [N]", course.shape.friction * weight});

@@ -2,6 +2,7 @@
 #include "runs/campaigns/events/event_plan.hpp"
 
 #include "base/error.hpp"
+#include "runs/campaigns/events/event_keys.hpp"
 #include "runs/campaigns/sweeps/check_cases.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/scene_check.hpp"
@@ -68,6 +69,30 @@ scene::Soil soilOf(const std::string& word) {
   return scene::readSoil(file);
 }
 
+/// Gravity of the events [m/s2]: --gravity, or run.gravity of --set, which must be vertical as the ground is level.
+/// Slopes own run.gravity, and refuse it later.
+double gravityOf(const EventOptions& options, const std::vector<Event>& events) {
+  const bool sloping =
+      std::any_of(events.begin(), events.end(), [](Event e) { return e == Event::grade || e == Event::sideSlope; });
+  std::vector<std::string> sets;
+  for (const std::string& set : options.fixed) {
+    const std::string key = sweeps::keyOf(set);
+    if (key != "run.gravity" && !key.starts_with("run.gravity.")) continue;
+    if (options.gravity) throw InputError(fmt::format("--set {}: mutually exclusive with --gravity; remove one", set));
+    if (key != "run.gravity" && !sloping)
+      throw InputError(fmt::format("--set {}: sets one component; use --gravity, or run.gravity=[0, 0, -9.81]", set));
+    sets.push_back(set);
+  }
+  if (options.gravity || sloping || sets.empty()) return options.gravity.value_or(kGravity);
+  const base::Vec3d g = setup::loadScene(sceneOf(Event::acceleration), sets).run.gravity;
+  if (g.x != 0 || g.y != 0 || !(g.z < 0))
+    throw InputError(
+        fmt::format("--set {}: gravity must be vertical and downward, as in [0, 0, -9.81]; for slopes, use "
+                    "the events grade and side_slope",
+                    sets.front()));
+  return -g.z;
+}
+
 /// Vehicle with the user's overrides.
 vehicle::VehicleSpec specOf(const std::string& file, const EventOptions& options) {
   std::vector<std::string> sets = {fmt::format("vehicle.spec=\"{}\"", file)};
@@ -97,9 +122,10 @@ scm::SoilConstants constantsOf(const EventOptions& options, const std::string& f
   return setup::scmSetup(setup::loadScene(sceneOf(Event::acceleration), sets))->soil;
 }
 
-Course courseOf(const EventOptions& options, const std::string& file, double& grainRadius) {
+Course courseOf(const EventOptions& options, const std::vector<Event>& events, const std::string& file,
+                double& grainRadius) {
   Course c;
-  c.shape = shapeOf(specOf(file, options));
+  c.shape = shapeOf(specOf(file, options), gravityOf(options, events));
   c.speed = options.speed.value_or(std::round(100 * kLightSpeed * std::sqrt(c.shape.pitchRadius / kLightRadius)) / 100);
   c.ground = groundOf(options), c.soil = options.soil;
   if (!c.granular()) refuseGrainOptions(options, c.rigid());
@@ -127,6 +153,7 @@ std::vector<std::string> commonOf(const EventOptions& options, const EventPlan& 
                                    fmt::format("vehicle.sphere_radius={:.3g}", kSphere * plan.course.shape.padWidth),
                                    "output.plots=false", "output.picture_width=800",
                                    fmt::format("output.frames={}", options.frames)};
+  if (options.gravity) sets.push_back(fmt::format("run.gravity=[0, 0, {}]", -*options.gravity));
   if (plan.course.rigid()) return sets;
   sets.push_back(fmt::format("terrain.kind=\"{}\"", base::wordOf(plan.course.ground)));
   sets.push_back(fmt::format("terrain.material=\"{}\"", options.soil));
@@ -151,7 +178,7 @@ std::string runName(Event event, double level, int number, const EventPlan& plan
 /// Expected time at which the vehicle completes the course [s]; at most `limit`, the duration of the scene.
 double expectedEnd(const PlannedTrial& planned, double limit) {
   const Trial& trial = planned.trial;
-  if (trial.angle > 0) return limit;
+  if (trial.timed) return limit;
   const double speed = planned.event == Event::drawbar ? (1 - planned.level) * trial.speed : trial.speed;
   return speed > 0 ? std::min(limit, kStart + kSlower * trial.distance / speed) : limit;
 }
@@ -166,7 +193,7 @@ std::vector<Event> chosen(const EventOptions& options) {
 /// Levels in the order of the tables, easiest first.
 std::vector<double> easiestFirst(Event event, std::vector<double> levels) {
   std::sort(levels.begin(), levels.end());
-  if (event == Event::softSoil) std::reverse(levels.begin(), levels.end());
+  if (isHarderBelow(event)) std::reverse(levels.begin(), levels.end());
   return levels;
 }
 
@@ -176,6 +203,11 @@ void checkLevels(const EventOptions& options, const std::vector<Event>& events) 
     throw InputError("--levels: requires a single event with levels; set --only, e.g. --only step");
   std::vector<double> sorted = options.levels;
   std::sort(sorted.begin(), sorted.end());
+  const bool isCircle = events[0] == Event::steadyTurn || events[0] == Event::turningRadius;
+  if (isCircle && !(sorted.front() > 0))
+    throw InputError(fmt::format("--levels {:g}: a radius must be above 0; both events with circles turn to the left, "
+                                 "and the vehicle is symmetric",
+                                 sorted.front()));
   if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end() || !(sorted.front() > 0) ||
       !std::isfinite(sorted.back()))
     throw InputError("--levels: must be distinct, finite and above 0");
@@ -237,7 +269,7 @@ EventPlan planEvents(const EventOptions& options) {
   sweeps::checkGivenOnce(options.fixed);
   EventPlan plan;
   plan.vehicleFile = vehicleFile(options.vehicle);
-  plan.course = courseOf(options, plan.vehicleFile, plan.grainRadius);
+  plan.course = courseOf(options, events, plan.vehicleFile, plan.grainRadius);
   plan.seeds = plan.course.granular() ? options.seeds.value_or(options.care().seeds) : 1;
   plan.draws = options.draws;
   if (plan.draws > 0 && !plan.course.deformable())
@@ -256,6 +288,7 @@ EventPlan planEvents(const EventOptions& options) {
         options.levels.empty() ? levelsOf(event, plan.course, options.quick) : easiestFirst(event, options.levels);
     for (const double level : levels) {
       PlannedTrial planned{event, level, trialOf(event, level, plan.course), {}};
+      refuseOwnedKeys(options.fixed, event, planned.trial, plan.course);
       for (int number = 1; number <= std::max(plan.seeds, plan.draws); ++number) {
         sweeps::SweepRun run;
         run.file = sceneOf(event);

@@ -31,6 +31,7 @@ struct EventOptions {
   std::vector<double> levels;               ///< levels of the single event in `only`; empty: its default levels
   std::vector<std::string> fixed;           ///< "key=value" for all runs
   std::optional<double> speed;              ///< commanded speed [m/s]; empty: 1.2 for the light vehicle, else by Froude
+  std::optional<double> gravity;            ///< [m/s2]; empty: run.gravity in `fixed`, or 9.81
   std::optional<double> grainRadius;        ///< mean radius [m]
   std::optional<double> depth;              ///< bed depth [m]
   std::optional<int> seeds;                 ///< number of seeds per level; empty: default, depends on `quick`

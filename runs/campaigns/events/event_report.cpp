@@ -61,7 +61,8 @@ Verdict finishedRun(const PlannedTrial& planned, const Course& course, const fs:
   const sweeps::RunSeries series = sweeps::readSeries(folder);
   const double start = sweeps::RunManifest(folder).figure("drive_start_s");
   if (std::isnan(start)) return {false, "never drove"};
-  const Motion motion = motionOf(series, start, planned.event == Event::steadyTurn);
+  const Motion motion =
+      motionOf(series, start, planned.trial.radius > 0 ? std::optional(course.shape.controlled) : std::nullopt);
   double pull = 0;
   for (const Figure& f : figuresOf(planned.event, motion, series, start, planned.trial, course)) {
     gathered.add(f.name, f.value);
@@ -103,8 +104,9 @@ std::string levelCell(Event event, double level) { return levelText(event).empty
 
 std::string limitText(const EventLimit& limit) {
   if (limit.go && limit.noGo) return fmt::format("between {:g} and {:g}", *limit.go, *limit.noGo);
-  if (limit.go) return fmt::format("above {:g}", *limit.go);
-  if (limit.noGo) return fmt::format("below {:g}", *limit.noGo);
+  const bool below = isHarderBelow(limit.event);
+  if (limit.go) return fmt::format("{} {:g}", below ? "below" : "above", *limit.go);
+  if (limit.noGo) return fmt::format("{} {:g}", below ? "above" : "below", *limit.noGo);
   return "unknown";
 }
 
@@ -159,10 +161,10 @@ std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Cou
     std::vector<const EventRow*> levels;
     for (const EventRow& row : rows)
       if (row.event == event && row.runs > 0 && !levelText(event).empty()) levels.push_back(&row);
-    const auto harder = [event](const EventRow* a, const EventRow* b) {
-      return event == Event::softSoil ? a->level > b->level : a->level < b->level;
-    };
-    std::sort(levels.begin(), levels.end(), harder);
+    const bool below = isHarderBelow(event);
+    const auto isEasier = [below](double a, double b) { return below ? a > b : a < b; };
+    std::sort(levels.begin(), levels.end(),
+              [&](const EventRow* a, const EventRow* b) { return isEasier(a->level, b->level); });
     if (levels.size() < 2 || event == Event::drawbar) continue;
     EventLimit limit{event, {}, {}, referenceOf(event, course), {}};
     for (const EventRow* row : levels) {
@@ -175,8 +177,9 @@ std::vector<EventLimit> eventLimits(const std::vector<EventRow>& rows, const Cou
     if (limit.reference) {
       bool agrees = true;
       for (const EventRow* row : levels) {
-        if (limit.reference->blocks && row->level > *limit.reference->blocks) agrees = agrees && row->gos == 0;
-        if (limit.reference->passes && row->level < *limit.reference->passes) agrees = agrees && row->gos == row->runs;
+        const Reference& r = *limit.reference;
+        if (r.blocks && isEasier(*r.blocks, row->level)) agrees = agrees && row->gos == 0;
+        if (r.passes && isEasier(row->level, *r.passes)) agrees = agrees && row->gos == row->runs;
       }
       limit.agrees = agrees;
     }

@@ -53,13 +53,14 @@ struct EventRow {
   std::string why() const;
 };
 
-/// Bounds of the highest level that a vehicle passes.
+/// Bounds of the hardest level that a vehicle passes.
 struct EventLimit {
   Event event{};
-  std::optional<double> go;   ///< highest level that all seeds pass, together with all lower levels
-  std::optional<double> noGo; ///< lowest level that at least one seed fails
+  std::optional<double> go;   ///< hardest level that all seeds pass, together with all easier levels
+  std::optional<double> noGo; ///< easiest level that at least one seed fails
   std::optional<Reference> reference;
-  /// Whether the runs agree with the reference: all pass below `passes` and fail above `blocks`; empty: no reference.
+  /// Whether the runs agree with the reference: all levels easier than `passes` pass, all harder than `blocks` fail;
+  /// empty: no reference.
   std::optional<bool> agrees;
 };
 

@@ -67,6 +67,7 @@ jobs::Recipe recipeOf(const EventsCommand& command, const fs::path& folder, cons
   // call.json has no entry for the default ground of a soil.
   if (groundOf(o) == scene::TerrainKind::scm) call["ground"] = base::wordOf(scene::TerrainKind::scm);
   if (o.draws > 0) call["draws"] = o.draws;
+  if (o.gravity) call["gravity_m_s2"] = *o.gravity;
   if (!axis.empty()) call["axis"] = axis;
   return {folder / (axis.empty() ? "call.json" : "map_call.json"), support::jsonText(call, 2) + "\n"};
 }
@@ -90,6 +91,7 @@ void printHead(const EventsCommand& command, const std::string& what, const Even
   fmt::print("          {:.0f} kg, centre of mass {:.3f} m high and {:.3f} m ahead of the rear road wheel, "
              "track-ground contact length {:.3f} m, {:g} m/s\n",
              s.mass, s.massCentre.z, s.massCentre.x - s.firstWheel, s.groundRun(), plan.course.speed);
+  if (s.gravity != kGravity) fmt::print("          gravity {:g} m/s2\n", s.gravity);
   if (plan.course.granular())
     fmt::print("          bed depth {:.3g} m, grain diameter {:.3g} mm, {:.1f} grains per pad width; {}{}\n",
                plan.course.depth, 2e3 * plan.grainRadius, plan.course.shape.padWidth / (2 * plan.grainRadius),
@@ -115,6 +117,7 @@ nlohmann::ordered_json headJson(const EventsCommand& command, const EventPlan& p
           {"seeds", plan.seeds},
           {"draws", plan.draws},
           {"speed_m_s", plan.course.speed},
+          {"gravity_m_s2", plan.course.shape.gravity},
           {"grain_radius_m", plan.grainRadius},
           {"bed_depth_m", plan.course.depth},
           {"soil_touches_shoes_only", plan.shoesAlone()}};

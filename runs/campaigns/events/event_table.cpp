@@ -81,8 +81,9 @@ void drive(const Course& c, Trial& trial, double speed) {
 }
 
 /// Gravity for a slope of this tangent.
-std::string leaning(double slope, bool sideways) {
-  const double along = kGravity * slope / std::sqrt(1 + slope * slope), down = kGravity / std::sqrt(1 + slope * slope);
+std::string leaning(const Course& c, double slope, bool sideways) {
+  const double g = c.shape.gravity, along = g * slope / std::sqrt(1 + slope * slope),
+               down = g / std::sqrt(1 + slope * slope);
   return sideways ? set("run.gravity", {0.0, -along, -down}) : set("run.gravity", {-along, 0.0, -down});
 }
 
@@ -124,25 +125,47 @@ void pivot(const Course& c, Trial& trial) {
   const double reach = std::hypot(std::max(c.shape.front - c.shape.massCentre.x, c.shape.rear + c.shape.massCentre.x),
                                   c.shape.halfWidth);
   const double side = 2 * (1.3 * reach + c.margin);
-  trial.angle = base::kPi, trial.rate = 2 * c.speed / c.shape.tread;
+  trial.angle = base::kPi, trial.rate = 2 * c.speed / c.shape.tread, trial.timed = true;
   trial.overrides = {set("terrain.size", {side, side}),
                      set("vehicle.position", {0.5 * side - c.shape.massCentre.x, 0.0}), set("driver.left", -omega),
                      set("driver.right", omega), set("run.duration", kSettled + 2 * trial.angle / trial.rate)};
 }
 
-void circle(const Course& c, Trial& trial, double radius) {
-  // A run ends when the chord reaches a given length; the chord increases only along the first half of the circle.
-  const double path = std::min(1.2 * kWay, 0.8 * base::kPi * radius), angle = (path + kBeyond) / radius;
-  const double reach = c.shape.halfWidth + c.margin + 2 * kEnd, start = kEnd + c.shape.rear;
-  const double ahead = radius * std::sin(std::min(angle, base::kPi / 2)), left = radius * (1 - std::cos(angle));
-  const double half = left + c.shape.length() + reach; // margin for a vehicle that turns sideways
-  trial.distance = path, trial.speed = c.speed;
-  trial.overrides = {set("terrain.size", {start + c.shape.massCentre.x + ahead + c.shape.length() + reach, 2 * half}),
-                     set("vehicle.position", {start, 0.0}),
-                     set("driver.course.speed", c.speed),
-                     set("driver.course.radius", radius),
-                     set("stop.distance", 2 * radius * std::sin(0.5 * std::min(angle, base::kPi))),
-                     set("run.duration", kSettled + 2 * path / c.speed)};
+/// Distance of the sprocket axle from its start, at which stop.distance ends a run on a circle [m]: behind the course
+/// for every radius near the commanded one. The point that follows the circle is ahead of the sprocket axle, so the
+/// axle moves on a larger circle. Empty if the distance no longer increases at that point of the circle.
+std::optional<double> chordBehind(const Course& c, double radius, double path) {
+  const auto axle = [&c](double r) { return std::hypot(r, c.shape.controlled.x); };
+  double chord = 0;
+  for (const double share : {0.9, 1.0, 1.1, 1.2}) {
+    const double angle = path / (share * radius);
+    if (angle > base::kPi) return {};
+    chord = std::max(chord, 2 * axle(share * radius) * std::sin(0.5 * angle));
+  }
+  constexpr double kRising = 0.95; // share of the diameter
+  return chord < kRising * 2 * axle(0.9 * radius) ? std::optional(chord) : std::nullopt;
+}
+
+/// `slack`: duration of the drive / duration at full speed.
+void circle(const Course& c, Trial& trial, double radius, double slack) {
+  const double path = 1.2 * kWay;
+  const std::optional<double> chord = chordBehind(c, radius, path + kBeyond);
+  trial.distance = path, trial.speed = c.speed, trial.radius = radius, trial.timed = !chord;
+  const double reach = c.shape.halfWidth + c.margin + 2 * kEnd, middle = c.shape.controlled.x;
+  if (chord) {
+    const double angle = std::min((path + kBeyond) / radius, base::kPi), start = kEnd + c.shape.rear;
+    const double ahead = radius * std::sin(std::min(angle, base::kPi / 2)), left = radius * (1 - std::cos(angle));
+    const double half = left + c.shape.length() + reach; // margin for a vehicle that turns sideways
+    trial.overrides = {set("terrain.size", {start + c.shape.massCentre.x + ahead + c.shape.length() + reach, 2 * half}),
+                       set("vehicle.position", {start, 0.0}), set("stop.distance", *chord)};
+  } else { // several turns about the middle of the ground
+    const double half = 1.2 * radius + std::max(c.shape.front - middle, c.shape.rear + middle) + reach;
+    trial.overrides = {set("terrain.size", {2 * half, 2 * half}), set("vehicle.position", {half - middle, -radius}),
+                       "~stop.distance"};
+  }
+  for (const std::string& more : {set("driver.course.speed", c.speed), set("driver.course.radius", radius),
+                                  set("run.duration", kSettled + slack * path / c.speed)})
+    trial.overrides.push_back(more);
 }
 
 } // namespace
@@ -165,6 +188,7 @@ std::string levelText(Event event) {
   case Event::sideSlope:
     return "tan of the slope [-]";
   case Event::steadyTurn:
+  case Event::turningRadius:
     return "radius of the circle [m]";
   case Event::step:
     return "height of the step [m]";
@@ -186,6 +210,10 @@ std::string levelText(Event event) {
   return "";
 }
 
+bool isHarderBelow(Event event) {
+  return event == Event::softSoil || event == Event::steadyTurn || event == Event::turningRadius;
+}
+
 std::string titleOf(Event event) {
   switch (event) {
   case Event::acceleration:
@@ -198,6 +226,8 @@ std::string titleOf(Event event) {
     return "a turn on the spot";
   case Event::steadyTurn:
     return "a circle at constant speed";
+  case Event::turningRadius:
+    return "the smallest circle at constant speed";
   case Event::step:
     return "up a step";
   case Event::gap:
@@ -240,6 +270,11 @@ std::vector<double> levelsOf(Event event, const Course& c, bool quick) {
   }
   case Event::steadyTurn:
     return {rounded(8 * scale)};
+  case Event::turningRadius: {
+    const double tread = c.shape.tread;
+    return all({rounded(2 * tread), rounded(tread), rounded(0.5 * tread), rounded(0.25 * tread)},
+               {rounded(tread), rounded(0.5 * tread)});
+  }
   case Event::step:
     return c.rigid() ? Levels{rounded(0.5 * high), rounded(0.8 * high), rounded(1.05 * high)}
                      : all({rounded(0.3 * high), rounded(0.5 * high), rounded(0.7 * high)}, {rounded(0.5 * high)});
@@ -274,17 +309,21 @@ Trial trialOf(Event event, double level, const Course& c) {
   }
   case Event::grade:
     straight(c, trial, c.shape.length(), 0, 0, kRunUp);
-    trial.overrides.push_back(leaning(level, false));
+    trial.overrides.push_back(leaning(c, level, false));
     break;
   case Event::sideSlope:
     straight(c, trial, 0, 0, c.shape.tread);
-    trial.overrides.push_back(leaning(level, true));
+    trial.overrides.push_back(leaning(c, level, true));
     break;
   case Event::pivotTurn:
     pivot(c, trial);
     return trial;
   case Event::steadyTurn:
-    circle(c, trial, level);
+    circle(c, trial, level, 2);
+    return trial;
+  case Event::turningRadius:
+    circle(c, trial, level, 1.5);
+    trial.rate = c.speed / level;
     return trial;
   case Event::step: {
     const Straight s = straight(c, trial, 0, 0.3 * scale, 0);
@@ -360,7 +399,7 @@ std::optional<Reference> referenceOf(Event event, const Course& c) {
     return mu < tipping ? Reference{fmt::format("friction {:g}; tips at {:.3g}", mu, tipping), mu, mu}
                         : Reference{fmt::format("tips at {:.4g}", tipping), tipping, tipping};
   case Event::step: {
-    const double high = c.shape.highestStep + crawl(c) * crawl(c) / (2 * kGravity);
+    const double high = c.shape.highestStep + crawl(c) * crawl(c) / (2 * c.shape.gravity);
     return Reference{
         fmt::format("none above {:.3g} m: centre of mass over the edge, suspension arms free", high), {}, high};
   }
@@ -373,6 +412,12 @@ std::optional<Reference> referenceOf(Event event, const Course& c) {
   }
   case Event::ditch:
     return Reference{fmt::format("all up to friction {:g}", mu), mu, {}};
+  case Event::turningRadius: {
+    // The lateral acceleration of a go: radius and turn rate are at least 0.9 of the commanded ones.
+    const GoRule rule;
+    const double least = rule.turn * rule.turn * (1 - rule.radius) * c.speed * c.speed / (mu * c.shape.gravity);
+    return Reference{fmt::format("none below {:.3g} m: lateral acceleration mu g", least), {}, least};
+  }
   case Event::acceleration:
   case Event::pivotTurn:
   case Event::steadyTurn:

@@ -19,6 +19,7 @@ enum class Event {
   sideSlope,
   pivotTurn,
   steadyTurn,
+  turningRadius,
   step,
   gap,
   ditch,
@@ -35,6 +36,8 @@ std::vector<Event> allEvents();
 
 /// Quantity that the levels vary: "tan of the slope [-]", "height of the step [m]"; empty for a single level.
 std::string levelText(Event event);
+/// Whether a level below another is harder, e.g. a smaller radius.
+bool isHarderBelow(Event event);
 /// "Up a slope".
 std::string titleOf(Event event);
 
@@ -66,16 +69,28 @@ struct Trial {
   std::vector<std::string> overrides; ///< "key=value"
   double distance = 0;                ///< distance to drive [m]; 0 for a pivot turn
   double angle = 0;                   ///< angle to turn [rad]
-  double rate = 0;                    ///< commanded turn rate [rad/s]
+  double rate = 0;                    ///< commanded turn rate [rad/s], if the verdict depends on it
+  double radius = 0;                  ///< commanded radius of a circle to the left [m]
   double speed = 0;                   ///< commanded speed [m/s]
   double slip = 0;                    ///< imposed slip [-]
+  bool timed = false;                 ///< the run ends at run.duration, not at a distance
 };
 Trial trialOf(Event event, double level, const Course& course);
+
+/// Criteria for the verdict go.
+struct GoRule {
+  double way = 5;      ///< [m] final part of the course over which the mean speed is measured
+  double share = 0.5;  ///< minimum of mean speed in that part (or mean turn rate) / commanded value [-]
+  double time = 20;    ///< [s] after the start of the drive
+  double maxRoll = 30; ///< [deg] maximum roll angle of the hull relative to the plane of the ground
+  double radius = 0.1; ///< maximum |driven radius / commanded radius - 1| on a circle [-]
+  double turn = 0.9;   ///< minimum of turn rate / commanded turn rate on a circle whose turn rate is commanded [-]
+};
 
 /// Analytical limit of an event from geometry and friction.
 struct Reference {
   std::string text;                     ///< "friction 0.8"
-  std::optional<double> passes, blocks; ///< highest level that must pass, lowest that must fail; undecided in between
+  std::optional<double> passes, blocks; ///< hardest level that must pass, easiest that must fail; undecided in between
 };
 /// Reference of an event; empty if the event has no closed-form limit.
 std::optional<Reference> referenceOf(Event event, const Course& course);
@@ -89,6 +104,7 @@ template <> struct grouser::base::EnumWords<grouser::events::Event> {
                                          {E::sideSlope, "side_slope"},
                                          {E::pivotTurn, "pivot_turn"},
                                          {E::steadyTurn, "steady_turn"},
+                                         {E::turningRadius, "turning_radius"},
                                          {E::step, "step"},
                                          {E::gap, "gap"},
                                          {E::ditch, "ditch"},

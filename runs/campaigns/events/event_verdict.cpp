@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace grouser::events {
 
@@ -49,7 +48,7 @@ double timeAt(const std::vector<double>& time, const std::vector<double>& value,
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPath) {
+Motion motionOf(const sweeps::RunSeries& series, double driveStart, const std::optional<SidePoint>& onPath) {
   const auto& x = columnOf(series, "vehicle.position.x [m]");
   const auto& y = columnOf(series, "vehicle.position.y [m]");
   const auto& heading = columnOf(series, "vehicle.heading [rad]");
@@ -59,20 +58,51 @@ Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPa
   Motion m;
   std::size_t first = 0;
   while (first < series.time.size() && series.time[first] < driveStart) ++first;
+  const SidePoint point = onPath.value_or(SidePoint{});
+  // Position of the point: rotated by roll, pitch (nose up) and heading.
+  const auto place = [&](std::size_t i) {
+    const double above = point.z * std::cos(roll[i]), left = -point.z * std::sin(roll[i]);
+    const double ahead = point.x * std::cos(pitch[i]) - above * std::sin(pitch[i]);
+    const double c = std::cos(heading[i]), s = std::sin(heading[i]);
+    return std::pair{x[i] + c * ahead - s * left, y[i] + s * ahead + c * left};
+  };
   double path = 0, turned = 0;
   for (std::size_t i = first; i < series.time.size(); ++i) {
     if (i > first) {
-      path += std::hypot(x[i] - x[i - 1], y[i] - y[i - 1]);
+      const auto [toX, toY] = place(i);
+      const auto [fromX, fromY] = place(i - 1);
+      path += std::hypot(toX - fromX, toY - fromY);
       turned += std::remainder(heading[i] - heading[i - 1], 2 * base::kPi);
     }
     m.time.push_back(series.time[i] - driveStart);
-    m.way.push_back(alongPath ? path : x[i] - x[first]);
+    m.way.push_back(onPath ? path : x[i] - x[first]);
     m.turned.push_back(turned);
     m.left.push_back(y[i] - y[first]);
     m.roll.push_back(roll[i]), m.pitch.push_back(pitch[i]), m.upSpeed.push_back(up[i]);
   }
   return m;
 }
+
+LateMotion lateMotion(const Motion& m) {
+  if (m.time.size() < 3) return {};
+  const std::size_t half = m.time.size() / 2;
+  return {m.way.back() - m.way[half], m.turned.back() - m.turned[half], m.time.back() - m.time[half]};
+}
+
+namespace {
+
+/// Reason why a motion on a circle is a no-go; empty if the vehicle follows the circle.
+std::string leavesCircle(const Motion& motion, const Trial& trial, const GoRule& rule) {
+  const LateMotion late = lateMotion(motion);
+  if (!(late.turned > 0)) return "does not turn to the left";
+  if (!(std::fabs(late.radius() / trial.radius - 1) <= rule.radius))
+    return fmt::format("drives a radius of {:.3g} m, commanded {:.3g} m", late.radius(), trial.radius);
+  if (trial.rate > 0 && !(late.turnRate() >= rule.turn * trial.rate))
+    return fmt::format("turns at {:.3g} rad/s, commanded {:.3g} rad/s", late.turnRate(), trial.rate);
+  return "";
+}
+
+} // namespace
 
 Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   if (motion.time.empty()) return {false, "never drove"};
@@ -89,6 +119,9 @@ Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   }
   const auto drove = passage(motion.time, motion.way, trial.distance, rule.way);
   const double most = *std::max_element(motion.way.begin(), motion.way.end());
+  // A shorter path says nothing about the steady radius.
+  if (trial.radius > 0 && most >= 0.5 * trial.distance)
+    if (const std::string why = leavesCircle(motion, trial, rule); !why.empty()) return {false, why};
   if (!drove) return {false, fmt::format("covers {:.1f} of {:.1f} m", std::max(0.0, most), trial.distance)};
   if (drove->at > rule.time) return {false, fmt::format("exceeds the time limit: {:.1f} s", drove->at)};
   const bool quick = drove->rate >= rule.share * trial.speed;

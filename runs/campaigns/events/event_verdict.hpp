@@ -5,19 +5,12 @@
 #include "runs/campaigns/sweeps/run_series.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
 /// Go/no-go verdict of a run.
 namespace grouser::events {
-
-/// Criteria for the verdict go.
-struct GoRule {
-  double way = 5;      ///< [m] final part of the course over which the mean speed is measured
-  double share = 0.5;  ///< minimum of mean speed in that part (or mean turn rate) / commanded value [-]
-  double time = 20;    ///< [s] after the start of the drive
-  double maxRoll = 30; ///< [deg] maximum roll angle of the hull relative to the plane of the ground
-};
 
 struct Verdict {
   bool go = false;
@@ -27,16 +20,25 @@ struct Verdict {
 /// Motion of a run after the start of its drive, from its time series.
 struct Motion {
   std::vector<double> time;    ///< [s] since the start of the drive
-  std::vector<double> way;     ///< [m] travelled: along the x axis, or along the path on a circle
+  std::vector<double> way;     ///< [m] travelled: along the x axis, or on a circle along the controlled point's path
   std::vector<double> turned;  ///< [rad] unwrapped heading change
   std::vector<double> left;    ///< [m] lateral displacement, left positive
   std::vector<double> roll;    ///< [rad]
   std::vector<double> pitch;   ///< [rad]
   std::vector<double> upSpeed; ///< [m/s] velocity of the hull along z
 };
-/// `alongPath`: distance along the path, not along x. Excludes rows before `driveStart` [s]; may have no rows. Throws
-/// base::InputError if the series has no vehicle.
-Motion motionOf(const sweeps::RunSeries& series, double driveStart, bool alongPath);
+/// `onPath`: point of the hull (relative to the sprocket axle) whose path is the distance travelled; empty: distance of
+/// the sprocket axle along x. Excludes rows before `driveStart` [s]; may have no rows. Throws base::InputError if the
+/// series has no vehicle.
+Motion motionOf(const sweeps::RunSeries& series, double driveStart, const std::optional<SidePoint>& onPath);
+
+/// Changes over the second half of a motion, in which a circle is steady.
+struct LateMotion {
+  double way = 0, turned = 0, seconds = 0;             ///< [m], [rad], [s]
+  double radius() const { return way / turned; }       ///< [m] positive to the left
+  double turnRate() const { return turned / seconds; } ///< [rad/s]
+};
+LateMotion lateMotion(const Motion& motion);
 
 /// Verdict of a run that ended without an error.
 Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule = {});

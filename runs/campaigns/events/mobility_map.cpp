@@ -83,7 +83,9 @@ EventPlan planColumn(const EventOptions& options, const std::string& key, const 
   try {
     return planEvents(ofColumn);
   } catch (const InputError& error) {
-    const std::string fault = error.what();
+    std::string fault = error.what();
+    const std::string ofSet = fmt::format("--set {}", ofColumn.fixed.back());
+    if (fault.starts_with(ofSet + ":")) throw InputError("--axis" + fault.substr(std::string("--set").size()));
     const std::size_t named = fault.find(key), begin = fault.find(": ");
     const bool ofKey = named != std::string::npos && begin != std::string::npos && begin < named;
     throw InputError(ofKey ? fmt::format("--axis {}={}: {}", key, value, fault.substr(begin + 2)) : fault);

@@ -96,7 +96,7 @@ struct Frame {
   double reach(const SideDisc& disc) const { return std::hypot(disc.radius + outward, halfLength); }
 };
 
-Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap) {
+Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap, double gravity) {
   Frame f;
   f.sprocket = {{0, 0}, s.sprocketPinRadius() * base::cos(base::kPi / s.sprocket.teeth)};
   f.idler = {{wrap.idlerX + s.outward() * s.idler.slideMin, s.idler.z}, s.idler.radius + s.shoe.plateTop};
@@ -112,12 +112,12 @@ Frame frameOf(const vehicle::VehicleSpec& s, const vehicle::Wrap& wrap) {
   f.first = s.roadWheel.firstX - f.wheel;
   f.last = s.lastWheelX() + f.wheel;
   // Between two wheels the pins rise by the maximum fold, below a wheel not at all.
-  const double between = s.shoe.pitch * base::sin(s.shoe.maximumFold), half = 0.5 * s.totalMass() * kGravity;
+  const double between = s.shoe.pitch * base::sin(s.shoe.maximumFold), half = 0.5 * s.totalMass() * gravity;
   f.hanging = f.drawn;
   double pressed = between;
   if (!f.rigid) {
     const double bar = s.arm.preload * f.arm * base::cos(f.drawn);
-    f.hanging += (bar + (s.roadWheel.mass + 0.5 * s.arm.mass) * kGravity * f.arm) / s.arm.stiffness;
+    f.hanging += (bar + (s.roadWheel.mass + 0.5 * s.arm.mass) * gravity * f.arm) / s.arm.stiffness;
     const auto rise = [&](double load) {
       const double turn = std::max(0.0, (load * f.arm - bar) / s.arm.stiffness);
       return f.arm * (base::sin(f.drawn) - base::sin(std::max(f.drawn - turn, -0.5 * base::kPi)));
@@ -266,9 +266,9 @@ double shortestLoop(const std::vector<SideDisc>& discs, const SidePoint& notch) 
   return length;
 }
 
-double highestStep(const vehicle::VehicleSpec& spec) {
+double highestStep(const vehicle::VehicleSpec& spec, double gravity) {
   const vehicle::Assembly drawn = vehicle::assemble(spec);
-  const Frame f = frameOf(spec, drawn.wrap);
+  const Frame f = frameOf(spec, drawn.wrap, gravity);
   const base::TriangleMesh hull =
       spheredecomp::importMesh((std::filesystem::path(spec.meshFolder) / spec.chassis.mesh).string());
   const SidePoint centre = foremostCentre(spec, drawn, f);

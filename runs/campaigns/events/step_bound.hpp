@@ -8,7 +8,7 @@
 /// Upper bound of the step height that a vehicle can climb, from its geometry.
 namespace grouser::events {
 
-inline constexpr double kGravity = 9.81; ///< gravity in event scenes [m/s2]
+inline constexpr double kGravity = 9.81; ///< default gravity of the events, and the unit g of accelerations [m/s2]
 
 /// Point in the side view: x forward from the sprocket axle, z up [m].
 struct SidePoint {
@@ -38,8 +38,8 @@ double shortestLoop(const std::vector<SideDisc>& discs, const SidePoint& notch);
 /// - the lowest wheel hangs on its arm as far as the loop and the unloaded torsion bar allow; other wheels are free;
 ///   rigid arms keep their angle, and their wheels keep the edge out;
 /// - wheels, arms and shoes shift the centre of mass as far forward and down as possible.
-/// Each assumption favours the vehicle, so this is an upper bound. Throws base::InputError if the track does not close
-/// or the hull mesh cannot be read.
-double highestStep(const vehicle::VehicleSpec& spec);
+/// Each assumption favours the vehicle, so this is an upper bound. `gravity` [m/s2]. Throws base::InputError if the
+/// track does not close or the hull mesh cannot be read.
+double highestStep(const vehicle::VehicleSpec& spec, double gravity);
 
 } // namespace grouser::events

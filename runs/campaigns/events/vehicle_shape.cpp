@@ -26,9 +26,11 @@ std::vector<SidePoint> padCorners(const vehicle::VehicleSpec& spec, const vehicl
 
 } // namespace
 
-VehicleShape shapeOf(const vehicle::VehicleSpec& spec) {
+VehicleShape shapeOf(const vehicle::VehicleSpec& spec, double gravity) {
   const vehicle::Assembly drawn = vehicle::assemble(spec);
   VehicleShape s;
+  s.gravity = gravity;
+  s.controlled = {0.5 * (spec.roadWheel.firstX + spec.lastWheelX()), spec.roadWheel.z - spec.roadWheel.radius};
   s.rear = s.front = -1e300;
   const std::vector<SidePoint> corners = padCorners(spec, drawn.wrap);
   for (const SidePoint& p : corners) s.rear = std::max(s.rear, -p.x), s.front = std::max(s.front, p.x);
@@ -44,7 +46,7 @@ VehicleShape shapeOf(const vehicle::VehicleSpec& spec) {
   s.massCentre.x /= s.mass, s.massCentre.z = s.massCentre.z / s.mass - spec.groundHeight();
   s.tread = 2 * spec.trackOffset, s.padWidth = 2 * spec.shoe.padHalfWidth;
   s.pitchRadius = spec.pitchRadius(), s.friction = spec.contact.frictionGround;
-  s.highestStep = highestStep(spec);
+  s.highestStep = highestStep(spec, gravity);
   return s;
 }
 

@@ -16,16 +16,19 @@ struct VehicleShape {
   double tread = 0;                     ///< distance between the track centre lines [m]
   double padWidth = 0;                  ///< [m]
   double pitchRadius = 0;               ///< [m]
+  SidePoint controlled;                 ///< point of the hull that a course controls (vehicle::HullMotion)
   double mass = 0;                      ///< [kg]
+  double gravity = kGravity;            ///< [m/s2]
   double friction = 0;                  ///< shoe friction on rigid ground [-]
   double highestStep = 0;               ///< upper bound of climbable steps (highestStep() of the spec) [m]
 
   double length() const { return rear + front; }
   double groundRun() const { return lastWheel - firstWheel; }
+  double weight() const { return mass * gravity; } ///< [N]
 };
 
-/// Throws base::InputError if the track does not close or the hull mesh cannot be read.
-VehicleShape shapeOf(const vehicle::VehicleSpec& spec);
+/// `gravity` [m/s2] > 0. Throws base::InputError if the track does not close or the hull mesh cannot be read.
+VehicleShape shapeOf(const vehicle::VehicleSpec& spec, double gravity);
 
 /// Widths of a gap between two slabs [m].
 struct GapBounds {

@@ -71,6 +71,20 @@ TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
       << faultOf(options, "scm.c=5,6");
 }
 
+TEST(MobilityMap, RefusesKeysOfTheEvent) {
+  EventOptions options;
+  options.only = {"drawbar"}, options.levels = {0.1, 0.2};
+  EXPECT_EQ(faultOf(options, "hitch.slip=0.1,0.3"),
+            "--axis hitch.slip=0.1: the event drawbar sets hitch.slip itself; use --levels");
+  options.only = {"grade"};
+  EXPECT_EQ(faultOf(options, "run.gravity.2=-9,-2").find("--axis run.gravity.2=-9: the event grade sets run.gravity"),
+            0u)
+      << faultOf(options, "run.gravity.2=-9,-2");
+  options.only = {"step"};
+  EXPECT_EQ(faultOf(options, "box.step.size.2=0.1,0.3").find("--axis box.step.size.2=0.1: the event step sets box"), 0u)
+      << faultOf(options, "box.step.size.2=0.1,0.3");
+}
+
 TEST(MobilityMap, TableHasTheHighestLevelOnTopAndTheLimitOfEachValue) {
   MobilityMap map{"scm.c", Event::grade, {}};
   for (const auto& [value, gos] : {std::pair{"0", std::pair{1, 0}}, {"4000", std::pair{1, 1}}}) {

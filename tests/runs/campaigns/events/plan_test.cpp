@@ -85,7 +85,7 @@ TEST(EventPlan, EveryEventTakesEveryReadyVehicle) {
     options.vehicle = vehicle;
     const EventPlan plan = planEvents(options); // loads and checks every run's scene
     for (const PlannedTrial& t : plan.trials) EXPECT_FALSE(t.runs.empty());
-    EXPECT_EQ(plan.trials.size(), 26u) << vehicle;
+    EXPECT_EQ(plan.trials.size(), 30u) << vehicle;
     EXPECT_GT(plan.course.shape.diagonal, plan.course.shape.length());
     EXPECT_TRUE(plan.omitted.contains(Event::softSoil));
     // The shipped scene with another vehicle.
@@ -251,8 +251,8 @@ TEST(EventPlan, RefusesWhatIsNone) {
   EXPECT_EQ(fault(options).find("--depth: terrain.depth"), 0u) << fault(options);
   options.depth.reset(), options.grainRadius = 1;
   EXPECT_EQ(fault(options).find("--grain-radius: terrain.depth"), 0u) << fault(options);
-  options = {}, options.only = {"step"}, options.fixed = {"driver.sprocket_speed=1e9"}, options.speed = 1;
-  EXPECT_EQ(fault(options).find("--set: driver.sprocket_speed"), 0u) << fault(options);
+  options = {}, options.only = {"step"}, options.fixed = {"driver.drive_ramp=-1"}, options.speed = 1;
+  EXPECT_EQ(fault(options).find("--set: driver.drive_ramp"), 0u) << fault(options);
   options = {}, options.seeds = 3;
   EXPECT_NE(fault(options).find("--seeds: has no effect on rigid ground"), std::string::npos);
   options.soil = "lete_sand", options.ground = scene::TerrainKind::scm;
@@ -318,6 +318,38 @@ TEST(EventLimits, LieBetweenTheLastGoAndTheFirstNoGo) {
   EXPECT_FALSE(eventLimits(rows, course)[0].noGo);
   rows[0].gos = 0;
   EXPECT_FALSE(eventLimits(rows, course)[0].go); // a go above a no-go has no effect
+}
+
+TEST(EventLimits, OfAHarderLowerLevelLieBelowTheGo) {
+  Course course;
+  course.shape = boxShape(0, 0.45), course.shape.friction = 0.8;
+  const auto limitOf = [&course](Event event, const std::vector<std::pair<double, int>>& levels) {
+    std::vector<EventRow> rows;
+    for (const auto& [level, gos] : levels) {
+      EventRow row;
+      row.event = event, row.level = level, row.runs = 1, row.gos = gos;
+      rows.push_back(row);
+    }
+    return eventLimits(rows, course).at(0);
+  };
+  for (const Event event : {Event::steadyTurn, Event::turningRadius, Event::softSoil}) {
+    const EventLimit between = limitOf(event, {{3, 0}, {8, 1}});
+    EXPECT_EQ(between.go, 8);
+    EXPECT_EQ(between.noGo, 3);
+    EXPECT_EQ(limitText(between), "between 8 and 3") << "in any order of the levels";
+    EXPECT_EQ(limitText(limitOf(event, {{8, 1}, {3, 0}})), "between 8 and 3");
+    EXPECT_EQ(limitText(limitOf(event, {{3, 1}, {8, 1}})), "below 3");
+    EXPECT_EQ(limitText(limitOf(event, {{3, 0}, {8, 0}})), "above 8");
+    EXPECT_EQ(limitText(limitOf(event, {{3, 1}, {8, 0}})), "above 8") << "a go below a no-go has no effect";
+  }
+  EXPECT_EQ(limitText(limitOf(Event::step, {{0.1, 1}, {0.2, 1}})), "above 0.2");
+  // v^2 / (mu g) is 5.1 m at 6.3 m/s; a go may be slower.
+  course.speed = 6.3;
+  const EventLimit turning = limitOf(Event::turningRadius, {{3, 0}, {8, 1}});
+  ASSERT_TRUE(turning.reference && turning.reference->blocks);
+  EXPECT_NEAR(*turning.reference->blocks, 0.729 * 6.3 * 6.3 / (0.8 * 9.81), 1e-12);
+  EXPECT_EQ(turning.agrees, true);
+  EXPECT_EQ(limitOf(Event::turningRadius, {{3, 1}, {8, 1}}).agrees, false) << "no vehicle turns within 3 m";
 }
 
 TEST(EventRow, TellsWhyOfTheRunThatDecides) {

@@ -110,7 +110,7 @@ TEST(EventMotion, BeginsWithTheDriveAndUnwindsTheHeading) {
                     "vehicle.roll_angle [rad]", "vehicle.pitch_angle [rad]", "vehicle.velocity.z [m/s]"};
   series.time = {0, 1, 2, 3};
   series.values = {{0, 2, 5, 5}, {0, 1, 1, 5}, {0, 3.0, -3.0, -2.5}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}};
-  const Motion straight = motionOf(series, 0.5, false), path = motionOf(series, 0.5, true);
+  const Motion straight = motionOf(series, 0.5, std::nullopt), path = motionOf(series, 0.5, SidePoint{});
   ASSERT_EQ(straight.time.size(), 3u);
   EXPECT_DOUBLE_EQ(straight.time[0], 0.5);
   EXPECT_DOUBLE_EQ(straight.way[2], 3);
@@ -119,6 +119,80 @@ TEST(EventMotion, BeginsWithTheDriveAndUnwindsTheHeading) {
   // From 3.0 via pi to -3.0 = 3.283, then half a radian further.
   EXPECT_NEAR(straight.turned[1], 2 * base::kPi - 6, 1e-12); // round-off of numbers about 6
   EXPECT_NEAR(straight.turned[2], 2 * base::kPi - 5.5, 1e-12);
+}
+
+/// Rows of a vehicle whose point `on` (relative to the sprocket axle) drives a circle of this radius to the left,
+/// level, at a constant speed, from rest of a second.
+sweeps::RunSeries circling(const SidePoint& on, double radius, double speed, double seconds) {
+  sweeps::RunSeries series;
+  series.columns = {"vehicle.position.x [m]",   "vehicle.position.y [m]",    "vehicle.heading [rad]",
+                    "vehicle.roll_angle [rad]", "vehicle.pitch_angle [rad]", "vehicle.velocity.z [m/s]"};
+  series.values.resize(6);
+  for (int i = 0; i < std::lround((1 + seconds) / kRow); ++i) {
+    const double time = kRow * i, turned = std::max(0.0, time - 1) * speed / radius;
+    const double heading = std::remainder(turned, 2 * base::kPi);
+    series.time.push_back(time);
+    series.values[0].push_back(radius * std::sin(turned) - on.x * std::cos(turned));
+    series.values[1].push_back(radius * (1 - std::cos(turned)) - on.x * std::sin(turned));
+    series.values[2].push_back(heading);
+    for (int c = 3; c < 6; ++c) series.values[c].push_back(0);
+  }
+  return series;
+}
+
+double figureOf(const std::vector<Figure>& figures, const std::string& name) {
+  for (const Figure& f : figures)
+    if (f.name == name) return f.value;
+  ADD_FAILURE() << "no figure " << name;
+  return 0;
+}
+
+TEST(EventCircle, IsThatOfTheControlledPointAndNotOfTheSprocketAxle) {
+  Course c;
+  c.shape.controlled = {1.437, -0.38};
+  Trial trial = course(6, 1.2);
+  for (const double radius : {0.4, 1.0, 3.0, 8.0}) {
+    const sweeps::RunSeries series = circling(c.shape.controlled, radius, 1.2, 5.5);
+    const Motion motion = motionOf(series, 1, c.shape.controlled);
+    // Chords of rows: shorter than their arcs by (speed row / radius)^2 / 24.
+    const double chords = std::pow(1.2 * kRow / radius, 2) / 24 + 1e-9;
+    trial.radius = radius, trial.rate = 1.2 / radius;
+    EXPECT_TRUE(judge(motion, trial).go) << judge(motion, trial).why;
+    for (const Event event : {Event::steadyTurn, Event::turningRadius}) {
+      const std::vector<Figure> figures = figuresOf(event, motion, series, 1, trial, c);
+      EXPECT_NEAR(figureOf(figures, "radius driven [m]"), radius, radius * chords) << "the axle's is larger";
+      EXPECT_NEAR(figureOf(figures, "lateral acceleration [g]"), 1.44 / radius / 9.81, chords);
+    }
+  }
+}
+
+TEST(EventCircle, IsNoGoOffTheCircleOrTooSlow) {
+  const SidePoint on{1.4, 0};
+  Trial trial = course(6, 1.2);
+  trial.radius = 3;
+  const auto verdict = [&](double radius, double speed) {
+    return judge(motionOf(circling(on, radius, speed, 6 / speed + 0.5), 1, on), trial);
+  };
+  EXPECT_TRUE(verdict(3.27, 1.2).go);
+  EXPECT_EQ(verdict(3.34, 1.2).why, "drives a radius of 3.34 m, commanded 3 m");
+  EXPECT_EQ(verdict(2.66, 1.2).why, "drives a radius of 2.66 m, commanded 3 m");
+  EXPECT_EQ(verdict(-3, 1.2).why, "does not turn to the left");
+  EXPECT_FALSE(verdict(1e9, 1.2).go) << "straight on";
+  EXPECT_TRUE(verdict(3, 0.7).go) << "more than half the speed";
+  trial.rate = 1.2 / 3; // turning_radius: at the stated speed
+  EXPECT_TRUE(verdict(3, 1.1).go);
+  EXPECT_EQ(verdict(3, 1.05).why, "turns at 0.35 rad/s, commanded 0.4 rad/s");
+  EXPECT_EQ(judge(motionOf(circling(on, 3, 1.2, 1), 1, on), trial).why, "covers 1.2 of 6.0 m");
+}
+
+TEST(EventCircle, PointFollowsRollAndPitch) {
+  // A point 2 m below the axle swings by 2 sin(0.1) m as the vehicle pitches or rolls by 0.1 rad.
+  for (const std::size_t column : {3u, 4u}) {
+    sweeps::RunSeries series = circling({}, 1, 0, 1);
+    for (std::size_t i = 60; i < series.time.size(); ++i) series.values[column][i] = 0.1;
+    const Motion motion = motionOf(series, 1, SidePoint{0, -2});
+    EXPECT_NEAR(motion.way.back(), 2 * std::sin(0.1), 1e-12);
+  }
 }
 
 TEST(EventFigures, LowPassKeepsLevelsAndHalvesThePowerAtItsCutoff) {
