@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import numpy
 
+from .files import fields_of, read
 from .series import Quantity, no_values
 
 #: Fields in frames of scenes with output.fields_cell: name, (unit, shape of a cell's value, definition).
@@ -37,7 +39,7 @@ class Field(Quantity):
         return float(numpy.prod(self.spacing))
 
 
-def field_of(groups: list, time: numpy.ndarray, name: str, where: object) -> Field:
+def field_of(groups: list, time: numpy.ndarray, name: str, where: Path) -> Field:
     """Reads a field. `groups`: fields of each frame, None for a frame without fields. KeyError if no frame has the
     field; ValueError if the grids of the frames differ."""
     if name not in FIELDS:
@@ -45,17 +47,18 @@ def field_of(groups: list, time: numpy.ndarray, name: str, where: object) -> Fie
     kept = [place for place, group in enumerate(groups) if group is not None]
     if not kept:
         raise KeyError(f"{where}: no soil fields; set output.fields_cell in the scene")
-    first = groups[kept[0]]
-    origin, spacing = first["origin"][:], first["spacing"][:]
-    for place in kept:
-        group = groups[place]
-        if (group["porosity"].shape != first["porosity"].shape or not numpy.array_equal(group["origin"][:], origin)
-                or not numpy.array_equal(group["spacing"][:], spacing)):
+    with fields_of(where, "the frames of a run"):
+        grids = [(read(groups[place]["origin"], where), read(groups[place]["spacing"], where),
+                  groups[place]["porosity"].shape) for place in kept]
+        values = [read(groups[place][name], where) for place in kept]
+    origin, spacing, cells = grids[0]
+    for place, (low, edges, shape) in zip(kept, grids, strict=True):
+        if shape != cells or not numpy.array_equal(low, origin) or not numpy.array_equal(edges, spacing):
             raise ValueError(f"{where}: frames {kept[0]} and {place} have different grids; read single frames: "
                              "run.frames[n].field(name)")
     unit, shape, about = FIELDS[name]
-    value = numpy.stack([groups[place][name][:] for place in kept])
+    value = numpy.stack(values)
     if shape == (3, 3):
         value = value[..., _PLACES]
-    x, y, z = (origin[a] + spacing[a] * (numpy.arange(first["porosity"].shape[2 - a]) + 0.5) for a in range(3))
+    x, y, z = (origin[a] + spacing[a] * (numpy.arange(cells[2 - a]) + 0.5) for a in range(3))
     return Field(value, unit, about, name, time[kept], x, y, z, origin, spacing)

@@ -1,15 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads JSON and CSV files of results; FileError names the file, and the position of damage."""
+"""Reads JSON, CSV and HDF5 files of results; FileError names the file, and the position of damage."""
 from __future__ import annotations
 
 import csv
 import json
 import re
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 import h5py
+import numpy
 
 from .errors import FileError
 
@@ -30,7 +32,16 @@ def read_json(file: Path, what: str) -> dict:
         raise FileError(_damaged(f"{file}:{line}:{column}", what, "not UTF-8 text")) from error
     if not isinstance(found, dict):
         raise FileError(_damaged(f"{file}:1:1", what, "not a JSON dictionary"))
+    _check(file, what)
     return found
+
+
+def _check(file: Path, what: str) -> None:
+    """FileError if the checksum in the last line of the file is wrong."""
+    text = file.read_bytes()
+    last = re.search(rb',\n  "checksum": "([0-9a-f]{8})"\n}\n\Z', text)
+    if last and int(last[1], 16) != zlib.crc32(text[:last.start()]):
+        raise FileError(_damaged(str(file), what, "wrong checksum"))
 
 
 def _damaged(place: str, what: str, fault: str) -> str:
@@ -48,9 +59,47 @@ def fields_of(file: Path, what: str) -> Iterator[None]:
         name = (re.findall("'([^']+)'", str(error)) or [error])[-1]
         raise FileError(f"{file}: cannot be read as {what}: {name!r} is missing; damaged or from another version: "
                         f"{_REMEDY}") from error
-    except (TypeError, ValueError, AttributeError, IndexError, OSError) as error:
+    except (OSError, RuntimeError, MemoryError) as error:  # raised by h5py: a wrong checksum
+        raise FileError(_damaged(str(file), what, "a part of it is unreadable")) from error
+    except (TypeError, ValueError, AttributeError, IndexError) as error:
         raise FileError(f"{file}: cannot be read as {what}: a field has the wrong type; damaged or from another "
                         f"version: {_REMEDY}") from error
+
+
+def read(dataset: h5py.Dataset, file: Path, rows: object = ()) -> numpy.ndarray:
+    """Reads a dataset, or some of its rows. FileError if the data are damaged."""
+    compressed = 1032 if dataset.compression else 1  # maximum of zlib
+    try:
+        if dataset.nbytes <= dataset.id.get_storage_size() * compressed:
+            return dataset[rows]
+    except (OSError, RuntimeError, MemoryError):
+        pass
+    raise FileError(f"{file}: dataset {dataset.name} cannot be read: the file is damaged: {_REMEDY}")
+
+
+def text_of(value: object) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+#: End of the name of an attribute with the checksum of a long text, which has no checksum in HDF5.
+CHECKSUM = "_crc32"
+
+
+def long_text(item: h5py.HLObject, name: str) -> str | numpy.ndarray:
+    """An attribute with one text or several, which may be long. ValueError if its checksum is wrong, KeyError if it is
+    missing."""
+    value = item.attrs[name]
+    if name + CHECKSUM in item.attrs:
+        data = value.tobytes() if isinstance(value, numpy.ndarray) else value
+        if zlib.crc32(data) != item.attrs[name + CHECKSUM]:
+            raise ValueError(name)
+    return value if isinstance(value, numpy.ndarray) else text_of(value)
+
+
+def require(holds: bool, file: Path, place: str) -> None:
+    """FileError if the data at `place` do not fulfil a condition."""
+    if not holds:
+        raise FileError(f"{file}: {place} is out of range: the file is damaged: {_REMEDY}")
 
 
 def still_open(file: h5py.File, path: Path) -> h5py.File:

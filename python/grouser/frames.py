@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,7 +15,7 @@ import numpy
 
 from .errors import FileError
 from .fields import Field, field_of
-from .files import fields_of, still_open
+from .files import fields_of, long_text, read, require, still_open, text_of
 from .series import Brief, Series, counted, nearest
 
 #: Units of grain quantities in frames.
@@ -44,20 +45,37 @@ class Frame:
 
     @property
     def _group(self) -> h5py.Group:
-        return self._frames._file[self._name]
+        opened = self._frames._file
+        with self._frames._whole():
+            return opened[self._name]
+
+    def _read(self, name: str) -> numpy.ndarray | None:
+        """A dataset of this frame; None if the frame lacks it."""
+        group = self._group
+        with self._frames._whole():
+            return read(group[name], self._frames.path) if name in group else None
 
     def __len__(self) -> int:
         """Number of grains."""
-        return len(self._group["grains/id"]) if "grains" in self._group else 0
+        group = self._group
+        with self._frames._whole():
+            return len(group["grains/id"]) if "grains" in group else 0
 
     def grains(self, name: str) -> numpy.ndarray:
         """A quantity of all grains, [n] or [n, 3]. name: a key of `grouser.UNITS`. KeyError if not in the frame."""
-        if "grains" not in self._group:
-            raise KeyError(f"{self._frames.path}: this frame has no grains")
-        grains = self._group["grains"]
-        if name not in grains:
-            raise KeyError(f"{self._frames.path}: no grain quantity {name!r}; available: {', '.join(grains)}")
-        return grains[name][:]
+        path, group = self._frames.path, self._group
+        with self._frames._whole():
+            names = list(group["grains"]) if "grains" in group else []
+        if not names:
+            raise KeyError(f"{path}: this frame has no grains")
+        if name not in names:
+            raise KeyError(f"{path}: no grain quantity {name!r}; available: {', '.join(names)}")
+        values = self._read(f"grains/{name}")
+        place = f"/{self._name}/grains/{name}"
+        require(len(values) == len(self), path, place)
+        if name == "radius":
+            require(bool(numpy.all((values > 0) & (values <= 1e7))), path, place)
+        return values
 
     @property
     def id(self) -> numpy.ndarray:
@@ -91,33 +109,40 @@ class Frame:
 
     def field(self, name: str) -> Field:
         """A soil field in this frame, with one row; see Frames.fields()."""
-        return field_of([self._group.get("fields")], numpy.array([self.time]), name, self._frames.path)
+        group = self._group
+        return field_of([group.get("fields")], numpy.array([self.time]), name, self._frames.path)
 
     def soil(self, name: str) -> numpy.ndarray:
         """Deformable soil in this frame: "position" [v, 3] [m] and "triangles" [t, 3]; at the vertices "sinkage" [m],
         "pressure", "max_pressure", "shear" [v] and "shear_vector" [v, 3] [Pa]. KeyError for a scene without it."""
-        soil = self._group.get("soil", {})
-        if name not in soil:
+        values = self._read(f"soil/{name}")
+        if values is None:
             raise KeyError(f"{self._frames.path}: this frame has no {name!r} of deformable soil")
-        return soil[name][:]
+        if name == "triangles":
+            self._frames._check(values, len(self._read("soil/position")), f"/{self._name}/soil/triangles")
+        return values
 
     @property
     def poses(self) -> numpy.ndarray:
         """[parts, 7] position [m] and orientation (quaternion, scalar first) of the reference frame of each part in the
         world, in the order of Frames.parts."""
-        return self._group["parts/pose"][:] if "parts" in self._group else numpy.empty((0, 7))
+        poses = self._read("parts/pose")
+        return numpy.empty((0, 7)) if poses is None else poses
 
     def pose(self, part: str) -> tuple[numpy.ndarray, numpy.ndarray]:
         """Position [3] [m] and rotation [3, 3] of a part: world = position + rotation @ p for a point p in the part's
         reference frame."""
-        row = self._group["parts/pose"][self._frames.place_of(part)]
+        row = self.poses[self._frames.place_of(part)]
         return row[:3], rotation(row[3:])
 
     @property
     def parts(self) -> Mesh:
         """Triangle meshes of the parts."""
-        fixed = self._frames._file["parts"]
-        return Mesh(self._group["parts/position"][:], fixed["triangles"][:], fixed["part"][:])
+        vertices = self._read("parts/position")
+        with self._frames._whole():
+            if vertices is None:
+                raise KeyError("parts/position")
+            return Mesh(vertices, *self._frames._triangles(len(vertices)))
 
 
 def rotation(quaternion: numpy.ndarray) -> numpy.ndarray:
@@ -144,11 +169,13 @@ class Frames:
         except OSError as error:
             raise FileError(f"{path}: cannot be read as the frames of a run: {error}") from error
         self.path: Path = path
-        self._names = sorted(name for name in self._opened if name.isdigit())
-        if not self._names and set(self._opened) - _BESIDE:
+        with self._whole():
+            self._names = sorted(name for name in self._opened if name.isdigit())
+            beside = set(self._opened) - _BESIDE
+        if not self._names and beside:
             self._opened.close()
             raise FileError(f"{path}: no frames; not the frames.h5 of a run")
-        with fields_of(path, "the frames of a run"):
+        with self._whole():
             attributes = [self._opened[name].attrs for name in self._names]
             self.time = numpy.array([one["time"] for one in attributes])  #: [frames] [s]
             self.step = numpy.array([one["step"] for one in attributes], dtype=int)  #: [frames]
@@ -162,6 +189,21 @@ class Frames:
     @property
     def _file(self) -> h5py.File:
         return still_open(self._opened, self.path)
+
+    def _whole(self) -> AbstractContextManager[None]:
+        """Context that reads from the file: FileError if it is damaged."""
+        return fields_of(self.path, "the frames of a run")
+
+    def _check(self, triangles: numpy.ndarray, vertices: int, place: str) -> None:
+        require(triangles.ndim == 2 and triangles.shape[1] == 3 and bool(numpy.all(triangles < vertices)), self.path,
+                place)
+
+    def _triangles(self, vertices: int) -> tuple[numpy.ndarray, numpy.ndarray]:
+        """Triangles of the parts, and the part of each triangle."""
+        triangles, part = (read(self._file["parts"][name], self.path) for name in ("triangles", "part"))
+        self._check(triangles, vertices, "/parts/triangles")
+        require(part.shape == triangles.shape[:1] and bool(numpy.all(part < len(self.parts))), self.path, "/parts/part")
+        return triangles, part
 
     def __len__(self) -> int:
         return len(self._names)
@@ -192,10 +234,9 @@ class Frames:
     @cached_property
     def parts(self) -> list[str]:
         """Names of the rigid parts: "chassis", "left shoe 12"."""
-        if "parts/part" not in self._file:
-            return []
-        names = self._file["parts/part"].attrs["names"]
-        return [name.decode() if isinstance(name, bytes) else str(name) for name in names]
+        opened = self._file
+        with self._whole():
+            return [text_of(name) for name in long_text(opened["parts/part"], "names")] if "parts/part" in opened else []
 
     def place_of(self, part: str) -> int:
         """Index of a part in `parts`. KeyError, with examples of names, for an unknown part."""
@@ -206,7 +247,9 @@ class Frames:
     def part(self, name: str) -> Series:
         """Motion of a part: [frames, 7] position [m] and orientation (quaternion, scalar first); see Frame.poses."""
         place = self.place_of(name)
-        poses = numpy.array([self._file[frame]["parts/pose"][place] for frame in self._names])
+        opened = self._file
+        with self._whole():
+            poses = numpy.array([read(opened[frame]["parts/pose"], self.path)[place] for frame in self._names])
         return Series(poses, "m, -", "position and orientation of a part", name, self.time, self.step,
                       ("x", "y", "z", "qw", "qx", "qy", "qz"))
 
@@ -233,9 +276,13 @@ class Frames:
     @property
     def ground(self) -> Mesh | None:
         """Triangle mesh of rigid ground; None for a scene without rigid ground."""
-        if "ground" not in self._file:
-            return None
-        return Mesh(self._file["ground/position"][:], self._file["ground/triangles"][:], None)
+        opened = self._file
+        with self._whole():
+            if "ground" not in opened:
+                return None
+            vertices, triangles = (read(opened["ground"][name], self.path) for name in ("position", "triangles"))
+            self._check(triangles, len(vertices), "/ground/triangles")
+            return Mesh(vertices, triangles, None)
 
 
 def open_frames(path: str | os.PathLike) -> Frames:

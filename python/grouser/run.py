@@ -15,7 +15,7 @@ import numpy
 from .bed import Bed, open_bed
 from .errors import FileError
 from .fields import Field
-from .files import fields_of, read_json, still_open
+from .files import CHECKSUM, fields_of, long_text, read, read_json, require, still_open, text_of
 from .frames import Frames
 from .series import Brief, Quantity, Series, counted
 
@@ -35,13 +35,9 @@ class Surface(Brief):
     #: (unfinished run, output.final_surface = false)
 
 
-def text_of(value: object) -> str:
-    return value.decode() if isinstance(value, bytes) else str(value)
-
-
-def quantity_of(dataset: h5py.Dataset, name: str) -> Quantity:
+def quantity_of(dataset: h5py.Dataset, name: str, file: Path) -> Quantity:
     """A dataset with its unit and definition; a single number has the shape ()."""
-    value = dataset[()]
+    value = read(dataset, file)
     if value.shape == (1,):
         value = value[0]
     return Quantity(value, text_of(dataset.attrs.get("unit", "")), text_of(dataset.attrs.get("help", "")), name)
@@ -64,11 +60,17 @@ class Run:
             self._opened = h5py.File(self.file, "r", locking=False)
         except OSError as error:
             raise FileError(f"{self.file}: damaged or not an HDF5 file: {error}; run again or restore a copy") from error
-        if "series/time" not in self._opened or "series/step" not in self._opened:
+        try:
+            with fields_of(self.file, "the results of a run"):
+                if "series/time" not in self._opened or "series/step" not in self._opened:
+                    raise FileError(f"{self.file}: no series; not the results.h5 of a run")
+                # The number of rows differs between quantities only if the program was killed while it wrote a row.
+                self._rows = min(len(group["value"]) for group in self._groups.values()) if self._groups else 0
+            steps = self.step
+            require(bool(numpy.all(steps[1:] > steps[:-1])), self.file, "/series/step")
+        except FileError:
             self._opened.close()
-            raise FileError(f"{self.file}: no series; not the results.h5 of a run")
-        # The number of rows differs between quantities only if the program was killed while it wrote a row.
-        self._rows = min(len(group["value"]) for group in self._groups.values()) if self._groups else 0
+            raise
 
     def close(self) -> None:
         """Closes results.h5 and frames.h5."""
@@ -120,19 +122,24 @@ class Run:
         time, step, rows = self.time, self.step, self._rows
         with fields_of(self.file, "the results of a run"):
             value = group["value"]
-            return Series(value[:rows], text_of(value.attrs["unit"]), text_of(value.attrs["help"]),
+            return Series(read(value, self.file, slice(rows)), text_of(value.attrs["unit"]), text_of(value.attrs["help"]),
                           name.replace("/", "."), time, step,
                           tuple(text_of(label) for label in value.attrs.get("labels", ())))
 
     @property
     def time(self) -> numpy.ndarray:
         """[rows] [s]"""
-        return self._open["series/time"][:self._rows]
+        return self._rows_of("series/time")
 
     @property
     def step(self) -> numpy.ndarray:
         """[rows] step number [-]"""
-        return self._open["series/step"][:self._rows]
+        return self._rows_of("series/step")
+
+    def _rows_of(self, name: str) -> numpy.ndarray:
+        opened = self._open
+        with fields_of(self.file, "the results of a run"):
+            return read(opened[name], self.file, slice(self._rows))
 
     def by_shoe(self, name: str) -> dict[str, Series]:
         """{"left": ..., "right": ...}, each [rows, shoes], for a quantity with one value per shoe: "sinkage",
@@ -154,28 +161,32 @@ class Run:
             name = path.replace("/", ".")
             if isinstance(item, h5py.Dataset) and not path.startswith("series/") and \
                     name.rpartition(".")[0] not in self._groups:
-                constants[name] = quantity_of(item, name)
+                constants[name] = quantity_of(item, name, self.file)
 
-        self._open.visititems(visit)
+        opened = self._open
+        with fields_of(self.file, "the results of a run"):
+            opened.visititems(visit)
         return constants
 
     @property
     def surface(self) -> Surface | None:
         """The undisturbed and the final surface; None for a run without a vehicle on a bed."""
-        group = self._open.get("terrain/surface")
-        if group is None:
-            return None
+        opened = self._open
         with fields_of(self.file, "the results of a run"):
-            return Surface(group["x"][:], group["y"][:], group["height"][:],
-                           text_of(group["height"].attrs["interpolation"]),
-                           group["final_height"][:] if "final_height" in group else None)
+            if "terrain/surface" not in opened:
+                return None
+            group = opened["terrain/surface"]
+            x, y, height, final = (read(group[name], self.file) if name in group else None
+                                   for name in ("x", "y", "height", "final_height"))
+            require(all(h is None or h.shape == (len(y), len(x)) for h in (height, final)), self.file, group.name)
+            return Surface(x, y, height, text_of(group["height"].attrs["interpolation"]), final)
 
     @cached_property
     def scene(self) -> dict:
         """The resolved scene: all keys with their values, as a dict (the contents of scene.toml)."""
-        attributes = self._open.attrs
+        opened = self._open
         with fields_of(self.file, "the results of a run"):
-            text = text_of(attributes["scene"])
+            text = long_text(opened, "scene")
             try:
                 return tomllib.loads(text)
             except tomllib.TOMLDecodeError as error:
@@ -196,8 +207,12 @@ class Run:
     @property
     def facts(self) -> dict[str, str | list[str]]:
         """Attributes of results.h5: version, commit, machine, state_hash, names of parts..."""
-        return {name: text_of(value) if isinstance(value, (str, bytes)) else [text_of(v) for v in value]
-                for name, value in self._open.attrs.items() if name != "scene"}
+        opened = self._open
+        with fields_of(self.file, "the results of a run"):
+            values = {name: long_text(opened, name) for name in opened.attrs
+                      if name != "scene" and not name.endswith(CHECKSUM)}
+            return {name: value if isinstance(value, str) else [text_of(v) for v in value]
+                    for name, value in values.items()}
 
     @cached_property
     def frames(self) -> Frames | None:

@@ -7,6 +7,7 @@
 #include "runs/commands/ranks_alike.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/failure.hpp"
+#include "runs/support/locations.hpp"
 #include "runs/support/option_checks.hpp"
 #include "runs/support/shell_word.hpp"
 #include "runs/support/stop_signals.hpp"
@@ -120,6 +121,7 @@ std::string commandOf(const std::vector<std::string>& words) {
 void parseAndRun(CLI::App& app, int argc, char** argv, const base::Ranks& ranks) {
   const std::vector<std::string> words(argv, argv + argc);
   const std::vector<commands::CommandEntry> all = commands::allCommands();
+  if (ranks.comm().first()) support::requireShareFolder();
   addCommands(app, all, {ranks, support::shellLine(words)});
   support::refuseOptionsAsValues(app);
   commands::requireSameCommand(commandOf(words), ranks.comm());

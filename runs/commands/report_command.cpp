@@ -8,11 +8,11 @@
 #include "runs/support/locations.hpp"
 #include "runs/support/not_written.hpp"
 #include "runs/support/output_place.hpp"
+#include "runs/support/private_folder.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -22,32 +22,6 @@ namespace grouser::commands {
 namespace fs = std::filesystem;
 
 namespace {
-
-fs::path temporaryFolder() {
-  std::error_code error;
-  fs::path folder = fs::temp_directory_path(error);
-  if (error) throw base::InputError("TMPDIR is not a folder; set it to an existing folder for temporary files");
-  return folder;
-}
-
-/// Temporary file with data of the program for the report scripts.
-class PassedFile {
-public:
-  explicit PassedFile(const std::string& text)
-      : path_(temporaryFolder() / fmt::format("grouser_report_{}.json", getpid())) {
-    support::replaceTextFile(path_, text);
-  }
-  ~PassedFile() {
-    std::error_code error;
-    fs::remove(path_, error);
-  }
-  PassedFile(const PassedFile&) = delete;
-  PassedFile& operator=(const PassedFile&) = delete;
-  std::string name() const { return path_.string(); }
-
-private:
-  fs::path path_;
-};
 
 void checkPlaces(const ReportCommand& command, const fs::path& file) {
   std::error_code error;
@@ -77,10 +51,12 @@ void reportCommand(const ReportCommand& command) {
   if (!fs::exists(script, missing))
     throw base::InputError(
         fmt::format("{} is missing; set GROUSER_SHARE to the folder that contains runs/report", script.string()));
-  const PassedFile figures(fs::exists(folder / "results.h5", missing) ? support::jsonText(sweeps::runFigures(folder))
-                                                                      : "{}");
+  const support::PrivateFolder passed("grouser_report");
+  const fs::path figures = passed.path() / "figures.json"; // data of the program for the script
+  support::replaceTextFile(
+      figures, fs::exists(folder / "results.h5", missing) ? support::jsonText(sweeps::runFigures(folder)) : "{}");
   std::vector<std::string> words = {folder.string(), file.string(),
-                                    "--figures",     figures.name(),
+                                    "--figures",     figures.string(),
                                     "--frames",      std::to_string(command.frames),
                                     "--grains",      std::to_string(command.grains),
                                     "--program",     fs::read_symlink("/proc/self/exe").string()};
@@ -98,6 +74,10 @@ void reportCommand(const ReportCommand& command) {
     throw base::InputError(
         fmt::format("a report requires Python: {}; install python3, python3-numpy and python3-h5py", outcome.output));
   if (outcome.status == kNotWritten) throw support::NotWritten(support::lastLine(outcome.output));
+  if (outcome.status < 0) // a signal
+    throw base::InputError(fmt::format("{}: the results cannot be read ({}): a file is damaged, or the memory is full; "
+                                       "run the scene again, or restore the files from a copy",
+                                       folder.string(), support::lastLine(outcome.output)));
   if (outcome.status != 0)
     throw std::logic_error(fmt::format("{}: {}", script.string(), support::lastLine(outcome.output)));
   fmt::print("{}", outcome.output);

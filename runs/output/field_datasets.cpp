@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
+
 namespace grouser::output {
 
 namespace {
@@ -51,6 +53,7 @@ const FieldDataset kFieldDatasets[] = {
      "mean number of contacts per grain, over grains with two or more contacts"},
 };
 
+constexpr std::uint64_t kMaxCells = 1'000'000'000; ///< along an axis, in a file that is not damaged
 constexpr const char *kOrigin = "/fields/origin", *kSpacing = "/fields/spacing";
 
 std::vector<std::uint64_t> cellShape(const terrain::FieldGrid& grid, std::uint64_t width) {
@@ -65,8 +68,14 @@ terrain::FieldGrid gridIn(const support::Hdf5File& file, const std::string& fram
   terrain::FieldGrid grid;
   const std::vector<double> low = file.numbers(frame + kOrigin), cell = file.numbers(frame + kSpacing);
   const std::vector<std::uint64_t> shape = file.shape(frame + "/fields/porosity");
-  if (low.size() != 3 || cell.size() != 3 || shape.size() != 3)
-    throw base::InputError(file.path().string() + frame + "/fields: is not a grid of cells");
+  bool isGrid = low.size() == 3 && cell.size() == 3 && shape.size() == 3;
+  for (std::size_t a = 0; isGrid && a < 3; ++a)
+    isGrid = std::isfinite(low[a]) && std::isfinite(cell[a]) && cell[a] > 0 && shape[a] > 0 && shape[a] <= kMaxCells;
+  if (!isGrid)
+    throw base::InputError(
+        fmt::format("{}: {}/fields is not a grid of cells; the file is damaged; run the scene again, "
+                    "or restore the file from a copy",
+                    file.path().string(), frame));
   grid.low = {low[0], low[1], low[2]}, grid.cell = {cell[0], cell[1], cell[2]};
   for (std::size_t a = 0; a < 3; ++a) grid.cells[a] = static_cast<int>(shape[2 - a]);
   return grid;

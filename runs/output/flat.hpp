@@ -3,9 +3,13 @@
 
 #include "base/vec.hpp"
 
+#include <cmath>
 #include <vector>
 
 namespace grouser::output {
+
+/// Whether a number in a file is a possible coordinate or radius [m]: finite, and within the largest space.
+inline bool isLength(float x) { return std::fabs(x) <= 1e7f; }
 
 /// Components of all vectors in sequence, in single precision.
 template <class T> std::vector<float> flat(const std::vector<base::Vec3<T>>& vectors) {

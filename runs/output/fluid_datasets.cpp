@@ -73,11 +73,13 @@ std::shared_ptr<const FluidPoints> readFluid(const support::Hdf5File& file, cons
   for (const FluidDataset& d : kDatasets) {
     const std::string dataset = datasetOf(frame, d);
     Numbers numbers = file.read<float>(dataset);
-    if (numbers.size() != count * d.width ||
-        std::any_of(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); }))
-      throw base::InputError(fmt::format(
-          "{}: {} must have a finite value for each particle; the file is damaged or was written by another program",
-          file.path().string(), dataset));
+    if (numbers.size() != count * d.width || std::any_of(numbers.begin(), numbers.end(), [&](float x) {
+          return !std::isfinite(x) || (&d == kDatasets && !isLength(x));
+        }))
+      throw base::InputError(
+          fmt::format("{}: {} must have a finite value for each particle{}; the file is damaged or was written by "
+                      "another program; run the scene again, or restore the file from a copy",
+                      file.path().string(), dataset, &d == kDatasets ? " up to 1e7 m" : ""));
     if (d.scalars)
       (*fluid).*d.scalars = std::move(numbers);
     else
@@ -85,6 +87,11 @@ std::shared_ptr<const FluidPoints> readFluid(const support::Hdf5File& file, cons
         ((*fluid).*d.vectors).push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
   }
   fluid->spacing = file.number(groupOf(frame), "spacing");
+  if (!(fluid->spacing > 0) || !isLength(static_cast<float>(fluid->spacing)))
+    throw base::InputError(
+        fmt::format("{}: the attribute spacing of {} must be in (0, 1e7] m; the file is damaged or was "
+                    "written by another program; run the scene again, or restore the file from a copy",
+                    file.path().string(), groupOf(frame)));
   return fluid;
 }
 

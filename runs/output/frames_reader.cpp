@@ -2,6 +2,7 @@
 #include "runs/output/frames_reader.hpp"
 
 #include "base/error.hpp"
+#include "runs/output/flat.hpp"
 #include "runs/output/fluid_datasets.hpp"
 #include "runs/output/soil_datasets.hpp"
 
@@ -51,7 +52,9 @@ bool FramesReader::hasVehicle() const {
 
 void FramesReader::damaged(const std::string& what) const {
   throw base::InputError(
-      fmt::format("{}: {}; the file is damaged or was written by another program", path().string(), what));
+      fmt::format("{}: {}; the file is damaged or was written by another program; run the scene again, or restore the "
+                  "file from a copy",
+                  path().string(), what));
 }
 
 std::vector<base::Vec3f> FramesReader::points(const std::string& dataset) const {
@@ -61,8 +64,8 @@ std::vector<base::Vec3f> FramesReader::points(const std::string& dataset) const 
   std::vector<base::Vec3f> points(shape[0]);
   for (std::size_t i = 0; i < points.size(); ++i) {
     points[i] = {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]};
-    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y) || !std::isfinite(points[i].z))
-      damaged(fmt::format("row {} of {} is not finite", i, dataset));
+    if (!isLength(points[i].x) || !isLength(points[i].y) || !isLength(points[i].z))
+      damaged(fmt::format("row {} of {} is not finite, or above 1e7 m", i, dataset));
   }
   return points;
 }
@@ -76,9 +79,21 @@ std::vector<float> FramesReader::perGrain(const std::string& dataset, std::size_
   return numbers;
 }
 
+std::vector<std::uint32_t> FramesReader::triangles(const std::string& dataset, std::uint64_t vertices) const {
+  const std::vector<std::uint64_t> shape = file_.shape(dataset);
+  if (shape.size() != 2 || shape[1] != 3) damaged(dataset + " is not of shape [n, 3]");
+  std::vector<std::uint32_t> corners = file_.read<std::uint32_t>(dataset);
+  for (const std::uint32_t v : corners)
+    if (v >= vertices)
+      damaged(fmt::format("{} has the vertex index {}, but there are {} vertices", dataset, v, vertices));
+  return corners;
+}
+
 void FramesReader::readParts() {
   if (!file_.has("/parts/triangles")) return;
-  const auto corners = file_.read<std::uint32_t>("/parts/triangles");
+  const std::string position = groupOf(std::size_t{0}) + "/parts/position";
+  if (!file_.has(position)) damaged(position + " is missing");
+  const auto corners = triangles("/parts/triangles", points(position).size());
   const auto partOf = file_.read<std::uint32_t>("/parts/part"), kindOf = file_.read<std::uint32_t>("/parts/kind");
   const std::vector<std::string> names = file_.texts("/parts/part", "names"),
                                  kinds = file_.texts("/parts/kind", "names");
@@ -102,9 +117,7 @@ void FramesReader::readParts() {
 void FramesReader::readGround() {
   if (!file_.has("/ground/triangles")) return;
   for (const base::Vec3f& p : points("/ground/position")) ground_.vertices.push_back(p.as<double>());
-  ground_.indices = file_.read<std::uint32_t>("/ground/triangles");
-  for (const std::uint32_t v : ground_.indices)
-    if (v >= ground_.vertices.size()) damaged("a triangle of /ground has an invalid vertex index");
+  ground_.indices = triangles("/ground/triangles", ground_.vertices.size());
 }
 
 StoredFrame FramesReader::read(std::size_t frame) const {
@@ -114,6 +127,8 @@ StoredFrame FramesReader::read(std::size_t frame) const {
   if (const std::string at = group + "/grains"; file_.has(at + "/position")) {
     f.positions = points(at + "/position");
     f.radii = perGrain(at + "/radius", f.positions.size());
+    for (const float radius : f.radii)
+      if (!isLength(radius) || radius == 0) damaged(at + "/radius has a radius outside (0, 1e7] m");
     f.speeds = perGrain(at + "/speed", f.positions.size());
   }
   if (f.positions.empty())
@@ -128,6 +143,8 @@ StoredFrame FramesReader::read(std::size_t frame) const {
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const std::string places = group + "/partition/" + "xyz"[axis]; file_.has(places)) {
       f.borders[axis] = file_.read<double>(places);
+      for (const double place : f.borders[axis])
+        if (!std::isfinite(place)) damaged(places + " is not finite");
       if (!std::is_sorted(f.borders[axis].begin(), f.borders[axis].end())) damaged(places + " is not ascending");
     }
   return f;

@@ -49,8 +49,10 @@ public:
 private:
   [[noreturn]] void damaged(const std::string& what) const;
   std::vector<base::Vec3f> points(const std::string& dataset) const;
-  /// Numbers of a dataset; throws if there are not exactly `count`.
+  /// Numbers of a dataset; throws if there are not exactly `count`, or if one is negative or not finite.
   std::vector<float> perGrain(const std::string& dataset, std::size_t count) const;
+  /// Vertex indices [triangles, 3], all less than `vertices`.
+  std::vector<std::uint32_t> triangles(const std::string& dataset, std::uint64_t vertices) const;
   void readParts();
   void readGround();
 

@@ -3,6 +3,7 @@
 
 #include "base/rounded.hpp"
 #include "runs/support/build_info.hpp"
+#include "runs/support/file_hash.hpp"
 #include "runs/support/json_text.hpp"
 #include "runs/support/text_file.hpp"
 
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kName = "manifest.json";
+constexpr const char *kName = "manifest.json", *kRows = "timeseries.csv";
 /// Reserved space at the end of the file [bytes], so that the final message can be written on a full disk.
 constexpr std::uint64_t kRoom = 16384;
 
@@ -27,13 +28,30 @@ std::string now() {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
 }
 
-nlohmann::ordered_json filesIn(const fs::path& folder) {
+/// Start of the last line of the file, with the checksum of all text before it.
+constexpr const char* kChecksum = ",\n  \"checksum\": \"";
+
+std::string fileText(const nlohmann::ordered_json& json) {
+  std::string text = support::jsonText(json, 2);
+  text.resize(text.size() - std::string("\n}").size());
+  return text + fmt::format("{}{:08x}\"\n}}\n", kChecksum, support::crc32(text));
+}
+
+std::string contentsOf(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// `ended`: also the checksum of the rows.
+nlohmann::ordered_json filesIn(const fs::path& folder, bool ended) {
   std::map<std::string, std::uintmax_t> sizes;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.is_regular_file() && entry.path().filename() != kName)
       sizes[entry.path().filename().string()] = entry.file_size();
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
   for (const auto& [name, bytes] : sizes) files[name] = {{"bytes", bytes}};
+  if (ended && sizes.contains(kRows))
+    files[kRows]["crc32"] = fmt::format("{:08x}", support::crc32(contentsOf(folder / kRows)));
   return files;
 }
 
@@ -82,8 +100,8 @@ void Manifest::write(RunStatus status) const {
     if (!summary_.stateHash.empty()) json["state_hash"] = summary_.stateHash;
     for (const auto& [key, value] : summary_.figures) json["figures"][key] = value;
   }
-  json["files"] = filesIn(path_.parent_path());
-  const std::string text = support::jsonText(json, 2) + "\n";
+  json["files"] = filesIn(path_.parent_path(), hasEnded(status));
+  const std::string text = fileText(json);
   try {
     support::replaceTextFile(path_, text, kRoom);
   } catch (const std::exception&) {
@@ -93,11 +111,19 @@ void Manifest::write(RunStatus status) const {
 }
 
 void listFiles(const fs::path& folder) {
-  std::ifstream file(folder / kName);
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
-  if (json.is_discarded()) return;
-  json["files"] = filesIn(folder);
-  support::replaceTextFile(folder / kName, support::jsonText(json, 2) + "\n");
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(manifestText(folder), nullptr, false);
+  if (!json.is_object()) return;
+  json.erase("checksum");
+  json["files"] = filesIn(folder, true);
+  support::replaceTextFile(folder / kName, fileText(json));
+}
+
+std::string manifestText(const fs::path& folder) {
+  const std::string text = contentsOf(folder / kName);
+  const std::size_t at = text.rfind(kChecksum);
+  if (at == std::string::npos) return text; // of an older version
+  const std::string end = fmt::format("{}{:08x}\"\n}}\n", kChecksum, support::crc32(text.substr(0, at)));
+  return text.compare(at, std::string::npos, end) == 0 ? text : "";
 }
 
 } // namespace grouser::output

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
@@ -47,8 +48,13 @@ Tracks readSinkage(const std::filesystem::path& results, const std::string& chos
     any = true;
     if (!chosen.empty() && side != chosen) continue;
     read.time = file.numbers(group + "/time");
-    read.tracks.push_back({side, file.shape(group + "/value").back(), file.numbers(group + "/value")});
-    if (read.tracks.back().values.size() != read.time.size() * read.tracks.back().shoes)
+    const std::vector<std::uint64_t> shape = file.shape(group + "/value");
+    if (shape.size() == 2) read.tracks.push_back({side, shape.back(), file.numbers(group + "/value")});
+    if (std::adjacent_find(read.time.begin(), read.time.end(), [](double a, double b) { return !(a < b); }) !=
+        read.time.end())
+      throw base::InputError(fmt::format("{}: {}/time is not ascending; the file is damaged; run the scene again",
+                                         results.string(), group));
+    if (shape.size() != 2 || read.tracks.back().values.size() != read.time.size() * read.tracks.back().shoes)
       throw base::InputError(
           fmt::format("{}: {} and its time series differ in length; the file is damaged; run the scene again",
                       results.string(), group));

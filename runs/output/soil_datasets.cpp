@@ -92,19 +92,23 @@ std::string soilXdmf(const support::Hdf5File& file, const std::string& frame) {
 std::shared_ptr<const SoilSurface> readSoil(const support::Hdf5File& file, const std::string& frame) {
   if (!file.has(frame + kTriangles)) return {};
   const auto damaged = [&](const std::string& dataset, const char* why) {
-    return base::InputError(fmt::format("{}: {} {}; the file is damaged or was written by another program",
+    return base::InputError(fmt::format("{}: {} {}; the file is damaged or was written by another program; run the "
+                                        "scene again, or restore the file from a copy",
                                         file.path().string(), dataset, why));
   };
   auto soil = std::make_shared<SoilSurface>();
   soil->mesh.indices = file.read<std::uint32_t>(frame + kTriangles);
+  if (soil->mesh.indices.size() % 3 != 0) throw damaged(frame + kTriangles, "is not a list of triangles");
   for (const SoilDataset& d : kSoilDatasets) {
     const std::string dataset = datasetOf(frame, d);
     Numbers numbers = file.read<float>(dataset);
     const bool isPosition = &d == kSoilDatasets;
     if (!isPosition && numbers.size() != soil->mesh.vertices.size() * d.width)
       throw damaged(dataset, "must have one value for each vertex");
-    if (std::any_of(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); }))
-      throw damaged(dataset, "has a value that is not finite");
+    if (std::any_of(numbers.begin(), numbers.end(),
+                    [&](float x) { return !std::isfinite(x) || (isPosition && !isLength(x)); }))
+      throw damaged(dataset,
+                    isPosition ? "has a value that is not finite, or above 1e7 m" : "has a value that is not finite");
     d.set(*soil, std::move(numbers));
   }
   for (const std::uint32_t v : soil->mesh.indices)

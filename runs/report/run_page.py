@@ -403,11 +403,11 @@ def scene(run, title):
     """The scene of a run, from scene.toml, or from results.h5 if that is damaged."""
     text, words = (run.folder / "scene.toml").read_text(encoding="utf-8"), ""
     try:
-        whole = bool(tomllib.loads(text))
+        whole = tomllib.loads(text) == run.scene
     except tomllib.TOMLDecodeError:
         whole = False
     if not whole:
         with h5py.File(run.file, "r", locking=False) as results:
-            text = grouser.run.text_of(results.attrs["scene"])
+            text = grouser.files.long_text(results, "scene")
         words = '<p class="bad">scene.toml is damaged; this is the copy in results.h5.</p>'
     return words + folded(f"{title}: all keys with their values", f"<pre>{esc(text)}</pre>")

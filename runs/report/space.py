@@ -310,8 +310,8 @@ def section(made, runs, options):
             continue
         try:
             data = data_of(made, run, place, options, PLACES if len(runs) == 1 else PLACES / 4)
-        except (OSError, KeyError, RuntimeError) as error:  # raised by h5py
-            fault = damage.damaged(run.folder / "frames.h5")
+        except (grouser.FileError, OSError, KeyError, RuntimeError) as error:  # the others are raised by h5py
+            fault = error if isinstance(error, grouser.FileError) else damage.damaged(run.folder / "frames.h5")
             if made.kind == "run":
                 raise fault from error
             damage.warn(made, {run.folder.name: str(fault)}, " This run is not in the 3-D view.")

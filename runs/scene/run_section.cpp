@@ -10,6 +10,8 @@ namespace grouser::scene::detail {
 
 namespace {
 
+constexpr double kShortestInterval = 1e-12, kLongestInterval = 1e5; ///< between outputs [s]
+
 using base::Section;
 using base::Table;
 
@@ -28,15 +30,20 @@ void addContactKeys(Table<RunSettings>& t) {
 
 void addIntervals(Table<RunSettings>& t) {
   using S = RunSettings;
-  t.add("output_interval", &S::outputInterval, "s", "time between rows of the time series")
+  t.add("output_interval", &S::outputInterval, "s", "time between rows of the time series, at least one step")
       .plausible(1e-6, 10)
-      .above(0);
-  t.add("frame_interval", &S::frameInterval, "s", "time between frames for ParaView").plausible(1e-6, 100).above(0);
+      .atLeast(kShortestInterval)
+      .atMost(kLongestInterval);
+  t.add("frame_interval", &S::frameInterval, "s", "time between frames for ParaView, at least one step")
+      .plausible(1e-6, 100)
+      .atLeast(kShortestInterval)
+      .atMost(kLongestInterval);
   t.add("checkpoint_interval", &S::checkpointInterval, "s",
-        "simulated time between checkpoints for --resume; 0: only at the end of the run or when it is stopped")
+        "simulated time between checkpoints for --resume, at least one step; 0: only at the end of the run or when it "
+        "is stopped")
       .plausible(1e-4, 1e4)
       .atLeast(0)
-      .atMost(1e5);
+      .atMost(kLongestInterval);
 }
 
 Table<RunSettings> runTable() {
@@ -149,6 +156,11 @@ void checkContact(const Section& section, const RunSettings& run) {
 }
 
 void checkIntervals(const Section& section, const RunSettings& run) {
+  const double shortest = run.timeStep.value_or(kShortestInterval);
+  if (run.checkpointInterval > 0 && run.checkpointInterval < shortest)
+    section.fail("checkpoint_interval",
+                 fmt::format("[s] is below the {} of {} s; raise it, or set 0 for no checkpoints before the end",
+                             run.timeStep ? "time step" : "shortest interval", shortest));
   if (!run.timeStep) return;
   if (*run.timeStep > run.duration)
     section.fail("time_step", fmt::format("[s] is above the duration of {} s; lower it", run.duration));

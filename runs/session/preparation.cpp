@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <utility>
 
 namespace grouser::session {
@@ -28,6 +29,9 @@ Caches cachesOf(bool beds, const RunRequest& request) {
   Caches kept;
   const std::optional<support::KeptFiles> files =
       request.cache ? support::KeptFiles::ofUser(request.comm()) : std::nullopt;
+  if (!files && request.cache && !std::getenv("GROUSER_CACHE") && request.comm().first())
+    support::printStderr("WARNING: no cache of beds and sphere sets, because this user has no home folder; set "
+                         "GROUSER_CACHE to a folder, or to nothing to hide this warning\n");
   if (!files) return kept;
   if (beds) kept.beds.emplace(*files);
   kept.spheres.emplace(*files);

@@ -33,13 +33,6 @@ bool isAskedFor() {
   return variable("GROUSER_MPS") == "1" && variable(kPipes).empty() && !areNumbered && !fs::exists(kUsualPipe, error);
 }
 
-/// Creates a temporary folder for this process only. Returns an empty path if it cannot be created.
-fs::path ownFolder() {
-  std::error_code error;
-  std::string pattern = (fs::temp_directory_path(error) / "grouser_mps_XXXXXX").string();
-  return error || !mkdtemp(pattern.data()) ? fs::path() : fs::path(pattern);
-}
-
 /// Waits for the service to start: it then creates a pipe named `control`. Returns false if it does not start.
 bool comesUp(ChildProcess& service, const fs::path& folder) {
   constexpr int kMaxWaits = 100;
@@ -54,14 +47,15 @@ bool comesUp(ChildProcess& service, const fs::path& folder) {
 } // namespace
 
 GpuSharing::GpuSharing(bool wanted) {
-  if (!wanted || !isAskedFor() || (folder_ = ownFolder()).empty()) return;
+  if (!wanted || !isAskedFor()) return;
   try {
+    folder_.emplace("grouser_mps");
     Program control{{kControl, "-f"}};
-    control.environment = {{kPipes, folder_.string()}, {"CUDA_MPS_LOG_DIRECTORY", folder_.string()}};
-    control.log = folder_ / "service.log";
+    control.environment = {{kPipes, folder_->path().string()}, {"CUDA_MPS_LOG_DIRECTORY", folder_->path().string()}};
+    control.log = folder_->path() / "service.log";
     service_ = std::make_unique<ChildProcess>(control);
-    if (!comesUp(*service_, folder_)) service_.reset();
-  } catch (const base::DeviceError&) { // program missing: processes use the GPU in turns
+    if (!comesUp(*service_, folder_->path())) service_.reset();
+  } catch (const std::exception&) { // no folder, or program missing: processes use the GPU in turns
     service_.reset();
   }
 }
@@ -70,17 +64,17 @@ GpuSharing::~GpuSharing() {
   if (service_) {
     try { // the servers of the service end with "quit", not with its process
       Program quit{{kControl}};
-      quit.environment = environment(), quit.log = folder_ / "quit.log", quit.input = true;
+      quit.environment = environment(), quit.log = folder_->path() / "quit.log", quit.input = true;
       ChildProcess process(quit);
       process.write("quit\n");
       process.wait();
     } catch (const base::DeviceError&) {}
     service_.reset();
   }
-  std::error_code error;
-  if (!folder_.empty()) fs::remove_all(folder_, error);
 }
 
-Environment GpuSharing::environment() const { return runs() ? Environment{{kPipes, folder_.string()}} : Environment{}; }
+Environment GpuSharing::environment() const {
+  return runs() ? Environment{{kPipes, folder_->path().string()}} : Environment{};
+}
 
 } // namespace grouser::support

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "runs/support/child_process.hpp"
+#include "runs/support/private_folder.hpp"
 
-#include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace grouser::support {
 
@@ -31,7 +32,7 @@ public:
   Environment environment() const;
 
 private:
-  std::filesystem::path folder_;
+  std::optional<PrivateFolder> folder_;
   std::unique_ptr<ChildProcess> service_;
 };
 

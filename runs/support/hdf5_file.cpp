@@ -1,54 +1,25 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/hdf5_file.hpp"
 
-#include "base/error.hpp"
+#include "runs/support/detail/hdf5_handle.hpp"
 #include "runs/support/disk_room.hpp"
 #include "runs/support/not_written.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <algorithm>
 #include <exception>
-#include <limits>
-#include <mutex>
 #include <stdexcept>
 #include <utility>
 
 namespace grouser::support {
 
+using detail::Handle;
+using detail::Turn;
+
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 namespace {
-
-/// Lock on the HDF5 library, since its parallel build is not thread-safe.
-class Turn {
-public:
-  Turn() : held_(library()) {}
-
-private:
-  static std::recursive_mutex& library() {
-    static std::recursive_mutex mutex;
-    return mutex;
-  }
-  std::lock_guard<std::recursive_mutex> held_;
-};
-
-/// Closes an HDF5 handle at the end of a scope.
-class Handle {
-public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  operator hid_t() const { return id_; }
-
-private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 hid_t fileType(NumberType type) {
   switch (type) {
@@ -89,13 +60,6 @@ hid_t makeParents() {
   return list;
 }
 
-hid_t stringType() {
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, H5T_VARIABLE);
-  H5Tset_cset(type, H5T_CSET_UTF8);
-  return type;
-}
-
 /// Call before the first use of the library. Disables the error output of HDF5, since errors become exceptions, and its
 /// cleanup at exit: HDF5 1.10 keeps a file that it could not write (full disk) and crashes at exit. All files are
 /// closed earlier.
@@ -104,8 +68,8 @@ void quiet() {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
-constexpr hsize_t kCompressedRows = 65536; // maximum rows per chunk
-constexpr unsigned kCompression = 4;       // zlib level, 1 to 9
+constexpr std::uint64_t kChunkNumbers = std::uint64_t{1} << 18; // maximum numbers per chunk, except in one row
+constexpr unsigned kCompression = 4;                            // zlib level, 1 to 9
 
 NotWritten failure(const std::filesystem::path& path, const char* what) {
   return notWritten(path, fmt::format("HDF5 could not {}", what));
@@ -148,31 +112,49 @@ void GrowingDataset::appendRow(const void* numbers, std::int64_t type) {
   ++rows_;
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlock) {
-  const Turn turn;
-  quiet();
-  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-  H5Pset_userblock(creation, userBlock);
-  // The oldest file format has no "open for writing" flag, so files of killed programs remain readable.
-  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT);
-  if (file < 0) throw failure(path, "create the file; another program may have opened it");
-  return {file, path};
+namespace {
+
+/// Access properties of files with checksums: since format 1.10, all metadata have checksums. `first`: the file itself
+/// in format 1.8, because format 1.10 has an "open for writing" flag, with which files of killed programs are
+/// unreadable.
+hid_t withAllChecksums(H5F_libver_t first = H5F_LIBVER_V110) {
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_libver_bounds(access, first, H5F_LIBVER_V110);
+  return access;
 }
 
-namespace {
 hid_t openedAs(unsigned access, const std::filesystem::path& path) {
   const Turn turn;
   quiet();
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
     throw base::InputError(fmt::format("{}: no such file; specify the results.h5 of a run", path.string()));
-  const hid_t file = H5Fopen(path.c_str(), access, H5P_DEFAULT);
+  const Handle properties(withAllChecksums(), H5Pclose);
+  const hid_t file = H5Fopen(path.c_str(), access, properties);
   if (file < 0)
-    throw base::InputError(
-        fmt::format("{}: is not an HDF5 file, or is truncated; specify the results.h5 of a run", path.string()));
+    throw base::InputError(fmt::format(
+        "{}: is not an HDF5 file, is truncated or damaged; specify the results.h5 of a run", path.string()));
   return file;
 }
+
 } // namespace
+
+Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t userBlock) {
+  // Names and attributes in the headers of their groups, up to these numbers: reading a damaged heap of names crashes
+  // HDF5 1.10. Groups inherit this property.
+  constexpr unsigned kMaxAttributes = 1000, kMaxNames = 65000;
+  const Turn turn;
+  quiet();
+  const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, userBlock);
+  const Handle first(withAllChecksums(H5F_LIBVER_V18), H5Pclose), access(withAllChecksums(), H5Pclose);
+  if (!userBlock)
+    H5Pset_attr_phase_change(creation, kMaxAttributes, 0), H5Pset_link_phase_change(creation, kMaxNames, 0);
+  hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation, userBlock ? hid_t{H5P_DEFAULT} : hid_t{first});
+  if (file >= 0 && !userBlock) file = H5Fclose(file) < 0 ? -1 : H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+  if (file < 0) throw failure(path, "create the file; another program may have opened it");
+  return {file, path};
+}
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) { return {openedAs(H5F_ACC_RDONLY, path), path}; }
 
@@ -181,7 +163,7 @@ Hdf5File Hdf5File::openToChange(const std::filesystem::path& path) { return {ope
 Hdf5File Hdf5File::openShared(const std::filesystem::path& path, const base::Comm& comm) {
   const Turn turn;
   quiet();
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Handle access(withAllChecksums(), H5Pclose);
   if (!comm.alone()) H5Pset_fapl_mpio(access, MPI_COMM_WORLD, MPI_INFO_NULL);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
   if (file < 0) throw failure(path, comm.alone() ? "open the file again" : "open the file on all ranks");
@@ -209,6 +191,18 @@ void Hdf5File::check(std::int64_t status, const char* what) const {
   if (status < 0) throw failure(path_, what);
 }
 
+bool Hdf5File::withChecksums() const {
+  const Handle creation(H5Fget_create_plist(file_), H5Pclose);
+  hsize_t userBlock = 0;
+  return H5Pget_userblock(creation, &userBlock) >= 0 && userBlock == 0;
+}
+
+base::InputError Hdf5File::damaged(const std::string& what) const {
+  return base::InputError(fmt::format("{}: {} cannot be read: the file is damaged; run the scene again, or restore the "
+                                      "file from a copy",
+                                      path_.string(), what));
+}
+
 void Hdf5File::makeGroup(const std::string& group) {
   const Turn turn;
   if (has(group)) return;
@@ -217,40 +211,21 @@ void Hdf5File::makeGroup(const std::string& group) {
   check(id, "create a group");
 }
 
-void Hdf5File::attribute(const std::string& object, const std::string& name, const std::string& value) {
-  const Turn turn;
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle type(stringType(), H5Tclose);
-  const Handle id(
-      H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose);
-  check(id, "create an attribute");
-  const char* text = value.c_str();
-  check(H5Awrite(id, type, &text), "write an attribute");
-}
-
-void Hdf5File::attribute(const std::string& object, const std::string& name, double value) {
-  const Turn turn;
-  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Handle id(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT,
-                                    H5P_DEFAULT, H5P_DEFAULT),
-                  H5Aclose);
-  check(id, "create an attribute");
-  check(H5Awrite(id, H5T_NATIVE_DOUBLE, &value), "write an attribute");
-}
-
-void Hdf5File::attribute(const std::string& object, const std::string& name, const std::vector<std::string>& values) {
-  const Turn turn;
-  const hsize_t count = values.size();
-  const Handle space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  const Handle type(stringType(), H5Tclose);
-  const Handle id(
-      H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-      H5Aclose);
-  check(id, "create an attribute");
-  std::vector<const char*> texts;
-  for (const std::string& v : values) texts.push_back(v.c_str());
-  if (count) check(H5Awrite(id, type, texts.data()), "write an attribute");
+std::int64_t Hdf5File::layoutOf(std::vector<std::uint64_t> shape, bool compressed) const {
+  const hid_t layout = H5Pcreate(H5P_DATASET_CREATE);
+  const bool isChecked = withChecksums(), isEmpty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
+  compressed = compressed && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0;
+  if (isEmpty || !(isChecked || compressed)) return layout;
+  // Chunks of equal size, because the last chunk occupies its full size.
+  std::uint64_t most = kChunkNumbers;
+  for (std::size_t axis = 1; axis < shape.size(); ++axis) most = std::max<std::uint64_t>(1, most / shape[axis]);
+  const std::uint64_t chunks = (shape.front() + most - 1) / most;
+  shape.front() = (shape.front() + chunks - 1) / chunks;
+  const std::vector<hsize_t> chunk(shape.begin(), shape.end());
+  H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data());
+  if (compressed) H5Pset_shuffle(layout), H5Pset_deflate(layout, kCompression);
+  if (isChecked) H5Pset_fletcher32(layout);
+  return layout;
 }
 
 void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
@@ -260,14 +235,7 @@ void Hdf5File::writeNumbers(const std::string& dataset, const void* numbers, Num
   const bool isEmpty = std::find(shape.begin(), shape.end(), 0u) != shape.end();
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
   const Handle parents(makeParents(), H5Pclose);
-  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  if (compressed && !isEmpty && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
-    std::vector<hsize_t> chunk = extent;
-    chunk.front() = std::min<hsize_t>(chunk.front(), kCompressedRows);
-    H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data());
-    H5Pset_shuffle(layout);
-    H5Pset_deflate(layout, kCompression);
-  }
+  const Handle layout(layoutOf(shape, compressed), H5Pclose);
   const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT), H5Dclose);
   check(id, "create a dataset");
   if (!isEmpty) check(H5Dwrite(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers), "write a dataset");
@@ -278,8 +246,8 @@ void Hdf5File::reserveNumbers(const std::string& dataset, NumberType type, const
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
   const Handle parents(makeParents(), H5Pclose);
-  const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);
+  const Handle layout(layoutOf(shape, false), H5Pclose);
+  if (H5Pget_layout(layout) != H5D_CHUNKED) H5Pset_alloc_time(layout, H5D_ALLOC_TIME_EARLY);
   H5Pset_fill_time(layout, H5D_FILL_TIME_NEVER);
   const Handle id(H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT), H5Dclose);
   check(id, "create a dataset");
@@ -337,7 +305,7 @@ void Hdf5File::readRowNumbers(const std::string& dataset, std::uint64_t first, s
   const RowSelection rows(id, first, count);
   if (H5Tequal(stored, fileType(type)) <= 0 || rows.memory < 0 ||
       H5Dread(id, memoryType(type), rows.memory, rows.file, H5P_DEFAULT, numbers) < 0)
-    throw base::InputError(fmt::format("{}: rows of the dataset {} cannot be read", path_.string(), dataset));
+    throw damaged(fmt::format("dataset {}", dataset));
 }
 
 GrowingDataset Hdf5File::growing(const std::string& dataset, NumberType type, int width, int chunkRows) {
@@ -349,6 +317,7 @@ GrowingDataset Hdf5File::growing(const std::string& dataset, NumberType type, in
   const Handle space(H5Screate_simple(rank, none, most), H5Sclose);
   const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_chunk(layout, rank, chunk);
+  if (withChecksums()) H5Pset_fletcher32(layout);
   const Handle parents(makeParents(), H5Pclose);
   const hid_t id = H5Dcreate2(file_, dataset.c_str(), fileType(type), space, parents, layout, H5P_DEFAULT);
   check(id, "create a dataset");
@@ -383,7 +352,9 @@ bool Hdf5File::has(const std::string& object) const {
   // H5Lexists() requires that all parent groups exist.
   for (std::size_t end = object.find('/', 1);; end = object.find('/', end + 1)) {
     const std::string part = object.substr(0, end);
-    if (part != "/" && H5Lexists(file_, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    const htri_t exists = part == "/" ? 1 : H5Lexists(file_, part.c_str(), H5P_DEFAULT);
+    if (exists < 0) throw damaged(part);
+    if (exists == 0) return false;
     if (end == std::string::npos) return true;
   }
 }
@@ -397,31 +368,70 @@ std::vector<std::string> Hdf5File::members(const std::string& group) const {
     return 0;
   };
   const Handle id(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
-  check(H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names), "list a group");
+  if (id < 0 || H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, take, &names) < 0) throw damaged(group);
   return names;
 }
 
 std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
   const Turn turn;
-  const Handle id(has(dataset) ? H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT) : hid_t{-1}, H5Dclose);
-  if (id < 0)
+  if (!has(dataset))
     throw base::InputError(
         fmt::format("{}: has no dataset {}; specify the results.h5 of a run of this program", path_.string(), dataset));
-  const Handle space(H5Dget_space(id), H5Sclose);
-  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space))));
-  H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose), space(H5Dget_space(id), H5Sclose);
+  const int axes = H5Sget_simple_extent_ndims(space);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, axes)));
+  if (axes < 0 || H5Sget_simple_extent_dims(space, extent.data(), nullptr) < 0) throw damaged("dataset " + dataset);
   return {extent.begin(), extent.end()};
+}
+
+std::uint64_t Hdf5File::countOf(const std::string& dataset) const {
+  constexpr double kMaxCompression = 1032; // of zlib
+  const Turn turn;
+  const std::vector<std::uint64_t> extent = shape(dataset);
+  const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
+  const Handle layout(H5Dget_create_plist(id), H5Pclose), type(H5Dget_type(id), H5Tclose);
+  std::uint64_t count = 1;
+  double needed = static_cast<double>(H5Tget_size(type));
+  for (const std::uint64_t n : extent) count *= n, needed *= static_cast<double>(n);
+  unsigned flags = 0;
+  std::size_t none = 0;
+  const bool isCompressed =
+      H5Pget_filter_by_id2(layout, H5Z_FILTER_DEFLATE, &flags, &none, nullptr, 0, nullptr, nullptr) >= 0;
+  const double stored = static_cast<double>(H5Dget_storage_size(id)) * (isCompressed ? kMaxCompression : 1);
+  if (needed > stored)
+    throw damaged(fmt::format("dataset {} of shape [{}], which is larger than its data in the file,", dataset,
+                              fmt::join(extent, ", ")));
+  return count;
 }
 
 std::vector<double> Hdf5File::numbers(const std::string& dataset) const {
   const Turn turn;
-  std::uint64_t count = 1;
-  for (const std::uint64_t n : shape(dataset)) count *= n;
+  const std::uint64_t count = countOf(dataset);
   std::vector<double> values(count);
   const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
   if (count && H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
-    throw base::InputError(fmt::format("{}: the dataset {} cannot be read as numbers", path_.string(), dataset));
+    throw damaged(fmt::format("dataset {}", dataset));
   return values;
+}
+
+void Hdf5File::readThrough(const std::string& group, bool data) const {
+  const Turn turn;
+  if (!has(group)) return;
+  const Handle id(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
+  std::vector<std::string> datasets;
+  const auto take = [](hid_t, const char* name, const H5O_info_t* object, void* found) -> herr_t {
+    if (object->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(found)->emplace_back(name);
+    return 0;
+  };
+  if (id < 0 || H5Ovisit2(id, H5_INDEX_NAME, H5_ITER_INC, take, &datasets, H5O_INFO_BASIC) < 0) throw damaged(group);
+  for (const std::string& dataset : datasets) {
+    const std::string path = group + "/" + dataset;
+    const std::uint64_t count = data ? countOf(path) : 0;
+    const Handle numbers(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose), type(H5Dget_type(numbers), H5Tclose);
+    std::vector<char> bytes(count * H5Tget_size(type));
+    if (count && H5Dread(numbers, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
+      throw damaged("dataset " + path);
+  }
 }
 
 void Hdf5File::readNumbers(const std::string& dataset, void* numbers, NumberType type, std::uint64_t count) const {
@@ -430,37 +440,7 @@ void Hdf5File::readNumbers(const std::string& dataset, void* numbers, NumberType
   const Handle stored(H5Dget_type(id), H5Tclose);
   if (H5Tequal(stored, fileType(type)) <= 0 ||
       (count && H5Dread(id, memoryType(type), H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers) < 0))
-    throw base::InputError(fmt::format("{}: the dataset {} cannot be read", path_.string(), dataset));
-}
-
-double Hdf5File::number(const std::string& object, const std::string& name) const {
-  const Turn turn;
-  double value = std::numeric_limits<double>::quiet_NaN();
-  if (!has(object) || H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return value;
-  const Handle id(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  H5Aread(id, H5T_NATIVE_DOUBLE, &value);
-  return value;
-}
-
-std::string Hdf5File::text(const std::string& object, const std::string& name) const {
-  const std::vector<std::string> all = texts(object, name);
-  return all.empty() ? "" : all.front();
-}
-
-std::vector<std::string> Hdf5File::texts(const std::string& object, const std::string& name) const {
-  const Turn turn;
-  if (!has(object) || H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return {};
-  const Handle id(H5Aopen_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  const Handle stored(H5Aget_type(id), H5Tclose);
-  if (H5Tget_class(stored) != H5T_STRING || H5Tis_variable_str(stored) <= 0) return {};
-  const Handle space(H5Aget_space(id), H5Sclose);
-  std::vector<char*> raw(static_cast<std::size_t>(std::max<hssize_t>(0, H5Sget_simple_extent_npoints(space))), nullptr);
-  const Handle type(stringType(), H5Tclose);
-  std::vector<std::string> values;
-  if (raw.empty() || H5Aread(id, type, raw.data()) < 0) return values;
-  for (const char* s : raw) values.emplace_back(s ? s : "");
-  H5Dvlen_reclaim(type, space, H5P_DEFAULT, raw.data());
-  return values;
+    throw damaged(fmt::format("dataset {}", dataset));
 }
 
 } // namespace grouser::support

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/comm.hpp"
+#include "base/error.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,6 +12,9 @@
 
 /// Thin wrappers of HDF5 handles. One process writes or reads a file, or all ranks write rows of a dataset together.
 /// Several threads may use different files. Failures throw exceptions; HDF5 prints no errors.
+///
+/// Files of results have checksums of all data and metadata, so that HDF5 detects a flipped bit when it reads the file.
+/// Sealed files (sealed_file.hpp) have one checksum of the whole file instead.
 namespace grouser::support {
 
 /// Number types that go into a file; always stored little-endian.
@@ -46,8 +50,8 @@ private:
 
 class Hdf5File {
 public:
-  /// Creates or replaces the file, with a user block of `userBlock` bytes before the HDF5 data (0, 512, 1024...).
-  /// Throws NotWritten with the path.
+  /// Creates or replaces the file, with checksums; or without checksums, for a sealed file, if the user block before
+  /// the HDF5 data has `userBlock` > 0 bytes (512, 1024...). Throws NotWritten with the path.
   static Hdf5File create(const std::filesystem::path& path, std::size_t userBlock = 0);
   /// Opens a file for reading. Throws base::InputError if the file is missing or not an HDF5 file.
   static Hdf5File open(const std::filesystem::path& path);
@@ -73,7 +77,7 @@ public:
                                 const std::vector<std::uint64_t>& shape, bool compressed = false) {
     writeNumbers(dataset, numbers.data(), NumberTypeOf<T>::value, shape, compressed);
   }
-  /// Creates a dataset and allocates disk space for all its rows, which are written later.
+  /// Creates a dataset whose rows are written later. A sealed file allocates disk space for all rows.
   template <class T> void reserve(const std::string& dataset, const std::vector<std::uint64_t>& shape) {
     reserveNumbers(dataset, NumberTypeOf<T>::value, shape);
   }
@@ -91,6 +95,7 @@ public:
   void flush();
   friend void requireRoom(const Hdf5File& file, std::uint64_t bytes);
 
+  /// Whether the object exists. Throws base::InputError if the file is damaged there.
   bool has(const std::string& object) const;
   /// Names in a group, without its path; empty if the group is missing.
   std::vector<std::string> members(const std::string& group) const;
@@ -99,8 +104,7 @@ public:
   std::vector<double> numbers(const std::string& dataset) const;
   /// Numbers of a dataset that was written with the same type, bitwise identical. Throws base::InputError.
   template <class T> std::vector<T> read(const std::string& dataset) const {
-    std::uint64_t count = 1;
-    for (const std::uint64_t n : shape(dataset)) count *= n;
+    const std::uint64_t count = countOf(dataset);
     std::vector<T> values(count);
     readNumbers(dataset, values.data(), NumberTypeOf<T>::value, count);
     return values;
@@ -109,13 +113,15 @@ public:
   template <class T>
   std::vector<T> readRows(const std::string& dataset, std::uint64_t first, std::uint64_t count) const {
     std::vector<T> values;
-    const std::vector<std::uint64_t> extent = shape(dataset);
-    std::uint64_t width = 1;
-    for (std::size_t axis = 1; axis < extent.size(); ++axis) width *= extent[axis];
-    values.resize(count * width);
+    const std::uint64_t all = countOf(dataset), rows = all ? shape(dataset).front() : 0;
+    if (first > rows || count > rows - first) throw damaged("dataset " + dataset);
+    values.resize(rows ? all / rows * count : 0);
     readRowNumbers(dataset, first, count, values.data(), NumberTypeOf<T>::value);
     return values;
   }
+  /// Reads the names of a group and, if `data`, all its data, to verify their checksums. Throws base::InputError if the
+  /// file is damaged.
+  void readThrough(const std::string& group, bool data = true) const;
   /// A text attribute; empty if it is missing.
   std::string text(const std::string& object, const std::string& name) const;
   /// A numerical attribute; NaN if it is missing.
@@ -124,6 +130,17 @@ public:
 
 private:
   Hdf5File(std::int64_t file, std::filesystem::path path) : file_(file), path_(std::move(path)) {}
+  bool withChecksums() const;
+  /// Error of a part of the file that cannot be read.
+  base::InputError damaged(const std::string& what) const;
+  /// Number of elements of a dataset. Throws base::InputError if the file does not contain this many.
+  std::uint64_t countOf(const std::string& dataset) const;
+  /// Creation properties of a dataset with this chunk shape, which get a checksum; or none.
+  std::int64_t layoutOf(std::vector<std::uint64_t> shape, bool compressed) const;
+  /// Handle of an attribute; -1 if it is missing.
+  std::int64_t openAttribute(const std::string& object, const std::string& name) const;
+  void writeTexts(const std::string& object, const std::string& name, const std::vector<std::string>& texts,
+                  bool isList);
   void writeNumbers(const std::string& dataset, const void* numbers, NumberType type,
                     const std::vector<std::uint64_t>& shape, bool compressed);
   void reserveNumbers(const std::string& dataset, NumberType type, const std::vector<std::uint64_t>& shape);

@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <fmt/format.h>
+#include <pwd.h>
+#include <signal.h>
 #include <unistd.h>
 #include <vector>
 
@@ -21,6 +24,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr auto kAbandoned = std::chrono::hours(24); // age of abandoned partial files and locks
+constexpr auto kPause = std::chrono::minutes(1);    // a partial file of an ended process of this host is abandoned then
 
 struct KindName {
   const char *prefix, *suffix;
@@ -36,7 +40,26 @@ std::string folderOfUser() {
   if (const char* set = std::getenv("GROUSER_CACHE")) return set;
   if (const char* set = std::getenv("XDG_CACHE_HOME"); set && *set) return (fs::path(set) / "grouser").string();
   if (const char* set = std::getenv("HOME"); set && *set) return (fs::path(set) / ".cache/grouser").string();
-  return "";
+  const passwd* user = ::getpwuid(::getuid());
+  return user && user->pw_dir && *user->pw_dir == '/' ? (fs::path(user->pw_dir) / ".cache/grouser").string() : "";
+}
+
+std::string hostName() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return host.data();
+}
+
+/// Whether a partial file (see freshName()) or lock that was last written `age` ago has no writer any more.
+bool isAbandoned(const std::string& name, fs::file_time_type::duration age) {
+  if (age > kAbandoned) return true;
+  const std::string host = fmt::format(".{}.", hostName());
+  const std::size_t at = name.rfind(host);
+  if (at == std::string::npos || age < kPause) return false;
+  int process = 0;
+  const char* const begin = name.c_str() + at + host.size();
+  return std::from_chars(begin, name.c_str() + name.size(), process).ec == std::errc() && process > 0 &&
+         ::kill(process, 0) != 0 && errno == ESRCH;
 }
 
 } // namespace
@@ -70,16 +93,16 @@ bool KeptFiles::writable() const {
 }
 
 fs::path KeptFiles::freshName(const fs::path& file) {
-  std::array<char, 256> host{};
-  ::gethostname(host.data(), host.size() - 1);
-  return fmt::format("{}.{}.{}", file.string(), host.data(), ::getpid());
+  return fmt::format("{}.{}.{}", file.string(), hostName(), ::getpid());
 }
 
 bool KeptFiles::put(const fs::path& fresh, const fs::path& file) const {
   std::error_code error;
   fs::rename(fresh, file, error);
+  const bool isKept = !error;
+  if (!isKept) fs::remove(fresh, error);
   deleteOldest(file);
-  return !error;
+  return isKept;
 }
 
 void KeptFiles::noteUse(const fs::path& file) {
@@ -103,12 +126,13 @@ void KeptFiles::deleteOldest(const fs::path& except) const {
                                     [&](const KindName& k) { return name.rfind(k.prefix, 0) == 0; });
     if (kind == kKindNames.end() || !entry.is_regular_file(error)) continue;
     const auto time = entry.last_write_time(error);
-    if (entry.path().extension() == kind->suffix) {
-      kept.push_back({time, entry.file_size(error), entry.path()});
-      total += kept.back().bytes;
-    } else if (fs::file_time_type::clock::now() - time > kAbandoned) {
-      fs::remove(entry.path(), error);
-    }
+    const std::uint64_t bytes = entry.file_size(error);
+    if (error) continue; // deleted by another run
+    if (entry.path().extension() == kind->suffix)
+      kept.push_back({time, bytes, entry.path()});
+    else if (isAbandoned(name, fs::file_time_type::clock::now() - time) && fs::remove(entry.path(), error))
+      continue;
+    total += bytes;
   }
   std::sort(kept.begin(), kept.end(), [](const Entry& a, const Entry& b) { return a.time < b.time; });
   for (const Entry& file : kept) {

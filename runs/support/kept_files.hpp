@@ -24,8 +24,9 @@ public:
       : folder_(std::move(folder)), limit_(limit) {}
 
   /// Cache from the environment: folder GROUSER_CACHE (no cache if set but empty), otherwise $XDG_CACHE_HOME/grouser,
-  /// otherwise ~/.cache/grouser. GROUSER_CACHE_GIB limits the size. Throws InputError if GROUSER_CACHE_GIB is not a
-  /// number. On several ranks, the environment of the first rank counts.
+  /// otherwise ~/.cache/grouser, with the home folder from HOME or the user database. GROUSER_CACHE_GIB limits the
+  /// size. Throws InputError if GROUSER_CACHE_GIB is not a number. On several ranks, the environment of the first rank
+  /// counts.
   static std::optional<KeptFiles> ofUser(const base::Comm& comm = {});
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -39,7 +40,7 @@ public:
   /// A unique temporary name beside the file, also among machines that share the folder.
   static std::filesystem::path freshName(const std::filesystem::path& file);
   /// Moves a completed file from its temporary name to its final one, then deletes the least recently used files until
-  /// the cache is within its limit. Returns false if the rename fails.
+  /// the cache is within its limit. If the rename fails, deletes the file and returns false.
   bool put(const std::filesystem::path& fresh, const std::filesystem::path& file) const;
   /// Marks the file as most recently used.
   static void noteUse(const std::filesystem::path& file);

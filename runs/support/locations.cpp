@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/locations.hpp"
 
+#include "base/error.hpp"
 #include "base/table.hpp"
 
 #include <dlfcn.h>
@@ -46,6 +47,16 @@ fs::path shareFolder() {
   for (const char* installed : {"/usr/local/share/grouser", "/usr/share/grouser"})
     if (!fs::is_directory(GROUSER_SHARE_FOLDER, error) && fs::is_directory(installed, error)) return installed;
   return GROUSER_SHARE_FOLDER;
+}
+
+void requireShareFolder() {
+  std::error_code error;
+  const char* set = std::getenv("GROUSER_SHARE");
+  if (set && *set && !fs::is_directory(set, error))
+    throw base::InputError(
+        fmt::format("GROUSER_SHARE = {} is not a folder; set it to the folder that contains assets and "
+                    "runs, or unset it",
+                    set));
 }
 
 std::vector<fs::path> inputFolders(const fs::path& scene) {

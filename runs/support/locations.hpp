@@ -11,6 +11,8 @@ namespace grouser::support {
 /// to the program, or share/grouser near the shared module of this code; folder of the installed library; the source
 /// folder; /usr/local/share/grouser or /usr/share/grouser.
 std::filesystem::path shareFolder();
+/// Throws base::InputError if the environment variable GROUSER_SHARE is set, but not to a folder.
+void requireShareFolder();
 /// Sets the share folder of the installed library that the program links.
 void setInstalledShare(const char* folder);
 /// File of this code: a shared module (.so), or "/proc/self/exe" for a program.

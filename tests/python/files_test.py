@@ -8,6 +8,7 @@ import h5py
 from fixture import ROOT, FolderTest
 
 import grouser
+from grouser.files import text_of
 
 KINDS = {"results.h5": "results.h5", "frames.h5": "frames.h5", "checkpoint.h5": "checkpoint.h5 and cached beds"}
 #: Only in runs with several ranks, or with a vehicle in water, which take a minute to start.
@@ -67,9 +68,9 @@ class FilesOfResults(FolderTest):
             if side.isdigit():
                 self.assertEqual(int(side), length, f"{name} has the shape {item.shape}, not {shape}")
         if "unit" in item.attrs:
-            self.assertIn(item.attrs["unit"], unit.split(" or "), name)
+            self.assertIn(text_of(item.attrs["unit"]), unit.split(" or "), name)
         if "help" in item.attrs:
-            self.assertIn(item.attrs["help"], text.split("; or "), name)
+            self.assertIn(text_of(item.attrs["help"]), text.split("; or "), name)
         elif own and not name.startswith("series/"):
             self.fail(f"{name} has no help")
 

@@ -20,6 +20,7 @@
 #include "runs/storage/sphere_cache.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/private_folder.hpp"
 #include "runs/support/progress.hpp"
 #include "terrain/kernel_choice.hpp"
 
@@ -116,7 +117,9 @@ private:
   /// Performs one more step.
   session::OutputTimes timeOutput() {
     const setup::RecordSetup record = setup::recordSetup(probed_, setup::provenanceOf(probed_));
-    return session::timeOutput(*simulation_, record, exec_, scratch(), scene_.output.plots);
+    const fs::path place = roomOf(exec_, options_.folder, false).place; // beside the results
+    const support::PrivateFolder scratch(".grouser-plan", access(place.c_str(), W_OK) == 0 ? place : fs::path());
+    return session::timeOutput(*simulation_, record, exec_, scratch.path() / "out", scene_.output.plots);
   }
 
   /// Typical times, the sphere sets in the cache, and whether steps are modelled.
@@ -425,13 +428,6 @@ private:
     const Demand all = demand();
     f_.process = all.process, f_.device = all.device, f_.checkpoint = all.checkpoint;
     if (f_.disk == 0) f_.disk = all.disk();
-  }
-
-  /// Temporary folder of this process beside the results.
-  fs::path scratch() const {
-    const fs::path place = roomOf(exec_, options_.folder, false).place;
-    const fs::path folder = fmt::format(".grouser-plan-{}", getpid());
-    return access(place.c_str(), W_OK) == 0 ? place / folder : fs::temp_directory_path() / folder;
   }
 
   void add(std::vector<ForecastPart>& parts, const char* name, double seconds, const std::string& how) const {

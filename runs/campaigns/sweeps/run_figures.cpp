@@ -8,12 +8,16 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/drive_length.hpp"
 #include "runs/setup/load_scene.hpp"
+#include "runs/support/hdf5_file.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <array>
 #include <cmath>
 #include <exception>
+#include <fstream>
+#include <iterator>
 
 namespace grouser::sweeps {
 
@@ -30,6 +34,16 @@ nlohmann::ordered_json speedRange(const scene::Scene& scene, const std::array<do
   return isConstant && range[0] <= range[1] ? nlohmann::ordered_json(range) : nullptr;
 }
 
+/// Throws base::InputError if scene.toml differs from the copy in results.h5.
+void requireSameScene(const std::filesystem::path& folder) {
+  std::ifstream file(folder / "scene.toml", std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text != support::Hdf5File::open(folder / "results.h5").text("/", "scene"))
+    throw base::InputError(
+        fmt::format("{}: differs from the scene in results.h5; restore the file from a copy, or run the scene again",
+                    (folder / "scene.toml").string()));
+}
+
 nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   const RunManifest manifest(folder);
   nlohmann::ordered_json json{{"figures", nlohmann::ordered_json::array()}, {"check", nullptr}};
@@ -40,6 +54,7 @@ nlohmann::ordered_json figuresOf(const std::filesystem::path& folder) {
   // Resolves paths that end in a slash or a dot.
   const std::filesystem::path whole = std::filesystem::canonical(folder);
   plan.runs.push_back({whole.filename().string(), {}, {}, setup::loadScene(plan.scene)});
+  requireSameScene(folder);
   const scene::Scene& scene = plan.runs.front().scene;
   const SweepFigures found = sweepFigures(
       plan, {{complete ? output::RunStatus::finished : output::RunStatus::incomplete, manifest.text("incomplete")}},

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 
+#include "runs/output/manifest.hpp"
+
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace grouser::sweeps {
@@ -22,8 +23,7 @@ std::string textOf(const nlohmann::json& json, const char* key) {
 } // namespace
 
 RunManifest::RunManifest(const std::filesystem::path& folder) {
-  std::ifstream file(folder / "manifest.json");
-  json_ = nlohmann::json::parse(file, nullptr, false);
+  json_ = nlohmann::json::parse(output::manifestText(folder), nullptr, false);
   if (!json_.is_object()) json_ = nlohmann::json::object();
 }
 
@@ -34,6 +34,13 @@ double RunManifest::figure(const char* key) const {
   const auto figures = json_.find("figures");
   return figures != json_.end() && figures->is_object() ? numberOf(*figures, key)
                                                         : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string RunManifest::checksumOf(const char* file) const {
+  const auto files = json_.find("files");
+  if (files == json_.end() || !files->is_object()) return "";
+  const auto entry = files->find(file);
+  return entry != files->end() && entry->is_object() ? textOf(*entry, "crc32") : "";
 }
 
 std::string RunManifest::commit() const {

@@ -17,6 +17,8 @@ public:
   double figure(const char* key) const;    ///< entry of the run's figures; NaN if missing
   std::string text(const char* key) const; ///< empty if missing
   std::string commit() const;              ///< commit of the program; empty if missing
+  /// Checksum of a file of the run as eight hexadecimal digits; empty if missing.
+  std::string checksumOf(const char* file) const;
   /// Number of all steps / number of timed steps: the wall time of a resumed run starts at its checkpoint. Excludes
   /// steps before a branch.
   double stepsOverTimed() const;

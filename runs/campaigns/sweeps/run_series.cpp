@@ -2,14 +2,18 @@
 #include "runs/campaigns/sweeps/run_series.hpp"
 
 #include "base/error.hpp"
+#include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/support/file_hash.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <string_view>
 
 namespace grouser::sweeps {
@@ -40,8 +44,14 @@ struct Table {
   std::vector<std::vector<double>> rows;
 };
 
-Table readTable(const fs::path& path) {
-  std::ifstream file(path);
+/// `checksum`: of the file; empty if unknown.
+Table readTable(const fs::path& path, const std::string& checksum = "") {
+  std::ifstream opened(path, std::ios::binary);
+  std::stringstream file(std::string{std::istreambuf_iterator<char>(opened), {}});
+  if (!checksum.empty() && fmt::format("{:08x}", support::crc32(file.view())) != checksum)
+    throw base::InputError(
+        fmt::format("{}: the file is damaged: wrong checksum; run the scene again, or restore the file from a copy",
+                    path.string()));
   std::string line;
   if (!std::getline(file, line)) throw base::InputError(fmt::format("{}: cannot be read", path.string()));
   Table table{cellsOf(line), {}};
@@ -104,7 +114,7 @@ void RunSeries::keepEnd() {
 
 RunSeries readSeries(const fs::path& folder) {
   constexpr std::size_t kTime = 1, kFirst = 2; // step comes first
-  const Table table = readTable(folder / "timeseries.csv");
+  const Table table = readTable(folder / "timeseries.csv", RunManifest(folder).checksumOf("timeseries.csv"));
   RunSeries series;
   for (const std::vector<double>& row : table.rows) series.time.push_back(row[kTime]);
   for (std::size_t c = kFirst; c < table.head.size(); ++c) {

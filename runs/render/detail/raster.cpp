@@ -30,11 +30,13 @@ std::pair<float, float> tangents(float x, float z, float radius) {
   return {(x * t - radius * z) / (z * t + radius * x), (x * t + radius * z) / (z * t - radius * x)};
 }
 
+/// The pixel at `p` in 0 ... `n`; 0 if `p` is not a number.
+int clampTo(float p, int n) { return p > 0 ? static_cast<int>(std::min(p, float(n))) : 0; }
+
 Rectangle sphereBounds(const View& v, const Vec3f& c, float radius) {
   std::pair<float, float> x{c.x - radius, c.x + radius}, y{c.y - radius, c.y + radius};
   if (v.perspective) x = tangents(c.x, c.z, radius), y = tangents(c.y, c.z, radius);
   const float scale = v.pixelsPerUnit(), middleX = 0.5f * float(v.width), middleY = 0.5f * float(v.height);
-  const auto clampTo = [](float p, int n) { return static_cast<int>(std::clamp(p, 0.0f, float(n))); };
   return {clampTo(middleX + x.first * scale, v.width), clampTo(middleX + x.second * scale + 1, v.width),
           clampTo(middleY - y.second * scale, v.height), clampTo(middleY - y.first * scale + 1, v.height)};
 }
@@ -143,7 +145,6 @@ void place(const View& view, const Facet& facet, std::vector<ScreenTriangle>& li
     if (t.area == 0) continue;
     const auto [x0, x1] = std::minmax_element(t.x.begin(), t.x.end());
     const auto [y0, y1] = std::minmax_element(t.y.begin(), t.y.end());
-    const auto clampTo = [](float p, int n) { return static_cast<int>(std::clamp(p, 0.0f, float(n))); };
     // Pixels with centres that may be inside: most small triangles have no such pixel.
     t.bounds = {clampTo(std::ceil(*x0 - 0.5f), view.width), clampTo(std::floor(*x1 + 0.5f), view.width),
                 clampTo(std::ceil(*y0 - 0.5f), view.height), clampTo(std::floor(*y1 + 0.5f), view.height)};

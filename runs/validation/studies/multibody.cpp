@@ -8,15 +8,16 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/mechanism_setup.hpp"
 #include "runs/support/locations.hpp"
+#include "runs/support/private_folder.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 namespace grouser::studies {
 
@@ -39,9 +40,9 @@ double cpuSeconds() {
 scene::Scene loadCase(const std::string& scene, const IntegratorChoice& integrator) {
   const fs::path folder = support::shareFolder() / "runs" / "mechanisms";
   fs::path file = folder / scene;
-  const bool isMade = !scene.ends_with(".toml");
-  if (isMade) {
-    file = fs::temp_directory_path() / fmt::format("grouser_mechanism_{}.toml", getpid());
+  std::optional<support::PrivateFolder> scratch;
+  if (!scene.ends_with(".toml")) {
+    file = scratch.emplace("grouser_mechanism").path() / "mechanism.toml";
     std::vector<std::string> words;
     for (std::size_t at = 0; at < scene.size();) {
       const std::size_t space = std::min(scene.find(' ', at), scene.size());
@@ -51,10 +52,8 @@ scene::Scene loadCase(const std::string& scene, const IntegratorChoice& integrat
     std::string warning;
     if (!output::runScript(folder / "make_mechanisms.py", words, warning)) throw base::InputError(warning);
   }
-  scene::Scene loaded = setup::loadScene(file, {"run.integrator=" + integrator.word,
-                                                fmt::format("run.integrator_order={}", std::max(2, integrator.order))});
-  if (isMade) fs::remove(file);
-  return loaded;
+  return setup::loadScene(file, {"run.integrator=" + integrator.word,
+                                 fmt::format("run.integrator_order={}", std::max(2, integrator.order))});
 }
 
 struct Measured {

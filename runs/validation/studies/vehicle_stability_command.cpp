@@ -8,6 +8,7 @@
 #include "runs/storage/bed_cache.hpp"
 #include "runs/storage/sphere_cache.hpp"
 #include "runs/support/device_choice.hpp"
+#include "runs/support/private_folder.hpp"
 #include "runs/support/progress.hpp"
 #include "runs/support/stop_signals.hpp"
 #include "runs/support/text_file.hpp"
@@ -114,10 +115,11 @@ void writeTables(const std::vector<VehicleMap>& maps, const std::vector<JudgedPo
 void studyVehicleStability(const VehicleStability& command, const jobs::StudyPlace& place) {
   const auto begin = std::chrono::steady_clock::now();
   const std::vector<std::string> names = command.maps.empty() ? vehicleMapNames() : command.maps;
-  const fs::path scratch = fs::temp_directory_path() / fmt::format("grouser_maps_{}", begin.time_since_epoch().count());
   std::vector<VehicleMap> maps;
-  for (const std::string& name : names) maps.push_back(vehicleMap(name, place.quick, scratch));
-  fs::remove_all(scratch);
+  {
+    const support::PrivateFolder scratch("grouser_maps");
+    for (const std::string& name : names) maps.push_back(vehicleMap(name, place.quick, scratch.path()));
+  }
   jobs::Pieces pieces("stability_vehicle", place, command.pieces, recipeOf(maps, place.quick));
   const support::StopSignals signals;
   fmt::print("          light_tracked vehicle; each point is run at its step and at a quarter of this step\n");

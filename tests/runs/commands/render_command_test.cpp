@@ -107,6 +107,21 @@ TEST_F(RenderFrames, DamagedFileIsNamedNotDrawn) {
   EXPECT_NE(messageOf([&] { reader.read(2); }).find("/000002/grains/radius"), std::string::npos);
   EXPECT_NE(messageOf([&] { reader.read(4); }).find("hull"), std::string::npos);
   EXPECT_NE(messageOf([&] { reader.read(5); }).find("is not finite"), std::string::npos);
+  const auto rewrite = [&](const std::string& dataset, const auto& numbers, const std::vector<std::uint64_t>& shape) {
+    support::Hdf5File file = support::Hdf5File::openToChange(path);
+    file.remove(dataset);
+    file.write(dataset, numbers, shape);
+  };
+  for (const float radius : {1e30f, 0.0f}) {
+    std::vector<float> radii(20, 0.1f);
+    radii[0] = radius;
+    rewrite("/000003/grains/radius", radii, {20});
+    EXPECT_NE(messageOf([&] { output::FramesReader(path).read(3); }).find("/000003/grains/radius has a radius outside"),
+              std::string::npos);
+  }
+  rewrite("/parts/triangles", std::vector<std::uint32_t>{4294967295u, 1, 2}, {1, 3});
+  EXPECT_NE(messageOf([&] { output::FramesReader again(path); }).find("the vertex index 4294967295"),
+            std::string::npos);
   const fs::path other = folder_ / "other.h5";
   std::ofstream(other, std::ios::binary) << "no HDF5";
   EXPECT_NE(messageOf([&] { output::FramesReader again(other); }).find("is not an HDF5 file"), std::string::npos);

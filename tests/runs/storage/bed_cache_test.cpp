@@ -17,6 +17,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <pwd.h>
 #include <thread>
 #include <unistd.h>
 
@@ -237,6 +238,27 @@ TEST_F(KeptBed, OldestGoWhenTheLimitIsReached) {
   EXPECT_NE(run(&none, {"run.seed=4"}).summary.find("GROUSER_CACHE_GIB"), std::string::npos);
 }
 
+TEST_F(KeptBed, PartialFilesOfEndedProcessesAreDeletedAndOthersCount) {
+  const support::KeptFiles cache(folder_, 1000);
+  const fs::path file = folder_ / "bed-1.h5", fresh = support::KeptFiles::freshName(file);
+  fs::create_directory(file); // the rename fails
+  std::ofstream(fresh) << "bed";
+  EXPECT_FALSE(cache.put(fresh, file));
+  EXPECT_FALSE(fs::exists(fresh));
+  fs::remove(file);
+  const std::string name = fresh.string();
+  const fs::path left = name.substr(0, name.rfind('.')) + ".999999999"; // larger than any process number
+  const fs::path kept = folder_ / "bed-2.h5";
+  for (const fs::path& part : {left, fresh, kept}) std::ofstream(part) << std::string(900, 'x');
+  for (const fs::path& part : {left, fresh})
+    fs::last_write_time(part, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  std::ofstream(folder_ / "new") << "bed";
+  EXPECT_TRUE(cache.put(folder_ / "new", file));
+  EXPECT_FALSE(fs::exists(left));
+  EXPECT_TRUE(fs::exists(fresh)) << "this process still writes it";
+  EXPECT_FALSE(fs::exists(kept)) << "the partial file counts";
+}
+
 TEST_F(KeptBed, SecondRunWaitsForTheFirst) {
   Outcome a, b;
   std::thread first([&] { a = runIn(folder_); });
@@ -259,7 +281,7 @@ TEST_F(KeptBed, FolderComesFromTheSurroundings) {
   setenv("GROUSER_CACHE", "", 1);
   EXPECT_FALSE(BedCache::ofUser());
   unsetenv("GROUSER_CACHE"), unsetenv("XDG_CACHE_HOME"), unsetenv("HOME");
-  EXPECT_FALSE(BedCache::ofUser());
+  EXPECT_EQ(support::KeptFiles::ofUser()->folder(), fs::path(getpwuid(getuid())->pw_dir) / ".cache/grouser");
   setenv("HOME", folder_.c_str(), 1);
   const auto home = BedCache::ofUser();
   ASSERT_TRUE(home);
