@@ -134,12 +134,12 @@ FramesFile FramesFile::goOn(const std::filesystem::path& folder, std::vector<Fra
 std::int64_t FramesFile::framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep, std::int64_t most) {
   const support::Hdf5File file = support::Hdf5File::open(folder / "frames.h5");
   std::int64_t count = 0;
-  for (const char* shared : {"/parts", "/ground", "/vertices"}) file.readThrough(shared);
+  for (const char* shared : {"/parts", "/ground", "/vertices"}) readThrough(file, shared);
   for (; count < most && file.has(groupOf(count)); ++count) {
     if (!(file.number(groupOf(count), "step") <= static_cast<double>(lastStep))) break;
-    file.readThrough(groupOf(count));
+    readThrough(file, groupOf(count));
   }
-  for (std::int64_t later = count; file.has(groupOf(later)); ++later) file.readThrough(groupOf(later), false);
+  for (std::int64_t later = count; file.has(groupOf(later)); ++later) readThrough(file, groupOf(later), false);
   return count;
 }
 

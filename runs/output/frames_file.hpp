@@ -31,8 +31,8 @@ public:
   /// Continues the files of a stopped run with the same parts and ground; keeps only the first `kept` frames.
   static FramesFile goOn(const std::filesystem::path& folder, std::vector<FramePart> parts,
                          const base::TriangleMesh& ground, std::int64_t kept, const base::Comm& comm = {});
-  /// Number of frames in the folder up to and including `lastStep`, at most `most`; reads all their data, and the names
-  /// of later frames, which goOn() removes. Throws base::InputError if the file is missing or damaged.
+  /// Number of frames in the folder up to and including `lastStep`, at most `most`; reads all their data, and the
+  /// names in later frames, which goOn() removes. Throws base::InputError if the file is missing or damaged.
   static std::int64_t framesUpTo(const std::filesystem::path& folder, std::int64_t lastStep, std::int64_t most);
 
   /// Throws std::logic_error if the arrays differ in length.

@@ -121,7 +121,7 @@ void listFiles(const fs::path& folder) {
 std::string manifestText(const fs::path& folder) {
   const std::string text = contentsOf(folder / kName);
   const std::size_t at = text.rfind(kChecksum);
-  if (at == std::string::npos) return text; // of an older version
+  if (at == std::string::npos) return text; // older versions write no checksum
   const std::string end = fmt::format("{}{:08x}\"\n}}\n", kChecksum, support::crc32(text.substr(0, at)));
   return text.compare(at, std::string::npos, end) == 0 ? text : "";
 }

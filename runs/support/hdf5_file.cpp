@@ -385,7 +385,7 @@ std::vector<std::uint64_t> Hdf5File::shape(const std::string& dataset) const {
 }
 
 std::uint64_t Hdf5File::countOf(const std::string& dataset) const {
-  constexpr double kMaxCompression = 1032; // of zlib
+  constexpr double kMaxCompression = 1032; // maximum ratio of zlib
   const Turn turn;
   const std::vector<std::uint64_t> extent = shape(dataset);
   const Handle id(H5Dopen2(file_, dataset.c_str(), H5P_DEFAULT), H5Dclose);
@@ -414,23 +414,25 @@ std::vector<double> Hdf5File::numbers(const std::string& dataset) const {
   return values;
 }
 
-void Hdf5File::readThrough(const std::string& group, bool data) const {
+void readThrough(const Hdf5File& file, const std::string& group, bool data) {
   const Turn turn;
-  if (!has(group)) return;
-  const Handle id(H5Oopen(file_, group.c_str(), H5P_DEFAULT), H5Oclose);
+  if (!file.has(group)) return;
+  const Handle id(H5Oopen(file.file_, group.c_str(), H5P_DEFAULT), H5Oclose);
   std::vector<std::string> datasets;
   const auto take = [](hid_t, const char* name, const H5O_info_t* object, void* found) -> herr_t {
     if (object->type == H5O_TYPE_DATASET) static_cast<std::vector<std::string>*>(found)->emplace_back(name);
     return 0;
   };
-  if (id < 0 || H5Ovisit2(id, H5_INDEX_NAME, H5_ITER_INC, take, &datasets, H5O_INFO_BASIC) < 0) throw damaged(group);
+  if (id < 0 || H5Ovisit2(id, H5_INDEX_NAME, H5_ITER_INC, take, &datasets, H5O_INFO_BASIC) < 0)
+    throw file.damaged(group);
   for (const std::string& dataset : datasets) {
     const std::string path = group + "/" + dataset;
-    const std::uint64_t count = data ? countOf(path) : 0;
-    const Handle numbers(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose), type(H5Dget_type(numbers), H5Tclose);
+    const std::uint64_t count = data ? file.countOf(path) : 0;
+    const Handle numbers(H5Dopen2(file.file_, path.c_str(), H5P_DEFAULT), H5Dclose),
+        type(H5Dget_type(numbers), H5Tclose);
     std::vector<char> bytes(count * H5Tget_size(type));
     if (count && H5Dread(numbers, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, bytes.data()) < 0)
-      throw damaged("dataset " + path);
+      throw file.damaged("dataset " + path);
   }
 }
 

@@ -94,6 +94,7 @@ public:
   /// Flushes everything written so far, so that the file is readable even if the program is killed.
   void flush();
   friend void requireRoom(const Hdf5File& file, std::uint64_t bytes);
+  friend void readThrough(const Hdf5File& file, const std::string& group, bool data);
 
   /// Whether the object exists. Throws base::InputError if the file is damaged there.
   bool has(const std::string& object) const;
@@ -119,9 +120,6 @@ public:
     readRowNumbers(dataset, first, count, values.data(), NumberTypeOf<T>::value);
     return values;
   }
-  /// Reads the names of a group and, if `data`, all its data, to verify their checksums. Throws base::InputError if the
-  /// file is damaged.
-  void readThrough(const std::string& group, bool data = true) const;
   /// A text attribute; empty if it is missing.
   std::string text(const std::string& object, const std::string& name) const;
   /// A numerical attribute; NaN if it is missing.
@@ -159,5 +157,9 @@ private:
 /// Call before writing a block of `bytes`. HDF5 leaves an unreadable file if a write fails in the middle; if this
 /// throws NotWritten, nothing has changed since flush().
 void requireRoom(const Hdf5File& file, std::uint64_t bytes);
+
+/// Reads the names of a group and, if `data`, all its data, to verify their checksums. Throws base::InputError if the
+/// file is damaged.
+void readThrough(const Hdf5File& file, const std::string& group, bool data = true);
 
 } // namespace grouser::support
