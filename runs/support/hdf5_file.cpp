@@ -6,6 +6,7 @@
 #include "runs/support/not_written.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <exception>
