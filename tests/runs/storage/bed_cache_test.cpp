@@ -241,7 +241,7 @@ TEST_F(KeptBed, OldestGoWhenTheLimitIsReached) {
 TEST_F(KeptBed, PartialFilesOfEndedProcessesAreDeletedAndOthersCount) {
   const support::KeptFiles cache(folder_, 1000);
   const fs::path file = folder_ / "bed-1.h5", fresh = support::KeptFiles::freshName(file);
-  fs::create_directory(file); // the rename fails
+  fs::create_directories(file); // the rename fails
   std::ofstream(fresh) << "bed";
   EXPECT_FALSE(cache.put(fresh, file));
   EXPECT_FALSE(fs::exists(fresh));
