@@ -4,6 +4,7 @@
 #include "base/nearest_key.hpp"
 
 #include "base/error.hpp"
+#include "base/name_fault.hpp"
 #include "base/table.hpp"
 #include "vehicle/running_gear.hpp"
 #include "vehicle/spec_tables.hpp"
@@ -31,6 +32,8 @@ void checkEngine(const base::Section& section, const EngineSpec& engine) {
 
 /// Checks conditions that involve several keys.
 void checkTogether(const base::Section& root, const VehicleSpec& spec) {
+  if (const std::string fault = base::textFault(spec.name); !fault.empty())
+    root.section("vehicle").fail("name", fault);
   if (spec.arm.suspension == Suspension::sprung)
     for (const char* key : {"stiffness", "damping", "preload"})
       if (!root.section("arm").has(key))

@@ -5,6 +5,7 @@
 #include "runs/commands/command_entry.hpp"
 #include "runs/commands/manual.hpp"
 #include "runs/commands/ranks_alike.hpp"
+#include "runs/commands/run_scene.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/failure.hpp"
 #include "runs/support/locations.hpp"
@@ -22,6 +23,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -84,6 +86,17 @@ int failToPrint(const base::Ranks& ranks) {
   return fail(ranks, support::FailureKind::notWritten, "cannot write to standard output; is the disk full?");
 }
 
+/// Continues a branch from its own checkpoint, instead of the checkpoint where it began.
+void resumeFrom(const std::filesystem::path& checkpoint, std::vector<std::string>& words) {
+  const auto at = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+    return word == "--resume" || word.starts_with("--resume=");
+  });
+  if (at == words.end()) return;
+  if (*at == "--resume" && at + 1 != words.end() && !(at + 1)->starts_with("-")) words.erase(at + 1);
+  *at = "--resume";
+  words.insert(at + 1, checkpoint.string());
+}
+
 /// Command that resumes the stopped command, or repeats it if there is no checkpoint.
 std::string nextCommand(const CLI::App& app, std::vector<std::string> words, const base::Ranks& ranks,
                         const support::Stopped& stopped) {
@@ -97,6 +110,8 @@ std::string nextCommand(const CLI::App& app, std::vector<std::string> words, con
   };
   if (resumes) std::erase(words, "--force");
   if (resumes && !has("--resume")) words.emplace_back("--resume");
+  if (const auto* branch = dynamic_cast<const commands::StoppedBranch*>(&stopped))
+    resumeFrom(branch->checkpoint(), words);
   // The results of the stopped command prevent its repetition without --force.
   const bool isInTheWay = !resumes && stopped.left() == support::Stopped::Left::work;
   if (isInTheWay && command->get_option_no_throw("--force") && !has("--force")) words.emplace_back("--force");

@@ -361,6 +361,9 @@ output::Summary runScene(const scene::Scene& scene, const setup::Provenance& pro
   bool hasFolder = false;
   try {
     return runInFolder(scene, provenance, options, hasFolder);
+  } catch (const support::Stopped& stopped) {
+    if (!options.branch || stopped.left() == support::Stopped::Left::nothing) throw;
+    throw StoppedBranch(stopped, options.folder / storage::kCheckpointName);
   } catch (const base::SimulationError&) {
     // The files of the run are closed at this point.
     if (hasFolder && scene.output.plots && options.comm().alone())

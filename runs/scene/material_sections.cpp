@@ -2,9 +2,9 @@
 // Keys and checks of [material.NAME] and [contact."a|b"].
 #include "runs/scene/detail/section_lists.hpp"
 
+#include "base/name_fault.hpp"
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/scene/detail/soil_materials.hpp"
-#include "runs/support/result_names.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -258,7 +258,7 @@ void completeLaw(const Section& section, Material& m) {
 Material beginMaterial(const Section& section, const std::string& name, Scene& scene) {
   if (name.find('|') != std::string::npos)
     section.fail("", "has a name with |, which separates the two materials of a contact; choose another name");
-  if (const std::string fault = support::nameFault(name); !fault.empty()) section.fail("", fault);
+  if (const std::string fault = base::nameFault(name); !fault.empty()) section.fail("", fault);
   const Soil* soil = soilOf(section, name, scene);
   Material m = soil ? materialOf(*soil, section) : Material{};
   m.name = name;

@@ -2,6 +2,8 @@
 // Keys and checks of [output] and [parallel].
 #include "runs/scene/detail/section_lists.hpp"
 
+#include "base/name_fault.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -132,6 +134,7 @@ void checkOutput(const Section& section, Output& output, const Scene& scene) {
 }
 
 void checkPlot(const Section& section, PlotSection& plot, const Scene&) {
+  if (const std::string fault = base::textFault(plot.title); !fault.empty()) section.fail("title", fault);
   if (plot.y.empty()) section.fail("y", "is empty; set a column, e.g. \"bodies.cone.position.z\"");
   const std::size_t curves = plot.sum ? 1 : plot.y.size();
   if (!plot.labels.empty() && plot.labels.size() != curves)

@@ -2,6 +2,7 @@
 // Reads soil files and finds them by name.
 #include "runs/scene/soil.hpp"
 
+#include "base/name_fault.hpp"
 #include "base/nearest_key.hpp"
 #include "base/table.hpp"
 #include "runs/scene/detail/soil_materials.hpp"
@@ -169,6 +170,8 @@ std::string unitOf(SoilQuantity quantity) {
 Soil readSoil(const fs::path& file) {
   Soil soil;
   soil.name = file.stem().string(), soil.file = file;
+  if (const std::string fault = base::textFault(soil.name); !fault.empty())
+    throw base::InputError(fmt::format("{}: the name of a soil file {}", file.string(), fault));
   soil.document = std::make_shared<const base::Document>(base::Document::load(file));
   soil.hash = support::hashOfFile(file);
   const Section root = soil.document->root();

@@ -2,10 +2,10 @@
 // Keys and checks of [[plane]], [[box]], [[cylinder]] and [[mesh]], the rigid surfaces that grains touch.
 #include "runs/scene/detail/section_lists.hpp"
 
+#include "base/name_fault.hpp"
 #include "base/rounded.hpp"
 #include "runs/scene/detail/section_checks.hpp"
 #include "runs/support/orientation.hpp"
-#include "runs/support/result_names.hpp"
 #include "runs/support/section_fault.hpp"
 #include "spheredecomp/decompose.hpp"
 
@@ -209,7 +209,7 @@ void checkSurface(const Section& section, const SurfaceSection& s, const Scene& 
       section.fail(key, "[s] has no effect on a fixed surface; add velocity, spin or amplitude");
   if (s.until && *s.until <= s.start.value_or(0)) section.fail("until", "[s] is not after start; raise it");
   if (!s.name) return;
-  if (const std::string fault = support::nameFault(*s.name); !fault.empty()) section.fail("name", fault);
+  if (const std::string fault = base::nameFault(*s.name); !fault.empty()) section.fail("name", fault);
   if (s.name->find_first_of(". ,\"") != std::string::npos)
     section.fail(
         "name",

@@ -2,12 +2,12 @@
 #include "runs/setup/mechanism_model.hpp"
 
 #include "base/math.hpp"
+#include "base/name_fault.hpp"
 #include "base/table.hpp"
 #include "multibody/part_error.hpp"
 #include "runs/setup/body_mass.hpp"
 #include "runs/setup/mechanism_frames.hpp"
 #include "runs/support/orientation.hpp"
-#include "runs/support/result_names.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <fmt/format.h>
@@ -131,7 +131,7 @@ MechanismBuilder::MechanismBuilder(const vehicle::Assembly& vehicle) : model_(ve
 
 void MechanismBuilder::checkName(const std::string& kind, const std::string& name) {
   if (name == "world") throw support::SectionFault("name", "is reserved for the ground; choose another name");
-  if (const std::string fault = support::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
+  if (const std::string fault = base::nameFault(name); !fault.empty()) throw support::SectionFault("name", fault);
   if (name.find_first_of(".\",") != std::string::npos)
     throw support::SectionFault("name", "must not contain . , or \", which separate names in results; remove them");
   if (!names_.insert(kind + " " + name).second)

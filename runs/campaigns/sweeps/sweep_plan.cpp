@@ -2,6 +2,7 @@
 #include "runs/campaigns/sweeps/sweep_plan.hpp"
 
 #include "base/error.hpp"
+#include "base/name_fault.hpp"
 #include "runs/campaigns/sweeps/overrides.hpp"
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
@@ -97,6 +98,8 @@ Point caseOf(const std::string& text) {
     throw InputError(fmt::format("--case {}: a case must start with its name; write NAME: key=value, key=value..., "
                                  "e.g. --case 'deep: terrain.depth=0.6'",
                                  text));
+  if (const std::string fault = base::textFault(point.label); !fault.empty())
+    throw InputError(fmt::format("--case {}: its name {}", text, fault));
   if (!isFolderName(point.label))
     throw InputError(
         fmt::format("--case {}: '{}' cannot be used as a folder name beside {}; use letters (a to z) or digits", text,

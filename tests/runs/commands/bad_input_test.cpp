@@ -99,6 +99,12 @@ std::vector<Mistake> vehicles() {
                    put(p, std::string(spec).replace(at, spec.find('\n', at) - at, "mass = -1"));
                  },
                  {"car.toml:", "mass = -1", "outside"}),
+      badVehicle("VehicleNameWithMarkup",
+                 [spec](const fs::path& p) {
+                   const std::size_t at = spec.find("name = ");
+                   put(p, std::string(spec).replace(at, spec.find('\n', at) - at, "name = \"<b>car\""));
+                 },
+                 {"car.toml:", "name = \"<b>car\" contains < or >"}),
       badScene("VehicleCutTooFine", kGrains, replaced(kBench, "RADIUS", "1e-5"),
                {"scene.toml:6: vehicle.sphere_radius", "lattice points", "raise it"}),
       badScene("VehicleCutTooCoarse", kGrains, replaced(kBench, "RADIUS", "0.9"),
@@ -247,6 +253,19 @@ std::vector<Mistake> names() {
       badScene("BodyNameWithControlCharacter", kGrains,
                "version = 1\n[run]\nduration = 1\n[[body]]\nname = \"a\\u0000b\"\nmass = 1\nbox = [1, 1, 1]\n",
                {"scene.toml:5: body.0.name", "control character"}),
+      badScene("NameWithLineSeparator", "[[plane]]", "[[plane]]\nname = \"a\\u2028b\"",
+               {"scene.toml:7: plane.0.name", "control character"}),
+      badScene("NameWithMarkup", "[[plane]]", "[[plane]]\nname = \"<b>\"",
+               {"scene.toml:7: plane.0.name = \"<b>\" contains < or >", "use letters, digits"}),
+      badScene("MaterialNameWithMarkup", "[material.glass]", "[material.\"a>b\"]\n[material.glass]",
+               {"scene.toml:5: material.\"a>b\" contains < or >"}),
+      badScene(
+          "BodyNameWithMarkup", kGrains,
+          "version = 1\n[run]\nduration = 1\n[[body]]\nname = \"<img src=x onerror=x()>\"\nmass = 1\nbox = [1, 1, 1]\n",
+          {"scene.toml:5: body.0.name = \"<img src=x onerror=x()>\" contains < or >"}),
+      badScene("TitleWithMarkup", "[output]",
+               "[[output.plot]]\ny = [\"ledger.kinetic\"]\ny_label = \"E [J]\"\ntitle = \"<b>\"\n[output]",
+               {"output.plot.0.title = \"<b>\" contains < or >"}),
   };
 }
 

@@ -178,6 +178,8 @@ TEST_F(Soils, MistakesInASoilsFileNameItsLine) {
   const std::string text(kLoam);
   put(folder_ / "soils/loam.toml", text.substr(0, text.find("[[reached]]")));
   expectError(grainOf("loam", 0.01), {"loam.toml:5: soil.calibrated", "the file has no measured constants"});
+  put(folder_ / "soils/<b>.toml", kLoam);
+  expectError(grainOf("<b>", 0.01), {"<b>.toml: the name of a soil file contains < or >"});
 }
 
 TEST_F(Soils, TheBedLiesAsTheSoilDoesUnlessTheSceneSaysOtherwise) {

@@ -136,6 +136,7 @@ constexpr Mistake kMistakes[] = {
     {"name = \"lower\"", "name = \"upper\"", "scene.toml:10: body.1.name = \"upper\" is also the name of another body"},
     {"name = \"lower\"", "name = \"world\"", "body.1.name = \"world\" is reserved for the ground"},
     {"name = \"lower\"", "name = \"a/b\"", "body.1.name = \"a/b\" has a / in its name"},
+    {"name = \"elbow\"", "name = \"<b>\"", "joint.1.name = \"<b>\" contains < or >"},
     {"mass = 2\n", "", "scene.toml:4: body.0.mass [kg] is missing; add it, or set fixed = true"},
     {"mass = 2", "mass = 0", "scene.toml:6: body.0.mass = 0 [kg] is outside (0, 1e+12]"},
     {"[0.1, 0.2, 0.15]", "[0, 0, 0]", "scene.toml:7: body.0.inertia = [0, 0, 0] [kg m2] is not positive definite"},

@@ -175,7 +175,7 @@ TEST_F(Sweep, WrongCasesAreFoundBeforeAnythingRuns) {
   wrong({"a: run.seed=1"}, {"run.seed=1,2"}, 0);
   wrong({"a: run.seed=1"}, {}, 2);
   wrong({"a: run.sead=1"}, {}, 0);
-  for (const char* name : {".", "..", "/", "\u00fc", "summary.csv", "summary.png", "intervals.csv"})
+  for (const char* name : {".", "..", "/", "\u00fc", "<b>", "a\tb", "summary.csv", "summary.png", "intervals.csv"})
     wrong({name}, {}, 0);
 }
 
