@@ -97,8 +97,9 @@ ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoe
   ContactParts all;
   for (const base::SphereSet& set : sets_) all.surfaces.push_back(&set);
   const vehicle::ContactSpec& spec = assembly.spec.contact;
-  const contact::PatchLaw foundation{spec.foundationModulus, spec.relaxationTime, spec.frictionGround,
-                                     spec.tangentialRatio};
+  const auto foundation = [&spec](double modulus) {
+    return contact::PatchLaw{modulus, spec.relaxationTime, spec.frictionGround, spec.tangentialRatio};
+  };
   for (std::size_t c = 0; c < contactParts_.size(); ++c) {
     const vehicle::Part& part = assembly.parts[partOf(c)];
     const bool isShoe = part.kind == vehicle::PartKind::kShoe;
@@ -107,7 +108,7 @@ ContactParts VehicleParts::touching(const vehicle::Assembly& assembly, bool shoe
                          .pose_B = part.pose_B,
                          .surface = static_cast<int>(meshOfPart_[partOf(c)]),
                          .points = static_cast<int>(meshOfPart_[partOf(c)]),
-                         .foundation = foundation,
+                         .foundation = foundation(isShoe ? spec.onGround() : spec.foundationModulus),
                          .reach = reach_[c],
                          .canTouchGrains = isShoe || !shoesAlone,
                          .isHull = part.kind == vehicle::PartKind::kChassis,

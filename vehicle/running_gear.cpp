@@ -380,6 +380,15 @@ std::optional<Fault> foundationFault(const VehicleSpec& s) {
   const double strip = 8.0 / 3 * s.shoe.padHalfWidth * std::sqrt(2 * s.roadWheel.radius);
   const double most = 0.1 * (s.shoe.plateTop - s.shoe.padBottom); // [m]
   const double least = load / (strip * most * std::sqrt(most));
+  // On its whole pad, a shoe under a wheel yields by at most a tenth of the height of the pad below the pins.
+  const double pad = load / (4 * s.shoe.halfLength * s.shoe.padHalfWidth * -0.1 * s.shoe.padBottom);
+  if (s.contact.padModulus && *s.contact.padModulus < pad)
+    return Fault{
+        {named("contact", "pad_modulus", "N/m3")},
+        fmt::format("is too soft: under {:.0f} N, the load of a road wheel, the pad of a shoe yields by more than "
+                    "a tenth of its height of {:.0f} mm; at least {:.2e} is required",
+                    load, -1e3 * s.shoe.padBottom, pad),
+        fmt::format("set contact.pad_modulus = {:.1e}", 3 * pad)};
   if (s.contact.foundationModulus >= least) return {};
   return Fault{{named("contact", "foundation_modulus", "N/m3")},
                fmt::format("is too soft: road wheels sink into the shoes by more than a tenth of their {:.0f} mm "

@@ -107,11 +107,14 @@ struct EngineSpec {
 
 /// Contacts between parts, and with the ground.
 struct ContactSpec {
-  double foundationModulus{}; ///< force = modulus * sum(area * overlap) [N/m3]
-  double relaxationTime{};    ///< foundation damping: stress = modulus * (overlap + relaxationTime * rate) [s]
-  double tangentialRatio{};   ///< tangential / normal stiffness [-]
-  double frictionInside{};    ///< shoes against wheels, sprocket, idler [-]
-  double frictionGround{};    ///< shoes against ground [-]
+  double foundationModulus{};       ///< force = modulus * sum(area * overlap) [N/m3]
+  std::optional<double> padModulus; ///< modulus of the shoes on rigid ground [N/m3]; empty: foundationModulus
+  double relaxationTime{};          ///< foundation damping: stress = modulus * (overlap + relaxationTime * rate) [s]
+  double tangentialRatio{};         ///< tangential / normal stiffness [-]
+  double frictionInside{};          ///< shoes against wheels, sprocket, idler [-]
+  double frictionGround{};          ///< shoes against ground [-]
+
+  double onGround() const { return padModulus.value_or(foundationModulus); } ///< modulus of a shoe on rigid ground
 };
 
 /// Constant data of a tracked vehicle with two identical tracks, at y = +-trackOffset. Vehicle frame: x forward, y

@@ -308,6 +308,12 @@ Table<ContactSpec> contactTable() {
       .above(0)
       .atMost(1e14)
       .required();
+  t.add("pad_modulus", &ContactSpec::padModulus, "N/m3",
+        "elastic foundation modulus of the shoes on rigid ground and obstacles, e.g. of rubber pads (modulus of "
+        "elasticity / thickness); default: foundation_modulus")
+      .plausible(1e6, 1e13)
+      .above(0)
+      .atMost(1e14);
   t.add("relaxation_time", &ContactSpec::relaxationTime, "s",
         "foundation damping: stress = modulus x (overlap + relaxation_time x rate)")
       .plausible(1e-7, 0.02)

@@ -77,13 +77,13 @@ std::string pairsText(const scene::Scene& scene) {
   if (scene.vehicle) {
     const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
     if (text.empty()) text += "\ncontact parameters by material pair\n";
-    const auto part = [&](const char* what, double friction) {
+    const auto part = [&](const char* what, double modulus, double friction) {
       text += fmt::format("  {:<{}}  elastic foundation {:.4g} N/m3, relaxation time {:.4g} s, friction {:.4g}\n", what,
-                          width, spec.contact.foundationModulus, spec.contact.relaxationTime, friction);
+                          width, modulus, spec.contact.relaxationTime, friction);
     };
-    part("shoe on running gear", spec.contact.frictionInside);
+    part("shoe on running gear", spec.contact.foundationModulus, spec.contact.frictionInside);
     if (scene.terrain && !scene.terrain->granular() && !scene.deformable())
-      part("shoe on rigid ground", spec.contact.frictionGround);
+      part("shoe on rigid ground", spec.contact.onGround(), spec.contact.frictionGround);
   }
   if (const std::optional<coupling::ScmSetup> soil = setup::scmSetup(scene))
     text += soilText(*soil, width) + setup::ScmConstants(scene).text();

@@ -42,10 +42,12 @@ bool meetsSoilOnly(const scene::Scene& scene) {
 void considerParts(StepLimit& limit, const scene::Scene& scene, const vehicle::VehicleSpec& s) {
   const vehicle::ContactSpec& c = s.contact;
   // A shoe on its whole pad: the maximum stiffness of the foundation. No wheel presses a whole pad.
-  const double pad = c.foundationModulus * 4 * s.shoe.halfLength * s.shoe.padHalfWidth / s.shoe.mass;
+  const double pad =
+      std::max(c.foundationModulus, c.onGround()) * 4 * s.shoe.halfLength * s.shoe.padHalfWidth / s.shoe.mass;
+  const std::string modulus = c.onGround() > c.foundationModulus ? "contact.pad_modulus" : "contact.foundation_modulus";
   if (!meetsSoilOnly(scene))
     considerBoth(limit, pad, pad * c.relaxationTime, "shoe on rigid ground or wheel",
-                 "lower contact.foundation_modulus in vehicle.spec");
+                 fmt::format("lower {} in vehicle.spec", modulus));
   // A wheel that overlaps the plate by 1 mm, far more than weight causes.
   constexpr double kDeep = 1e-3; // [m]
   const auto wheel = [&](const char* name, double mass, double radius) {
@@ -74,7 +76,7 @@ void considerPressedShoe(StepLimit& limit, const scene::Scene& scene, const vehi
   const vehicle::ContactSpec& c = s.contact;
   const double length = s.shoe.halfLength, width = s.shoe.padHalfWidth, mass = s.shoe.mass;
   const std::optional<coupling::ScmSetup> soil = scmSetup(scene);
-  const double modulus = soil ? soil->stiffest(2 * width) : c.foundationModulus;
+  const double modulus = soil ? soil->stiffest(2 * width) : c.onGround();
   const double pad = modulus * 4 * length * width;
   const double onGround =
       pad * std::max({1 / mass, length * length / (3 * s.shoe.inertia.y), width * width / (3 * s.shoe.inertia.x)});

@@ -158,6 +158,18 @@ INSTANTIATE_TEST_SUITE_P(
         Impossible{"ImpossibleInertia", {"shoe", "inertia", "[0.064, 0.020, 0.2]"}, {"is not physical"}}),
     [](const auto& tested) { return tested.param.name; });
 
+TEST(RunningGear, PadsThatYieldByMoreThanATenthOfTheirHeight_AreRefused) {
+  vehicle::VehicleSpec spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
+  // A tenth of the weight on a pad of 136 x 280 mm.
+  const double least = 501.8 * 9.81 / (0.136 * 0.28 * 0.1 * -spec.shoe.padBottom);
+  spec.contact.padModulus = 1.01 * least;
+  EXPECT_FALSE(vehicle::runningGearFault(spec).has_value());
+  spec.contact.padModulus = 0.99 * least;
+  const auto fault = vehicle::runningGearFault(spec);
+  ASSERT_TRUE(fault.has_value());
+  EXPECT_NE(fault->what.find("more than a tenth of its height"), std::string::npos) << fault->what;
+}
+
 TEST(RunningGear, ShippedVehicle_IsSound) {
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
   EXPECT_FALSE(vehicle::runningGearFault(spec).has_value());

@@ -280,6 +280,21 @@ TEST(StepLimit, OfAShoeUnderAWheelIsBothSpringsOnItsMassAndItsEnd) {
   EXPECT_NEAR(stepLimit(standing("run.gravity=[0,0,0]")).step / damped(pad, pad * tau), 1, 1e-9) << "the pad alone";
 }
 
+TEST(StepLimit, OfASoftPadUnderAWheelIsLonger) {
+  const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml");
+  const double modulus = spec.contact.foundationModulus, tau = spec.contact.relaxationTime;
+  // As above; the wheel sinks into the plate by the depth of the hard foundation.
+  const double arm = 1 / 25.0 + 1 / 8.5 + 0.068 * 0.068 / 0.02;
+  const double depth = std::pow(501.8 * 9.81 / (4.0 / 3 * modulus * 0.28 * std::sqrt(0.38)), 2.0 / 3);
+  for (const double pads : {1e8, 1e9, 1e10, 1e11}) {
+    scene::Scene scene =
+        loadScene(std::string(GROUSER_SOURCE_DIR) + "/tests/scenes/rigid.toml",
+                  {"run.duration=1", "run.gravity=[0,0,-9.81]", fmt::format("spec.contact.pad_modulus={}", pads)});
+    const double springs = pads * 0.136 * 0.28 / 8.5 + modulus * 0.28 * 2 * std::sqrt(0.38 * depth) * arm;
+    EXPECT_NEAR(stepLimit(scene).step / damped(springs, springs * tau), 1, 1e-6) << pads;
+  }
+}
+
 TEST(StepLimit, OfAShoeThatTurnsMoreEasilyThanItShiftsIsShorter) {
   const test::SpecVariant light({{"shoe", "inertia", "[0.0064, 0.0020, 0.0080]"}});
   const StepLimit limit = stepLimit(standing("vehicle.spec=" + light.path()));
