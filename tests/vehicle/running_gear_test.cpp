@@ -167,7 +167,7 @@ TEST(RunningGear, PadsThatYieldByMoreThanATenthOfTheirHeight_AreRefused) {
   spec.contact.padModulus = 0.99 * least;
   const auto fault = vehicle::runningGearFault(spec);
   ASSERT_TRUE(fault.has_value());
-  EXPECT_NE(fault->what.find("more than a tenth of its height"), std::string::npos) << fault->what;
+  EXPECT_NE(fault->message.find("more than a tenth of its height"), std::string::npos) << fault->message;
 }
 
 TEST(RunningGear, ShippedVehicle_IsSound) {
