@@ -56,6 +56,8 @@ def fields_of(file: Path, what: str) -> Iterator[None]:
     except FileError:
         raise
     except KeyError as error:  # h5py: the message is a sentence with the name in quotes
+        if re.search(r"Unable to (synchronously )?open object \((?!object ')", str(error)):  # there, but unreadable
+            raise FileError(_damaged(str(file), what, "a part of it is unreadable")) from error
         name = (re.findall("'([^']+)'", str(error)) or [error])[-1]
         raise FileError(f"{file}: cannot be read as {what}: {name!r} is missing; damaged or from another version: "
                         f"{_REMEDY}") from error

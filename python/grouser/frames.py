@@ -55,6 +55,13 @@ class Frame:
         with self._frames._whole():
             return read(group[name], self._frames.path) if name in group else None
 
+    def _required(self, name: str) -> numpy.ndarray:
+        """A dataset that each frame of this kind has. FileError if it is missing."""
+        values = self._read(name)
+        require(values is not None, self._frames.path, f"/{self._name}/{name}")
+        assert values is not None
+        return values
+
     def __len__(self) -> int:
         """Number of grains."""
         group = self._group
@@ -70,7 +77,7 @@ class Frame:
             raise KeyError(f"{path}: this frame has no grains")
         if name not in names:
             raise KeyError(f"{path}: no grain quantity {name!r}; available: {', '.join(names)}")
-        values = self._read(f"grains/{name}")
+        values = self._required(f"grains/{name}")
         place = f"/{self._name}/grains/{name}"
         require(len(values) == len(self), path, place)
         if name == "radius":
@@ -119,7 +126,7 @@ class Frame:
         if values is None:
             raise KeyError(f"{self._frames.path}: this frame has no {name!r} of deformable soil")
         if name == "triangles":
-            self._frames._check(values, len(self._read("soil/position")), f"/{self._name}/soil/triangles")
+            self._frames._check(values, len(self._required("soil/position")), f"/{self._name}/soil/triangles")
         return values
 
     @property

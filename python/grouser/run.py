@@ -176,8 +176,8 @@ class Run:
             if "terrain/surface" not in opened:
                 return None
             group = opened["terrain/surface"]
-            x, y, height, final = (read(group[name], self.file) if name in group else None
-                                   for name in ("x", "y", "height", "final_height"))
+            x, y, height = (read(group[name], self.file) for name in ("x", "y", "height"))
+            final = read(group["final_height"], self.file) if "final_height" in group else None
             require(all(h is None or h.shape == (len(y), len(x)) for h in (height, final)), self.file, group.name)
             return Surface(x, y, height, text_of(group["height"].attrs["interpolation"]), final)
 
@@ -186,7 +186,7 @@ class Run:
         """The resolved scene: all keys with their values, as a dict (the contents of scene.toml)."""
         opened = self._open
         with fields_of(self.file, "the results of a run"):
-            text = long_text(opened, "scene")
+            text = str(long_text(opened, "scene"))
             try:
                 return tomllib.loads(text)
             except tomllib.TOMLDecodeError as error:

@@ -72,10 +72,10 @@ class Pages(PageTest):
         ledger = [name for name in self.numbers() if name.endswith("ledger.kinetic at the end")]
         self.assertEqual(len(ledger), 1, "that of the only combination with a whole run")
         frames = (runs[5] / "frames.h5").read_bytes()
-        within = frames.rindex(b"SNOD")  # damage inside: opening the file does not detect it
+        within = frames.rindex(b"OHDR")  # damage inside: opening the file does not detect it
         (runs[5] / "frames.h5").write_bytes(frames[:within] + b"LOST" + frames[within + 4:])
         self.opened("sweep")
-        self.assertIn(f"{runs[5].name}/frames.h5: damaged or incomplete", self.browser.value(
+        self.assertIn(f"{runs[5].name}/frames.h5: cannot be read as the frames of a run: a part of it is unreadable", self.browser.value(
             "[...document.querySelectorAll('#content > .bad')].map(e => e.textContent).join(' ')"))
 
     def test_a_check_names_runs_whose_files_are_missing(self):

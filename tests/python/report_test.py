@@ -106,10 +106,10 @@ class Refused(FolderTest):
             (self.folder / "kept").rename(self.folder / "run" / name)
         for name in ("results.h5", "frames.h5"):  # damage inside: opening the file does not detect it
             whole = (self.folder / "run" / name).read_bytes()
-            nodes = [m.start() for m in re.finditer(b"SNOD", whole)]
+            nodes = [m.start() for m in re.finditer(b"OHDR", whole)]  # headers of groups and datasets
             for node in (nodes[0], nodes[-1]):
                 (self.folder / "run" / name).write_bytes(whole[:node] + b"LOST" + whole[node + 4:])
-                self.refuses("run", [f"run/{name}: damaged or incomplete", "run it again"], "--out", "damaged.html")
+                self.refuses("run", [f"run/{name}: ", "damaged", "run it again"], "--out", "damaged.html")
             (self.folder / "run" / name).write_bytes(whole)
         (self.folder / "run/scene.toml").write_bytes(b"version = \xff")
         self.refuses("run", ["run/scene.toml: damaged or incomplete"], "--out", "damaged.html")

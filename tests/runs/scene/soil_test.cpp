@@ -179,7 +179,8 @@ TEST_F(Soils, MistakesInASoilsFileNameItsLine) {
   put(folder_ / "soils/loam.toml", text.substr(0, text.find("[[reached]]")));
   expectError(grainOf("loam", 0.01), {"loam.toml:5: soil.calibrated", "the file has no measured constants"});
   put(folder_ / "soils/<b>.toml", kLoam);
-  expectError(grainOf("<b>", 0.01), {"<b>.toml: the name of a soil file contains < or >"});
+  expectError(grainOf("a", 0.01, "[material.a]\nsoil = \"soils/<b>.toml\"\n"),
+              {"<b>.toml: the name of a soil file contains < or >"});
 }
 
 TEST_F(Soils, TheBedLiesAsTheSoilDoesUnlessTheSceneSaysOtherwise) {
