@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 namespace grouser::coupling {
 namespace {
@@ -125,6 +126,20 @@ struct Vehicle {
   Vec3d force(std::size_t c) const { return quanta().force.value(loads[c].force); }
   Vec3d torque(std::size_t c) const { return quanta().torque.value(loads[c].torque); }
 };
+
+TEST(VehicleParts, ShoesOnTheGroundHaveTheModulusOfTheirPads) {
+  Vehicle v;
+  const double foundation = v.assembly.spec.contact.foundationModulus;
+  for (const std::optional<double> pads : {std::optional<double>(), std::optional<double>(3e8)}) {
+    v.assembly.spec.contact.padModulus = pads;
+    int shoes = 0;
+    for (const ContactPart& part : v.parts.touching(v.assembly, false).parts) {
+      shoes += part.canTouchGround ? 1 : 0;
+      EXPECT_EQ(part.foundation.modulus, part.canTouchGround ? pads.value_or(foundation) : foundation) << part.name;
+    }
+    EXPECT_EQ(shoes, 92);
+  }
+}
 
 TEST(ShapedGear, LoadsAreOpposite) {
   Vehicle v;
