@@ -102,9 +102,11 @@ std::string describe(const Exec& exec) {
   if (exec.onCpu()) {
     const std::string why = whyNoGpu();
     const CpuThreads usual = lowestLimit(threadLimits());
-    const std::string limit = usual.cause.empty() ? ""
-                                                  : "; default: " + std::to_string(usual.count) + " of " +
-                                                        counted(usual.machine, "core") + " (" + usual.cause + ")";
+    // Ranks on one machine share its cores and have fewer threads than the limit.
+    const std::string limit = usual.cause.empty() || exec.threads < usual.count
+                                  ? ""
+                                  : "; default: " + std::to_string(usual.count) + " of " +
+                                        counted(usual.machine, "core") + " (" + usual.cause + ")";
     return counted(exec.threads, "thread") + " on " + processorName() + limit + (why.empty() ? "" : "; no GPU: " + why);
   }
 #if defined(__CUDACC__)

@@ -63,7 +63,8 @@ if [[ $end =~ ^[0-9]+$ ]] && [ "$end" -gt "$(date +%s)" ]; then
   left=$((end - $(date +%s) - seconds - 30))
   [ $left -gt 0 ] || fail "the last checkpoint needs $((seconds + 30)) s before the time limit; raise --time"
   limit=(timeout --foreground --signal=USR1 "$left")
-  echo "runs/slurm.sh: stops in $left s, $((seconds + 30)) s before the time limit, to write a checkpoint" >&2
+  echo "runs/slurm.sh: stops in $left s, $((seconds + 30)) s before the time limit, to write a checkpoint, or when" \
+    "SLURM sends SIGUSR1 (--signal)" >&2
 elif [ "$seconds" -gt 270 ]; then
   echo "runs/slurm.sh: WARNING: the time limit is unknown, and a checkpoint needs $seconds s; submit with" \
     "sbatch --signal=B:USR1@$((seconds + 30))" >&2
@@ -82,11 +83,16 @@ esac
 "${limit[@]}" "${launch[@]}" "$grouser" run "$scene" "$@" "${again[@]}" &
 job=$!
 # mpirun and srun forward SIGUSR1. After SIGTERM, mpirun would kill the ranks within a second.
-trap 'kill -USR1 "$job" 2>/dev/null || true' USR1 TERM
-while true; do # a signal ends wait early, while the ranks still write their checkpoint
-  status=0
-  wait "$job" || status=$?
-  kill -0 "$job" 2>/dev/null || break
+signalled=0 # time of a signal from SLURM or scancel
+trap 'signalled=$(date +%s); kill -USR1 "$job" 2>/dev/null || true' USR1 TERM
+while kill -0 "$job" 2>/dev/null; do # a signal ends wait early, while the ranks still write their checkpoint
+  wait "$job" || true
 done
-if [ "$status" -eq 124 ] && [ "${GROUSER_REQUEUE:-0}" = 1 ]; then scontrol requeue "${SLURM_JOB_ID:?}"; fi
+status=0
+wait "$job" || status=$?
+# Stopped by the timer above, or by the signal that SLURM sends 300 s (and up to a minute more) before the time limit.
+limited=0
+if [ "$status" -eq 124 ]; then limited=1; fi
+if [ "$status" -eq 138 ] && [[ $end =~ ^[0-9]+$ ]] && [ "$signalled" -ge $((end - 360)) ]; then limited=1; fi
+if [ "$limited" -eq 1 ] && [ "${GROUSER_REQUEUE:-0}" = 1 ]; then scontrol requeue "${SLURM_JOB_ID:?}"; fi
 exit "$status"

@@ -196,11 +196,14 @@ std::optional<SpecFault> unitFault(const std::string& section, const VehicleSpec
   };
   constexpr Unit kUnits[] = {
       {"feet", 0.3048, 1.3}, {"inches", 0.0254, 1.4}, {"centimetres", 0.01, 1.6}, {"millimetres", 0.001, 3}};
+  constexpr double kRim = 1.05; // rims agree with their radius in the spec
+  const bool isRim = section == "roller" || section == "idler" || section == "road_wheel";
   const PartLength length = lengthOf(section, spec, mesh);
   if (section == "chassis" && length.inMesh < 20 * length.inSpec) return {}; // a hull may be longer than its tracks
   for (const Unit& unit : kUnits) {
-    const double ratio = length.inMesh * unit.metre / length.inSpec;
-    if (ratio > unit.agree || ratio < 1 / unit.agree) continue;
+    const double ratio = length.inMesh * unit.metre / length.inSpec,
+                 agree = isRim ? std::min(kRim, unit.agree) : unit.agree;
+    if (ratio > agree || ratio < 1 / agree) continue;
     return SpecFault{section, "mesh",
                      fmt::format("has a {} of {:.4g} m, {:.4g} times {} = {:.4g} m, so its vertices are in {}; convert "
                                  "all meshes to metres (scale by {:g})",

@@ -149,9 +149,10 @@ std::string commandsInMarkdown(const CLI::App& app, const std::string& path) {
 }
 
 std::string head(const std::string& name, const std::string& description) {
-  return fmt::format(".\\\" Written by `grouser manual`.\n.TH {} 1 \"\" \"grouser {}\" \"User Commands\"\n.SH NAME\n{} "
-                     "\\- {}\n",
-                     roff(upper(name)), support::buildInfo().version, roff(name), roff(description));
+  return fmt::format(
+      ".\\\" Written by `grouser manual`.\n.TH {} 1 \"\" \"grouser {}\" \"User Commands\"\n.ad l\n.SH NAME\n{} "
+      "\\- {}\n",
+      roff(upper(name)), support::buildInfo().version, roff(name), roff(description));
 }
 
 constexpr const char* kEnvironment =

@@ -185,16 +185,17 @@ void warnOfBodiesOutside(const coupling::Simulation& simulation) {
   std::vector<std::string> outside;
   const std::vector<bool> touching = mechanism->touchingBodies();
   for (std::size_t body = 0; body < touching.size(); ++body) {
-    if (!touching[body]) continue;
+    if (!touching[body] || mechanism->model().bodies()[body].fixed) continue;
     const base::Vec3d p = mechanism->state().pose[body].position;
     const terrain::Rectangle& w = *ground.walls;
     if (p.z < ground.rigid->bounds().lowest || p.x < w.xMin || p.x > w.xMax || p.y < w.yMin || p.y > w.yMax)
       outside.push_back(mechanism->model().bodies()[body].name);
   }
   if (!outside.empty())
-    fmt::print("WARNING: the bodies {} end outside the bed: its walls and floor have contact with grains only; enlarge "
-               "terrain.size or terrain.depth\n",
-               fmt::join(outside, ", "));
+    fmt::print(
+        "WARNING: {} {} outside the bed: its walls and floor have contact with grains only; enlarge terrain.size "
+        "or terrain.depth\n",
+        fmt::join(outside, ", "), outside.size() == 1 ? "ends" : "end");
 }
 
 /// Performs the steps up to the end of the run, with progress on stderr.

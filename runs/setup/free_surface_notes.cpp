@@ -49,15 +49,13 @@ std::string movingSurfacesWarning(const scene::Scene& scene) {
   const auto moves = [](const coupling::SurfaceSetup& s) { return s.moves; };
   if (!scene.mechanism.touches() || std::none_of(surfaces.begin(), surfaces.end(), moves)) return "";
   return "bodies pass through planes, boxes, cylinders and meshes that move, which have contact with grains only; use "
-         "a "
-         "driven [[body]] instead";
+         "a driven [[body]] instead";
 }
 
 std::string bedWallsNote(const scene::Scene& scene) {
   if (!scene.mechanism.touches() || !scene.terrain || !scene.terrain->granular()) return "";
   return "the walls and the floor of the bed have contact with grains only, so a body that reaches them passes "
-         "through; "
-         "keep bodies inside the bed, or add a fixed [[body]] there";
+         "through; keep bodies inside the bed, or add a fixed [[body]] there";
 }
 
 } // namespace grouser::setup

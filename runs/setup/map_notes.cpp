@@ -47,7 +47,7 @@ Relief reliefOf(const scene::Terrain& t, const terrain::Heightmap& map) {
 
 /// "; in millimetres? set height_range = [0, 5]", if this results in a usual relief.
 std::string unitOfHeights(const scene::Terrain& t, const Relief& r, double side) {
-  constexpr std::pair<const char*, double> kUnits[] = {{"centimetres", 1e-2}, {"millimetres", 1e-3}};
+  constexpr std::pair<const char*, double> kUnits[] = {{"millimetres", 1e-3}, {"centimetres", 1e-2}};
   for (const auto& [name, factor] : kUnits)
     if (r.range * factor <= 0.2 * side && r.meanSlope * factor <= 0.6)
       return fmt::format("in {}? set height_range = [{:.6g}, {:.6g}]", name, t.heightRange[0] * factor,

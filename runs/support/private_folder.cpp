@@ -18,9 +18,9 @@ PrivateFolder::PrivateFolder(const std::string& name, const fs::path& place) {
   if (error) throw base::InputError("TMPDIR is not a folder; set it to an existing folder for temporary files");
   std::string pattern = (parent / (name + ".XXXXXX")).string();
   if (!mkdtemp(pattern.data()))
-    throw base::InputError(
-        fmt::format("{}: a temporary folder cannot be created in it ({}); set TMPDIR to another folder",
-                    parent.string(), std::strerror(errno)));
+    throw base::InputError(fmt::format(
+        "{}: cannot create a temporary folder here ({}); {}", parent.string(), std::strerror(errno),
+        place.empty() ? "set TMPDIR to another folder" : "choose another folder, or change its permissions"));
   path_ = pattern;
 }
 

@@ -146,7 +146,7 @@ class Sources(unittest.TestCase):
                     for name in re.findall(r"^ *#include <([\w+.-]+(?:/[^>]+|\.h))>", file.read_text(encoding="utf-8"), re.M)}
         # Licences of the system, the compiler and the CUDA toolkit are not listed.
         of_none = re.compile(r"(sys|linux|cooperative_groups|cuda).*|(fcntl|dlfcn|unistd|signal|sched|poll|dirent|errno|omp|"
-                             r"immintrin|malloc|execinfo|fenv|termios|spawn|getopt|math|stdint|cxxabi)\.h|nv.*|grouser/.*")
+                             r"immintrin|malloc|execinfo|fenv|termios|spawn|getopt|pwd|math|stdint|cxxabi)\.h|nv.*|grouser/.*")
         libraries = {name.split("/")[0] for name in included if not of_none.fullmatch(name)}
         self.assertTrue({"toml++", "CLI", "Eigen", "hdf5.h", "assimp"} <= libraries, libraries)
         for name in libraries:

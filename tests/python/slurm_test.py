@@ -17,7 +17,7 @@ PROGRAM = os.environ.get("GROUSER_PROGRAM", str(ROOT / "build/bin/grouser"))
 #: Records its call. After SIGUSR1, it needs a second for its checkpoint.
 LAUNCHER = """#!/bin/bash
 printf '%s\\n' "$0 $*" "OMP_NUM_THREADS=$OMP_NUM_THREADS" >call
-trap 'echo USR1 >>signals; sleep 1; echo saved >>signals; exit 1' USR1
+trap 'echo USR1 >>signals; sleep 1; echo saved >>signals; exit 138' USR1
 trap 'echo TERM >>signals; exit 1' TERM
 for ((k = 0; k < ${SECONDS_OF_RUN:-0} * 10; k++)); do sleep 0.1; done
 """
@@ -109,8 +109,25 @@ class Job(FolderTest):
             job.send_signal(given)
             job.communicate(timeout=30)
             self.assertEqual((self.folder / "signals").read_text(), "USR1\nsaved\n")
-            self.assertEqual(job.returncode, 1)
+            self.assertEqual(job.returncode, 138)
             self.assertFalse((self.folder / "scontrol.txt").exists())
+
+    def test_the_signal_before_the_time_limit_requeues(self):
+        """SLURM's own signal can precede the timer of the script; a user's signal long before the limit stops the job."""
+        for left, requeued in ((200, True), (2000, False)):
+            for name in ("call", "signals"):
+                (self.folder / name).unlink(missing_ok=True)
+            job = self.start("scene.toml", SECONDS_OF_RUN="30", GROUSER_REQUEUE="1", GROUSER_STOP_SECONDS="1",
+                             SLURM_JOB_END_TIME=str(int(time.time()) + left))
+            while not (self.folder / "call").exists():
+                time.sleep(0.05)
+            time.sleep(0.2)
+            job.send_signal(signal.SIGUSR1)
+            _, errors = job.communicate(timeout=30)
+            self.assertEqual((self.folder / "signals").read_text(), "USR1\nsaved\n", errors)
+            self.assertEqual(job.returncode, 138)
+            self.assertEqual((self.folder / "scontrol.txt").exists(), requeued)
+            (self.folder / "scontrol.txt").unlink(missing_ok=True)
 
     def test_a_requeued_job_continues(self):
         for words, out in (((), "out/scene"), (("--out", "a"), "a"), (("--out=b",), "b")):

@@ -38,8 +38,6 @@ constexpr const char* kOfAll[] = {"vehicle.spec",
                                   "driver.sprocket_speed",
                                   "driver.right_torque"};
 
-bool isCircle(Event event) { return event == Event::steadyTurn || event == Event::turningRadius; }
-
 /// True if one key is the other, or a section or list that contains the other.
 bool overlap(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
@@ -61,8 +59,7 @@ constexpr Remedy kRemedies[] = {{"vehicle.spec", "use --vehicle"},
                                 {"driver.right", "use --speed"},
                                 {"driver.course.speed", "use --speed"},
                                 {"driver.course.radius", "use --levels"},
-                                {"hitch.slip", "use --levels"},
-                                {"scm.phi", "use --levels"}};
+                                {"hitch.slip", "use --levels"}};
 
 std::string remedyOf(Event event, const std::string& key) {
   const std::pair<Event, const char*> kObstacles[] = {{Event::step, "box"},
@@ -101,21 +98,27 @@ std::vector<std::string> ownedKeys(Event event, const Trial& trial, const Course
     for (const char* key : {"terrain.grain_radius", "terrain.depth", sweeps::kSeedKey}) add(key);
   for (const std::string& set : trial.overrides) {
     const std::string key = sweeps::keyOf(set);
+    if (event == Event::softSoil && key == kPhi) continue; // levels are fractions of the user's friction angle
     if (!key.starts_with("box.") && !key.starts_with("cylinder.")) add(key.substr(key.starts_with('~') ? 1 : 0));
   }
   return keys;
 }
 
-void refuseOwnedKeys(const std::vector<std::string>& sets, Event event, const Trial& trial, const Course& course) {
+std::string refusal(const std::vector<std::string>& sets, Event event, const Trial& trial, const Course& course) {
   const std::vector<std::string> owned = ownedKeys(event, trial, course);
   for (const std::string& set : sets) {
     const std::string whole = sweeps::keyOf(set), key = whole.substr(whole.starts_with('~') ? 1 : 0);
     const auto found =
         std::find_if(owned.begin(), owned.end(), [&key](const std::string& k) { return overlap(k, key); });
-    if (found == owned.end()) continue;
-    throw base::InputError(fmt::format("--set {}: the event {} sets {} itself; {}", set, base::wordOf(event), *found,
-                                       remedyOf(event, *found)));
+    if (found != owned.end())
+      return fmt::format("--set {}: the event {} sets {} itself; {}", set, base::wordOf(event), *found,
+                         remedyOf(event, *found));
   }
+  return "";
+}
+
+void refuseOwnedKeys(const std::vector<std::string>& sets, Event event, const Trial& trial, const Course& course) {
+  if (const std::string why = refusal(sets, event, trial, course); !why.empty()) throw base::InputError(why);
 }
 
 } // namespace grouser::events

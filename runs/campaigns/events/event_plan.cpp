@@ -203,8 +203,7 @@ void checkLevels(const EventOptions& options, const std::vector<Event>& events) 
     throw InputError("--levels: requires a single event with levels; set --only, e.g. --only step");
   std::vector<double> sorted = options.levels;
   std::sort(sorted.begin(), sorted.end());
-  const bool isCircle = events[0] == Event::steadyTurn || events[0] == Event::turningRadius;
-  if (isCircle && !(sorted.front() > 0))
+  if (isCircle(events[0]) && !(sorted.front() > 0))
     throw InputError(fmt::format("--levels {:g}: a radius must be above 0; both events with circles turn to the left, "
                                  "and the vehicle is symmetric",
                                  sorted.front()));
@@ -286,6 +285,12 @@ EventPlan planEvents(const EventOptions& options) {
     }
     const std::vector<double> levels =
         options.levels.empty() ? levelsOf(event, plan.course, options.quick) : easiestFirst(event, options.levels);
+    if (event == Event::softSoil && options.only.empty())
+      if (std::string why = refusal(options.fixed, event, trialOf(event, levels.front(), plan.course), plan.course);
+          !why.empty()) {
+        plan.omitted[event] = std::move(why);
+        continue;
+      }
     for (const double level : levels) {
       PlannedTrial planned{event, level, trialOf(event, level, plan.course), {}};
       refuseOwnedKeys(options.fixed, event, planned.trial, plan.course);
@@ -296,7 +301,8 @@ EventPlan planEvents(const EventOptions& options) {
         run.overrides = common;
         for (const std::string& set : planned.trial.overrides) sweeps::putOverride(run.overrides, set);
         if (plan.random()) run.overrides.push_back(fmt::format("{}={}", keyOfNumber(plan), number));
-        for (const std::string& set : options.fixed) sweeps::putOverride(run.overrides, set);
+        for (const std::string& set : options.fixed)
+          if (event != Event::softSoil || sweeps::keyOf(set) != kPhi) sweeps::putOverride(run.overrides, set);
         run.values = {fmt::format("{}={:g}", base::wordOf(event), level), fmt::format("{}", number)};
         load(run, options, planned, number);
         run.expectedEnd = expectedEnd(planned, run.scene.run.duration);

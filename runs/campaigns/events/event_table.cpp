@@ -210,9 +210,9 @@ std::string levelText(Event event) {
   return "";
 }
 
-bool isHarderBelow(Event event) {
-  return event == Event::softSoil || event == Event::steadyTurn || event == Event::turningRadius;
-}
+bool isCircle(Event event) { return event == Event::steadyTurn || event == Event::turningRadius; }
+
+bool isHarderBelow(Event event) { return event == Event::softSoil || isCircle(event); }
 
 std::string titleOf(Event event) {
   switch (event) {
@@ -363,7 +363,7 @@ Trial trialOf(Event event, double level, const Course& c) {
   case Event::softSoil:
     straight(c, trial, 0, 0, 0);
     if (c.deformable()) {
-      trial.overrides.push_back(set("scm.phi", std::atan(level * c.constants.friction) * 180 / base::kPi));
+      trial.overrides.push_back(set(kPhi, std::atan(level * c.constants.friction) * 180 / base::kPi));
       break;
     }
     trial.overrides.push_back(set("material." + c.soil + ".friction", level * c.soilFriction));

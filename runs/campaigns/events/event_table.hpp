@@ -36,6 +36,10 @@ std::vector<Event> allEvents();
 
 /// Quantity that the levels vary: "tan of the slope [-]", "height of the step [m]"; empty for a single level.
 std::string levelText(Event event);
+/// Whether the vehicle drives a circle, with its radius as level.
+bool isCircle(Event event);
+/// Key of the friction angle of deformable soil. The levels of soft_soil are fractions of the user's angle.
+inline constexpr const char* kPhi = "scm.phi";
 /// Whether a level below another is harder, e.g. a smaller radius.
 bool isHarderBelow(Event event);
 /// "Up a slope".

@@ -56,7 +56,7 @@ TEST_F(BedRuns, OnlyABodyThatLeavesTheBedIsAWarning) {
   write(lattice, ball("[1.2, 0.2, 0.3]"));
   const Outcome outside = call("run bed.toml --out b");
   ASSERT_EQ(outside.code, 0) << outside.errors;
-  EXPECT_EQ(count(outside.out, "WARNING: the bodies ball end outside the bed"), 1u) << outside.out << outside.errors;
+  EXPECT_EQ(count(outside.out, "WARNING: ball ends outside the bed"), 1u) << outside.out << outside.errors;
 }
 
 } // namespace

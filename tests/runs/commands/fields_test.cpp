@@ -51,7 +51,8 @@ TEST_F(Documents, FilesOfResultsAreThoseOfTheProgram) {
 TEST_F(Documents, FieldsPrintWhatIsAskedFor) {
   EXPECT_EQ(call("fields --markdown").out, keysDocument());
   const Outcome vehicle = call("fields --vehicle");
-  EXPECT_NE(vehicle.out.find("| `friction_ground` | - | required | [0, 5] |"), std::string::npos) << vehicle.out;
+  EXPECT_NE(vehicle.out.find("| `friction_ground` | - | required | [0, 5]; usually 0.05 to 2 |"), std::string::npos)
+      << vehicle.out;
   EXPECT_EQ(vehicle.out.find("`[run]`"), std::string::npos);
   EXPECT_EQ(call("fields --vehicle --markdown").code, 2);
 }

@@ -103,10 +103,10 @@ TEST_F(RenderFrames, DamagedFileIsNamedNotDrawn) {
     file.remove("/000005/grains/position");
     file.write("/000005/grains/position", std::vector<float>(60, NAN), {20, 3});
   }
-  const output::FramesReader reader(path);
-  EXPECT_NE(messageOf([&] { reader.read(2); }).find("/000002/grains/radius"), std::string::npos);
-  EXPECT_NE(messageOf([&] { reader.read(4); }).find("hull"), std::string::npos);
-  EXPECT_NE(messageOf([&] { reader.read(5); }).find("is not finite"), std::string::npos);
+  const auto faultOf = [&](std::size_t frame) { return messageOf([&] { output::FramesReader(path).read(frame); }); };
+  EXPECT_NE(faultOf(2).find("/000002/grains/radius"), std::string::npos);
+  EXPECT_NE(faultOf(4).find("hull"), std::string::npos);
+  EXPECT_NE(faultOf(5).find("is not finite"), std::string::npos);
   const auto rewrite = [&](const std::string& dataset, const auto& numbers, const std::vector<std::uint64_t>& shape) {
     support::Hdf5File file = support::Hdf5File::openToChange(path);
     file.remove(dataset);
@@ -116,8 +116,7 @@ TEST_F(RenderFrames, DamagedFileIsNamedNotDrawn) {
     std::vector<float> radii(20, 0.1f);
     radii[0] = radius;
     rewrite("/000003/grains/radius", radii, {20});
-    EXPECT_NE(messageOf([&] { output::FramesReader(path).read(3); }).find("/000003/grains/radius has a radius outside"),
-              std::string::npos);
+    EXPECT_NE(faultOf(3).find("/000003/grains/radius has a radius outside"), std::string::npos);
   }
   rewrite("/parts/triangles", std::vector<std::uint32_t>{4294967295u, 1, 2}, {1, 3});
   EXPECT_NE(messageOf([&] { output::FramesReader again(path); }).find("the vertex index 4294967295"),
