@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <ios>
 #include <iterator>
 
 namespace grouser::base {
@@ -204,7 +205,12 @@ Document Document::load(const std::filesystem::path& path, const std::vector<std
     throw InputError(fmt::format("{}: {}", path.string(),
                                  there || error ? "cannot be read; check the path and its permissions"
                                                 : "no such file; check the path"));
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  std::string text;
+  try {
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  } catch (const std::ios_base::failure&) { // e.g. /proc/self/mem
+    throw InputError(fmt::format("{}: cannot be read; specify the path of a TOML file", path.string()));
+  }
   return parse(text, path.string(), overrides);
 }
 

@@ -10,7 +10,7 @@ import h5py
 import numpy
 
 from .errors import FileError
-from .files import fields_of
+from .files import fields_of, open_file
 from .series import Brief, Quantity
 
 _TOP_BITS, _LOW_BITS = 10, 32  # bits of a 42-bit coordinate: base/position.hpp
@@ -70,7 +70,7 @@ def open_bed(path: str | os.PathLike) -> Bed:
     path = Path(path)
     path = path / "checkpoint.h5" if path.is_dir() else path
     try:
-        file = h5py.File(path, "r", locking=False)
+        file = open_file(path)
     except OSError as error:
         raise FileError(f"{path}: cannot be read as a checkpoint or cached bed: {error}") from error
     with file, fields_of(path, "a checkpoint or cached bed"):

@@ -15,7 +15,7 @@ import numpy
 
 from .errors import FileError
 from .fields import Field, field_of
-from .files import fields_of, long_text, read, require, still_open, text_of
+from .files import fields_of, long_text, open_file, read, require, still_open, text_of
 from .series import Brief, Series, counted, nearest
 
 #: Units of grain quantities in frames.
@@ -172,7 +172,7 @@ class Frames:
         path = Path(path)
         path = path / "frames.h5" if path.is_dir() else path
         try:
-            self._opened = h5py.File(path, "r", locking=False)
+            self._opened = open_file(path)
         except OSError as error:
             raise FileError(f"{path}: cannot be read as the frames of a run: {error}") from error
         self.path: Path = path

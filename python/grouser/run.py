@@ -15,7 +15,7 @@ import numpy
 from .bed import Bed, open_bed
 from .errors import FileError
 from .fields import Field
-from .files import CHECKSUM, fields_of, long_text, read, read_json, require, still_open, text_of
+from .files import CHECKSUM, fields_of, long_text, open_file, read, read_json, require, still_open, text_of
 from .frames import Frames
 from .series import Brief, Quantity, Series, counted
 
@@ -57,7 +57,7 @@ class Run:
         if not self.file.is_file():
             raise FileError(f"{self.folder}: no results.h5; specify the folder of a run")
         try:
-            self._opened = h5py.File(self.file, "r", locking=False)
+            self._opened = open_file(self.file)
         except OSError as error:
             raise FileError(f"{self.file}: damaged or not an HDF5 file: {error}; run again or restore a copy") from error
         try:

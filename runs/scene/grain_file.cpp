@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <ios>
 #include <iterator>
 #include <limits>
 #include <optional>
@@ -172,7 +173,12 @@ std::string textOf(const std::string& file) {
     throw base::InputError(fmt::format("{}: not a regular file; specify a text file with one grain per line", file));
   std::ifstream in(file, std::ios::binary);
   if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
-  std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::string text;
+  try {
+    text.assign(std::istreambuf_iterator<char>(in), {});
+  } catch (const std::ios_base::failure&) {
+    throw base::InputError(fmt::format("{}: cannot be read; specify a text file with one grain per line", file));
+  }
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3); // UTF-8's byte order mark, as in TOML files
   if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
     throw base::InputError(

@@ -5,7 +5,7 @@ import re
 import unittest
 
 import h5py
-from fixture import ROOT, FolderTest
+from fixture import MINIMAL, ROOT, FolderTest
 
 import grouser
 from grouser.files import text_of
@@ -148,6 +148,21 @@ class FilesOfResults(FolderTest):
         scene.run("bed", environment={"GROUSER_CACHE": str(self.folder / "cache")}).close()
         self.look_at("frames.h5", self.folder / "bed/frames.h5")
         return grouser.kept_beds(self.folder / "cache")[0]
+
+    def test_a_run_that_is_opened_again_has_its_newest_rows(self):
+        """While an earlier Run of the same folder is open, HDF5 would share its state."""
+        scene = grouser.Scene(MINIMAL)
+        scene["output"] = QUIET
+        scene["run.duration"] = 0.1
+        scene.run("run").close()
+        first = grouser.open_run("run")
+        rows = len(first.time)
+        scene["run.duration"] = 0.2
+        scene.run("run", resume=True).close()
+        again = grouser.open_run("run")
+        self.assertGreater(len(again.time), rows)
+        self.assertEqual(len(again["ledger.kinetic"].value), len(again.time))
+        first.close()
 
 
 if __name__ == "__main__":

@@ -130,8 +130,9 @@ std::vector<EventRow> eventRows(const EventPlan& plan, const std::vector<sweeps:
       RunVerdict said{plan.sweep.runs[run].name, "pending", ""};
       if (outcome.status == output::RunStatus::finished) {
         const Verdict verdict = finishedRun(planned, plan.course, at, gathered);
-        ++row.runs, row.gos += verdict.go;
-        said.verdict = verdict.go ? "go" : "no-go", said.why = verdict.why;
+        verdict.isIncomplete ? ++row.incomplete : ++row.runs;
+        row.gos += verdict.go;
+        said.verdict = verdict.isIncomplete ? "incomplete" : verdict.go ? "go" : "no-go", said.why = verdict.why;
         for (std::size_t c = 0; isSteady(planned.event) && c < steady.columns.size(); ++c)
           if (isOfSteadyPart(steady.columns[c])) gathered.add(steady.columns[c], steady.values[run][c]);
       } else if (outcome.status == output::RunStatus::incomplete) {

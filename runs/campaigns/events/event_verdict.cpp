@@ -111,7 +111,12 @@ Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   if (trial.angle > 0) {
     const auto turn = passage(motion.time, motion.turned, trial.angle, trial.angle);
     const double most = *std::max_element(motion.turned.begin(), motion.turned.end()) * 180 / base::kPi;
-    if (!turn) return {false, fmt::format("turns only {:.0f} degrees", most)};
+    if (!turn) {
+      const LateMotion late = lateMotion(motion);
+      if (late.seconds > 0 && late.turned >= rule.share * trial.rate * late.seconds)
+        return {false, fmt::format("run.duration ends the turn after {:.0f} degrees; raise it", most), true};
+      return {false, fmt::format("turns only {:.0f} degrees", most)};
+    }
     if (turn->at > rule.time) return {false, fmt::format("exceeds the time limit: {:.1f} s for the turn", turn->at)};
     const bool quick = turn->rate >= rule.share * trial.rate;
     return {quick, fmt::format("{:.0f} degrees in {:.1f} s{}", trial.angle * 180 / base::kPi, turn->at,
@@ -122,7 +127,15 @@ Verdict judge(const Motion& motion, const Trial& trial, const GoRule& rule) {
   // A shorter path says nothing about the steady radius.
   if (trial.radius > 0 && most >= 0.5 * trial.distance)
     if (const std::string why = leavesCircle(motion, trial, rule); !why.empty()) return {false, why};
-  if (!drove) return {false, fmt::format("covers {:.1f} of {:.1f} m", std::max(0.0, most), trial.distance)};
+  if (!drove) {
+    const LateMotion late = lateMotion(motion);
+    if (late.seconds > 0 && late.way >= rule.share * trial.speed * late.seconds)
+      return {false,
+              fmt::format("run.duration ends the drive after {:.1f} of {:.1f} m at {:.2g} m/s; raise it", most,
+                          trial.distance, late.way / late.seconds),
+              true};
+    return {false, fmt::format("covers {:.1f} of {:.1f} m", std::max(0.0, most), trial.distance)};
+  }
   if (drove->at > rule.time) return {false, fmt::format("exceeds the time limit: {:.1f} s", drove->at)};
   const bool quick = drove->rate >= rule.share * trial.speed;
   return {quick, fmt::format("{:.1f} m in {:.1f} s{}", trial.distance, drove->at, quick ? "" : ": too slow")};

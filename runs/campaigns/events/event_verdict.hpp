@@ -14,7 +14,8 @@ namespace grouser::events {
 
 struct Verdict {
   bool go = false;
-  std::string why; ///< "5.0 m in 6.2 s", "rolls to 41 degrees"
+  std::string why;           ///< "5.0 m in 6.2 s", "rolls to 41 degrees"
+  bool isIncomplete = false; ///< the run ended while the vehicle still drove at the required speed
 };
 
 /// Motion of a run after the start of its drive, from its time series.

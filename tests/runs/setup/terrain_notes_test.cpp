@@ -128,7 +128,7 @@ TEST(MapNotes, ReliefThatCannotBeMeantIsNoted) {
   const std::string high = notesOf(drive("hills.png", "[20, 10]", "[0, 500]"));
   EXPECT_NE(high.find("terrain.height_range = [0, 500] m results in a relief of"), std::string::npos) << high;
   EXPECT_NE(high.find("in millimetres? set height_range = [0, 0.5]"), std::string::npos) << high;
-  EXPECT_NE(notesOf(drive("hills.png", "[20, 10]", "[0, 100]")).find("in centimetres? set height_range = [0, 1]"),
+  EXPECT_NE(notesOf(drive("hills.png", "[20, 10]", "[0, 100]")).find("in millimetres? set height_range = [0, 0.1]"),
             std::string::npos);
   EXPECT_EQ(notesOf(drive("hills.png", "[20, 10]", "[0, 1]")), "");
   EXPECT_EQ(notesOf(drive("step.png", "[20, 10]", "[0, 1]")), "") << "a steep step is no steep terrain";

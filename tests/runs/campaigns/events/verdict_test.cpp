@@ -69,6 +69,10 @@ TEST(EventVerdict, AsksForTwentySecondsAndTheWholeWay) {
   EXPECT_FALSE(stuck.go);
   EXPECT_EQ(stuck.why, "covers 4.0 of 5.0 m");
   EXPECT_EQ(judge(straightOn({{5, -1}}), course(5, 1)).why, "covers 0.0 of 5.0 m");
+  EXPECT_FALSE(stuck.isIncomplete);
+  const Verdict shortened = judge(straightOn({{2, 0.6}}), course(5, 1));
+  EXPECT_TRUE(shortened.isIncomplete) << shortened.why;
+  EXPECT_FALSE(judge(straightOn({{2, 0.4}}), course(5, 1)).isIncomplete) << "too slow in any case";
   EXPECT_EQ(judge(Motion(), course(5, 1)).why, "never drove");
 }
 
@@ -182,7 +186,9 @@ TEST(EventCircle, IsNoGoOffTheCircleOrTooSlow) {
   trial.rate = 1.2 / 3; // turning_radius: at the stated speed
   EXPECT_TRUE(verdict(3, 1.1).go);
   EXPECT_EQ(verdict(3, 1.05).why, "turns at 0.35 rad/s, commanded 0.4 rad/s");
-  EXPECT_EQ(judge(motionOf(circling(on, 3, 1.2, 1), 1, on), trial).why, "covers 1.2 of 6.0 m");
+  const Verdict shortened = judge(motionOf(circling(on, 3, 1.2, 1), 1, on), trial);
+  EXPECT_EQ(shortened.why, "run.duration ends the drive after 1.2 of 6.0 m at 1.2 m/s; raise it");
+  EXPECT_TRUE(shortened.isIncomplete);
 }
 
 TEST(EventCircle, PointFollowsRollAndPitch) {
