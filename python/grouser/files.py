@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
 import re
@@ -80,13 +81,20 @@ def read(dataset: h5py.Dataset, file: Path, rows: object = ()) -> numpy.ndarray:
     raise FileError(f"{file}: dataset {dataset.name} cannot be read: the file is damaged: {_REMEDY}")
 
 
+class _ClosedAtEnd(io.FileIO):
+    """A file that is closed with its last reference, which the HDF5 file holds."""
+
+    def __del__(self) -> None:
+        self.close()
+
+
 def open_file(path: Path) -> h5py.File:
     """Opens an HDF5 file to read its present contents. HDF5 shares the state of a file that this process has open,
     which may be older; a second opening therefore reads through a Python file of its own. OSError as from h5py."""
     for one in h5py.h5f.get_obj_ids(h5py.h5f.OBJ_ALL, h5py.h5f.OBJ_FILE):
         name = os.fsdecode(h5py.h5f.get_name(one))
         if os.path.exists(name) and os.path.samefile(name, path):
-            return h5py.File(open(path, "rb"), "r")  # closed with its last reference
+            return h5py.File(_ClosedAtEnd(path), "r")
     return h5py.File(path, "r", locking=False)
 
 
