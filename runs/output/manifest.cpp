@@ -119,7 +119,7 @@ void listFiles(const fs::path& folder) {
 }
 
 std::string manifestText(const fs::path& folder) {
-  const std::string text = contentsOf(folder / kName);
+  std::string text = contentsOf(folder / kName);
   const std::size_t at = text.rfind(kChecksum);
   if (at == std::string::npos) return text; // older versions write no checksum
   const std::string end = fmt::format("{}{:08x}\"\n}}\n", kChecksum, support::crc32(text.substr(0, at)));

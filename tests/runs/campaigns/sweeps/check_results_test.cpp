@@ -222,7 +222,7 @@ TEST_F(CheckResults, WithoutFinerStepsTheBarIsOfTheOtherAxesUnlessTheStepIsAsked
                          "step has finished"),
             std::string::npos)
       << missing;
-  EXPECT_EQ(missing.find("?"), std::string::npos) << missing;
+  EXPECT_EQ(missing.find('?'), std::string::npos) << missing;
 }
 
 TEST_F(CheckResults, RunsWithoutAHashSayNothingOfTheSkin) {
