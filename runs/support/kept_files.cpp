@@ -130,8 +130,8 @@ void KeptFiles::deleteOldest(const fs::path& except) const {
     if (error) continue; // deleted by another run
     if (entry.path().extension() == kind->suffix)
       kept.push_back({time, bytes, entry.path()});
-    else if (!isAbandoned(name, fs::file_time_type::clock::now() - time) || fs::remove(entry.path(), error))
-      continue; // partial files of running processes do not displace complete ones
+    else if (isAbandoned(name, fs::file_time_type::clock::now() - time) && fs::remove(entry.path(), error))
+      continue;
     total += bytes;
   }
   std::sort(kept.begin(), kept.end(), [](const Entry& a, const Entry& b) { return a.time < b.time; });

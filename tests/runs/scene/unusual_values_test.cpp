@@ -66,7 +66,6 @@ const Slip kSlips[] = {
     {kScm, "run.gravity=[0, 0, -981]", "in cm/s2? -981 cm/s2 = -9.81 m/s2"},
     {kScm, "run.gravity=[0, 0, -1]", "in multiples of g? -1 g = -9.807 m/s2"},
     {kScm, "terrain.size=[26000, 12000]", "in millimetres? 26000 mm = 26 m"},
-    {kScm, "terrain.height_range=[0, 5000]", "in millimetres? 5000 mm = 5 m"},
     {kScm, "spec.arm.stiffness=2e7", "check the value"},
     {kScm, "spec.shoe.pitch=0.9", "in centimetres? 0.9 cm = 0.009 m"},
     {kScm, "spec.contact.foundation_modulus=1e4", "in kN/m3? 10000 kN/m3 = 1e+07 N/m3"},
