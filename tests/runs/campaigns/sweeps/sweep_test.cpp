@@ -7,11 +7,13 @@
 #include "runs/campaigns/sweeps/runner.hpp"
 #include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/output/output.hpp"
+#include "tests/message_of.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/scene_fixture.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -235,6 +237,12 @@ TEST_F(Sweep, CalledAgainRunsOnlyWhatIsMissingHalfDoneOrOfAnotherScene) {
   std::string manifest = contents(out() / "seed=2/manifest.json");
   manifest.replace(manifest.find("finished"), 8, "running");
   std::ofstream(out() / "seed=2/manifest.json") << manifest;
+  EXPECT_NE(messageOf([&] { sweep({"run.seed=1,2,3"}); }).find("seed=2/manifest.json: wrong checksum"),
+            std::string::npos);
+  EXPECT_EQ(contents(out() / "seed=2/manifest.json"), manifest) << "a damaged run is not deleted";
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(manifest);
+  json.erase("checksum");
+  std::ofstream(out() / "seed=2/manifest.json") << json.dump(2);
   ASSERT_EQ(sweep({"run.seed=1,2,3"}), 0);
   EXPECT_EQ(ended("seed=1"), one);
   EXPECT_NE(ended("seed=2"), two);
