@@ -139,7 +139,7 @@ TEST_F(FullDisk, SmallDiskLosesNothing) {
   const Outcome free = run("--hash --out free" + more);
   ASSERT_EQ(free.code, 0) << free.errors;
   std::set<std::string> met;
-  for (const int kib : {16, 64, 500, 600, 700, 800, 900, 1000, 1100, 1200, 1300, 1400}) {
+  for (const int kib : {16, 64, 500, 1100, 1265, 1270, 1275, 1280, 1285, 1290, 1300, 1400, 1500}) {
     const std::string out = "full" + std::to_string(kib);
     const Outcome o = shell("export grouser disk=" + disk + " out=" + out + " size=" + std::to_string(kib) +
                             "; unshare -m -r sh -c 'mount -t tmpfs -o size=${size}k none $disk; ulimit -c 0; "
