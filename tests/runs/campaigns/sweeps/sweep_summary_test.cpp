@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Table of a sweep: steady part of a run, and its figures.
+// Table of a sweep: steady part of a run, its figures, and their intervals over seeds.
 #include "runs/campaigns/sweeps/run_figures.hpp"
 #include "runs/campaigns/sweeps/sweep.hpp"
+#include "runs/campaigns/sweeps/sweep_intervals.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/output/output.hpp"
 #include "runs/scene/scene.hpp"
@@ -15,6 +16,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 namespace grouser::sweeps {
 
@@ -107,6 +110,40 @@ TEST_F(SweepSummary, FiguresAreMeansAndExtremesOverTheSteadyPart) {
   const auto printed = nlohmann::json(runFigures(folder_ / "sprocket_speed=2"));
   ASSERT_TRUE(printed["steady_from"].is_number()) << printed.dump();
   EXPECT_NEAR(printed["steady_from"].get<double>(), 2, 1e-12);
+}
+
+/// By hand: 2, 4, 6 have mean 4 and half width t(2) 2 / sqrt 3, t(2) = 4.3027; the differences to 1, 2, 3
+/// are 1, 2, 3 with mean 2 and half width t(2) / sqrt 3, divided by the first's mean of 2.
+TEST(SweepIntervals, AreStudentsOverTheSeedsAndPairedWhereTheyDiffer) {
+  SweepPlan plan;
+  plan.keys = {kCaseKey, kSeedKey};
+  for (const char* name : {"base", "other"})
+    for (const char* seed : {"1", "2", "3"}) plan.runs.push_back({"", {name, seed}, {}, {}});
+  plan.runs.push_back({"", {"other", "4"}, {}, {}}); // has no match among the first
+  SweepFigures figures;
+  figures.columns = {"speed [m/s]", "slip [-]"};
+  for (const double v : {1.0, 2.0, 3.0, 2.0, 4.0, 6.0}) figures.values.push_back({v, std::nan("")});
+  figures.values.push_back({std::nan(""), std::nan("")}); // a failed run
+  const SeedIntervals all = seedIntervals(plan, figures);
+  ASSERT_EQ(all.groups.size(), 2u);
+  EXPECT_EQ(all.keys, std::vector<std::string>{kCaseKey});
+  EXPECT_EQ(all.groups[1].values, std::vector<std::string>{"other"});
+  EXPECT_EQ(all.groups[1].runs, 3);
+  const double t = 4.30265 / std::sqrt(3.0); // the program's quantile has three decimals
+  EXPECT_NEAR(all.groups[1].figures[0].value, 4, 1e-12);
+  EXPECT_NEAR(all.groups[1].figures[0].halfWidth, 2 * t, 1e-3);
+  EXPECT_NEAR(all.groups[1].differences[0].value, 1, 1e-12);
+  EXPECT_NEAR(all.groups[1].differences[0].halfWidth, t / 2, 1e-3);
+  EXPECT_EQ(all.groups[0].differences[0].value, 0);
+  EXPECT_TRUE(std::isnan(all.groups[1].figures[1].value)) << "no run has this figure";
+  EXPECT_NEAR(all.groups[1].changes[0].value, 2, 1e-12);
+  EXPECT_NEAR(all.groups[1].changes[0].halfWidth, t, 1e-3);
+  // 2 +- 2.48 includes zero: no relative values.
+  EXPECT_NE(intervalsText(all).find("+2.0 +- 2.5\n"), std::string::npos) << intervalsText(all);
+  for (std::vector<double>& row : figures.values) row[0] += 10;
+  EXPECT_NE(intervalsText(seedIntervals(plan, figures)).find("+16.7 +- "), std::string::npos);
+  plan.keys = {kCaseKey, "run.skin"};
+  EXPECT_TRUE(seedIntervals(plan, figures).groups.empty()) << "no seeds, no intervals";
 }
 
 } // namespace
