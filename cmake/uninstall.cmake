@@ -3,7 +3,7 @@
 # has written beside them, and folders of grouser that are then empty. Respects DESTDIR.
 file(GLOB manifests ${BUILD}/install_manifest*.txt)
 if(NOT manifests)
-  message(FATAL_ERROR "${BUILD}/install_manifest.txt does not exist: nothing was installed from this build folder")
+  message(FATAL_ERROR "nothing was installed from this build folder: it has no install_manifest.txt\n  ${BUILD}")
 endif()
 set(count 0)
 set(folders "")
