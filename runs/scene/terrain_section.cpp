@@ -105,7 +105,6 @@ Table<Terrain> terrainTable() {
       .atMost(1e5)
       .required();
   t.add("height_range", &S::heightRange, "m", "heights of black and white pixels, [min, max]")
-      .plausible(0, 9000)
       .atLeast(-1e4)
       .atMost(1e4)
       .required();

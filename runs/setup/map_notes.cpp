@@ -45,14 +45,18 @@ Relief reliefOf(const scene::Terrain& t, const terrain::Heightmap& map) {
   return r;
 }
 
-/// "; in millimetres? set height_range = [0, 5]", if this results in a usual relief.
+/// "in millimetres? set height_range = [0, 5]", if such numbers are usual and result in a usual relief; an offset of
+/// both heights does not matter.
 std::string unitOfHeights(const scene::Terrain& t, const Relief& r, double side) {
   constexpr std::pair<const char*, double> kUnits[] = {{"millimetres", 1e-3}, {"centimetres", 1e-2}};
+  constexpr double kLeastNumber = 20, kFlattest = 0.005, kHighest = 0.2, kSteepest = 0.6;
   for (const auto& [name, factor] : kUnits)
-    if (r.range * factor <= 0.2 * side && r.meanSlope * factor <= 0.6)
+    if (r.range >= kLeastNumber && r.range * factor >= kFlattest * side && r.range * factor <= kHighest * side &&
+        r.meanSlope * factor <= kSteepest)
       return fmt::format("in {}? set height_range = [{:.6g}, {:.6g}]", name, t.heightRange[0] * factor,
                          t.heightRange[1] * factor);
-  return "correct height_range or size";
+  return fmt::format("correct height_range or size (usual is a relief of at most {:.2g} m on this size)",
+                     kHighest * side);
 }
 
 /// A length that steps of the map's heights should be well below, and its name.

@@ -10,7 +10,7 @@ namespace grouser::base {
 namespace {
 
 struct Pile {
-  double angle = 0, length = 1, ratio = 0;
+  double angle = 0, length = 1, ratio = 0, pause = 1, exponent = 1, young = 1e9;
   std::optional<double> pressure;
   Vec3d gravity;
   std::vector<double> times;
@@ -23,6 +23,9 @@ Table<Pile> pileTable() {
   t.add("ratio", &Pile::ratio, "-", "ratio").plausible(0, 1).atLeast(-1).atMost(1);
   t.add("pressure", &Pile::pressure, "Pa", "pressure").plausible(100, 1e6, "absolute pressure?");
   t.add("gravity", &Pile::gravity, "m/s2", "gravity").plausible(1.2, 30);
+  t.add("pause", &Pile::pause, "s", "pause").plausible(0.01, 60);
+  t.add("exponent", &Pile::exponent, "-", "exponent").plausible(0.1, 2);
+  t.add("young", &Pile::young, "Pa", "Young's modulus").plausible(2e4, 1.3e12);
   t.add("times", &Pile::times, "s", "times").plausible(0, 100);
   return t;
 }
@@ -63,9 +66,22 @@ TEST(UsualSpan, TheFirstUnitThatFitsIsNamedOrElseTheMistakeOfTheKey) {
 
 TEST(UsualSpan, FractionsOfATurnInRadiansAreNotedInsideTheSpanToo) {
   for (const char* turn : {"6.2832", "4.7124"})
-    EXPECT_NE(notesOn(std::string("angle = ") + turn + "\n").at(0).find("fraction of a turn in radians"),
+    EXPECT_NE(notesOn(std::string("angle = ") + turn + "\n").at(0).find("fraction of a turn; in radians?"),
               std::string::npos);
   EXPECT_TRUE(notesOn("angle = 4.5\n").empty());
+}
+
+TEST(UsualSpan, UnitsThatNobodyUsesForTheQuantityAreNotNamed) {
+  // Kilometres, minutes, and 1 %: each factor leads into the span, but nobody enters these values so.
+  for (const char* keys : {"length = 1e-4\n", "length = 0.002\n", "pause = 0.001\n", "pause = 1e-320\n",
+                           "pause = 9e7\n", "exponent = 20\n"}) {
+    const std::vector<std::string> notes = notesOn(keys);
+    ASSERT_EQ(notes.size(), 1u) << keys;
+    EXPECT_NE(notes[0].find("; check the value and its unit"), std::string::npos) << notes[0];
+  }
+  const std::string error = test::messageOf([] { notesOn("ratio = 1.0000001\n"); });
+  EXPECT_NE(error.find("is outside [-1, 1]; choose a value"), std::string::npos) << error;
+  EXPECT_NE(notesOn("young = 70\n").at(0).find("in GPa? 70 GPa = 7e+10 Pa"), std::string::npos);
 }
 
 TEST(UsualSpan, ErrorsOfTheHardRangeNameTheUnitToo) {

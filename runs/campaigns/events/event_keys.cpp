@@ -29,6 +29,7 @@ constexpr const char* kOfAll[] = {"vehicle.spec",
                                   "cylinder",
                                   "mesh",
                                   "stop.distance",
+                                  "stop.edge",
                                   "driver.left",
                                   "driver.right",
                                   "driver.table",
@@ -92,7 +93,8 @@ std::vector<std::string> ownedKeys(Event event, const Trial& trial, const Course
     for (const char* key : {"hitch.kind", "hitch.force", "hitch.rate"}) add(key);
   else
     add("hitch");
-  if (event == Event::acceleration) add("driver.drive_ramp"); // a step input
+  if (event == Event::acceleration || event == Event::pivotTurn) add("driver.drive_ramp"); // a step input
+  if (trial.timed) add("driver.drive_start");
   if (course.rigid()) add("vehicle.material");
   if (course.granular())
     for (const char* key : {"terrain.grain_radius", "terrain.depth", sweeps::kSeedKey}) add(key);
@@ -113,6 +115,10 @@ std::string refusal(const std::vector<std::string>& sets, Event event, const Tri
     if (found != owned.end())
       return fmt::format("--set {}: the event {} sets {} itself; {}", set, base::wordOf(event), *found,
                          remedyOf(event, *found));
+    if (key.find('.') == std::string::npos)
+      return fmt::format("--set {}: replaces the whole section {}, with the keys that the event {} needs; set single "
+                         "keys, e.g. --set {}.KEY=VALUE",
+                         set, key, base::wordOf(event), key);
   }
   return "";
 }

@@ -13,8 +13,8 @@ namespace grouser::events {
 /// its components: "hitch" includes hitch.slip, and "run.gravity" includes run.gravity.2.
 std::vector<std::string> ownedKeys(Event event, const Trial& trial, const Course& course);
 
-/// Error message for the first of `sets` ("key=value" or "~key") that changes an owned key; empty if none does. It
-/// names the event and the option to use instead.
+/// Error message for the first of `sets` ("key=value" or "~key") that changes an owned key or replaces a whole section;
+/// empty if none does. It names the event and the option to use instead.
 std::string refusal(const std::vector<std::string>& sets, Event event, const Trial& trial, const Course& course);
 
 /// Throws this message as base::InputError.

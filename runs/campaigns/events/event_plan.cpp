@@ -227,10 +227,23 @@ std::string namingUserOption(const std::string& fault, const EventOptions& optio
   return fmt::format("event {}: {}", base::wordOf(event), rest);
 }
 
+/// A long ramp of the drive lowers the mean speed on the course: with a ramp of (course / speed), it is two thirds of
+/// the commanded speed, and a go requires half of it.
+void checkRamp(const scene::Scene& scene, const Trial& trial) {
+  if (!(trial.speed > 0) || scene.driver.course) return;
+  const double longest = std::max(scene::Driver{}.rampOfDrive(), GoRule{}.way / trial.speed);
+  if (scene.driver.rampOfDrive() > longest)
+    scene.fail("driver", "drive_ramp",
+               fmt::format("[s] is above {:.3g} s, the time for the course at {:g} m/s, so that the ramp would decide "
+                           "the verdict; lower it",
+                           longest, trial.speed));
+}
+
 /// Loads the scene of a run. Checks only the first seed or draw, because the others differ only in random numbers.
 void load(sweeps::SweepRun& run, const EventOptions& options, const PlannedTrial& planned, int number) {
   try {
     run.scene = setup::loadScene(run.file, run.overrides);
+    checkRamp(run.scene, planned.trial);
     if (number == 1) sweeps::checkScene(run.scene);
   } catch (const InputError& fault) {
     throw InputError(namingUserOption(fault.what(), options, planned.event, planned.level));

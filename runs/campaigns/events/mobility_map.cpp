@@ -8,6 +8,7 @@
 #include "runs/output/plots.hpp"
 #include "runs/support/csv_cell.hpp"
 #include "runs/support/json_text.hpp"
+#include "runs/support/shell_word.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -133,9 +134,13 @@ MobilityMap planMap(const EventOptions& options, const std::string& axis) {
         fmt::format("--event {}: has no levels to map; use e.g. {}", options.only[0], base::wordOf(Event::grade)));
   const sweeps::KeyValues values = sweeps::keyValues(axis, "--axis", "scm.c=0,1000,2000");
   map.key = values.key;
-  if (values.values.size() < 2)
-    throw InputError(fmt::format("--axis {}: requires at least two values; for a single value, use --set", axis));
   refuseKey(axis, map.key);
+  if (values.values.size() < 2) {
+    planColumn(options, values.key, values.values.front()); // the event may refuse the key
+    throw InputError(fmt::format("--axis {}: requires at least two values; for a single value, use: grouser events "
+                                 "--only {} --set {}",
+                                 axis, options.only[0], support::shellWord(axis)));
+  }
   for (const std::string& value : values.values) {
     MapColumn column{value, planColumn(options, values.key, value), {}};
     for (sweeps::SweepRun& run : column.plan.sweep.runs)

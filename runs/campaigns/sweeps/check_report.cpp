@@ -208,6 +208,12 @@ std::string lineOf(const CheckRecord& record, const CheckResults& results, const
                                                 : "1 %: " + c.name);
 }
 
+bool hasSinkage(const CheckResults& results) {
+  return std::any_of(results.figures.begin(), results.figures.end(), [](const CheckFigure& f) {
+    return f.name.starts_with("sinkage") && std::isfinite(f.value.value);
+  });
+}
+
 } // namespace
 
 Cheapest cheapest(const CheckRecord& record, const CheckResults& results, const CheckFigure& figure, double percent) {
@@ -236,7 +242,7 @@ std::string checkJson(const CheckRecord& record, const CheckResults& results) {
             {"bar_percent", results.percent},
             {"skin", bitsText(results.skin)}};
   if (!results.doubt.empty()) json["inconclusive"] = results.doubt;
-  std::vector<RunNotice> notices = runNotices(record.runs.plan, record.folder);
+  std::vector<RunNotice> notices = runNotices(record.runs.plan, record.folder, hasSinkage(results));
   for (RunNotice& n : notices) n.text = placeless(n.text, record);
   json["notices"] = noticesJson(notices);
   if (!record.looks.seeds.empty()) json["looks"] = record.looks.seeds, json["of"] = goalsJson(record);
@@ -306,7 +312,8 @@ bool isHeadline(const CheckResults& results, const CheckFigure& figure) {
 }
 
 std::string checkText(const CheckRecord& record, const CheckResults& results) {
-  std::string text = noticesText(runNotices(record.runs.plan, record.folder), record.runs.plan.runs.size());
+  std::string text =
+      noticesText(runNotices(record.runs.plan, record.folder, hasSinkage(results)), record.runs.plan.runs.size());
   text += fmt::format("\n{}: values with error bars; changes relative to the unchanged scene, with verdicts for a "
                       "tolerance of {:g} %\n{}",
                       record.scene, results.percent, barsNote(record, results));
@@ -318,7 +325,6 @@ std::string checkText(const CheckRecord& record, const CheckResults& results) {
     text += results.seeded || hasSoilAxes(f) ? linesOf(record, results, f) : lineOf(record, results, f);
   }
   if (more > 0) text += fmt::format("and {} more in {}\n", more, kCheckFile);
-  text += rigidGroundNote(record.runs.plan);
   text += goalsText(record, results.percent) + "\nruns\n";
   for (std::size_t c = 0; c < record.cases.cases.size(); ++c) {
     const CaseCost& cost = record.costs[c];

@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace grouser::sweeps {
 
@@ -97,12 +98,18 @@ std::vector<Enum> differentOf(const std::vector<std::string>& words, const std::
   return values;
 }
 
+bool hasSinkage(const Comparison& comparison) {
+  for (std::size_t c = 0; c < comparison.columns.size(); ++c)
+    for (const VariantResult& variant : comparison.variants)
+      if (comparison.columns[c].starts_with("sinkage") && std::isfinite(variant.figures[c].value)) return true;
+  return false;
+}
+
 void writeComparison(const SweepPlan& plan, const Comparison& comparison, const CompareOptions& options) {
   const fs::path& folder = options.sweep.folder;
-  const std::vector<RunNotice> notices = runNotices(plan, folder);
+  const std::vector<RunNotice> notices = runNotices(plan, folder, hasSinkage(comparison));
   const std::string text = noticesText(notices, plan.runs.size()) +
-                           comparisonText(comparison, options.percent, options.steps.size() > 1) +
-                           rigidGroundNote(plan);
+                           comparisonText(comparison, options.percent, options.steps.size() > 1);
   fmt::print("\n{}\n", text);
   nlohmann::ordered_json json = {{"command", options.words},
                                  {"machine", support::machineText()},

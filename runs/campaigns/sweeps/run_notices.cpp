@@ -2,6 +2,7 @@
 #include "runs/campaigns/sweeps/run_notices.hpp"
 
 #include "runs/campaigns/sweeps/sweep_files.hpp"
+#include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/print_stderr.hpp"
@@ -46,7 +47,7 @@ std::vector<RunNotice> noticesIn(const std::filesystem::path& log) {
 
 } // namespace
 
-std::vector<RunNotice> runNotices(const SweepPlan& plan, const std::filesystem::path& folder) {
+std::vector<RunNotice> runNotices(const SweepPlan& plan, const std::filesystem::path& folder, bool sinkages) {
   std::vector<RunNotice> all;
   for (const SweepRun& run : plan.runs)
     for (RunNotice& own : noticesIn(folder / run.name / kRunLog)) {
@@ -61,6 +62,14 @@ std::vector<RunNotice> runNotices(const SweepPlan& plan, const std::filesystem::
       if (same->runs.back() != run.name) same->runs.push_back(run.name);
     }
   std::stable_partition(all.begin(), all.end(), [](const RunNotice& n) { return n.isWarning; });
+  RunNotice rigid{false,
+                  "shoes do not sink into rigid ground; a negative sinkage is the height of the pads above it, on "
+                  "their grousers",
+                  false,
+                  {}};
+  for (const SweepRun& run : plan.runs)
+    if (sinkages && isOnRigidGround(run.scene)) rigid.runs.push_back(run.name);
+  if (!rigid.runs.empty()) all.push_back(std::move(rigid));
   return all;
 }
 

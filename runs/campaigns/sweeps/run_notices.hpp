@@ -20,8 +20,9 @@ struct RunNotice {
   std::vector<std::string> runs; ///< names of the runs, in the order of the plan
 };
 
-/// Notices in the logs of these runs, warnings first, otherwise in the order of their first run.
-std::vector<RunNotice> runNotices(const SweepPlan& plan, const std::filesystem::path& folder);
+/// Notices in the logs of these runs, warnings first, otherwise in the order of their first run. `sinkages`: whether
+/// results of these runs contain a sinkage, which requires a note on runs on rigid ground.
+std::vector<RunNotice> runNotices(const SweepPlan& plan, const std::filesystem::path& folder, bool sinkages = false);
 
 /// One line per notice: "WARNING in 2 of 6 runs: ...", "note in 1 of 6 runs: ...". `runs`: number of all runs.
 std::string noticesText(const std::vector<RunNotice>& notices, std::size_t runs);

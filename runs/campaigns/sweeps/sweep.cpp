@@ -49,8 +49,12 @@ std::string shortRunsText(const SweepPlan& plan, const SweepFigures& figures,
 }
 
 /// Warnings and notes in the logs of the runs, except those of inconclusiveText().
-std::string noticesOf(const SweepPlan& plan, const fs::path& folder) {
-  std::vector<RunNotice> notices = runNotices(plan, folder);
+std::string noticesOf(const SweepPlan& plan, const fs::path& folder, const SeedIntervals& intervals) {
+  bool sinkages = false;
+  for (std::size_t c = 0; c < intervals.columns.size(); ++c)
+    for (const SeedGroup& group : intervals.groups)
+      sinkages = sinkages || (intervals.columns[c].starts_with("sinkage") && std::isfinite(group.figures[c].value));
+  std::vector<RunNotice> notices = runNotices(plan, folder, sinkages);
   std::erase_if(notices, [](const RunNotice& n) { return n.text.find("inconclusive") != std::string::npos; });
   return noticesText(notices, plan.runs.size());
 }
@@ -80,10 +84,10 @@ int runSweep(const SweepPlan& given, const SweepOptions& options) {
   for (const char* name : {kIntervalsFile, kSummaryPlot}) fs::remove(options.folder / name);
   std::vector<fs::path> tables = {options.folder / kSummaryFile};
   const SweepFigures figures = sweepFigures(plan, outcomes, options.folder);
-  fmt::print("{}{}", noticesOf(plan, options.folder), inconclusiveText(plan, figures));
   const SeedIntervals intervals = seedIntervals(plan, figures);
+  fmt::print("{}{}", noticesOf(plan, options.folder, intervals), inconclusiveText(plan, figures));
   if (!intervals.groups.empty()) {
-    fmt::print("{}{}", intervalsText(intervals), rigidGroundNote(plan));
+    fmt::print("{}", intervalsText(intervals));
     tables.push_back(writeIntervals(intervals, options.folder));
     fmt::print("intervals {}\n", tables.back().string());
   }

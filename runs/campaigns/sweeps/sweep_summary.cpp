@@ -290,13 +290,6 @@ bool isOnRigidGround(const scene::Scene& scene) {
   return scene.vehicle && scene.terrain && scene.terrain->kind == scene::TerrainKind::rigid;
 }
 
-std::string rigidGroundNote(const SweepPlan& plan) {
-  const auto isRigid = [](const SweepRun& run) { return isOnRigidGround(run.scene); };
-  if (std::none_of(plan.runs.begin(), plan.runs.end(), isRigid)) return "";
-  return "note: shoes do not sink into rigid ground; a negative sinkage is the height of the pads above it, on their "
-         "grousers\n";
-}
-
 double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
   const double duration = std::isfinite(end) ? end : scene.run.duration;
   if (!scene.vehicle) return 0.5 * duration;

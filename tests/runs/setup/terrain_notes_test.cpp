@@ -131,6 +131,12 @@ TEST(MapNotes, ReliefThatCannotBeMeantIsNoted) {
   EXPECT_NE(notesOf(drive("hills.png", "[20, 10]", "[0, 100]")).find("in millimetres? set height_range = [0, 0.1]"),
             std::string::npos);
   EXPECT_EQ(notesOf(drive("hills.png", "[20, 10]", "[0, 1]")), "");
+  EXPECT_EQ(notesOf(drive("hills.png", "[20, 10]", "[1000, 1000.2]")), "") << "an offset does not matter";
+  for (const char* heights : {"[0, 5]", "[1000, 1005]", "[-5, 0]"}) { // 5 mm or 5 cm on 10 m is no relief to enter
+    const std::string steep = notesOf(drive("hills.png", "[10, 4]", heights));
+    EXPECT_NE(steep.find("correct height_range or size (usual is a relief of at most 0.8 m"), std::string::npos)
+        << steep;
+  }
   EXPECT_EQ(notesOf(drive("step.png", "[20, 10]", "[0, 1]")), "") << "a steep step is no steep terrain";
 }
 

@@ -74,6 +74,11 @@ TEST(EventKeys, ThoseThatGaveWrongVerdictsAreRefused) {
                                                         {"grade", "hitch.kind=force"},
                                                         {"acceleration", "driver.left=2"},
                                                         {"acceleration", "driver.drive_ramp=5"},
+                                                        {"pivot_turn", "driver.drive_ramp=5"},
+                                                        {"turning_radius", "driver.drive_start=9"},
+                                                        {"pivot_turn", "driver.drive_start=9"},
+                                                        {"step", "stop.edge=3"},
+                                                        {"grade", "stop={edge=3}"},
                                                         {"acceleration", "driver={sprocket_speed=2}"},
                                                         {"acceleration", "driver.course.speed=1"},
                                                         {"steady_turn", "driver.course.radius=8"},
@@ -94,12 +99,25 @@ TEST(EventKeys, ThoseThatGaveWrongVerdictsAreRefused) {
   for (const auto& [event, set] : others)
     EXPECT_EQ(refused(event, set).find(std::string("--set ") + set + ": the event " + event + " sets "), 0u)
         << event << " " << set << ": " << refused(event, set);
+  // Whole sections, with keys that the event or an option of the command sets.
+  for (const char* set : {"run={duration=5, gravity=[0, 0, -1.62]}", "~output", "scm={c=0}", "spec={}"})
+    EXPECT_EQ(refused("drawbar", set).find(std::string("--set ") + set + ": replaces the whole section"), 0u)
+        << refused("drawbar", set);
   // Keys that do not define an event.
   for (const char* set : {"spec.contact.friction_ground=0.5", "driver.drive_ramp=0.5", "run.max_overlap=0.5",
                           "vehicle.sphere_radius=0.03", "output.picture=false", "stop.immobile=2"})
     EXPECT_EQ(refused("grade", set), "") << set;
   EXPECT_EQ(refused("steady_turn", "driver.course.turn_gain=1"), "");
   EXPECT_EQ(refused("drawbar", "hitch.stiffness=1e6"), "");
+}
+
+TEST(EventKeys, RampsTooLongForTheCourseAreRefused) {
+  // At 1.2 m/s, the last 5 m take 4.2 s; a longer ramp lowers the mean speed towards the limit of a go.
+  EventOptions options = optionsOf("grade", {"driver.drive_ramp=4.1"});
+  options.levels = {0.2}, options.speed = 1.2;
+  EXPECT_EQ(refusal(options), "");
+  options.fixed = {"driver.drive_ramp=30"};
+  EXPECT_EQ(refusal(options).find("--set: driver.drive_ramp = 30 [s] is above 4.17 s"), 0u) << refusal(options);
 }
 
 TEST(EventKeys, EveryKeyOfEveryLevelIsRefused) {

@@ -47,7 +47,11 @@ TEST(MobilityMap, HasARunForEachLevelAndValue) {
 
 TEST(MobilityMap, RefusesAxesAndEventsOfOneValue) {
   EventOptions options = slopesOfSand();
-  EXPECT_EQ(faultOf(options, "scm.c=5"), "--axis scm.c=5: requires at least two values; for a single value, use --set");
+  EXPECT_EQ(faultOf(options, "scm.c=5"),
+            "--axis scm.c=5: requires at least two values; for a single value, use: grouser events "
+            "--only grade --set scm.c=5");
+  EXPECT_EQ(faultOf(options, "run.gravity=1").find("--axis run.gravity=1: the event grade sets run.gravity itself"), 0u)
+      << "no advice that is then refused";
   EXPECT_EQ(faultOf(options, "scm.c"),
             "--axis scm.c: value is missing; write key=value,value..., e.g. --axis scm.c=0,1000,2000");
   EXPECT_EQ(faultOf(options, "scm.c=5,6,5"), "--axis scm.c=5,6,5: 5 is listed twice; remove one");

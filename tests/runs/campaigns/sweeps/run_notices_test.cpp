@@ -2,6 +2,7 @@
 // Warnings and notes of runs: each kind once, with the number of runs, in texts and files of all campaigns.
 #include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
+#include "runs/scene/scene.hpp"
 #include "tests/runs/csv_fixture.hpp"
 #include "tests/runs/program_fixture.hpp"
 
@@ -65,6 +66,22 @@ TEST_F(RunNotices, EachKindIsListedOnceWithItsRunsAndWarningsComeFirst) {
   EXPECT_EQ(noticesOfRun(plan_.runs[0], folder_),
             "note: 3 grains fit in a pad; WARNING: the speed varies from 0.1 to 2e-3 m/s");
   EXPECT_EQ(noticesOfRun(plan_.runs[2], folder_), "");
+}
+
+TEST_F(RunNotices, SinkagesOnRigidGroundAreExplainedOnceAndOnlyIfThereAreSome) {
+  for (const char* name : {"scm", "rigid", "rigid2"}) {
+    addRun(name, "");
+    scene::Scene& scene = plan_.runs.back().scene;
+    scene.vehicle.emplace(), scene.terrain.emplace();
+    scene.terrain->kind = *name == 's' ? scene::TerrainKind::scm : scene::TerrainKind::rigid;
+  }
+  EXPECT_TRUE(runNotices(plan_, folder_).empty());
+  const std::vector<RunNotice> all = runNotices(plan_, folder_, true);
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].runs, (std::vector<std::string>{"rigid", "rigid2"}));
+  EXPECT_EQ(noticesText(all, 3).find("note in 2 of 3 runs: shoes do not sink into rigid ground"), 0u);
+  plan_.runs.erase(plan_.runs.begin() + 1, plan_.runs.end());
+  EXPECT_TRUE(runNotices(plan_, folder_, true).empty());
 }
 
 TEST_F(RunNotices, CompareListsThemInItsTextAndFiles) {
