@@ -23,6 +23,9 @@ namespace grouser::base {
 
 namespace {
 
+/// Keeps an invalid OMP_NUM_THREADS for error messages.
+constexpr const char* kHiddenVariable = "GROUSER_INVALID_OMP_NUM_THREADS";
+
 constexpr std::size_t kMaxCores = 8192; ///< as in the kernel's largest configuration
 
 std::string textOf(const std::filesystem::path& file) {
@@ -55,6 +58,7 @@ std::string_view trimmed(std::string_view text) {
 
 std::optional<int> ompNumThreads() {
   const char* given = std::getenv("OMP_NUM_THREADS");
+  if (const char* hidden = std::getenv(kHiddenVariable); hidden && !given) given = hidden;
   if (!given || trimmed(given).empty()) return {};
   std::optional<int> first;
   std::string_view rest = given;
@@ -70,6 +74,17 @@ std::optional<int> ompNumThreads() {
     if (!first) first = count;
     if (rest.find(',') == std::string_view::npos) return first;
     rest.remove_prefix(rest.find(',') + 1);
+  }
+}
+
+void hideInvalidOmpNumThreads() {
+  try {
+    ompNumThreads();
+  } catch (const InputError&) {
+    const char* given = std::getenv("OMP_NUM_THREADS");
+    if (!given) return;
+    setenv(kHiddenVariable, given, 1);
+    unsetenv("OMP_NUM_THREADS");
   }
 }
 

@@ -37,6 +37,9 @@ ThreadLimits threadLimits();
 
 /// First number of OMP_NUM_THREADS, e.g. 4 for "4,2"; empty if unset or blank. Throws InputError for other values.
 std::optional<int> ompNumThreads();
+/// Moves an invalid OMP_NUM_THREADS to another variable, which ompNumThreads() reads, so that the OpenMP library of a
+/// program that this process starts does not complain about it once more.
+void hideInvalidOmpNumThreads();
 
 /// Lowest CPU quota of the cgroups of a process and of their parents [cores]; empty without a quota. `own`: text of
 /// /proc/self/cgroup; `mount`: folder with the cgroups (versions 1 and 2).

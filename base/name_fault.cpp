@@ -16,7 +16,7 @@ namespace {
 /// Control characters, and invisible characters that change the text around them (Unicode categories Cc, Cf, Zl, Zp),
 /// except the joiners U+200C and U+200D, which some scripts require.
 constexpr std::pair<std::uint32_t, std::uint32_t> kInvisible[] = {
-    {0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},   {0x180E, 0x180E},    {0x200B, 0x200B},
+    {0x00, 0x1F},     {0x7F, 0x9F},     {0xAD, 0xAD},     {0x61C, 0x61C},   {0x180E, 0x180E}, {0x200B, 0x200B},
     {0x200E, 0x200F}, {0x2028, 0x202E}, {0x2060, 0x206F}, {0xFEFF, 0xFEFF}, {0xFFF9, 0xFFFB}, {0xE0000, 0xE007F}};
 
 struct Character {
@@ -43,9 +43,8 @@ Character characterAt(const std::string& text, std::size_t i) {
 }
 
 bool isInvisible(const Character& c) {
-  return !c.valid || std::any_of(std::begin(kInvisible), std::end(kInvisible), [&](const auto& range) {
-    return c.code >= range.first && c.code <= range.second;
-  });
+  return !c.valid || std::any_of(std::begin(kInvisible), std::end(kInvisible),
+                                 [&](const auto& range) { return c.code >= range.first && c.code <= range.second; });
 }
 
 } // namespace
@@ -82,7 +81,7 @@ std::size_t characters(const std::string& text) {
 
 std::string textFault(const std::string& text, std::size_t longest) {
   if (hasControlCharacter(text))
-    return "contains a control or invisible format character (line feed, escape, U+202E...), which results files do "
+    return "contains a control character or an invisible one (line feed, escape, U+202E...), which results files do "
            "not support; remove it";
   if (text.find_first_of("<>") != std::string::npos)
     return "contains < or >, the brackets of HTML; use letters, digits, blanks and other characters except < and > "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "base/table.hpp"
 
+#include "base/name_fault.hpp"
 #include "base/unknown_key.hpp"
 
 #include <fmt/format.h>
@@ -38,7 +39,15 @@ std::string quoted(const std::string& text) {
     else
       out += c;
   }
-  return out + '"';
+  return escaped(out) + '"';
+}
+
+/// Text of a string for messages; long strings are abbreviated.
+std::string shown(const std::string& text) {
+  constexpr std::size_t kLongest = 300, kBegin = 40;
+  const std::size_t length = characters(text);
+  if (length <= kLongest || hasControlCharacter(text.substr(0, kBegin))) return quoted(text);
+  return fmt::format("{}... ({} characters)", quoted(text.substr(0, kBegin)), length);
 }
 
 template <class Range, class Format> std::string bracketed(const Range& range, Format format) {
@@ -79,7 +88,7 @@ std::string nodeText(const Node& node) {
   return std::visit(Overloaded{[](bool b) { return std::string(b ? "true" : "false"); },
                                [](std::int64_t i) { return fmt::format("{}", i); },
                                [](double x) { return fmt::format("{}", x); },
-                               [](const std::string& s) { return quoted(s); },
+                               [](const std::string& s) { return shown(s); },
                                [](const Node::List& list) {
                                  if (list.size() > 4) return fmt::format("a list of {} entries", list.size());
                                  return bracketed(list, nodeText);

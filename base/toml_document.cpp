@@ -6,6 +6,8 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <ios>
 #include <iterator>
@@ -61,6 +63,22 @@ void sortByLine(Node& node, const toml::node& from) {
   }
 }
 
+/// Error message for a number that a double or a 64-bit integer cannot represent; empty for other syntax errors.
+std::string rangeFault(std::string_view description) {
+  const std::size_t begin = description.find('\''), end = description.find('\'', begin + 1);
+  if (begin == std::string_view::npos || end == std::string_view::npos) return "";
+  std::string number(description.substr(begin + 1, end - begin - 1));
+  if (description.find("not representable in 64 bits") != std::string_view::npos)
+    return fmt::format("{} is out of the range of integers (64 bits); use a smaller number, or a decimal point",
+                       number);
+  std::erase(number, '_');
+  char* rest = nullptr;
+  const double value = std::strtod(number.c_str(), &rest);
+  const bool isDecimal = number.find_first_not_of("+-.0123456789eE") == std::string::npos; // not "inf"
+  if (*rest || number.empty() || !isDecimal || !std::isinf(value)) return "";
+  return fmt::format("{} is out of the range of double precision, 1.8e308; use a smaller number", number);
+}
+
 Node parseToml(std::string_view text, const std::string& name) {
   try {
     const toml::table table = toml::parse(text, name);
@@ -68,6 +86,8 @@ Node parseToml(std::string_view text, const std::string& name) {
     sortByLine(node, table);
     return node;
   } catch (const toml::parse_error& e) {
+    if (const std::string fault = rangeFault(e.description()); !fault.empty())
+      throw InputError(fmt::format("{}:{}: the number {}", name, e.source().begin.line, fault));
     throw InputError(fmt::format("{}:{}:{}: not valid TOML: {}; correct the syntax", name, e.source().begin.line,
                                  e.source().begin.column, e.description()));
   }
@@ -99,8 +119,8 @@ void setOrigin(Node& node, const std::string& origin) {
     for (Node& n : *list) setOrigin(n, origin);
 }
 
-/// Value of an override: parsed as TOML if valid, else plain text.
-Node overrideValue(const std::string& text) {
+/// Value of the override `whole`: `text` parsed as TOML if valid, else plain text.
+Node overrideValue(const std::string& text, const std::string& whole) {
   Node node;
   try {
     const toml::table table = toml::parse("value = " + text);
@@ -108,7 +128,9 @@ Node overrideValue(const std::string& text) {
       node = convert(*table.get("value"), "--set");
     else
       node.value = text;
-  } catch (const toml::parse_error&) {
+  } catch (const toml::parse_error& e) {
+    if (const std::string fault = rangeFault(e.description()); !fault.empty())
+      throw InputError(fmt::format("--set {}: the number {}", whole, fault));
     node.value = text;
   }
   setOrigin(node, "--set");
@@ -170,7 +192,7 @@ void applyOverride(Node& root, const std::string& text) {
     }
     node = child;
   }
-  *node = overrideValue(text.substr(equals + 1));
+  *node = overrideValue(text.substr(equals + 1), text);
 }
 
 void checkVersion(const Node& root, const std::string& name) {

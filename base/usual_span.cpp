@@ -107,7 +107,7 @@ std::string Field::unusualText(double value) const {
   if (usual && !(unit == "deg" && isFractionOfTurn(value))) return "";
   const std::string cause = unitSlip(value);
   return fmt::format("{}; {}",
-                     usual ? "is a common fraction of a turn"
+                     usual ? fmt::format("is a common fraction of a turn{}", cause.empty() ? " in radians" : "")
                            : fmt::format("is outside the usual span, {}{}", usualText(),
                                          unit.empty() || unit == "-" ? "" : " " + unit),
                      cause.empty() ? "check the value and its unit" : cause);

@@ -32,7 +32,8 @@ void checkEngine(const base::Section& section, const EngineSpec& engine) {
 
 /// Checks conditions that involve several keys.
 void checkTogether(const base::Section& root, const VehicleSpec& spec) {
-  if (const std::string fault = base::textFault(spec.name); !fault.empty()) root.section("vehicle").fail("name", fault);
+  if (const std::string fault = base::textFault(spec.name, base::kLongestName); !fault.empty())
+    root.section("vehicle").fail("name", fault);
   if (spec.arm.suspension == Suspension::sprung)
     for (const char* key : {"stiffness", "damping", "preload"})
       if (!root.section("arm").has(key))

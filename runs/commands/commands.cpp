@@ -2,6 +2,7 @@
 #include "runs/commands/commands.hpp"
 
 #include "base/counted.hpp"
+#include "base/cpu_threads.hpp"
 #include "base/error.hpp"
 #include "runs/campaigns/forecast/counted_grains.hpp"
 #include "runs/campaigns/forecast/forecast.hpp"
@@ -236,6 +237,7 @@ void planCommand(const PlanCommand& command) {
 }
 
 void spheresCommand(const SpheresCommand& command) {
+  base::ompNumThreads(); // throws for an invalid value
   spheredecomp::DecompositionOptions options;
   options.radius = command.radius, options.targetCount = command.count;
   std::error_code error;

@@ -2,6 +2,7 @@
 #include "base/comm.hpp"
 #include "base/cpu_threads.hpp"
 #include "base/error.hpp"
+#include "base/name_fault.hpp"
 #include "runs/commands/command_entry.hpp"
 #include "runs/commands/manual.hpp"
 #include "runs/commands/ranks_alike.hpp"
@@ -10,6 +11,7 @@
 #include "runs/support/failure.hpp"
 #include "runs/support/locations.hpp"
 #include "runs/support/option_checks.hpp"
+#include "runs/support/print_stderr.hpp"
 #include "runs/support/shell_word.hpp"
 #include "runs/support/stop_signals.hpp"
 
@@ -45,6 +47,7 @@ void occupyStandardStreams() {
 void waitBriefly(char** argv) {
   if (std::getenv("GOMP_SPINCOUNT") || std::getenv("OMP_WAIT_POLICY")) return;
   setenv("GOMP_SPINCOUNT", "5000", 1);
+  base::hideInvalidOmpNumThreads();
   base::unbindFirstThread();
   execv("/proc/self/exe", argv); // returns only on failure: then use the default
 }
@@ -56,7 +59,7 @@ int fail(const base::Ranks& ranks, support::FailureKind kind, const std::string&
   std::fflush(stdout);
   if (!ranks.comm().first()) sleep(2);
   const std::string who = ranks.comm().alone() ? "" : fmt::format("rank {}: ", ranks.comm().rank());
-  std::fputs(fmt::format("grouser: error: {}{}\n", who, message).c_str(),
+  std::fputs(fmt::format("grouser: error: {}{}\n", who, base::escaped(message)).c_str(),
              stderr); // does not throw if stderr cannot be written
   std::fflush(stderr);
   ranks.abort(code);
@@ -180,7 +183,7 @@ int main(int argc, char** argv) {
   } catch (const support::Stopped& e) {
     std::fflush(stdout);
     const std::string next = nextCommand(app, {argv, argv + argc}, ranks, e);
-    if (ranks.comm().first()) std::fputs(fmt::format("grouser: {}; {}\n", e.what(), next).c_str(), stderr);
+    if (ranks.comm().first()) support::printStderr("grouser: {}; {}\n", e.what(), next);
     return 128 + e.signal();
   } catch (...) {
     using Kind = support::FailureKind;

@@ -95,8 +95,7 @@ Table<Parallel> parallelTable() {
 
 /// Rejects paths that no file system accepts before the run starts.
 void checkFolder(const Section& output, const std::string& folder) {
-  if (std::any_of(folder.begin(), folder.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
-    output.fail("folder", "contains a control character; remove it");
+  if (base::hasControlCharacter(folder)) output.fail("folder", "contains a control character; remove it");
 }
 
 /// Throws InputError for names that the mechanism does not have.
@@ -134,7 +133,12 @@ void checkOutput(const Section& section, Output& output, const Scene& scene) {
 }
 
 void checkPlot(const Section& section, PlotSection& plot, const Scene&) {
-  if (const std::string fault = base::textFault(plot.title); !fault.empty()) section.fail("title", fault);
+  const auto check = [&](const char* key, const std::string& text) {
+    if (const std::string fault = base::textFault(text); !fault.empty()) section.fail(key, fault);
+  };
+  check("title", plot.title), check("x_label", plot.xLabel), check("y_label", plot.yLabel);
+  for (const std::string& label : plot.labels) check("labels", label);
+  for (const std::string& label : plot.levelLabels) check("level_labels", label);
   if (plot.y.empty()) section.fail("y", "is empty; set a column, e.g. \"bodies.cone.position.z\"");
   const std::size_t curves = plot.sum ? 1 : plot.y.size();
   if (!plot.labels.empty() && plot.labels.size() != curves)

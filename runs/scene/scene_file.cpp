@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 
 namespace grouser::scene {
 
@@ -40,6 +41,29 @@ void allowOnlyKnown(const base::Section& root, const SectionList& sections) {
   for (const SectionEntry& entry : sections)
     if (entry.name.find('.') == std::string::npos) names.push_back(entry.name);
   root.allowOnly(names);
+}
+
+/// "scm.K" of "scene.toml:5: scm.K = 0.4 [m] is outside the usual span..."
+std::string keyOfNote(const std::string& note) {
+  const std::size_t end = note.find(" = "), begin = note.rfind(": ", end);
+  return begin == std::string::npos ? "" : note.substr(begin + 2, end - begin - 2);
+}
+
+/// True if the text contains the whole word, not as a part of a longer one.
+bool contains(const std::string& text, const std::string& key) {
+  const auto isPart = [&](std::size_t i) {
+    return i < text.size() && (std::isalnum(static_cast<unsigned char>(text[i])) || text[i] == '_' || text[i] == '.');
+  };
+  for (std::size_t at = text.find(key); !key.empty() && at != std::string::npos; at = text.find(key, at + 1))
+    if (!(at > 0 && isPart(at - 1)) && !isPart(at + key.size())) return true;
+  return false;
+}
+
+/// True if an error names the key "section.key", or "key" alone, unless that may be another word.
+bool isNamed(const std::string& key, const std::string& error) {
+  constexpr std::size_t kShortest = 4;
+  const std::string last = key.substr(key.rfind('.') + 1);
+  return contains(error, key) || (last.size() >= kShortest && contains(error, last));
 }
 
 Scene sceneOf(base::Document read, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
@@ -95,8 +119,10 @@ void withUnusualValues(const Scene& scene, const std::function<void()>& act) {
   try {
     act();
   } catch (const base::InputError& error) {
-    if (scene.document->unusual().empty()) throw;
-    throw base::InputError(fmt::format("{}; note: {}", error.what(), fmt::join(scene.document->unusual(), "; note: ")));
+    std::string text = error.what();
+    for (const std::string& note : scene.document->unusual())
+      if (isNamed(keyOfNote(note), error.what())) text += "; note: " + note;
+    throw base::InputError(text);
   }
 }
 

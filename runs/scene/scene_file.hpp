@@ -26,8 +26,8 @@ std::string unsettledWarning(const Scene& scene);
 /// its vehicle file. Throws InputError for an invalid vehicle file.
 std::vector<std::string> unusualValues(const Scene& scene);
 
-/// Calls `act` and appends notes on unusual values to its InputErrors: a value in a wrong unit can make another key
-/// invalid.
+/// Calls `act` and appends to its InputErrors the notes on unusual values of the keys that the error names: a value in
+/// a wrong unit can make another key invalid.
 void withUnusualValues(const Scene& scene, const std::function<void()>& act);
 
 /// Warnings and notes on a scene, e.g. about renamed keys.

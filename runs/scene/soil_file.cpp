@@ -170,7 +170,7 @@ std::string unitOf(SoilQuantity quantity) {
 Soil readSoil(const fs::path& file) {
   Soil soil;
   soil.name = file.stem().string(), soil.file = file;
-  if (const std::string fault = base::textFault(soil.name); !fault.empty())
+  if (const std::string fault = base::textFault(soil.name, base::kLongestName); !fault.empty())
     throw base::InputError(fmt::format("{}: the name of a soil file {}", file.string(), fault));
   soil.document = std::make_shared<const base::Document>(base::Document::load(file));
   soil.hash = support::hashOfFile(file);

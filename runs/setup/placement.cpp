@@ -55,6 +55,18 @@ double along(double direction, double low, double high, double areaLow, double a
   return 0.5 * (areaLow + areaHigh) - 0.5 * (low + high);
 }
 
+/// Sections of the vehicle file that the scene requires.
+void checkSections(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
+  if (scene.driver.drive == vehicle::SprocketDrive::engine && !spec.engine)
+    scene.fail("driver", "drive",
+               "requires a section [engine] in the vehicle file (see grouser fields --vehicle); add it, or set "
+               "\"speed\" or \"torque\"");
+  if (scene.vehicle->gearContactModel == vehicle::GearContactModel::shapes && !spec.shapes)
+    scene.fail(
+        "vehicle", "gear_contact_model",
+        "requires a section [shapes] in the vehicle file (see grouser fields --vehicle); add it, or set \"samples\"");
+}
+
 } // namespace
 
 std::optional<terrain::Rectangle> terrainArea(const scene::Scene& scene) {
@@ -92,11 +104,13 @@ coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::Vehic
 }
 
 void checkParts(const scene::Scene& scene) {
-  if (scene.vehicle->chassis == scene::ChassisMount::free && scene.terrain && norm(scene.run.gravity) > 0 &&
-      scene.run.gravity.z >= 0)
+  if (scene.vehicle->chassis != scene::ChassisMount::fixed && scene.terrain && !(scene.run.gravity.z < 0))
     scene.fail("run", "gravity",
-               "[m/s2] must point down for a free vehicle; set z below 0, or vehicle.chassis = \"fixed\"");
+               fmt::format("[m/s2] must point down for a vehicle with chassis = \"{}\", whose weight presses the "
+                           "tracks onto the ground; set z below 0, or vehicle.chassis = \"fixed\"",
+                           base::wordOf(scene.vehicle->chassis)));
   const vehicle::VehicleSpec spec = vehicle::readVehicleSpec(scene.vehicle->source());
+  checkSections(scene, spec);
   const double radius = scene.vehicle->sphereRadius.value_or(0); // an automatic radius fits each part
   const auto read = [&](const char* section, const std::string& name) {
     base::TriangleMesh mesh;

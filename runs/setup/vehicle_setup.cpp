@@ -78,15 +78,6 @@ coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
   const scene::Vehicle& v = *scene.vehicle;
   coupling::VehicleSetup setup;
   setup.spec = vehicleSpec(scene);
-  if (scene.driver.drive == vehicle::SprocketDrive::engine && !setup.spec.engine)
-    scene.fail("driver", "drive",
-               "requires a section [engine] in the vehicle file (see grouser fields --vehicle); add it, or set "
-               "\"speed\" or \"torque\"");
-  const bool shapesAsked = v.gearContactModel == vehicle::GearContactModel::shapes;
-  if (shapesAsked && !setup.spec.shapes)
-    scene.fail(
-        "vehicle", "gear_contact_model",
-        "requires a section [shapes] in the vehicle file (see grouser fields --vehicle); add it, or set \"samples\"");
   setup.shapes = setup.spec.shapes && v.gearContactModel != vehicle::GearContactModel::samples;
   setup.place = placeVehicle(scene, setup.spec);
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();

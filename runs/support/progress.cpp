@@ -70,7 +70,7 @@ void Progress::finish(const std::string& detail) {
 }
 
 void Progress::clearLine() {
-  if (open_) printStderr("\r\033[K");
+  if (open_) std::fputs("\r\033[K", stderr);
   open_ = false;
 }
 

@@ -117,6 +117,22 @@ TEST_F(CpuThreadsTest, OmpNumThreadsIsAListOfPositiveNumbers) {
   }
 }
 
+TEST_F(CpuThreadsTest, InvalidOmpNumThreadsIsHiddenFromOpenMpButStillAnError) {
+  setenv("OMP_NUM_THREADS", "abc", 1);
+  hideInvalidOmpNumThreads();
+  EXPECT_EQ(getenv("OMP_NUM_THREADS"), nullptr) << "the OpenMP library would complain about it";
+  try {
+    ompNumThreads();
+    ADD_FAILURE();
+  } catch (const InputError& e) {
+    EXPECT_EQ(std::string(e.what()).find("OMP_NUM_THREADS = 'abc' must be"), 0u) << e.what();
+  }
+  setenv("OMP_NUM_THREADS", "3", 1);
+  hideInvalidOmpNumThreads();
+  EXPECT_EQ(ompNumThreads(), 3) << "a valid number remains, and has priority";
+  unsetenv("GROUSER_INVALID_OMP_NUM_THREADS");
+}
+
 TEST_F(CpuThreadsTest, RanksShareOnlyTheCoresThatSeveralMayUse) {
   using Mask = std::vector<std::uint64_t>;
   const Mask four{0b1111}, low{0b0011}, high{0b1100}, beyond{0, 0b111};

@@ -66,8 +66,9 @@ TEST(UsualSpan, TheFirstUnitThatFitsIsNamedOrElseTheMistakeOfTheKey) {
 
 TEST(UsualSpan, FractionsOfATurnInRadiansAreNotedInsideTheSpanToo) {
   for (const char* turn : {"6.2832", "4.7124"})
-    EXPECT_NE(notesOn(std::string("angle = ") + turn + "\n").at(0).find("fraction of a turn; in radians?"),
-              std::string::npos);
+    EXPECT_NE(
+        notesOn(std::string("angle = ") + turn + "\n").at(0).find("fraction of a turn in radians; check the value"),
+        std::string::npos);
   EXPECT_TRUE(notesOn("angle = 4.5\n").empty());
 }
 

@@ -108,8 +108,8 @@ bool hasSinkage(const Comparison& comparison) {
 void writeComparison(const SweepPlan& plan, const Comparison& comparison, const CompareOptions& options) {
   const fs::path& folder = options.sweep.folder;
   const std::vector<RunNotice> notices = runNotices(plan, folder, hasSinkage(comparison));
-  const std::string text = noticesText(notices, plan.runs.size()) +
-                           comparisonText(comparison, options.percent, options.steps.size() > 1);
+  const std::string text =
+      noticesText(notices, plan.runs.size()) + comparisonText(comparison, options.percent, options.steps.size() > 1);
   fmt::print("\n{}\n", text);
   nlohmann::ordered_json json = {{"command", options.words},
                                  {"machine", support::machineText()},

@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "runs/campaigns/sweeps/kept_checks.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
+#include "runs/campaigns/sweeps/run_notices.hpp"
 #include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/drive_length.hpp"

@@ -2,7 +2,6 @@
 #include "runs/campaigns/sweeps/run_notices.hpp"
 
 #include "runs/campaigns/sweeps/sweep_files.hpp"
-#include "runs/campaigns/sweeps/sweep_summary.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/support/print_stderr.hpp"
@@ -46,6 +45,10 @@ std::vector<RunNotice> noticesIn(const std::filesystem::path& log) {
 }
 
 } // namespace
+
+bool isOnRigidGround(const scene::Scene& scene) {
+  return scene.vehicle && scene.terrain && scene.terrain->kind == scene::TerrainKind::rigid;
+}
 
 std::vector<RunNotice> runNotices(const SweepPlan& plan, const std::filesystem::path& folder, bool sinkages) {
   std::vector<RunNotice> all;

@@ -20,6 +20,9 @@ struct RunNotice {
   std::vector<std::string> runs; ///< names of the runs, in the order of the plan
 };
 
+/// Whether the scene has a vehicle on rigid terrain, where sinkage is minus the height of the pads above the ground.
+bool isOnRigidGround(const scene::Scene& scene);
+
 /// Notices in the logs of these runs, warnings first, otherwise in the order of their first run. `sinkages`: whether
 /// results of these runs contain a sinkage, which requires a note on runs on rigid ground.
 std::vector<RunNotice> runNotices(const SweepPlan& plan, const std::filesystem::path& folder, bool sinkages = false);

@@ -98,7 +98,7 @@ Point caseOf(const std::string& text) {
     throw InputError(fmt::format("--case {}: a case must start with its name; write NAME: key=value, key=value..., "
                                  "e.g. --case 'deep: terrain.depth=0.6'",
                                  text));
-  if (const std::string fault = base::textFault(point.label); !fault.empty())
+  if (const std::string fault = base::textFault(point.label, base::kLongestName); !fault.empty())
     throw InputError(fmt::format("--case {}: its name {}", text, fault));
   if (!isFolderName(point.label))
     throw InputError(

@@ -286,10 +286,6 @@ std::vector<std::string> row(const SweepRun& run, const SweepOutcome& outcome, c
 
 } // namespace
 
-bool isOnRigidGround(const scene::Scene& scene) {
-  return scene.vehicle && scene.terrain && scene.terrain->kind == scene::TerrainKind::rigid;
-}
-
 double steadyFrom(const scene::Scene& scene, double driveStart, double end) {
   const double duration = std::isfinite(end) ? end : scene.run.duration;
   if (!scene.vehicle) return 0.5 * duration;

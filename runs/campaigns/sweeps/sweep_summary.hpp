@@ -29,9 +29,6 @@ double steadyFrom(const scene::Scene& scene, double driveStart = std::numeric_li
 /// The same for a finished run, with start of the drive and end of the run from its manifest.
 double steadyFrom(const scene::Scene& scene, const RunManifest& manifest);
 
-/// Whether the scene has a vehicle on rigid terrain, where sinkage is minus the height of the pads above the ground.
-bool isOnRigidGround(const scene::Scene& scene);
-
 /// Figures of a sweep: means and extremes over the steady part of each run, from its results.h5. With a vehicle, they
 /// are taken over a whole number of sprocket teeth (to within one row) at the end of the steady part.
 struct SweepFigures {

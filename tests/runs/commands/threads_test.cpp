@@ -69,6 +69,17 @@ TEST_F(Threads, InvalidNumberIsAnInputErrorThatNamesTheVariable) {
   }
 }
 
+TEST_F(Threads, SpheresReportAnInvalidNumberToo) {
+  const Outcome o = ProgramTest::shell("OMP_NUM_THREADS=abc \"$grouser\" spheres " GROUSER_SOURCE_DIR
+                                       "/assets/meshes/shoe.obj --count 20");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.errors.find("grouser: error: OMP_NUM_THREADS = 'abc' must be a number of threads"), std::string::npos)
+      << o.errors;
+  const std::size_t first = o.errors.find("libgomp");
+  EXPECT_EQ(first == std::string::npos ? first : o.errors.find("libgomp", first + 8), std::string::npos)
+      << "once at most: " << o.errors;
+}
+
 TEST_F(Threads, BoundRanksKeepTheirCores) {
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one core";
   const std::string hash = bed("", "--threads 1").hash();

@@ -86,13 +86,29 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
 
 TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
   test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
-  const test::Outcome up = call("plan scene.toml --no-probe --set run.gravity=[0,0,9.81]");
-  EXPECT_EQ(up.code, 2);
-  EXPECT_NE(up.errors.find("--set: run.gravity = [0, 0, 9.81] [m/s2] must point down for a free vehicle"),
-            std::string::npos)
-      << up.errors;
+  for (const char* gravity : {"[0, 0, 9.81]", "[0, 0, 0]", "[9.81, 0, 0]"})
+    for (const char* chassis : {"free", "guided", "level"})
+      for (const char* command : {"plan scene.toml --no-probe", "run scene.toml --out out"}) {
+        const test::Outcome o =
+            call(std::string(command) + " --set 'run.gravity=" + gravity + "' --set vehicle.chassis=" + chassis);
+        EXPECT_EQ(o.code, 2);
+        EXPECT_NE(o.errors.find(std::string("--set: run.gravity = ") + gravity +
+                                " [m/s2] must point down for a vehicle with chassis = \"" + chassis),
+                  std::string::npos)
+            << o.errors;
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+      }
   EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[-1.7,0,-9.6]").code, 0) << "a slope";
-  EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[0,0,0]").code, 0);
+  EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[0,0,0] --set vehicle.chassis=fixed").code, 0);
+}
+
+TEST_F(VehicleFaults, PlanRefusesSectionsThatTheVehicleFileLacks) {
+  test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
+  const test::Outcome o = call("plan scene.toml --no-probe --set driver.drive=engine");
+  EXPECT_EQ(o.code, 2);
+  EXPECT_NE(o.errors.find("driver.drive = \"engine\" requires a section [engine] in the vehicle file"),
+            std::string::npos)
+      << o.errors;
 }
 
 TEST_F(VehicleFaults, PlanSaysWhichMaterialsDoNothing) {

@@ -53,6 +53,7 @@ const Slip kSlips[] = {
     {kScm, "scm.maximum_slip_sinkage=0.9", "in millimetres? 0.9 mm = 0.0009 m"},
     {kScm, "vehicle.heading=0.54", "in radians? 0.54 rad = 30.94 deg"},
     {kScm, "vehicle.heading=1.5708", "in radians? 1.5708 rad = 90 deg"},
+    {kScm, "vehicle.heading=1.5708", "is a common fraction of a turn; in radians? 1.5708 rad = 90 deg"},
     {kScm, "vehicle.heading=3.14", "in radians? 3.14 rad = 179.9 deg"},
     {kScm, "vehicle.clearance=2", "in millimetres? 2 mm = 0.002 m"},
     {kScm, "vehicle.sphere_radius=0.9", "in centimetres? 0.9 cm = 0.009 m"},
@@ -134,6 +135,23 @@ TEST(UnusualValues, NoSlipThatDragsTheVehicleBackwardsIsAccepted) {
     EXPECT_NE(error.find("[-] is outside [-1, 1]"), std::string::npos) << error;
   }
   EXPECT_EQ(test::messageOf([&] { readScene(kSource / kDrawbar, {"hitch.slip=1"}); }), "");
+}
+
+TEST(UnusualValues, ErrorsContainOnlyNotesOnTheirOwnKeys) {
+  const std::string unusual = "scm.n=2.5", other = test::messageOf([&] {
+                                             readScene(kSource / kScm, {unusual, "nosuch=1"});
+                                           });
+  EXPECT_NE(other.find("unknown key nosuch"), std::string::npos) << other;
+  EXPECT_EQ(other.find("usual span"), std::string::npos) << other;
+  const std::string own = test::messageOf([&] {
+    readScene(kSource / kScm, {unusual, "run.output_interval=11", "run.checkpoint_interval=1e-320"});
+  });
+  EXPECT_NE(own.find("run.checkpoint_interval = 1e-320 [s] is below"), std::string::npos) << own;
+  EXPECT_NE(own.find("; note: --set: run.checkpoint_interval = 1e-320 [s] is outside the usual span"),
+            std::string::npos)
+      << own;
+  EXPECT_EQ(own.find("scm.n"), std::string::npos) << own;
+  EXPECT_EQ(own.find("output_interval"), std::string::npos) << own;
 }
 
 TEST(UnusualValues, EngineSpeedsInRevolutionsPerMinuteAreNoted) {
