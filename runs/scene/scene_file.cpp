@@ -49,6 +49,13 @@ std::string keyOfNote(const std::string& note) {
   return begin == std::string::npos ? "" : note.substr(begin + 2, end - begin - 2);
 }
 
+/// "0.4 m" of the same note, as other errors quote the value; empty if it has no unit.
+std::string valueOfNote(const std::string& note) {
+  const std::size_t begin = note.find(" = ") + 3, unit = note.find(" [", begin), end = note.find("] ", begin);
+  if (begin < 3 || unit == std::string::npos || end == std::string::npos || unit > end) return "";
+  return note.substr(begin, unit - begin) + " " + note.substr(unit + 2, end - unit - 2);
+}
+
 /// True if the text contains the whole word, not as a part of a longer one.
 bool contains(const std::string& text, const std::string& key) {
   const auto isPart = [&](std::size_t i) {
@@ -121,7 +128,8 @@ void withUnusualValues(const Scene& scene, const std::function<void()>& act) {
   } catch (const base::InputError& error) {
     std::string text = error.what();
     for (const std::string& note : scene.document->unusual())
-      if (isNamed(keyOfNote(note), error.what())) text += "; note: " + note;
+      if (isNamed(keyOfNote(note), error.what()) || contains(error.what(), valueOfNote(note)))
+        text += "; note: " + note;
     throw base::InputError(text);
   }
 }

@@ -55,18 +55,6 @@ double along(double direction, double low, double high, double areaLow, double a
   return 0.5 * (areaLow + areaHigh) - 0.5 * (low + high);
 }
 
-/// Sections of the vehicle file that the scene requires.
-void checkSections(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
-  if (scene.driver.drive == vehicle::SprocketDrive::engine && !spec.engine)
-    scene.fail("driver", "drive",
-               "requires a section [engine] in the vehicle file (see grouser fields --vehicle); add it, or set "
-               "\"speed\" or \"torque\"");
-  if (scene.vehicle->gearContactModel == vehicle::GearContactModel::shapes && !spec.shapes)
-    scene.fail(
-        "vehicle", "gear_contact_model",
-        "requires a section [shapes] in the vehicle file (see grouser fields --vehicle); add it, or set \"samples\"");
-}
-
 } // namespace
 
 std::optional<terrain::Rectangle> terrainArea(const scene::Scene& scene) {
@@ -101,6 +89,17 @@ coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::Vehic
                     p.x, p.y, scene.vehicle->heading, p.x + f.xMin, p.x + f.xMax, p.y + f.yMin, p.y + f.yMax,
                     area->xMin, area->xMax, area->yMin, area->yMax, f.width(), f.length()));
   return p;
+}
+
+void checkSections(const scene::Scene& scene, const vehicle::VehicleSpec& spec) {
+  if (scene.driver.drive == vehicle::SprocketDrive::engine && !spec.engine)
+    scene.fail("driver", "drive",
+               "requires a section [engine] in the vehicle file (see grouser fields --vehicle); add it, or set "
+               "\"speed\" or \"torque\"");
+  if (scene.vehicle->gearContactModel == vehicle::GearContactModel::shapes && !spec.shapes)
+    scene.fail(
+        "vehicle", "gear_contact_model",
+        "requires a section [shapes] in the vehicle file (see grouser fields --vehicle); add it, or set \"samples\"");
 }
 
 void checkParts(const scene::Scene& scene) {

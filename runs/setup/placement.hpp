@@ -27,4 +27,7 @@ coupling::Placement placeVehicle(const scene::Scene& scene, const vehicle::Vehic
 /// settles; the later conversion to spheres makes the same checks, but without the place in the scene.
 void checkParts(const scene::Scene& scene);
 
+/// Throws InputError if the vehicle file lacks a section that the scene requires: [engine], [shapes].
+void checkSections(const scene::Scene& scene, const vehicle::VehicleSpec& spec);
+
 } // namespace grouser::setup

@@ -78,6 +78,7 @@ coupling::VehicleSetup vehicleSetup(const scene::Scene& scene) {
   const scene::Vehicle& v = *scene.vehicle;
   coupling::VehicleSetup setup;
   setup.spec = vehicleSpec(scene);
+  checkSections(scene, setup.spec);
   setup.shapes = setup.spec.shapes && v.gearContactModel != vehicle::GearContactModel::samples;
   setup.place = placeVehicle(scene, setup.spec);
   setup.clearance = v.clearance, setup.onTerrain = scene.terrain.has_value();
