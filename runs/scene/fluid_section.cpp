@@ -121,8 +121,10 @@ void checkCorners(const Section& section, const char* high, const base::Vec3d& f
                   double least, bool plane) {
   for (int a = 0; a < 3; ++a)
     if (!(plane && a == 1) && !(to[a] - from[a] >= least))
-      section.fail(high, fmt::format("[m] is only {:.4g} m above the lower corner along {} (minimum {:g} m); raise it",
-                                     to[a] - from[a], "xyz"[a], least));
+      section.fail(high,
+                   fmt::format("[m] is only {:.4g} m above the lower corner along {} (minimum {:g} m); raise it, or "
+                               "lower fluid.spacing",
+                               to[a] - from[a], "xyz"[a], least));
 }
 
 void checkTank(const Section& section, const Fluid& fluid, const Scene& scene) {
