@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The only file that includes toml++: converts its tree, and applies overrides.
+#include "base/input_file.hpp"
 #include "base/table.hpp"
 
 #include <fmt/format.h>
@@ -8,9 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <ios>
-#include <iterator>
 
 namespace grouser::base {
 
@@ -217,23 +215,7 @@ Document Document::parse(std::string_view text, const std::string& name, const s
 }
 
 Document Document::load(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  std::error_code error;
-  const bool there = std::filesystem::exists(path, error);
-  // Accept regular files only: a device may have no end, and a pipe no writer.
-  if (there && !std::filesystem::is_regular_file(path, error))
-    throw InputError(fmt::format("{}: not a file; specify the path of a TOML file", path.string()));
-  std::ifstream file(path, std::ios::binary);
-  if (!file)
-    throw InputError(fmt::format("{}: {}", path.string(),
-                                 there || error ? "cannot be read; check the path and its permissions"
-                                                : "no such file; check the path"));
-  std::string text;
-  try {
-    text.assign(std::istreambuf_iterator<char>(file), {});
-  } catch (const std::ios_base::failure&) { // e.g. /proc/self/mem
-    throw InputError(fmt::format("{}: cannot be read; specify the path of a TOML file", path.string()));
-  }
-  return parse(text, path.string(), overrides);
+  return parse(readInput(path, "check the path of the TOML file"), path.string(), overrides);
 }
 
 } // namespace grouser::base

@@ -31,20 +31,24 @@ number() { # number NAME DEFAULT: value of a variable
 }
 
 # Settings of the scene, and the results folder, from the options.
-settings=() out=out/$(basename "$scene" .toml) resumes=0 next=""
+settings=() out="" resumes=0 next=""
+folder=$(sed -n '/^ *\[output\]/,/^ *\[[^o]/s/^ *folder *= *["'\'']\([^"'\'']*\).*/\1/p' "$scene" 2>/dev/null | head -n 1)
 for word in "$@"; do
   case $next in
-    --set) word=--set=$word ;;
-    --out) word=--out=$word ;;
+    --set | --out | --output) word=$next=$word ;;
   esac
   next=""
   case $word in
-    --set | --out) next=$word ;;
-    --set=*) settings+=("$word") ;;
-    --out=*) out=${word#--out=} ;;
+    --set | --out | --output) next=$word ;;
+    --set=*)
+      settings+=("$word")
+      if [[ $word =~ ^--set=output\.folder=[\"\']?([^\"\']*) ]]; then folder=${BASH_REMATCH[1]}; fi
+      ;;
+    --out=* | --output=*) out=${word#*=} ;;
     --resume*) resumes=1 ;;
   esac
 done
+out=${out:-${folder:-out/$(basename "$scene" .toml)}}
 
 # Time for the last checkpoint.
 rate=$(number GROUSER_DISK_MBPS 100)
@@ -70,10 +74,16 @@ elif [ "$seconds" -gt 270 ]; then
     "sbatch --signal=B:USR1@$((seconds + 30))" >&2
 fi
 
-# A requeued job has the options of its first start.
+# A requeued job has the options of its first start. It continues or overwrites only results whose manifest names this
+# job; grouser itself refuses a folder with other results.
 again=()
 if [ "${SLURM_RESTART_COUNT:-0}" -gt 0 ] && [ $resumes -eq 0 ]; then
-  if [ -f "$out/checkpoint.h5" ]; then again=(--resume); else again=(--force); fi
+  own=$(sed -n 's/^  "slurm_job": "\(.*\)",\{0,1\}$/\1/p' "$out/manifest.json" 2>/dev/null || true)
+  if [ "$own" = "${SLURM_CLUSTER_NAME:+$SLURM_CLUSTER_NAME }${SLURM_JOB_ID:-}" ]; then
+    if [ -f "$out/checkpoint.h5" ]; then again=(--resume); else again=(--force); fi
+  elif [ -e "$out" ]; then
+    echo "runs/slurm.sh: WARNING: $out contains no results of this job ${SLURM_JOB_ID:-}; it is left unchanged" >&2
+  fi
 fi
 case ${GROUSER_LAUNCHER:-mpirun} in
   mpirun) launch=(mpirun -np "$tasks" --map-by "ppr:${SLURM_NTASKS_PER_NODE:-4}:node:PE=$cores") ;;

@@ -2,6 +2,7 @@
 #include "spheredecomp/mesh.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "spheredecomp/detail/obj_text.hpp"
 #include "spheredecomp/detail/ply_text.hpp"
 #include "spheredecomp/detail/polygon.hpp"
@@ -274,7 +275,7 @@ void checkText(const std::string& path) {
 } // namespace
 
 TriangleMesh importMesh(const std::string& path, std::string* note) {
-  if (!std::filesystem::is_regular_file(path)) throw base::InputError(path + ": no such mesh file; check the path");
+  base::requireInput(path, "check the path of the mesh file");
   checkText(path);
   Assimp::Importer importer;
   const aiScene& scene = readScene(importer, path);

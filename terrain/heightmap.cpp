@@ -2,6 +2,7 @@
 #include "terrain/heightmap.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +10,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <string>
@@ -40,22 +40,8 @@ struct FreePixels {
 };
 
 std::vector<stbi_uc> readFile(const std::filesystem::path& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw InputError(file.string() + ": no such file; give the path of a PNG picture (8 or 16 bit)");
-  if (std::filesystem::is_directory(file, error))
-    throw InputError(file.string() + " is a folder; give the path of a PNG picture (8 or 16 bit)");
-  // Reading a device or pipe may never end.
-  if (!std::filesystem::is_regular_file(file, error))
-    throw InputError(file.string() + " is not a regular file; give the path of a PNG picture (8 or 16 bit)");
-  try {
-    std::ifstream in(file, std::ios::binary);
-    std::vector<stbi_uc> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (in) return bytes;
-  } catch (const std::ios_base::failure&) {
-    // thrown for a file that opens but cannot be read, such as /proc/self/mem
-  }
-  throw InputError(file.string() + ": cannot be read; check its permissions");
+  const std::string bytes = base::readInput(file, "give the path of a PNG picture (8 or 16 bit)");
+  return {bytes.begin(), bytes.end()};
 }
 
 constexpr stbi_uc kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import FileError
-from .files import fields_of, read_json
+from .files import fields_of, inside, read_json
 from .series import Estimate, counted, number
 from .soil import SoilTest
 
@@ -64,13 +64,13 @@ class Calibration:
     def soil_file(self) -> Path | None:
         """The file of the calibrated soil; None before the search has finished."""
         name = self.json.get("soil_file")
-        return self.folder / name if name else None
+        return inside(self.folder, name, self.folder / "calibration.json") if name else None
 
     def soil(self) -> SoilTest:
         """All tests of the calibrated soil. FileError before the search has finished."""
         if "tests" not in self.json:
             raise FileError(f"{self.folder}: the search is not finished; continue it with --resume")
-        return SoilTest(self.folder / self.json["tests"])
+        return SoilTest(inside(self.folder, self.json["tests"], self.folder / "calibration.json"))
 
     def __iter__(self) -> Iterator[Trial]:
         return iter(self.trials)

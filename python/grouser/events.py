@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from .errors import FileError
-from .files import fields_of, read_json
+from .files import fields_of, inside, read_json
 from .run import Run
 from .series import Estimate, counted, number, split_unit
 
@@ -86,10 +86,12 @@ class Events:
             name, unit = split_unit(figure["name"])
             figures[name] = Estimate(number(figure["mean"]), number(figure["half_width"]), unit, name)
         picture = one.get("picture")
-        each = tuple(EventRun(run["verdict"], run["why"], self.folder / run["run"]) for run in one.get("each", []))
+        file = self.folder / "events.json"
+        each = tuple(EventRun(run["verdict"], run["why"], inside(self.folder, run["run"], file))
+                     for run in one.get("each", []))
         return EventRow(one["event"], one["title"], number(one["level"]), one["level_is"], one["verdict"], one["why"],
                         one["runs"], each, figures, tuple(one.get("overrides", ())), one.get("scene", ""),
-                        self.folder / Path(picture).parent if picture else None)
+                        inside(self.folder, picture, file).parent if picture else None)
 
     def __getitem__(self, event: str) -> list[EventRow]:
         """Returns the rows of an event. KeyError lists the events."""

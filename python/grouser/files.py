@@ -7,6 +7,7 @@ import io
 import json
 import os
 import re
+import stat
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -20,10 +21,48 @@ from .errors import FileError
 _REMEDY = "run it again or restore the file from a copy"
 
 
+_KINDS = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a FIFO"), (stat.S_ISSOCK, "a socket"),
+          (stat.S_ISCHR, "a device"), (stat.S_ISBLK, "a device"))
+
+
+def check_input(file: Path) -> None:
+    """FileError if the path, after its links, is not a regular file: reading a FIFO, a device or a file of the kernel
+    may never end. OSError for a missing file."""
+    found = os.stat(file)
+    kind = next((name for holds, name in _KINDS if holds(found.st_mode)), "")
+    if not kind and any(os.path.exists(place) and os.stat(place).st_dev == found.st_dev for place in ("/proc", "/sys")):
+        kind = "a file of the kernel"
+    if kind:
+        raise FileError(f"{file} is {kind} (a regular file is required)")
+
+
+def read_text(file: Path, encoding: str = "utf-8") -> str:
+    """The text of a regular file. FileError as from check_input(), OSError, UnicodeDecodeError."""
+    check_input(file)
+    return file.read_text(encoding=encoding)
+
+
+def leads_out(folder: Path, path: Path) -> bool:
+    """Whether a path leads out of a folder, also by its links."""
+    try:
+        return not path.resolve().is_relative_to(folder.resolve())
+    except (OSError, RuntimeError, ValueError):  # a loop of links, or a path that no file can have
+        return True
+
+
+def inside(folder: Path, name: str, file: Path) -> Path:
+    """The path `name` in a folder, as `file` lists it. FileError if it leads out of the folder, so that results from
+    elsewhere cannot refer to other files of this machine."""
+    if leads_out(folder, folder / name):
+        raise FileError(f"{file}: the path {name!r} leads out of the folder {folder}; correct it, or copy the files "
+                        "into the folder")
+    return folder / name
+
+
 def read_json(file: Path, what: str) -> dict:
     """Reads a JSON dictionary. FileError if the file is missing, damaged (with line and column) or not a dictionary."""
     try:
-        found = json.loads(file.read_text(encoding="utf-8"))
+        found = json.loads(read_text(file))
     except OSError as error:
         raise FileError(f"{file}: cannot be read as {what}: {error.strerror}") from error
     except json.JSONDecodeError as error:
@@ -91,6 +130,7 @@ class _ClosedAtEnd(io.FileIO):
 def open_file(path: Path) -> h5py.File:
     """Opens an HDF5 file to read its present contents. HDF5 shares the state of a file that this process has open,
     which may be older; a second opening therefore reads through a Python file of its own. OSError as from h5py."""
+    check_input(path)
     for one in h5py.h5f.get_obj_ids(h5py.h5f.OBJ_ALL, h5py.h5f.OBJ_FILE):
         name = os.fsdecode(h5py.h5f.get_name(one))
         if os.path.exists(name) and os.path.samefile(name, path):
@@ -133,10 +173,13 @@ def still_open(file: h5py.File, path: Path) -> h5py.File:
 def read_csv(file: Path) -> list[dict[str, str]]:
     """Reads the rows of a CSV file as dictionaries by column name. FileError if the file cannot be read."""
     try:
+        check_input(file)
         with open(file, newline="", encoding="utf-8") as text:
             return list(csv.DictReader(text))
     except OSError as error:
         raise FileError(f"{file}: cannot be read: {error.strerror}") from error
+    except FileError:
+        raise
     except (ValueError, csv.Error) as error:
         raise FileError(f"{file}: cannot be read as a table: not valid text; the file is damaged: "
                         f"{_REMEDY}") from error

@@ -15,6 +15,7 @@ from typing import Any
 from .check import Check
 from . import keys
 from .errors import FileError, briefly
+from .files import read_text
 from .program import Job, Progress, call
 from .run import Run
 from .soil import SoilTest
@@ -65,7 +66,7 @@ class Scene:
         """Reads a scene file without its comments. FileError if the file cannot be read or is not TOML."""
         file = Path(file)
         try:
-            document = tomllib.loads(file.read_text(encoding="utf-8-sig"))
+            document = tomllib.loads(read_text(file, "utf-8-sig"))
         except OSError as error:
             raise FileError(f"{file}: cannot be read: {error.strerror}") from error
         except UnicodeDecodeError as error:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy
 
 from .errors import FileError
-from .files import fields_of, read_csv
+from .files import fields_of, inside, read_csv
 from .run import Run
 from .series import Estimate, Quantity, counted, split_unit
 
@@ -106,7 +106,7 @@ class Sweep:
                 SweepRun(row["run"], {key: row[key] for key in self.keys}, row["status"], row["message"],
                          row["message"] if row.get("inconclusive") == _SEE_MESSAGE else row.get("inconclusive", ""),
                          {split_unit(c)[0]: value_of(row[c]) for c in figures},
-                         row["state hash"], self.folder / row["run"],
+                         row["state hash"], inside(self.folder, row["run"], self.folder / "summary.csv"),
                          tuple(re.findall(r"(?:WARNING|note): .*?(?=; (?:WARNING|note): |$)", row.get(_NOTICES) or "")))
                 for row in rows]
 

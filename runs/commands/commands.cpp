@@ -4,6 +4,7 @@
 #include "base/counted.hpp"
 #include "base/cpu_threads.hpp"
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "runs/campaigns/forecast/counted_grains.hpp"
 #include "runs/campaigns/forecast/forecast.hpp"
 #include "runs/campaigns/forecast/machine_fit.hpp"
@@ -74,10 +75,11 @@ void nameIfThere(const char* what, const fs::path& file) {
 /// A resumed run writes to the folder of its checkpoint, a branch to a different folder.
 void chooseCheckpoint(const RunCommand& command, const setup::Provenance& provenance, session::RunRequest& options) {
   std::error_code error;
-  if (!command.checkpoint.empty() && !fs::is_regular_file(command.checkpoint, error))
-    throw base::InputError(fmt::format("--resume {}: no such file; specify the checkpoint.h5 of a run, or omit the "
-                                       "file name to use the checkpoint in the results folder",
-                                       command.checkpoint));
+  if (!command.checkpoint.empty())
+    if (const std::string fault = base::inputFault(command.checkpoint); !fault.empty())
+      throw base::InputError(fmt::format("--resume {}{}; specify the checkpoint.h5 of a run, or omit the file name to "
+                                         "use the checkpoint in the results folder",
+                                         command.checkpoint, fault));
   options.resume =
       command.checkpoint.empty() ? options.folder / storage::kCheckpointName : fs::path(command.checkpoint);
   const fs::path home = fs::absolute(*options.resume).lexically_normal().parent_path();

@@ -2,6 +2,7 @@
 #include "runs/commands/report_command.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "runs/campaigns/sweeps/run_figures.hpp"
 #include "runs/output/plots.hpp"
 #include "runs/support/json_text.hpp"
@@ -36,8 +37,9 @@ void checkPlaces(const ReportCommand& command, const fs::path& file) {
                                        "--out",
                                        file.string()));
   support::requireFile(file, "--out");
-  if (!command.film.empty() && !fs::is_regular_file(command.film, error))
-    throw base::InputError(fmt::format("--film {}: no such file", command.film));
+  if (!command.film.empty())
+    if (const std::string fault = base::inputFault(command.film); !fault.empty())
+      throw base::InputError(fmt::format("--film {}{}; specify the film of a run", command.film, fault));
 }
 
 } // namespace

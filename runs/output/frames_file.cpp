@@ -6,6 +6,7 @@
 #include "runs/output/fluid_datasets.hpp"
 #include "runs/output/soil_datasets.hpp"
 #include "runs/output/xdmf.hpp"
+#include "runs/support/progress.hpp"
 #include "runs/support/text_file.hpp"
 
 #include <fmt/format.h>
@@ -135,7 +136,9 @@ std::int64_t FramesFile::framesUpTo(const std::filesystem::path& folder, std::in
   const support::Hdf5File file = support::Hdf5File::open(folder / "frames.h5");
   std::int64_t count = 0;
   for (const char* shared : {"/parts", "/ground", "/vertices"}) readThrough(file, shared);
+  support::Progress progress("reading frames"); // minutes for many grains
   for (; count < most && file.has(groupOf(count)); ++count) {
+    progress.update(static_cast<double>(count) / static_cast<double>(most), fmt::format("frame {} of {}", count, most));
     if (!(file.number(groupOf(count), "step") <= static_cast<double>(lastStep))) break;
     readThrough(file, groupOf(count));
   }

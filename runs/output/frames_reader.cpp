@@ -2,6 +2,7 @@
 #include "runs/output/frames_reader.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "runs/output/flat.hpp"
 #include "runs/output/fluid_datasets.hpp"
 #include "runs/output/soil_datasets.hpp"
@@ -19,9 +20,7 @@ std::string groupOf(std::size_t frame) { return fmt::format("/{:06}", frame); }
 
 /// Opens the file. Errors state the remedy.
 support::Hdf5File opened(const std::filesystem::path& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw base::InputError(fmt::format("{}: no such file; specify the frames.h5 of a run", path.string()));
+  base::requireInput(path, "specify the frames.h5 of a run");
   try {
     return support::Hdf5File::open(path);
   } catch (const base::InputError&) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/output/manifest.hpp"
 
+#include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "base/rounded.hpp"
 #include "runs/support/build_info.hpp"
 #include "runs/support/file_hash.hpp"
@@ -111,19 +113,27 @@ void Manifest::write(RunStatus status) const {
 }
 
 void listFiles(const fs::path& folder) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::parse(manifestText(folder), nullptr, false);
+  nlohmann::ordered_json json =
+      nlohmann::ordered_json::parse(manifestText(folder, "restore it from a copy"), nullptr, false);
   if (!json.is_object()) return;
   json.erase("checksum");
   json["files"] = filesIn(folder, true);
   support::replaceTextFile(folder / kName, fileText(json));
 }
 
-std::string manifestText(const fs::path& folder) {
-  std::string text = contentsOf(folder / kName);
+std::string manifestText(const fs::path& folder, const std::string& remedy) {
+  const fs::path path = folder / kName;
+  std::error_code error;
+  if (fs::symlink_status(path, error).type() == fs::file_type::not_found) return "";
+  std::string text = base::readInput(path, remedy);
   const std::size_t at = text.rfind(kChecksum);
-  if (at == std::string::npos) return text; // older versions write no checksum
-  const std::string end = fmt::format("{}{:08x}\"\n}}\n", kChecksum, support::crc32(text.substr(0, at)));
-  return text.compare(at, std::string::npos, end) == 0 ? text : "";
+  const bool isDamaged =
+      at == std::string::npos // older versions write no checksum
+          ? !text.empty() && !nlohmann::json::parse(text, nullptr, false).is_object()
+          : text.substr(at) != fmt::format("{}{:08x}\"\n}}\n", kChecksum, support::crc32(text.substr(0, at)));
+  if (isDamaged)
+    throw base::InputError(fmt::format("{}: wrong checksum: the file is damaged; {}", path.string(), remedy));
+  return text;
 }
 
 } // namespace grouser::output

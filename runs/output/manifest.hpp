@@ -37,7 +37,7 @@ private:
 /// Updates the list of files in the manifest of `folder`, e.g. after plotting.
 void listFiles(const std::filesystem::path& folder);
 
-/// The manifest of `folder`; empty if it is missing, or if its checksum is wrong.
-std::string manifestText(const std::filesystem::path& folder);
+/// The manifest of `folder`; empty if it is missing or empty. Throws base::InputError with `remedy` if it is damaged.
+std::string manifestText(const std::filesystem::path& folder, const std::string& remedy);
 
 } // namespace grouser::output

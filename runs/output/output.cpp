@@ -54,6 +54,20 @@ constexpr const char* kFiles[] = {"results.h5",
                                   "bed.png",
                                   storage::kCheckpointName};
 
+bool isFilled(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder, error) && !fs::is_empty(folder, error);
+}
+
+void refuseFilled(const fs::path& folder, bool force, const OptionNames& names) {
+  if (force || !isFilled(folder)) return;
+  std::error_code error;
+  throw base::InputError(fmt::format(
+      "{}: the folder is not empty; choose another with {}, {}or overwrite it with {}", folder.string(), names.out,
+      fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("resume with {}, ", names.resume) : "",
+      names.force));
+}
+
 fs::path prepared(fs::path folder, const RunWriter::Options& options, support::FileLock& lock) {
   if (options.former) return folder;
   checkOutputFolder(folder, options.force, options.names);
@@ -63,7 +77,7 @@ fs::path prepared(fs::path folder, const RunWriter::Options& options, support::F
     throw base::InputError(fmt::format("{}: cannot create the folder ({}); choose another with {}", folder.string(),
                                        error.message(), options.names.out));
   claimFolder(lock, folder, options.names);
-  checkOutputFolder(folder, options.force, options.names); // another run may have written to it since the first check
+  refuseFilled(folder, options.force, options.names); // another run may have written to it since the first check
   for (const char* name : kFiles) fs::remove(folder / name, error);
   return folder;
 }
@@ -79,13 +93,8 @@ std::string dotted(std::string path) {
 
 void checkOutputFolder(const fs::path& folder, bool force, const OptionNames& names) {
   support::requireFolder(folder);
-  std::error_code error;
-  if (force || !fs::exists(folder, error) || fs::is_empty(folder, error)) return;
-  support::requireUnused(folder, names.out);
-  throw base::InputError(fmt::format(
-      "{}: the folder is not empty; choose another with {}, {}or overwrite it with {}", folder.string(), names.out,
-      fs::exists(folder / storage::kCheckpointName, error) ? fmt::format("resume with {}, ", names.resume) : "",
-      names.force));
+  if (!force && isFilled(folder)) support::requireUnused(folder, names.out);
+  refuseFilled(folder, force, names);
 }
 
 void claimFolder(support::FileLock& lock, const fs::path& folder, const OptionNames& names) {

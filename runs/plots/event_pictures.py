@@ -12,7 +12,9 @@ COLUMNS = 4
 def draw(path):
     with open(path, encoding="utf-8") as file:
         results = json.load(file)
-    shown = [row for row in results["rows"] if row["picture"]]
+    folder = pathlib.Path(path).resolve().parent
+    shown = [row for row in results["rows"]
+             if row["picture"] and (folder / row["picture"]).resolve().is_relative_to(folder)]
     if not shown:
         return None
     columns = min(COLUMNS, len(shown))

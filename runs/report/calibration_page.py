@@ -172,7 +172,7 @@ def soil_file(found):
     file = found.soil_file
     if file is None or not file.is_file():
         return ""
-    text = file.read_text(encoding="utf-8")
+    text = grouser.files.read_text(file)
     return f"<p><code>{esc(file.name)}</code>: to use it in a scene in the same folder, set <code>soil = " \
            f"\"{esc(file.name)}\"</code> in <code>[material.NAME]</code> (docs/soils.md).</p><pre>{esc(text)}</pre>"
 

@@ -175,10 +175,12 @@ def error_over_time(made, check, cost):
 
 def runs_of(check, case):
     """Folders of the finished runs of a case."""
-    plain = check.folder / case["name"]  # folder of a case without seeds
+    def folder(name):
+        return grouser.files.inside(check.folder, name, check.folder / "check.json")
+    plain = folder(case["name"])  # folder of a case without seeds
     return [plain if plain.is_dir() and not seeded.is_dir() else seeded for run in case["runs"]
             if run.get("status", "finished") in ("finished", "incomplete")
-            for seeded in [check.folder / f"{case['name']},seed={run['seed']}"]]
+            for seeded in [folder(f"{case['name']},seed={run['seed']}")]]
 
 
 def machine_of(check):

@@ -17,8 +17,8 @@ def open_whole(folder):
         raise grouser.FileError(f"{folder}: {' and '.join(missing)} missing; repeat the run or restore the files from "
                                 "a copy")
     try:
-        (folder / "scene.toml").read_text(encoding="utf-8")
-    except ValueError as error:
+        grouser.files.read_text(folder / "scene.toml")
+    except UnicodeDecodeError as error:
         raise damaged(folder / "scene.toml") from error
     try:
         run = grouser.open_run(folder)

@@ -133,9 +133,11 @@ def folded(title, inner, opened=False):
 
 
 def picture(file, words):
-    """A PNG in the page; "" if the file is missing, a warning if it is damaged."""
+    """A PNG in the page; "" if the file is missing, a warning if it is damaged or a link to another folder."""
     if not file.is_file():
         return ""
+    if grouser.files.leads_out(file.parent, file):
+        return f'<p class="bad">{esc(file.name)} is omitted: it is a link out of its folder.</p>'
     picture_ = file.read_bytes()
     if not picture_.startswith(b"\x89PNG\r\n\x1a\n") or picture_[-8:-4] != b"IEND":
         return f'<p class="bad">{esc(file.name)} is damaged: not a complete PNG file.</p>'

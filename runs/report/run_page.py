@@ -358,7 +358,7 @@ def films(folders, options, most=LARGEST_FILM):
     """The films in the folders, or the film of --film: embedded up to `most` bytes in total; others listed by name."""
     files = [options.film] if options.film else [f for folder in folders if folder.is_dir()
                                                  for f in sorted(folder.iterdir())
-                                                 if is_film(f)]
+                                                 if is_film(f) and not grouser.files.leads_out(folder, f)]
     shown, beside, taken = [], [], 0
     for file in files:
         size = file.stat().st_size
@@ -401,7 +401,7 @@ def page(folder, options):
 
 def scene(run, title):
     """The scene of a run, from scene.toml, or from results.h5 if that is damaged."""
-    text, words = (run.folder / "scene.toml").read_text(encoding="utf-8"), ""
+    text, words = grouser.files.read_text(run.folder / "scene.toml"), ""
     try:
         whole = tomllib.loads(text) == run.scene
     except tomllib.TOMLDecodeError:

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Grains from a text file: one grain per line, separated by blanks, tabs, commas or semicolons.
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "runs/scene/scene.hpp"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <ios>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <string_view>
@@ -167,18 +164,7 @@ double readNumber(const TextLine& line, const TextField& field, std::size_t colu
 }
 
 std::string textOf(const std::string& file) {
-  std::error_code error;
-  // Reading a device or pipe may never end.
-  if (std::filesystem::exists(file, error) && !std::filesystem::is_regular_file(file, error))
-    throw base::InputError(fmt::format("{}: not a regular file; specify a text file with one grain per line", file));
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw base::InputError(fmt::format("{}: cannot be read; check the path and its permissions", file));
-  std::string text;
-  try {
-    text.assign(std::istreambuf_iterator<char>(in), {});
-  } catch (const std::ios_base::failure&) {
-    throw base::InputError(fmt::format("{}: cannot be read; specify a text file with one grain per line", file));
-  }
+  std::string text = base::readInput(file, "specify a text file with one grain per line");
   if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3); // UTF-8's byte order mark, as in TOML files
   if (text.rfind("\xFF\xFE", 0) == 0 || text.rfind("\xFE\xFF", 0) == 0 || text.find('\0') != std::string::npos)
     throw base::InputError(

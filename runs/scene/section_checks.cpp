@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/scene/detail/section_checks.hpp"
 
+#include "base/error.hpp"
 #include "runs/scene/soil.hpp"
 #include "runs/support/locations.hpp"
 
@@ -38,15 +39,15 @@ void requireMaterial(const Scene& scene, const Section& section, const std::stri
 void resolveFile(const Scene& scene, const Section& section, const std::string& key, std::string& name) {
   if (name.empty()) section.fail(key, "is empty; set the path of a file");
   std::vector<std::filesystem::path> tried;
-  const std::filesystem::path found = support::findInput(name, scene.file, tried);
+  std::filesystem::path found;
+  try {
+    found = support::findInput(name, scene.file, tried);
+  } catch (const base::InputError& error) { // a folder or FIFO of this name
+    section.fail(key, fmt::format("cannot be used: {}", error.what()));
+  }
   if (found.empty()) {
     std::string places;
-    std::error_code error;
-    for (const auto& p : tried) {
-      if (std::filesystem::is_directory(p, error))
-        section.fail(key, fmt::format("is a folder, {}; set the path of a file", p.string()));
-      places += (places.empty() ? "" : ", ") + p.string();
-    }
+    for (const auto& p : tried) places += (places.empty() ? "" : ", ") + p.string();
     std::vector<std::filesystem::path> folders;
     for (const auto& p : tried) folders.push_back(p.parent_path());
     const std::string hint = tried.empty() ? "" : support::nearestFileHint(tried.front(), folders);

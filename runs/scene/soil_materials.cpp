@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/scene/detail/soil_materials.hpp"
 
+#include "base/error.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -117,7 +119,12 @@ const Soil* soilOf(const Section& section, const std::string& name, Scene& scene
   const auto* word = node ? std::get_if<std::string>(&node->value) : nullptr;
   if (!word) return nullptr;
   std::vector<fs::path> tried;
-  const fs::path file = findSoil(*word, scene.file, tried);
+  fs::path file;
+  try {
+    file = findSoil(*word, scene.file, tried);
+  } catch (const base::InputError& error) { // a folder or FIFO of this name
+    section.fail("soil", fmt::format("cannot be used: {}", error.what()));
+  }
   if (file.empty()) {
     std::string places;
     for (const fs::path& p : tried) places += (places.empty() ? "" : ", ") + p.string();

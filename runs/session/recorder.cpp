@@ -5,6 +5,7 @@
 #include "coupling/fluid_domain.hpp"
 #include "runs/output/fluid_datasets.hpp"
 #include "runs/output/former_output.hpp"
+#include "runs/output/manifest.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/plane_mesh.hpp"
 #include "runs/output/soil_surface.hpp"
@@ -13,6 +14,7 @@
 #include "runs/render/picture.hpp"
 #include "runs/session/field_grid.hpp"
 #include "runs/session/frame_of.hpp"
+#include "runs/support/build_info.hpp"
 #include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
@@ -80,6 +82,7 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   w.comm = options.comm();
   w.metadata = {
       {"command_line", options.commandLine}, {"device", base::describe(exec)}, {"switches", options.switches}};
+  if (const std::string job = support::slurmJob(); !job.empty()) w.metadata["slurm_job"] = job;
   if (!w.comm.alone()) w.metadata["ranks"] = std::to_string(w.comm.size());
   if (!former) return w;
   const std::int64_t step = former->state.steps;
@@ -87,6 +90,8 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   w.former = output::FormerOutput{};
   // One rank reads and rewrites the files, and broadcasts the numbers of kept rows and frames.
   if (w.comm.first()) {
+    if (!options.force)
+      output::manifestText(options.folder, "restore it from a copy, or replace it by resuming with --force");
     try {
       output::FormerOutput kept{output::readRows(options.folder, channels, step, former->rows), former->frames};
       // If no step is left, the last frame is kept, since its contact forces cannot be recomputed.

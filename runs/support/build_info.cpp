@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <vector>
@@ -73,6 +74,12 @@ std::string machineText() {
                      (1024.0 * 1024 * 1024);
   return fmt::format("{}, {} logical cores, {:.0f} GiB, {} {}", processorText(), sysconf(_SC_NPROCESSORS_ONLN), gib,
                      system.sysname, system.release);
+}
+
+std::string slurmJob() {
+  const char *cluster = std::getenv("SLURM_CLUSTER_NAME"), *job = std::getenv("SLURM_JOB_ID");
+  if (!job || !*job) return "";
+  return cluster && *cluster ? fmt::format("{} {}", cluster, job) : job;
 }
 
 } // namespace grouser::support

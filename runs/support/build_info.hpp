@@ -25,4 +25,8 @@ std::string versionText();
 /// Description of this machine: processor, logical cores, memory, system.
 std::string machineText();
 
+/// SLURM job that started this program, after the name of its cluster if there is one: "tetralith 4711"; empty without
+/// SLURM. A requeued job keeps its number.
+std::string slurmJob();
+
 } // namespace grouser::support

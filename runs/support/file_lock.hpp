@@ -13,6 +13,8 @@ public:
   /// Tries to lock this file or folder. Returns false if another program holds the lock; true if it is acquired, or if
   /// the file system does not support locks. Creates a missing file.
   bool take(const std::filesystem::path& path);
+  /// Whether a FileLock holds this existing file or folder, also one of this program.
+  static bool isTaken(const std::filesystem::path& path);
   /// Releases the lock before this object is destroyed.
   void release() { file_.close(); }
 

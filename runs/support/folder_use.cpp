@@ -72,7 +72,8 @@ std::string lockHolder(const fs::path& path) {
 }
 
 void requireUnused(const fs::path& folder, const std::string& option) {
-  if (const std::string holder = lockHolder(folder); !holder.empty()) refuse(folder, holder, option);
+  // The lock itself counts: /proc/locks is missing in some containers, and omits processes of other containers.
+  if (FileLock::isTaken(folder)) refuse(folder, lockHolder(folder), option);
 }
 
 void claimUnused(FileLock& lock, const fs::path& folder, const std::string& option) {

@@ -13,7 +13,7 @@ namespace grouser::support {
 /// 2026-11-30 14:02:10". Empty if there is none, or if the system does not list it (locks of other computers).
 std::string lockHolder(const std::filesystem::path& path);
 
-/// Throws base::InputError if another process holds a FileLock on this folder: "FOLDER: in use by process 4711 since
+/// Throws base::InputError if a FileLock holds this folder: "FOLDER: in use by process 4711 since
 /// ...; wait until it ends, or choose another folder with --out". `option`: the option that names the folder.
 void requireUnused(const std::filesystem::path& folder, const std::string& option = "--out");
 /// Locks an existing folder with `lock`; the same error if another process holds it.

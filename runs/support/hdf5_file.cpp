@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/support/hdf5_file.hpp"
 
+#include "base/input_file.hpp"
 #include "runs/support/detail/hdf5_handle.hpp"
 #include "runs/support/disk_room.hpp"
 #include "runs/support/not_written.hpp"
@@ -127,9 +128,7 @@ hid_t withAllChecksums(H5F_libver_t first = H5F_LIBVER_V110) {
 hid_t openedAs(unsigned access, const std::filesystem::path& path) {
   const Turn turn;
   quiet();
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error))
-    throw base::InputError(fmt::format("{}: no such file; specify the results.h5 of a run", path.string()));
+  base::requireInput(path, "specify the results.h5 of a run");
   const Handle properties(withAllChecksums(), H5Pclose);
   const hid_t file = H5Fopen(path.c_str(), access, properties);
   if (file < 0)

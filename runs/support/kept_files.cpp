@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "runs/support/file_lock.hpp"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 #include <pwd.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <vector>
 
@@ -44,14 +46,20 @@ std::string folderOfUser() {
   return user && user->pw_dir && *user->pw_dir == '/' ? (fs::path(user->pw_dir) / ".cache/grouser").string() : "";
 }
 
+/// The host, and the table of its processes: containers of one host can share its name, but count processes apart.
 std::string hostName() {
   std::array<char, 256> host{};
   ::gethostname(host.data(), host.size() - 1);
-  return host.data();
+  struct stat processes {};
+  if (::stat("/proc/self/ns/pid", &processes) != 0) return host.data();
+  return fmt::format("{}-{}", host.data(), processes.st_ino);
 }
 
 /// Whether a partial file (see freshName()) or lock that was last written `age` ago has no writer any more.
-bool isAbandoned(const std::string& name, fs::file_time_type::duration age) {
+bool isAbandoned(const fs::path& file, fs::file_time_type::duration age) {
+  const std::string name = file.filename().string();
+  if (FileLock lock; name.ends_with(".lock"))
+    return age > kAbandoned && lock.take(file); // its holder does not write it
   if (age > kAbandoned) return true;
   const std::string host = fmt::format(".{}.", hostName());
   const std::size_t at = name.rfind(host);
@@ -130,7 +138,7 @@ void KeptFiles::deleteOldest(const fs::path& except) const {
     if (error) continue; // deleted by another run
     if (entry.path().extension() == kind->suffix)
       kept.push_back({time, bytes, entry.path()});
-    else if (isAbandoned(name, fs::file_time_type::clock::now() - time) && fs::remove(entry.path(), error))
+    else if (isAbandoned(entry.path(), fs::file_time_type::clock::now() - time) && fs::remove(entry.path(), error))
       continue;
     total += bytes;
   }

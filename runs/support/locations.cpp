@@ -2,6 +2,7 @@
 #include "runs/support/locations.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "base/table.hpp"
 
 #include <dlfcn.h>
@@ -75,7 +76,13 @@ fs::path findInput(const std::string& name, const fs::path& scene, std::vector<f
         std::find(tried.begin(), tried.end(), place) == tried.end())
       tried.push_back(place);
   for (const fs::path& candidate : tried)
-    if (fs::is_regular_file(candidate, error)) return fs::weakly_canonical(candidate);
+    if (fs::is_regular_file(candidate, error)) {
+      base::requireInput(candidate, "set the path of a file");
+      return fs::weakly_canonical(candidate);
+    }
+  for (const fs::path& candidate : tried)
+    if (fs::is_symlink(candidate, error) || fs::exists(candidate, error))
+      base::requireInput(candidate, "set the path of a file");
   return {};
 }
 

@@ -23,6 +23,7 @@ std::vector<std::filesystem::path> inputFolders(const std::filesystem::path& sce
 
 /// The file that a scene refers to by `name`: an absolute path, or a path relative to the folder of `scene`, the
 /// current folder or assets/. Empty if not found; `tried` then lists the searched paths (no paths for an empty name).
+/// Throws base::InputError if only a folder, FIFO, device or the like has this name.
 std::filesystem::path findInput(const std::string& name, const std::filesystem::path& scene,
                                 std::vector<std::filesystem::path>& tried);
 

@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "base/hash.hpp"
+#include "base/input_file.hpp"
 #include "runs/support/descriptor.hpp"
 #include "runs/support/not_written.hpp"
 
@@ -86,10 +87,7 @@ void seal(const fs::path& path, const char* kind, int version) {
 
 /// See checkSeal(); `contents` as in measure().
 void check(const fs::path& path, const char* kind, int version, std::string* contents) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error))
-    throw base::InputError(
-        fmt::format("{}: no such file; specify the {} of a run, or start a new run without it", path.string(), kind));
+  base::requireInput(path, fmt::format("specify the {} of a run, or start a new run without it", kind));
   const NamedFile file(path, O_RDONLY);
   if (!file.good()) throw base::InputError(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
   std::string text(kSealBytes, '\0');

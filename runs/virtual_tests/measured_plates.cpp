@@ -2,6 +2,7 @@
 #include "runs/virtual_tests/measured_plates.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +10,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <string>
 
 namespace grouser::virtual_tests {
@@ -39,11 +40,8 @@ std::vector<std::string> cellsOf(const std::string& line) {
 
 class Reader {
 public:
-  explicit Reader(const std::filesystem::path& file) : file_(file), in_(file) {
-    if (!in_ || !std::filesystem::is_regular_file(file))
-      throw base::InputError(
-          fmt::format("{} cannot be read; correct plates.file, which is relative to the target file", file.string()));
-  }
+  explicit Reader(const std::filesystem::path& file)
+      : file_(file), in_(base::readInput(file, "correct plates.file, which is relative to the target file")) {}
 
   std::map<int, Test> tests() {
     readHead();
@@ -102,7 +100,7 @@ private:
   }
 
   std::filesystem::path file_;
-  std::ifstream in_;
+  std::istringstream in_;
   int line_ = 0;
   std::array<std::size_t, 4> column_{};
 };

@@ -375,7 +375,7 @@ TEST(Document, MissingFileIsAnInputError) {
     Document::load("/nonexistent/x.toml");
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(), "/nonexistent/x.toml: no such file; check the path");
+    EXPECT_STREQ(e.what(), "/nonexistent/x.toml: no such file; check the path of the TOML file");
   }
   EXPECT_THROW(Document::load("/"), InputError);
 }

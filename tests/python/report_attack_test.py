@@ -29,7 +29,16 @@ VECTORS = (
     f"<details open ontoggle={HIT}>", f"<video><source onerror={HIT}></video>", f"<body onload={HIT}>",
     f'<meta http-equiv="refresh" content="0;url=javascript:{HIT}">', '<base href="http://127.0.0.1:9/">',
     f'<form action="javascript:{HIT}"><button autofocus>', "<style>* { display: none }</style>", r"$\frac$ <b>bold</b>",
-    "<!--data-->", "<plaintext>", "]]><math><mtext></math>", f"\\'-{HIT}//", "__proto__")
+    "<!--data-->", "<plaintext>", "]]><math><mtext></math>", f"\\'-{HIT}//", "__proto__",
+    f"<!--<script>{HIT}//", f"<SCRIPT SRC=data:,{HIT}></SCRIPT>", f"<scr<script>ipt>{HIT}</script>", f"</SCRIPT ><script>{HIT}</script>",
+    f"<svg><script>{HIT}</script></svg>", f"<svg><animate onbegin={HIT} attributeName=x dur=1s></svg>", f"<img/src=x/onerror={HIT}>",
+    f"<input autofocus onfocus={HIT}>", f"<select autofocus onfocus={HIT}>", f"<textarea autofocus onfocus={HIT}></textarea>",
+    f"</textarea></select></noscript><script>{HIT}</script>", f"<object data='javascript:{HIT}'></object>",
+    f"<embed src='javascript:{HIT}'>", f"<a href=' java\tscript:{HIT}' autofocus>x</a>", "<link rel=stylesheet href=//127.0.0.1:9/x.css>",
+    f"<marquee onstart={HIT}></marquee>", f"<template><script>{HIT}</script></template>", "<frameset onload=x>",
+    f"<math><mi xlink:href='javascript:{HIT}'>x</mi></math>", f"<audio src=x onerror={HIT}></audio>", f"\u003cscript\u003e{HIT}",
+    f"&#60;script&#62;{HIT}&#60;/script&#62;", f"%3Cscript%3E{HIT}%3C/script%3E", f"`${{{HIT}}}`", f"');{HIT};('", f'");{HIT};("',
+    f"\x0b\x0c<img\x0csrc=x\x0conerror={HIT}>", "constructor", "toString", "=HYPERLINK(\"http://127.0.0.1:9/\")", "\ufeff\u202e<b>back</b>")
 
 MECHANISM = GRAINS.replace("[output]", """[[body]]
 name = "block"
@@ -164,7 +173,8 @@ class Shown(PageTest):
         self.assertEqual(page.dialogs, [])
         self.assertEqual(page.errors, [])
         for strange in ("img:not([src^='data:'])", "iframe", "a[href^='javascript:']", "main script", "main style", "base", "form",
-                        "video:not([src])", "source", "plaintext", "math", "body[onload]", "[onerror]", "[onload]",
+                        "video:not([src])", "source", "plaintext", "math", "body[onload]", "main object", "main embed", "main link", "main input[autofocus]",
+                        "main textarea", "main marquee", "main template", "main audio", "main svg script", "main animate", "[onbegin]", "[onstart]", "[onerror]", "[onload]",
                         "[onfocus]", "[onmouseover]", "[ontoggle]", "main meta", "main b"):
             self.assertEqual(page.value(f'document.querySelectorAll("{strange}").length'), 0, strange)
 
@@ -191,7 +201,7 @@ class Shown(PageTest):
         page.until("new Promise(done => setTimeout(() => done(true), 300))")  # late messages of the page
 
     def test_a_run(self):
-        self.assertGreaterEqual(len(VECTORS), 20)
+        self.assertGreaterEqual(len(VECTORS), 60)
         (self.folder / "grains.toml").write_text(MECHANISM)
         grouser.call(["run", "grains.toml", "--out", "run"])
         poison, run = Poison(), self.folder / "run"
@@ -317,9 +327,77 @@ class Leaves(FolderTest):
         (self.folder / "check/series.csv").unlink()
         for name, kind, told in (("soil", "soil test", SOIL), ("events", "series of events", EVENTS), ("calibration", "calibration", CALIBRATION)):
             (self.folder / name).mkdir()
-            (self.folder / name / f"{name}.json").write_text(json.dumps({**told, "tests": "../soil"} if name == "calibration" else told))
+            if name == "calibration":
+                shutil.copytree(self.folder / "soil", self.folder / name / "soil")
+                told = {**told, "tests": "soil"}
+            (self.folder / name / f"{name}.json").write_text(json.dumps(told))
             self.assertGreater(self.none_escapes(self.folder / name / f"{name}.json", kind), 10)
         self.assertGreater(self.none_escapes(self.folder / "check/check.json", "check"), 20)
+
+
+class Paths(FolderTest):
+    """Results from elsewhere cannot bring other files of this machine into a page."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "private").mkdir()
+        (self.folder / "private/secret.txt").write_text("the secret")
+        self.png = b"\x89PNG\r\n\x1a\n the secret IEND\0\0\0\0"
+        (self.folder / "private/picture.png").write_bytes(self.png)
+        (self.folder / "private/film.mp4").write_bytes(FILM)
+
+    def outside(self):
+        yield from ("..", "../private", str(self.folder / "private"), "a/../../private", "link", "link/..", "loop", "a\0b")
+
+    def kept(self, name):
+        folder = self.folder / name
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        (folder / "link").symlink_to("../private")
+        (folder / "loop").symlink_to("loop")
+        return folder
+
+    def refuses(self, function, folder, file, path):
+        with self.subTest(file=file, path=path), self.assertRaises(grouser.FileError) as refused:
+            function(folder)
+        self.assertIn(f"{folder / file}: the path ", str(refused.exception))
+        self.assertIn("leads out of the folder", str(refused.exception))
+
+    def page(self, folder, kind):
+        return report.contents(folder, kind, Namespace(figures={}, film=None, program=None, frames=1, grains=10)).html()
+
+    def test_events(self):
+        for path in self.outside():
+            for change in ({"each": [{"run": path, "verdict": "go", "why": ""}]}, {"picture": f"{path}/picture.png", "each": []}):
+                folder = self.kept("events")
+                (folder / "events.json").write_text(json.dumps({**EVENTS, "rows": [{**ROW, **change}]}))
+                self.refuses(grouser.open_events, folder, "events.json", path)
+                self.refuses(lambda folder: self.page(folder, "series of events"), folder, "events.json", path)
+
+    def test_sweep_check_and_calibration(self):
+        for path in self.outside():
+            if "\0" in path:
+                continue  # not a text of a CSV file
+            folder = self.kept("sweep")
+            (folder / "summary.csv").write_text("run,run.seed,status,message,wall time [s],steps,simulated time [s],state hash\n"
+                                                f"{path},1,finished,,1,1,1,0\n")
+            self.refuses(grouser.open_sweep, folder, "summary.csv", path)
+            folder = self.kept("calibration")
+            (folder / "calibration.json").write_text(json.dumps({**CALIBRATION, "soil_file": f"{path}/secret.txt", "tests": path}))
+            self.refuses(lambda folder: grouser.open_calibration(folder).soil(), folder, "calibration.json", path)
+            self.refuses(lambda folder: grouser.open_calibration(folder).soil_file, folder, "calibration.json", path)
+
+    def test_pictures_and_films_that_are_links(self):
+        folder = self.kept("events")
+        (folder / "events.json").write_text(json.dumps({**EVENTS, "rows": [{**ROW, "each": [], "picture": ""}]}))
+        (folder / "pictures.png").symlink_to("../private/picture.png")
+        (folder / "film.mp4").symlink_to("../private/film.mp4")
+        (folder / "inner.png").write_bytes(self.png)
+        (folder / "drawbar.png").symlink_to("inner.png")
+        page = self.page(folder, "series of events")
+        self.assertIn("pictures.png is omitted: it is a link out of its folder", page)
+        self.assertEqual(page.count("data:image/png"), 1)  # the link within the folder
+        self.assertNotIn("data:video", page)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import time
@@ -130,17 +131,42 @@ class Job(FolderTest):
             (self.folder / "scontrol.txt").unlink(missing_ok=True)
 
     def test_a_requeued_job_continues(self):
-        for words, out in (((), "out/scene"), (("--out", "a"), "a"), (("--out=b",), "b")):
+        for words, out in (((), "out/scene"), (("--out", "a"), "a"), (("--out=b",), "b"), (("--output", "c"), "c"),
+                           (("--set", 'output.folder="d"'), "d"), (("--set=output.folder=e",), "e")):
             self.run_job("scene.toml", *words)
             self.assertTrue(self.call()[0].endswith(" ".join(("scene.toml", *words))))
             self.run_job("scene.toml", *words, SLURM_RESTART_COUNT="1")
-            self.assertTrue(self.call()[0].endswith(" --force"), self.call()[0])
+            self.assertNotRegex(self.call()[0], "--force|--resume")  # it never started
             (self.folder / out).mkdir(parents=True)
+            (self.folder / out / "manifest.json").write_text('{\n  "status": "running",\n  "slurm_job": "7",\n}\n')
+            self.run_job("scene.toml", *words, SLURM_RESTART_COUNT="1")
+            self.assertTrue(self.call()[0].endswith(" --force"), self.call()[0])
             (self.folder / out / "checkpoint.h5").touch()
             self.run_job("scene.toml", *words, SLURM_RESTART_COUNT="1")
             self.assertTrue(self.call()[0].endswith(" --resume"), self.call()[0])
             self.run_job("scene.toml", *words, "--resume", SLURM_RESTART_COUNT="1")
             self.assertEqual(self.call()[0].count("--resume"), 1)
+
+    def test_a_requeued_job_leaves_the_results_of_another_run(self):
+        text = (self.folder / "scene.toml").read_text()
+        (self.folder / "scene.toml").write_text(text.replace("[output]", '[output]\nfolder = "kept"'))
+        folder = self.folder / "kept"
+        for manifest in (None, "", "{}", '{\n  "slurm_job": "17",\n}\n', '{\n  "slurm_job": "other 7",\n}\n'):
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir()
+            (folder / "checkpoint.h5").touch()
+            if manifest is not None:
+                (folder / "manifest.json").write_text(manifest)
+            _, _, errors = self.run_job("scene.toml", SLURM_RESTART_COUNT="1")
+            self.assertNotRegex(self.call()[0], "--force|--resume")
+            self.assertIn("WARNING: kept contains no results of this job 7; it is left unchanged", errors)
+        self.run_job("scene.toml", SLURM_RESTART_COUNT="1", SLURM_CLUSTER_NAME="other")
+        self.assertTrue(self.call()[0].endswith(" --resume"), self.call()[0])
+        (self.folder / "mpirun").unlink()  # the program itself refuses such a folder
+        (folder / "manifest.json").write_text("{}")
+        code, out, errors = self.run_job("scene.toml", SLURM_RESTART_COUNT="1", fake=False)
+        self.assertNotEqual(code, 0)
+        self.assertIn("kept: the folder is not empty", out + errors)
 
     def test_wrong_values_are_named(self):
         for name, value in (("GROUSER_DISK_MBPS", "0"), ("GROUSER_STOP_SECONDS", "5m"), ("GROUSER_LAUNCHER", "ibrun")):

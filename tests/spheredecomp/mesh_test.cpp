@@ -154,7 +154,8 @@ TEST(ImportMesh, VerticesOfAPlyThatHaveOtherNumbersThanItsHeader_AreRefused) {
 }
 
 TEST(ImportMesh, BadFiles_GiveOneClearError) {
-  EXPECT_NE(messageOf("/no/such/mesh.obj").find("/no/such/mesh.obj: no such mesh file"), std::string::npos);
+  EXPECT_NE(messageOf("/no/such/mesh.obj").find("/no/such/mesh.obj: no such file; check the path of the mesh file"),
+            std::string::npos);
   const File open("grouser_open.obj", kTetrahedron);
   EXPECT_NE(messageOf(open.path).find("not watertight: 3 open edges"), std::string::npos) << messageOf(open.path);
   const File text("grouser_text.obj", "this is no mesh\n");

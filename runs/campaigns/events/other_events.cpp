@@ -2,6 +2,7 @@
 #include "runs/campaigns/events/other_events.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "runs/campaigns/sweeps/compare_results.hpp"
 #include "runs/support/csv_cell.hpp"
 
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace grouser::events {
 
@@ -74,12 +74,12 @@ EventSet eventSet(const fs::path& folder, const std::string& vehicle, const Even
 EventSet readEventSet(const fs::path& folder) {
   const fs::path file = folder / "events.json";
   std::error_code error;
-  if (!fs::is_regular_file(file, error))
+  if (fs::symlink_status(file, error).type() == fs::file_type::not_found)
     throw base::InputError(fmt::format(
         "--against {}: contains no events.json; specify the results folder of `grouser events`", folder.string()));
+  const std::string text = base::readInput(file, "specify the results folder of `grouser events` with --against");
   try {
-    std::ifstream in(file);
-    EventSet set = parsed(nlohmann::json::parse(in));
+    EventSet set = parsed(nlohmann::json::parse(text));
     set.folder = folder;
     return set;
   } catch (const nlohmann::json::exception& fault) {

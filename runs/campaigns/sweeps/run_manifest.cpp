@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 
-#include "base/error.hpp"
 #include "runs/output/manifest.hpp"
-
-#include <fmt/format.h>
 
 #include <cmath>
 #include <limits>
@@ -26,12 +23,8 @@ std::string textOf(const nlohmann::json& json, const char* key) {
 } // namespace
 
 RunManifest::RunManifest(const std::filesystem::path& folder) {
-  const std::string text = output::manifestText(folder);
-  std::error_code error;
-  if (text.empty() && std::filesystem::file_size(folder / "manifest.json", error) > 0 && !error)
-    throw base::InputError(fmt::format("{}: wrong checksum: the file is damaged; restore it from a copy, or remove the "
-                                       "folder to repeat the run",
-                                       (folder / "manifest.json").string()));
+  const std::string text =
+      output::manifestText(folder, "restore it from a copy, or remove the folder to repeat the run");
   json_ = nlohmann::json::parse(text, nullptr, false);
   if (!json_.is_object()) json_ = nlohmann::json::object();
 }

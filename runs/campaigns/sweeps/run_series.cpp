@@ -2,6 +2,7 @@
 #include "runs/campaigns/sweeps/run_series.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "runs/campaigns/sweeps/run_manifest.hpp"
 #include "runs/support/file_hash.hpp"
 
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -46,8 +46,7 @@ struct Table {
 
 /// `checksum`: of the file; empty if unknown.
 Table readTable(const fs::path& path, const std::string& checksum = "") {
-  std::ifstream opened(path, std::ios::binary);
-  std::stringstream file(std::string{std::istreambuf_iterator<char>(opened), {}});
+  std::stringstream file(base::readInput(path, "run the scene again"));
   if (!checksum.empty() && fmt::format("{:08x}", support::crc32(file.view())) != checksum)
     throw base::InputError(
         fmt::format("{}: the file is damaged: wrong checksum; run the scene again, or restore the file from a copy",

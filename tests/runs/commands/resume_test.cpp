@@ -9,6 +9,7 @@
 #include "runs/storage/checkpoint.hpp"
 #include "runs/support/hdf5_file.hpp"
 #include "runs/support/stop_signals.hpp"
+#include "tests/message_of.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
 #include <gtest/gtest.h>
@@ -155,6 +156,24 @@ TEST_F(ResumedRun, LastRowAndFrameOfAShorterRunAreCut) {
   EXPECT_EQ(resume(bed()).stateHash, hash);
   expectSameFolders();
   EXPECT_EQ(resume(bed()).stateHash, hash) << "nothing to do";
+  expectSameFolders();
+}
+
+TEST_F(ResumedRun, ADamagedManifestIsRefusedUnlessForced) {
+  const std::string hash = straight();
+  run(resumed_, bed(), 1234);
+  const fs::path file = resumed_ / "manifest.json";
+  const std::string whole = contents(file), rows = contents(resumed_ / "timeseries.csv");
+  std::string altered = whole;
+  altered[altered.find("\"steps\": 1234") + 9] = '2';
+  for (const std::string& text : {altered, whole.substr(0, whole.size() / 2), std::string("[1]"), std::string("{")}) {
+    std::ofstream(file) << text;
+    const std::string said = test::messageOf([this] { resume(bed()); });
+    EXPECT_NE(said.find("manifest.json: wrong checksum: the file is damaged; restore it"), std::string::npos) << said;
+    EXPECT_EQ(contents(file), text);
+    EXPECT_EQ(contents(resumed_ / "timeseries.csv"), rows);
+  }
+  EXPECT_EQ(resume(bed(), {}, true).stateHash, hash);
   expectSameFolders();
 }
 

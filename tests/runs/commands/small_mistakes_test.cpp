@@ -125,11 +125,11 @@ TEST_F(SmallMistakes, OutputThatCannotBePrintedIsAnError) {
 }
 
 TEST_F(SmallMistakes, DevicesAndPipesAreNoScenes) {
-  expectRefused("run /dev/zero --out o", {"/dev/zero: not a file"});
-  expectRefused("plan /dev/zero", {"/dev/zero: not a file"});
+  expectRefused("run /dev/zero --out o", {"/dev/zero is a device (a regular file is required)"});
+  expectRefused("plan /dev/zero", {"/dev/zero is a device (a regular file is required)"});
   ASSERT_EQ(shell("mkfifo pipe.toml").code, 0);
-  expectRefused("run pipe.toml --out o", {"pipe.toml: not a file"});
-  expectRefused("plan .", {".: not a file"});
+  expectRefused("run pipe.toml --out o", {"pipe.toml is a FIFO (a regular file is required)"});
+  expectRefused("plan .", {". is a folder (a regular file is required)"});
 }
 
 TEST_F(SmallMistakes, SectionWithALetterLeftOutIsThatSection) {

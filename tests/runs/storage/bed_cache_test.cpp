@@ -9,11 +9,15 @@
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/support/file_lock.hpp"
+#include "runs/support/folder_use.hpp"
+#include "runs/support/kept_files.hpp"
 #include "tests/device_under_test.hpp"
 #include "tests/runs/folder_fixture.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
@@ -259,6 +263,32 @@ TEST_F(KeptBed, PartialFilesOfEndedProcessesAreDeletedAndOthersCount) {
   EXPECT_FALSE(fs::exists(kept)) << "the partial file counts";
 }
 
+TEST_F(KeptBed, PartialFilesAndLocksInUseElsewhereRemain) {
+  const support::KeptFiles cache(folder_, 1000);
+  const fs::path file = folder_ / "bed-1.h5";
+  fs::create_directories(folder_);
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  // A container of the same host name numbers its processes apart.
+  const fs::path other = fmt::format("{}.{}-1.999999999", file.string(), host.data());
+  const fs::path held = support::KeptFiles::lockOf(folder_ / "bed-2.h5"), left = support::KeptFiles::lockOf(file);
+  for (const fs::path& one : {other, held, left}) std::ofstream(one) << "";
+  support::FileLock lock;
+  ASSERT_TRUE(lock.take(held));
+  fs::last_write_time(other, fs::file_time_type::clock::now() - std::chrono::hours(1));
+  for (const fs::path& one : {held, left})
+    fs::last_write_time(one, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  std::ofstream(folder_ / "new") << "bed";
+  EXPECT_TRUE(cache.put(folder_ / "new", file));
+  EXPECT_TRUE(fs::exists(other)) << "its writer is not known here";
+  EXPECT_TRUE(fs::exists(held)) << "its holder makes a bed, although it wrote the lock long ago";
+  EXPECT_FALSE(fs::exists(left));
+  fs::last_write_time(other, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  std::ofstream(folder_ / "new") << "bed";
+  EXPECT_TRUE(cache.put(folder_ / "new", file));
+  EXPECT_FALSE(fs::exists(other));
+}
+
 TEST_F(KeptBed, SecondRunWaitsForTheFirst) {
   Outcome a, b;
   std::thread first([&] { a = runIn(folder_); });
@@ -291,6 +321,31 @@ TEST_F(KeptBed, FolderComesFromTheSurroundings) {
     setenv("GROUSER_CACHE_GIB", bad, 1);
     EXPECT_THROW(BedCache::ofUser(), base::InputError) << bad;
   }
+}
+
+/// /proc/locks does not list this process among others, as it does not list processes of other containers.
+TEST(FileLock, AFolderInUseIsRefusedWithoutTheTableOfLocks) {
+  const fs::path folder = fs::path(::testing::TempDir()) / ("grouser_used_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  EXPECT_NO_THROW(support::requireUnused(folder));
+  support::FileLock lock;
+  ASSERT_TRUE(lock.take(folder));
+  EXPECT_THROW(support::requireUnused(folder), base::InputError);
+  lock.release();
+  EXPECT_NO_THROW(support::requireUnused(folder));
+  fs::remove(folder);
+}
+
+TEST(FileLock, ADeletedLockFileIsMadeAgain) {
+  const fs::path file = fs::path(::testing::TempDir()) / ("grouser_again_" + std::to_string(getpid()));
+  support::FileLock first, second;
+  ASSERT_TRUE(first.take(file));
+  fs::remove(file);
+  EXPECT_TRUE(second.take(file));
+  EXPECT_TRUE(fs::exists(file));
+  EXPECT_TRUE(support::FileLock::isTaken(file));
+  first.release(), second.release();
+  fs::remove(file);
 }
 
 TEST(FileLock, IsHeldByOneAtATime) {

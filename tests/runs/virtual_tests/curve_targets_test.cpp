@@ -73,7 +73,7 @@ TEST_F(CurveTargetsTest, RefusesWhatDoesNotFit) {
       {targets + "[plates]\nfile = \"plates.csv\"\nsinkages = [0.01, 0.005]\n" + search + start, "not ascending"},
       {targets + plates + "contact_pressure = 9000\n" + search + start,
        "at a sinkage of 8.25 mm, but the first comparison starts at 4 mm"},
-      {targets + "[plates]\nfile = \"other.csv\"\nsinkages = [0.01]\n" + search + start, "cannot be read"},
+      {targets + "[plates]\nfile = \"other.csv\"\nsinkages = [0.01]\n" + search + start, "no such file"},
       {targets + plates + search + "[start]\nfriction = 0.5\n[bed]\ngrain_radius = 0.002\n", "has no initial value"},
       {targets + plates + "[search]\nfriction = [0.3, 0.8]\n[start]\nfriction = 0.5\n[bed]\ngrain_radius = 0.002\n",
        "requires bed.porosity"}};

@@ -100,7 +100,7 @@ TEST_F(MeasuredPlatesTest, NamesLineColumnAndRemedy) {
     readMeasuredPlates(folder_ / "none.csv", {0.005});
     FAIL();
   } catch (const base::InputError& e) {
-    EXPECT_NE(std::string(e.what()).find("none.csv cannot be read"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("none.csv: no such file; correct plates.file"), std::string::npos) << e.what();
   }
 }
 
