@@ -357,6 +357,15 @@ TEST(BodyContacts, AreRefusedWhereTheyOverlapAtTheStart) {
             std::string::npos);
 }
 
+TEST(BodyContacts, ATorqueOnAPointBodyIsRefused) {
+  const auto s = made("version = 1\n[run]\nduration = 1.0\n[[body]]\nname = \"p\"\nmass = 2\npoint = true\n");
+  s->set({{0, InputKind::bodyLoad, 0, false, {1, 0, 0, 0, 0, 0}}});
+  EXPECT_NE(messageOf([&] {
+              s->set({{0, InputKind::bodyLoad, 0, false, {0, 0, 0, 0, 0, 1}}});
+            }).find("torque on body \"p\""),
+            std::string::npos);
+}
+
 TEST(BodyContacts, BodiesBesideTheTerrainAreRefused) {
   const auto scene = [](double x, double speed) {
     return head() +
