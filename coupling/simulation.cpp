@@ -5,6 +5,7 @@
 #include "coupling/fluid_domain.hpp"
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
+#include "coupling/obstacles.hpp"
 #include "coupling/placed_on_bed.hpp"
 #include "terrain/grain_faults.hpp"
 #include "terrain/grain_removal.hpp"
@@ -15,6 +16,33 @@
 #include <utility>
 
 namespace grouser::coupling {
+
+namespace {
+
+/// Describes a moving body with the middle of a shape beside the terrain and its lowest point below the edge, where
+/// there is no ground to carry it; empty without such a body.
+std::string besideTerrain(const MechanismSetup& setup, const multibody::Model& model,
+                          const std::vector<base::Pose>& poses, const std::vector<Obstacle>& obstacles,
+                          const terrain::HeightField& ground) {
+  const terrain::Rectangle& area = ground.area();
+  for (const BodyShape& s : setup.shapes) {
+    if (model.bodies()[s.body].fixed) continue;
+    const base::Pose pose = multibody::compose(poses[s.body], s.pose_B);
+    const base::Vec3d& p = pose.position;
+    const double x = std::clamp(p.x, area.xMin, area.xMax), y = std::clamp(p.y, area.yMin, area.yMax);
+    const auto isUnder = [&p](const Obstacle& o) { return std::isfinite(topOf(o.surface, p.x, p.y)); };
+    if ((x == p.x && y == p.y) || std::any_of(obstacles.begin(), obstacles.end(), isUnder)) continue;
+    const base::Mat3d turned = pose.orientation.matrix();
+    const double below = farthestAlong(s, {-turned.m[2][0], -turned.m[2][1], -turned.m[2][2]});
+    if (p.z - below <= ground.height(x, y))
+      return fmt::format("body \"{}\" is beside the terrain at ({:.4g}, {:.4g}, {:.4g}) m, x = {:g} to {:g} m and y = "
+                         "{:g} to {:g} m, where no ground carries it; enlarge terrain.size, or move the body",
+                         model.bodies()[s.body].name, p.x, p.y, p.z, area.xMin, area.xMax, area.yMin, area.yMax);
+  }
+  return {};
+}
+
+} // namespace
 
 Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const SettleProgress& progress,
                        const base::Comm& comm, SettledBeds* beds, SphereSets* spheres)
@@ -103,6 +131,13 @@ void Simulation::step(StepObserver* observer) {
   ++steps_;
   takeOutCrushed();
   addGrains();
+  if (setup_.mechanism && laid_.surface && !laid_.grains && steps_ % VehicleRig::kAlarmInterval == 0)
+    if (const std::string fault = besideTerrain(*setup_.mechanism, touching_ ? touching_->model() : mechanism_->model(),
+                                                touching_ ? touching_->state().pose : mechanism_->state().pose,
+                                                setup_.ground.obstacles, *laid_.surface);
+        !fault.empty())
+      throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), fault),
+                                  base::Cause::offTerrain);
   if (vehicle_ && steps_ % VehicleRig::kAlarmInterval == 0) checkAlarm();
   afterStep();
   done(Stage::checks);
@@ -218,6 +253,12 @@ void Simulation::requireRoomForBodies() {
   const multibody::Model& model = vehicle_ ? vehicle_->model() : mechanism_->model();
   if (laid_.grains) requireRoom(*laid_.grains, *setup_.mechanism, model, comm_);
   requireApart(*setup_.mechanism, model, setup_.ground.obstacles, laid_.rigid ? &*laid_.rigid : nullptr);
+  if (!laid_.surface || laid_.grains || setup_.mechanism->shapes.empty()) return;
+  std::vector<base::Pose> poses;
+  for (const multibody::Body& body : model.bodies()) poses.push_back(body.pose);
+  if (const std::string fault = besideTerrain(*setup_.mechanism, model, poses, setup_.ground.obstacles, *laid_.surface);
+      !fault.empty())
+    throw base::InputError(fmt::format("{}: {}", setup_.mechanism->place, fault));
 }
 
 /// Creates the surfaces and passes the poses of this step to the grains. The grains were created with the poses of t =

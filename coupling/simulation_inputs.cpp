@@ -38,6 +38,15 @@ Range rangeOf(InputKind kind) {
   return {};
 }
 
+/// Throws InputError for a torque on a point body, which has no inertia.
+void requireTurnable(const multibody::Model& model, const Input& input) {
+  const multibody::Body& body = model.bodies()[static_cast<std::size_t>(input.target)];
+  if (body.point && (input.value[3] != 0 || input.value[4] != 0 || input.value[5] != 0))
+    throw base::InputError(fmt::format("torque on body \"{}\" = [{:g}, {:g}, {:g}] N m, but it is a point body, which "
+                                       "cannot rotate; set only a force, or replace point by inertia in [[body]]",
+                                       body.name, input.value[3], input.value[4], input.value[5]));
+}
+
 } // namespace
 
 void require(const Simulation& simulation, const Input& input) {
@@ -55,8 +64,11 @@ void require(const Simulation& simulation, const Input& input) {
                                          -range.most, range.most, range.unit));
   if (fluidOf(simulation) && input.kind == InputKind::gravity)
     throw base::InputError("gravity cannot be set in a scene with [fluid]; set run.gravity");
-  if (simulation.vehicle()) return simulation.vehicle()->require(input);
-  if (simulation.mechanism()) return simulation.mechanism()->require(input);
+  const multibody::Model* model = nullptr;
+  if (simulation.vehicle()) simulation.vehicle()->require(input), model = &simulation.vehicle()->assembly().model;
+  if (simulation.mechanism()) simulation.mechanism()->require(input), model = &simulation.mechanism()->model();
+  if (model && input.kind == InputKind::bodyLoad) requireTurnable(*model, input);
+  if (model) return;
   if (input.kind != InputKind::gravity)
     throw base::InputError(
         fmt::format("{} cannot be set: the scene has neither vehicle nor mechanism", base::wordOf(input.kind)));

@@ -4,11 +4,13 @@
 #include "base/error.hpp"
 #include "base/math.hpp"
 #include "base/rounded.hpp"
+#include "spheredecomp/mesh_query.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace grouser::coupling {
 
@@ -49,6 +51,36 @@ GroundTraits traitsOf(const Ground* ground) { return ground ? ground->traits() :
 bool shapesAlone(const SimulationSetup& setup) {
   const GroundSetup& ground = setup.ground;
   return setup.vehicle->shapes && !ground.grains && !ground.otherKind && ground.obstacles.empty();
+}
+
+/// Throws InputError if a shape of a body initially overlaps a part of the vehicle, in either direction.
+void requireApartFromVehicle(const ContactParts& all, const VehicleParts& vehicle, const MechanismSetup& setup,
+                             const multibody::Model& model) {
+  constexpr double kMax = 0.02; // [-] fraction of half the thickness of the shape
+  const std::size_t first = all.count() - setup.shapes.size();
+  std::map<std::size_t, spheredecomp::MeshQuery> queries; // by mesh
+  for (const ContactParts::Pair& pair : all.pairs) {
+    const auto p = static_cast<std::size_t>(pair.part);
+    if (p >= first) continue;
+    const ContactPart& part = all.parts[p];
+    const BodyShape& s = setup.shapes[static_cast<std::size_t>(pair.other) - first];
+    const base::Pose& body = model.bodies()[part.body].pose;
+    const base::Pose X_P = multibody::compose(body, part.pose_B),
+                     X_S = multibody::compose(model.bodies()[s.body].pose, s.pose_B);
+    if (norm(body.position - X_S.position) > part.reach + norm(halfExtent(s.shape))) continue;
+    const std::size_t index = vehicle.meshOfPart(vehicle.partOf(p));
+    const base::TriangleMesh& mesh = vehicle.meshes()[index];
+    double deepest = 0;
+    for (const Vec3d& v : mesh.vertices) deepest = std::max(deepest, -distanceFrom(s, X_S.toBody(X_P.toWorld(v))));
+    const spheredecomp::MeshQuery& query = queries.try_emplace(index, mesh).first->second;
+    for (const contact::SurfaceSample& q : surfacePoints(s))
+      deepest = std::max(deepest, -query.signedDistance(X_P.toBody(X_S.toWorld(q.centre.as<double>()))));
+    if (deepest > kMax * halfThickness(s))
+      throw base::InputError(
+          fmt::format("{}: body \"{}\" overlaps the {} of the vehicle by {:.3g} m at the start, more "
+                      "than {:.3g} m; move the body or vehicle.position",
+                      s.place, model.bodies()[s.body].name, part.name, deepest, kMax * halfThickness(s)));
+  }
 }
 
 /// Lift [m] at which no shoe overlaps the ground and no part overlaps an obstacle.
@@ -130,6 +162,7 @@ VehicleRig::VehicleRig(const SimulationSetup& setup, const base::Exec& exec, Gro
   state_ = multibody::makeState(assembly_.model), loads_ = multibody::makeLoads(assembly_.model);
   contactParts_ = parts_->touching(assembly_, setup.vehicle->soilTouchesShoesOnly);
   if (setup.mechanism) addBodies(*setup.mechanism, assembly_.model, traitsOf(ground), kept);
+  if (setup.mechanism && !lift) requireApartFromVehicle(contactParts_, *parts_, *setup.mechanism, assembly_.model);
   contacts_ =
       std::make_unique<PartContacts>(contactParts_, &gear_, setup.ground.obstacles, exec, timeStep_, ground, kept);
   if (setup.vehicle->hitch) towing_.emplace(*setup.vehicle->hitch);

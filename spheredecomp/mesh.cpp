@@ -13,11 +13,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
 
 namespace grouser::spheredecomp {
@@ -93,6 +95,9 @@ bool isFlat(const TriangleMesh& mesh) {
                      [&](const Vec3d& v) { return std::fabs(dot(v - point, normal)) <= thickness; });
 }
 
+/// Volumes below this share of area times diagonal are sums of opposite terms that cancel except for rounding [-].
+constexpr double kVolumeRounding = 1e-12;
+
 /// Hint on vertices of open edges that are close together, which indicates rounding gaps; empty without such vertices.
 std::string nearOpenVertices(const TriangleMesh& mesh) {
   TriangleMesh welded = mesh;
@@ -122,7 +127,12 @@ void checkClosed(const TriangleMesh& mesh, const std::string& name) {
                     "({:.6g}, {:.6g}, {:.6g}) m; {}close the holes and make all faces point outwards",
                     name, open.size(), a.x, a.y, a.z, b.x, b.y, b.z, nearOpenVertices(mesh)));
   }
-  if (const double volume = signedVolume(mesh); !(volume > 0))
+  const auto [low, high] = bounds(mesh);
+  const double volume = signedVolume(mesh), rounding = kVolumeRounding * area(mesh) * norm(high - low);
+  if (std::fabs(volume) <= rounding)
+    throw base::InputError(name + ": the mesh encloses no volume, since its faces occur in both orientations; delete "
+                                  "the faces that point inwards");
+  if (!(volume > 0))
     throw base::InputError(
         fmt::format("{}: the mesh encloses {:.3g} m3, i.e. its faces point inwards; flip the faces", name, volume));
 }
@@ -179,6 +189,23 @@ void closeByWelding(TriangleMesh& mesh, const std::string& path, std::string* no
                           path, merged, tolerance);
     return;
   }
+}
+
+/// Removes repetitions of faces with equal corners and orientation, which would count the volume once for each. Keeps
+/// them if the mesh would lose a face that two shells share.
+void removeRepeatedFaces(TriangleMesh& mesh, const std::string& path, std::string* note) {
+  std::set<std::array<std::uint32_t, 3>> seen;
+  TriangleMesh unique{mesh.vertices, {}};
+  for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+    std::array<std::uint32_t, 3> face{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    if (seen.insert(face).second)
+      unique.indices.insert(unique.indices.end(), {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
+  }
+  const std::size_t removed = (mesh.indices.size() - unique.indices.size()) / 3;
+  if (removed == 0 || openEdges(unique).size() > openEdges(mesh).size()) return;
+  mesh = std::move(unique);
+  if (note) *note = fmt::format("{}: {} repeated faces were removed", path, removed);
 }
 
 /// Checks the indices, since assimp's later steps and append() do not: a damaged file may refer to missing vertices.
@@ -283,6 +310,7 @@ TriangleMesh importMesh(const std::string& path, std::string* note) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) append(*scene.mMeshes[m], path, mesh);
   mesh = weld(mesh);
   closeByWelding(mesh, path, note);
+  removeRepeatedFaces(mesh, path, note);
   checkClosed(mesh, path);
   return mesh;
 }

@@ -23,7 +23,7 @@ void addSpheres(CLI::App& app, const Invocation&) {
       ->check(support::writableFile("--csv"));
   spheres->add_flag("--force", d.force, "overwrite an existing --csv file");
   spheres->callback([=] {
-    if (!*radius && !*count) throw CLI::RequiredError("spheres: requires either --radius or --count");
+    if (!*radius && !*count) throw CLI::RequiredError("spheres: --radius or --count");
     spheresCommand(*command);
   });
 }

@@ -11,10 +11,12 @@
 #include "vehicle/assembly.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 namespace grouser::setup {
 
@@ -143,8 +145,15 @@ int MechanismBuilder::body(const std::string& key, const std::string& name) cons
   if (const auto found = bodies_.find(name); found != bodies_.end()) return found->second;
   std::vector<std::string> known = {"world"};
   for (const auto& [body, index] : bodies_) known.push_back(body);
-  throw support::SectionFault(
-      key, fmt::format("refers to an unknown body \"{}\"; did you mean \"{}\"?", name, base::nearestWord(name, known)));
+  // Other words for the vehicle and the ground, which resemble neither name.
+  constexpr std::pair<const char*, const char*> kOtherWords[] = {
+      {"chassis", "vehicle"}, {"hull", "vehicle"},  {"tank", "vehicle"}, {"tractor", "vehicle"}, {"robot", "vehicle"},
+      {"ground", "world"},    {"terrain", "world"}, {"earth", "world"},  {"fixed", "world"}};
+  std::string nearest = base::nearestWord(name, known);
+  for (const auto& [word, meant] : kOtherWords)
+    if (name == word && std::find(known.begin(), known.end(), meant) != known.end()) nearest = meant;
+  throw support::SectionFault(key, fmt::format("refers to an unknown body \"{}\"; did you mean \"{}\"? (bodies: {})",
+                                               name, nearest, fmt::join(known, ", ")));
 }
 
 std::pair<int, int> MechanismBuilder::twoBodies(const std::vector<std::string>& names) const {

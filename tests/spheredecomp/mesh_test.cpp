@@ -66,6 +66,23 @@ TEST(ImportMesh, Tetrahedron_KeepsVolumeAndWeldsVertices) {
   EXPECT_NEAR(signedVolume(mesh), 1.0 / 6, 1e-15);
 }
 
+TEST(ImportMesh, RepeatedFaces_CountOnce) {
+  const std::string whole = std::string(kTetrahedron) + "f 2 3 4\n";
+  // Every face twice; turned to begin at another corner; once more with vertices of its own.
+  for (const char* more : {"f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", "f 3 2 1\nf 4 1 2\nf 4 3 1\nf 3 4 2\n",
+                           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n"}) {
+    const File file("grouser_twice.obj", whole + more);
+    std::string note;
+    const TriangleMesh mesh = importMesh(file.path, &note);
+    EXPECT_NEAR(signedVolume(mesh), 1.0 / 6, 1e-15);
+    EXPECT_EQ(mesh.indices.size(), 12u);
+    EXPECT_NE(note.find("4 repeated faces were removed"), std::string::npos) << note;
+  }
+  const File both("grouser_both.obj", whole + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  EXPECT_NE(messageOf(both.path).find("its faces occur in both orientations"), std::string::npos)
+      << messageOf(both.path);
+}
+
 TEST(ImportMesh, BinaryAndTextFormatsOfAssimp_AreRead) {
   const File file("grouser_tetra.stl",
                   "solid t\n"

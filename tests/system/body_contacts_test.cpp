@@ -347,6 +347,35 @@ TEST(BodyContacts, AreRefusedWhereTheyOverlapAtTheStart) {
                    box("block", "[0.2, 0.1, 0.1]", 10, "[1, 0, 0.04]"));
             }).find("overlaps the ground by 0.01 m"),
             std::string::npos);
+  const std::string inner = box("inner", "[0.1, 0.1, 0.1]", 1, "[0, 0, 0.02]"),
+                    outer = box("outer", "[1, 1, 1]", 10, "[0, 0, 0]");
+  for (const std::string& two : {inner + outer, outer + inner})
+    EXPECT_NE(messageOf([&] { made(head() + two); }).find("overlaps body"), std::string::npos);
+  EXPECT_NE(messageOf([&] {
+              made(head() + "[[box]]\nsize = [0.1, 0.1, 0.1]\nposition = [0, 0, 0]\nmaterial = \"steel\"\n" + outer);
+            }).find("overlaps box0"),
+            std::string::npos);
+}
+
+TEST(BodyContacts, ATorqueOnAPointBodyIsRefused) {
+  const auto s = made("version = 1\n[run]\nduration = 1.0\n[[body]]\nname = \"p\"\nmass = 2\npoint = true\n");
+  s->set({{0, InputKind::bodyLoad, 0, false, {1, 0, 0, 0, 0, 0}}});
+  EXPECT_NE(messageOf([&] {
+              s->set({{0, InputKind::bodyLoad, 0, false, {0, 0, 0, 0, 0, 1}}});
+            }).find("torque on body \"p\""),
+            std::string::npos);
+}
+
+TEST(BodyContacts, BodiesBesideTheTerrainAreRefused) {
+  const auto scene = [](double x, double speed) {
+    return head() +
+           "[terrain]\nkind = \"rigid\"\nsize = [4, 2]\nmaterial = \"steel\"\nheightmap = "
+           "\"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
+           ball("ball", 0.1, 1, fmt::format("[{}, 0, 0.1]", x), fmt::format("velocity = [{}, 0, 0]", speed));
+  };
+  EXPECT_NE(messageOf([&] { made(scene(4.7, 0)); }).find("body \"ball\" is beside the terrain"), std::string::npos);
+  const auto s = made(scene(3.9, 5));
+  EXPECT_THROW(advanceTo(*s, 0.2), base::SimulationError);
 }
 
 TEST(BodyContacts, AStepThatTheFoundationDoesNotBearIsRefused) {

@@ -113,6 +113,22 @@ TEST(HitchedBodies, AJointFromTheVehicleToTheWorldIsRefused) {
                   "tow.toml");
             }).find("did you mean \"vehicle\"?"),
             std::string::npos);
+  for (const char* word : {"chassis", "hull"})
+    EXPECT_NE(test::messageOf([&] {
+                setup::parseScene(tow(fmt::format("[[spring]]\nname = \"s\"\nbodies = [\"{}\", \"cart\"]\n"
+                                                  "stiffness = 100\nfree_position = 0.1\n",
+                                                  word)),
+                                  "tow.toml");
+              }).find("did you mean \"vehicle\"?"),
+              std::string::npos)
+        << word;
+}
+
+TEST(HitchedBodies, ABodyInsideTheVehicleIsRefused) {
+  const std::string crate = "[[body]]\nname = \"crate\"\nmass = 50\nposition = [4, 0.9, 0.3]\nmaterial = \"rubber\"\n"
+                            "[[body.shape]]\nkind = \"box\"\nsize = [0.3, 0.3, 0.5]\n";
+  const std::string message = test::messageOf([&] { made(tow(crate)); });
+  EXPECT_NE(message.find("body \"crate\" overlaps the "), std::string::npos) << message;
 }
 
 } // namespace
