@@ -16,6 +16,12 @@ struct PatchLaw {
   double relaxation{};      ///< [s], >= 0
   double friction{};        ///< [-], >= 0
   double tangentialRatio{}; ///< [-], >= 0
+  /// Damping ratio of the contact as a whole (contact/whole_contact.hpp), which then replaces `relaxation` [-]; < 0:
+  /// the relaxation acts at each point.
+  double dampingRatio{-1};
+  double largestOverlap{1e300}; ///< limit of the overlap of a contact as a whole [m]
+
+  GROUSER_HD bool isWhole() const { return dampingRatio >= 0; }
 };
 
 /// Quanta of the sums over samples; they depend on the scene only.

@@ -27,13 +27,7 @@ struct FoundationTable {
 /// sphere. Areas of strips and caps are those at an overlap of `overlap` [m].
 double largestPatch(const contact::SurfaceGeometry& shape, double overlap);
 
-/// Maximum overlap [m] of a shape on a plane under `load` [N], over its faces, strips and caps.
-double restingOverlap(const contact::SurfaceGeometry& shape, double modulus, double load);
-
-/// Contact law of a shape with its own mass [kg]. The relaxation reproduces the restitution for small bounces of the
-/// free shape about its rest on a plane under `gravity` [m/s2], on a patch of mean stiffness. Larger faces, and
-/// stronger impacts of curved shapes, dissipate more; strips, edges and corners dissipate less.
-contact::PatchLaw patchLaw(const contact::Foundation& foundation, const contact::SurfaceGeometry& shape, double mass,
-                           double gravity);
+/// Contact law of a shape. Damped as a whole, so that the restitution holds on any patch (contact/whole_contact.hpp).
+contact::PatchLaw patchLaw(const contact::Foundation& foundation);
 
 } // namespace grouser::coupling

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "coupling/jointed_bodies.hpp"
 #include "coupling/mechanism_setup.hpp"
 #include "coupling/obstacles.hpp"
 
@@ -20,18 +21,46 @@ double volumeAbout(const contact::SurfaceGeometry& g) {
 /// Laws of the bodies' shapes against materials.
 struct BodyLaws {
   FoundationTable foundations;
-  std::vector<double> mass; ///< [body] mass [kg]; 1 for fixed bodies
-  double gravity;           ///< [m/s2]
 
-  BodyLaws(const MechanismSetup& setup, const multibody::Model& model)
-      : foundations(setup.foundations), gravity(norm(setup.gravity)) {
-    for (const multibody::Body& body : model.bodies()) mass.push_back(body.fixed ? 1 : body.mass);
+  contact::PatchLaw on(int other, int material, double largestOverlap) const {
+    contact::PatchLaw law = patchLaw(foundations.between(material, other));
+    law.largestOverlap = largestOverlap;
+    return law;
   }
-  contact::PatchLaw on(int other, const contact::SurfaceGeometry& shape, int material, std::size_t body) const {
-    return patchLaw(foundations.between(material, other), shape, mass[body], gravity);
+  contact::PatchLaw on(int other, const BodyShape& s) const { return on(other, s.material, s.largestOverlap); }
+  /// Law on a surface of the scene, whose thickness limits the overlap, too. Planes have none, tubes are hollow.
+  contact::PatchLaw onObstacle(const Obstacle& o, int material, double largestOverlap) const {
+    contact::PatchLaw law = on(foundations.indexOf(o.surface.material), material, largestOverlap);
+    const contact::SurfaceGeometry& g = o.surface.geometry;
+    if (g.shape != contact::SurfaceShape::plane && g.shape != contact::SurfaceShape::tube)
+      law.largestOverlap = std::min(law.largestOverlap, kLargestOverlap * thinnest(g));
+    return law;
   }
-  contact::PatchLaw on(int other, const BodyShape& s) const { return on(other, s.shape, s.material, s.body); }
 };
+
+/// Mass properties of a part of a body.
+contact::PartBody massOf(const multibody::Body& body, std::size_t index, const base::Pose& pose_B) {
+  contact::PartBody part;
+  if (body.fixed) return part;
+  part.body = static_cast<int>(index), part.inverseMass = 1 / body.mass;
+  const base::Mat3d r = pose_B.orientation.matrix(), turned = inverseOf(body.inertia_B) * r;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) part.inverseInertia.m[i][j] += r.m[k][i] * turned.m[k][j];
+  return part;
+}
+
+/// True if shape `a` provides the points, and `b` the surface: the smaller shape, but the round one on a box unless its
+/// points are too far apart for the box.
+bool providesPoints(const BodyShape& a, const BodyShape& b) {
+  const bool boxA = a.shape.shape == contact::SurfaceShape::box, boxB = b.shape.shape == contact::SurfaceShape::box;
+  if (!a.mesh && !b.mesh && boxA != boxB) {
+    constexpr double kSpacing = 0.05; // largest distance of the points of a round shape [radius]
+    const BodyShape &round = boxA ? b : a, &box = boxA ? a : b;
+    if (kSpacing * round.shape.half.x < thinnest(box.shape)) return boxB;
+  }
+  return !(volumeAbout(b.shape) < volumeAbout(a.shape));
+}
 
 /// Finds the candidate pairs of shapes and vehicle parts.
 class PartPairs {
@@ -41,17 +70,14 @@ public:
     for (const multibody::Joint& joint : model.joints()) tied_.insert(std::minmax(joint.bodyA, joint.bodyB));
   }
 
-  /// Tests the points of the smaller shape against the larger shape. Uses the law of the moving body; if both bodies
-  /// move, the law with the shorter relaxation time.
   void addAmongShapes(ContactParts& all, std::size_t first) const {
     for (std::size_t i = 0; i < shapes_.size(); ++i)
       for (std::size_t j = i + 1; j < shapes_.size(); ++j) {
         const BodyShape &a = shapes_[i], &b = shapes_[j];
         if (!mayTouch(a.body, b.body)) continue;
-        const bool aMoves = !bodies_[a.body].fixed, bMoves = !bodies_[b.body].fixed;
-        contact::PatchLaw law = aMoves ? laws_.on(b.material, a) : laws_.on(a.material, b);
-        if (aMoves && bMoves) law.relaxation = std::min(law.relaxation, laws_.on(a.material, b).relaxation);
-        const bool swapped = volumeAbout(b.shape) < volumeAbout(a.shape);
+        contact::PatchLaw law = laws_.on(b.material, a);
+        law.largestOverlap = std::min(law.largestOverlap, b.largestOverlap);
+        const bool swapped = !providesPoints(a, b);
         all.pairs.push_back(
             {static_cast<int>(first + (swapped ? j : i)), static_cast<int>(first + (swapped ? i : j)), law});
       }
@@ -89,7 +115,7 @@ private:
 void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibody::Model& model) {
   const std::vector<multibody::Body>& bodies = model.bodies();
   const std::size_t first = all.parts.size(), firstSet = all.pointSets;
-  const BodyLaws laws(setup, model);
+  const BodyLaws laws{setup.foundations};
   const int ground = setup.foundations.ground;
   // Materials of the parts: the vehicle's material, if there is a vehicle, then the materials of the shapes.
   const int ofVehicle = first > 0 ? 1 : 0;
@@ -113,13 +139,18 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
                          .mesh = s.mesh ? s.mesh->query : nullptr,
                          .points = static_cast<int>(firstSet + index),
                          .foundation = ground < 0 ? contact::PatchLaw{} : laws.on(ground, s),
+                         .massOf = massOf(body, s.body, s.pose_B),
+                         .largestOverlap = s.largestOverlap,
                          .material = ofVehicle + s.material,
                          .reach = norm(halfExtent(s.shape)) + norm(s.pose_B.position),
                          .canTouchGround = ground >= 0 && !body.fixed,
                          .fixed = body.fixed,
                          .ofBody = true,
                          .shown = shown + s.body - setup.ofVehicle.bodies});
+    if (!s.mesh) all.parts.back().massOf.shape = s.shape;
   }
+  for (std::size_t part = 0; part < first; ++part)
+    all.parts[part].massOf = massOf(bodies[all.parts[part].body], all.parts[part].body, all.parts[part].pose_B);
   all.pointSets += shapes.size();
   all.points = [shapes, firstSet, ofParts = all.points](int set) {
     const auto index = static_cast<std::size_t>(set);
@@ -127,7 +158,7 @@ void addBodyParts(ContactParts& all, const MechanismSetup& setup, const multibod
   };
   all.onObstacle = [laws, ofVehicle, ofParts = all.onObstacle](const ContactPart& part, const Obstacle& o) {
     if (!part.ofBody) return ofParts(part, o);
-    return laws.on(laws.foundations.indexOf(o.surface.material), part.shape, part.material - ofVehicle, part.body);
+    return laws.onObstacle(o, part.material - ofVehicle, part.largestOverlap);
   };
   const PartPairs pairs(setup, model, laws);
   pairs.addAmongShapes(all, first), pairs.addOnVehicle(all, first);

@@ -29,6 +29,7 @@ struct BodyShape {
   base::Pose pose_B;                      ///< pose of the shape frame in the body frame
   contact::SurfaceGeometry shape;         ///< closed-form surface, or the bounding box of a mesh
   int material{};                         ///< index of its material in the list for all shapes
+  double largestOverlap{base::kInfinity}; ///< limit of overlaps with surfaces and other bodies [m]
   std::string place;                      ///< prefix of messages: "scene.toml:14: body.0"
   std::string key{};                      ///< section of a mesh in messages: "body.0.shape.0"
   std::shared_ptr<const BodyMesh> mesh{}; ///< null for closed-form shapes
@@ -36,6 +37,9 @@ struct BodyShape {
 
 /// Creates a body mesh. `query`: closed mesh, bounding box centred at the origin; `given`: radius set in the scene.
 BodyMesh bodyMesh(std::shared_ptr<const spheredecomp::MeshQuery> query, double sphereRadius, bool given);
+
+/// Default limit of overlaps [half thickness].
+inline constexpr double kLargestOverlap = 0.5;
 
 /// Distance of a point from the surface, in the shape's frame [m]; negative inside.
 double distanceFrom(const BodyShape& shape, const base::Vec3d& p_S);

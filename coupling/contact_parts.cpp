@@ -9,6 +9,12 @@ std::vector<int> ContactParts::surfaceOfPart() const {
   return all;
 }
 
+std::vector<contact::PartBody> ContactParts::massOfParts() const {
+  std::vector<contact::PartBody> all;
+  for (const ContactPart& part : parts) all.push_back(part.massOf);
+  return all;
+}
+
 std::vector<int> ContactParts::pointsOfPart() const {
   std::vector<int> all;
   for (const ContactPart& part : parts) all.push_back(part.points);

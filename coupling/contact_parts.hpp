@@ -7,6 +7,7 @@
 #include "contact/patch_law.hpp"
 #include "contact/point_tree.hpp"
 #include "contact/surface_geometry.hpp"
+#include "contact/whole_contact.hpp"
 #include "multibody/state.hpp"
 
 #include <cstddef>
@@ -31,6 +32,8 @@ struct ContactPart {
   std::shared_ptr<const spheredecomp::MeshQuery> mesh{}; ///< mesh of a [[body.shape]]; null for closed-form shapes
   int points{-1};                 ///< index of its surface points for contact with rigid surfaces; -1: none
   contact::PatchLaw foundation{}; ///< law of contacts with rigid ground
+  contact::PartBody massOf{};     ///< mass and closed form, in scenes with bodies
+  double largestOverlap{};        ///< limit of the overlaps of a [[body.shape]] [m]
   int material{};                 ///< index of its material in the list for all parts
   double reach{};                 ///< bounding radius of the surface about its body's centre of mass [m]
   bool canTouchGrains = true;     ///< true: in contact with grains
@@ -66,6 +69,7 @@ struct ContactParts {
   double weight{};      ///< total weight [N], which sets the scale of the load quanta
 
   std::size_t count() const { return parts.size(); }
+  std::vector<contact::PartBody> massOfParts() const;
   /// [part] index of its surface.
   std::vector<int> surfaceOfPart() const;
   /// [part] index of its surface points.

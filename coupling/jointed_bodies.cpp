@@ -8,9 +8,6 @@ namespace grouser::coupling {
 using base::Mat3d;
 using base::Vec3d;
 
-namespace {
-
-/// Inverse of a symmetric, positive definite matrix.
 Mat3d inverseOf(const Mat3d& m) {
   const Vec3d a{m.m[0][0], m.m[1][0], m.m[2][0]}, b{m.m[0][1], m.m[1][1], m.m[2][1]},
       c{m.m[0][2], m.m[1][2], m.m[2][2]};
@@ -21,8 +18,6 @@ Mat3d inverseOf(const Mat3d& m) {
     for (int j = 0; j < 3; ++j) inverse.m[i][j] = row[i][j];
   return inverse;
 }
-
-} // namespace
 
 JointedBodies::JointedBodies(const ContactParts& parts, const multibody::Model& model, multibody::Solver& solver,
                              const ReplicatedWork& replicated)

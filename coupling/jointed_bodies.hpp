@@ -10,6 +10,9 @@
 
 namespace grouser::coupling {
 
+/// Inverse of a symmetric, positive definite matrix.
+base::Mat3d inverseOf(const base::Mat3d& m);
+
 /// Response of the bodies of a vehicle or mechanism to impulses of grains, through all joints (Solver::respond()).
 class JointedBodies : public contact::BodyResponse {
 public:

@@ -41,14 +41,14 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
   for (const Obstacle& o : obstacles) {
     surfaces.push_back({o.surface.mesh ? Kind::mesh : Kind::shape, o.surface.geometry, o.surface.mesh ? nextMesh++ : -1,
                         count + static_cast<int>(surfaces.size())});
-    made->motions_.push_back(startingPose(o.surface).motion);
+    made->motions_.push_back(startingPose(o.surface).motion), made->names_.push_back(o.surface.name);
     for (int part = 0; part < count; ++part)
       if (const ContactPart& p = parts.parts[static_cast<std::size_t>(part)]; !p.fixed)
         meet(part, parts.onObstacle(p, o));
   }
   if (hullOn) {
     surfaces.push_back({Kind::field, {}, -1, count + static_cast<int>(surfaces.size())});
-    made->motions_.push_back({{}, base::Mat3d::identity(), {}, {}, {}});
+    made->motions_.push_back({{}, base::Mat3d::identity(), {}, {}, {}}), made->names_.emplace_back("the ground");
     for (int part = 0; part < count; ++part)
       if (const ContactPart& p = parts.parts[static_cast<std::size_t>(part)]; p.isHull) meet(part, p.foundation);
   }
@@ -62,12 +62,29 @@ std::unique_ptr<ObstacleContacts> ObstacleContacts::make(const ContactParts& par
       set = at->second;
     }
     surfaces.push_back({set < 0 ? Kind::shape : Kind::mesh, other.shape, set, pair.other});
+    made->names_.push_back(other.name);
     meet(pair.part, pair.law);
   }
   made->contacts_ =
-      std::make_unique<RigidContacts>(RigidContacts::Model{model.quanta, model.timeStep}, parts.pointsOf(touching),
-                                      parts.pointsOfPart(), surfaces, pairs, meshes, hullOn);
+      std::make_unique<RigidContacts>(RigidContacts::Model{model.quanta, model.timeStep, parts.massOfParts()},
+                                      parts.pointsOf(touching), parts.pointsOfPart(), surfaces, pairs, meshes, hullOn);
   return made;
+}
+
+void ObstacleContacts::requireShallow(const ContactParts& parts) const {
+  if (const auto& deep = contacts_->tooDeep())
+    failTooDeep(parts, *deep, names_[static_cast<std::size_t>(deep->surface)]);
+}
+
+void failTooDeep(const ContactParts& parts, const RigidContacts::TooDeep& deep, const std::string& surface) {
+  const Vec3d& p = deep.place;
+  throw base::SimulationError(
+      fmt::format("{} overlaps {} by {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m, more than {:.3g} m (largest_overlap of "
+                  "[[body]]; default: half of the smallest half extent), so it could pass through; raise "
+                  "foundation_modulus of the materials, or lower loads, masses or speeds",
+                  parts.parts[static_cast<std::size_t>(deep.part)].name, surface, deep.overlap, p.x, p.y, p.z,
+                  deep.most),
+      base::Cause::excessiveOverlap);
 }
 
 namespace {

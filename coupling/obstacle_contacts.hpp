@@ -14,6 +14,10 @@
 
 namespace grouser::coupling {
 
+/// Throws base::SimulationError for a contact that is too deep: bodies, place, limit and remedy.
+[[noreturn]] void failTooDeep(const ContactParts& parts, const terrain::RigidContacts::TooDeep& deep,
+                              const std::string& surface);
+
 /// Contacts of parts with rigid surfaces other than the ground of their feet: surfaces at rest (all parts), rigid
 /// ground (hull), and the shapes of other parts (ContactParts::pairs).
 class ObstacleContacts {
@@ -36,6 +40,9 @@ public:
   /// Adds the loads of parts and surfaces; see RigidContacts::compute().
   void compute(const contact::PartMotion* motion, contact::PartLoad* loads) { contacts_->compute(motion, loads); }
 
+  /// Throws base::SimulationError if a contact of the last step is deeper than its limit.
+  void requireShallow(const ContactParts& parts) const;
+
   const std::vector<spheredecomp::CutReport>& cutReports() const { return cutReports_; } ///< cuts of the meshes
   contact::PatchBuffers::Ledger ledger() const { return contacts_->ledger(); }
   contact::SavedPatches save() const { return contacts_->save(); }
@@ -47,6 +54,7 @@ private:
   std::vector<base::SphereSet> sets_; ///< sphere sets of the meshes among the surfaces
   std::vector<spheredecomp::CutReport> cutReports_;
   std::vector<contact::PartMotion> motions_;
+  std::vector<std::string> names_; ///< names of all surfaces, also those of pairs of parts
   std::unique_ptr<terrain::RigidContacts> contacts_;
 };
 

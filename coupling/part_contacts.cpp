@@ -183,6 +183,7 @@ void add(const base::FixedPoint& force, const base::FixedPoint& torque, const co
 
 void PartContacts::collect(multibody::Loads& loads) {
   const contact::PartLoad* track = gear_ ? gearLoads_.data() : track_ ? loadSums_.host() : nullptr;
+  if (obstacles_) obstacles_->requireShallow(parts_);
   for (multibody::Wrench& wrench : loads.external) wrench = {};
   if (!traits_.solves) sumGroundLoads();
   for (std::size_t c = 0; c < parts_.count(); ++c) {

@@ -52,7 +52,7 @@ public:
   /// each kind of contact.
   void compute(StepObserver* observer);
   /// Applies the loads, summed over all ranks, to the bodies, after the device has finished. Complementarity contacts
-  /// follow in solve().
+  /// follow in solve(). Throws base::SimulationError with the cause excessiveOverlap if a contact is too deep.
   void collect(multibody::Loads& loads);
   /// Solves complementarity contacts with the ground and adds their loads to `loads`, which contains all other loads.
   void solve(contact::BodyResponse& bodies, multibody::Loads& loads);

@@ -19,12 +19,14 @@ public:
   void computeOnHost(const contact::PartMotion* motion, contact::PartLoad* loads) override {
     feet_->compute(motion, loads);
   }
+  void collect(const contact::PartLoad&) override;
   void addContactsTo(ContactLedger& ledger) const override;
   void saveContacts(ContactsState& state) const override;
   void restoreContacts(const ContactsState& state) override;
 
 private:
   const LaidGround& laid_;
+  const ContactParts* parts_ = nullptr;
   std::unique_ptr<terrain::RigidContacts> feet_; ///< null until meet() is called
 };
 

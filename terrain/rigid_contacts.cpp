@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace grouser::terrain {
 
@@ -26,8 +27,11 @@ struct RigidContacts::Press {
   const PointTree& tree;
   const BoxInPart* box; ///< the surface, if it is a box
   contact::PointPress law;
-  contact::PatchPressure planar; ///< sum of blocks on planes
-  PressureLanes& other;          ///< sum of other blocks, if `any`
+  contact::FoundationPress whole; ///< for laws damped as a whole
+  contact::PatchPressure planar;  ///< sum of blocks on planes
+  PressureLanes& other;           ///< sum of other blocks, if `any`
+  contact::FoundationSums& wholePlanar;
+  contact::FoundationLanes& wholeOther; ///< in place of `planar` and `other`
   bool any;
   std::vector<const PointBlock*>& touched; ///< scratch: blocks that may touch a plane
 };
@@ -49,6 +53,29 @@ contact::PatchPressure inWorld(const contact::PatchPressure& p, const PartMotion
   w.torque = part.rotation * p.torque + cross(lever, w.force);
   w.place = part.rotation * p.place + lever * p.weight;
   return w;
+}
+
+contact::FoundationSums inWorld(const contact::FoundationSums& p, const PartMotion& part) {
+  contact::FoundationSums w = p;
+  const Vec3d lever = part.origin - part.centre;
+  const auto turn = [&](const Vec3d& force, const Vec3d& torque, Vec3d& inForce, Vec3d& inTorque) {
+    inForce = part.rotation * force, inTorque = part.rotation * torque + cross(lever, inForce);
+  };
+  turn(p.force, p.torque, w.force, w.torque);
+  turn(p.normals, p.turns, w.normals, w.turns);
+  turn(p.rated, p.ratedTurns, w.rated, w.ratedTurns);
+  w.place = part.rotation * p.place + lever * p.pressed;
+  return w;
+}
+
+/// A round surface rolls on the points of a part: only its flat ends resist rocking.
+void removeRockingOnRound(const SurfaceGeometry& round, const PartMotion& at, const PartMotion& part,
+                          contact::FoundationSums& sums) {
+  constexpr double kOnEnd = 0.99; // cosine of the angle between normal and axis
+  const Vec3d axis =
+      transposedTimes(part.rotation, Vec3d{at.rotation.m[0][2], at.rotation.m[1][2], at.rotation.m[2][2]});
+  if (round.shape != SurfaceShape::capsule && std::fabs(dot(axis, sums.force)) > kOnEnd * norm(sums.force)) return;
+  sums.rocking = 0, sums.normals = sums.turns = sums.rated = sums.ratedTurns = {};
 }
 
 } // namespace
@@ -77,7 +104,9 @@ RigidContacts::RigidContacts(const Model& model, std::vector<PointTree> points, 
 
 void RigidContacts::compute(const PartMotion* motion, contact::PartLoad* loads) {
   patches_.beginStep();
+  whole_.clear(), tooDeep_.reset();
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) press(pair, motion, loads);
+  if (!whole_.empty()) pressWhole(motion, loads);
   patches_.endStep();
 }
 
@@ -151,7 +180,10 @@ void RigidContacts::pressOnPlane(Press& press, const Plane& plane, std::uint32_t
     if (!clear && node.block >= 0) press.touched.push_back(&press.tree.block(node.block));
     n = clear ? node.behind : n + 1;
   }
-  if (!press.touched.empty())
+  if (press.touched.empty()) return;
+  if (press.law.law.isWhole())
+    press.wholePlanar += contact::foundationOnPlane(press.touched, press.whole, plane.normal, plane.height);
+  else
     press.planar += contact::pressOnPlane(press.touched, press.law, plane.normal, plane.height);
 }
 
@@ -204,8 +236,13 @@ void RigidContacts::pressBlock(Press& press, const PointBlock& block) const {
   Vec3P normal;
   PointLanes overlap;
   if (!gapsOf(block, press.surface, press.motion, press.part, normal, overlap)) return;
-  if (!press.any) press.other.clear();
+  const bool first = !press.any;
   press.any = true;
+  if (press.law.law.isWhole()) {
+    if (first) press.wholeOther.clear();
+    return contact::addFoundation(block, press.whole, normal, overlap, press.wholeOther);
+  }
+  if (first) press.other.clear();
   contact::pressBlock(block, press.law, normal, overlap, press.other);
 }
 
@@ -214,7 +251,10 @@ void RigidContacts::press(std::size_t pair, const PartMotion* motion, contact::P
   const Pair& of = pairs_[pair];
   const Surface& surface = surfaces_[static_cast<std::size_t>(of.surface)];
   const PointTree& tree = treeOf(of.part);
-  const PartMotion& part = motion[of.part];
+  const contact::PartBody* const body = of.law.isWhole() ? &model_.bodies[static_cast<std::size_t>(of.part)] : nullptr;
+  PartMotion round;
+  if (body && contact::isRound(body->shape)) round = contact::withoutOwnTurn(body->shape, motion[of.part]);
+  const PartMotion& part = body && contact::isRound(body->shape) ? round : motion[of.part];
   const std::optional<Plane> plane = planeOf(surface, motion, part);
   if (plane ? plane->height < -tree.reach() : !mayTouch(surface, motion, part.origin, tree.reach())) return;
 
@@ -223,21 +263,73 @@ void RigidContacts::press(std::size_t pair, const PartMotion* motion, contact::P
     velocity -= motion[surface.motion].velocityAt(part.origin), spin -= motion[surface.motion].spin;
   const contact::PointPress pointPress{
       of.law, model_.timeStep, {transposedTimes(part.rotation, velocity), transposedTimes(part.rotation, spin)}};
+  contact::FoundationPress foundation{pointPress.motion, base::kInfinity};
+  if (body) {
+    const Vec3d own = transposedTimes(part.rotation, motion[of.part].spin);
+    foundation.motion.spin += contact::shapeSpin(body->shape, own) - own;
+    if (body->shape.shape == SurfaceShape::capsule)
+      foundation.flatWithin = isBall(body->shape) ? -1 : body->shape.half.z;
+  }
   std::optional<BoxInPart> box;
   if (surface.kind == Surface::Kind::shape && surface.geometry.shape == SurfaceShape::box)
     box.emplace(surface.geometry.half, motion[surface.motion], part);
   PressureLanes other;
   for (int cluster = 0; cluster < contact::kClusters; ++cluster) {
-    Press press{surface, motion, part, tree, box ? &*box : nullptr, pointPress, {}, other, false, touched_};
+    if (body) wholePlanar_ = {};
+    Press press{surface,      motion,      part,  tree,    box ? &*box : nullptr, pointPress, foundation, {}, other,
+                wholePlanar_, wholeOther_, false, touched_};
     if (plane)
       pressOnPlane(press, *plane, tree.firstNode(cluster), tree.firstNode(cluster + 1));
     else
       pressNodes(press, tree.firstNode(cluster), tree.firstNode(cluster + 1));
+    if (body) {
+      addWhole(pair, cluster, press, motion);
+      continue;
+    }
     contact::PatchPressure& pressure = press.planar;
     if (press.any) pressure += contact::sumOf(press.other);
     if (!(pressure.area > 0)) continue;
     patches_.press(pair * contact::kClusters + static_cast<std::size_t>(cluster), of.law, motion, of.part,
                    surface.motion, inWorld(pressure, part), loads);
+  }
+}
+
+/// Adds a patch of a contact that is damped as a whole.
+void RigidContacts::addWhole(std::size_t pair, int cluster, const Press& press, const PartMotion* motion) {
+  contact::FoundationSums sums = press.wholePlanar;
+  if (press.any) sums += contact::sumOf(press.wholeOther);
+  if (!(sums.area > 0)) return;
+  const Pair& of = pairs_[pair];
+  const Surface& surface = surfaces_[static_cast<std::size_t>(of.surface)];
+  const contact::PartBody& body = model_.bodies[static_cast<std::size_t>(of.part)];
+  const bool known = surface.motion >= 0 && static_cast<std::size_t>(surface.motion) < model_.bodies.size();
+  contact::removeOwnMoments(body.shape, sums);
+  if (surface.kind == Surface::Kind::shape && contact::isRound(surface.geometry))
+    removeRockingOnRound(surface.geometry, motion[surface.motion], press.part, sums);
+  const contact::RelativeMotion<double>& moved = press.whole.motion;
+  const auto powerOf = [&](const Vec3d& force, const Vec3d& torque) {
+    return dot(force, moved.velocity) + dot(torque, moved.spin);
+  };
+  // Friction acts on the undeformed radius of a round part.
+  const Vec3d centre = sums.place * (1 / sums.pressed);
+  sums.place = contact::rollingPoint(body.shape, centre) * sums.pressed;
+  whole_.push_back({pair * contact::kClusters + static_cast<std::size_t>(cluster), of.part, surface.motion, body.body,
+                    known ? model_.bodies[static_cast<std::size_t>(surface.motion)].body : -1, &of.law,
+                    inWorld(sums, press.part), powerOf(sums.force, sums.torque), powerOf(sums.normals, sums.turns),
+                    powerOf(sums.rated, sums.ratedTurns)});
+  const double most = of.law.largestOverlap;
+  if (sums.deepest > most && !(tooDeep_ && tooDeep_->overlap * most >= sums.deepest * tooDeep_->most))
+    tooDeep_ = {of.part, of.surface, sums.deepest, press.part.toWorld(centre), most};
+}
+
+/// Presses all patches of contacts that are damped as a whole.
+void RigidContacts::pressWhole(const PartMotion* motion, contact::PartLoad* loads) {
+  contact::dampWholeContacts(whole_, model_.bodies, motion, model_.timeStep, damped_);
+  for (std::size_t i = 0; i < whole_.size(); ++i) {
+    const contact::WholePatch& w = whole_[i];
+    contact::PatchLaw law = *w.law;
+    law.relaxation = damped_[i].relaxation;
+    patches_.press(w.patch, law, motion, w.a, w.b, damped_[i].pressure, loads);
   }
 }
 

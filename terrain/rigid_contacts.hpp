@@ -4,6 +4,7 @@
 #include "contact/host_patches.hpp"
 #include "contact/part_surface.hpp"
 #include "contact/point_tree.hpp"
+#include "contact/whole_contact.hpp"
 #include "terrain/faces_in_part.hpp"
 #include "terrain/foot_lanes.hpp"
 #include "terrain/height_field_cells.hpp"
@@ -36,6 +37,14 @@ public:
   struct Model {
     contact::PatchQuanta quanta;
     double timeStep{};
+    std::vector<contact::PartBody> bodies{}; ///< by motion, for laws damped as a whole; motions beyond are at rest
+  };
+  /// Contact whose overlap exceeds PatchLaw::largestOverlap.
+  struct TooDeep {
+    int part, surface;
+    double overlap; ///< [m]
+    Vec3d place;    ///< in the world [m]
+    double most;    ///< [m]
   };
   /// `points`: by set; `setOfPart`: point set of each part; `meshes`: sphere sets of meshes, by Surface::set; `field`:
   /// null without a height-field surface.
@@ -45,6 +54,9 @@ public:
 
   /// Adds the loads of this step to parts and, with opposite sign, to surfaces.
   void compute(const contact::PartMotion* motion, contact::PartLoad* loads);
+
+  /// The deepest contact of the last step relative to its limit, if it exceeds the limit.
+  const std::optional<TooDeep>& tooDeep() const { return tooDeep_; }
 
   contact::PatchBuffers::Ledger ledger() const { return patches_.ledger(); }
   contact::SavedPatches save() const { return patches_.save(); }
@@ -56,6 +68,8 @@ private:
     return points_[static_cast<std::size_t>(setOfPart_[static_cast<std::size_t>(part)])];
   }
   void press(std::size_t pair, const contact::PartMotion* motion, contact::PartLoad* loads);
+  void addWhole(std::size_t pair, int cluster, const Press& press, const contact::PartMotion* motion);
+  void pressWhole(const contact::PartMotion* motion, contact::PartLoad* loads);
   void pressNodes(Press& press, std::uint32_t from, std::uint32_t to) const;
   void pressBlock(Press& press, const contact::PointBlock& block) const;
   void pressOnPlane(Press& press, const Plane& plane, std::uint32_t from, std::uint32_t to) const;
@@ -79,7 +93,12 @@ private:
   FootLanes feet_;
   std::optional<Plane> fieldPlane_; ///< set if the whole height field is planar
   contact::HostPatches patches_;
+  std::optional<TooDeep> tooDeep_;
   std::vector<const contact::PointBlock*> touched_; ///< scratch of one step
+  contact::FoundationSums wholePlanar_{};           ///< scratch of one patch
+  contact::FoundationLanes wholeOther_;             ///< scratch of one patch
+  std::vector<contact::WholePatch> whole_;          ///< scratch of one step
+  std::vector<contact::DampedPatch> damped_;        ///< scratch of one step
 };
 
 } // namespace grouser::terrain

@@ -59,6 +59,12 @@ Table<BodySection> bodyTable() {
         "whether the body is a point mass, without extent or inertia; supports spherical joints, distance joints and "
         "springs only");
   t.add("material", &S::material, "", "name of the material of the shapes; required with [[body.shape]]");
+  t.add("largest_overlap", &S::largestOverlap, "m",
+        "largest overlap of its shapes with other bodies and with rigid surfaces; a deeper contact ends the run; "
+        "default: half of the smallest half extent of each shape")
+      .plausible(1e-6, 10)
+      .above(0)
+      .atMost(1e5);
   t.add("probe_size", &S::probe, "m",
         "edge lengths of a box in the body frame; the mass of all grains with centres inside this box is recorded as "
         "grain_mass")
@@ -303,7 +309,7 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
   }
   if (!body.probe && norm(body.probePosition) > 0)
     section.fail("probe_position", "[m] has no effect without probe_size; add probe_size, or remove it");
-  for (const char* key : {"material", "density"})
+  for (const char* key : {"material", "density", "largest_overlap"})
     if (body.shapes.empty() && section.has(key))
       section.fail(key, "has no effect without a shape; add [[body.shape]], or remove it");
   if (body.density && body.mass) section.fail("density", "[kg/m3] is mutually exclusive with mass; remove one");

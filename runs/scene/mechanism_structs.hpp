@@ -44,11 +44,12 @@ struct BodySection {
   std::vector<double> orientation; ///< quaternion w, x, y, z, instead of axis and angle; empty: not given
   base::Vec3d velocity, spin;      ///< [m/s], [rad/s], world components
   bool fixed = false;
-  bool point = false;               ///< a mass without extent
-  std::string material;             ///< contact material of its shapes
-  std::vector<ShapeSection> shapes; ///< empty: no contacts
-  std::optional<base::Vec3d> probe; ///< [m] edges of the box in which the grain mass is recorded
-  base::Vec3d probePosition;        ///< [m] centre of the probe box in the body's frame
+  bool point = false;                   ///< a mass without extent
+  std::string material;                 ///< contact material of its shapes
+  std::vector<ShapeSection> shapes;     ///< empty: no contacts
+  std::optional<double> largestOverlap; ///< [m] of its shapes with surfaces and bodies; empty: from each shape
+  std::optional<base::Vec3d> probe;     ///< [m] edges of the box in which the grain mass is recorded
+  base::Vec3d probePosition;            ///< [m] centre of the probe box in the body's frame
   bool operator==(const BodySection&) const = default;
 };
 

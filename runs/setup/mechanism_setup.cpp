@@ -211,11 +211,14 @@ std::vector<coupling::BodyShape> shapesOf(const scene::Scene& scene) {
     for (std::size_t k = 0; k < body.shapes.size(); ++k) {
       const scene::ShapeSection& s = body.shapes[k];
       const auto material = std::find(materials.begin(), materials.end(), body.material) - materials.begin();
-      all.push_back({b, poseOf(s), geometryOf(s), static_cast<int>(material), scene.placeOf("body", b)});
-      if (!s.loaded.query) continue;
-      all.back().key = fmt::format("body.{}.shape.{}", b, k);
-      all.back().mesh = std::make_shared<const coupling::BodyMesh>(
-          coupling::bodyMesh(s.loaded.query, s.loaded.sphereRadius, s.sphereRadius.has_value()));
+      coupling::BodyShape& shape = all.emplace_back();
+      shape = {b, poseOf(s), geometryOf(s), static_cast<int>(material), base::kInfinity, scene.placeOf("body", b)};
+      if (s.loaded.query) {
+        shape.key = fmt::format("body.{}.shape.{}", b, k);
+        shape.mesh = std::make_shared<const coupling::BodyMesh>(
+            coupling::bodyMesh(s.loaded.query, s.loaded.sphereRadius, s.sphereRadius.has_value()));
+      }
+      shape.largestOverlap = body.largestOverlap.value_or(coupling::kLargestOverlap * halfThickness(shape));
     }
   }
   return all;

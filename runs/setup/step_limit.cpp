@@ -184,7 +184,7 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
   const std::vector<multibody::Body>& bodies = mechanism.model.bodies();
   const std::vector<double> sides = sidesPressed(mechanism, parts);
   const std::optional<coupling::ScmSetup> soil = scmSetup(scene);
-  std::vector<double> springs(bodies.size()), dampers(bodies.size()); // [1/s2], [1/s]
+  std::vector<double> springs(bodies.size()), dampers(bodies.size()), bounces(bodies.size()); // [1/s2], [1/s], [1/s2]
   for (const coupling::BodyShape& s : mechanism.shapes) {
     const multibody::Body& body = bodies[s.body];
     if (body.fixed) continue;
@@ -194,19 +194,27 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
     double rate = 0, decay = 0;
     for (std::size_t other = 0; other < mechanism.foundations.materials.size(); ++other) {
       const contact::Foundation& f = mechanism.foundations.between(s.material, static_cast<int>(other));
-      contact::PatchLaw law = coupling::patchLaw(f, s.shape, body.mass, norm(scene.run.gravity));
-      if (soil && static_cast<int>(other) == mechanism.foundations.ground)
-        law.modulus = soil->stiffest(2 * std::min({half.x, half.y, half.z})),
-        law.relaxation = soil->soil.damping / law.modulus;
-      const double stiffness = law.modulus * area * (1 / body.mass + arm2 / minInertia(body.inertia_B));
-      rate = std::max(rate, stiffness), decay = std::max(decay, stiffness * law.relaxation);
+      const bool onSoil = soil && static_cast<int>(other) == mechanism.foundations.ground;
+      const double modulus = onSoil ? soil->stiffest(2 * std::min({half.x, half.y, half.z})) : f.modulus;
+      double stiffness = modulus * area * (1 / body.mass + arm2 / minInertia(body.inertia_B));
+      // Strong dashpots need steps that resolve their decay, so that low restitutions are accurate within 2 %.
+      constexpr double kResolved = 0.6;
+      const double zeta = contact::dampingRatioFor(f.restitution, false);
+      const double quicker = onSoil ? 1 : std::max(1.0, zeta / kResolved);
+      bounces[s.body] = std::max(bounces[s.body], sides[s.body] * stiffness * quicker * quicker);
+      // Velocities decay to exp(-2 zeta omega dt) in a step, which is stable for omega^2 dt^2 < 2 (1 + exp(-4 zeta)).
+      if (onSoil)
+        decay = std::max(decay, stiffness * soil->soil.damping / modulus);
+      else
+        stiffness *= 2 / (1 + base::exp(-4 * zeta));
+      rate = std::max(rate, stiffness);
     }
     springs[s.body] = std::max(springs[s.body], sides[s.body] * rate);
     dampers[s.body] = std::max(dampers[s.body], sides[s.body] * decay);
   }
   for (std::size_t b = mechanism.ofVehicle.bodies; b < bodies.size(); ++b) {
     const std::size_t section = b - mechanism.ofVehicle.bodies;
-    if (springs[b] > 0) limit.bounce = std::min(limit.bounce, base::kPi / std::sqrt(springs[b]));
+    if (bounces[b] > 0) limit.bounce = std::min(limit.bounce, base::kPi / std::sqrt(bounces[b]));
     considerBoth(limit, springs[b], dampers[b],
                  fmt::format("body \"{}\" of {:g} kg on rigid surfaces or bodies", bodies[b].name, bodies[b].mass),
                  fmt::format("raise body.{}.mass, or lower foundation_modulus of material.{}", section,

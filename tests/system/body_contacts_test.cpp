@@ -28,7 +28,7 @@ std::string head(const std::string& run = {}, const std::string& material = {}, 
   return "version = 1\n[run]\nduration = 1.0\n" + run + "\n[material.steel]\nfriction = 0.3\n" +
          fmt::format("restitution = {}\n", restitution) + material;
 }
-constexpr double kLossless = 1; // restitution: damping gives round shapes a rolling resistance
+constexpr double kLossless = 1; // restitution
 const std::string kPlane = "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"steel\"\n";
 
 /// A free box of steel.
@@ -180,13 +180,12 @@ std::string rover(double hull, double wheelMass) {
   return text;
 }
 
-/// Driven wheels creep: the tangential spring loses strain with the area that leaves contact. A stiffer foundation
-/// reduces the creep.
+/// The tangential spring of a round part rolls along with its patch, so driven wheels do not creep.
 TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
   const double hull = 20, wheelMass = 2, mass = hull + 4 * wheelMass, slope = 0.2, angle = std::atan(slope);
   const double along = kGravity * std::sin(angle), across = kGravity * std::cos(angle);
   const std::string gravity = fmt::format("gravity = [{}, 0, {}]", -along, -across);
-  for (const auto& [modulus, creep] : {std::pair{"1e8", 0.025}, {"1e9", 0.01}}) {
+  for (const char* modulus : {"1e8", "1e9"}) {
     const auto s =
         made(head(gravity, fmt::format("foundation_modulus = {}\n", modulus)) + kPlane + rover(hull, wheelMass));
     advanceTo(*s, 0.5);
@@ -203,8 +202,7 @@ TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
     const double slip = 1 - (stateOf(*s).pose[0].position.x - from) / (s->time() - 0.5) / 0.2;
     std::printf("modulus %s N/m3: slip %.2f %%, torque / statics %.3f\n", modulus, 100 * slip,
                 torque / (mass * along * 0.1));
-    EXPECT_GT(slip, 0) << modulus;
-    EXPECT_LT(slip, creep) << modulus;
+    EXPECT_NEAR(slip, 0, 1e-4) << modulus;
     // Moments about the contact of an axle: the height of the centre of mass shifts load to the rear.
     const double height = (hull * 0.25 + 4 * wheelMass * 0.1) / mass, shift = mass * along * height / 0.5;
     const auto force = s->mechanism()->contactForces();
