@@ -79,6 +79,7 @@ std::vector<scm::Solid> solidsOf(const PartsOnGround& on) {
       };
     } else {
       solid.isRound = part.shape.shape != SurfaceShape::box;
+      solid.isBall = part.shape.shape == SurfaceShape::capsule && part.shape.half.z == 0;
       solid.gap = [shape = part.shape](const base::Vec3d& p) { return contact::gapTo(shape, p); };
     }
     solids.push_back(solid);

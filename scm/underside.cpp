@@ -13,8 +13,7 @@ double breadthOf(const Solid& solid, const contact::PartMotion& motion) {
   for (int a = 1; a < 3; ++a)
     if (std::fabs(motion.rotation.m[2][a]) > std::fabs(motion.rotation.m[2][upright])) upright = a;
   const double one = solid.half[(upright + 1) % 3], other = solid.half[(upright + 2) % 3];
-  const bool isBall = solid.half.x == solid.half.z;
-  if (solid.isRound && (upright == 2 || isBall)) return solid.half.x;
+  if (solid.isBall || (solid.isRound && upright == 2)) return solid.half.x;
   return 2 * std::min(one, other);
 }
 

@@ -16,6 +16,7 @@ struct Solid {
   int part{};     ///< index of its part
   Vec3d half;     ///< half size of its bounding box, centred at the origin of the part's frame [m]
   bool isRound{}; ///< true: body of revolution about the z axis
+  bool isBall{};  ///< true: sphere, with a round contact area in every orientation
   /// Gap from a point in the part frame to the surface; its distance must not exceed the true distance.
   std::function<contact::SurfaceGap(const Vec3d& p_P)> gap{};
 };

@@ -98,8 +98,8 @@ std::optional<coupling::ScmSetup> scmSetup(const scene::Scene& scene) {
     soil.maximumSlipSinkage = s.maximumSlipSinkage.value_or(shoe.grouserHeight);
     if (s.nodeSpacing && *s.nodeSpacing > 2 * shoe.halfLength)
       scene.fail("scm", "node_spacing",
-                 fmt::format("[m] exceeds the shoe length, {:g} m; set at most this length, or at most half of it for "
-                             "accurate results",
+                 fmt::format("[m] exceeds the shoe length, {:g} m; remove the key to use a quarter of this length, or "
+                             "set at most a quarter for accurate results",
                              2 * shoe.halfLength));
   }
   setup.spacing = s.nodeSpacing.value_or(spacing);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace grouser::scm::body_contacts {
@@ -24,6 +25,7 @@ terrain::SurfaceJet level(double, double) { return {}; }
 
 Solid solid(const contact::SurfaceGeometry& shape) {
   Solid s{.part = 0, .half = halfExtent(shape), .isRound = shape.shape != contact::SurfaceShape::box};
+  s.isBall = shape.shape == contact::SurfaceShape::capsule && shape.half.z == 0;
   s.gap = [shape](const Vec3d& p) { return contact::gapTo(shape, p); };
   return s;
 }
@@ -115,6 +117,21 @@ TEST(BodyContacts, TorqueOfAWheelIsOfFirstOrderInTheStep) {
   EXPECT_NEAR((coarse - fine) / (fine - finest), 2, 0.5) << coarse << " " << fine << " " << finest;
   const double expected = integrated(drySand(), 0.0455, 0.2).torque;
   EXPECT_NEAR(2 * finest - fine, expected, 0.02 * expected) << "the residual is due to the grid";
+}
+
+TEST(BodyContacts, WidthOfALyingCylinderOrConeIsItsSmallerSideAtAnyLength) {
+  using contact::SurfaceShape;
+  const contact::PartMotion lying = wheelAt(0, 0, 0, 0, 0);
+  contact::PartMotion upright{};
+  upright.rotation = base::Mat3d::identity();
+  for (const SurfaceShape shape : {SurfaceShape::cylinder, SurfaceShape::cone})
+    for (const double halfLength : {0.0999, 0.1, 0.1001}) {
+      const Solid round = solid({shape, {0.1, shape == SurfaceShape::cone ? 0.05 : 0.1, halfLength}});
+      EXPECT_EQ(breadthOf(round, lying), 2 * std::min(0.1, halfLength)) << halfLength;
+      EXPECT_EQ(breadthOf(round, upright), 0.1) << halfLength;
+    }
+  for (const contact::PartMotion& pose : {lying, upright})
+    EXPECT_EQ(breadthOf(solid({SurfaceShape::capsule, {0.1, 0.1, 0}}), pose), 0.1) << "a ball is round on any side";
 }
 
 TEST(BodyContacts, BoxPressesAndSlidesAsAPadOfItsSize) {
