@@ -182,6 +182,9 @@ void hashCommand(const HashCommand& command) {
 
 void sinkageCommand(const SinkageCommand& command) {
   const fs::path results = command.results;
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(results, ignored)) && !fs::is_directory(results, ignored))
+    base::requireInput(results, "specify the results.h5 of a run");
   const fs::path folder = command.folder.empty() ? fs::absolute(results).parent_path() : fs::path(command.folder);
   support::requireFolder(folder);
   if (command.shoes.empty()) {

@@ -2,6 +2,7 @@
 #include "runs/setup/provenance.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/scene/soil.hpp"
@@ -110,8 +111,8 @@ std::string inputsOf(const scene::Scene& scene) {
         Named{"road_wheel", spec.roadWheel.mesh}, Named{"roller", spec.roller.mesh}, Named{"idler", spec.idler.mesh}}) {
     if (&mesh == &spec.roller.mesh && spec.roller.x.empty()) continue;
     const fs::path file = fs::path(spec.meshFolder) / mesh;
-    if (!fs::is_regular_file(file))
-      vehicle::refuseMesh(scene.vehicle->source(), section, file.string() + ": no such mesh file; check the path");
+    if (const std::string fault = base::inputFault(file); !fault.empty())
+      vehicle::refuseMesh(scene.vehicle->source(), section, file.string() + fault + "; check the path");
     text += fmt::format("mesh:{} {}\n", mesh, hashOfFile(file));
   }
   return text;

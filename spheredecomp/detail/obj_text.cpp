@@ -2,12 +2,14 @@
 #include "spheredecomp/detail/obj_text.hpp"
 
 #include "base/error.hpp"
+#include "base/input_file.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -59,6 +61,17 @@ void checkLine(const std::string& line, const Fail& fail) {
   if (kind == 'v') checkVertex(words, fail);
 }
 
+/// Checks a material library, which assimp opens if it exists: a FIFO would block it.
+void checkLibrary(const std::string& line, const std::filesystem::path& folder, const Fail& fail) {
+  const std::size_t begin = line.find_first_not_of(" \t", line.find_first_of(" \t")); // after the keyword
+  if (!line.starts_with("mtllib") || begin == std::string::npos) return;
+  const std::string name = line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
+  std::error_code ignored;
+  if (const auto library = folder / name; std::filesystem::exists(library, ignored))
+    if (const std::string fault = base::inputFault(library); !fault.empty())
+      fail(fmt::format("the material library {:.200}{}", name, fault));
+}
+
 } // namespace
 
 void checkObj(const std::string& path) {
@@ -74,6 +87,7 @@ void checkObj(const std::string& path) {
     for (std::string next; continues() && std::getline(in, next); ++number)
       line = line.substr(0, line.rfind('\\')) + ' ' + next;
     checkLine(line, fail);
+    checkLibrary(line, std::filesystem::path(path).parent_path(), fail);
   }
 }
 

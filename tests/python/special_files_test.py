@@ -41,8 +41,8 @@ class SpecialFiles(FolderTest):
                   "vehicle": DRIVEN.format(driver="sprocket_speed = 1").replace("car.toml", "@"),
                   "soil": MAP.replace("stiffness = 1e5", 'soil = "./@"'),
                   "mesh": MESH.format(file="@", keys="sphere_radius = 0.02")}
-        calls = [("run", "@"), ("plan", "@"), ("sweep", "@", "--set", "run.seed=1,2"), ("check", "@"), ("compare", "@", "--grounds", "rigid,granular"),
-                 ("render", "@"), ("sinkage", "@", "--out", "sinkage"), ("hash", "@"), ("spheres", "@", "--radius", "0.02"),
+        calls = [("run", "@"), ("plan", "@"), ("sweep", "@", "--set", "run.seed=1,2"), ("check", "@"),
+                 ("compare", "@", "--grounds", "rigid,granular"), ("render", "@"), ("sinkage", "@"), ("hash", "@"), ("spheres", "@", "--radius", "0.02"),
                  ("soil", "--calibrate", "@"), ("run", "plain.toml", "--resume", "@")]
         Path("plain.toml").write_text(GROUND.format(more=""))
         for file, kind in self.special().items():
@@ -54,9 +54,17 @@ class SpecialFiles(FolderTest):
             for name, text in scenes.items():
                 with self.subTest(scene=name, file=file):
                     # The name of a soil is a path if it contains a slash.
-                    Path("scene.toml").write_text(text.replace("./@" if file[0] == "/" and name == "soil" else "@", file))
+                    word = "./@" if file[0] == "/" and name == "soil" else "@"
+                    Path("scene.toml").write_text(text.replace(word, file))
                     self.refused(["run", "scene.toml"], file.rpartition("/")[2], kind)
         self.assertFalse(Path("out").exists())
+
+    def test_material_library(self):
+        os.mkfifo("fifo")
+        Path("mesh.obj").write_text("# a tetrahedron\nmtllib fifo\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                    "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
+        Path("scene.toml").write_text(MESH.format(file="mesh.obj", keys="sphere_radius = 0.02"))
+        self.refused(["run", "scene.toml"], "mesh.obj:2: the material library fifo", "is a FIFO")
 
     def test_python(self):
         kinds = self.special()

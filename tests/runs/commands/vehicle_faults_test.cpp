@@ -65,7 +65,7 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
        {"for 25 kg, a radius of gyration of 0.6 m", "road_wheel.obj extends 0.218 m"}},
       {{"arm", "length", "0.01"}, {"arm.inertia", "the arm extends 0.01 m"}},
       {{"chassis", "centre", "[1.437, 0, 10]"}, {"9250 mm beyond the hull", "z must be in [-1.15, 1.7]"}},
-      {{"shoe", "mesh", "\"nix.obj\""}, {"shoe.mesh = \"nix.obj\"", "no such mesh file"}},
+      {{"shoe", "mesh", "\"nix.obj\""}, {"shoe.mesh = \"nix.obj\"", "nix.obj: no such file"}},
       {{"vehicle", "mesh_folder", "\"/nix\""}, {"chassis.mesh = \"chassis.obj\" in vehicle.mesh_folder", "/nix"}},
       {{"roller", "mesh", "\"sprocket.obj\""}, {"roller.radius", "sprocket.obj", "269.2 mm"}},
   };
