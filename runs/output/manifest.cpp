@@ -128,8 +128,8 @@ std::string manifestText(const fs::path& folder, const std::string& remedy) {
   std::string text = base::readInput(path, remedy);
   const std::size_t at = text.rfind(kChecksum);
   const bool isDamaged =
-      at == std::string::npos // older versions write no checksum
-          ? !text.empty() && !nlohmann::json::parse(text, nullptr, false).is_object()
+      at == std::string::npos // older versions write no checksum: their last entry is a table, not a text
+          ? !text.empty() && (text.ends_with("\"\n}\n") || !nlohmann::json::parse(text, nullptr, false).is_object())
           : text.substr(at) != fmt::format("{}{:08x}\"\n}}\n", kChecksum, support::crc32(text.substr(0, at)));
   if (isDamaged)
     throw base::InputError(fmt::format("{}: wrong checksum: the file is damaged; {}", path.string(), remedy));

@@ -37,7 +37,8 @@ class Files(FolderTest):
                 opener(self.folder)
         run = grouser.Scene(MINIMAL).run("cut")
         whole = run.file.with_name("manifest.json").read_text()
-        for text, place in ((whole.replace('"status":', '"status"', 1), r":\d+:\d+: "), (whole[:-3], r":\d+:\d+: ")):
+        for text, place in ((whole.replace('"status":', '"status"', 1), r":\d+:\d+: "), (whole[:-3], r":\d+:\d+: "),
+                            (whole.replace('"checksum"', '"checksul"'), ": ")):
             run.file.with_name("manifest.json").write_text(text)
             with self.assertRaisesRegex(grouser.FileError, "manifest.json" + place + "cannot be read as the manifest"):
                 grouser.open_run("cut").status

@@ -166,7 +166,9 @@ TEST_F(ResumedRun, ADamagedManifestIsRefusedUnlessForced) {
   const std::string whole = contents(file), rows = contents(resumed_ / "timeseries.csv");
   std::string altered = whole;
   altered[altered.find("\"steps\": 1234") + 9] = '2';
-  for (const std::string& text : {altered, whole.substr(0, whole.size() / 2), std::string("[1]"), std::string("{")}) {
+  std::string unnamed = whole;
+  unnamed[unnamed.rfind("\"checksum\"") + 1] = 'b';
+  for (const std::string& text : {altered, unnamed, whole.substr(0, whole.size() / 2), std::string("[1]"), std::string("{")}) {
     std::ofstream(file) << text;
     const std::string said = test::messageOf([this] { resume(bed()); });
     EXPECT_NE(said.find("manifest.json: wrong checksum: the file is damaged; restore it"), std::string::npos) << said;
