@@ -103,7 +103,8 @@ void checkSections(const scene::Scene& scene, const vehicle::VehicleSpec& spec) 
 }
 
 void checkParts(const scene::Scene& scene) {
-  if (scene.vehicle->chassis != scene::ChassisMount::fixed && scene.terrain && !(scene.run.gravity.z < 0))
+  if (scene.vehicle->chassis != scene::ChassisMount::fixed && scene.terrain && norm(scene.run.gravity) > 0 &&
+      !(scene.run.gravity.z < 0))
     scene.fail("run", "gravity",
                fmt::format("[m/s2] must point down for a vehicle with chassis = \"{}\", whose weight presses the "
                            "tracks onto the ground; set z below 0, or vehicle.chassis = \"fixed\"",

@@ -86,7 +86,7 @@ TEST_F(VehicleFaults, PlanAndRunRefuseThemAlikeAndWriteNothing) {
 
 TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
   test::put(folder_ / "scene.toml", rigidScene(GROUSER_SOURCE_DIR "/assets/vehicles/light_tracked.toml"));
-  for (const char* gravity : {"[0, 0, 9.81]", "[0, 0, 0]", "[9.81, 0, 0]"})
+  for (const char* gravity : {"[0, 0, 9.81]", "[0, 0, 0.1]", "[9.81, 0, 0]"})
     for (const char* chassis : {"free", "guided", "level"})
       for (const char* command : {"plan scene.toml --no-probe", "run scene.toml --out out"}) {
         const test::Outcome o =
@@ -99,7 +99,7 @@ TEST_F(VehicleFaults, GravityThatLiftsTheVehicleIsRefused) {
         EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
       }
   EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[-1.7,0,-9.6]").code, 0) << "a slope";
-  EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[0,0,0] --set vehicle.chassis=fixed").code, 0);
+  EXPECT_EQ(call("plan scene.toml --no-probe --set run.gravity=[0,0,0]").code, 0) << "weightless";
 }
 
 TEST_F(VehicleFaults, PlanRefusesSectionsThatTheVehicleFileLacks) {
