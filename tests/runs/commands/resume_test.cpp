@@ -168,7 +168,8 @@ TEST_F(ResumedRun, ADamagedManifestIsRefusedUnlessForced) {
   altered[altered.find("\"steps\": 1234") + 9] = '2';
   std::string unnamed = whole;
   unnamed[unnamed.rfind("\"checksum\"") + 1] = 'b';
-  for (const std::string& text : {altered, unnamed, whole.substr(0, whole.size() / 2), std::string("[1]"), std::string("{")}) {
+  for (const std::string& text :
+       {altered, unnamed, whole.substr(0, whole.size() / 2), std::string("[1]"), std::string("{")}) {
     std::ofstream(file) << text;
     const std::string said = test::messageOf([this] { resume(bed()); });
     EXPECT_NE(said.find("manifest.json: wrong checksum: the file is damaged; restore it"), std::string::npos) << said;
