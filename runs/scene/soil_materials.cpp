@@ -99,15 +99,24 @@ void multiply(std::optional<double>& value, double by) {
   if (value) *value *= by;
 }
 
+/// True if a soil has this name. An unusable soil file counts, and is an error where its section is read.
+bool namesSoil(const std::string& name, const fs::path& scene) {
+  std::vector<fs::path> tried;
+  try {
+    return name.find('/') == std::string::npos && !findSoil(name, scene, tried).empty();
+  } catch (const base::InputError&) {
+    return true;
+  }
+}
+
 } // namespace
 
 void supplySoils(base::Document& document, const fs::path& scene) {
-  std::vector<fs::path> tried;
   for (const Mention& mention : mentionedMaterials(document.root())) {
     const Node* materials = document.root().node().find("material");
     const Node* own = materials ? materials->find(mention.name) : nullptr;
     if (own && own->origin != "--set") continue; // the scene file has its own section
-    if (mention.name.find('/') != std::string::npos || findSoil(mention.name, scene, tried).empty()) continue;
+    if (!namesSoil(mention.name, scene)) continue;
     // A section that only overrides define counts as a mistyped name.
     const std::string origin = mention.origin == "--set" ? "--set, as a material" : mention.origin;
     document.supply("material", mention.name, "soil", mention.name, origin);

@@ -67,7 +67,7 @@ std::vector<fs::path> inputFolders(const fs::path& scene) {
 
 fs::path findInput(const std::string& name, const fs::path& scene, std::vector<fs::path>& tried) {
   tried.clear();
-  if (name.empty()) return {};
+  if (name.empty() || name.find('\0') != std::string::npos) return {}; // the system ends a path at a NUL
   const fs::path wanted = name;
   std::error_code error;
   // An absolute path is the same for every folder.

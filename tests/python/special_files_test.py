@@ -66,6 +66,14 @@ class SpecialFiles(FolderTest):
         Path("scene.toml").write_text(MESH.format(file="mesh.obj", keys="sphere_radius = 0.02"))
         self.refused(["run", "scene.toml"], "mesh.obj:2: the material library fifo", "is a FIFO")
 
+    def test_soil_of_a_material_without_section(self):
+        os.mkdir("soils")
+        os.mkfifo("soils/mud.toml")
+        text = GROUND.format(more="")
+        for scene in (text.replace('material = "m"', 'material = "mud"'), MAP.replace("stiffness = 1e5", 'soil = "mud"')):
+            Path("scene.toml").write_text(scene)
+            self.refused(["plan", "scene.toml"], "mud.toml", "is a FIFO")
+
     def test_python(self):
         kinds = self.special()
         del kinds["loop"]  # OSError of the system
