@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <linux/magic.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -33,9 +34,9 @@ std::string kindOf(mode_t mode) {
 bool isOfKernel(const std::filesystem::path& path) {
   struct statfs system {};
   if (::statfs(path.c_str(), &system) != 0) return false;
-  for (const auto magic : {PROC_SUPER_MAGIC, SYSFS_MAGIC, DEBUGFS_MAGIC, TRACEFS_MAGIC, SECURITYFS_MAGIC})
-    if (static_cast<unsigned long>(system.f_type) == static_cast<unsigned long>(magic)) return true;
-  return false;
+  constexpr std::array<unsigned long, 5> kKernel{PROC_SUPER_MAGIC, SYSFS_MAGIC, DEBUGFS_MAGIC, TRACEFS_MAGIC,
+                                                 SECURITYFS_MAGIC};
+  return std::find(kKernel.begin(), kKernel.end(), static_cast<unsigned long>(system.f_type)) != kKernel.end();
 }
 
 std::string faultOf(int error) {

@@ -7,6 +7,7 @@
 #include "runs/campaigns/sweeps/scene_check.hpp"
 #include "runs/campaigns/sweeps/sweep_files.hpp"
 #include "runs/scene/scene.hpp"
+#include "runs/scene/scene_file.hpp"
 #include "runs/setup/load_scene.hpp"
 
 #include <fmt/format.h>
