@@ -46,8 +46,10 @@ std::string quoted(const std::string& text) {
 std::string shown(const std::string& text) {
   constexpr std::size_t kLongest = 300, kBegin = 40;
   const std::size_t length = characters(text);
-  if (length <= kLongest || hasControlCharacter(text.substr(0, kBegin))) return quoted(text);
-  return fmt::format("{}... ({} characters)", quoted(text.substr(0, kBegin)), length);
+  if (length <= kLongest) return quoted(text);
+  std::size_t end = kBegin;
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80) ++end; // inside a character
+  return fmt::format("{}... ({} characters)", quoted(text.substr(0, end)), length);
 }
 
 template <class Range, class Format> std::string bracketed(const Range& range, Format format) {

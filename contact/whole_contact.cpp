@@ -191,18 +191,15 @@ void dampWholeContacts(const std::vector<WholePatch>& patches, const std::vector
                        const PartMotion* motion, double timeStep, std::vector<DampedPatch>& damped) {
   damped.assign(patches.size(), {});
   std::vector<char> done(patches.size());
+  std::vector<std::size_t> members;
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (done[i]) continue;
     Contact contact(bodies, motion, patches[i]);
-    const auto forEachMember = [&](const auto& visit) {
-      for (std::size_t j = i; j < patches.size(); ++j)
-        if (!done[j] && (j == i || contact.has(patches[j]))) visit(j);
-    };
-    forEachMember([&](std::size_t j) { contact.add(patches[j]); });
+    members.clear();
+    for (std::size_t j = i; j < patches.size(); ++j)
+      if (!done[j] && (j == i || contact.has(patches[j]))) contact.add(patches[j]), members.push_back(j), done[j] = 1;
     contact.solve(timeStep);
-    std::vector<std::size_t> members;
-    forEachMember([&](std::size_t j) { members.push_back(j); });
-    for (const std::size_t j : members) damped[j] = contact.damped(patches[j], timeStep), done[j] = 1;
+    for (const std::size_t j : members) damped[j] = contact.damped(patches[j], timeStep);
   }
 }
 

@@ -205,7 +205,7 @@ void removeRepeatedFaces(TriangleMesh& mesh, const std::string& path, std::strin
   const std::size_t removed = (mesh.indices.size() - unique.indices.size()) / 3;
   if (removed == 0 || openEdges(unique).size() > openEdges(mesh).size()) return;
   mesh = std::move(unique);
-  if (note) *note = fmt::format("{}: {} repeated faces were removed", path, removed);
+  if (note) *note += fmt::format("{}{}: {} repeated faces were removed", note->empty() ? "" : "; ", path, removed);
 }
 
 /// Checks the indices, since assimp's later steps and append() do not: a damaged file may refer to missing vertices.

@@ -94,6 +94,7 @@ void Manifest::write(RunStatus status) const {
   json["machine"] = support::machineText();
   json["started"] = started_;
   for (const auto& [key, text] : notes_) json[key] = text;
+  if (const std::string job = support::slurmJob(); !job.empty()) json["slurm_job"] = job;
   if (hasEnded(status)) {
     json["ended"] = now();
     json["steps"] = summary_.steps;

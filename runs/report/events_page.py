@@ -120,7 +120,8 @@ def plots(made, rows):
 def runs_of(folder, row):
     """Folders of the runs with a verdict at a level; if the file lists no runs, the folder of the picture."""
     told = [run["run"] for run in row.get("each", []) if run["verdict"] != "failed"]
-    return [grouser.files.inside(folder, name, folder / "events.json") for name in told or [row.get("picture", "").rpartition("/")[0]] if name]
+    names = told or [row.get("picture", "").rpartition("/")[0]]
+    return [grouser.files.inside(folder, name, folder / "events.json") for name in names if name]
 
 
 def page(folder, options):

@@ -10,7 +10,6 @@
 #include "runs/render/picture.hpp"
 #include "runs/session/frame_of.hpp"
 #include "runs/setup/record_setup.hpp"
-#include "runs/support/build_info.hpp"
 
 #include <exception>
 
@@ -40,7 +39,6 @@ void FailedBed::write(const terrain::Grains* bed, const std::string& message, ba
                       {"device", device_},
                       {"phase", "settling"},
                       {"switches", options_.switches}};
-  if (const std::string job = support::slurmJob(); !job.empty()) options.metadata["slurm_job"] = job;
   output::RunWriter writer(options_.folder, provenance_, {}, options);
   writer.abandon(message, cause); // first, in case the rest fails
   if (!bed) return;

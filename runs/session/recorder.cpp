@@ -14,7 +14,6 @@
 #include "runs/render/picture.hpp"
 #include "runs/session/field_grid.hpp"
 #include "runs/session/frame_of.hpp"
-#include "runs/support/build_info.hpp"
 #include "runs/support/print_stderr.hpp"
 
 #include <fmt/format.h>
@@ -82,7 +81,6 @@ output::RunWriter::Options writerOptions(bool frames, const RunRequest& options,
   w.comm = options.comm();
   w.metadata = {
       {"command_line", options.commandLine}, {"device", base::describe(exec)}, {"switches", options.switches}};
-  if (const std::string job = support::slurmJob(); !job.empty()) w.metadata["slurm_job"] = job;
   if (!w.comm.alone()) w.metadata["ranks"] = std::to_string(w.comm.size());
   if (!former) return w;
   const std::int64_t step = former->state.steps;

@@ -62,12 +62,13 @@ void checkLine(const std::string& line, const Fail& fail) {
 }
 
 /// Checks a material library, which assimp opens if it exists: a FIFO would block it.
-void checkLibrary(const std::string& line, const std::filesystem::path& folder, const Fail& fail) {
+void checkLibrary(const std::string& line, const std::string& path, const Fail& fail) {
+  if (!line.starts_with("mtllib")) return;
   const std::size_t begin = line.find_first_not_of(" \t", line.find_first_of(" \t")); // after the keyword
-  if (!line.starts_with("mtllib") || begin == std::string::npos) return;
+  if (begin == std::string::npos) return;
   const std::string name = line.substr(begin, line.find_last_not_of(" \t\r") + 1 - begin);
   std::error_code ignored;
-  if (const auto library = folder / name; std::filesystem::exists(library, ignored))
+  if (const auto library = std::filesystem::path(path).parent_path() / name; std::filesystem::exists(library, ignored))
     if (const std::string fault = base::inputFault(library); !fault.empty())
       fail(fmt::format("the material library {:.200}{}", name, fault));
 }
@@ -87,7 +88,7 @@ void checkObj(const std::string& path) {
     for (std::string next; continues() && std::getline(in, next); ++number)
       line = line.substr(0, line.rfind('\\')) + ' ' + next;
     checkLine(line, fail);
-    checkLibrary(line, std::filesystem::path(path).parent_path(), fail);
+    checkLibrary(line, path, fail);
   }
 }
 

@@ -60,6 +60,12 @@ TEST(NameFault, MessagesShowTextsEscapedAndLongOnesAbbreviated) {
   EXPECT_EQ(test::messageOf([&] { root.fail("name", "is bad"); }), "a.toml:2: name = \"a\\u202Eb\" is bad");
   const std::string text = test::messageOf([&] { root.fail("text", "is long"); });
   EXPECT_EQ(text, "a.toml:3: text = \"" + std::string(40, 'x') + "\"... (5000 characters) is long");
+  // A character is not cut in two.
+  const Document wheels = Document::parse(
+      "version = 1\ntext = \"" + std::string(39, 'x') + "\xE8\xBD\xAE" + std::string(5000, 'x') + "\"\n", "b.toml");
+  EXPECT_NE(
+      test::messageOf([&] { wheels.root().fail("text", "is long"); }).find("x\xE8\xBD\xAE\"... (5040 characters)"),
+      std::string::npos);
   // Written TOML is read as the same text.
   const std::string written = toToml(FieldValue("a" + kOverride + "\xF3\xA0\x81\x81" + "b\x7F"));
   EXPECT_EQ(written, "\"a\\u202E\\U000E0041b\\u007F\"");

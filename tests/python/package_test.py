@@ -43,11 +43,11 @@ class Toml(unittest.TestCase):
 class Types(unittest.TestCase):
     """The package declares types (py.typed). They agree with the extension module and with its own code."""
 
-    def test_stub_has_the_names_of_the_extension_module(self):
+    def test_types_have_the_names_of_the_extension_module(self):
         from grouser.simulation import _core
         module = _core()
-        stub = ast.parse((ROOT / "python/grouser/_core.pyi").read_text())
-        found = next(node for node in stub.body if isinstance(node, ast.ClassDef))
+        types = ast.parse((ROOT / "python/grouser/_core.pyi").read_text())
+        found = next(node for node in types.body if isinstance(node, ast.ClassDef))
         listed = {node.name for node in found.body if isinstance(node, ast.FunctionDef)} - {"__init__"}
         self.assertEqual(listed, {name for name in vars(module.Simulation) if not name.startswith("_")})
         self.assertEqual((type(module.version), type(module.commit)), (str, str))

@@ -77,6 +77,9 @@ TEST(ImportMesh, RepeatedFaces_CountOnce) {
     EXPECT_NEAR(signedVolume(mesh), 1.0 / 6, 1e-15);
     EXPECT_EQ(mesh.indices.size(), 12u);
     EXPECT_NE(note.find("4 repeated faces were removed"), std::string::npos) << note;
+    note = "welded";
+    importMesh(file.path, &note);
+    EXPECT_EQ(note.find("welded; "), 0u) << "a former note remains";
   }
   const File both("grouser_both.obj", whole + "f 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
   EXPECT_NE(messageOf(both.path).find("its faces occur in both orientations"), std::string::npos)
