@@ -329,7 +329,8 @@ void Section::noteIfUnusual(const std::string& key, const Field& field, const st
                         [](const auto&) {}},
              detail::readValue(*node, field, key));
   if (const std::string text = field.unusualText(value); !text.empty())
-    keep(fmt::format("{}: {} = {}{} {}", node->origin, name, nodeText(*node), unitText(field), text));
+    keep({name, unitText(field).empty() ? "" : fmt::format("{} {}", nodeText(*node), field.unit),
+          fmt::format("{}: {} = {}{} {}", node->origin, name, nodeText(*node), unitText(field), text)});
 }
 
 void Section::noteUnusual(const std::vector<Field>& fields) const {
@@ -344,15 +345,18 @@ std::string Section::described(const std::string& key, const std::string& messag
   return fmt::format("{}: {} = {} {}", node->origin, full, nodeText(*node), message);
 }
 
-void Section::keep(const std::string& note) const {
-  if (unusual_ && std::find(unusual_->begin(), unusual_->end(), note) == unusual_->end()) unusual_->push_back(note);
+void Section::keep(const UnusualValue& unusual) const {
+  if (unusual_ && std::find(unusual_->begin(), unusual_->end(), unusual) == unusual_->end())
+    unusual_->push_back(unusual);
 }
 
 void Section::fail(const std::string& key, const std::string& message) const {
   throw InputError(described(key, message));
 }
 
-void Section::note(const std::string& key, const std::string& message) const { keep(described(key, message)); }
+void Section::note(const std::string& key, const std::string& message) const {
+  keep({path_.empty() ? key : path_ + "." + key, "", described(key, message)});
+}
 
 int editDistance(std::string_view a, std::string_view b) {
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };

@@ -285,11 +285,19 @@ private:
   bool leavesOutEmpty_ = false;
 };
 
+/// A value outside the usual span of its field.
+struct UnusualValue {
+  std::string key;   ///< "scm.K"
+  std::string value; ///< "0.4 m", as other errors quote it; empty without a unit
+  std::string note;  ///< one line with location and likely unit
+  bool operator==(const UnusualValue&) const = default;
+};
+
 /// A view of one table of a file.
 class Section {
 public:
-  /// `unusual` collects the notes on unusual values that read() finds; null: no notes.
-  Section(const Node& node, std::string path, std::vector<std::string>* unusual = nullptr)
+  /// `unusual` collects the unusual values that read() finds; null: it does not look for them.
+  Section(const Node& node, std::string path, std::vector<UnusualValue>* unusual = nullptr)
       : node_(&node), path_(std::move(path)), unusual_(unusual) {}
 
   const Node& node() const { return *node_; }
@@ -331,11 +339,11 @@ public:
 private:
   void noteUnusual(const std::vector<Field>& fields) const;
   std::string described(const std::string& key, const std::string& message) const;
-  void keep(const std::string& note) const;
+  void keep(const UnusualValue& unusual) const;
 
   const Node* node_;
   std::string path_;
-  std::vector<std::string>* unusual_;
+  std::vector<UnusualValue>* unusual_;
 };
 
 /// Parsed TOML file with overrides applied. The file must contain `version = 1`.
@@ -362,9 +370,8 @@ public:
   void put(const std::string& section, const std::string& key, const Node& value);
   /// One line per renamed key, with its location and the required change to the file.
   const std::vector<std::string>& notes() const { return notes_; }
-  /// One line per value outside the usual span of its field, with location and likely unit, for all sections that have
-  /// been read.
-  const std::vector<std::string>& unusual() const { return unusual_; }
+  /// Values outside the usual spans of their fields, for all sections that have been read.
+  const std::vector<UnusualValue>& unusual() const { return unusual_; }
 
   /// Root section, valid as long as the document exists. Sections may be read with `version` among their subsections.
   Section root() const& { return {root_, "", &unusual_}; }
@@ -373,7 +380,7 @@ public:
 private:
   Node root_;
   std::vector<std::string> notes_;
-  mutable std::vector<std::string> unusual_; // filled while sections are read
+  mutable std::vector<UnusualValue> unusual_; // filled while sections are read
 };
 
 /// Number of edits (insert, delete, replace, swap of neighbours; case ignored) between two words.

@@ -106,7 +106,7 @@ VehicleSpec readVehicleSpec(const SpecSource& source) {
   return spec;
 }
 
-std::vector<std::string> unusualSpecValues(const SpecSource& source) {
+std::vector<base::UnusualValue> unusualSpecValues(const SpecSource& source) {
   const base::Document document = documentOf(source);
   sectionsOf(document.root());
   return document.unusual();

@@ -15,7 +15,7 @@ namespace grouser::vehicle {
 VehicleSpec readVehicleSpec(const SpecSource& source);
 /// Notes on values outside the usual span of their key (base::Document::unusual()). Throws as readVehicleSpec() does,
 /// but does not check the running gear.
-std::vector<std::string> unusualSpecValues(const SpecSource& source);
+std::vector<base::UnusualValue> unusualSpecValues(const SpecSource& source);
 
 /// Throws a fault in a spec file as base::InputError, with its location.
 [[noreturn]] void refuse(const SpecSource& source, const SpecFault& fault);

@@ -43,19 +43,6 @@ void allowOnlyKnown(const base::Section& root, const SectionList& sections) {
   root.allowOnly(names);
 }
 
-/// "scm.K" of "scene.toml:5: scm.K = 0.4 [m] is outside the usual span..."
-std::string keyOfNote(const std::string& note) {
-  const std::size_t end = note.find(" = "), begin = note.rfind(": ", end);
-  return begin == std::string::npos ? "" : note.substr(begin + 2, end - begin - 2);
-}
-
-/// "0.4 m" of the same note, as other errors quote the value; empty if it has no unit.
-std::string valueOfNote(const std::string& note) {
-  const std::size_t begin = note.find(" = ") + 3, unit = note.find(" [", begin), end = note.find("] ", begin);
-  if (begin < 3 || unit == std::string::npos || end == std::string::npos || unit > end) return "";
-  return note.substr(begin, unit - begin) + " " + note.substr(unit + 2, end - unit - 2);
-}
-
 /// True if the text contains the whole word, not as a part of a longer one.
 bool contains(const std::string& text, const std::string& key) {
   const auto isPart = [&](std::size_t i) {
@@ -127,18 +114,18 @@ void withUnusualValues(const Scene& scene, const std::function<void()>& act) {
     act();
   } catch (const base::InputError& error) {
     std::string text = error.what();
-    for (const std::string& note : scene.document->unusual())
-      if (isNamed(keyOfNote(note), error.what()) || contains(error.what(), valueOfNote(note)))
-        text += "; note: " + note;
+    for (const base::UnusualValue& unusual : scene.document->unusual())
+      if (isNamed(unusual.key, error.what()) || contains(error.what(), unusual.value))
+        text += "; note: " + unusual.note;
     throw base::InputError(text);
   }
 }
 
 std::vector<std::string> unusualValues(const Scene& scene) {
   std::vector<std::string> notes;
-  const auto add = [&notes](const std::vector<std::string>& more) {
-    for (const std::string& note : more)
-      if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  const auto add = [&notes](const std::vector<base::UnusualValue>& more) {
+    for (const base::UnusualValue& unusual : more)
+      if (std::find(notes.begin(), notes.end(), unusual.note) == notes.end()) notes.push_back(unusual.note);
   };
   if (scene.document) add(scene.document->unusual());
   for (const auto& [material, soil] : scene.soils)

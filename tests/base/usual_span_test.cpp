@@ -34,7 +34,9 @@ std::vector<std::string> notesOn(const std::string& keys) {
   const Document document = Document::parse("version = 1\n[pile]\n" + keys, "a.toml");
   document.root().section("pile").read(pileTable());
   document.root().section("pile").read(pileTable()); // a second reading adds nothing
-  return document.unusual();
+  std::vector<std::string> notes;
+  for (const UnusualValue& unusual : document.unusual()) notes.push_back(unusual.note);
+  return notes;
 }
 
 TEST(UsualSpan, ValuesOutsideAreNotedWithPlaceAndLikelyUnit) {

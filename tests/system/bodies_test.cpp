@@ -10,6 +10,7 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
 #include "tests/message_of.hpp"
+#include "tests/system/scene_simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -39,15 +40,6 @@ std::string cube(const std::string& position, double mass, const std::string& mo
                      mass, position, more);
 }
 
-std::unique_ptr<Simulation> made(const std::string& text) {
-  return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, "bodies.toml")), base::cpuExec(1),
-                                      [](double, double) {});
-}
-
-void advanceTo(Simulation& s, double time) {
-  while (s.time() < time - 0.5 * s.timeStep()) s.step();
-}
-
 /// Four fixed grains in a square that support a cube.
 std::string feet() {
   std::string all;
@@ -73,7 +65,7 @@ TEST(ShapeGap, CapsuleIsTheNearestPointOfItsSegment) {
 }
 
 TEST(Bodies, WeightIsTheMeanContactForceAtRest) {
-  const auto s = made(head("time_step = 2e-5") + feet() + cube("[0, 0, 0.0599]", 2));
+  const auto s = simulationOf(head("time_step = 2e-5") + feet() + cube("[0, 0, 0.0599]", 2));
   advanceTo(*s, 0.5);
   s->restartMeans();
   advanceTo(*s, 0.6);
@@ -88,12 +80,12 @@ TEST(Bodies, WeightIsTheMeanContactForceAtRest) {
 TEST(Bodies, ABallBouncesOffAGrainAsTheLawSays) {
   const double radius = 0.01, mass = 2500 * 4.0 / 3 * base::kPi * radius * radius * radius;
   const auto rebound = [&](double step) {
-    const auto s =
-        made(head(fmt::format("gravity = [0, 0, 0]\ntime_step = {}", step), "density = 2500\n") + grain("[0, 0, 0]") +
-             fmt::format("[[body]]\nname = \"ball\"\nmass = {}\ninertia = [1e-6, 1e-6, 1e-6]\nposition = "
-                         "[0.021, 0, 0]\nvelocity = [-0.5, 0, 0]\nmaterial = \"glass\"\n[[body.shape]]\n"
-                         "kind = \"sphere\"\nradius = 0.01\n",
-                         1e6 * mass));
+    const auto s = simulationOf(
+        head(fmt::format("gravity = [0, 0, 0]\ntime_step = {}", step), "density = 2500\n") + grain("[0, 0, 0]") +
+        fmt::format("[[body]]\nname = \"ball\"\nmass = {}\ninertia = [1e-6, 1e-6, 1e-6]\nposition = "
+                    "[0.021, 0, 0]\nvelocity = [-0.5, 0, 0]\nmaterial = \"glass\"\n[[body.shape]]\n"
+                    "kind = \"sphere\"\nradius = 0.01\n",
+                    1e6 * mass));
     advanceTo(*s, 0.02);
     const Vec3d body = s->mechanism()->state().twist[0].v;
     const terrain::GrainSnapshot g = s->ground().grains->snapshot();
@@ -109,8 +101,8 @@ TEST(Bodies, MomentumOfBodyAndGrainsIsConservedToRounding) {
   std::string grains;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) grains += grain(fmt::format("[{}, {}, 0]", 0.021 * i, 0.021 * j));
-  const auto s = made(head("gravity = [0, 0, 0]\ntime_step = 1e-5") + grains +
-                      cube("[0.015, 0.025, 0.08]", 0.05, "velocity = [0.3, 0, -2]\nspin = [5, 3, 0]"));
+  const auto s = simulationOf(head("gravity = [0, 0, 0]\ntime_step = 1e-5") + grains +
+                              cube("[0.015, 0.025, 0.08]", 0.05, "velocity = [0.3, 0, -2]\nspin = [5, 3, 0]"));
   const Vec3d linear = s->ledger().momentum, angular = s->ledger().angularMomentum;
   advanceTo(*s, 0.05);
   const Ledger l = s->ledger();
@@ -123,7 +115,7 @@ TEST(Bodies, MomentumOfBodyAndGrainsIsConservedToRounding) {
 
 TEST(Bodies, IntegrationErrorFallsWithTheStep) {
   const auto errorAt = [](double step) {
-    const auto s = made(head(fmt::format("time_step = {}", step)) + feet() + cube("[0, 0, 0.08]", 2));
+    const auto s = simulationOf(head(fmt::format("time_step = {}", step)) + feet() + cube("[0, 0, 0.08]", 2));
     advanceTo(*s, 0.15);
     const Ledger l = s->ledger();
     EXPECT_LT(std::fabs(l.residual), 1e-9 * l.turnover);
@@ -135,10 +127,11 @@ TEST(Bodies, IntegrationErrorFallsWithTheStep) {
 TEST(Bodies, APendulumLosesToGrainsWhatTheLedgerSays) {
   std::string grains;
   for (int i = -2; i <= 2; ++i) grains += grain(fmt::format("[{}, 0, 0.01]", 0.0205 * i));
-  const auto s = made(head("time_step = 1e-5") + "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n" + grains +
-                      cube("[0.15, 0, 0.22]", 0.5) +
-                      "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"world\", \"cube\"]\npoint = "
-                      "[0, 0, 0.22]\naxis = [0, 1, 0]\n");
+  const auto s =
+      simulationOf(head("time_step = 1e-5") + "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n" + grains +
+                   cube("[0.15, 0, 0.22]", 0.5) +
+                   "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"world\", \"cube\"]\npoint = "
+                   "[0, 0, 0.22]\naxis = [0, 1, 0]\n");
   advanceTo(*s, 0.6);
   const Ledger l = s->ledger();
   EXPECT_GT(l.dissipated.ofGrains(), 0.02);
@@ -147,7 +140,7 @@ TEST(Bodies, APendulumLosesToGrainsWhatTheLedgerSays) {
 }
 
 TEST(Bodies, LoadsFromOutsideActBesideContacts) {
-  const auto s = made(head("time_step = 2e-5") + feet() + cube("[0, 0, 0.0599]", 2));
+  const auto s = simulationOf(head("time_step = 2e-5") + feet() + cube("[0, 0, 0.0599]", 2));
   s->set({{0, InputKind::bodyLoad, 0, false, {0, 0, -10, 0, 0, 0}}});
   advanceTo(*s, 0.5);
   s->restartMeans();
@@ -157,32 +150,33 @@ TEST(Bodies, LoadsFromOutsideActBesideContacts) {
 
 TEST(Bodies, LightBodiesAskForAShorterStep) {
   const auto step = [](double mass) {
-    return setup::stepLimit(setup::parseScene(head("") + feet() + cube("[0, 0, 0.06]", mass), "bodies.toml")).step;
+    return setup::stepLimit(setup::parseScene(head("") + feet() + cube("[0, 0, 0.06]", mass), "scene.toml")).step;
   };
   EXPECT_EQ(step(1000), step(100));
   EXPECT_LT(step(0.001), 0.7 * step(100));
   // A plate of 1 g at the allowed step comes to rest.
-  const auto s = made(head("") + feet() + cube("[0, 0, 0.0605]", 0.001));
+  const auto s = simulationOf(head("") + feet() + cube("[0, 0, 0.0605]", 0.001));
   advanceTo(*s, 0.4);
   EXPECT_LT(norm(s->mechanism()->state().twist[0].v), 1e-4);
 }
 
 TEST(Bodies, OverlapWithAGrainAtTheStartIsRefused) {
-  const std::string message = test::messageOf([] { made(head("") + feet() + cube("[0, 0, 0.05]", 1)); });
+  const std::string message = test::messageOf([] { simulationOf(head("") + feet() + cube("[0, 0, 0.05]", 1)); });
   EXPECT_NE(message.find("body \"cube\" overlaps grain 0 of radius 0.01 m"), std::string::npos) << message;
   const std::string beside = test::messageOf([] {
-    made(head("") + grain("[0, 0, 0]") +
-         "[[body]]\nname = \"arm\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, 0]\nmaterial = \"glass\"\n"
-         "[[body.shape]]\nkind = \"sphere\"\nradius = 0.1\nposition = [-0.9, 0, 0]\n");
+    simulationOf(head("") + grain("[0, 0, 0]") +
+                 "[[body]]\nname = \"arm\"\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, 0]\nmaterial = \"glass\"\n"
+                 "[[body.shape]]\nkind = \"sphere\"\nradius = 0.1\nposition = [-0.9, 0, 0]\n");
   });
   EXPECT_NE(beside.find("body \"arm\" overlaps"), std::string::npos) << beside;
 }
 
 TEST(Bodies, FastBodiesAreRefusedOrStopTheRun) {
-  const std::string fast = test::messageOf(
-      [] { made(head("time_step = 1e-4") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 1, "velocity = [0, 0, -60]")); });
+  const std::string fast = test::messageOf([] {
+    simulationOf(head("time_step = 1e-4") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 1, "velocity = [0, 0, -60]"));
+  });
   EXPECT_NE(fast.find("body.0.velocity"), std::string::npos) << fast;
-  const auto s = made(head("time_step = 1e-4") + grain("[0, 0, 0]") + cube("[0, 0, 100]", 1));
+  const auto s = simulationOf(head("time_step = 1e-4") + grain("[0, 0, 0]") + cube("[0, 0, 100]", 1));
   s->set({{0, InputKind::bodyLoad, 0, false, {0, 0, -1e4, 0, 0, 0}}}); // 50 m/s are reached after 5 ms
   try {
     advanceTo(*s, 0.02);
@@ -194,7 +188,7 @@ TEST(Bodies, FastBodiesAreRefusedOrStopTheRun) {
 }
 
 TEST(Bodies, NotesNameWhatBodiesPassThroughAndLightBodies) {
-  const auto sceneOf = [](const std::string& text) { return setup::parseScene(text, "bodies.toml"); };
+  const auto sceneOf = [](const std::string& text) { return setup::parseScene(text, "scene.toml"); };
   const scene::Scene alone = sceneOf(head("") + grain("[0, 0, 0]") + cube("[0, 0, 0.2]", 1));
   EXPECT_EQ(setup::movingSurfacesWarning(alone), "");
   EXPECT_EQ(setup::bedWallsNote(alone), "");
@@ -225,7 +219,7 @@ TEST(Bodies, PeriodicSidesAreRefused) {
   const std::string message = test::messageOf([] {
     setup::parseScene(head("periodic = [true, false]\ndomain_x = [-1, 1]") + grain("[0, 0, 0]") +
                           cube("[0, 0, 0.2]", 1),
-                      "bodies.toml");
+                      "scene.toml");
   });
   EXPECT_NE(message.find("run.periodic"), std::string::npos) << message;
 }
@@ -235,12 +229,12 @@ TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
     return test::messageOf([&] {
       setup::parseScene(head("") + grain("[0, 0, 0]") + "[[body]]\nname = \"b\"\nmass = 1\ninertia = [1, 1, 1]\n" +
                             body + "\n[[body.shape]]\n" + shape,
-                        "bodies.toml");
+                        "scene.toml");
     });
   };
   const auto says = [](const std::string& message, const std::string& words) {
     EXPECT_NE(message.find(words), std::string::npos) << message;
-    EXPECT_NE(message.find("bodies.toml:"), std::string::npos) << message;
+    EXPECT_NE(message.find("scene.toml:"), std::string::npos) << message;
   };
   says(refused("kind = \"sphere\""), "shape.0.radius");
   says(refused("kind = \"box\"\nradius = 1"), "shape.0.size [m] is missing");
@@ -253,9 +247,8 @@ TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
   says(refused("kind = \"capsule\"\nradius = 1\nlength = 1\nangle = 3"), "does not apply to a capsule");
   says(refused("kind = \"box\"\nsize = [1, 1, 1]\nangle = 3"), "both or neither");
   says(refused("kind = \"sphere\"\nradius = 1\ncolour = 3"), "colour");
-  says(test::messageOf([] {
-         setup::parseScene(head("integrator = \"rattle\"") + feet() + cube("[0, 0, 0.06]", 1), "bodies.toml");
-       }),
+  says(test::messageOf(
+           [] { setup::parseScene(head("integrator = \"rattle\"") + feet() + cube("[0, 0, 0.06]", 1), "scene.toml"); }),
        "run.integrator");
   says(refused("kind = \"sphere\"\nradius = 1", ""), "material is missing");
   says(refused("kind = \"sphere\"\nradius = 1", "material = \"brass\""), "brass");
@@ -263,7 +256,7 @@ TEST(Bodies, BadShapesAreRefusedAtTheirPlace) {
               setup::parseScene(head("") + grain("[0, 0, 0]") +
                                     "[[body]]\nname = \"b\"\nmass = 1\npoint = true\nmaterial = \"glass\"\n"
                                     "[[body.shape]]\nkind = \"sphere\"\nradius = 1\n",
-                                "bodies.toml");
+                                "scene.toml");
             }).find("body.0.point"),
             std::string::npos);
 }

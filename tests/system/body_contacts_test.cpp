@@ -8,6 +8,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/message_of.hpp"
+#include "tests/system/scene_simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -54,15 +55,6 @@ std::string wheel(double radius, double width, double mass, const std::string& p
                      mass, tilt, spin, tilt, position, more, radius, width);
 }
 
-std::unique_ptr<Simulation> made(const std::string& text) {
-  return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, "bodies.toml")), base::cpuExec(1),
-                                      [](double, double) {});
-}
-void advanceTo(Simulation& s, double time) {
-  while (s.time() < time - 0.5 * s.timeStep()) s.step();
-}
-const multibody::State& stateOf(const Simulation& s) { return s.mechanism()->state(); }
-
 /// Energy residual of the ledger over the exchanged energy [-].
 double residualShare(Simulation& s) {
   const Ledger l = s.ledger();
@@ -91,9 +83,9 @@ TEST(ShapePoints, CarryTheAreaOfTheShape) {
 
 TEST(BodyContacts, RestOnAPlaneByModulusTimesVolume) {
   const double modulus = 1e8; // equal materials keep their modulus
-  const auto s =
-      made(head({}, "foundation_modulus = 1e8\n") + kPlane + box("block", "[0.2, 0.1, 0.1]", 10, "[0, 0, 0.05]") +
-           ball("ball", 0.05, 1, "[0, 1, 0.05]") + wheel(0.1, 0.08, 5, "[0, -1, 0.1]"));
+  const auto s = simulationOf(head({}, "foundation_modulus = 1e8\n") + kPlane +
+                              box("block", "[0.2, 0.1, 0.1]", 10, "[0, 0, 0.05]") +
+                              ball("ball", 0.05, 1, "[0, 1, 0.05]") + wheel(0.1, 0.08, 5, "[0, -1, 0.1]"));
   advanceTo(*s, 0.4);
   s->restartMeans();
   advanceTo(*s, 0.5);
@@ -112,7 +104,8 @@ TEST(BodyContacts, RestOnAPlaneByModulusTimesVolume) {
 }
 
 TEST(BodyContacts, ABlockStopsAfterVSquaredOverTwoMuG) {
-  const auto s = made(head() + kPlane + box("block", "[0.2, 0.1, 0.05]", 10, "[0, 0, 0.025]", "velocity = [1, 0, 0]"));
+  const auto s =
+      simulationOf(head() + kPlane + box("block", "[0.2, 0.1, 0.05]", 10, "[0, 0, 0.025]", "velocity = [1, 0, 0]"));
   advanceTo(*s, 0.6); // it stops after v / (mu g) = 0.34 s
   EXPECT_NEAR(stateOf(*s).pose[0].position.x, 1 / (2 * 0.3 * kGravity), 2e-3 / (2 * 0.3 * kGravity));
   EXPECT_LT(norm(stateOf(*s).twist[0].v), 1e-3);
@@ -127,7 +120,7 @@ TEST(BodyContacts, TowedBlockFeelsMuTimesWeight) {
       "[0, 0, 0.3]\naxis = [1, 0, 0]\n[[drive]]\nname = \"winch\"\njoint = \"rail\"\nvalue = 0.2\n"
       "[[joint]]\nname = \"hanger\"\ntype = \"prismatic\"\nbodies = [\"sled\", \"block\"]\npoint = "
       "[0, 0, 0.1]\naxis = [0, 0, 1]\n";
-  const auto s = made(
+  const auto s = simulationOf(
       head() + kPlane +
       "[[body]]\nname = \"sled\"\nmass = 1\nbox = [0.1, 0.1, 0.1]\nposition = [0, 0, 0.3]\nvelocity = [0.2, 0, 0]\n" +
       box("block", "[0.2, 0.1, 0.05]", 10, "[0, 0, 0.025]", "velocity = [0.2, 0, 0]") + drawn);
@@ -141,7 +134,8 @@ TEST(BodyContacts, TowedBlockFeelsMuTimesWeight) {
 
 TEST(BodyContacts, BallThatSlidesComesToRoll) {
   // A solid ball set sliding at v rolls after 2 v / (7 mu g), then at 5 v / 7.
-  const auto s = made(head({}, {}, kLossless) + kPlane + ball("ball", 0.1, 2, "[0, 0, 0.1]", "velocity = [1, 0, 0]"));
+  const auto s =
+      simulationOf(head({}, {}, kLossless) + kPlane + ball("ball", 0.1, 2, "[0, 0, 0.1]", "velocity = [1, 0, 0]"));
   advanceTo(*s, 2 / (7 * 0.3 * kGravity) + 0.1);
   const multibody::Twist& V = stateOf(*s).twist[0];
   EXPECT_NEAR(V.v.x, 5.0 / 7, 5e-3);
@@ -151,9 +145,9 @@ TEST(BodyContacts, BallThatSlidesComesToRoll) {
 TEST(BodyContacts, WheelRollsDownASlopeAtTwoThirdsOfGSine) {
   const double slope = 0.2, angle = std::atan(slope);
   const auto s =
-      made(head(fmt::format("gravity = [{}, 0, {}]", kGravity * std::sin(angle), -kGravity * std::cos(angle)), {},
-                kLossless) +
-           kPlane + wheel(0.1, 0.08, 5, "[0, 0, 0.1]"));
+      simulationOf(head(fmt::format("gravity = [{}, 0, {}]", kGravity * std::sin(angle), -kGravity * std::cos(angle)),
+                        {}, kLossless) +
+                   kPlane + wheel(0.1, 0.08, 5, "[0, 0, 0.1]"));
   advanceTo(*s, 0.2);
   const double before = stateOf(*s).twist[0].v.x;
   advanceTo(*s, 0.7);
@@ -186,8 +180,8 @@ TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
   const double along = kGravity * std::sin(angle), across = kGravity * std::cos(angle);
   const std::string gravity = fmt::format("gravity = [{}, 0, {}]", -along, -across);
   for (const char* modulus : {"1e8", "1e9"}) {
-    const auto s =
-        made(head(gravity, fmt::format("foundation_modulus = {}\n", modulus)) + kPlane + rover(hull, wheelMass));
+    const auto s = simulationOf(head(gravity, fmt::format("foundation_modulus = {}\n", modulus)) + kPlane +
+                                rover(hull, wheelMass));
     advanceTo(*s, 0.5);
     s->restartMeans();
     const double from = stateOf(*s).pose[0].position.x;
@@ -214,9 +208,9 @@ TEST(BodyContacts, RoverOnASlopeHasTheTorquesLoadsAndSpeedOfStatics) {
 TEST(BodyContacts, BlockSticksBelowTheFrictionAngleAndSlidesBeyond) {
   const auto drift = [](double slope) {
     const double angle = std::atan(slope);
-    const auto s =
-        made(head(fmt::format("gravity = [{}, 0, {}]", kGravity * std::sin(angle), -kGravity * std::cos(angle))) +
-             kPlane + box("block", "[0.2, 0.1, 0.05]", 10, "[0, 0, 0.025]"));
+    const auto s = simulationOf(
+        head(fmt::format("gravity = [{}, 0, {}]", kGravity * std::sin(angle), -kGravity * std::cos(angle))) + kPlane +
+        box("block", "[0.2, 0.1, 0.05]", 10, "[0, 0, 0.025]"));
     advanceTo(*s, 0.2);
     const Vec3d before = stateOf(*s).pose[0].position;
     advanceTo(*s, 0.7);
@@ -229,8 +223,8 @@ TEST(BodyContacts, BlockSticksBelowTheFrictionAngleAndSlidesBeyond) {
 
 TEST(BodyContacts, FlatBounceHasTheRestitutionOfThePair) {
   for (const double e : {0.8, 0.4}) {
-    const auto s = made(head("gravity = [0, 0, 0]\ntime_step = 2e-6", {}, e) + kPlane +
-                        box("cube", "[0.1, 0.1, 0.1]", 1, "[0, 0, 0.0505]", "velocity = [0, 0, -0.2]"));
+    const auto s = simulationOf(head("gravity = [0, 0, 0]\ntime_step = 2e-6", {}, e) + kPlane +
+                                box("cube", "[0.1, 0.1, 0.1]", 1, "[0, 0, 0.0505]", "velocity = [0, 0, -0.2]"));
     advanceTo(*s, 0.02);
     EXPECT_NEAR(stateOf(*s).twist[0].v.z, 0.2 * e, 0.002) << e;
   }
@@ -240,13 +234,13 @@ TEST(BodyContacts, FlatBounceHasTheRestitutionOfThePair) {
 /// rotating surface.
 TEST(BodyContacts, ABlockTurnsWithTheFloorThatItLiesOn) {
   const double rate = 2;
-  const auto s =
-      made(head("gravity = [0, 0, 0]") +
-           "[[body]]\nname = \"wheel\"\nmass = 50\ninertia = [5, 5, 5]\nspin = [2, 0, 0]\nmaterial = \"steel\"\n"
-           "[[body.shape]]\nkind = \"box\"\nsize = [0.4, 0.4, 0.1]\nposition = [0, 0, -0.35]\n[[joint]]\nname = "
-           "\"axle\"\ntype = \"revolute\"\nbodies = [\"world\", \"wheel\"]\npoint = [0, 0, 0]\naxis = [1, 0, 0]\n"
-           "[[drive]]\nname = \"motor\"\njoint = \"axle\"\nvalue = 2\n" +
-           box("block", "[0.1, 0.1, 0.05]", 2, "[0, 0, -0.275]", "velocity = [0, 0.55, 0]\nspin = [2, 0, 0]"));
+  const auto s = simulationOf(
+      head("gravity = [0, 0, 0]") +
+      "[[body]]\nname = \"wheel\"\nmass = 50\ninertia = [5, 5, 5]\nspin = [2, 0, 0]\nmaterial = \"steel\"\n"
+      "[[body.shape]]\nkind = \"box\"\nsize = [0.4, 0.4, 0.1]\nposition = [0, 0, -0.35]\n[[joint]]\nname = "
+      "\"axle\"\ntype = \"revolute\"\nbodies = [\"world\", \"wheel\"]\npoint = [0, 0, 0]\naxis = [1, 0, 0]\n"
+      "[[drive]]\nname = \"motor\"\njoint = \"axle\"\nvalue = 2\n" +
+      box("block", "[0.1, 0.1, 0.05]", 2, "[0, 0, -0.275]", "velocity = [0, 0.55, 0]\nspin = [2, 0, 0]"));
   advanceTo(*s, 1);
   const double angle = -rate * s->time();
   const Vec3d p = stateOf(*s).pose[1].position;
@@ -258,8 +252,8 @@ TEST(BodyContacts, ABlockTurnsWithTheFloorThatItLiesOn) {
 TEST(BodyContacts, BodiesCollideWithExactMomentum) {
   const std::string free = "gravity = [0, 0, 0]";
   const auto s =
-      made(head(free) + ball("a", 0.05, 1, "[0, 0, 0]", "velocity = [1, 0, 0]") +
-           box("b", "[0.1, 0.1, 0.1]", 3, "[0.15, 0.02, 0.01]", "velocity = [-0.5, 0, 0]\nspin = [0, 1, 2]"));
+      simulationOf(head(free) + ball("a", 0.05, 1, "[0, 0, 0]", "velocity = [1, 0, 0]") +
+                   box("b", "[0.1, 0.1, 0.1]", 3, "[0.15, 0.02, 0.01]", "velocity = [-0.5, 0, 0]\nspin = [0, 1, 2]"));
   const Vec3d before = s->ledger().momentum;
   const multibody::Totals start = s->mechanism()->bodiesBalance().now;
   advanceTo(*s, 0.2);
@@ -272,9 +266,9 @@ TEST(BodyContacts, BodiesCollideWithExactMomentum) {
 }
 
 TEST(BodyContacts, AStackBearsItsWeight) {
-  const auto s =
-      made(head() + kPlane + box("low", "[0.2, 0.2, 0.1]", 8, "[0, 0, 0.05]") +
-           box("middle", "[0.15, 0.15, 0.1]", 4, "[0, 0, 0.15]") + box("top", "[0.1, 0.1, 0.1]", 2, "[0.01, 0, 0.25]"));
+  const auto s = simulationOf(head() + kPlane + box("low", "[0.2, 0.2, 0.1]", 8, "[0, 0, 0.05]") +
+                              box("middle", "[0.15, 0.15, 0.1]", 4, "[0, 0, 0.15]") +
+                              box("top", "[0.1, 0.1, 0.1]", 2, "[0.01, 0, 0.25]"));
   advanceTo(*s, 0.5);
   s->restartMeans();
   advanceTo(*s, 0.7);
@@ -289,19 +283,20 @@ TEST(BodyContacts, AStackBearsItsWeight) {
 TEST(BodyContacts, JointedBodiesDoNotTouchEachOther) {
   const std::string pair = "gravity = [0, 0, 0]";
   const std::string two = box("a", "[0.1, 0.1, 0.1]", 1, "[0, 0, 0]") + box("b", "[0.1, 0.1, 0.1]", 1, "[0.08, 0, 0]");
-  EXPECT_NE(messageOf([&] { made(head(pair) + two); }).find("overlaps body"), std::string::npos);
-  const auto s = made(head(pair) + two +
-                      "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"a\", \"b\"]\npoint = [0.04, 0, "
-                      "0]\naxis = [0, 1, 0]\n");
+  EXPECT_NE(messageOf([&] { simulationOf(head(pair) + two); }).find("overlaps body"), std::string::npos);
+  const auto s =
+      simulationOf(head(pair) + two +
+                   "[[joint]]\nname = \"hinge\"\ntype = \"revolute\"\nbodies = [\"a\", \"b\"]\npoint = [0.04, 0, "
+                   "0]\naxis = [0, 1, 0]\n");
   advanceTo(*s, 0.05);
   EXPECT_EQ(s->mechanism()->contactForces()[0], Vec3d{});
 }
 
 TEST(BodyContacts, RigidTerrainCarriesBodies) {
-  const auto s = made(head() +
-                      "[terrain]\nkind = \"rigid\"\nsize = [2, 2]\nmaterial = \"steel\"\nheightmap = "
-                      "\"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
-                      box("block", "[0.2, 0.1, 0.05]", 10, "[0.5, 0, 0.025]", "velocity = [0.5, 0, 0]"));
+  const auto s = simulationOf(head() +
+                              "[terrain]\nkind = \"rigid\"\nsize = [2, 2]\nmaterial = \"steel\"\nheightmap = "
+                              "\"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
+                              box("block", "[0.2, 0.1, 0.05]", 10, "[0.5, 0, 0.025]", "velocity = [0.5, 0, 0]"));
   advanceTo(*s, 0.5);
   EXPECT_NEAR(stateOf(*s).pose[0].position.x - 0.5, 0.25 / (2 * 0.3 * kGravity), 2e-3 * 0.25 / (2 * 0.3 * kGravity));
   s->restartMeans();
@@ -310,10 +305,10 @@ TEST(BodyContacts, RigidTerrainCarriesBodies) {
 }
 
 TEST(BodyContacts, MeshesAndCylindersAtRestCarryBodies) {
-  const auto s =
-      made(head() +
-           "[[cylinder]]\nposition = [0, 0, -0.5]\nradius = 0.5\nlength = 1\naxis = [0, 0, 1]\nmaterial = \"steel\"\n" +
-           ball("ball", 0.1, 2, "[0.1, 0, 0.1]"));
+  const auto s = simulationOf(
+      head() +
+      "[[cylinder]]\nposition = [0, 0, -0.5]\nradius = 0.5\nlength = 1\naxis = [0, 0, 1]\nmaterial = \"steel\"\n" +
+      ball("ball", 0.1, 2, "[0.1, 0, 0.1]"));
   advanceTo(*s, 0.3);
   s->restartMeans();
   advanceTo(*s, 0.4);
@@ -324,10 +319,10 @@ TEST(BodyContacts, HaveOneAnswerWhenResumed) {
   const std::string text = head() + kPlane +
                            box("low", "[0.2, 0.2, 0.1]", 8, "[0, 0, 0.051]", "velocity = [0.5, 0, 0]") +
                            ball("ball", 0.05, 1, "[0.05, 0.02, 0.16]", "spin = [0, 3, 1]");
-  const auto straight = made(text), first = made(text);
+  const auto straight = simulationOf(text), first = simulationOf(text);
   advanceTo(*straight, 0.1), advanceTo(*first, 0.06);
   const SimulationState saved = first->save();
-  Simulation resumed(setup::simulationSetup(setup::parseScene(text, "bodies.toml")), base::cpuExec(2), saved);
+  Simulation resumed(setup::simulationSetup(setup::parseScene(text, "scene.toml")), base::cpuExec(2), saved);
   EXPECT_EQ(resumed.stateHash(), first->stateHash());
   advanceTo(resumed, 0.1);
   EXPECT_EQ(resumed.stateHash(), straight->stateHash());
@@ -335,28 +330,29 @@ TEST(BodyContacts, HaveOneAnswerWhenResumed) {
 
 TEST(BodyContacts, AreRefusedWhereTheyOverlapAtTheStart) {
   EXPECT_NE(messageOf([] {
-              made(head() + kPlane + box("block", "[0.2, 0.1, 0.1]", 10, "[1, 0, 0.04]"));
+              simulationOf(head() + kPlane + box("block", "[0.2, 0.1, 0.1]", 10, "[1, 0, 0.04]"));
             }).find("overlaps plane0 by 0.01 m"),
             std::string::npos);
   EXPECT_NE(messageOf([] {
-              made(head() +
-                   "[terrain]\nkind = \"rigid\"\nsize = [2, 2]\nmaterial = \"steel\"\nheightmap = "
-                   "\"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
-                   box("block", "[0.2, 0.1, 0.1]", 10, "[1, 0, 0.04]"));
+              simulationOf(head() +
+                           "[terrain]\nkind = \"rigid\"\nsize = [2, 2]\nmaterial = \"steel\"\nheightmap = "
+                           "\"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
+                           box("block", "[0.2, 0.1, 0.1]", 10, "[1, 0, 0.04]"));
             }).find("overlaps the ground by 0.01 m"),
             std::string::npos);
   const std::string inner = box("inner", "[0.1, 0.1, 0.1]", 1, "[0, 0, 0.02]"),
                     outer = box("outer", "[1, 1, 1]", 10, "[0, 0, 0]");
   for (const std::string& two : {inner + outer, outer + inner})
-    EXPECT_NE(messageOf([&] { made(head() + two); }).find("overlaps body"), std::string::npos);
+    EXPECT_NE(messageOf([&] { simulationOf(head() + two); }).find("overlaps body"), std::string::npos);
   EXPECT_NE(messageOf([&] {
-              made(head() + "[[box]]\nsize = [0.1, 0.1, 0.1]\nposition = [0, 0, 0]\nmaterial = \"steel\"\n" + outer);
+              simulationOf(head() + "[[box]]\nsize = [0.1, 0.1, 0.1]\nposition = [0, 0, 0]\nmaterial = \"steel\"\n" +
+                           outer);
             }).find("overlaps box0"),
             std::string::npos);
 }
 
 TEST(BodyContacts, ATorqueOnAPointBodyIsRefused) {
-  const auto s = made("version = 1\n[run]\nduration = 1.0\n[[body]]\nname = \"p\"\nmass = 2\npoint = true\n");
+  const auto s = simulationOf("version = 1\n[run]\nduration = 1.0\n[[body]]\nname = \"p\"\nmass = 2\npoint = true\n");
   s->set({{0, InputKind::bodyLoad, 0, false, {1, 0, 0, 0, 0, 0}}});
   EXPECT_NE(messageOf([&] {
               s->set({{0, InputKind::bodyLoad, 0, false, {0, 0, 0, 0, 0, 1}}});
@@ -371,17 +367,19 @@ TEST(BodyContacts, BodiesBesideTheTerrainAreRefused) {
            "\"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
            ball("ball", 0.1, 1, fmt::format("[{}, 0, 0.1]", x), fmt::format("velocity = [{}, 0, 0]", speed));
   };
-  EXPECT_NE(messageOf([&] { made(scene(4.7, 0)); }).find("body \"ball\" is beside the terrain"), std::string::npos);
-  const auto s = made(scene(3.9, 5));
+  EXPECT_NE(messageOf([&] { simulationOf(scene(4.7, 0)); }).find("body \"ball\" is beside the terrain"),
+            std::string::npos);
+  const auto s = simulationOf(scene(3.9, 5));
   EXPECT_THROW(advanceTo(*s, 0.2), base::SimulationError);
 }
 
 TEST(BodyContacts, AStepThatTheFoundationDoesNotBearIsRefused) {
-  const std::string message = messageOf(
-      [] { made(head("time_step = 1e-3") + kPlane + box("plate", "[0.2, 0.2, 0.01]", 0.01, "[0, 0, 0.005]")); });
+  const std::string message = messageOf([] {
+    simulationOf(head("time_step = 1e-3") + kPlane + box("plate", "[0.2, 0.2, 0.01]", 0.01, "[0, 0, 0.005]"));
+  });
   EXPECT_NE(message.find("body \"plate\" of 0.01 kg on rigid surfaces or bodies"), std::string::npos) << message;
   // With the automatic step the plate comes to rest.
-  const auto s = made(head() + kPlane + box("plate", "[0.2, 0.2, 0.01]", 0.01, "[0, 0, 0.0052]"));
+  const auto s = simulationOf(head() + kPlane + box("plate", "[0.2, 0.2, 0.01]", 0.01, "[0, 0, 0.0052]"));
   advanceTo(*s, 0.1);
   EXPECT_LT(norm(stateOf(*s).twist[0].v), 1e-4);
 }

@@ -7,6 +7,7 @@
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
+#include "tests/system/scene_simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -34,15 +35,6 @@ std::string body(const std::string& name, const std::string& shape, const std::s
 }
 std::string cube(double edge) { return fmt::format("kind = \"box\"\nsize = [{0}, {0}, {0}]", edge); }
 
-std::unique_ptr<Simulation> made(const std::string& text) {
-  return std::make_unique<Simulation>(setup::simulationSetup(setup::parseScene(text, "bodies.toml")), base::cpuExec(1),
-                                      [](double, double) {});
-}
-void advanceTo(Simulation& s, double time) {
-  while (s.time() < time - 0.5 * s.timeStep()) s.step();
-}
-const multibody::State& stateOf(const Simulation& s) { return s.mechanism()->state(); }
-
 struct Solid {
   const char *name, *shape;
   double height; ///< of the centre above the plane [m]
@@ -61,7 +53,7 @@ constexpr Solid kSolids[] = {
 TEST(BodyRestitution, IsThatOfTheMaterialOnAnyShape) {
   for (const double e : {0.8, 0.5, 0.2, 0.1, 0.05, 0.01})
     for (const Solid& solid : kSolids) {
-      const auto s = made(
+      const auto s = simulationOf(
           head(e) + kPlane +
           body("b", solid.shape, fmt::format("position = [0, 0, {}]\nvelocity = [0, 0, -0.3]", solid.height + 1e-4)));
       advanceTo(*s, 0.03);
@@ -78,8 +70,8 @@ TEST(BodyRestitution, UsesTheMassesOfBothBodies) {
         return fmt::format("mass = {0}\nbox = [0.1, 0.1, 0.1]\nposition = [{1}, 0, 0]\nvelocity = [{2}, 0, 0]",
                            kilograms, x, v);
       };
-      const auto s =
-          made(head(e) + body("a", cube(0.1), place(1, 0, 0.1)) + body("b", cube(0.1), place(mass, 0.102, -0.1)));
+      const auto s = simulationOf(head(e) + body("a", cube(0.1), place(1, 0, 0.1)) +
+                                  body("b", cube(0.1), place(mass, 0.102, -0.1)));
       advanceTo(*s, 0.06);
       const double a = stateOf(*s).twist[0].v.x, b = stateOf(*s).twist[1].v.x;
       EXPECT_NEAR((b - a) / 0.2, e, 0.02 * e) << mass;
@@ -93,7 +85,7 @@ TEST(BodyRestitution, HoldsForABodyOnFourFeet) {
                       "0, 0.0501]\nvelocity = [0, 0, -0.2]\n";
   for (const char* at : {"[0.25, 0.25, 0]", "[-0.25, 0.25, 0]", "[0.25, -0.25, 0]", "[-0.25, -0.25, 0]"})
     table += fmt::format("[[body.shape]]\n{}\nposition = {}\n", cube(0.1), at);
-  const auto s = made(head(0.5) + kPlane + table);
+  const auto s = simulationOf(head(0.5) + kPlane + table);
   advanceTo(*s, 0.05);
   EXPECT_NEAR(stateOf(*s).twist[0].v.z, 0.1, 0.002);
 }
@@ -103,16 +95,17 @@ TEST(BodyRestitution, RoundBodiesRollFreely) {
   for (const double e : {1.0, 0.4, 0.05})
     for (const double v : {1.0, 4.0}) {
       const std::string motion = fmt::format("mass = 2\nvelocity = [{}, 0, 0]\nspin = [0, {}, 0]\n", v, 10 * v);
-      const auto s = made(head(e, "", 0.6) + kPlane +
-                          body("ball", "kind = \"sphere\"\nradius = 0.1", motion + "position = [0, 0, 0.0995]") +
-                          body("wheel", "kind = \"cylinder\"\nradius = 0.1\nlength = 0.06\naxis = [0, 1, 0]",
-                               motion + "position = [0, 1, 0.0998]"));
+      const auto s =
+          simulationOf(head(e, "", 0.6) + kPlane +
+                       body("ball", "kind = \"sphere\"\nradius = 0.1", motion + "position = [0, 0, 0.0995]") +
+                       body("wheel", "kind = \"cylinder\"\nradius = 0.1\nlength = 0.06\naxis = [0, 1, 0]",
+                            motion + "position = [0, 1, 0.0998]"));
       advanceTo(*s, 1.2);
       for (int b = 0; b < 2; ++b)
         EXPECT_NEAR(stateOf(*s).twist[static_cast<std::size_t>(b)].v.x, v, 1e-3 * v) << e << ", body " << b;
     }
   const double angle = 0.2;
-  const auto s = made(
+  const auto s = simulationOf(
       head(0.3, fmt::format("gravity = [{}, 0, {}]", kGravity * std::sin(angle), -kGravity * std::cos(angle)), 0.6) +
       kPlane + body("ball", "kind = \"sphere\"\nradius = 0.1", "mass = 2\nposition = [0, 0, 0.0995]"));
   advanceTo(*s, 0.3);
@@ -126,7 +119,7 @@ TEST(BodyRestitution, BodiesComeToRestAtLowRestitution) {
   for (const double e : {0.2, 0.1, 0.05, 0.01})
     for (const auto& [size, height] : {std::pair{"[0.2, 0.2, 0.1]", 0.1}, {"[0.5, 0.5, 0.02]", 0.02}}) {
       const double half = 0.5 * height;
-      const auto s = made(
+      const auto s = simulationOf(
           head(e, "", 0.3) + kPlane +
           body("b", fmt::format("kind = \"box\"\nsize = {}", size), fmt::format("position = [0, 0, {}]", half + 0.01)));
       advanceTo(*s, 0.6);
@@ -138,9 +131,10 @@ TEST(BodyRestitution, BodiesComeToRestAtLowRestitution) {
 
 TEST(BodyRestitution, ATooDeepOverlapEndsTheRun) {
   const auto messageOf = [](const std::string& more) -> std::string {
-    const auto s = made(head(0.3, "", 0.5) + kPlane +
-                        body("light", cube(0.1), "mass = 1\nbox = [0.1, 0.1, 0.1]\nposition = [0, 0, 0.05]\n" + more) +
-                        body("heavy", cube(0.1), "mass = 1000\nbox = [0.1, 0.1, 0.1]\nposition = [0, 0, 0.15]"));
+    const auto s =
+        simulationOf(head(0.3, "", 0.5) + kPlane +
+                     body("light", cube(0.1), "mass = 1\nbox = [0.1, 0.1, 0.1]\nposition = [0, 0, 0.05]\n" + more) +
+                     body("heavy", cube(0.1), "mass = 1000\nbox = [0.1, 0.1, 0.1]\nposition = [0, 0, 0.15]"));
     try {
       advanceTo(*s, 0.5);
     } catch (const base::SimulationError& error) {

@@ -7,6 +7,7 @@
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/message_of.hpp"
 #include "tests/runs/shared_cache.hpp"
+#include "tests/system/scene_simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -50,9 +51,6 @@ std::unique_ptr<Simulation> made(const std::string& text) {
   return std::make_unique<Simulation>(
       setup::simulationSetup(setup::parseScene(text, "tow.toml")), base::cpuExec(1), [](double, double) {},
       base::Comm{}, nullptr, sharedSpheres());
-}
-void advanceTo(Simulation& s, double time) {
-  while (s.time() < time - 0.5 * s.timeStep()) s.step();
 }
 /// Poses of the bodies beside the vehicle: cart, left and right wheel.
 const base::Pose& bodyOf(const Simulation& s, std::size_t k) {

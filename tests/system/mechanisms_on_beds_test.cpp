@@ -8,6 +8,7 @@
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "tests/runs/shared_cache.hpp"
+#include "tests/system/scene_simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -36,9 +37,6 @@ SimulationSetup setupOf(const std::string& text) {
 std::unique_ptr<Simulation> made(const std::string& text, int threads = 1) {
   return std::make_unique<Simulation>(
       setupOf(text), base::cpuExec(threads), [](double, double) {}, base::Comm{}, sharedBeds());
-}
-void advanceTo(Simulation& s, double time) {
-  while (s.time() < time - 0.5 * s.timeStep()) s.step();
 }
 
 /// A wheel of 0.1 m at 20 % slip under its weight and a load of 60 N.

@@ -14,6 +14,7 @@
 #include "runs/setup/step_limit.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "tests/message_of.hpp"
+#include "tests/system/scene_simulation.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -96,11 +97,6 @@ std::string feet() {
     all += fmt::format("[[grain]]\nposition = {}\nradius = 0.01\nmaterial = \"glass\"\nfixed = true\n", place);
   return all;
 }
-
-void advanceTo(Simulation& s, double time) {
-  while (s.time() < time - 0.5 * s.timeStep()) s.step();
-}
-const multibody::State& stateOf(const Simulation& s) { return s.mechanism()->state(); }
 
 TEST(MeshPoints, CarryTheAreaAndLieInTheirFaces) {
   const Folder folder;

@@ -198,7 +198,7 @@ TEST(UnusualValues, ScenesSoilsAndVehiclesOfTheRepositoryHaveNone) {
   const fs::path soils = kSource / "assets/soils";
   for (const fs::directory_entry& entry : fs::directory_iterator(soils))
     if (entry.path().extension() == ".toml")
-      for (const std::string& note : readSoil(entry.path()).document->unusual()) ADD_FAILURE() << note;
+      for (const base::UnusualValue& u : readSoil(entry.path()).document->unusual()) ADD_FAILURE() << u.note;
 }
 
 } // namespace
