@@ -14,7 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
+#include <utility>
 
 namespace grouser::coupling::restitution {
 namespace {
@@ -88,6 +90,60 @@ TEST(BodyRestitution, HoldsForABodyOnFourFeet) {
   const auto s = simulationOf(head(0.5) + kPlane + table);
   advanceTo(*s, 0.05);
   EXPECT_NEAR(stateOf(*s).twist[0].v.z, 0.1, 0.002);
+}
+
+/// Lowest corner of a cube of 0.1 m: height [m] and vertical speed [m/s].
+std::pair<double, double> lowestCorner(const multibody::State& state) {
+  const base::Mat3d turned = state.pose[0].orientation.matrix();
+  std::pair<double, double> lowest{1e300, 0};
+  for (const double x : {-0.05, 0.05})
+    for (const double y : {-0.05, 0.05})
+      for (const double z : {-0.05, 0.05}) {
+        const Vec3d arm = turned * Vec3d{x, y, z};
+        const double height = state.pose[0].position.z + arm.z;
+        if (height < lowest.first) lowest = {height, state.twist[0].v.z + cross(state.twist[0].w, arm).z};
+      }
+  return lowest;
+}
+
+/// Speed of the lowest corner at the end of the first touch / before it, of a cube of 0.1 m that hits a plane without
+/// friction at 0.3 m/s.
+double cornerRebound(double restitution, double modulus, const std::string& orientation) {
+  const auto placed = [&](double height) {
+    return simulationOf(head(restitution) + fmt::format("foundation_modulus = {}\n", modulus) + kPlane +
+                        body("cube", cube(0.1),
+                             fmt::format("position = [0, 0, {}]\nvelocity = [0, 0, -0.3]\n{}", height, orientation)));
+  };
+  const auto s = placed(1e-5 + 0.2 - lowestCorner(stateOf(*placed(0.2))).first);
+  while (s->time() < 0.1 && lowestCorner(stateOf(*s)).first >= 0) s->step();
+  while (s->time() < 0.1 && lowestCorner(stateOf(*s)).first < 0) s->step();
+  return lowestCorner(stateOf(*s)).second / 0.3;
+}
+
+/// Bodies turn while an edge or a corner touches, and the lowest corner moves. Stiffer contacts are shorter, so the
+/// speeds converge to the restitution; below the centre of mass a body does not turn.
+TEST(BodyRestitution, OfEdgesAndCornersConvergesToThatOfTheMaterial) {
+  const double upright = std::acos(1 / std::sqrt(3.0)) * 180 / base::kPi; // a corner is below the centre
+  const auto turned = [](const char* axis, double degrees) {
+    return fmt::format("axis = {}\nangle = {}", axis, degrees);
+  };
+  std::printf("restitution:                      0.8             0.5             0.2\n"
+              "foundation_modulus [N/m3]:   1e8    1e12     1e8    1e12     1e8    1e12\n");
+  for (const auto& [name, orientation] : {std::pair{"edge, 45 degrees", turned("[0, 1, 0]", 45)},
+                                          {"edge, 30 degrees", turned("[0, 1, 0]", 30)},
+                                          {"edge, 15 degrees", turned("[0, 1, 0]", 15)},
+                                          {"edge, 5 degrees", turned("[0, 1, 0]", 5)},
+                                          {"corner below the centre", turned("[1, -1, 0]", upright)},
+                                          {"corner, 30 degrees from it", turned("[1, -1, 0]", upright - 30)}}) {
+    std::printf("%-26s", name);
+    for (const double e : {0.8, 0.5, 0.2}) {
+      const double soft = cornerRebound(e, 1e8, orientation), stiff = cornerRebound(e, 1e12, orientation);
+      std::printf(" %7.3f %7.3f", soft, stiff);
+      EXPECT_NEAR(stiff, e, 0.02) << name;
+      EXPECT_LE(std::fabs(stiff - e), std::fabs(soft - e) + 1e-3) << name;
+    }
+    std::printf("\n");
+  }
 }
 
 /// A ball and a wheel keep their speed at any restitution, and a ball gains 5/7 g sin on a slope.
