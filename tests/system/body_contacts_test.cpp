@@ -344,6 +344,10 @@ TEST(BodyContacts, AreRefusedWhereTheyOverlapAtTheStart) {
                     outer = box("outer", "[1, 1, 1]", 10, "[0, 0, 0]");
   for (const std::string& two : {inner + outer, outer + inner})
     EXPECT_NE(messageOf([&] { simulationOf(head() + two); }).find("overlaps body"), std::string::npos);
+  // The points of the ball touch boxes; none of them is inside this one.
+  EXPECT_NE(
+      messageOf([&] { simulationOf(head() + inner + ball("around", 0.5, 10, "[0, 0, 0]")); }).find("overlaps body"),
+      std::string::npos);
   EXPECT_NE(messageOf([&] {
               simulationOf(head() + "[[box]]\nsize = [0.1, 0.1, 0.1]\nposition = [0, 0, 0]\nmaterial = \"steel\"\n" +
                            outer);

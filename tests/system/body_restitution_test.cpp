@@ -3,6 +3,7 @@
 // free rolling; overlaps at rest and beyond the limit.
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "contact/restitution.hpp"
 #include "coupling/simulation.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/load_scene.hpp"
@@ -144,6 +145,59 @@ TEST(BodyRestitution, OfEdgesAndCornersConvergesToThatOfTheMaterial) {
     }
     std::printf("\n");
   }
+}
+
+/// Small rocking of a box on its face is a linear oscillation: successive peaks of the angular velocity have the ratio
+/// exp(-pi zeta / sqrt(1 - zeta^2)).
+TEST(BodyRestitution, RockingOnAFaceHasTheDampingRatioOfTheMaterial) {
+  for (const double e : {0.9, 0.8, 0.5}) {
+    const auto s = simulationOf(head(e, "time_step = 1e-5") + kPlane +
+                                body("b", cube(0.2),
+                                     fmt::format("mass = 2\nbox = [0.2, 0.2, 0.2]\nposition = [0, 0, {}]\n"
+                                                 "spin = [0, 0.002, 0]",
+                                                 0.1 - 2 * kGravity / (1e8 * 0.04))));
+    double low = 0, high = 0;
+    while (s->time() < 0.02) {
+      s->step();
+      const double w = stateOf(*s).twist[0].w.y;
+      if (w < low && high == 0) low = w;
+      if (w > high && low < 0) high = w;
+    }
+    const double zeta = contact::dampingRatioFor(e, false);
+    EXPECT_NEAR(high / -low, std::exp(-base::kPi * zeta / std::sqrt(1 - zeta * zeta)), 0.02) << e;
+  }
+}
+
+/// Without friction nothing turns a ball or a cylinder about its axis, whatever points touch the plane.
+TEST(BodyRestitution, RoundBodiesDoNotSpinWithoutFriction) {
+  const auto s = simulationOf(head(0.5, "gravity = [0.7, 0.2, -9.81]") + kPlane +
+                              body("ball", "kind = \"sphere\"\nradius = 0.1",
+                                   "mass = 2\nposition = [0, 0, 0.0995]\naxis = [1, 2, 3]\nangle = 17") +
+                              body("wheel", "kind = \"cylinder\"\nradius = 0.1\nlength = 0.06\naxis = [0, 1, 0]",
+                                   "mass = 2\nposition = [0, 1, 0.0998]\naxis = [0, 1, 0]\nangle = 17"));
+  advanceTo(*s, 0.5);
+  EXPECT_NEAR(stateOf(*s).twist[0].v.x, 0.7 * s->time(), 1e-9);
+  EXPECT_LT(norm(stateOf(*s).twist[0].w), 1e-12);
+  EXPECT_LT(std::fabs(stateOf(*s).twist[1].w.y), 1e-12);
+}
+
+/// A capsule that topples on its cap rolls like a ball, and keeps its energy.
+TEST(BodyRestitution, ACapsuleTopplesWithoutLoss) {
+  constexpr double kRadius = 0.1, kHalf = 0.2, kMass = 2, kInertia = 0.04, kTilt = 0.3;
+  const auto s = simulationOf(
+      head(0.3, "", 0.6) + kPlane +
+      body("b", fmt::format("kind = \"capsule\"\nradius = {}\nlength = {}", kRadius, 2 * kHalf),
+           fmt::format("mass = {}\ninertia = [{}, {}, 0.01]\nposition = [0, 0, {}]\naxis = [0, 1, 0]\nangle = {}",
+                       kMass, kInertia, kInertia, kRadius + kHalf * std::cos(kTilt) - 5e-4, kTilt * 180 / base::kPi)));
+  const auto energy = [&] {
+    const multibody::Twist& t = stateOf(*s).twist[0];
+    return 0.5 * kMass * norm2(t.v) + 0.5 * kInertia * norm2(t.w) + kMass * kGravity * stateOf(*s).pose[0].position.z;
+  };
+  advanceTo(*s, 0.05);
+  const double before = energy(), height = stateOf(*s).pose[0].position.z;
+  while (stateOf(*s).pose[0].position.z > kRadius + 0.5 * kHalf) s->step();
+  const double fallen = kMass * kGravity * (height - stateOf(*s).pose[0].position.z);
+  EXPECT_NEAR(energy(), before, 0.005 * fallen);
 }
 
 /// A ball and a wheel keep their speed at any restitution, and a ball gains 5/7 g sin on a slope.
