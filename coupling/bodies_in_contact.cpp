@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "coupling/bodies_in_contact.hpp"
 
-#include "base/error.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/mechanism_setup.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 namespace grouser::coupling {
 
@@ -38,14 +36,7 @@ std::vector<bool> BodiesInContact::touchingBodies() const {
 }
 
 void BodiesInContact::collectLoads() {
-  try {
-    contacts_->collect(loads_);
-  } catch (const base::SimulationError& error) {
-    if (error.cause() != base::Cause::excessiveOverlap) throw;
-    throw base::SimulationError(
-        fmt::format("step {:.0f}, time {:.4g} s: {}", state_.time / timeStep(), state_.time, error.what()),
-        error.cause());
-  }
+  contacts_->collect(loads_);
   if (!contacts_->solves()) addToMeans();
 }
 

@@ -97,6 +97,16 @@ template <class Advance> void Simulation::namingCause(const Advance& advance) {
   }
 }
 
+/// Collects the contact loads on bodies; adds step and time to the message of an excessive overlap.
+void Simulation::collectLoads() {
+  try {
+    touching_->collectLoads();
+  } catch (const base::SimulationError& error) {
+    if (error.cause() != base::Cause::excessiveOverlap) throw;
+    throw base::SimulationError(fmt::format("step {}, time {:.4g} s: {}", steps_, time(), error.what()), error.cause());
+  }
+}
+
 void Simulation::step(StepObserver* observer) {
   const auto done = [observer](Stage stage) {
     if (observer) observer->after(stage);
@@ -110,7 +120,7 @@ void Simulation::step(StepObserver* observer) {
   if (ground_) ground_->beginUncoupled();
   done(Stage::boundaries);
   if (touching_) touching_->computeContacts(observer);
-  if (touching_) base::synchronize(exec_), touching_->collectLoads();
+  if (touching_) base::synchronize(exec_), collectLoads();
   addFluidLoads();
   done(Stage::partLoads);
   // The complementarity solver needs all other loads on the bodies.
@@ -168,7 +178,7 @@ void Simulation::stepAhead(bool last) {
   if (!last && !mayAlarm) ahead_->launchNext();
   ahead_->computeOnHost();
   ahead_->awaitLoads();
-  vehicle_->collectLoads();
+  collectLoads();
   vehicle_->actuate();
   vehicle_->advance();
   namingCause([&] { ahead_->end(); });

@@ -101,6 +101,7 @@ private:
   friend terrain::SoilFields fieldsOf(Simulation& simulation, const terrain::FieldGrid& grid);
   void command();
   bool canStepAhead() const;
+  void collectLoads();
   void stepAhead(bool last);
   BodiesInContact* movingBodies(); ///< null if there are none
   void checkAlarm();
