@@ -79,11 +79,10 @@ void ObstacleContacts::requireShallow(const ContactParts& parts) const {
 void failTooDeep(const ContactParts& parts, const RigidContacts::TooDeep& deep, const std::string& surface) {
   const Vec3d& p = deep.place;
   throw base::SimulationError(
-      fmt::format("{} overlaps {} by {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m, more than {:.3g} m (largest_overlap of "
-                  "[[body]]; default: half of the smallest half extent), so it could pass through; raise "
+      fmt::format("{} overlaps {} by more than {:.3g} m at ({:.4g}, {:.4g}, {:.4g}) m (largest_overlap of [[body]]; "
+                  "default: half of the smallest half extent), so it could pass through; raise "
                   "foundation_modulus of the materials, or lower loads, masses or speeds",
-                  parts.parts[static_cast<std::size_t>(deep.part)].name, surface, deep.overlap, p.x, p.y, p.z,
-                  deep.most),
+                  parts.parts[static_cast<std::size_t>(deep.part)].name, surface, deep.most, p.x, p.y, p.z),
       base::Cause::excessiveOverlap);
 }
 
