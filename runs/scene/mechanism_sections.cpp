@@ -330,7 +330,10 @@ void checkBody(const Section& section, BodySection& body, const Scene& scene) {
 /// Contact forces are constant over a step. Symplectic Euler applies them to bodies as to grains. RATTLE would move
 /// bodies twice by the same forces, so that a stiff contact would gain energy in each step.
 void setIntegrator(const Section& root, Scene& scene) {
-  if (scene.vehicle && !scene.mechanism.empty()) scene.run.integrator = multibody::Integrator::kSymplecticEuler;
+  const auto present = [&root](const char* key) { return root.has(key); };
+  const auto parts = {"body", "joint", "spring", "bushing", "drive", "coupling"}; // springs need no body of their own
+  if (scene.vehicle && std::any_of(parts.begin(), parts.end(), present))
+    scene.run.integrator = multibody::Integrator::kSymplecticEuler;
   if (!scene.mechanism.touches()) return;
   constexpr std::size_t kMaxShapes = 255; // 8-bit index in a grain's list of parts
   std::size_t shapes = 0;

@@ -128,7 +128,12 @@ struct MechanismSections {
   std::vector<BushingSection> bushings;
   std::vector<DriveSection> drives;
   std::vector<CouplingSection> couplings;
-  bool empty() const { return bodies.empty(); }
+  /// Returns true if the scene has no section of a mechanism. Without bodies, springs and bushings can still connect
+  /// the vehicle to the world.
+  bool empty() const {
+    return bodies.empty() && joints.empty() && springs.empty() && bushings.empty() && drives.empty() &&
+           couplings.empty();
+  }
   /// Returns true if any body has a contact shape.
   bool touches() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) { return !b.shapes.empty(); });
@@ -139,11 +144,6 @@ struct MechanismSections {
       return std::any_of(b.shapes.begin(), b.shapes.end(),
                          [](const ShapeSection& s) { return s.kind == ShapeKind::mesh; });
     });
-  }
-  /// Returns true if the scene has no section of a mechanism.
-  bool hasNoParts() const {
-    return bodies.empty() && joints.empty() && springs.empty() && bushings.empty() && drives.empty() &&
-           couplings.empty();
   }
   bool operator==(const MechanismSections&) const = default;
 };

@@ -155,7 +155,7 @@ void checkSettling(const Section& run, const Scene& scene) {
 
 void checkSomethingMoves(const Scene& scene) {
   if (scene.grains.empty() && scene.fills.empty() && scene.sources.empty() && !scene.terrain && !scene.vehicle &&
-      scene.mechanism.hasNoParts() && !scene.fluid)
+      scene.mechanism.empty() && !scene.fluid)
     throw base::InputError(fmt::format(
         "{}: nothing to simulate; add [terrain], [vehicle], [fluid], [[grain]], [[grains]], [[source]] or [[body]]",
         scene.file.string()));

@@ -58,7 +58,8 @@ void checkMechanism(const Section& root, const scene::Scene& scene) {
     const std::vector<Section> places = root.list(key);
     for (std::size_t k = 0; k < sections.size(); ++k) withPlace(places[k], [&] { builder.add(sections[k]); });
   });
-  if (scene.mechanism.empty()) {
+  if (scene.mechanism.empty()) return;
+  if (scene.mechanism.bodies.empty() && !vehicle) {
     for (const char* key : {"joint", "spring", "bushing", "drive", "coupling"})
       for (const Section& section : root.list(key)) section.fail("", "requires a body; add a [[body]]");
     return;

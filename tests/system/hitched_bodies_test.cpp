@@ -22,16 +22,21 @@ using base::Vec3d;
 
 constexpr double kGravity = 9.81, kCart = 200, kWheel = 20; // [m/s2], [kg]
 
-/// A vehicle on rigid ground, with a cart of two wheels on a ball joint behind its hull.
-std::string tow(const std::string& more = {}, const std::string& ground = "kind = \"rigid\"",
-                const std::string& run = {}) {
-  std::string text = "version = 1\n[run]\nduration = 3.0\n" + run +
+/// A vehicle on rigid ground.
+std::string vehicleAlone(const std::string& ground = "kind = \"rigid\"", const std::string& run = {}) {
+  return "version = 1\n[run]\nduration = 3.0\n" + run +
                      "\n[material.ground]\nfriction = 0.8\nrestitution = 0.3\n[material.rubber]\nfriction = 0.8\n"
                      "restitution = 0.3\nfoundation_modulus = 2e8\n[terrain]\nmaterial = \"ground\"\nsize = [9, "
                      "3]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
                      ground +
                      "\n[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nposition = [3, 0]\nsphere_radius = 0.02\n"
                      "[driver]\nsprocket_speed = 1.5\ndrive_start = 0.6\ndrive_ramp = 0.2\n";
+}
+
+/// The vehicle with a cart of two wheels on a ball joint behind its hull.
+std::string tow(const std::string& more = {}, const std::string& ground = "kind = \"rigid\"",
+                const std::string& run = {}) {
+  std::string text = vehicleAlone(ground, run);
   text += fmt::format("[[body]]\nname = \"cart\"\nmass = {}\nbox = [1, 1, 0.3]\nposition = [1.4, 0, 0.5]\nmaterial = "
                       "\"rubber\"\n[[body.shape]]\nkind = \"box\"\nsize = [1, 1, 0.3]\n",
                       kCart);
@@ -120,6 +125,36 @@ TEST(HitchedBodies, AJointFromTheVehicleToTheWorldIsRefused) {
               }).find("did you mean \"vehicle\"?"),
               std::string::npos)
         << word;
+}
+
+// Newton's third law: the ground holds the resting vehicle against the spring, F = k (L - L0) along the spring.
+TEST(HitchedBodies, ASpringTiesTheVehicleToTheWorldWithoutOtherBodies) {
+  constexpr double kStiffness = 100, kFree = 0.1; // [N/m], [m]
+  const auto s = made(vehicleAlone() + fmt::format("[[spring]]\nname = \"tether\"\nbodies = [\"world\", \"vehicle\"]\n"
+                                                   "point_a = [0, 0, 0.2]\nstiffness = {}\nfree_position = {}\n",
+                                                   kStiffness, kFree));
+  ASSERT_EQ(s->setup().mechanism->model.pointSprings().size(), 1u);
+  advanceTo(*s, 0.5);
+  s->restartMeans();
+  advanceTo(*s, 0.59); // before the drive starts
+  const Vec3d arm = s->vehicle()->state().pose[0].position - Vec3d{0, 0, 0.2};
+  const Vec3d pull = arm * (kStiffness * (norm(arm) - kFree) / norm(arm));
+  Vec3d ground{};
+  for (const Vec3d& f : s->vehicle()->contactForces()) ground += f;
+  EXPECT_NEAR(ground.x, pull.x, 0.02 * pull.x) << "the vehicle still rocks a little";
+  EXPECT_NEAR(ground.z, s->vehicle()->assembly().mass * kGravity + pull.z, 0.02 * s->vehicle()->assembly().mass * kGravity);
+}
+
+TEST(HitchedBodies, PartsWithoutAnyBodyAreRefused) {
+  const auto refusal = [](const std::string& part) {
+    return test::messageOf([&] { setup::parseScene(part, "tow.toml"); });
+  };
+  const std::string rigid = "[[joint]]\nname = \"pin\"\ntype = \"spherical\"\nbodies = [\"world\", \"vehicle\"]\n"
+                            "point = [3, 0, 0.3]\n";
+  EXPECT_NE(refusal(vehicleAlone() + rigid).find("connect the vehicle rigidly to the world"), std::string::npos);
+  const std::string spring = "[[spring]]\nname = \"s\"\nbodies = [\"world\", \"hull\"]\nstiffness = 1\n";
+  EXPECT_NE(refusal(vehicleAlone() + spring).find("did you mean \"vehicle\"?"), std::string::npos);
+  EXPECT_NE(refusal("version = 1\n[run]\nduration = 1\n" + spring).find("unknown body \"hull\""), std::string::npos);
 }
 
 TEST(HitchedBodies, ABodyInsideTheVehicleIsRefused) {
