@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "coupling/fluid_domain.hpp"
+#include "coupling/grains_in_vehicle.hpp"
 #include "coupling/ground_kinds.hpp"
 #include "coupling/ledger_entries.hpp"
 #include "coupling/obstacles.hpp"
@@ -77,6 +78,8 @@ Simulation::Simulation(SimulationSetup setup, const base::Exec& exec, const Sett
   if (laid_.grains) laid_.grains->setSteps(0);
   makeSurfaces(nullptr);
   if (isPutOnBed()) putGrains(laid_, setup_.ground);
+  if (setup_.vehicle && laid_.grains)
+    requireApartFromVehicle(*setup_.ground.grains, *vehicle_, setup_.vehicle->soilTouchesShoesOnly);
   if (setup_.mechanism) requireRoomForBodies();
   makeMeshContacts(spheres);
   makeFluid(nullptr);

@@ -11,6 +11,7 @@
 #include "runs/commands/drive_text.hpp"
 #include "runs/commands/ledger_text.hpp"
 #include "runs/commands/ranks_alike.hpp"
+#include "runs/commands/run_summary.hpp"
 #include "runs/output/mechanism_output.hpp"
 #include "runs/output/run_status.hpp"
 #include "runs/scene/scene.hpp"
@@ -274,6 +275,13 @@ void checkUntilRest(const scene::Scene& scene, const session::RunRequest& option
         "{}: --until rest requires a vehicle; add a section [vehicle], or remove the option", scene.file.string()));
 }
 
+/// Adds the final figures, and records a warning of a large time-integration error.
+void noteResults(session::RunSession& run, output::Summary& summary) {
+  session::noteFigures(run, summary);
+  if (const std::string warning = integrationWarning(summary); !warning.empty())
+    run.writer().fact("energy_warning", warning);
+}
+
 /// `hasFolder`: set once the run owns its folder.
 output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& provenance,
                             const session::RunRequest& options, bool& hasFolder) {
@@ -328,7 +336,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = whole.seconds();
-    session::noteFigures(run, summary);
+    noteResults(run, summary);
     describeDrive(scene, simulation, run.recorder().drive().teeth(), summary, endsAtRest);
     if (former) noteOrigin(*former, options.branch, summary);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;

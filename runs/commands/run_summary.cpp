@@ -89,13 +89,26 @@ std::string valueOf(const nlohmann::json& run, const Line& line) {
 
 } // namespace
 
+std::string integrationWarning(const output::Summary& summary) {
+  constexpr double kLarge = 0.05; // [-] of the work of all forces
+  const double converted = summary.figures.at("energy_converted_J"),
+               error = std::fabs(summary.figures.at("integration_error_J"));
+  if (!(converted > 0) || !(error > kLarge * converted)) return {};
+  return fmt::format("the time-integration error is {:.2g} % of the work of all forces, {:.3g} J, so the results are "
+                     "inaccurate; reduce run.time_step, and compare the results",
+                     100 * error / converted, converted);
+}
+
 std::string energyText(const output::Summary& summary) {
   const double converted = summary.figures.at("energy_converted_J");
   if (!(converted > 0)) return {};
-  return fmt::format("energy    residual {:.0e}, time-integration error {:.2g} %, relative to the absolute work of all "
-                     "forces, {:.3g} J\n",
-                     std::fabs(summary.figures.at("energy_residual_J")) / converted,
-                     100 * std::fabs(summary.figures.at("integration_error_J")) / converted, converted);
+  const std::string warning = integrationWarning(summary);
+  return fmt::format(
+      "{}energy    residual {:.0e}, time-integration error {:.2g} %, relative to the absolute work of all "
+      "forces, {:.3g} J\n",
+      warning.empty() ? "" : fmt::format("WARNING: {}\n", warning),
+      std::fabs(summary.figures.at("energy_residual_J")) / converted,
+      100 * std::fabs(summary.figures.at("integration_error_J")) / converted, converted);
 }
 
 std::string driveFiguresText(const std::filesystem::path& folder, const std::filesystem::path& beside,

@@ -8,7 +8,11 @@
 
 namespace grouser::commands {
 
-/// One line on the energy balance of a finished run: residual and integration error over the work of all forces.
+/// Warning if the time-integration error of a finished run exceeds 5 % of the work of all forces; otherwise empty.
+std::string integrationWarning(const output::Summary& summary);
+
+/// Lines on the energy balance of a finished run: integrationWarning(), then residual and integration error over the
+/// work of all forces.
 std::string energyText(const output::Summary& summary);
 
 /// Figures of a finished run of a vehicle, one per line: means of speed, slip, sinkage and drive torque over the steady

@@ -381,8 +381,9 @@ def page(folder, options):
     made = pages.Page(f"{run.folder.resolve().name} (run)", "run", folder)
     if run.status != "finished":
         made.warnings.append(f"<p>{esc(ENDED.get(run.status, run.status))} {esc(why_ended(run.manifest))}</p>")
-    if warnings := run.manifest.get("bed_warnings"):
-        made.warnings.append(f"<p>WARNING: {esc(warnings)}</p>")
+    for key in ("bed_warnings", "energy_warning"):
+        if warnings := run.manifest.get(key):
+            made.warnings.append(f"<p>WARNING: {esc(warnings)}</p>")
     made.section("figures", "Figures", figures(run, options) + folded("Constants of the run", constants(run)))
     made.section("space", "3-D view", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([

@@ -37,6 +37,16 @@ namespace {
 /// The maximum of run.time_step [s].
 constexpr double kLongestOfAll = 0.1;
 
+/// Coefficient of rolling friction up to which the limit of the rolling torque alone bounds the energy that rolling
+/// springs and dashpots can create; in packed beds, coefficients from 0.3 on create more than other contacts dissipate.
+constexpr double kBoundedRolling = 0.2;
+
+/// Eigenvalue of rolling contacts / rolling coefficient of one contact [1/(kg m2)]. Rolling springs act on angles: as
+/// normal springs, with the moment of inertia instead of the mass. Of twelve contacts with normals in all directions,
+/// each resists two thirds of the rotations; neighbours that turn the other way double this, but not all can: 8.
+/// Between two fixed bodies: 2.
+double rollingModes(const GrainContact& c) { return (c.amongGrains ? 8 : 2) / (0.4 * c.mass * c.radius * c.radius); }
+
 /// Limit up to which no contact creates energy.
 ///
 /// Springs: twelve neighbours together count as 8 k / m (Gershgorin). The step of an impact is at most half its own
@@ -62,6 +72,10 @@ void considerEnergy(StepLimit& limit, const GrainContact& c) {
   dashpots += share * 10 * std::min(c.rollingDamping, arm * arm * d) / inertia;
   // Springs of a Hertz contact are proportional to overlap^(1/2), dashpots to overlap^(1/4).
   consider(limit, c.softer * springs, std::sqrt(c.softer) * dashpots, c.name);
+  if (c.law.rollingFriction <= kBoundedRolling) return;
+  const double rolling = rollingModes(c);
+  consider(limit, c.softer * rolling * c.rollingStiffness, std::sqrt(c.softer) * rolling * c.rollingDamping, c.name,
+           "lower its rolling_friction or rolling_damping_ratio");
 }
 
 /// Limit up to which all modes of non-sliding contacts decay.
@@ -75,8 +89,7 @@ void considerModes(StepLimit& limit, const GrainContact& c) {
   considerCalm(limit, normal * c.coefficients.normalStiffness, normal * c.coefficients.damping);
   if (c.law.friction > 0)
     considerCalm(limit, turning * c.coefficients.tangentialStiffness, turning * c.coefficients.tangentialDamping);
-  // Rolling springs act on angles: as normal springs, with the moment of inertia instead of the mass.
-  const double rolling = (among ? 8 : 2) / (0.4 * c.mass * c.radius * c.radius);
+  const double rolling = rollingModes(c);
   considerCalm(limit, rolling * c.rollingStiffness, rolling * c.rollingDamping);
 }
 

@@ -25,12 +25,12 @@ constexpr double kGravity = 9.81, kCart = 200, kWheel = 20; // [m/s2], [kg]
 /// A vehicle on rigid ground.
 std::string vehicleAlone(const std::string& ground = "kind = \"rigid\"", const std::string& run = {}) {
   return "version = 1\n[run]\nduration = 3.0\n" + run +
-                     "\n[material.ground]\nfriction = 0.8\nrestitution = 0.3\n[material.rubber]\nfriction = 0.8\n"
-                     "restitution = 0.3\nfoundation_modulus = 2e8\n[terrain]\nmaterial = \"ground\"\nsize = [9, "
-                     "3]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
-                     ground +
-                     "\n[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nposition = [3, 0]\nsphere_radius = 0.02\n"
-                     "[driver]\nsprocket_speed = 1.5\ndrive_start = 0.6\ndrive_ramp = 0.2\n";
+         "\n[material.ground]\nfriction = 0.8\nrestitution = 0.3\n[material.rubber]\nfriction = 0.8\n"
+         "restitution = 0.3\nfoundation_modulus = 2e8\n[terrain]\nmaterial = \"ground\"\nsize = [9, "
+         "3]\nheightmap = \"heightmaps/flat.png\"\nheight_range = [-0.128, 0.127]\n" +
+         ground +
+         "\n[vehicle]\nspec = \"vehicles/light_tracked.toml\"\nposition = [3, 0]\nsphere_radius = 0.02\n"
+         "[driver]\nsprocket_speed = 1.5\ndrive_start = 0.6\ndrive_ramp = 0.2\n";
 }
 
 /// The vehicle with a cart of two wheels on a ball joint behind its hull.
@@ -127,22 +127,30 @@ TEST(HitchedBodies, AJointFromTheVehicleToTheWorldIsRefused) {
         << word;
 }
 
-// Newton's third law: the ground holds the resting vehicle against the spring, F = k (L - L0) along the spring.
+// Momentum of the vehicle = impulses of its weight, of the ground, and of the spring, F = k (L - L0) along the spring.
 TEST(HitchedBodies, ASpringTiesTheVehicleToTheWorldWithoutOtherBodies) {
-  constexpr double kStiffness = 100, kFree = 0.1; // [N/m], [m]
+  constexpr double kStiffness = 100, kFree = 0.1, kTime = 0.05; // [N/m], [m], [s]
   const auto s = made(vehicleAlone() + fmt::format("[[spring]]\nname = \"tether\"\nbodies = [\"world\", \"vehicle\"]\n"
                                                    "point_a = [0, 0, 0.2]\nstiffness = {}\nfree_position = {}\n",
                                                    kStiffness, kFree));
   ASSERT_EQ(s->setup().mechanism->model.pointSprings().size(), 1u);
+  const auto pull = [&] {
+    const Vec3d arm = Vec3d{0, 0, 0.2} - s->vehicle()->state().pose[0].position;
+    return arm * (kStiffness * (norm(arm) - kFree) / norm(arm));
+  };
   advanceTo(*s, 0.5);
   s->restartMeans();
-  advanceTo(*s, 0.59); // before the drive starts
-  const Vec3d arm = s->vehicle()->state().pose[0].position - Vec3d{0, 0, 0.2};
-  const Vec3d pull = arm * (kStiffness * (norm(arm) - kFree) / norm(arm));
+  const Vec3d before = s->ledger().momentum, pullBefore = pull();
+  const double start = s->time();
+  advanceTo(*s, start + kTime); // before the drive starts
   Vec3d ground{};
   for (const Vec3d& f : s->vehicle()->contactForces()) ground += f;
-  EXPECT_NEAR(ground.x, pull.x, 0.02 * pull.x) << "the vehicle still rocks a little";
-  EXPECT_NEAR(ground.z, s->vehicle()->assembly().mass * kGravity + pull.z, 0.02 * s->vehicle()->assembly().mass * kGravity);
+  const Vec3d gained = (s->ledger().momentum - before) * (1 / (s->time() - start)),
+              spring = (pullBefore + pull()) * 0.5;
+  const double weight = s->vehicle()->assembly().mass * kGravity;
+  EXPECT_LT(spring.x, -200);
+  EXPECT_NEAR(gained.x, ground.x + spring.x, 0.01 * std::fabs(spring.x));
+  EXPECT_NEAR(gained.z, ground.z + spring.z - weight, 0.001 * weight);
 }
 
 TEST(HitchedBodies, PartsWithoutAnyBodyAreRefused) {

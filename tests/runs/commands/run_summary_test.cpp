@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The last lines of a run: figures, energy check, results; details with --verbose; a second run beside it.
+#include "runs/commands/run_summary.hpp"
 #include "tests/runs/program_fixture.hpp"
 #include "tests/runs/shared_cache.hpp"
 
@@ -54,6 +55,17 @@ TEST_F(RunSummary, EndsInFiguresEnergyAndResultsInThisOrder) {
   const std::size_t first = both.find(speed.substr(0, speed.find_last_not_of(' ') + 1));
   ASSERT_NE(first, std::string::npos) << both;
   EXPECT_NE(both.find(speed.substr(0, speed.find_last_not_of(' ') + 1), first + 1), std::string::npos) << both;
+}
+
+TEST_F(RunSummary, WarnsOfALargeTimeIntegrationError) {
+  output::Summary summary;
+  summary.figures = {{"energy_converted_J", 20}, {"energy_residual_J", 0}, {"integration_error_J", 0.99}};
+  EXPECT_EQ(integrationWarning(summary), "");
+  summary.figures["integration_error_J"] = -2.4;
+  EXPECT_NE(integrationWarning(summary).find("is 12 % of the work of all forces, 20 J"), std::string::npos);
+  EXPECT_EQ(energyText(summary).rfind("WARNING: the time-integration error", 0), 0u) << energyText(summary);
+  summary.figures["energy_converted_J"] = 0;
+  EXPECT_EQ(integrationWarning(summary), "");
 }
 
 TEST_F(RunSummary, WarnsFirstIfFiguresAreInconclusive) {
