@@ -30,11 +30,13 @@ template <class T> struct ImpulseTouch {
   base::Vec3<T> spin;     ///< angular velocity of i relative to j [rad/s]
   T freely;               ///< change of the separation speed in this step without contact forces [m/s]
   T effectiveMass, effectiveRadius;
+  T movedMass; ///< mass that an impulse along the normal accelerates, or less [kg]
   T rollingInertia;               ///< see RollingMotion
   T dampingShare;                 ///< see BasicContactGeometry
   T pullShare = 1;                ///< see BasicContactGeometry
   base::Vec3<T> shear{}, angle{}; ///< springs in the tangent plane [m], [rad]; rigid: see keptImpulse()
   bool held{false};               ///< the contact overlapped or transmitted an impulse in the last step
+  T slipped{}, rolled{};          ///< energy that followStiffness() has taken from the springs [J]
 };
 
 /// Constants of a row during a step.
@@ -46,6 +48,8 @@ template <class T> struct ImpulseRow {
   ImpulseCone<T> cone;
   T pull;                  ///< impulse of cohesion on each side, towards the other [N s]
   T damping, shearDamping; ///< dashpot coefficients [N s/m]; 0 for rigid contacts and impacts
+  T rollingDamping;        ///< of the rolling spring [N m s]; 0 likewise
+  T slipped, rolled;       ///< see ImpulseTouch
   bool impact;             ///< a new contact with Newton restitution
   Impulse<T> start;        ///< initial impulse of the solver
 };
@@ -61,6 +65,32 @@ template <class T> GROUSER_HD base::Vec3<T> tangentOf(const base::Vec3<T>& v, co
   return v - normal * dot(v, normal);
 }
 } // namespace detail
+
+/// Adapts the springs of a lasting Hertz contact to the stiffness at its overlap, as penalty contacts do:
+/// hertzChange().
+template <class T> GROUSER_HD void followStiffness(const BasicLaw<T>& law, ImpulseTouch<T>& touch, T timeStep) {
+  if (!law.hertz || !(touch.gap < 0)) return;
+  const StiffnessChange<T> change = hertzChange(-touch.gap, -dot(touch.velocity, touch.push) * timeStep);
+  const Coefficients<T> c = coefficientsOf<kGeneral>(law, -touch.gap, touch.effectiveMass, touch.effectiveRadius);
+  touch.slipped = c.tangentialStiffness * norm2(touch.shear) * change.taken;
+  touch.rolled = rollingStiffness(law, c.normalStiffness, touch.effectiveRadius) * norm2(touch.angle) * change.taken;
+  touch.shear *= change.kept, touch.angle *= change.kept;
+}
+
+/// Overlap of a Hertz contact after an implicit step in which only its elastic force acts, from the overlap `free` > 0
+/// without this force [m]: the root of m (free - overlap) / h^2 = stiffness sqrt(R) overlap^1.5. Newton's method for the
+/// root of the overlap: a convex function, approached from above.
+template <class T> GROUSER_HD T endOverlap(const BasicLaw<T>& law, T free, T mass, T radius, T timeStep) {
+  const T cubic = timeStep * timeStep * law.stiffness * squareRoot(radius) / mass;
+  T root = squareRoot(free);
+  constexpr int kMost = 100; // two thirds of the former value at least, then twice the places
+  for (int k = 0; k < kMost; ++k) {
+    const T next = root - (root * root * (cubic * root + T(1)) - free) / (root * (T(3) * cubic * root + T(2)));
+    if (!(next < root)) break;
+    root = next;
+  }
+  return root * root;
+}
 
 /// Returns the row of two surfaces that may come into contact within a step.
 template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, const ImpulseTouch<T>& touch,
@@ -83,8 +113,13 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
     if (touch.held) row.start = {touch.shear * (-h * rules.stiffness), touch.angle * (-h * rules.stiffness)};
     return row;
   }
-  // Hertz's law is linearised at the larger of the current and the predicted overlap.
-  const T deep = law.hertz && closing > overlap ? closing : overlap;
+  // Hertz's law is linearised where the step ends if no other contact acts, or at the current overlap if that is larger:
+  // at rest both are the overlap of the static load, at any step.
+  T deep = overlap;
+  if (law.hertz && closing > overlap) {
+    const T alone = endOverlap(law, closing, touch.movedMass, touch.effectiveRadius, h);
+    if (alone > overlap) deep = alone;
+  }
   Coefficients<T> c = coefficientsOf<kGeneral>(law, deep, touch.effectiveMass, touch.effectiveRadius);
   const T touches = touch.gap < 0 ? touch.dampingShare : T(0); // no dashpot before contact
   c.damping *= touches, c.tangentialDamping *= touches;
@@ -93,11 +128,21 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
   const T force = c.elastic - stiffness * (deep + touch.gap); // spring force; < 0 if the surfaces are apart
   row.softness = soft > 0 ? 1 / (h * soft) : T(0);
   row.offset = touch.push * (soft > 0 ? -force / soft : touch.gap / h);
+  // Springs of a lasting contact have the stiffness of the current overlap, which followStiffness() has adapted them to.
+  T springs = stiffness;
+  if (law.hertz && touch.held && overlap > 0 && deep > overlap) {
+    const T damping = c.damping;
+    c = coefficientsOf<kGeneral>(law, overlap, touch.effectiveMass, touch.effectiveRadius);
+    c.damping = damping, c.tangentialDamping *= touches, springs = c.normalStiffness;
+    row.shearDamping = c.tangentialDamping;
+  }
+  row.slipped = touch.slipped, row.rolled = touch.rolled;
   const T softShear = h * c.tangentialStiffness + c.tangentialDamping;
   row.shearSoftness = softShear > 0 ? 1 / (h * softShear) : T(0);
   if (softShear > 0) row.offset += touch.shear * (c.tangentialStiffness / softShear);
-  const T turn = rollingStiffness(law, stiffness, touch.effectiveRadius);
-  const T softTurn = h * turn + T(2) * law.rollingDamping * base::squareRoot(touch.rollingInertia * turn);
+  const T turn = rollingStiffness(law, springs, touch.effectiveRadius);
+  row.rollingDamping = T(2) * law.rollingDamping * base::squareRoot(touch.rollingInertia * turn);
+  const T softTurn = h * turn + row.rollingDamping;
   row.rollingSoftness = softTurn > 0 ? 1 / (h * softTurn) : T(0);
   if (softTurn > 0) row.turnOffset = touch.angle * (turn / softTurn);
   row.start = {touch.push * (h * (force > 0 ? force : T(0))) - touch.shear * (h * c.tangentialStiffness),

@@ -295,7 +295,7 @@ private:
 /// Sums of an iteration.
 struct IterationTotals {
   base::WideSum of[kImpulseSums * kSumSizes];
-  std::uint32_t worst; ///< see ImpulseData
+  std::uint32_t worst, rounding; ///< see ImpulseData
 };
 
 /// Sums the banks of an iteration and clears them.
@@ -305,7 +305,7 @@ template <class Real> struct SumBanks {
   IterationTotals* totals;
   GROUSER_HD void operator()(int k) const {
     if (k == kCount) {
-      totals->worst = *s.worst, *s.worst = 0;
+      totals->worst = *s.worst, totals->rounding = *s.rounding, *s.worst = 0;
       return;
     }
     base::WideSum total;
@@ -326,7 +326,8 @@ GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const Iterati
     return of[0].toDouble() / perUnit + of[1].toDouble() / (perUnit * kFinerSums);
   };
   return {sum(kCurvature), sum(kLength),   sum(kAgainst),
-          sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(totals.worst))};
+          sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(totals.worst)),
+          static_cast<double>(base::bitsAs<float>(totals.rounding))};
 }
 
 /// Updates the iteration control on the device.

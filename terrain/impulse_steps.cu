@@ -71,6 +71,7 @@ public:
         partRows_(exec), grainRows_(exec), boundRows_(exec), degree_(exec),
         free_(exec), motion_{Motions(exec), Motions(exec), Motions(exec)},
         sums_(exec, std::size_t{kSumBanks} * SumBanks<Real>::kCount), evaluation_(exec, 1), worst_(exec, 1),
+        rounding_(exec, 1),
         control_(exec, 1), surfaceRows_(exec),
         surfacePushes_(exec), surfaceChange_{Reals(exec), Reals(exec), Reals(exec)} {
     const auto real = [](double value) { return static_cast<Real>(value); };
@@ -124,6 +125,8 @@ private:
     data_.near = static_cast<std::int64_t>(near), data_.free = free_.data();
     for (std::size_t k = 0; k < motion_.size(); ++k) data_.motion[k] = motion_[k].data();
     data_.ghost = system.ghosts(), data_.sums = sums_.data(), data_.worst = worst_.data();
+    data_.rounding = rounding_.data();
+    rounding_.zero();
     data_.now = 0, data_.control = control_.data();
     force_ = system.forceData<Real>();
     setUpSurfaces(system);
@@ -243,9 +246,9 @@ private:
       const std::vector<base::WideSum> mine(std::begin(totals.of), std::end(totals.of));
       const std::vector<base::WideSum> all = base::summedBanks(mine, mine.size(), comm);
       std::copy(all.begin(), all.end(), totals.of);
-      std::uint64_t least = ~std::uint64_t{totals.worst};
-      comm.minimum(&least, 1);
-      totals.worst = static_cast<std::uint32_t>(~least);
+      std::uint64_t least[] = {~std::uint64_t{totals.worst}, ~std::uint64_t{totals.rounding}};
+      comm.minimum(least, 2);
+      totals.worst = static_cast<std::uint32_t>(~least[0]), totals.rounding = static_cast<std::uint32_t>(~least[1]);
     }
     return iterationSums(data_, totals);
   }
@@ -306,7 +309,9 @@ private:
 
   void note(const ImpulseControl<Real>& control) {
     const IterationSums& last = control.last;
-    report_ = {control.iterations, last.worst, 0, last.contacts, control.relaxed, last.worst <= options_.residual};
+    const double tolerance = control.tolerance(last);
+    report_ = {control.iterations,        last.worst, 0, last.contacts, control.relaxed, last.worst <= tolerance,
+               tolerance > control.residual};
     report_.rms = report_.rows > 0 ? std::sqrt(last.squares / report_.rows) : 0;
     totals_.add(report_), totals_.tau = static_cast<double>(control.tau);
   }
@@ -335,7 +340,7 @@ private:
   std::array<Motions, 3> motion_;
   base::Array<base::WideSum> sums_;
   base::Array<IterationTotals> evaluation_; ///< one element
-  base::Array<std::uint32_t> worst_;
+  base::Array<std::uint32_t> worst_, rounding_;
   base::Array<ImpulseControl<Real>> control_; ///< one element
   std::vector<double> inverseMass_;           ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;
