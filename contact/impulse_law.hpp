@@ -3,6 +3,7 @@
 
 #include "contact/complementarity_options.hpp"
 #include "contact/contact_law.hpp"
+#include "contact/hertz_tangent.hpp"
 #include "contact/impulse_cone.hpp"
 #include "contact/rolling_resistance.hpp"
 
@@ -30,7 +31,7 @@ template <class T> struct ImpulseTouch {
   base::Vec3<T> spin;     ///< angular velocity of i relative to j [rad/s]
   T freely;               ///< change of the separation speed in this step without contact forces [m/s]
   T effectiveMass, effectiveRadius;
-  T movedMass; ///< mass that an impulse along the normal accelerates, or less [kg]
+  T movedMass;                    ///< mass that an impulse along the normal accelerates, or less [kg]
   T rollingInertia;               ///< see RollingMotion
   T dampingShare;                 ///< see BasicContactGeometry
   T pullShare = 1;                ///< see BasicContactGeometry
@@ -48,10 +49,12 @@ template <class T> struct ImpulseRow {
   ImpulseCone<T> cone;
   T pull;                  ///< impulse of cohesion on each side, towards the other [N s]
   T damping, shearDamping; ///< dashpot coefficients [N s/m]; 0 for rigid contacts and impacts
-  T rollingDamping;        ///< of the rolling spring [N m s]; 0 likewise
+  T rollingDamping;        ///< dashpot coefficient of the rolling spring [N m s]; 0 likewise
   T slipped, rolled;       ///< see ImpulseTouch
-  bool impact;             ///< a new contact with Newton restitution
-  Impulse<T> start;        ///< initial impulse of the solver
+  T normalOffset;          ///< part of `offset` along `push` that depends on the linearisation [m/s]
+  HertzNormal<T> hertz;
+  bool impact;      ///< a new contact with Newton restitution
+  Impulse<T> start; ///< initial impulse of the solver
 };
 
 /// Warm start of a rigid contact, stored in place of a spring: a length [m] that represents the initial
@@ -77,21 +80,6 @@ template <class T> GROUSER_HD void followStiffness(const BasicLaw<T>& law, Impul
   touch.shear *= change.kept, touch.angle *= change.kept;
 }
 
-/// Overlap of a Hertz contact after an implicit step in which only its elastic force acts, from the overlap `free` > 0
-/// without this force [m]: the root of m (free - overlap) / h^2 = stiffness sqrt(R) overlap^1.5. Newton's method for the
-/// root of the overlap: a convex function, approached from above.
-template <class T> GROUSER_HD T endOverlap(const BasicLaw<T>& law, T free, T mass, T radius, T timeStep) {
-  const T cubic = timeStep * timeStep * law.stiffness * squareRoot(radius) / mass;
-  T root = squareRoot(free);
-  constexpr int kMost = 100; // two thirds of the former value at least, then twice the places
-  for (int k = 0; k < kMost; ++k) {
-    const T next = root - (root * root * (cubic * root + T(1)) - free) / (root * (T(3) * cubic * root + T(2)));
-    if (!(next < root)) break;
-    root = next;
-  }
-  return root * root;
-}
-
 /// Returns the row of two surfaces that may come into contact within a step.
 template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, const ImpulseTouch<T>& touch,
                                                        const ImpulseRules<T>& rules) {
@@ -113,11 +101,15 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
     if (touch.held) row.start = {touch.shear * (-h * rules.stiffness), touch.angle * (-h * rules.stiffness)};
     return row;
   }
-  // Hertz's law is linearised where the step ends if no other contact acts, or at the current overlap if that is larger:
-  // at rest both are the overlap of the static load, at any step.
+  // Hertz's law is linearised first where the step ends if no other contact acts, or at the current overlap if that is
+  // larger; later where the step ends, see hertzError().
   T deep = overlap;
-  if (law.hertz && closing > overlap) {
-    const T alone = endOverlap(law, closing, touch.movedMass, touch.effectiveRadius, h);
+  if (law.hertz) {
+    const T root = squareRoot(touch.effectiveRadius);
+    row.hertz = {law.stiffness * root,
+                 touch.gap < 0 ? law.rootDamping * squareRoot(touch.effectiveMass * root) * touch.dampingShare : T(0),
+                 touch.movedMass};
+    const T alone = closing > overlap ? endOverlap(row.hertz, closing, h) : overlap;
     if (alone > overlap) deep = alone;
   }
   Coefficients<T> c = coefficientsOf<kGeneral>(law, deep, touch.effectiveMass, touch.effectiveRadius);
@@ -127,8 +119,10 @@ template <class T> GROUSER_HD ImpulseRow<T> impulseRow(const BasicLaw<T>& law, c
   const T stiffness = c.normalStiffness, soft = h * stiffness + c.damping;
   const T force = c.elastic - stiffness * (deep + touch.gap); // spring force; < 0 if the surfaces are apart
   row.softness = soft > 0 ? 1 / (h * soft) : T(0);
-  row.offset = touch.push * (soft > 0 ? -force / soft : touch.gap / h);
-  // Springs of a lasting contact have the stiffness of the current overlap, which followStiffness() has adapted them to.
+  row.normalOffset = soft > 0 ? -force / soft : touch.gap / h;
+  row.offset = touch.push * row.normalOffset;
+  // Springs of a lasting contact have the stiffness of the current overlap, which followStiffness() has adapted them
+  // to.
   T springs = stiffness;
   if (law.hertz && touch.held && overlap > 0 && deep > overlap) {
     const T damping = c.damping;

@@ -453,8 +453,7 @@ std::optional<double> Simulation::solverError() const {
   else if (setup_.mechanism)
     for (const multibody::Body& body : setup_.mechanism->model.bodies()) mass += body.fixed ? 0 : body.mass;
   for (const SurfaceSetup& surface : setup_.ground.surfaces) mass += surface.free ? surface.free->mass : 0;
-  const double residual =
-      std::max(model.complementarity->residual, laid_.grains->system().impulses->report().residual);
+  const double residual = std::max(model.complementarity->residual, laid_.grains->system().impulses->report().residual);
   return EnergyGuard::solverError(mass * norm(gravity_), residual, model.timeStep);
 }
 

@@ -50,6 +50,13 @@ template <class Real> struct ImpulseControl {
     return residual > sums.rounding ? residual : sums.rounding;
   }
 
+  /// Continues from the current impulses after the rows have changed.
+  GROUSER_HD void restart() {
+    done = judging = relaxed = false;
+    before = now, tried = now == 2 ? 0 : 2;
+    ahead = 0, theta = 1, halved = 3e38, halvedAt = iterations;
+  }
+
   /// Takes the sums of an evaluation: stops, accepts the trial, or repeats it with a shorter step if the curvature is
   /// too high, or with the relaxation if Coulomb's law, which has no potential, does not converge.
   GROUSER_HD void take(const IterationSums& sums) {

@@ -56,6 +56,8 @@ template <class Real> struct ImpulseRowEnd {
   Real damping, shearDamping; ///< dashpot coefficients [N s/m]
   Real rollingDamping;        ///< [N m s]
   Real slipped, rolled;       ///< energy that the springs have lost since their stiffness changed [J]
+  Real normalOffset;          ///< see contact::ImpulseRow [m/s]
+  contact::HertzNormal<Real> hertz;
 };
 
 /// Velocities of a grain in an iteration; exchanged with other ranks.

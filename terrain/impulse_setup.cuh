@@ -80,7 +80,8 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
                       bool counts = true) const {
     rows.row[at] = {row.push, arms.own, row.softness, row.shearSoftness, row.cone.friction, Real(counts ? 1 : -1)};
     rows.other[at] = {row.offset, arms.other, Real(0), Real(0), other, place | (row.impact ? kImpactBit : 0u)};
-    rows.end[at] = {overlap, row.pull, row.damping, row.shearDamping, row.rollingDamping, row.slipped, row.rolled};
+    rows.end[at] = {overlap,     row.pull,   row.damping,      row.shearDamping, row.rollingDamping,
+                    row.slipped, row.rolled, row.normalOffset, row.hertz};
     const contact::Impulse<Real> start = contact::cutToCoulomb(row.start, row.push, row.cone);
     rows.impulse[s.now][at] = start.linear;
     if (!rows.rolling) return;
@@ -341,8 +342,9 @@ private:
     speeds += static_cast<float>(norm(body.at(on.arm)));
     const double arm = static_cast<double>(norm(on.arm)),
                  quantum = s.bodyPush.quantum + (arm > 0 ? s.bodyTurn.quantum / arm : 0.0);
-    return kPlaces * kEpsilon * speeds + static_cast<float>(0.5 * quantum * s.bodyRows[on.body] *
-                                                            static_cast<double>(Base::mobilityOf(s.body[on.body], on.arm)));
+    return kPlaces * kEpsilon * speeds +
+           static_cast<float>(0.5 * quantum * s.bodyRows[on.body] *
+                              static_cast<double>(Base::mobilityOf(s.body[on.body], on.arm)));
   }
 
   GROUSER_HD void weigh(const ImpulseRowsView<Real>& rows, std::int64_t at, const GrainSize<Real>& own,
@@ -370,7 +372,7 @@ private:
     }
     const Real shear = (shearWeight<Real>(s.rolls) * masses * arm2 + row.shearSoftness) / shearWeight<Real>(s.rolls);
     const Real normal = masses + row.softness;
-    row.signedWeight *= normal > shear ? normal : shear;
+    row.signedWeight = (row.counts() ? Real(1) : Real(-1)) * (normal > shear ? normal : shear);
     side.mobility = Real(1) / own.mass + yields + row.softness, side.inertia = Real(1) / side.mobility;
     if (!rows.rolling) return;
     RollingRowRecord<Real>& roll = rows.rolling[at];

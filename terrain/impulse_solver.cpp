@@ -34,7 +34,8 @@ void ImpulseTotals::add(const ImpulseReport& report) {
 }
 
 std::vector<std::int64_t> ImpulseTotals::words() const {
-  return {steps, iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst), base::bitsAs<std::int64_t>(tau), raised};
+  return {steps, iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst), base::bitsAs<std::int64_t>(tau),
+          raised};
 }
 
 void ImpulseTotals::setWords(const std::int64_t* words) {

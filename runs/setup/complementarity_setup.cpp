@@ -24,14 +24,16 @@ void checkUnused(const scene::Scene& scene) {
   const bool settles = scene.terrain && scene.terrain->granular();
   if (settles || scene.vehicle || scene.mechanism.touches()) return;
   if (given("run", "steps_per_contact"))
-    scene.fail("run", "steps_per_contact",
-               "has no effect with contact = \"complementarity\", whose steps do not resolve contacts; remove it, or set "
-               "run.time_step");
+    scene.fail(
+        "run", "steps_per_contact",
+        "has no effect with contact = \"complementarity\", whose steps do not resolve contacts; remove it, or set "
+        "run.time_step");
   for (const scene::Material& m : scene.materials)
     if (m.attraction)
-      scene.failMaterial(m.name, "attraction",
-                         "has no effect with run.contact = \"complementarity\", whose dashpots never attract; remove it "
-                         "(to model cohesion, set cohesion), or set run.contact = \"penalty\"");
+      scene.failMaterial(
+          m.name, "attraction",
+          "has no effect with run.contact = \"complementarity\", whose dashpots never attract; remove it "
+          "(to model cohesion, set cohesion), or set run.contact = \"penalty\"");
 }
 
 } // namespace

@@ -329,7 +329,8 @@ TEST(EnergyGuard, TheToleranceOfASolverIsNoAlarm) {
     EnergyGuard guard;
     EXPECT_EQ(guard.judge(books(sign * 0.99 * floor, 0), 0, floor), "");
     EXPECT_NE(guard.judge(books(sign * 0.99 * floor, 0), 0), "") << "explicit steps";
-    EXPECT_EQ(guard.judge(books(sign * 1.01 * floor, 0), 0, floor).empty(), sign > 0) << "implicit steps may lose energy";
+    EXPECT_EQ(guard.judge(books(sign * 1.01 * floor, 0), 0, floor).empty(), sign > 0)
+        << "implicit steps may lose energy";
   }
 }
 
@@ -355,8 +356,8 @@ TEST(EnergyGuard, GrainsAtRestOnComplementarityContactsAreNoAlarm) {
   for (const char* stiffness : {"1e4", "1e6", "1e8"}) {
     const std::string material = fmt::format("stiffness = {}", stiffness);
     for (const char* radius : {"0.001", "0.01", "0.1"})
-      expectSound(material,
-                  fmt::format("[[grain]]\nposition = [0, 0, {0}]\nradius = {0}\nmaterial = \"a\"\n", radius), 10);
+      expectSound(material, fmt::format("[[grain]]\nposition = [0, 0, {0}]\nradius = {0}\nmaterial = \"a\"\n", radius),
+                  10);
     std::string pile; // a pyramid of 55 grains
     for (int layer = 0; layer < 5; ++layer)
       for (int k = 0; k < (5 - layer) * (5 - layer); ++k)
@@ -370,8 +371,7 @@ TEST(EnergyGuard, GrainsAtRestOnComplementarityContactsAreNoAlarm) {
 TEST(EnergyGuard, ABallThatReboundsWithoutLossIsNoAlarm) {
   for (const char* friction : {"0", "0.5"})
     expectSound(fmt::format("stiffness = 1e6\nrestitution = 1\nfriction = {}", friction),
-                "[[grain]]\nposition = [0, 0, 0.0201]\nvelocity = [0.05, 0, 0]\nradius = 0.01\nmaterial = \"a\"\n",
-                3);
+                "[[grain]]\nposition = [0, 0, 0.0201]\nvelocity = [0.05, 0, 0]\nradius = 0.01\nmaterial = \"a\"\n", 3);
 }
 
 TEST(EnergyGuard, VerdictFallsAtTheSameStepInBatchesAndAlone) {
