@@ -33,8 +33,9 @@ EnergyGuard::Exchange EnergyGuard::since(const Ledger& now, double held) const {
   return x;
 }
 
-std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) const {
-  const Exchange x = since(now, held);
+std::string EnergyGuard::judge(const Ledger& now, double held, std::optional<double> implicit) const {
+  Exchange x = since(now, held);
+  x.neverAlarms += implicit.value_or(0);
   if (!std::isfinite(x.lost) || !std::isfinite(x.moved)) return "the energies are not finite";
   const auto found = [&](const char* what, double energy) {
     return fmt::format("{} {:.3g} J since the last check (at most {} steps ago), of {:.3g} J exchanged", what, energy,
@@ -45,12 +46,14 @@ std::string EnergyGuard::judge(const Ledger& now, double held, bool implicit) co
     return found("time integration created", -x.lost);
   if (x.given > kMaxGiven * x.moved + x.neverAlarms)
     return found("the time step is too long: dampers created", x.given);
-  return judgeHeat(now, held);
+  return judgeHeat(now, held, implicit.value_or(0));
 }
 
-std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
+std::string EnergyGuard::judgeHeat(const Ledger& now, double held, double solver) const {
   if (now.dissipated.ofParts() <= now.dissipated.ofGrains()) return {}; // sliding dissipates energy created by steps
-  const Exchange x = since(now, held);
+  if (now.dissipated.ofParts() <= 0) return {}; // grains only; their elastic impacts may dissipate a little less than 0
+  Exchange x = since(now, held);
+  x.neverAlarms += solver;
   // The elastic energy of a large bed varies before a vehicle has dissipated much; the dashpots of the bed then seem to
   // create the energy that parts dissipate.
   if (-x.lost > kMaxMade * (x.heat + x.lost) + x.neverAlarms)
@@ -61,7 +64,7 @@ std::string EnergyGuard::judgeHeat(const Ledger& now, double held) const {
   const double bed = std::max(maxInGrains_, std::fabs(now.grainElastic));
   const double hidden = std::clamp(kMaxHidden * now.dissipated.ofParts(), kElasticTolerance * bed, kSpringShare * bed);
   if (std::max(all, made) <= kAtTheStart * held) return {};
-  if (made > kMaxMade * (all - made) + neverAlarms(now, held, hidden))
+  if (made > kMaxMade * (all - made) + neverAlarms(now, held, hidden) + solver)
     return fmt::format("time integration created {:.3g} J of the {:.3g} J dissipated since the start", made, all);
   return {};
 }

@@ -5,6 +5,7 @@
 #include "coupling/ledger.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,10 +70,18 @@ public:
     /// `energy` in excess of neverAlarms / exchanged energy [-].
     double share(double energy) const { return moved > 0 && energy > neverAlarms ? (energy - neverAlarms) / moved : 0; }
   };
+  /// Energy that steps with complementarity contacts may create or lose in kInterval steps because their solver stops
+  /// at the velocity error `residual` [m/s]: a contact that carries the force F exchanges F h residual per step.
+  /// `weight`: of everything that contacts carry [N]; `timeStep`: h [s].
+  static double solverError(double weight, double residual, double timeStep) {
+    return static_cast<double>(kInterval) * weight * residual * timeStep;
+  }
+
   /// Computes the exchange since the last check. `held`: energy of bodies and contacts + m g radius of all grains [J].
   Exchange since(const Ledger& now, double held) const;
-  /// Describes an energy error since the last check; empty if there is none. `implicit`: energy losses are accepted.
-  std::string judge(const Ledger& now, double held, bool implicit = false) const;
+  /// Describes an energy error since the last check; empty if there is none. `implicit`: energy error [J] that the
+  /// solver of implicit contacts may cause, which never raises an alarm, see solverError(); energy losses are accepted.
+  std::string judge(const Ledger& now, double held, std::optional<double> implicit = {}) const;
   /// Stores `now` as reference of the next check.
   void look(const Ledger& now);
 
@@ -84,8 +93,8 @@ public:
   void restore(const std::vector<double>& saved);
 
 private:
-  /// Describes energy created and dissipated in contacts of parts; empty if it is small.
-  std::string judgeHeat(const Ledger& now, double held) const;
+  /// Describes energy created and dissipated in contacts of parts; empty if it is small. `solver`: see judge() [J].
+  std::string judgeHeat(const Ledger& now, double held, double solver) const;
 
   struct Look {
     double error{}, turnover{}, dissipated{}, driveWork{}, elastic{}, ofGrains{}; ///< [J]

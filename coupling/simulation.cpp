@@ -446,8 +446,22 @@ double Simulation::weightHeld() const {
   return one * static_cast<double>(laid_.grains->count() - laid_.grains->system().fixedCount);
 }
 
+std::optional<double> Simulation::solverError() const {
+  if (!laid_.grains || !laid_.grains->model().complementarity) return {};
+  const terrain::GrainModel& model = laid_.grains->model();
+  // Grains carry each other, the vehicle, bodies and loaded surfaces.
+  double mass = model.mass * static_cast<double>(laid_.grains->count() - laid_.grains->system().fixedCount);
+  if (vehicle_)
+    mass += vehicle_->carriedMass();
+  else if (setup_.mechanism)
+    for (const multibody::Body& body : setup_.mechanism->model.bodies()) mass += body.fixed ? 0 : body.mass;
+  for (const SurfaceSetup& surface : setup_.ground.surfaces) mass += surface.free ? surface.free->mass : 0;
+  const double residual = std::max(model.complementarity->residual, laid_.grains->system().impulses->report().residual);
+  return EnergyGuard::solverError(mass * norm(gravity_), residual, model.timeStep);
+}
+
 std::string Simulation::energyVerdict(const Ledger& now) const {
-  return guard_.judge(now, energyHeld(now), laid_.grains && laid_.grains->model().complementarity);
+  return guard_.judge(now, energyHeld(now), solverError());
 }
 
 void Simulation::checkEnergy(const Ledger& now) {

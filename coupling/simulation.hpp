@@ -114,6 +114,8 @@ private:
   std::string energyVerdict(const Ledger& now) const;
   double energyHeld(const Ledger& now) const;
   double weightHeld() const; ///< m g radius of all grains [J]
+  /// Energy error since the last check that the solver of complementarity contacts may cause [J]; empty without it.
+  std::optional<double> solverError() const;
   void checkEnergy(const Ledger& now);
   template <class Advance> void namingCause(const Advance& advance);
   base::Alarm alarmOf(const terrain::GrainFault& fault);

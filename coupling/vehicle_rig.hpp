@@ -45,6 +45,7 @@ public:
   const multibody::Solver& solver() const override { return *solver_; }
   multibody::Solver& stepSolver() override { return *solver_; }
   const vehicle::Assembly& assembly() const { return assembly_; }
+  double carriedMass() const { return carried_; } ///< mass supported by the ground at rest [kg]: with all other bodies
   const VehicleParts& parts() const { return *parts_; }
 
   /// Throws base::InputError if the vehicle does not have this input.

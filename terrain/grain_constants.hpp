@@ -50,12 +50,14 @@ struct GrainConstants {
     return half * half;
   }
   /// Complementarity: maximum gap of a pair at rest in the problem of a step [m].
-  double minMargin() const { return std::min(kMinMargin * smallestRadius, model.complementarity->reach); }
+  double minMargin() const { return minMargin(smallestRadius, model.complementarity->reach); }
+  static double minMargin(double smallestRadius, double reach) { return std::min(kMinMargin * smallestRadius, reach); }
   /// Maximum gap of any pair [m]: includes the distance that both grains travel in a step, at up to kFastImpacts times
-  /// `reach`.
-  double margin() const {
-    return minMargin() +
-           std::min(2 * GrainModel::kMaxWaySolved * smallestRadius, kFastImpacts * model.complementarity->reach);
+  /// `reach`, see contact::ComplementarityOptions.
+  double margin() const { return margin(smallestRadius, model.complementarity->reach); }
+  static double margin(double smallestRadius, double reach) {
+    return minMargin(smallestRadius, reach) +
+           std::min(2 * GrainModel::kMaxWaySolved * smallestRadius, kFastImpacts * reach);
   }
   static constexpr double kMinMargin = 0.2; ///< [smallest radius]
   static constexpr double kFastImpacts = 4;

@@ -210,7 +210,13 @@ private:
       const Vec r = rows.turning[s.now][at];
       const Vec turnSped = contact::detail::tangentOf(end.spin - start.spin, row.push) * mean;
       total.lost.rolled -= share * static_cast<double>(dot(r, rows.turnGradient[s.now][at] - turnSped));
+      if (!impact && !s.rules.rigid && along > 0)
+        total.lost.rolled +=
+            share * d.timeStep * static_cast<double>(more.rollingDamping) *
+            static_cast<double>(norm2(contact::detail::tangentOf(end.spin, row.push) - rows.turnGradient[s.now][at]));
     }
+    total.lost.slipped += share * static_cast<double>(more.slipped);
+    total.lost.rolled += share * static_cast<double>(more.rolled);
     const bool touches = along > 0 || more.overlap > 0;
     if (history && touches) keep(rows, at, row, end, way, history, turned);
     return touches;

@@ -11,6 +11,7 @@ namespace grouser::terrain {
 /// Sums of an iteration over all rows and ranks.
 struct IterationSums {
   double curvature, length, against, squares, contacts, worst;
+  double rounding = 0; ///< velocity that rounding in this step may hide [m/s]
 };
 
 /// State of the iterations of a step.
@@ -25,6 +26,7 @@ template <class Real> struct ImpulseControl {
   int maxIterations{};
   bool associated{false};
   bool relaxed{false}; ///< switched from Coulomb's law to the relaxation
+  bool judging{false}; ///< the next evaluation only measures the residual of the relaxation's result by Coulomb's law
   bool done{false};
   int now = 0, before = 0, tried = 2; ///< indices of row buffers
   int iterations = 0, halvedAt = 0, evaluations = 0;
@@ -40,7 +42,19 @@ template <class Real> struct ImpulseControl {
 
   /// True if an evaluation with these sums is the last one.
   GROUSER_HD bool endsWith(const IterationSums& sums) const {
-    return !(sums.worst > residual) || iterations >= maxIterations;
+    return judging || !(sums.worst > tolerance(sums)) || iterations >= maxIterations;
+  }
+
+  /// Tolerance of the step [m/s]: no iteration reduces the residual below the rounding of its velocities.
+  GROUSER_HD double tolerance(const IterationSums& sums) const {
+    return residual > sums.rounding ? residual : sums.rounding;
+  }
+
+  /// Continues from the current impulses after the rows have changed.
+  GROUSER_HD void restart() {
+    done = judging = relaxed = false;
+    before = now, tried = now == 2 ? 0 : 2;
+    ahead = 0, theta = 1, halved = 3e38, halvedAt = iterations;
   }
 
   /// Takes the sums of an evaluation: stops, accepts the trial, or repeats it with a shorter step if the curvature is
@@ -48,6 +62,10 @@ template <class Real> struct ImpulseControl {
   GROUSER_HD void take(const IterationSums& sums) {
     ++evaluations, last = sums;
     done = endsWith(sums);
+    if (done && relaxed && !judging) {
+      judging = true, done = associated = false;
+      return;
+    }
     if (iterations == 0 || last.worst < 0.5 * halved) halved = last.worst, halvedAt = iterations;
     if (done) return;
     if (iterations - halvedAt > kPatience && !associated) {

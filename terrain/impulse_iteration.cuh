@@ -292,10 +292,46 @@ private:
   }
 };
 
+/// Linearises the rows of Hertz contacts where the last iteration ended, unless the velocity error of the linearisation
+/// is within the tolerance.
+template <class Real> struct FollowHertz : ImpulseKernel<Real> {
+  static constexpr double kNanoseconds = 80;
+  using Base = ImpulseKernel<Real>;
+  using Base::d, Base::s;
+  int now = 0;          ///< buffer of the last iteration
+  Real tolerance = 0;   ///< [m/s]
+  std::uint32_t* found; ///< set to 1 if a row has changed
+
+  GROUSER_HD void operator()(int i) const {
+    if (hasNoRows(d, s, i)) return;
+    bool any = false;
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) { any = follow(rows, at) || any; });
+    if (any) base::atomicMax32(found, 1u);
+  }
+
+private:
+  /// Both sides of a pair compute the same bits.
+  GROUSER_HD bool follow(const ImpulseRowsView<Real>& rows, std::int64_t at) const {
+    ImpulseRowEnd<Real>& end = rows.end[at];
+    if (!(end.hertz.elastic > 0)) return false;
+    ImpulseRowRecord<Real>& row = rows.row[at];
+    const Real along = dot(rows.impulse[now][at], row.push),
+               parting = dot(rows.gradient[now][at], row.push) - row.softness * along - end.normalOffset;
+    const contact::NormalRow<Real> former{row.softness, end.normalOffset, end.damping};
+    const contact::HertzError<Real> error =
+        contact::hertzError(end.hertz, former, end.overlap, along, parting, s.rules.timeStep);
+    if (!(error.speed > tolerance) || !(error.deep > 0)) return false;
+    const contact::NormalRow<Real> next = contact::linearised(end.hertz, error.deep, -end.overlap, s.rules.timeStep);
+    rows.other[at].offset += row.push * (next.offset - end.normalOffset);
+    row.softness = next.softness, end.normalOffset = next.offset, end.damping = next.damping;
+    return true;
+  }
+};
+
 /// Sums of an iteration.
 struct IterationTotals {
   base::WideSum of[kImpulseSums * kSumSizes];
-  std::uint32_t worst; ///< see ImpulseData
+  std::uint32_t worst, rounding; ///< see ImpulseData
 };
 
 /// Sums the banks of an iteration and clears them.
@@ -305,7 +341,7 @@ template <class Real> struct SumBanks {
   IterationTotals* totals;
   GROUSER_HD void operator()(int k) const {
     if (k == kCount) {
-      totals->worst = *s.worst, *s.worst = 0;
+      totals->worst = *s.worst, totals->rounding = *s.rounding, *s.worst = 0;
       return;
     }
     base::WideSum total;
@@ -325,8 +361,13 @@ GROUSER_HD IterationSums iterationSums(const ImpulseData<Real>& s, const Iterati
     const double perUnit = perUnitOf(s, which);
     return of[0].toDouble() / perUnit + of[1].toDouble() / (perUnit * kFinerSums);
   };
-  return {sum(kCurvature), sum(kLength),   sum(kAgainst),
-          sum(kSquares),   sum(kContacts), static_cast<double>(base::bitsAs<float>(totals.worst))};
+  return {sum(kCurvature),
+          sum(kLength),
+          sum(kAgainst),
+          sum(kSquares),
+          sum(kContacts),
+          static_cast<double>(base::bitsAs<float>(totals.worst)),
+          static_cast<double>(base::bitsAs<float>(totals.rounding))};
 }
 
 /// Updates the iteration control on the device.

@@ -66,7 +66,8 @@ private:
     float history[6] = {};
     if (touch.held) storeVector(history, patches.memory[former].shear);
     if (touch.held && patches.angle) storeVector(history + 3, patches.angle[former]);
-    Base::takeSprings(history, &part.rotation, patches.angle != nullptr, touch);
+    touch.movedMass = Real(1) / (Real(1) / size.mass + Base::mobilityOf(s.body[body], on.arm));
+    Base::takeSprings(history, &part.rotation, patches.angle != nullptr, law, touch);
     kept = {patch.normal, loadVector(history)}, keptAngle = loadVector(history + 3);
     const std::int64_t at = contact::PartPatches::first(e) + k;
     Base::put(s.parts, at, contact::impulseRow(law, touch, s.rules), arms, static_cast<Real>(patch.overlap),

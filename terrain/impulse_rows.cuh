@@ -54,6 +54,10 @@ template <class Real> struct ImpulseRowEnd {
   Real overlap;               ///< at the start of the step [m]; < 0: gap
   Real pull;                  ///< impulse of cohesion [N s]
   Real damping, shearDamping; ///< dashpot coefficients [N s/m]
+  Real rollingDamping;        ///< [N m s]
+  Real slipped, rolled;       ///< energy that the springs have lost since their stiffness changed [J]
+  Real normalOffset;          ///< see contact::ImpulseRow [m/s]
+  contact::HertzNormal<Real> hertz;
 };
 
 /// Velocities of a grain in an iteration; exchanged with other ranks.
@@ -129,6 +133,7 @@ template <class Real> struct ImpulseData {
   base::WideSum* sums;                        ///< [kSumBanks][kImpulseSums][kSumSizes]
   double perEnergy, perSquare;                ///< large quanta per unit
   std::uint32_t* worst;                       ///< maximum residual [m/s], as bits of a float
+  std::uint32_t* rounding;                    ///< maximum of roundingOf() over all rows [m/s], as bits of a float
 };
 
 /// Calls each(pair, place) for the rows of a grain in contact with parts.

@@ -32,13 +32,15 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     return Real(0.4) * size.mass * size.radius * size.radius;
   }
 
-  /// Loads the springs of the last step and rotates them into the current tangent plane; zero in a new contact. Stores
-  /// them back to `history` for the end of the step.
-  GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, bool rolls, Touch& touch) const {
+  /// Loads the springs of the last step, rotates them into the current tangent plane and adapts them to the stiffness;
+  /// zero in a new contact. Stores them back to `history` for the end of the step.
+  GROUSER_HD void takeSprings(float* history, const base::Mat3d* turned, bool rolls, const Law& law,
+                              Touch& touch) const {
     if (touch.held) {
       touch.shear = turnedSpring<Real>(history, turned);
       if (!s.rules.rigid) touch.shear = contact::detail::tangentOf(touch.shear, touch.push);
       if (rolls) touch.angle = contact::detail::tangentOf(turnedSpring<Real>(history + 3, turned), touch.push);
+      if (!s.rules.rigid) contact::followStiffness(law, touch, s.rules.timeStep);
     }
     storeTurned(history, turned, touch.shear);
     if (rolls) storeTurned(history + 3, turned, touch.angle);
@@ -54,10 +56,19 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
     touch.velocity = relativeVelocity(mine, {}, push, arms.own, arms.other) - moves;
     touch.spin = mine.spin - turns;
     touch.freely = dot(d.gravityStep.template as<Real>() - gains, push);
-    touch.effectiveMass = size.mass, touch.effectiveRadius = size.radius;
+    touch.effectiveMass = touch.movedMass = size.mass, touch.effectiveRadius = size.radius;
     touch.rollingInertia = contact::rollingInertia(size.mass, size.radius);
     touch.dampingShare = 1;
     return touch;
+  }
+  /// Upper bound of a body's velocity change per impulse at a contact point [1/kg], from the trace of the rotational
+  /// part.
+  GROUSER_HD Real mobilityOf(const contact::BodyResponse::Inverse& body, const Vec& arm) const {
+    const base::Vec3d r = arm.template as<double>();
+    const base::Vec3d lever[] = {{0, r.z, -r.y}, {-r.z, 0, r.x}, {r.y, -r.x, 0}}; // r x e of the three axes
+    double turning = 0;
+    for (const base::Vec3d& axis : lever) turning += dot(axis, body.inertia * axis);
+    return static_cast<Real>(body.mass + (s.rolls ? 2 : 1) * turning);
   }
   GROUSER_HD static Arms armsOf(const GrainSize<Real>& size, Real gap) {
     return {size.radius + (gap < 0 ? gap : Real(0)), Real(0)};
@@ -69,7 +80,8 @@ template <class Real> struct ImpulseKernel : GrainKernel<contact::kGeneral, Real
                       bool counts = true) const {
     rows.row[at] = {row.push, arms.own, row.softness, row.shearSoftness, row.cone.friction, Real(counts ? 1 : -1)};
     rows.other[at] = {row.offset, arms.other, Real(0), Real(0), other, place | (row.impact ? kImpactBit : 0u)};
-    rows.end[at] = {overlap, row.pull, row.damping, row.shearDamping};
+    rows.end[at] = {overlap,     row.pull,   row.damping,      row.shearDamping, row.rollingDamping,
+                    row.slipped, row.rolled, row.normalOffset, row.hertz};
     const contact::Impulse<Real> start = contact::cutToCoulomb(row.start, row.push, row.cone);
     rows.impulse[s.now][at] = start.linear;
     if (!rows.rolling) return;
@@ -129,6 +141,7 @@ private:
     touch.spin = mine.spin - theirs.spin;
     touch.freely = ground ? dot(d.gravityStep.template as<Real>(), touch.push) : Real(0);
     touch.effectiveMass = ground ? size.mass : size.mass * other.mass / (size.mass + other.mass);
+    touch.movedMass = touch.effectiveMass;
     touch.effectiveRadius = size.radius * other.radius / (size.radius + other.radius);
     touch.rollingInertia = ground ? contact::rollingInertia(size.mass, size.radius)
                                   : contact::rollingInertia(size.mass, size.radius, other.mass, other.radius);
@@ -136,7 +149,7 @@ private:
     touch.held = held;
     if (Kernel::hasHistory())
       Base::takeSprings(d.neighbours.history + listed * Kernel::historyWidth(), nullptr, has(contact::kRollingFriction),
-                        touch);
+                        law, touch);
     const contact::ImpulseRow<Real> row = contact::impulseRow(law, touch, s.rules);
     pulled -= row.push * row.pull;
     Base::put(s.grains, at, row, arms, pair.overlap, ground ? kFixedPartner : j, k, ground || d.id[i] < d.id[j]);
@@ -246,14 +259,16 @@ private:
       gains = (pose->axis * pose->gains).template as<Real>();
       base::atomicAdd32(s.surfaceRows + (boundary - (d.boundaryCount - d.surfaceCount)), 1);
     }
+    const Law& law = Kernel::boundaryLaw(boundary, grain.size.material);
     Touch touch = Base::touchOf(grain.slot, grain.size, push, static_cast<Real>(gap), arms, moves, turns, gains);
+    if (pose && pose->inverseMass > 0)
+      touch.movedMass = Real(1) / (Real(1) / grain.size.mass + static_cast<Real>(pose->inverseMass));
     touch.dampingShare = share, touch.pullShare = share;
     touch.held = grain.before >> boundary & 1;
     if (Kernel::hasHistory())
       Base::takeSprings(d.historyOf(grain.place, boundary, Kernel::historyWidth()), pose ? &pose->turned : nullptr,
-                        has(contact::kRollingFriction), touch);
-    contact::ImpulseRow<Real> row =
-        contact::impulseRow(Kernel::boundaryLaw(boundary, grain.size.material), touch, s.rules);
+                        has(contact::kRollingFriction), law, touch);
+    contact::ImpulseRow<Real> row = contact::impulseRow(law, touch, s.rules);
     grain.pulled -= row.push * row.pull;
     row.offset -= moves + gains, row.turnOffset -= contact::detail::tangentOf(turns, row.push);
     Base::put(s.bounds, std::int64_t{grain.place} + grain.rows++ * s.near, row, arms, -touch.gap, kFixedPartner,
@@ -296,10 +311,42 @@ template <class Real> struct WeighRows : ImpulseKernel<Real> {
   GROUSER_HD void operator()(int i) const {
     if (hasNoRows(d, s, i)) return;
     const GrainSize<Real> size = Kernel::sizeOf(i);
-    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) { weigh(rows, at, size, s.degree[i]); });
+    const float own = speedOf(i, size);
+    float most = 0;
+    forRowsOf(d, s, i, [&](const ImpulseRowsView<Real>& rows, std::int64_t at) {
+      weigh(rows, at, size, s.degree[i]);
+      const float rounds = roundingOf(rows, at, own);
+      most = rounds > most ? rounds : most;
+    });
+    base::atomicMax32(s.rounding, base::bitsAs<std::uint32_t>(most));
   }
 
 private:
+  /// Bound of the speeds of a grain's contact points at the start of the step [m/s].
+  GROUSER_HD float speedOf(int i, const GrainSize<Real>& size) const {
+    const ImpulseMotion<Real> motion = motionAtStart<Real>(d, i);
+    return static_cast<float>(norm(motion.velocity) + norm(motion.spin) * size.radius);
+  }
+
+  /// Rounding error of a row's relative velocity [m/s]: a few places of the velocities that are subtracted, and half a
+  /// quantum of each impulse on a body.
+  GROUSER_HD float roundingOf(const ImpulseRowsView<Real>& rows, std::int64_t at, float own) const {
+    constexpr float kPlaces = 4, kEpsilon = std::is_same_v<Real, float> ? 1.1920929e-7f : 2.2204460e-16f;
+    const ImpulseRowOther<Real>& side = rows.other[at];
+    float speeds = own;
+    if (side.slot != kFixedPartner)
+      speeds += speedOf(static_cast<int>(side.slot), Kernel::sizeOf(static_cast<int>(side.slot)));
+    if (!rows.part) return kPlaces * kEpsilon * speeds;
+    const PartRowRecord<Real>& on = rows.part[at];
+    const BodyMotion<Real> body = s.bodyMotion[s.now][on.body];
+    speeds += static_cast<float>(norm(body.at(on.arm)));
+    const double arm = static_cast<double>(norm(on.arm)),
+                 quantum = s.bodyPush.quantum + (arm > 0 ? s.bodyTurn.quantum / arm : 0.0);
+    return kPlaces * kEpsilon * speeds +
+           static_cast<float>(0.5 * quantum * s.bodyRows[on.body] *
+                              static_cast<double>(Base::mobilityOf(s.body[on.body], on.arm)));
+  }
+
   GROUSER_HD void weigh(const ImpulseRowsView<Real>& rows, std::int64_t at, const GrainSize<Real>& own,
                         std::uint32_t degree) const {
     ImpulseRowRecord<Real>& row = rows.row[at];
@@ -318,29 +365,19 @@ private:
     if (rows.part) {
       const PartRowRecord<Real>& on = rows.part[at];
       const Real rowsOfBody = static_cast<Real>(s.bodyRows[on.body]);
-      yields = mobilityOf(s.body[on.body], on.arm);
+      yields = Base::mobilityOf(s.body[on.body], on.arm);
       masses += rowsOfBody * yields;
       const base::Mat3d& turn = s.body[on.body].inertia;
       turns = rowsOfBody * static_cast<Real>(turn.m[0][0] + turn.m[1][1] + turn.m[2][2]);
     }
     const Real shear = (shearWeight<Real>(s.rolls) * masses * arm2 + row.shearSoftness) / shearWeight<Real>(s.rolls);
     const Real normal = masses + row.softness;
-    row.signedWeight *= normal > shear ? normal : shear;
+    row.signedWeight = (row.counts() ? Real(1) : Real(-1)) * (normal > shear ? normal : shear);
     side.mobility = Real(1) / own.mass + yields + row.softness, side.inertia = Real(1) / side.mobility;
     if (!rows.rolling) return;
     RollingRowRecord<Real>& roll = rows.rolling[at];
     // Rolling and shear both rotate the grain, so each counts twice.
     roll.weight = Real(2) * (many / Base::inertiaOf(own) + more / Base::inertiaOf(other) + turns) + roll.softness;
-  }
-
-  /// Upper bound of a body's velocity change per impulse at a contact point [1/kg], from the trace of the rotational
-  /// part.
-  GROUSER_HD Real mobilityOf(const contact::BodyResponse::Inverse& body, const Vec& arm) const {
-    const base::Vec3d r = arm.template as<double>();
-    const base::Vec3d lever[] = {{0, r.z, -r.y}, {-r.z, 0, r.x}, {r.y, -r.x, 0}}; // r x e of the three axes
-    double turning = 0;
-    for (const base::Vec3d& axis : lever) turning += dot(axis, body.inertia * axis);
-    return static_cast<Real>(body.mass + (s.rolls ? 2 : 1) * turning);
   }
 };
 

@@ -29,17 +29,19 @@ void checkReport(const ImpulseReport& report, const contact::ComplementarityOpti
 
 void ImpulseTotals::add(const ImpulseReport& report) {
   ++steps, iterations += report.iterations;
-  missed += !report.met, relaxed += report.relaxed;
+  missed += !report.met, relaxed += report.relaxed, raised += report.raised;
   worst = std::max(worst, report.residual);
 }
 
 std::vector<std::int64_t> ImpulseTotals::words() const {
-  return {steps, iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst), base::bitsAs<std::int64_t>(tau)};
+  return {steps, iterations, missed, relaxed, base::bitsAs<std::int64_t>(worst), base::bitsAs<std::int64_t>(tau),
+          raised};
 }
 
 void ImpulseTotals::setWords(const std::int64_t* words) {
   steps = words[0], iterations = words[1], missed = words[2], relaxed = words[3];
   worst = base::bitsAs<double>(words[4]), tau = base::bitsAs<double>(words[5]);
+  raised = words[6];
 }
 
 } // namespace grouser::terrain

@@ -31,7 +31,8 @@ struct ImpulseReport {
   double rms{};        ///< root mean square over all rows [m/s]
   double rows{};       ///< number of contacts
   bool relaxed{false}; ///< Coulomb's law did not converge: the convex relaxation finished the step
-  bool met{true};      ///< the residual is at most run.residual
+  bool met{true};      ///< the residual is at most run.residual, or the rounding of the velocities
+  bool raised{false};  ///< run.residual is below the rounding of the velocities, which is the tolerance of this step
 };
 
 /// Totals over all steps since the start of the run.
@@ -39,11 +40,12 @@ struct ImpulseTotals {
   std::int64_t steps{}, iterations{};
   std::int64_t missed{};  ///< steps that exceeded run.residual
   std::int64_t relaxed{}; ///< see ImpulseReport
+  std::int64_t raised{};  ///< see ImpulseReport
   double worst{};         ///< largest residual [m/s]
   double tau{1};          ///< final value of the last step, used as initial value of the next; see ImpulseControl
 
   void add(const ImpulseReport& report);
-  static constexpr std::size_t kWords = 6;
+  static constexpr std::size_t kWords = 7;
   std::vector<std::int64_t> words() const; ///< for checkpoints
   void setWords(const std::int64_t* words);
 };

@@ -71,7 +71,7 @@ public:
         partRows_(exec), grainRows_(exec), boundRows_(exec), degree_(exec),
         free_(exec), motion_{Motions(exec), Motions(exec), Motions(exec)},
         sums_(exec, std::size_t{kSumBanks} * SumBanks<Real>::kCount), evaluation_(exec, 1), worst_(exec, 1),
-        control_(exec, 1), surfaceRows_(exec),
+        rounding_(exec, 1), found_(exec, 1), control_(exec, 1), surfaceRows_(exec),
         surfacePushes_(exec), surfaceChange_{Reals(exec), Reals(exec), Reals(exec)} {
     const auto real = [](double value) { return static_cast<Real>(value); };
     const ContactLaw& law = c.model.materials.count() > 0 ? c.model.materials.grains.front() : c.model.law;
@@ -114,6 +114,7 @@ private:
     const auto slots = static_cast<std::size_t>(d.count);
     const bool rolls = (d.features & contact::kRollingFriction) != 0;
     data_.rolls = rolls;
+    hertz_ = !data_.rules.rigid && (d.features & contact::kHertz) != 0;
     const std::size_t near = system.boundaries.grainsListed();
     grains_.resize(system.neighbours.places(), rolls);
     bounds_.resize(near * static_cast<std::size_t>(d.boundaryCount), rolls);
@@ -124,6 +125,8 @@ private:
     data_.near = static_cast<std::int64_t>(near), data_.free = free_.data();
     for (std::size_t k = 0; k < motion_.size(); ++k) data_.motion[k] = motion_[k].data();
     data_.ghost = system.ghosts(), data_.sums = sums_.data(), data_.worst = worst_.data();
+    data_.rounding = rounding_.data();
+    rounding_.zero();
     data_.now = 0, data_.control = control_.data();
     force_ = system.forceData<Real>();
     setUpSurfaces(system);
@@ -194,6 +197,8 @@ private:
     // Must not depend on whether a rank has pairs: the call is collective.
     const bool rolls = std::any_of(contacts.laws().begin(), contacts.laws().end(),
                                    [](const ContactLaw& law) { return law.rollingFriction > 0; });
+    hertz_ = !data_.rules.rigid && (hertz_ || std::any_of(contacts.laws().begin(), contacts.laws().end(),
+                                                          [](const ContactLaw& law) { return law.hertz; }));
     onParts_.resize(contacts.pairs() * contact::kPatches, rolls);
     onParts_.part.resize(contacts.pairs() * contact::kPatches);
     partRows_.resize(contacts.pairs());
@@ -243,9 +248,9 @@ private:
       const std::vector<base::WideSum> mine(std::begin(totals.of), std::end(totals.of));
       const std::vector<base::WideSum> all = base::summedBanks(mine, mine.size(), comm);
       std::copy(all.begin(), all.end(), totals.of);
-      std::uint64_t least = ~std::uint64_t{totals.worst};
-      comm.minimum(&least, 1);
-      totals.worst = static_cast<std::uint32_t>(~least);
+      std::uint64_t least[] = {~std::uint64_t{totals.worst}, ~std::uint64_t{totals.rounding}};
+      comm.minimum(least, 2);
+      totals.worst = static_cast<std::uint32_t>(~least[0]), totals.rounding = static_cast<std::uint32_t>(~least[1]);
     }
     return iterationSums(data_, totals);
   }
@@ -263,15 +268,44 @@ private:
     forSlots("move by impulses", d, kernel<MoveByImpulses<Real>>(d));
     moveOthers(system, control.now);
     // Ranks, bodies and force-driven surfaces need the host in each iteration.
-    if (system.distribution || !system.comm.alone() || bodiesMove() || !inverseMass_.empty())
-      iterateFromHost(system, d, control);
-    else
-      control = iterateOnDevice(d);
+    iterateToTheEnd(system, d, control);
+    bool relaxed = control.relaxed, bends = followHertz(system, d, control);
+    for (int k = 0; bends && k < kMostTangents && control.iterations < options_.iterations; ++k) {
+      control.restart(), control.associated = options_.friction == contact::ImpulseFriction::associated;
+      control_.assign({control});
+      iterateToTheEnd(system, d, control);
+      relaxed = relaxed || control.relaxed, bends = followHertz(system, d, control);
+    }
+    control.relaxed = relaxed;
     data_.now = control.now;
     cost_.seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     cost_.evaluations += control.evaluations, cost_.bytes += bytesSent(system) - sent;
     note(control);
+    report_.met = report_.met && !bends;
+    totals_.add(report_);
     checkReport(report_, options_, system.steps);
+  }
+
+  void iterateToTheEnd(GrainSystem& system, const GrainKernelData& d, ImpulseControl<Real>& control) {
+    if (system.distribution || !system.comm.alone() || bodiesMove() || !inverseMass_.empty())
+      iterateFromHost(system, d, control);
+    else
+      control = iterateOnDevice(d);
+  }
+
+  /// Linearises Hertz contacts at the end of the step. Returns true if any row on any rank has changed, and the
+  /// iterations must go on. Collective.
+  bool followHertz(GrainSystem& system, const GrainKernelData& d, const ImpulseControl<Real>& control) {
+    if (!hertz_) return false;
+    found_.zero();
+    FollowHertz<Real> follow = kernel<FollowHertz<Real>>(d);
+    follow.now = control.now, follow.tolerance = static_cast<Real>(control.tolerance(control.last));
+    follow.found = found_.data();
+    forSlots("follow Hertz's law", d, follow);
+    std::uint64_t none = 1 - std::uint64_t{found_.at(0)};
+    system.comm.minimum(&none, 1);
+    if (none == 0) forSlots("weigh rows", d, kernel<WeighRows<Real>>(d));
+    return none == 0;
   }
 
   void iterateFromHost(GrainSystem& system, const GrainKernelData& d, ImpulseControl<Real>& control) {
@@ -306,9 +340,11 @@ private:
 
   void note(const ImpulseControl<Real>& control) {
     const IterationSums& last = control.last;
-    report_ = {control.iterations, last.worst, 0, last.contacts, control.relaxed, last.worst <= options_.residual};
+    const double tolerance = control.tolerance(last);
+    report_ = {control.iterations,          last.worst, 0, last.contacts, control.relaxed, last.worst <= tolerance,
+               tolerance > control.residual};
     report_.rms = report_.rows > 0 ? std::sqrt(last.squares / report_.rows) : 0;
-    totals_.add(report_), totals_.tau = static_cast<double>(control.tau);
+    totals_.tau = static_cast<double>(control.tau);
   }
 
   void advance(const GrainKernelData& d) {
@@ -321,7 +357,8 @@ private:
       forSlots("advance by impulses", d, body);
   }
 
-  static constexpr int kAhead = 4; ///< iterations per launch
+  static constexpr int kAhead = 4;         ///< iterations per launch
+  static constexpr int kMostTangents = 50; ///< linearisations of Hertz contacts per step
 
   base::Exec exec_;
   ComplementarityOptions options_;
@@ -335,7 +372,8 @@ private:
   std::array<Motions, 3> motion_;
   base::Array<base::WideSum> sums_;
   base::Array<IterationTotals> evaluation_; ///< one element
-  base::Array<std::uint32_t> worst_;
+  base::Array<std::uint32_t> worst_, rounding_, found_;
+  bool hertz_{false};                         ///< some contacts follow Hertz's law
   base::Array<ImpulseControl<Real>> control_; ///< one element
   std::vector<double> inverseMass_;           ///< [surface] [1/kg]; empty without force-driven surfaces
   base::Array<std::uint32_t> surfaceRows_;

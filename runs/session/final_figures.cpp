@@ -27,6 +27,7 @@ void noteSolver(const terrain::ImpulseTotals& all, const SqueezedRecord& squeeze
   summary.figures["solver_max_overlap"] = std::max(squeezed.overlap, squeezed.share);
   summary.figures["solver_missed_steps"] = static_cast<double>(all.missed);
   summary.figures["solver_relaxed_steps"] = static_cast<double>(all.relaxed);
+  summary.figures["solver_raised_steps"] = static_cast<double>(all.raised);
 }
 
 void noteDrive(const coupling::VehicleRig& rig, output::RunWriter& writer, output::Summary& summary) {

@@ -10,6 +10,34 @@
 
 namespace grouser::setup {
 
+namespace {
+
+/// Rejects keys that have no effect on complementarity contacts.
+void checkUnused(const scene::Scene& scene) {
+  const auto given = [&](const char* section, const char* key) {
+    return scene.document && scene.document->root().has(section) && scene.document->root().section(section).has(key);
+  };
+  if (given("complementarity", "recovery") && scene.complementarity->compliance == contact::Compliance::law)
+    scene.fail("complementarity", "recovery",
+               "[m/s] has no effect with compliance = \"law\"; remove it, or set compliance = \"rigid\"");
+  // Beds settle with penalty contacts, and rigid parts touch each other with them.
+  const bool settles = scene.terrain && scene.terrain->granular();
+  if (settles || scene.vehicle || scene.mechanism.touches()) return;
+  if (given("run", "steps_per_contact"))
+    scene.fail(
+        "run", "steps_per_contact",
+        "has no effect with contact = \"complementarity\", whose steps do not resolve contacts; remove it, or set "
+        "run.time_step");
+  for (const scene::Material& m : scene.materials)
+    if (m.attraction)
+      scene.failMaterial(
+          m.name, "attraction",
+          "has no effect with run.contact = \"complementarity\", whose dashpots never attract; remove it "
+          "(to model cohesion, set cohesion), or set run.contact = \"penalty\"");
+}
+
+} // namespace
+
 void checkComplementarity(const scene::Scene& scene) {
   if (!hasComplementarity(scene)) return;
   const auto fail = [&](const std::string& message) { scene.fail("run", "contact", message); };
@@ -25,6 +53,7 @@ void checkComplementarity(const scene::Scene& scene) {
       scene.failMaterial(
           m.name, "crushing_strength",
           "[Pa] is not supported with complementarity contacts; remove it, or use run.contact = \"penalty\"");
+  checkUnused(scene);
   const bool rigid = scene.complementarity && scene.complementarity->compliance == contact::Compliance::rigid;
   for (const scene::Material& m : scene.materials)
     if (rigid && m.cohesion > 0)

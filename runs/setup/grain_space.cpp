@@ -6,8 +6,10 @@
 #include "runs/scene/bed_radii.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/bed_options.hpp"
+#include "runs/setup/complementarity_setup.hpp"
 #include "runs/setup/periodic_boundaries.hpp"
 #include "terrain/feet_search.hpp"
+#include "terrain/grain_constants.hpp"
 #include "terrain/grains.hpp"
 
 #include <fmt/format.h>
@@ -53,10 +55,10 @@ public:
   }
 
   /// A grain must not touch two images of another grain: three cells of the neighbour search must fit between periodic
-  /// boundaries.
-  void sides() const {
+  /// boundaries. `margin`: gap at which complementarity contacts include a pair [m]; 0 without them.
+  void sides(double margin = 0) const {
     const terrain::PeriodicBoundaries sides = periodicBoundaries(scene_);
-    const double least = 3 * (2 * kinds_.largest + scene_.run.skin * kinds_.smallest);
+    const double least = 3 * (2 * kinds_.largest + scene_.run.skin * kinds_.smallest + margin);
     for (std::size_t a = 0; a < 2; ++a) {
       if (!sides[a]) continue;
       const auto [from, to] = *sides[a];
@@ -67,8 +69,9 @@ public:
       if (!(std::fabs(from) < limit_ && std::fabs(to) < limit_)) fail(tooFar());
       if (to - from < least)
         fail(fmt::format(" makes the periodic boundaries along {} too close: a grain could touch two images of another "
-                         "grain; set them at least {} m apart (three diameters plus run.skin), or use smaller grains",
-                         "xy"[a], base::roundedUp(least, 6)));
+                         "grain; set them at least {} m apart (three diameters plus run.skin{}), or use smaller grains",
+                         "xy"[a], base::roundedUp(least, 6),
+                         margin > 0 ? " and the gaps of complementarity contacts" : ""));
     }
   }
 
@@ -156,6 +159,12 @@ void checkGrainSpace(const scene::Scene& scene, const GrainKinds& kinds) {
   if (!kinds.any()) return;
   const SpaceCheck check(scene, kinds);
   check.grains(), check.sides(), check.boundaries(), check.ids();
+}
+
+void checkPeriodicSides(const scene::Scene& scene, const GrainKinds& kinds, double timeStep) {
+  if (!kinds.any() || !hasComplementarity(scene)) return;
+  const contact::ComplementarityOptions options = *complementarityOptions(scene, timeStep);
+  SpaceCheck(scene, kinds).sides(terrain::GrainConstants::margin(kinds.smallest, options.reach));
 }
 
 } // namespace grouser::setup

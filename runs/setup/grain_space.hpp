@@ -10,4 +10,8 @@ namespace grouser::setup {
 /// without the place.
 void checkGrainSpace(const scene::Scene& scene, const GrainKinds& kinds);
 
+/// Throws InputError if periodic boundaries are too close for the gaps that complementarity contacts include at this
+/// step [s].
+void checkPeriodicSides(const scene::Scene& scene, const GrainKinds& kinds, double timeStep);
+
 } // namespace grouser::setup

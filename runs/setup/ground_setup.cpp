@@ -7,6 +7,7 @@
 #include "runs/setup/bed_alone.hpp"
 #include "runs/setup/bed_options.hpp"
 #include "runs/setup/grain_model.hpp"
+#include "runs/setup/grain_space.hpp"
 #include "runs/setup/lattice.hpp"
 #include "runs/setup/laws.hpp"
 #include "runs/setup/mechanism_setup.hpp"
@@ -230,6 +231,7 @@ void checkGround(const scene::Scene& scene, double timeStep) {
   checkVehicleSurroundings(scene);
   const ContactPairs pairs(scene);
   checkSpeeds(scene, pairs, timeStep);
+  checkPeriodicSides(scene, pairs.kinds, timeStep);
   checkSurfacesBetweenSides(scene, pairs);
   const std::int64_t placed = placedCount(scene);
   if ((placed == 0 && scene.sources.empty()) || placed > kQuick) return;
@@ -245,6 +247,7 @@ coupling::GroundSetup groundSetup(const scene::Scene& scene, double timeStep, in
   const ContactPairs pairs(scene);
   const GrainKinds& kinds = pairs.kinds;
   checkSpeeds(scene, pairs, timeStep);
+  checkPeriodicSides(scene, pairs.kinds, timeStep);
   checkSurfacesBetweenSides(scene, pairs);
   coupling::GroundSetup ground;
   const std::optional<terrain::BedPlan> bed = readTerrain(scene, ground, sizes);

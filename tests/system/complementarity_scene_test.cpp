@@ -7,6 +7,7 @@
 #include "tests/device_under_test.hpp"
 #include "tests/system/cube_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -156,6 +157,95 @@ TEST(ComplementarityScene, ALoadedMeshSinksAsABoxDoes) {
 }
 
 TEST(ComplementarityScene, ABodyThatFallsOnGrainsResumesToTheSameBits) { expectResumes(underBody(0.05, kFreeBox)); }
+
+/// Spheres of Hertz contacts, Young's modulus [Pa], that start just in contact, one above the other on a plane.
+std::string hertzColumn(double young, int count) {
+  std::string text = fmt::format(
+      "version = 1\n[run]\nduration = 1\ncontact = \"complementarity\"\nprecision = \"double\"\nresidual = 1e-7\n"
+      "[complementarity]\niterations = 5000\n[material.a]\ndensity = 2500\nlaw = \"hertz\"\nyoung = {}\n"
+      "poisson = 0.25\nrestitution = 0.1\nfriction = 0.5\n[[plane]]\nmaterial = \"a\"\n",
+      young);
+  for (int k = 0; k < count; ++k)
+    text += fmt::format("[[grain]]\nposition = [0, 0, {}]\nradius = 0.01\nmaterial = \"a\"\n", 0.01 + 0.02 * k);
+  return text;
+}
+
+TEST(ComplementarityScene, HertzContactsRestAtTheirStaticOverlapAtAnyStep) {
+  // Overlap of the load F on two spheres (or a plane): (F / (4/3 E* sqrt R*))^(2/3).
+  const double radius = 0.01, weight = 2500 * 4 / 3.0 * base::kPi * radius * radius * radius * 9.81;
+  for (const double young : {1e7, 1e8, 1e9, 1e10})
+    for (const int count : {1, 4}) {
+      coupling::Simulation s = made(hertzColumn(young, count));
+      while (s.time() < 0.5) s.step();
+      EXPECT_NO_THROW(s.checkEnergy()) << young;
+      const double modulus = 4 / 3.0 * young / (2 * (1 - 0.25 * 0.25));
+      const auto overlap = [&](int carried, double effective) {
+        return std::pow(carried * weight / (modulus * std::sqrt(effective)), 2 / 3.0);
+      };
+      // Positions have a resolution of 1e-8 diameters, and the residual moves a grain by 1.4e-10 m per step.
+      const double accuracy = 1e-9;
+      const auto z = [&, found = s.ground().grains->snapshot()](int k) {
+        return found.position[static_cast<std::size_t>(k)].z;
+      };
+      EXPECT_NEAR(radius - z(0), overlap(count, radius), accuracy) << young;
+      for (int k = 1; k < count; ++k)
+        EXPECT_NEAR(2 * radius - (z(k) - z(k - 1)), overlap(count - k, 0.5 * radius), accuracy) << young << " " << k;
+      EXPECT_EQ(s.ground().grains->system().impulses->totals().missed, 0);
+      // The energy of n Hertz springs: 2/5 of load times overlap.
+      double elastic = 0.4 * count * weight * overlap(count, radius);
+      for (int k = 1; k < count; ++k) elastic += 0.4 * (count - k) * weight * overlap(count - k, 0.5 * radius);
+      EXPECT_NEAR(s.ledger().elastic, elastic, 0.01 * elastic + 1e-9 * weight);
+    }
+}
+
+/// A ball that rolls between two Hertz contacts, under a lid that moves and presses.
+std::string underLid(const std::string& run) {
+  return "version = 1\n[run]\nduration = 0.1\nprecision = \"double\"\nmax_overlap = 0.5\n" + run +
+         "[material.a]\ndensity = 2500\nlaw = \"hertz\"\nyoung = 2e6\nrestitution = 0.5\nfriction = 0.3\n"
+         "rolling_friction = 0.05\n[material.l]\ndensity = 2500\nlaw = \"hertz\"\nyoung = 2e6\nrestitution = 0.5\n"
+         "friction = 0.03\nrolling_friction = 0.05\n"
+         "[[box]]\nname = \"fl\"\nposition = [0, 0, -0.05]\nsize = [1, 1, 0.1]\nmaterial = \"a\"\n"
+         "[[box]]\nname = \"lid\"\nposition = [0, 0, 0.06980]\nsize = [1, 1, 0.1]\nmaterial = \"l\"\n"
+         "velocity = [0.05, 0.02, -0.002]\n"
+         "[[grain]]\nposition = [0, 0, 0.0099]\nradius = 0.01\nmaterial = \"a\"\n";
+}
+
+TEST(ComplementarityScene, SpringsOfHertzContactsFollowTheirStiffnessAsWithPenaltyContacts) {
+  coupling::Simulation explicitly = made(underLid("time_step = 4e-6\n"), 1),
+                       solved = made(underLid("contact = \"complementarity\"\ntime_step = 1e-4\nresidual = 1e-8\n"
+                                              "[complementarity]\niterations = 5000\n"),
+                                     1);
+  for (coupling::Simulation* s : {&explicitly, &solved})
+    while (s->time() < 0.1 - 1e-9) s->step();
+  const base::Vec3d a = explicitly.ground().grains->snapshot().position[0],
+                    b = solved.ground().grains->snapshot().position[0];
+  // Both are of first order in the step: the springs alone change this distance by a tenth.
+  EXPECT_NEAR(a.x, 5.86e-4, 1e-6);
+  EXPECT_NEAR(b.x, a.x, 1e-3 * a.x);
+  EXPECT_NEAR(b.y, a.y, 1e-3 * a.x);
+  const coupling::Dissipated x = explicitly.ledger().dissipated, y = solved.ledger().dissipated;
+  EXPECT_NEAR(y.rolling, x.rolling, 0.01 * x.rolling);
+  EXPECT_NEAR(y.microSlip, x.microSlip, 0.1 * x.microSlip);
+  EXPECT_NEAR(y.total(), x.total(), 0.01 * x.total());
+}
+
+TEST(ComplementarityScene, TheDashpotOfRollingHeats) {
+  // A ball rolls to and fro on its rolling spring until the dashpots have taken its energy, 7/10 m v^2.
+  coupling::Simulation s =
+      made("version = 1\n[run]\nduration = 0.03\ncontact = \"complementarity\"\ntime_step = 2e-5\n"
+           "precision = \"double\"\nresidual = 1e-9\n[complementarity]\niterations = 3000\n[material.a]\n"
+           "density = 2500\nstiffness = 1e5\nrestitution = 0.3\nfriction = 0.9\nrolling_friction = 0.3\n"
+           "[[plane]]\nmaterial = \"a\"\n[[grain]]\nposition = [0, 0, 0.009998972699202276]\n"
+           "velocity = [0.001, 0, 0]\nspin = [0, 0.1, 0]\nradius = 0.01\nmaterial = \"a\"\n",
+           1);
+  while (s.time() < 0.03 - 1e-9) s.step();
+  const double energy = 0.7 * 2500 * 4 / 3.0 * base::kPi * 1e-6 * 1e-6;
+  const coupling::Ledger l = s.ledger();
+  EXPECT_NEAR(l.kinetic, -energy, 1e-3 * energy);
+  EXPECT_NEAR(l.dissipated.rolling + l.dissipated.damping, energy, 0.06 * energy) << "the step resolves the motion";
+  EXPECT_NEAR(l.dissipated.rolling, 5.0e-9, 0.1e-9) << "as with penalty contacts, without the shear dashpot's share";
+  EXPECT_NEAR(l.integrationError, 0, 0.06 * energy);
+}
 
 TEST(ComplementarityScene, ABedSettlesAsWithPenaltyContacts) {
   const auto bed = [](const std::string& method) {

@@ -322,6 +322,58 @@ TEST(EnergyGuard, WhatRestsOnAVeryStiffPlaneIsNoAlarm) {
   while (simulation.steps() < 4 * EnergyGuard::kInterval) simulation.step();
 }
 
+TEST(EnergyGuard, TheToleranceOfASolverIsNoAlarm) {
+  const double floor = EnergyGuard::solverError(100, 1e-4, 1e-3); // 100 N x 0.1 mm/s x 512 ms
+  EXPECT_NEAR(floor, 5.12e-3, 1e-15);
+  for (const double sign : {-1.0, 1.0}) {
+    EnergyGuard guard;
+    EXPECT_EQ(guard.judge(books(sign * 0.99 * floor, 0), 0, floor), "");
+    EXPECT_NE(guard.judge(books(sign * 0.99 * floor, 0), 0), "") << "explicit steps";
+    EXPECT_EQ(guard.judge(books(sign * 1.01 * floor, 0), 0, floor).empty(), sign > 0)
+        << "implicit steps may lose energy";
+  }
+}
+
+TEST(EnergyGuard, ElasticImpactsOfGrainsDissipateNothing) {
+  EnergyGuard guard;
+  Ledger l = books(-1, 10);
+  l.dissipated.damping = -1e-18; // rounding
+  EXPECT_EQ(guard.judge(l, 0, 0.0), "") << "a tenth of the 10 J exchanged";
+  l.dissipated.parts = 1e-3;
+  EXPECT_NE(guard.judge(l, 0, 0.0).find("of the 0.001 J dissipated"), std::string::npos) << "contacts of parts";
+}
+
+/// Runs a scene with complementarity contacts, with all checks of its energy.
+void expectSound(const std::string& material, const std::string& grains, double duration) {
+  const std::string text = "version = 1\n[run]\nduration = 20\ncontact = \"complementarity\"\n[material.a]\n" +
+                           material + "\n[[plane]]\nmaterial = \"a\"\n" + grains;
+  Simulation simulation(setup::simulationSetup(setup::parseScene(text, "rest.toml")), base::cpuExec(1),
+                        [](double, double) {});
+  EXPECT_NO_THROW(while (simulation.time() < duration) simulation.step(); simulation.checkEnergy()) << text;
+}
+
+TEST(EnergyGuard, GrainsAtRestOnComplementarityContactsAreNoAlarm) {
+  for (const char* stiffness : {"1e4", "1e6", "1e8"}) {
+    const std::string material = fmt::format("stiffness = {}", stiffness);
+    for (const char* radius : {"0.001", "0.01", "0.1"})
+      expectSound(material, fmt::format("[[grain]]\nposition = [0, 0, {0}]\nradius = {0}\nmaterial = \"a\"\n", radius),
+                  10);
+    std::string pile; // a pyramid of 55 grains
+    for (int layer = 0; layer < 5; ++layer)
+      for (int k = 0; k < (5 - layer) * (5 - layer); ++k)
+        pile += fmt::format("[[grain]]\nposition = [{:.6f}, {:.6f}, {:.6f}]\nradius = 0.01\nmaterial = \"a\"\n",
+                            0.01 * layer + 0.02 * (k % (5 - layer)), 0.01 * layer + 0.02 * (k / (5 - layer)),
+                            0.01 + 0.02 * layer * 0.70710678);
+    expectSound(material + "\nfriction = 0.8\nrolling_friction = 0.1", pile, 2);
+  }
+}
+
+TEST(EnergyGuard, ABallThatReboundsWithoutLossIsNoAlarm) {
+  for (const char* friction : {"0", "0.5"})
+    expectSound(fmt::format("stiffness = 1e6\nrestitution = 1\nfriction = {}", friction),
+                "[[grain]]\nposition = [0, 0, 0.0201]\nvelocity = [0.05, 0, 0]\nradius = 0.01\nmaterial = \"a\"\n", 3);
+}
+
 TEST(EnergyGuard, VerdictFallsAtTheSameStepInBatchesAndAlone) {
   const auto stopped = [](int most) {
     Simulation simulation = simulationAt(heap(200, "stiffness = 2e4\nrestitution = 1\nfriction = 0.5"), 3.5);

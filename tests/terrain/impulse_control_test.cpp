@@ -79,7 +79,29 @@ TEST(ImpulseControl, TheRelaxationStartsFromTheCurrentImpulses) {
   EXPECT_FALSE(c.done);
   c.maxIterations = c.iterations;
   c.take(sums(1));
+  EXPECT_FALSE(c.done) << "Coulomb's law judges its result";
+  EXPECT_FALSE(c.associated);
+  const int now = c.now, iterations = c.iterations;
+  c.take(sums(7));
   EXPECT_TRUE(c.done);
+  EXPECT_EQ(c.last.worst, 7);
+  EXPECT_TRUE(c.relaxed);
+  EXPECT_EQ(c.now, now);
+  EXPECT_EQ(c.iterations, iterations);
+}
+
+TEST(ImpulseControl, WhatRoundingHidesIsNotAskedFor) {
+  ImpulseControl<float> c = control();
+  IterationSums some = sums(2e-3);
+  some.rounding = 3e-3;
+  EXPECT_EQ(c.tolerance(some), 3e-3);
+  c.take(some);
+  EXPECT_TRUE(c.done);
+  c = control();
+  some.rounding = 0.5e-3;
+  EXPECT_EQ(c.tolerance(some), 1e-3);
+  c.take(some);
+  EXPECT_FALSE(c.done);
 }
 
 TEST(ImpulseControl, TheStepIsTakenFromTheExtrapolatedIterate) {

@@ -106,6 +106,9 @@ std::vector<std::string> contactOverrides(const std::filesystem::path& scene, co
     foreign = {"run.residual", "complementarity"};
     if (run && run->find("residual")) inFile.emplace_back("run.residual");
     if (root.find("complementarity")) inFile.emplace_back("complementarity");
+  } else if (!root.find("terrain") && !root.find("vehicle") && !root.find("body")) { // without any penalty contacts
+    foreign = {"run.steps_per_contact"};
+    if (run && run->find("steps_per_contact")) inFile.emplace_back("run.steps_per_contact");
   }
   std::vector<std::string> all = without(sets, inFile, foreign);
   const bool stepSet =

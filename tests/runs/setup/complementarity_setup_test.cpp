@@ -2,9 +2,11 @@
 // Scenes with complementarity contacts: their time step, and rejected keys.
 #include "base/error.hpp"
 #include "runs/setup/complementarity_setup.hpp"
+#include "runs/setup/ground_setup.hpp"
 #include "runs/setup/load_scene.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "terrain/grain_constants.hpp"
 
 #include <gtest/gtest.h>
 
@@ -87,6 +89,10 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
       {run() + "[complementarity]\ncompliance = \"rigid\"\n" + kSand + kGrains +
            "[contact.\"sand|sand\"]\ncohesion = 0.1\n",
        "has cohesion, which requires contact overlap"},
+      {run() + "[complementarity]\nrecovery = 0.1\n" + kSand + kGrains,
+       "recovery [m/s] has no effect with compliance = \"law\""},
+      {run("steps_per_contact = 20\n") + kSand + kGrains, "steps_per_contact has no effect with contact"},
+      {run() + kSand + "attraction = true\n" + kGrains, "attraction has no effect with run.contact"},
       {run("gravity = [0, 0, 0]\n") + kSand + kGrains, "cannot be \"auto\" with run.gravity = 0"},
       {run("residual = 0\n") + kSand + kGrains, "residual"},
       {run("residual = -1\n") + kSand + kGrains, "residual"},
@@ -118,6 +124,31 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
       EXPECT_NE(std::string(fault.what()).find(said), std::string::npos) << fault.what();
     }
   }
+}
+
+TEST(ComplementarityScene, TakesKeysOfPenaltyContactsWherePartsHaveThem) {
+  const std::string body = "[[body]]\nname = \"b\"\nmaterial = \"sand\"\nmass = 1\nposition = [0, 0, 1]\n"
+                           "[[body.shape]]\nkind = \"sphere\"\nradius = 0.1\n";
+  EXPECT_NO_THROW(
+      checkComplementarity(parsed(run("steps_per_contact = 30\n") + kSand + "attraction = true\n" + kGrains + body)));
+  EXPECT_NO_THROW(checkComplementarity(
+      parsed(run() + "[complementarity]\ncompliance = \"rigid\"\nrecovery = 0.2\n" + kSand + kGrains)));
+}
+
+TEST(ComplementarityScene, PeriodicSidesLeaveRoomForGaps) {
+  // Three cells of a diameter of 20 mm, a skin of 3 mm and gaps of 2 h impact_speed and 8 h impact_speed: 99 mm.
+  const auto scene = [](double width) {
+    return parsed(run("time_step = 1e-3\nperiodic = [true, false]\ndomain_x = [0, " + std::to_string(width) + "]\n") +
+                  kSand + "[[grain]]\nposition = [0.04, 0, 0.02]\nradius = 0.01\nmaterial = \"sand\"\n");
+  };
+  const coupling::SimulationSetup fits = simulationSetup(scene(0.0991));
+  terrain::Boundaries boundaries = fits.ground.grains->boundaries;
+  EXPECT_NO_THROW(terrain::GrainConstants(fits.ground.grains->model, boundaries, {}));
+  (*boundaries.periodic[0])[1] = 0.0989;
+  EXPECT_THROW(terrain::GrainConstants(fits.ground.grains->model, boundaries, {}), base::InputError);
+  EXPECT_NO_THROW(checkGround(scene(0.0991), 1e-3));
+  EXPECT_THROW(checkGround(scene(0.0989), 1e-3), base::InputError) << "as plan checks it";
+  EXPECT_THROW(simulationSetup(scene(0.0989)), base::InputError);
 }
 
 } // namespace
