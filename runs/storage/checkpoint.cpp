@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kVersion = 15; // checkpoint file layout
+constexpr int kVersion = 16; // checkpoint file layout
 
 /// Layout of a record in a dataset: [n, width] numbers.
 template <class T> struct Layout { using Number = T; };
