@@ -453,7 +453,7 @@ std::optional<double> Simulation::solverError() const {
   if (setup_.mechanism && !vehicle_)
     for (const multibody::Body& body : setup_.mechanism->model.bodies()) mass += body.fixed ? 0 : body.mass;
   for (const SurfaceSetup& surface : setup_.ground.surfaces) mass += surface.free ? surface.free->mass : 0;
-  const terrain::ImpulseReport& last = laid_.grains->system().impulses->report(); // relaxed: dilation of sliding contacts
+  const terrain::ImpulseReport& last = laid_.grains->system().impulses->report(); // relaxed: contacts dilate
   const double residual = std::max(model.complementarity->residual, last.relaxed ? 0.0 : last.residual);
   // The residual presses six contacts per grain by its way in a step, which store this energy until the next steps.
   const double way = residual * model.timeStep;
