@@ -473,11 +473,11 @@ std::string Simulation::energyVerdict(const Ledger& now) const {
 void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
-  std::string remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
   const bool alone = mechanism_ && !mechanism_->touches();
-  if (alone) remedy = "the time step is too long for this motion: use a smaller time_step";
-  if (alone)
-    if (const std::string note = mechanism_->bounceNote(); !note.empty()) remedy += "; " + note;
+  std::string remedy = alone
+                           ? "the time step is too long for this motion: use a smaller time_step"
+                           : "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
+  if (const std::string note = alone ? mechanism_->bounceNote() : ""; !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   if (vehicle_ && now.dissipated.ofParts() > now.dissipated.ofGrains())
     remedy += "; shoe contacts dissipated most on " + mostDissipatingPart(vehicle_->assembly(), vehicle_->save());
