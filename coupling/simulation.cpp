@@ -451,8 +451,7 @@ std::optional<double> Simulation::solverError() const {
   if (!laid_.grains || !laid_.grains->model().complementarity) return {};
   const terrain::GrainModel& model = laid_.grains->model();
   const auto grains = static_cast<double>(laid_.grains->count() - laid_.grains->system().fixedCount);
-  double mass = model.mass * grains; // grains carry each other, the vehicle, bodies and loaded surfaces
-  if (vehicle_) mass += vehicle_->carriedMass();
+  double mass = model.mass * grains + (vehicle_ ? vehicle_->carriedMass() : 0); // of all that grains carry
   if (setup_.mechanism && !vehicle_)
     for (const multibody::Body& body : setup_.mechanism->model.bodies()) mass += body.fixed ? 0 : body.mass;
   for (const SurfaceSetup& surface : setup_.ground.surfaces) mass += surface.free ? surface.free->mass : 0;
@@ -474,9 +473,8 @@ void Simulation::checkEnergy(const Ledger& now) {
   const std::string verdict = energyVerdict(now);
   if (verdict.empty()) return;
   const bool alone = mechanism_ && !mechanism_->touches();
-  std::string remedy = alone
-                           ? "the time step is too long for this motion: use a smaller time_step"
-                           : "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
+  std::string remedy = "the time step is too long for this motion: use a smaller time_step";
+  if (!alone) remedy = "the contacts are unstable: use a smaller time_step or softer contacts" + impactNote(now);
   if (const std::string note = alone ? mechanism_->bounceNote() : ""; !note.empty()) remedy += "; " + note;
   if (mechanism_ && !mechanism_->tensionStepWarning().empty()) remedy += "; " + mechanism_->tensionStepWarning();
   if (vehicle_ && now.dissipated.ofParts() > now.dissipated.ofGrains())
