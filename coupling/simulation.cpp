@@ -451,7 +451,7 @@ std::optional<double> Simulation::solverError() const {
   if (!laid_.grains || !laid_.grains->model().complementarity) return {};
   const terrain::GrainModel& model = laid_.grains->model();
   const auto grains = static_cast<double>(laid_.grains->count() - laid_.grains->system().fixedCount);
-  double mass = model.mass * grains + (vehicle_ ? vehicle_->carriedMass() : 0); // of all that grains carry
+  double mass = model.mass * grains + (vehicle_ ? vehicle_->carriedMass() : 0); // carried by grains
   if (setup_.mechanism && !vehicle_)
     for (const multibody::Body& body : setup_.mechanism->model.bodies()) mass += body.fixed ? 0 : body.mass;
   for (const SurfaceSetup& surface : setup_.ground.surfaces) mass += surface.free ? surface.free->mass : 0;
