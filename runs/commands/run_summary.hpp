@@ -8,7 +8,8 @@
 
 namespace grouser::commands {
 
-/// Warning if the time-integration error of a finished run exceeds 5 % of the work of all forces; otherwise empty.
+/// Warning if the time-integration error of a finished run exceeds 5 % of the work of all forces, unless nothing moves
+/// or the contacts are complementarity contacts; otherwise empty.
 std::string integrationWarning(const output::Summary& summary);
 
 /// Lines on the energy balance of a finished run: integrationWarning(), then residual and integration error over the

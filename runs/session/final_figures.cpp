@@ -56,6 +56,26 @@ void noteSqueezed(Recorder& recorder, output::Summary& summary) {
   if (squeezed.share > 0) recorder.writer().fact("deepest_in_a_part", squeezed.deepest());
 }
 
+/// Time-integration error below which the state is at rest [J]: a ten-thousandth of m g radius of all grains, as in
+/// coupling::EnergyGuard, and the work of the weight of all bodies on a nanometre.
+double quietEnergy(const coupling::Simulation& simulation) {
+  constexpr double kNanometre = 1e-9; // [m]
+  const double g = norm(simulation.setup().gravity);
+  double energy = 0;
+  if (const auto& grains = simulation.ground().grains) {
+    const auto moving = static_cast<double>(grains->count() - grains->system().fixedCount);
+    energy += coupling::EnergyGuard::kAtTheStart * grains->model().mass * g * grains->model().radius * moving;
+  }
+  const auto add = [&](const multibody::Model& model) {
+    for (const multibody::Body& body : model.bodies()) energy += body.fixed ? 0 : body.mass * g * kNanometre;
+  };
+  if (simulation.vehicle())
+    add(simulation.vehicle()->model());
+  else if (simulation.mechanism())
+    add(simulation.mechanism()->model());
+  return energy;
+}
+
 } // namespace
 
 void noteFigures(RunSession& run, output::Summary& summary) {
@@ -63,6 +83,7 @@ void noteFigures(RunSession& run, output::Summary& summary) {
   const coupling::Ledger ledger = simulation.ledger();
   summary.figures["energy_converted_J"] = ledger.turnover, summary.figures["energy_residual_J"] = ledger.residual;
   summary.figures["integration_error_J"] = ledger.integrationError;
+  summary.figures["quiet_energy_J"] = quietEnergy(simulation);
   noteBed(simulation, summary);
   if (const auto& grains = simulation.ground().grains; grains && grains->system().impulses)
     noteSolver(grains->system().impulses->totals(), run.recorder().squeezed(), summary);
