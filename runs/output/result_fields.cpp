@@ -104,6 +104,8 @@ std::vector<FileField> resultFields() {
       {"/@soil_contact", "text", "", "", "parts of the vehicle with soil contact: \"all\" or \"shoes\""},
       {"/@parts", "texts", "", "", "part names; terrain/part_overlap_by is an index into this list, from 0"},
       {"/@deepest_in_a_part", "text", "", "", "maximum overlap of a grain with a part, and its part and time"},
+      {"/@bed_warnings", "text", "", "", "warnings of the bed; absent without warnings"},
+      {"/@energy_warning", "text", "", "", "warning of a large time-integration error; absent without it"},
       {"series/step", "int64", "[rows]", "-", "step number; each value has a link to this dataset"},
       {"series/time", "float64", "[rows]", "s", "time of the row; each value has a link to this dataset"},
       fieldOf(kPitchRadius, "[1]"),

@@ -59,6 +59,7 @@ TEST_F(RunSummary, EndsInFiguresEnergyAndResultsInThisOrder) {
 
 TEST_F(RunSummary, WarnsOfALargeTimeIntegrationError) {
   output::Summary summary;
+  summary.steps = 1000;
   summary.figures = {
       {"energy_converted_J", 20}, {"energy_residual_J", 0}, {"integration_error_J", 0.99}, {"quiet_energy_J", 0.1}};
   EXPECT_EQ(integrationWarning(summary), "");
@@ -67,7 +68,9 @@ TEST_F(RunSummary, WarnsOfALargeTimeIntegrationError) {
   EXPECT_EQ(energyText(summary).rfind("WARNING: the time-integration error", 0), 0u) << energyText(summary);
   summary.figures["energy_converted_J"] = 1e-3, summary.figures["integration_error_J"] = 0.099;
   EXPECT_EQ(integrationWarning(summary), "") << "at rest";
-  summary.figures["quiet_energy_J"] = 0;
+  summary.figures["quiet_energy_J"] = 0, summary.steps = 10;
+  EXPECT_EQ(integrationWarning(summary), "") << "few steps";
+  summary.steps = 1000;
   EXPECT_NE(integrationWarning(summary), "");
   summary.figures["solver_missed_steps"] = 0;
   EXPECT_EQ(integrationWarning(summary), "") << "complementarity contacts";
