@@ -161,8 +161,11 @@ void describeSolver(const coupling::Simulation& simulation, const output::Summar
       all.relaxed > 0 ? fmt::format(", {} solved by the convex relaxation", base::counted(all.relaxed, "step")) : "");
   if (all.raised > 0)
     fmt::print("note: in {} of {}, run.residual = {:.3g} m/s is below the rounding of the velocities, which was the "
-               "tolerance instead; raise run.residual, or set run.precision = \"double\"\n",
-               base::counted(all.raised, "step"), all.steps, asked.residual);
+               "tolerance instead; raise run.residual{}\n",
+               base::counted(all.raised, "step"), all.steps, asked.residual,
+               simulation.ground().grains->model().precision == terrain::Precision::single
+                   ? ", or set run.precision = \"double\""
+                   : "");
   if (all.missed > 0)
     fmt::print("WARNING: {} of {} exceed the tolerance run.residual; raise complementarity.iterations or run.residual, "
                "or use a smaller time_step\n",
