@@ -20,7 +20,9 @@ protected:
   }
 
   Outcome shell(const std::string& commands) const {
+    // Launchers that start and end at the same time must not share a session folder: one fails if another removes it.
     return ProgramTest::shell(
+        "export OMPI_MCA_orte_tmpdir_base=$(mktemp -d); trap 'rm -rf \"$OMPI_MCA_orte_tmpdir_base\"' EXIT; "
         "export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
         "OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe OMP_NUM_THREADS=1; " +
         commands);
