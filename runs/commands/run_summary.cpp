@@ -95,7 +95,7 @@ std::string integrationWarning(const output::Summary& summary) {
   const double converted = summary.figures.at("energy_converted_J"),
                error = std::fabs(summary.figures.at("integration_error_J"));
   // The solver of complementarity contacts reports its own residual; its implicit steps damp motions by design.
-  if (summary.steps < kFewSteps || summary.figures.count("solver_missed_steps") > 0) return {};
+  if (summary.steps < kFewSteps || summary.figures.contains("solver_missed_steps")) return {};
   if (!(converted > 0) || !(error > kLarge * converted + summary.figures.at("quiet_energy_J"))) return {};
   return fmt::format("the time-integration error is {:.2g} % of the work of all forces, {:.3g} J, so the results are "
                      "inaccurate; reduce run.time_step, and compare the results",
