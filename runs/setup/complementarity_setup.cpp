@@ -12,18 +12,16 @@ namespace grouser::setup {
 
 namespace {
 
-/// Rejects keys that have no effect on complementarity contacts.
+/// Rejects values that have no effect on complementarity contacts; runs write defaults into their own scene files.
 void checkUnused(const scene::Scene& scene) {
-  const auto given = [&](const char* section, const char* key) {
-    return scene.document && scene.document->root().has(section) && scene.document->root().section(section).has(key);
-  };
-  if (given("complementarity", "recovery") && scene.complementarity->compliance == contact::Compliance::law)
+  const scene::Complementarity usual, c = scene.complementarity.value_or(usual);
+  if (c.compliance == contact::Compliance::law && c.recovery != usual.recovery)
     scene.fail("complementarity", "recovery",
                "[m/s] has no effect with compliance = \"law\"; remove it, or set compliance = \"rigid\"");
   // Beds settle with penalty contacts, and rigid parts touch each other with them.
   const bool settles = scene.terrain && scene.terrain->granular();
   if (settles || scene.vehicle || scene.mechanism.touches()) return;
-  if (given("run", "steps_per_contact"))
+  if (scene.run.stepsPerContact != scene::kStepsPerContact)
     scene.fail(
         "run", "steps_per_contact",
         "has no effect with contact = \"complementarity\", whose steps do not resolve contacts; remove it, or set "
