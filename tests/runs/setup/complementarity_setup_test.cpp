@@ -89,9 +89,9 @@ TEST(ComplementarityScene, RefusesWhatItDoesNotHave) {
       {run() + "[complementarity]\ncompliance = \"rigid\"\n" + kSand + kGrains +
            "[contact.\"sand|sand\"]\ncohesion = 0.1\n",
        "has cohesion, which requires contact overlap"},
-      {run() + "[complementarity]\nrecovery = 0.1\n" + kSand + kGrains,
+      {run() + "[complementarity]\nrecovery = 0.2\n" + kSand + kGrains,
        "[m/s] has no effect with compliance = \"law\""},
-      {run("steps_per_contact = 20\n") + kSand + kGrains,
+      {run("steps_per_contact = 30\n") + kSand + kGrains,
        "has no effect with contact = \"complementarity\", whose steps"},
       {run() + kSand + "attraction = true\n" + kGrains,
        "has no effect with run.contact = \"complementarity\", whose dashpots"},
