@@ -11,6 +11,7 @@
 #include "vehicle/assembly.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace grouser::coupling {
@@ -64,25 +65,29 @@ std::vector<scm::Pad> padsOf(const PartsOnGround& on) {
   return pads;
 }
 
-std::vector<scm::Solid> solidsOf(const PartsOnGround& on) {
+std::vector<scm::Facet> facetsOf(const spheredecomp::TriangleMesh& mesh, const spheredecomp::MeshQuery& query) {
+  std::vector<scm::Facet> facets;
+  for (std::uint32_t t = 0; 3 * t < mesh.indices.size(); ++t)
+    facets.push_back({{query.vertex(t, 0), query.vertex(t, 1), query.vertex(t, 2)}, query.normal(t)});
+  return facets;
+}
+
+std::vector<scm::Solid> solidsOf(const PartsOnGround& on, double spacing) {
   using contact::SurfaceShape;
   std::vector<scm::Solid> solids;
   for (std::size_t c = 0; c < on.parts.count(); ++c) {
     const ContactPart& part = on.parts.parts[c];
     if (!part.canTouchGround || !part.ofBody) continue;
-    scm::Solid solid{.part = static_cast<int>(c), .half = halfExtent(part.shape)};
+    scm::Solid solid{
+        .part = static_cast<int>(c), .body = static_cast<int>(part.body), .half = halfExtent(part.shape)};
     if (part.mesh) {
-      solid.gap = [mesh = part.mesh](const base::Vec3d& p) {
-        const spheredecomp::ClosestPoint nearest = mesh->closest(p);
-        return contact::SurfaceGap{mesh->normal(nearest.triangle),
-                                   mesh->inside(p) ? -nearest.distance : nearest.distance};
-      };
+      solid.isConvex = false, solid.facets = facetsOf(part.mesh->mesh(), *part.mesh);
     } else {
       solid.isRound = part.shape.shape != SurfaceShape::box;
       solid.isBall = part.shape.shape == SurfaceShape::capsule && part.shape.half.z == 0;
-      solid.gap = [shape = part.shape](const base::Vec3d& p) { return contact::gapTo(shape, p); };
+      solid.facets = scm::facetsOf(part.shape, spacing);
     }
-    solids.push_back(solid);
+    solids.push_back(std::move(solid));
   }
   return solids;
 }
@@ -91,7 +96,7 @@ std::vector<scm::Solid> solidsOf(const PartsOnGround& on) {
 
 LoadQuanta ScmGround::meet(const PartsOnGround& on) {
   contacts_ = std::make_unique<scm::SoilContacts>(setup_.soil, setup_.deepest, setup_.displacement, map_, padsOf(on),
-                                                  solidsOf(on), on.timeStep);
+                                                  solidsOf(on, setup_.spacing), on.timeStep);
   if (!saved_.empty() && !contacts_->restore(saved_))
     throw base::InputError(
         "the saved state belongs to another vehicle or other bodies; resume with the scene that was run");

@@ -2,9 +2,10 @@
 #pragma once
 
 #include "scm/node_contact.hpp"
+#include "scm/facets.hpp"
 #include "scm/underside.hpp"
 
-#include <array>
+#include <cstddef>
 #include <vector>
 
 namespace grouser::scm {
@@ -16,15 +17,21 @@ struct BodyLoad {
   double sinkage{};    ///< maximum sinkage [m]
 };
 
-/// Contacts of rigid bodies of any shape with deformable soil: wheels, plates, stones. The underside of a body is
-/// sampled along the vertical through each node. Pressure acts along the normal of the body; each contact of body and
-/// node has its own shear stress, initially zero. Node squares partly covered by the body are weighted by the covered
-/// fraction of 16 sample points.
+/// Contacts of rigid bodies of any shape with deformable soil: wheels, plates, stones. The underside of a body is cut by
+/// the squares of the nodes. On a facet at the angle alpha to the soil surface acts, along its normal, the pressure of
+/// the node at the mean depth of the body in its square. Two corrections apply to steep facets:
+/// - The pressure is at most f max(1, n) cos(alpha) times that of Bekker's relation, because a vertical sinkage z moves
+///   the soil by z cos(alpha) along the facet's normal, and its pressure is at most k_u z cos(alpha) (Compaction). It
+///   vanishes on vertical facets.
+/// - Facets steeper than 60 degrees span a range of depths within a square. They become flanks, fully beyond 78 degrees:
+///   their pressure is the integral of Bekker's relation over the depth, times the mean ratio of pressure to virgin
+///   pressure of the body's other facets.
+/// All of these are continuous in the tilt. Each contact of body and node has its own shear stress, initially zero.
 class BodyContacts {
 public:
   BodyContacts(SoilMap& map, LoadedNodes& loaded, std::vector<Solid> solids);
 
-  // Stages of a step, as in PadContacts.
+  // Stages of a step, as in PadContacts; solids of one body must be adjacent.
   void gather(const contact::PartMotion* motion);
   void press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy);
   template <class Move> void pushAside(const Move& move) const;
@@ -32,32 +39,44 @@ public:
   void save(NumberStream& numbers) const;
   void restore(NumberStream& numbers);
 
-  const std::vector<BodyLoad>& loads() const { return loads_; } ///< one per solid
+  const std::vector<BodyLoad>& loads() const { return loads_; } ///< one per solid; the first of a body has all
   const std::vector<Solid>& solids() const { return solids_; }
 
 private:
   struct Contact : NodeContact {
-    double z{};        ///< height of the contact point [m]
+    Vec3d place;       ///< contact point [m]
     Vec3d up;          ///< unit normal into the body, world
-    double pressure{}; ///< [Pa]
+    double pressure{}; ///< mean over `face` [Pa]
+    double cohesive{}; ///< share of the face with cohesion [-]
     double strength{}; ///< tau_m [Pa]
     Vec3d shear;       ///< direction and mobilised fraction, world, in the tangent plane [-]
   };
   struct Last {
     contact::PartMotion motion;
-    std::vector<Contact> contacts;
+    std::vector<Contact> contacts, flanks;
   };
+  /// Solids of one body.
+  struct Body {
+    std::size_t first{}, count{};
+  };
+  struct Step; // data of a body's step
 
-  void gather(std::size_t body, const contact::PartMotion& motion);
+  void gather(std::size_t body, const contact::PartMotion* motion);
+  void gather(std::size_t body, const Cell& cell, double k);
   void press(std::size_t body, const contact::PartMotion& motion, double timeStep, SoilEnergy& energy);
+  /// Adds the load of a contact with a known pressure, and returns its shear displacement in the step [m].
+  double add(Contact& contact, const Contact* before, const Step& step) const;
   void stream(NumberStream& numbers, std::vector<Last>& all) const;
 
   SoilMap& map_;
   LoadedNodes& loaded_;
   std::vector<Solid> solids_;
+  std::vector<Body> bodies_;
+  Underside underside_;
   std::vector<Last> last_;
-  std::vector<std::vector<Contact>> now_;
+  std::vector<std::vector<Contact>> now_, flanksNow_;
   std::vector<BodyLoad> loads_;
+  Polygon wet_;
 };
 
 template <class Move> void BodyContacts::pushAside(const Move& move) const {

@@ -29,11 +29,17 @@ void LoadedNodes::advance() {
     t.before = layer;
     const double sinkage = t.deepest - t.offset;
     t.yields = sinkage > layer.sinkage;
-    if (!t.yields) continue;
     const double rebound = layer.rebound();
-    compress(layer, soil_, curve_, t.modulus, rebound, sinkage);
-    if (!t.onLoose) node.displaced += displaced_ * (layer.rebound() - rebound) / node.cosine;
+    if (t.yields) compress(layer, soil_, curve_, t.modulus, rebound, sinkage);
+    if (!t.onLoose && sinkage > rebound)
+      node.displaced += displaced_ * sunkShare(node, t.share, layer.rebound() - rebound) / node.cosine;
   }
+}
+
+double LoadedNodes::sunkShare(Node& node, double share, double more) {
+  const double before = node.spared;
+  node.spared = std::min(before + (1 - share) * more, (1 - share) * node.firmDepth());
+  return more + (before - node.spared);
 }
 
 void LoadedNodes::finish() {
@@ -43,7 +49,8 @@ void LoadedNodes::finish() {
     if (t.onLoose || !(t.slip > 0)) continue;
     const double more =
         std::min(soil_.slipSinkage * t.slip, std::max(0.0, soil_.maximumSlipSinkage - node.slipSinkage));
-    node.slipSinkage += more, node.displaced += displaced_ * more / node.cosine;
+    node.slipSinkage += more;
+    node.displaced += displaced_ * sunkShare(node, t.share, more) / node.cosine;
   }
   nodes_.clear();
 }

@@ -18,6 +18,7 @@ struct LoadedNode {
   bool onLoose{};    ///< the loaded layer is the loose soil
   bool yields{};     ///< true: virgin loading of the layer
   double slip{};     ///< maximum shear displacement in the step [m]
+  double share{};    ///< share of the node's square under bodies [-]
 
   const Compaction& state() const { return onLoose ? node->loose : node->state; }
 };
@@ -33,14 +34,16 @@ public:
   const PressureCurve& curve() const { return curve_; }
   const LoadedNode& operator[](int index) const { return nodes_[static_cast<std::size_t>(index)]; }
 
-  /// Adds a node, or another body to it, and returns its index. `depth`: as LoadedNode::deepest [m].
-  int add(Node& node, double depth, double modulus) {
+  /// Adds a node, or another body to it, and returns its index. `depth`: as LoadedNode::deepest [m]. `share`: share of
+  /// the node's square that sinks; tracks sink whole squares.
+  int add(Node& node, double depth, double modulus, double share = 1) {
     if (node.touched < 0) {
       node.touched = static_cast<int>(nodes_.size());
-      nodes_.push_back({&node, depth, modulus, {}, 0, false, false, 0});
+      nodes_.push_back({&node, depth, modulus, {}, 0, false, false, 0, share});
     } else {
       LoadedNode& t = nodes_[static_cast<std::size_t>(node.touched)];
       t.deepest = std::max(t.deepest, depth), t.modulus = std::max(t.modulus, modulus);
+      t.share = std::min(1.0, t.share + share);
     }
     return node.touched;
   }
@@ -55,6 +58,9 @@ public:
   void finish();
 
 private:
+  /// Updates Node::spared after a node sank by `more`; returns the mean sinkage of its square [m], along the normal.
+  static double sunkShare(Node& node, double share, double more);
+
   SoilConstants soil_;
   PressureCurve curve_;
   double displaced_;

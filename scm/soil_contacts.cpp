@@ -34,9 +34,10 @@ namespace {
 void stream(NumberStream& numbers, SoilEnergy& e) {
   numbers(e.elastic, e.elasticShear, e.compaction, e.shear, e.slipSinkage, e.damping, e.edges, e.coupling);
 }
-void stream(NumberStream& numbers, Node& node) {
+void stream(NumberStream& numbers, Node& node, bool underBodies) {
   for (Compaction* c : {&node.state, &node.loose}) numbers(c->sinkage, c->pressure, c->stiffness, c->modulus);
   numbers(node.slipSinkage, node.looseQuanta, node.displaced);
+  if (underBodies) numbers(node.spared);
 }
 
 } // namespace
@@ -50,7 +51,7 @@ std::vector<double> SoilContacts::save() const {
   map_.forEach([&](std::int32_t, std::int32_t, const Node& node) { nodes += node.isLoaded(); });
   numbers(pads, bodies, nodes, steps), stream(numbers, energy);
   map_.forEach([&](std::int32_t i, std::int32_t j, Node node) {
-    if (node.isLoaded()) numbers(i, j), stream(numbers, node);
+    if (node.isLoaded()) numbers(i, j), stream(numbers, node, bodies > 0);
   });
   pads_.save(numbers), bodies_.save(numbers), berms_.save(numbers);
   return saved;
@@ -64,7 +65,7 @@ bool SoilContacts::restore(const std::vector<double>& saved) {
   for (std::size_t n = 0; n < nodes && !numbers.isShort(); ++n) {
     std::int32_t i = 0, j = 0;
     numbers(i, j);
-    stream(numbers, map_.at(i, j));
+    stream(numbers, map_.at(i, j), bodies > 0);
     map_.addLoose(map_.at(i, j), 0);
   }
   pads_.restore(numbers), bodies_.restore(numbers), berms_.restore(numbers);

@@ -27,14 +27,15 @@ struct Node {
   Compaction loose;           ///< compaction state of the loose soil, below its own surface
   std::int64_t looseQuanta{}; ///< vertical thickness of loose soil as deposited [kHeightQuantum]
   double displaced{};         ///< pending displaced soil, as a vertical thickness [m]
+  double spared{}; ///< sinkage minus mean sinkage of the square, where bodies cover a part of it, along the normal [m]
   int touched = -1;           ///< index among the nodes in contact within a step; not saved
 
   bool isLoaded() const { return state.stiffness > 0 || looseQuanta != 0 || slipSinkage > 0; }
   /// Depth of the unloaded firm soil surface below the undisturbed surface, along the normal [m].
   double firmDepth() const { return slipSinkage + state.rebound(); }
   double looseThickness() const { return static_cast<double>(looseQuanta) * kHeightQuantum; } ///< as deposited [m]
-  /// Depth of the unloaded surface below the undisturbed one, vertical [m]; negative in a berm.
-  double rut() const { return (firmDepth() + loose.rebound()) / cosine - looseThickness(); }
+  /// Depth of the unloaded surface below the undisturbed one, vertical [m], mean over the square; negative in a berm.
+  double rut() const { return (firmDepth() + loose.rebound() - spared) / cosine - looseThickness(); }
   double surface() const { return height - rut(); } ///< height of the unloaded surface [m]
 };
 
@@ -62,6 +63,14 @@ public:
   Node& at(std::int32_t i, std::int32_t j) {
     Tile& tile = tileOf(i >> kShift, j >> kShift);
     return tile.nodes[placeInTile(i, j)];
+  }
+  /// Undisturbed surface at (x, y).
+  terrain::SurfaceJet jetAt(double x, double y) const { return surface_(x, y); }
+  /// Unit normal of the undisturbed surface at a node, upwards.
+  base::Vec3d normalAt(std::int32_t i, std::int32_t j) const {
+    const terrain::SurfaceJet jet = surface_(spacing_ * i, spacing_ * j);
+    const double up = 1 / std::sqrt(1 + jet.hx * jet.hx + jet.hy * jet.hy);
+    return {-jet.hx * up, -jet.hy * up, up};
   }
   /// Adds loose soil to a node, or removes it [kHeightQuantum]. All changes must use this function.
   void addLoose(Node& node, std::int64_t quanta) {

@@ -2,50 +2,61 @@
 #pragma once
 
 #include "contact/part_motion.hpp"
-#include "contact/surface_geometry.hpp"
+#include "scm/facets.hpp"
+#include "scm/polygon.hpp"
+#include "scm/soil_map.hpp"
 
-#include <functional>
-#include <optional>
+#include <cstdint>
+#include <vector>
 
 namespace grouser::scm {
 
-using base::Vec3d;
+/// Part of a facet below or near a node's square, seen along the normal of the undisturbed surface. In a Polygon, x and
+/// y are the place relative to the node, on the surface, and z is the depth along that normal [m].
+struct Piece {
+  Polygon outline;
+  Vec3d up;        ///< unit normal into the body, world
+  double cosine{}; ///< of the angle between `up` and the normal of the soil surface, > 0
+  double level{}, slopeX{}, slopeY{}; ///< depth of the facet's plane [m]: level + slopeX x + slopeY y
+  std::size_t solid{};
 
-/// Rigid body described by the distance to its surface.
-struct Solid {
-  int part{};     ///< index of its part
-  Vec3d half;     ///< half size of its bounding box, centred at the origin of the part's frame [m]
-  bool isRound{}; ///< true: body of revolution about the z axis
-  bool isBall{};  ///< true: sphere, with a round contact area in every orientation
-  /// Gap from a point in the part frame to the surface; its distance must not exceed the true distance.
-  std::function<contact::SurfaceGap(const Vec3d& p_P)> gap{};
+  double depthAt(const Vec3d& p) const { return level + slopeX * p.x + slopeY * p.y; }
 };
 
-/// Downward-facing point of a body.
-struct Underside {
-  double z{};   ///< [m]
-  Vec3d normal; ///< outward normal, world
+/// Square of a node with the underside of a body.
+struct Cell {
+  std::int32_t i{}, j{};
+  Node* node{};
+  Vec3d normal;              ///< of the undisturbed surface
+  std::vector<Piece> pieces; ///< do not cover each other
+
+  /// World position of a point of a Piece.
+  Vec3d toWorld(double spacing, const Vec3d& p) const {
+    const double z = node->height - (normal.x * p.x + normal.y * p.y) / normal.z;
+    return Vec3d{spacing * i + p.x, spacing * j + p.y, z} - normal * p.z;
+  }
 };
 
-/// Width b of Bekker's relation in the current orientation [m]: smaller horizontal side, or radius of a round area.
-double breadthOf(const Solid& solid, const contact::PartMotion& motion);
-
-/// Lowest points of a body on vertical lines, by sphere tracing. Error: below 1e-9 of its size. Both constructor
-/// arguments must outlive it.
-class Undersides {
+/// Underside of a rigid body, i.e. its surface seen from below along the normal of the undisturbed soil surface, cut by
+/// the squares of the nodes: exact areas and depths for plane facets, of several solids that may overlap, at any tilt.
+class Underside {
 public:
-  Undersides(const Solid& solid, const contact::PartMotion& motion);
+  /// `count` solids of one body from `solids`; `motion`: indexed by part.
+  void cut(SoilMap& map, const Solid* solids, std::size_t count, const contact::PartMotion* motion);
 
-  /// Returns the lowest point below `ceiling` [m]; empty if the line misses the body. `clearance` receives a lower
-  /// bound of the distance between line and body below the ceiling [m].
-  std::optional<Underside> lowestAt(double x, double y, double ceiling, double* clearance = nullptr) const;
-  const Vec3d& half() const { return half_; } ///< half extents of the bounding box along the world's axes [m]
+  /// Cells with pieces that are below the surface, or not farther above it than kNear and the slope of the piece.
+  /// Ordered by j, then i.
+  const std::vector<Cell>& cells() const { return cells_; }
 
 private:
-  const Solid& solid_;
-  const contact::PartMotion& motion_;
-  Vec3d half_, up_; ///< up: vertical in the part frame
-  double near_;     ///< [m] distance that counts as contact
+  void add(const Facet& facet, std::size_t solid, const contact::PartMotion& motion, double spacing);
+  void removeCovered(Cell& cell, const Solid* solids, double sliver);
+
+  std::int32_t firstI_{}, firstJ_{}, columns_{}, rows_{};
+  std::vector<Cell> grid_; ///< by row
+  std::vector<Cell> cells_;
+  std::vector<Vec3d> corners_; ///< of a facet, world
+  Polygon one_, other_;
 };
 
 } // namespace grouser::scm
