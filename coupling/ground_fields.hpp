@@ -23,6 +23,7 @@ struct GroundFields {
   scm::SoilConstants constants;
   double spacing{};            ///< node (i, j) is at x = i spacing, y = j spacing [m]
   std::vector<SoilNode> nodes; ///< by j, then i
+  double deepest{};            ///< maximum sinkage since the start of any node's virgin loading [m]
 };
 
 } // namespace grouser::coupling

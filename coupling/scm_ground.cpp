@@ -131,11 +131,12 @@ std::vector<double> ScmGround::surfaceNow() const {
 }
 
 std::optional<GroundFields> ScmGround::fieldsNow() const {
-  GroundFields fields{setup_.soil, map_.spacing(), {}};
+  GroundFields fields{setup_.soil, map_.spacing(), {}, 0};
   if (!contacts_) return fields;
   map_.forEach([&](std::int32_t i, std::int32_t j, const scm::Node& node) {
-    if (node.isLoaded())
-      fields.nodes.push_back({i, j, node.rut(), 0, std::max(node.state.pressure, node.loose.pressure), {}});
+    if (!node.isLoaded()) return;
+    fields.nodes.push_back({i, j, node.rut(), 0, std::max(node.state.pressure, node.loose.pressure), {}});
+    fields.deepest = std::max(fields.deepest, node.state.sinkage);
   });
   const auto before = [](const SoilNode& a, const SoilNode& b) { return std::pair(a.j, a.i) < std::pair(b.j, b.i); };
   std::sort(fields.nodes.begin(), fields.nodes.end(), before);

@@ -35,10 +35,12 @@ std::vector<Facet> facetsOfBox(const Vec3d& half) {
   return facets;
 }
 
-/// Number of sides of a circle.
-int sidesOf(double radius, double spacing) {
-  const double sides = 2 * base::kPi * radius / (spacing / 3);
-  return 4 * static_cast<int>(std::ceil(std::clamp(sides, 96.0, 360.0) / 4));
+/// Number of sides of a circle. Facets curved in two directions need fewer.
+int sidesOf(double radius, double spacing, bool doublyCurved) {
+  const double perimeter = 2 * base::kPi * radius;
+  const double sides = doublyCurved ? std::clamp(2 * perimeter / spacing, 48.0, 240.0)
+                                    : std::clamp(3 * perimeter / spacing, 96.0, 360.0);
+  return 4 * static_cast<int>(std::ceil(sides / 4));
 }
 
 /// Meridian of a shape, from its lower to its upper end.
@@ -59,7 +61,7 @@ std::vector<Ring> meridianOf(const contact::SurfaceGeometry& g, int sides) {
 }
 
 std::vector<Facet> facetsOfRound(const contact::SurfaceGeometry& g, double spacing) {
-  const int sides = sidesOf(g.half.x, spacing);
+  const int sides = sidesOf(g.half.x, spacing, g.shape == SurfaceShape::capsule);
   const double turn = 2 * base::kPi / sides, wider = ::sqrt(turn / base::sin(turn)); // equal area
   const std::vector<Ring> rings = meridianOf(g, sides);
   const auto at = [&](const Ring& ring, int k) {

@@ -28,7 +28,7 @@ struct Solid {
 };
 
 /// Facets of a closed shape, other than a plane. A box is exact. Round shapes have polygons of equal area for sections
-/// across the axis, with sides shorter than a third of the `spacing` of the nodes [m] or a hundredth of the perimeter.
+/// across the axis, with sides shorter than half the `spacing` of the nodes [m] or 1/48 of the perimeter.
 std::vector<Facet> facetsOf(const contact::SurfaceGeometry& shape, double spacing);
 
 } // namespace grouser::scm

@@ -70,7 +70,7 @@ struct Box {
 } // namespace
 
 void Underside::cut(SoilMap& map, const Solid* solids, std::size_t count, const contact::PartMotion* motion) {
-  cells_.clear();
+  recycle();
   const double h = map.spacing();
   Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (std::size_t s = 0; s < count; ++s) {
@@ -90,12 +90,14 @@ void Underside::cut(SoilMap& map, const Solid* solids, std::size_t count, const 
   rows_ = static_cast<std::int32_t>(std::floor((high.y + aside) / h + 0.5)) - firstJ_ + 1;
   if (low.z > map.topOf(firstI_, firstI_ + columns_ - 1, firstJ_, firstJ_ + rows_ - 1) + kNear) return;
   grid_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+  double leastUp = 1, top = -1e300; // of the cells
   for (std::int32_t j = 0; j < rows_; ++j)
     for (std::int32_t i = 0; i < columns_; ++i) {
       Cell& c = grid_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
       c.i = firstI_ + i, c.j = firstJ_ + j, c.node = &map.at(c.i, c.j), c.normal = map.normalAt(c.i, c.j);
-      c.pieces.clear();
+      leastUp = std::min(leastUp, c.normal.z), top = std::max(top, c.node->height + c.node->looseThickness());
     }
+  leastTurned_ = -::sqrt(std::max(0.0, 1 - leastUp * leastUp)), highest_ = top + (kRise * h + kNear) / leastUp;
   for (std::size_t s = 0; s < count; ++s)
     for (const Facet& f : solids[s].facets) add(f, s, motion[solids[s].part], h);
   const bool covers = count > 1 || !solids[0].isConvex;
@@ -107,9 +109,23 @@ void Underside::cut(SoilMap& map, const Solid* solids, std::size_t count, const 
   }
 }
 
+/// Keeps the memory of the outlines.
+void Underside::recycle() {
+  for (std::vector<Cell>* cells : {&grid_, &cells_})
+    for (Cell& c : *cells) {
+      for (Piece& p : c.pieces) outlines_.push_back(std::move(p.outline));
+      c.pieces.clear();
+    }
+  cells_.clear();
+}
+
 void Underside::add(const Facet& facet, std::size_t solid, const contact::PartMotion& motion, double h) {
   const Vec3d up = motion.rotation * facet.normal * -1.0;
-  if (up.z < -0.999) return;
+  if (up.z < leastTurned_) return;
+  const Vec3d vertical{motion.rotation.m[2][0], motion.rotation.m[2][1], motion.rotation.m[2][2]};
+  double lowest = 1e300;
+  for (const Vec3d& corner : facet.corners) lowest = std::min(lowest, dot(vertical, corner));
+  if (motion.origin.z + lowest > highest_) return;
   corners_.clear();
   Vec3d low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const Vec3d& corner : facet.corners) {
@@ -159,6 +175,7 @@ void Underside::add(const Facet& facet, std::size_t solid, const contact::PartMo
       clip(one_, [&](const Vec3d& p) { return p.z + top; }, other_);
       if (other_.size() < 3 || !(meanOf(other_).area > kSliver * h * h)) continue;
       Piece& piece = cell.pieces.emplace_back();
+      if (!outlines_.empty()) piece.outline = std::move(outlines_.back()), outlines_.pop_back();
       piece.outline = other_, piece.up = up, piece.cosine = cosine, piece.solid = solid;
       piece.slopeX = (up.z * e.x / e.z - up.x) / -cosine, piece.slopeY = (up.z * e.y / e.z - up.y) / -cosine;
       const Vec3d& p = other_.front();

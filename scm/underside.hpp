@@ -49,14 +49,18 @@ public:
   const std::vector<Cell>& cells() const { return cells_; }
 
 private:
+  void recycle();
   void add(const Facet& facet, std::size_t solid, const contact::PartMotion& motion, double spacing);
   void removeCovered(Cell& cell, const Solid* solids, double sliver);
 
   std::int32_t firstI_{}, firstJ_{}, columns_{}, rows_{};
   std::vector<Cell> grid_; ///< by row
   std::vector<Cell> cells_;
+  double leastTurned_{}; ///< vertical component of Piece::up below which a facet faces away from all cells
+  double highest_{};     ///< height above which facets cannot reach the soil [m]
   std::vector<Vec3d> corners_; ///< of a facet, world
   Polygon one_, other_;
+  std::vector<Polygon> outlines_; ///< spare
 };
 
 } // namespace grouser::scm

@@ -282,9 +282,11 @@ void checkUntilRest(const scene::Scene& scene, const session::RunRequest& option
         "{}: --until rest requires a vehicle; add a section [vehicle], or remove the option", scene.file.string()));
 }
 
-/// Adds the final figures, and records a warning of a large time-integration error.
-void noteResults(session::RunSession& run, output::Summary& summary) {
+/// Adds the final figures, and records warnings of a large time-integration error and of a sinkage beyond the table.
+void noteResults(const scene::Scene& scene, session::RunSession& run, output::Summary& summary) {
   session::noteFigures(run, summary);
+  if (const std::string warning = sinkageWarning(summary, scene.scm.value_or(scene::Scm{}).deepest); !warning.empty())
+    run.writer().fact("soil_warning", warning), fmt::print("WARNING: {}\n", warning);
   if (const std::string warning = integrationWarning(summary); !warning.empty())
     run.writer().fact("energy_warning", warning);
 }
@@ -343,7 +345,7 @@ output::Summary runInFolder(const scene::Scene& scene, const setup::Provenance& 
 
     summary.steps = simulation.steps(), summary.simulatedTime = simulation.time();
     summary.wallTime = whole.seconds();
-    noteResults(run, summary);
+    noteResults(scene, run, summary);
     describeDrive(scene, simulation, run.recorder().drive().teeth(), summary, endsAtRest);
     if (former) noteOrigin(*former, options.branch, summary);
     summary.figures["wall_preparation_s"] = prepared, summary.figures["wall_settling_s"] = kept.settling;

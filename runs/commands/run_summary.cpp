@@ -102,6 +102,14 @@ std::string integrationWarning(const output::Summary& summary) {
                      100 * error / converted, converted);
 }
 
+std::string sinkageWarning(const output::Summary& summary, double tabulated) {
+  const auto sunk = summary.figures.find("largest_sinkage_m");
+  if (sunk == summary.figures.end() || !(sunk->second > tabulated)) return {};
+  return fmt::format("the soil sank by {:.3g} m, more than scm.largest_sinkage, {:g} m; beyond it the pressure is "
+                     "linear in the sinkage instead of z^n; raise scm.largest_sinkage",
+                     sunk->second, tabulated);
+}
+
 std::string energyText(const output::Summary& summary) {
   const double converted = summary.figures.at("energy_converted_J");
   if (!(converted > 0)) return {};

@@ -12,6 +12,9 @@ namespace grouser::commands {
 /// or the contacts are complementarity contacts; otherwise empty.
 std::string integrationWarning(const output::Summary& summary);
 
+/// Text if deformable soil sank by more than `tabulated`, i.e. scm.largest_sinkage [m]; "" otherwise.
+std::string sinkageWarning(const output::Summary& summary, double tabulated);
+
 /// Lines on the energy balance of a finished run: integrationWarning(), then residual and integration error over the
 /// work of all forces.
 std::string energyText(const output::Summary& summary);

@@ -106,6 +106,7 @@ std::vector<FileField> resultFields() {
       {"/@deepest_in_a_part", "text", "", "", "maximum overlap of a grain with a part, and its part and time"},
       {"/@bed_warnings", "text", "", "", "warnings of the bed; absent without warnings"},
       {"/@energy_warning", "text", "", "", "warning of a large time-integration error; absent without it"},
+      {"/@soil_warning", "text", "", "", "warning of a sinkage beyond scm.largest_sinkage; absent without it"},
       {"series/step", "int64", "[rows]", "-", "step number; each value has a link to this dataset"},
       {"series/time", "float64", "[rows]", "s", "time of the row; each value has a link to this dataset"},
       fieldOf(kPitchRadius, "[1]"),

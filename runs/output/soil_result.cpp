@@ -84,12 +84,12 @@ void addSection(SoilResult& result, const GroundFields& fields, const base::Vec3
 
 } // namespace
 
-SoilResult soilResult(const GroundFields& fields, const base::Vec3d& position, const base::Vec3d& heading) {
+SoilResult soilResult(const GroundFields& fields, const std::optional<Course>& course) {
   SoilResult result;
   result.constants = fields.constants;
   if (fields.nodes.empty()) return result;
   addMaps(result, fields);
-  addSection(result, fields, position, heading);
+  if (course) addSection(result, fields, course->position, course->heading);
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "runs/output/result_constant.hpp"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace grouser::output {
@@ -57,7 +58,7 @@ inline constexpr SoilLine kSoilLines[] = {
      "[n]",
      &SoilResult::sectionOffset},
     {{"terrain/soil/section_sinkage", "m",
-      "final rut profile across the heading: sinkage, mean over the last 0.5 m of the rut behind the tracks; if there "
+      "final rut profile across the heading of the vehicle: sinkage, mean over the last 0.5 m of the rut behind the tracks; if there "
       "is no rut, under the tracks"},
      "[n]",
      &SoilResult::sectionSinkage},
@@ -84,8 +85,12 @@ inline constexpr SoilConstantField kSoilConstants[] = {
     {{"terrain/soil/unit_weight", "N/m3", "unit weight of the soil"}, &scm::SoilConstants::unitWeight},
 };
 
-/// `position`, `heading`: position of the vehicle and unit vector along its heading. Maps are empty if the vehicle
-/// touched no soil.
-SoilResult soilResult(const coupling::GroundFields& fields, const base::Vec3d& position, const base::Vec3d& heading);
+/// Position of a vehicle [m], and unit vector along its heading.
+struct Course {
+  base::Vec3d position, heading;
+};
+
+/// Maps are empty if nothing touched the soil. The section requires the course of a vehicle.
+SoilResult soilResult(const coupling::GroundFields& fields, const std::optional<Course>& course = {});
 
 } // namespace grouser::output

@@ -26,25 +26,35 @@ def layout(wide, high):
     return figure, plan, section, place(LEFT + width + 0.15, bottom, LEFT + width + 0.3, bottom + height)
 
 
+def ways(run):
+    """[(positions, label)] of the vehicle, or of the bodies of a scene without a vehicle."""
+    way = run.get("vehicle/position")
+    if way is not None:
+        return [(way, "middle of the sprocket axle")]
+    bodies = [run.get(f"bodies/{name}/position") for name in run.names("bodies")]
+    return [(way, "centres of mass of the bodies" if not k else None)
+            for k, way in enumerate(way for way in bodies if way is not None)]
+
+
 def soil(run):
     """Deformable soil: a map of the sinkage of the touched area, and a section along the deepest rut."""
-    sinkage, (x0, y0), way = (run.field(name) for name in ("terrain/soil/sinkage", "terrain/soil/origin",
-                                                           "vehicle/position/value"))
+    sinkage, (x0, y0) = run.field("terrain/soil/sinkage"), run.field("terrain/soil/origin")
     spacing = float(run.field("terrain/soil/spacing")[0])
     x, y = (start + spacing * numpy.arange(count) for start, count in zip((x0, y0), sinkage.shape[::-1]))
-    figure, plan, section, bar = layout(float(x[-1] - x[0]), float(y[-1] - y[0]))
+    figure, plan, section, bar = layout(float(x[-1] - x[0]) + spacing, float(y[-1] - y[0]) + spacing)
     for axes in (plan, bar):
         axes.grid(False)
     mesh = plan.pcolormesh(x, y, 1000 * sinkage, shading="nearest", cmap="YlOrBr", rasterized=True)
-    plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label="middle of the sprocket axle")
+    for way, label in ways(run):
+        plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, marker=".", markersize=2, label=label)
     plan.tick_params(labelbottom=False)
     plan.set_ylabel("y [m]")
     drawing.legend_above(plan)
     figure.colorbar(mesh, cax=bar, label="sinkage [mm]")
     row = int(numpy.argmax(sinkage.mean(axis=1)))
     section.plot(x, -1000 * sinkage[row], color="tab:brown")
-    plan.set_xlim(x[0], x[-1])
-    plan.set_ylim(y[0], y[-1])
+    plan.set_xlim(x[0] - spacing / 2, x[-1] + spacing / 2)
+    plan.set_ylim(y[0] - spacing / 2, y[-1] + spacing / 2)
     section.set_xlabel("x [m]")
     section.set_ylabel(f"height [mm]\nat y = {y[row]:.2f} m")
     return figure

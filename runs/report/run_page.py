@@ -381,14 +381,14 @@ def page(folder, options):
     made = pages.Page(f"{run.folder.resolve().name} (run)", "run", folder)
     if run.status != "finished":
         made.warnings.append(f"<p>{esc(ENDED.get(run.status, run.status))} {esc(why_ended(run.manifest))}</p>")
-    for key in ("bed_warnings", "energy_warning"):
+    for key in ("bed_warnings", "energy_warning", "soil_warning"):
         if warnings := run.manifest.get(key):
             made.warnings.append(f"<p>WARNING: {esc(warnings)}</p>")
     made.section("figures", "Figures", figures(run, options) + folded("Constants of the run", constants(run)))
     made.section("space", "3-D view", space.section(made, [run], options))
     made.section("pictures", "Pictures", pages.pictures([
         films([run.folder], options), pages.picture(run.folder / "picture.png", "End of the run"),
-        pages.picture(run.folder / "surface.png", "Surface of the ground and path of the vehicle")]))
+        pages.picture(run.folder / "surface.png", "Surface of the ground, with the path of the vehicle or bodies")]))
     made.section("fields", "Soil fields", soil_fields.section(run))
     made.section("deformable", "Deformable soil", soil_ground.section(made, run))
     made.section("plots", "Plots", curves(made, run))

@@ -22,8 +22,8 @@ def png(colours):
 
 
 class Soil:
-    """Maps of deformable soil at the end of a run, along and across the heading, from the middle of the sprocket
-    axle."""
+    """Maps of deformable soil at the end of a run; with a vehicle also the places of the nodes along and across its
+    heading, from the middle of the sprocket axle."""
 
     def __init__(self, run):
         def of(name):
@@ -35,6 +35,9 @@ class Soil:
         self.y = self.origin[1] + self.spacing * numpy.arange(rows)
         self.section = [of(f"section_{name}") for name in ("offset", "sinkage")] \
             if "terrain.soil.section_offset" in run.constants else None
+        self.has_vehicle = "vehicle.position" in run
+        if not self.has_vehicle:
+            return
         place, heading = run["vehicle.position"].value[-1], float(run["vehicle.heading"].value[-1])
         east, north = numpy.meshgrid(self.x - place[0], self.y - place[1])
         self.along = east * math.cos(heading) + north * math.sin(heading)
@@ -159,6 +162,8 @@ def section(made, run):
     inner = folded("Constants in use", constants(run), opened=True)
     if "terrain.soil.sinkage" in run.constants and len(run.time):
         soil = Soil(run)
-        plot, figures = pressures(made, run, soil)
-        inner += pictures([rut_map(soil)]) + f'<div class="plots">{profiles(made, soil)}{plot}</div>{figures}'
+        inner += pictures([rut_map(soil)])
+        if soil.has_vehicle:
+            plot, figures = pressures(made, run, soil)
+            inner += f'<div class="plots">{profiles(made, soil)}{plot}</div>{figures}'
     return inner + energies(run)

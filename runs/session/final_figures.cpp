@@ -88,6 +88,9 @@ void noteFigures(RunSession& run, output::Summary& summary) {
   if (const auto& grains = simulation.ground().grains; grains && grains->system().impulses)
     noteSolver(grains->system().impulses->totals(), run.recorder().squeezed(), summary);
   if (simulation.vehicle()) noteDrive(*simulation.vehicle(), run.writer(), summary);
+  if (simulation.actingGround())
+    if (const auto fields = simulation.actingGround()->fieldsNow())
+      summary.figures["largest_sinkage_m"] = fields->deepest;
   if (simulation.setup().crushes()) noteCrushing(simulation, summary);
   noteSqueezed(run.recorder(), summary);
 }

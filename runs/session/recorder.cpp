@@ -190,15 +190,21 @@ void Recorder::row() {
 }
 
 void Recorder::finalSurface() {
-  if (!record_.output.finalSurface || !simulation_.vehicle() || !simulation_.actingGround()) return;
+  if (!record_.output.finalSurface || !simulation_.actingGround()) return;
+  const auto fields = simulation_.actingGround()->fieldsNow();
+  if (!simulation_.vehicle()) {
+    if (fields) writer_.soil(output::soilResult(*fields));
+    return;
+  }
   const std::vector<double> heights = simulation_.actingGround()->surfaceNow();
   const auto undisturbed = undisturbedSurface(simulation_.ground());
   // All ranks get the same result. Removed grains must not have changed the nodes.
   if (undisturbed && !heights.empty() && heights.size() == undisturbed->height.size())
     writer_.finalSurface(heights, undisturbed->x.size());
-  if (const auto fields = simulation_.actingGround()->fieldsNow()) {
+  if (fields) {
     const vehicle::Observation now = simulation_.vehicle()->observe();
-    writer_.soil(output::soilResult(*fields, now.position, {base::cos(now.heading), base::sin(now.heading), 0}));
+    const output::Course course{now.position, {base::cos(now.heading), base::sin(now.heading), 0}};
+    writer_.soil(output::soilResult(*fields, course));
   }
 }
 

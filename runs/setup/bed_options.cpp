@@ -6,6 +6,7 @@
 #include "runs/scene/bed_radii.hpp"
 #include "runs/scene/scene.hpp"
 #include "runs/setup/map_notes.hpp"
+#include "runs/setup/scm_setup.hpp"
 #include "terrain/heightmap.hpp"
 
 #include <algorithm>
@@ -109,6 +110,7 @@ TerrainRemarks terrainRemarks(const scene::Scene& scene) {
                                    "used as height; save it as greyscale to avoid this note");
   if (map.transparent)
     remarks.notes.push_back(name + " has transparent pixels; the alpha channel is ignored; save the image without it");
+  if (std::string warning = nodeSpacingWarning(scene); !warning.empty()) remarks.warnings.push_back(std::move(warning));
   for (std::string& note : mapNotes(scene, map)) remarks.notes.push_back(std::move(note));
   if (!scene.terrain->granular() || scene.terrain->floor == terrain::FloorShape::flat) return remarks;
   if (const std::optional<SteepPlace> edge = steepestEdge(surfaceOf(scene, map), bedOptions(scene).smallestRadius()))

@@ -12,7 +12,7 @@ from grouser.files import text_of
 
 KINDS = {"results.h5": "results.h5", "frames.h5": "frames.h5", "checkpoint.h5": "checkpoint.h5 and cached beds"}
 #: Only in runs with several ranks, or with a vehicle in water, which take a minute to start.
-RARE = {"/FRAME/partition/AXIS", "/@bed_warnings", "/@energy_warning"} | {
+RARE = {"/FRAME/partition/AXIS", "/@bed_warnings", "/@energy_warning", "/@soil_warning"} | {
     f"/fluid/vehicle/{part}/{load}/value" for part in ("hull", "SIDE_track") for load in ("force", "torque")}
 QUIET = {"plots": False, "picture": False}
 

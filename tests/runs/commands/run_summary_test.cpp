@@ -76,6 +76,15 @@ TEST_F(RunSummary, WarnsOfALargeTimeIntegrationError) {
   EXPECT_EQ(integrationWarning(summary), "") << "complementarity contacts";
 }
 
+TEST_F(RunSummary, WarnsOfASinkageBeyondTheTable) {
+  output::Summary summary;
+  EXPECT_EQ(sinkageWarning(summary, 0.1), "") << "no deformable soil";
+  summary.figures["largest_sinkage_m"] = 0.09;
+  EXPECT_EQ(sinkageWarning(summary, 0.1), "");
+  summary.figures["largest_sinkage_m"] = 0.124;
+  EXPECT_NE(sinkageWarning(summary, 0.1).find("sank by 0.124 m, more than scm.largest_sinkage, 0.1 m"), std::string::npos);
+}
+
 TEST_F(RunSummary, WarnsFirstIfFiguresAreInconclusive) {
   // Three teeth in all, fewer than two in the steady part: the run is complete, its results are inconclusive.
   const Outcome run = call("run scene.toml --out a --set driver.sprocket_speed=10", withSharedCache());

@@ -135,7 +135,7 @@ TEST(SoilResult, HasMapsOverTheTouchedAreaAndASectionBehindTheTracks) {
   coupling::GroundFields fields = rut();
   for (coupling::SoilNode& node : fields.nodes)
     if (node.pressure > 0) node.sinkage = 1.1 * kRut; // elastic, under the tracks
-  const SoilResult r = soilResult(fields, {0.8, 0, 0.4}, {1, 0, 0});
+  const SoilResult r = soilResult(fields, Course{{0.8, 0, 0.4}, {1, 0, 0}});
   EXPECT_EQ(r.columns, 51u);
   EXPECT_EQ(r.rows, 11u);
   EXPECT_NEAR(r.origin[0], 0, 1e-12);
@@ -157,11 +157,12 @@ TEST(SoilResult, LargeAreasKeepEverySecondNodeOrFewer) {
   coupling::SoilNode far = fields.nodes.back();
   far.i = 6000, far.j = 3000;
   fields.nodes.push_back(far);
-  const SoilResult r = soilResult(fields, {}, {1, 0, 0});
+  const SoilResult r = soilResult(fields);
   EXPECT_NEAR(r.spacing[0], 3 * kSpacing, 1e-12);
   EXPECT_LE(r.columns * r.rows, 4'000'000u);
   EXPECT_EQ(r.sinkage[0], static_cast<float>(kRut));
-  EXPECT_TRUE(soilResult({}, {}, {1, 0, 0}).sinkage.empty());
+  EXPECT_TRUE(r.sectionOffset.empty()) << "a section requires a vehicle";
+  EXPECT_TRUE(soilResult({}).sinkage.empty());
 }
 
 } // namespace

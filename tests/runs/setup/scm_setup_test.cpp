@@ -45,6 +45,20 @@ TEST(ScmSetup, TakesConstantsFromTheSoilOrTheScene) {
                                              "one.toml")));
 }
 
+TEST(ScmSetup, WarnsOfNodesFartherApartThanTheDefault) {
+  const auto warning = [](const std::string& text) {
+    return nodeSpacingWarning(scene::readSceneText(text, GROUSER_SOURCE_DIR "/runs/scenes/scm.toml"));
+  };
+  for (const char* spacing : {"", "[scm]\n", "[scm]\nnode_spacing = 0.034\n", "[scm]\nnode_spacing = 0.01\n"})
+    EXPECT_EQ(warning(kScene + spacing), "") << spacing;
+  EXPECT_NE(warning(kScene + "[scm]\nnode_spacing = 0.068\n").find("0.5 of the length of a shoe"), std::string::npos);
+  const std::string box = kScene.substr(0, kScene.find("[vehicle]")) +
+                          "[material.m]\n[[body]]\nname = \"b\"\nmass = 1\nmaterial = \"m\"\nposition = [4, 2, 1]\n"
+                          "[[body.shape]]\nkind = \"box\"\nsize = [0.3, 0.2, 0.4]\n[scm]\nnode_spacing = ";
+  EXPECT_EQ(warning(box + "0.025\n"), "") << "an eighth of the second smallest side";
+  EXPECT_NE(warning(box + "0.04\n").find("exceeds the default, 0.025 m"), std::string::npos) << warning(box + "0.04\n");
+}
+
 TEST(ScmSetup, DrawsTheConstantsThatTheSceneOmits) {
   const coupling::ScmSetup nominal = read(kScene), first = read(kScene + "[scm]\nconstants_draw = 1\n"),
                            again = read(kScene + "[scm]\nconstants_draw = 1\n"),
