@@ -102,6 +102,8 @@ TEST(ScmGround, ReportsItsSurfaceAndStresses) {
   for (const scm::PadLoad& load : padsOf(simulation).pads().loads())
     pressed += load.pressed, most = std::max(most, load.sinkage);
   EXPECT_NEAR(carried, pressed, 0.05 * pressed) << "except for damping and the pitch of the shoes";
+  EXPECT_GT(fields.deepest, 0.9 * most) << "z_u of the most loaded node";
+  EXPECT_LT(fields.deepest, 1.5 * most);
   EXPECT_NEAR(deepest, most, 1e-12) << "under a shoe the surface is at the shoe, not at the rebound level";
 }
 
