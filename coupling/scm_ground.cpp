@@ -78,8 +78,7 @@ std::vector<scm::Solid> solidsOf(const PartsOnGround& on, double spacing) {
   for (std::size_t c = 0; c < on.parts.count(); ++c) {
     const ContactPart& part = on.parts.parts[c];
     if (!part.canTouchGround || !part.ofBody) continue;
-    scm::Solid solid{
-        .part = static_cast<int>(c), .body = static_cast<int>(part.body), .half = halfExtent(part.shape)};
+    scm::Solid solid{.part = static_cast<int>(c), .body = static_cast<int>(part.body), .half = halfExtent(part.shape)};
     if (part.mesh) {
       solid.isConvex = false, solid.facets = facetsOf(part.mesh->mesh(), *part.mesh);
     } else {

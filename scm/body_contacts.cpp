@@ -17,7 +17,9 @@ constexpr double kSteep = 0.5, kFlank = 0.2; // cosines between which a facet be
 double flatShare(double cosine) { return std::clamp((cosine - kFlank) / (kSteep - kFlank), 0.0, 1.0); }
 
 /// Height above the soil [m] from which a facet cannot reach the surface within the square by its slope.
-double reachOf(double cosine, double h) { return 1.5 * h * ::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine + kNear; }
+double reachOf(double cosine, double h) {
+  return 1.5 * h * ::sqrt(std::max(0.0, 1 - cosine * cosine)) / cosine + kNear;
+}
 
 /// Area of a piece, and sum of its depth over the area. Above the soil, whose depth is `surface`, the weight falls
 /// linearly from 1 to 0 at the height `reach`.
@@ -41,11 +43,14 @@ Weighted weightedOf(const Polygon& outline, double surface, double reach, Polygo
     add(outline, false);
     return w;
   }
-  clip(outline, [&](const Vec3d& p) { return p.z - surface; }, above);
+  clip(
+      outline, [&](const Vec3d& p) { return p.z - surface; }, above);
   add(above, false);
   Polygon dry;
-  clip(outline, [&](const Vec3d& p) { return surface - p.z; }, dry);
-  clip(dry, [&](const Vec3d& p) { return p.z - surface + reach; }, above);
+  clip(
+      outline, [&](const Vec3d& p) { return surface - p.z; }, dry);
+  clip(
+      dry, [&](const Vec3d& p) { return p.z - surface + reach; }, above);
   add(above, true);
   return w;
 }
@@ -74,8 +79,7 @@ void BodyContacts::gather(const contact::PartMotion* motion) {
 }
 
 void BodyContacts::press(const contact::PartMotion* motion, double timeStep, SoilEnergy& energy) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    press(b, motion[solids_[bodies_[b].first].part], timeStep, energy);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) press(b, motion[solids_[bodies_[b].first].part], timeStep, energy);
 }
 
 void BodyContacts::gather(std::size_t body, const contact::PartMotion* motion) {
@@ -101,7 +105,8 @@ void BodyContacts::gather(std::size_t body, const Cell& cell, double k) {
   double share = 0, flat = 0, flankArea = 0, flankWeight = 0, cohesive = 0;
   Vec3d mean, pushed, normals, flank, flankMean; // sums
   for (const Piece& p : cell.pieces) {
-    const double level = flatShare(p.cosine), limit = std::min(1.0, soil.elasticRatio * std::max(1.0, soil.exponent) * p.cosine);
+    const double level = flatShare(p.cosine),
+                 limit = std::min(1.0, soil.elasticRatio * std::max(1.0, soil.exponent) * p.cosine);
     const Vec3d perArea = p.up * (1 / (p.cosine * cosine)); // area vector of the face per horizontal area
     if (level > 0) {
       const Weighted w = weightedOf(p.outline, -node.looseThickness(), reachOf(p.cosine, h), wet_);
@@ -110,7 +115,8 @@ void BodyContacts::gather(std::size_t body, const Cell& cell, double k) {
       flat += a / p.cosine, normals += p.up * a;
     }
     if (!(level < 1)) continue;
-    clip(p.outline, [&](const Vec3d& q) { return q.z - surface; }, wet_);
+    clip(
+        p.outline, [&](const Vec3d& q) { return q.z - surface; }, wet_);
     forEachTriangle(wet_, [&](double a, const Vec3d& q0, const Vec3d& q1, const Vec3d& q2) {
       const double part = (1 - level) * limit * a / 3;
       for (const Vec3d& q : {(q0 + q1) * 0.5, (q1 + q2) * 0.5, (q2 + q0) * 0.5}) { // exact for quadratic functions
@@ -143,7 +149,7 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
   const double K = loaded_.soil().shearDisplacement;
   const Step step{motion, last.motion, load, timeStep, energy};
   const auto ended = [&](const Contact& c) { releaseShear(energy, K, c.strength * c.face, norm2(c.shear)); };
-  double pressed = 0, virgin = 0; // of the facets that are not flanks [N]
+  double pressed = 0, virgin = 0; // load on the facets that are not flanks [N]
   FormerContacts<Contact> former(last.contacts);
   const auto endedNode = [&](const Contact& c) { release(c, energy), ended(c); };
   for (Contact& c : now_[body]) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "scm/node_contact.hpp"
 #include "scm/facets.hpp"
+#include "scm/node_contact.hpp"
 #include "scm/underside.hpp"
 
 #include <cstddef>
@@ -17,13 +17,14 @@ struct BodyLoad {
   double sinkage{};    ///< maximum sinkage [m]
 };
 
-/// Contacts of rigid bodies of any shape with deformable soil: wheels, plates, stones. The underside of a body is cut by
-/// the squares of the nodes. On a facet at the angle alpha to the soil surface acts, along its normal, the pressure of
-/// the node at the mean depth of the body in its square. Two corrections apply to steep facets:
+/// Contacts of rigid bodies of any shape with deformable soil: wheels, plates, stones. The underside of a body is cut
+/// by the squares of the nodes. A facet at the angle alpha to the soil surface is pressed along its normal, with the
+/// pressure that its node has at the mean depth of the body in the square. Two corrections apply to steep facets:
 /// - The pressure is at most f max(1, n) cos(alpha) times that of Bekker's relation, because a vertical sinkage z moves
 ///   the soil by z cos(alpha) along the facet's normal, and its pressure is at most k_u z cos(alpha) (Compaction). It
 ///   vanishes on vertical facets.
-/// - Facets steeper than 60 degrees span a range of depths within a square. They become flanks, fully beyond 78 degrees:
+/// - Facets steeper than 60 degrees span a range of depths within a square. They become flanks, fully beyond 78
+/// degrees:
 ///   their pressure is the integral of Bekker's relation over the depth, times the mean ratio of pressure to virgin
 ///   pressure of the body's other facets.
 /// All of these are continuous in the tilt. Each contact of body and node has its own shear stress, initially zero.

@@ -61,7 +61,8 @@ double breadthOf(const Solid& solid, const contact::PartMotion& motion) {
 std::vector<double> breadthsOf(const Solid* solids, std::size_t count, const contact::PartMotion* motion) {
   std::vector<double> breadths;
   std::vector<std::size_t> plate(count); // lowest index of the solids that form one plate
-  for (std::size_t s = 0; s < count; ++s) breadths.push_back(breadthOf(solids[s], motion[solids[s].part])), plate[s] = s;
+  for (std::size_t s = 0; s < count; ++s)
+    breadths.push_back(breadthOf(solids[s], motion[solids[s].part])), plate[s] = s;
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = 0; b < a; ++b) {
       const contact::PartMotion &one = motion[solids[a].part], &other = motion[solids[b].part];

@@ -27,8 +27,8 @@ struct Node {
   Compaction loose;           ///< compaction state of the loose soil, below its own surface
   std::int64_t looseQuanta{}; ///< vertical thickness of loose soil as deposited [kHeightQuantum]
   double displaced{};         ///< pending displaced soil, as a vertical thickness [m]
-  double spared{}; ///< sinkage minus mean sinkage of the square, where bodies cover a part of it, along the normal [m]
-  int touched = -1;           ///< index among the nodes in contact within a step; not saved
+  double spared{};  ///< sinkage minus mean sinkage of the square, where bodies cover a part of it, along the normal [m]
+  int touched = -1; ///< index among the nodes in contact within a step; not saved
 
   bool isLoaded() const { return state.stiffness > 0 || looseQuanta != 0 || slipSinkage > 0; }
   /// Depth of the unloaded firm soil surface below the undisturbed surface, along the normal [m].

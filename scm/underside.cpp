@@ -11,18 +11,19 @@ namespace grouser::scm {
 
 namespace {
 
-constexpr double kUpright = 1e-6; // cosine of a facet below which its projection is negligible
-constexpr double kSliver = 1e-9; // share of a node's square below which an area is due to rounding
+constexpr double kUpright = 1e-6;   // cosine of a facet below which its projection is negligible
+constexpr double kSliver = 1e-9;    // share of a node's square below which an area is due to rounding
 constexpr double kShortest = 1e-10; // length below which an edge has no direction [m]
-constexpr double kSame = 1e-9; // difference of depths below which facets count as equally deep [m]
-constexpr double kRise = 2.5;     // height above the soil up to which pieces are kept [node spacing]
+constexpr double kSame = 1e-9;      // difference of depths below which facets count as equally deep [m]
+constexpr double kRise = 2.5;       // height above the soil up to which pieces are kept [node spacing]
 
-/// Cuts the part of `piece` inside `cover` where `cover` is deeper, or equally deep and `first`; appends the rest. Areas
-/// up to `sliver` [m2] count as none, so that roundings do not multiply pieces.
+/// Cuts the part of `piece` inside `cover` where `cover` is deeper, or equally deep and `first`; appends the rest.
+/// Areas up to `sliver` [m2] count as none, so that roundings do not multiply pieces.
 void subtract(const Piece& piece, const Piece& cover, bool first, double sliver, std::vector<Piece>& rest) {
   Polygon deeper, one, other;
   const double margin = first ? kSame : -kSame;
-  clip(cover.outline, [&](const Vec3d& p) { return cover.depthAt(p) - piece.depthAt(p) + margin; }, one);
+  clip(
+      cover.outline, [&](const Vec3d& p) { return cover.depthAt(p) - piece.depthAt(p) + margin; }, one);
   for (const Vec3d& p : one)
     if (deeper.empty() || std::fabs(p.x - deeper.back().x) + std::fabs(p.y - deeper.back().y) > kShortest)
       deeper.push_back(p);
@@ -49,7 +50,8 @@ void subtract(const Piece& piece, const Piece& cover, bool first, double sliver,
   }
   one = piece.outline;
   for (std::size_t k = 0; k < deeper.size() && one.size() > 2; ++k) {
-    clip(one, [&](const Vec3d& p) { return -inside(k)(p); }, other);
+    clip(
+        one, [&](const Vec3d& p) { return -inside(k)(p); }, other);
     if (meanOf(other).area > sliver) {
       rest.push_back(piece);
       rest.back().outline = other;
@@ -62,7 +64,8 @@ void subtract(const Piece& piece, const Piece& cover, bool first, double sliver,
 struct Box {
   double x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
   explicit Box(const Polygon& polygon) {
-    for (const Vec3d& p : polygon) x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
+    for (const Vec3d& p : polygon)
+      x0 = std::min(x0, p.x), x1 = std::max(x1, p.x), y0 = std::min(y0, p.y), y1 = std::max(y1, p.y);
   }
   bool overlaps(const Box& b) const { return x0 < b.x1 && b.x0 < x1 && y0 < b.y1 && b.y0 < y1; }
 };
@@ -90,7 +93,7 @@ void Underside::cut(SoilMap& map, const Solid* solids, std::size_t count, const 
   rows_ = static_cast<std::int32_t>(std::floor((high.y + aside) / h + 0.5)) - firstJ_ + 1;
   if (low.z > map.topOf(firstI_, firstI_ + columns_ - 1, firstJ_, firstJ_ + rows_ - 1) + kNear) return;
   grid_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  double leastUp = 1, top = -1e300; // of the cells
+  double leastUp = 1, top = -1e300; // over the cells
   for (std::int32_t j = 0; j < rows_; ++j)
     for (std::int32_t i = 0; i < columns_; ++i) {
       Cell& c = grid_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
@@ -151,36 +154,39 @@ void Underside::add(const Facet& facet, std::size_t solid, const contact::PartMo
   const std::int32_t j0 = limit(std::ceil((low.y - aside) / h - 0.5) - firstJ_, rows_ - 1);
   const std::int32_t j1 = limit(std::floor((high.y + aside) / h + 0.5) - firstJ_, rows_ - 1);
   for (std::int32_t j = j0; j <= j1; ++j)
-    for (std::int32_t i = i0; i <= i1; ++i) {
-      Cell& cell =
-          grid_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
-      const Vec3d &e = cell.normal, node{h * cell.i, h * cell.j, cell.node->height};
-      const double cosine = dot(up, e);
-      if (cosine < kUpright) continue;
-      double deepest = -1e300, x0 = 1e300, x1 = -1e300, y0 = 1e300, y1 = -1e300;
-      one_.clear();
-      for (const Vec3d& corner : corners_) {
-        const Vec3d from = corner - node;
-        const double depth = -dot(from, e);
-        const Vec3d p{from.x + depth * e.x, from.y + depth * e.y, depth};
-        deepest = std::max(deepest, depth), x0 = std::min(x0, p.x), x1 = std::max(x1, p.x);
-        y0 = std::min(y0, p.y), y1 = std::max(y1, p.y), one_.push_back(p);
-      }
-      const double side = 0.5 * h, top = kRise * h + kNear + cell.node->looseThickness();
-      if (deepest < -top || x0 >= side || x1 <= -side || y0 >= side || y1 <= -side) continue;
-      if (x0 < -side) clip(one_, [&](const Vec3d& p) { return p.x + side; }, other_), std::swap(one_, other_);
-      if (x1 > side) clip(one_, [&](const Vec3d& p) { return side - p.x; }, other_), std::swap(one_, other_);
-      if (y0 < -side) clip(one_, [&](const Vec3d& p) { return p.y + side; }, other_), std::swap(one_, other_);
-      if (y1 > side) clip(one_, [&](const Vec3d& p) { return side - p.y; }, other_), std::swap(one_, other_);
-      clip(one_, [&](const Vec3d& p) { return p.z + top; }, other_);
-      if (other_.size() < 3 || !(meanOf(other_).area > kSliver * h * h)) continue;
-      Piece& piece = cell.pieces.emplace_back();
-      if (!outlines_.empty()) piece.outline = std::move(outlines_.back()), outlines_.pop_back();
-      piece.outline = other_, piece.up = up, piece.cosine = cosine, piece.solid = solid;
-      piece.slopeX = (up.z * e.x / e.z - up.x) / -cosine, piece.slopeY = (up.z * e.y / e.z - up.y) / -cosine;
-      const Vec3d& p = other_.front();
-      piece.level = p.z - piece.slopeX * p.x - piece.slopeY * p.y;
-    }
+    for (std::int32_t i = i0; i <= i1; ++i)
+      addTo(grid_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)], up,
+            solid, h);
+}
+
+void Underside::addTo(Cell& cell, const Vec3d& up, std::size_t solid, double h) {
+  const Vec3d &e = cell.normal, node{h * cell.i, h * cell.j, cell.node->height};
+  const double cosine = dot(up, e);
+  if (cosine < kUpright) return;
+  double deepest = -1e300;
+  Polygon& outline = one_;
+  outline.clear();
+  for (const Vec3d& corner : corners_) {
+    const Vec3d from = corner - node;
+    const double depth = -dot(from, e);
+    deepest = std::max(deepest, depth), outline.push_back({from.x + depth * e.x, from.y + depth * e.y, depth});
+  }
+  const double side = 0.5 * h, top = kRise * h + kNear + cell.node->looseThickness();
+  const Box box(outline);
+  if (deepest < -top || box.x0 >= side || box.x1 <= -side || box.y0 >= side || box.y1 <= -side) return;
+  const auto keep = [&](const auto& value) { clip(outline, value, other_), std::swap(outline, other_); };
+  if (box.x0 < -side) keep([side](const Vec3d& p) { return p.x + side; });
+  if (box.x1 > side) keep([side](const Vec3d& p) { return side - p.x; });
+  if (box.y0 < -side) keep([side](const Vec3d& p) { return p.y + side; });
+  if (box.y1 > side) keep([side](const Vec3d& p) { return side - p.y; });
+  keep([top](const Vec3d& p) { return p.z + top; });
+  if (outline.size() < 3 || !(meanOf(outline).area > kSliver * h * h)) return;
+  Piece& piece = cell.pieces.emplace_back();
+  if (!outlines_.empty()) piece.outline = std::move(outlines_.back()), outlines_.pop_back();
+  piece.outline = outline, piece.up = up, piece.cosine = cosine, piece.solid = solid;
+  piece.slopeX = (up.z * e.x / e.z - up.x) / -cosine, piece.slopeY = (up.z * e.y / e.z - up.y) / -cosine;
+  const Vec3d& p = outline.front();
+  piece.level = p.z - piece.slopeX * p.x - piece.slopeY * p.y;
 }
 
 void Underside::removeCovered(Cell& cell, const Solid* solids, double sliver) {

@@ -15,8 +15,8 @@ namespace grouser::scm {
 /// y are the place relative to the node, on the surface, and z is the depth along that normal [m].
 struct Piece {
   Polygon outline;
-  Vec3d up;        ///< unit normal into the body, world
-  double cosine{}; ///< of the angle between `up` and the normal of the soil surface, > 0
+  Vec3d up;                           ///< unit normal into the body, world
+  double cosine{};                    ///< cosine of the angle between `up` and the normal of the soil surface, > 0
   double level{}, slopeX{}, slopeY{}; ///< depth of the facet's plane [m]: level + slopeX x + slopeY y
   std::size_t solid{};
 
@@ -27,7 +27,7 @@ struct Piece {
 struct Cell {
   std::int32_t i{}, j{};
   Node* node{};
-  Vec3d normal;              ///< of the undisturbed surface
+  Vec3d normal;              ///< normal of the undisturbed surface
   std::vector<Piece> pieces; ///< do not cover each other
 
   /// World position of a point of a Piece.
@@ -51,15 +51,17 @@ public:
 private:
   void recycle();
   void add(const Facet& facet, std::size_t solid, const contact::PartMotion& motion, double spacing);
+  /// Adds the part of the facet with corners_ in the cell's square.
+  void addTo(Cell& cell, const Vec3d& up, std::size_t solid, double spacing);
   void removeCovered(Cell& cell, const Solid* solids, double sliver);
 
   std::int32_t firstI_{}, firstJ_{}, columns_{}, rows_{};
   std::vector<Cell> grid_; ///< by row
   std::vector<Cell> cells_;
-  double leastTurned_{}; ///< vertical component of Piece::up below which a facet faces away from all cells
-  double highest_{};     ///< height above which facets cannot reach the soil [m]
-  std::vector<Vec3d> corners_; ///< of a facet, world
-  Polygon one_, other_;
+  double leastTurned_{};          ///< vertical component of Piece::up below which a facet faces away from all cells
+  double highest_{};              ///< height above which facets cannot reach the soil [m]
+  std::vector<Vec3d> corners_;    ///< corners of a facet, world
+  Polygon one_, other_;           ///< scratch
   std::vector<Polygon> outlines_; ///< spare
 };
 

@@ -58,7 +58,8 @@ inline constexpr SoilLine kSoilLines[] = {
      "[n]",
      &SoilResult::sectionOffset},
     {{"terrain/soil/section_sinkage", "m",
-      "final rut profile across the heading of the vehicle: sinkage, mean over the last 0.5 m of the rut behind the tracks; if there "
+      "final rut profile across the heading of the vehicle: sinkage, mean over the last 0.5 m of the rut behind the "
+      "tracks; if there "
       "is no rut, under the tracks"},
      "[n]",
      &SoilResult::sectionSinkage},

@@ -124,10 +124,11 @@ std::string nodeSpacingWarning(const scene::Scene& scene) {
   }
   const double usual = spacingUnder(scene);
   if (spacing <= kSlightly * usual) return {};
-  return fmt::format("scm.node_spacing, {:g} m, exceeds the default, {:g} m, an eighth of the smallest body; tilted and "
-                     "round bodies have force errors up to 0.3 (node_spacing / sinkage)^2; set at most {:g}, or remove "
-                     "the key",
-                     spacing, usual, usual);
+  return fmt::format(
+      "scm.node_spacing, {:g} m, exceeds the default, {:g} m, an eighth of the smallest body; tilted and "
+      "round bodies have force errors up to 0.3 (node_spacing / sinkage)^2; set at most {:g}, or remove "
+      "the key",
+      spacing, usual, usual);
 }
 
 } // namespace grouser::setup

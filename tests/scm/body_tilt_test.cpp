@@ -63,7 +63,8 @@ Vec3d pressed(const SoilConstants& soil, std::vector<Solid> solids, const std::v
   constexpr int kSteps = 10;
   for (int k = 0; k <= kSteps; ++k) {
     std::vector<contact::PartMotion> motion;
-    for (const Vec3d& p : places) motion.push_back(at(p + Vec3d{0, 0, way * (1 - static_cast<double>(k) / kSteps)}, rotation));
+    for (const Vec3d& p : places)
+      motion.push_back(at(p + Vec3d{0, 0, way * (1 - static_cast<double>(k) / kSteps)}, rotation));
     contacts.step(motion.data());
   }
   Vec3d force;
@@ -90,7 +91,7 @@ TEST(BodyTilt, ForceOnABoxIsTheIntegralOverItsUndersideAtAnyTilt) {
   for (const bool isMesh : {false, true})
     for (const double spacing : {0.01, 0.02, 0.025}) {
       double worst = 0;
-      for (double tilt = 0; tilt < 89.7; tilt += tilt > 11 && tilt < 12 ? 0.1 : 0.5) {
+      for (double tilt = 0; tilt<89.7; tilt += tilt> 11 && tilt < 12 ? 0.1 : 0.5) {
         const double a = tilt * base::kPi / 180, depth = 0.08;
         const double z = half.x * std::sin(a) + half.z * std::cos(a) - depth;
         const Vec3d f = pressed(frictionless(), {isMesh ? meshOfBox(half) : solid({SurfaceShape::box, half}, spacing)},
@@ -111,8 +112,9 @@ TEST(BodyTilt, ForceHasNoJumpInTheTilt) {
     const double step = 0.02;
     for (int k = 0; k * step <= 90; ++k) {
       const double a = k * step * base::kPi / 180;
-      const Vec3d f = pressed(frictionless(), {solid({SurfaceShape::box, half}, 0.02)},
-                              {{1.003, 0.001, half.x * std::sin(a) + half.z * std::cos(a) - depth}}, turned(k * step), 0.02);
+      const Vec3d f =
+          pressed(frictionless(), {solid({SurfaceShape::box, half}, 0.02)},
+                  {{1.003, 0.001, half.x * std::sin(a) + half.z * std::cos(a) - depth}}, turned(k * step), 0.02);
       if (k > 0) {
         EXPECT_LT(norm(f - last), 0.01 * (norm(f) + 300)) << k * step << " deg, " << depth << " m";
       }
@@ -131,7 +133,8 @@ TEST(BodyTilt, LoadOfEveryShapeIsModulusTimesVolumeBelowTheSurface) {
     double tilt, height, volume;
   };
   const double tan = 0.5; // of the half angle of the cone
-  const Case cases[] = { // depth 50 mm
+  const Case cases[] = {
+      // depth 50 mm
       {"box", {SurfaceShape::box, {0.15, 0.1, 0.05}}, 0, 0.05, 0.3 * 0.2 * d},
       {"upright cylinder", {SurfaceShape::cylinder, {R, R, 0.1}}, 0, 0.1, pi * R * R * d},
       {"lying cylinder", {SurfaceShape::cylinder, {R, R, 0.1}}, 90, R, segment * 0.2},
@@ -172,12 +175,15 @@ TEST(BodyTilt, ShapesOfOneBodyPushOnceWhereTheyOverlap) {
         Solid other = solid(plate, spacing, 1);
         other.body = 1;
         if (tilt == 0) {
-          EXPECT_GT(norm(pressed(frictionless(), {solid(plate, spacing), other}, {centre, centre}, r, spacing)), 1.9 * one)
+          EXPECT_GT(norm(pressed(frictionless(), {solid(plate, spacing), other}, {centre, centre}, r, spacing)),
+                    1.9 * one)
               << "two bodies push both";
         }
         const double lone = pressed(frictionless(), {solid(ball, spacing)}, {{0, 0, 0.06}}, r, spacing).z;
-        EXPECT_NEAR(pressed(frictionless(), {solid(ball, spacing), solid(ball, spacing, 1)}, {{0, 0, 0.06}, {0, 0, 0.06}},
-                            r, spacing).z, lone, 1e-3 * lone);
+        EXPECT_NEAR(pressed(frictionless(), {solid(ball, spacing), solid(ball, spacing, 1)},
+                            {{0, 0, 0.06}, {0, 0, 0.06}}, r, spacing)
+                        .z,
+                    lone, 1e-3 * lone);
       }
 }
 
@@ -213,7 +219,8 @@ TEST(BodyTilt, ABlockOnASlopeSlidesAsUnderTiltedGravity) {
     }
     const Vec3d f = contacts.bodies().loads()[0].force;
     const double down = dot(f, r * Vec3d{1, 0, 0}), normal = dot(f, r * Vec3d{0, 0, 1}), area = 4 * half.x * half.y;
-    EXPECT_NEAR(normal, kModulus * 0.02 * area, 0.03 * normal) << slope << ": plus the unloaded squares behind the block";
+    EXPECT_NEAR(normal, kModulus * 0.02 * area, 0.03 * normal)
+        << slope << ": plus the unloaded squares behind the block";
     EXPECT_NEAR(down, -(0.5 * normal + 500 * area), 0.01 * normal) << slope;
   }
 }
@@ -227,12 +234,14 @@ TEST(BodyTilt, VolumeOfARutIsThatOfTheBodyAtAnySpacingAndHeading) {
         std::vector<Solid> solids(static_cast<std::size_t>(shapes), solid({SurfaceShape::box, half}, spacing));
         SoilContacts contacts(frictionless(), 0.5, {1, std::tan(base::kPi / 6)}, map, {}, solids, 1e-3);
         for (int k = 0; k <= 60; ++k) {
-          const contact::PartMotion m = at({1.003, 0.001, half.z - 0.002 * std::min(k, 40) + (k > 40 ? 0.1 : 0)}, turned(0, yaw));
+          const contact::PartMotion m =
+              at({1.003, 0.001, half.z - 0.002 * std::min(k, 40) + (k > 40 ? 0.1 : 0)}, turned(0, yaw));
           contacts.step(&m);
         }
         double rut = 0, berm = 0, pending = 0;
         map.forEach([&](std::int32_t, std::int32_t, const Node& n) {
-          rut += (n.firmDepth() - n.spared) * spacing * spacing, berm += n.looseThickness() * spacing * spacing, pending += n.displaced * spacing * spacing;
+          rut += (n.firmDepth() - n.spared) * spacing * spacing, berm += n.looseThickness() * spacing * spacing,
+              pending += n.displaced * spacing * spacing;
         });
         const double expected = 0.08 * (1 - 1 / kRatio) * 4 * half.x * half.y; // plastic part of the sinkage
         EXPECT_NEAR(rut, expected, 1e-6 * expected) << spacing << " " << yaw << " " << shapes;

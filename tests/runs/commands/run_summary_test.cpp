@@ -82,7 +82,8 @@ TEST_F(RunSummary, WarnsOfASinkageBeyondTheTable) {
   summary.figures["largest_sinkage_m"] = 0.09;
   EXPECT_EQ(sinkageWarning(summary, 0.1), "");
   summary.figures["largest_sinkage_m"] = 0.124;
-  EXPECT_NE(sinkageWarning(summary, 0.1).find("sank by 0.124 m, more than scm.largest_sinkage, 0.1 m"), std::string::npos);
+  EXPECT_NE(sinkageWarning(summary, 0.1).find("sank by 0.124 m, more than scm.largest_sinkage, 0.1 m"),
+            std::string::npos);
 }
 
 TEST_F(RunSummary, WarnsFirstIfFiguresAreInconclusive) {
