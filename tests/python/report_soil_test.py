@@ -1,13 +1,60 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The report of a run on deformable soil."""
+import json
 import unittest
+from pathlib import Path
 
 import numpy
 from fixture import ROOT
 from report_pages import PageTest
 
 import grouser
+
+
+PRESS = """version = 1
+[run]
+duration = 1.0
+output_interval = 0.05
+[terrain]
+kind = "scm"
+material = "soil"
+heightmap = "heightmaps/flat.png"
+size = [4, 2]
+height_range = [0, 0]
+[material.soil]
+friction = 0.5
+[scm]
+n = 1
+k_c = 0
+k_phi = 1.5e6
+c = 1000
+phi = 30
+K = 0.02
+largest_sinkage = 0.04
+[[body]]
+name = "plate"
+material = "soil"
+mass = 10
+inertia = [1, 1, 1]
+position = [2, 0, 0.025]
+[[body.shape]]
+kind = "box"
+size = [0.3, 0.2, 0.05]
+[[body.shape]]
+kind = "box"
+size = [0.3, 0.2, 0.05]
+[[joint]]
+name = "rail"
+type = "prismatic"
+bodies = ["world", "plate"]
+point = [2, 0, 0]
+axis = [0, 0, -1]
+[[drive]]
+name = "press"
+joint = "rail"
+value = 0.05
+"""
 
 
 class DeformableSoil(PageTest):
@@ -33,6 +80,22 @@ class DeformableSoil(PageTest):
             self.assertIn(title, titles)
         self.ruts_are_in_the_view()
         self.assertTrue(self.browser.value("[...document.images].every(i => i.complete && i.naturalWidth > 0)"))
+
+    def test_bodies_without_a_vehicle(self):
+        """Two equal boxes as one body press as one box; maps, a picture and the section of the report."""
+        Path("press.toml").write_text(PRESS)
+        grouser.call(["run", "press.toml", "--out", "press"])
+        self.assertTrue(Path("press/surface.png").exists())
+        with grouser.open_run("press") as run:
+            sinkage = run.constants["terrain.soil.sinkage"].value
+            self.assertNotIn("terrain.soil.section_sinkage", run.constants)
+            self.assertAlmostEqual(float(sinkage.max()), 0.05, delta=0.001)
+            force = float(run["bodies.plate.contact_force"].value[-1][2])
+        self.assertAlmostEqual(force / (1.5e6 * 0.05 * 0.06), 1, delta=0.02)
+        self.assertIn("more than scm.largest_sinkage, 0.04 m", json.loads(Path("press/manifest.json").read_text())["soil_warning"])
+        self.opened("press")
+        self.assertTrue(self.browser.value("[...document.images].every(i => i.complete && i.naturalWidth > 0)"))
+        self.assertIn("Map of the ruts", self.browser.value("document.body.innerText"))
 
     def ruts_are_in_the_view(self):
         """The surface at the end and in an earlier frame, to half a unit of 16 bits and the rounding of single precision."""
