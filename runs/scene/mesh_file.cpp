@@ -59,14 +59,17 @@ LoadedMesh loadMesh(const base::Section& section, const std::string& file, doubl
   } catch (const base::InputError& error) {
     section.fail("file", fmt::format("cannot be used: {}", error.what()));
   }
-  if (centred && !sphereRadius) loaded.box = boxOf(triangles, scale);
-  if (loaded.box) {
-    const base::Vec3d edges = loaded.box->half * 2.0;
+  const std::optional<spheredecomp::MeshBox> box = centred ? boxOf(triangles, scale) : std::nullopt;
+  const auto note = [&](const std::string& text) {
+    loaded.note += fmt::format("{}{}: the mesh is {}", loaded.note.empty() ? "" : "; ", file, text);
+  };
+  if (box && sphereRadius) note("a box; remove sphere_radius to replace its spheres by the exact and faster box");
+  if (box && !sphereRadius) {
+    const base::Vec3d edges = box->half * 2.0;
     noteUnusualSize(section, edges, scale);
-    loaded.middle = loaded.box->centre;
-    loaded.note += fmt::format("{}{}: the mesh is a box of {:.6g} x {:.6g} x {:.6g} m; contacts use the exact box "
-                               "instead of spheres",
-                               loaded.note.empty() ? "" : "; ", file, edges.x, edges.y, edges.z);
+    loaded.box = box, loaded.middle = box->centre;
+    note(fmt::format("a box of {:.5g} x {:.5g} x {:.5g} m; contacts use the exact box instead of spheres", edges.x,
+                     edges.y, edges.z));
     return loaded;
   }
   for (base::Vec3d& v : triangles.vertices) v *= scale;

@@ -298,7 +298,11 @@ TEST(MeshBodies, ThatAreBoxesAreShapesAndNotesOfBoxes) {
             std::string::npos)
       << notes[0];
   // With the key sphere_radius it consists of spheres.
-  EXPECT_NE(shapeOf(sceneOf("kind = \"mesh\"\nfile = \"turned.obj\"\nsphere_radius = 0.005\n")).mesh, nullptr);
+  const scene::Scene spheres = sceneOf("kind = \"mesh\"\nfile = \"turned.obj\"\nsphere_radius = 0.005\n");
+  EXPECT_NE(shapeOf(spheres).mesh, nullptr);
+  const std::vector<std::string> advice = setup::meshNotes(spheres);
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_NE(advice[0].find("the mesh is a box; remove sphere_radius"), std::string::npos) << advice[0];
 }
 
 TEST(MeshBodies, ThinSheetsAreAsAccurateAsTheirPartnersRequire) {
