@@ -12,9 +12,10 @@ using base::Vec3d;
 
 void BodiesInContact::addBodies(const MechanismSetup& setup, const multibody::Model& model, const GroundTraits& ground,
                                 SphereSets* kept) {
+  double size = ground.smallestGrain;
+  if (!contactParts_.parts.empty()) size = std::min(size, contactParts_.contactSize); // the vehicle's parts
   addBodyParts(contactParts_, setup, model);
-  const double size = std::min(ground.smallestGrain, contactParts_.contactSize);
-  bodySets_ = cutParts(meshCuts(setup.shapes, size), kept, ground.comm, &bodyCuts_);
+  bodySets_ = cutParts(meshCuts(setup.shapes, model.bodies(), size), kept, ground.comm, &bodyCuts_);
   for (const base::SphereSet& set : bodySets_) contactParts_.surfaces.push_back(&set);
 }
 

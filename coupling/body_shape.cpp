@@ -85,14 +85,33 @@ std::vector<std::size_t> uniqueMeshes(const std::vector<BodyShape>& shapes) {
   return unique;
 }
 
-std::vector<PartCut> meshCuts(const std::vector<BodyShape>& shapes, double contactSize) {
+namespace {
+
+/// Smallest feature of all shapes that can touch a shape with this mesh [m]; at most half the diagonal of the mesh.
+double smallestPartner(const BodyShape& mesh, const std::vector<BodyShape>& shapes,
+                       const std::vector<multibody::Body>& bodies) {
+  double smallest = norm(mesh.shape.half);
+  for (const BodyShape& own : shapes) {
+    if (!own.mesh || !sameSurface(own, mesh)) continue;
+    for (const BodyShape& other : shapes)
+      if (other.body != own.body && !(bodies[other.body].fixed && bodies[own.body].fixed))
+        smallest = std::min(smallest, minFeature(other));
+  }
+  return smallest;
+}
+
+} // namespace
+
+std::vector<PartCut> meshCuts(const std::vector<BodyShape>& shapes, const std::vector<multibody::Body>& bodies,
+                              double contactSize) {
   std::vector<PartCut> cuts;
   for (const std::size_t i : uniqueMeshes(shapes)) {
     const BodyShape& s = shapes[i];
+    const double size = std::min(contactSize, smallestPartner(s, shapes, bodies));
     SurfaceSetup surface;
     surface.name = s.key, surface.mesh = s.mesh->query;
     surface.sphereRadius = s.mesh->sphereRadius, surface.sphereRadiusGiven = s.mesh->sphereRadiusGiven;
-    cuts.push_back(meshCut(surface, contactSize));
+    cuts.push_back(meshCut(surface, size));
     cuts.back().key = s.key + ".sphere_radius";
     cuts.back().place = s.place.substr(0, s.place.rfind(' ') + 1) + cuts.back().key;
   }

@@ -5,6 +5,7 @@
 #include "contact/part_surface.hpp"
 #include "contact/surface_geometry.hpp"
 #include "coupling/sphere_sets.hpp"
+#include "multibody/model.hpp"
 #include "spheredecomp/mesh_query.hpp"
 
 #include <cstddef>
@@ -57,7 +58,9 @@ bool sameSurface(const BodyShape& a, const BodyShape& b);
 
 /// Indices of the shapes with distinct meshes. Shapes with equal meshes share one sphere set.
 std::vector<std::size_t> uniqueMeshes(const std::vector<BodyShape>& shapes);
-/// Sphere cuts of the distinct meshes, for contact with features of at least `contactSize` [m].
-std::vector<PartCut> meshCuts(const std::vector<BodyShape>& shapes, double contactSize);
+/// Sphere cuts of the distinct meshes, for contact with grains and vehicle parts of at least `contactSize` [m]
+/// (infinite: none), and with the shapes of other bodies. The thickness of a mesh itself does not limit its spheres.
+std::vector<PartCut> meshCuts(const std::vector<BodyShape>& shapes, const std::vector<multibody::Body>& bodies,
+                              double contactSize);
 
 } // namespace grouser::coupling

@@ -3,12 +3,14 @@
 
 #include "base/error.hpp"
 #include "base/math.hpp"
+#include "base/rounded.hpp"
 #include "spheredecomp/detail/outer_surface.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 namespace grouser::spheredecomp {
@@ -70,15 +72,6 @@ Cause causeOf(const SphereSet& set, const Protrusion& worst, const Decomposition
                       set.radius, dipWhereThin(set, options), limit.permittedDip)};
 }
 
-/// Rejects a mesh; the message offers the default radius, for which the error is known.
-[[noreturn]] void refuse(const std::string& name, const Cause& cause, const ProtrusionLimit& limit, double radius,
-                         const std::string& finer) {
-  throw base::InputError(fmt::format(
-      "{}: the mesh is thin or pointed at ({:.4g}, {:.4g}, {:.4g}), in metres: {} for a contact size of {:.3g} m, "
-      "and {}; thicken or split the part, use a box instead, or set the sphere radius to {:.6g} m to accept this error",
-      name, cause.place.x, cause.place.y, cause.place.z, cause.fault, limit.contactSize, finer, radius));
-}
-
 } // namespace
 
 Protrusion largestProtrusion(const TriangleMesh& mesh, const SphereSet& set) {
@@ -98,14 +91,55 @@ bool meets(const ProtrusionLimit& limit, const SphereSet& set, const Decompositi
   return protrusion.distance <= limit.permitted && dipWhereThin(set, options) <= limit.permittedDip;
 }
 
+namespace {
+
+/// A radius that a user can set, with its result.
+struct Remedy {
+  double radius{}, protrusion{}; ///< [m]
+  std::size_t spheres{};
+};
+
+/// The radius with the smallest protrusion: the default, or a half, quarter, ... of it within the sphere budget.
+Remedy bestRadius(const TriangleMesh& mesh, const std::string& name, DecompositionOptions options,
+                  const Remedy& byDefault) {
+  Remedy best = byDefault;
+  const double meshArea = area(mesh);
+  options.most = static_cast<std::size_t>(kSphereBudget);
+  for (;;) {
+    options.radius = std::stod(base::roundedDown(0.5 * options.radius, 3));
+    if (countOf(meshArea, options.radius) > kSphereBudget || latticePoints(mesh, options.radius) > kMaxLatticePoints)
+      return best;
+    const SphereSet set = decompose(mesh, name, options);
+    if (set.surfaceCount > options.most) return best;
+    const double protrusion = largestProtrusion(mesh, set).distance;
+    if (protrusion < best.protrusion) best = {set.radius, protrusion, set.spheres.size()};
+  }
+}
+
+/// Rejects a mesh; the message offers a radius for which the error is known.
+[[noreturn]] void refuse(const std::string& name, const Cause& cause, const ProtrusionLimit& limit,
+                         const Remedy& remedy, const std::string& finer) {
+  throw base::InputError(fmt::format(
+      "{}: the mesh is thin or pointed at ({:.4g}, {:.4g}, {:.4g}), in metres: {} for a contact size of {:.3g} m, "
+      "and {}; thicken the part, build it from boxes or other closed shapes, or set the sphere radius to {:.6g} m: {} "
+      "spheres that protrude by {:.2g} m",
+      name, cause.place.x, cause.place.y, cause.place.z, cause.fault, limit.contactSize, finer, remedy.radius,
+      remedy.spheres, remedy.protrusion));
+}
+
+} // namespace
+
 SphereSet decomposeWithin(const TriangleMesh& mesh, const std::string& name, const DecompositionOptions& options,
                           const ProtrusionLimit& limit, Protrusion& protrusion) {
   SphereSet set = decompose(mesh, name, options);
   protrusion = largestProtrusion(mesh, set);
   if (!limit.automatic || meets(limit, set, options, protrusion)) return set;
   const Cause cause = causeOf(set, protrusion, options, limit);
-  const double defaultRadius = set.radius, meshArea = set.meshArea;
-  const auto refuseWith = [&](const std::string& finer) { refuse(name, cause, limit, defaultRadius, finer); };
+  const Remedy byDefault{set.radius, protrusion.distance, set.spheres.size()};
+  const double meshArea = set.meshArea;
+  const auto refuseWith = [&](const std::string& finer) {
+    refuse(name, cause, limit, bestRadius(mesh, name, options, byDefault), finer);
+  };
   const std::string tooMany = fmt::format("a finer decomposition requires more than {:.0f} spheres", kSphereBudget);
   DecompositionOptions fine = options;
   fine.thin = true;

@@ -99,7 +99,8 @@ Table<ShapeSection> shapeTable() {
   t.add("sphere_radius", &S::sphereRadius, "m",
         fmt::format("radius of the spheres that represent a mesh in contacts; default: {} of the mesh's diagonal, or "
                     "less if spheres would protrude from the mesh by more than a fiftieth of the smallest grain radius "
-                    "or of the smallest thickness",
+                    "or of the smallest thickness of other bodies; without this key, a mesh that is exactly a box, in "
+                    "any orientation, is a box without spheres",
                     MeshSection::kShareOfDiagonal))
       .plausible(1e-5, 1)
       .atLeast(spheredecomp::kSmallestRadius)

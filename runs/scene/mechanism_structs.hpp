@@ -22,12 +22,13 @@ struct ShapeSection {
   std::optional<double> tipRadius;      ///< [m] radius of a cone's tip; empty: 0
   std::optional<std::string> file;      ///< mesh file; absolute path after loading
   std::optional<double> scale;          ///< metres per length unit of the mesh file; empty: 1
-  std::optional<double> sphereRadius;   ///< [m] sphere radius of a mesh; empty: from its diagonal and its contacts
+  std::optional<double> sphereRadius;   ///< [m] sphere radius of a mesh; empty: from its diagonal and its contacts,
+                                        ///< or no spheres if it is exactly a box
   base::Vec3d position;                 ///< [m] centre in the body's frame; mesh: the file's origin
   std::optional<base::Vec3d> axis;      ///< cylinder, capsule: direction; cone: from base to tip; box, mesh:
                                         ///< rotation axis of `angle`
   std::optional<double> angle;          ///< [deg]
-  LoadedMesh loaded;                    ///< centred on the bounding box of the mesh
+  LoadedMesh loaded;                    ///< centred on the bounding box of the mesh, or exactly a box
   bool operator==(const ShapeSection&) const = default;
 };
 
@@ -138,11 +139,11 @@ struct MechanismSections {
   bool touches() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) { return !b.shapes.empty(); });
   }
-  /// Returns true if any shape is a mesh.
+  /// Returns true if any shape is a mesh, except meshes that are exactly boxes.
   bool hasMeshes() const {
     return std::any_of(bodies.begin(), bodies.end(), [](const BodySection& b) {
       return std::any_of(b.shapes.begin(), b.shapes.end(),
-                         [](const ShapeSection& s) { return s.kind == ShapeKind::mesh; });
+                         [](const ShapeSection& s) { return s.loaded.query != nullptr; });
     });
   }
   bool operator==(const MechanismSections&) const = default;

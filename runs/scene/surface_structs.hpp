@@ -3,6 +3,7 @@
 
 #include "base/vec.hpp"
 #include "runs/scene/choices.hpp"
+#include "spheredecomp/mesh_box.hpp"
 #include "spheredecomp/mesh_query.hpp"
 
 #include <memory>
@@ -61,10 +62,11 @@ struct CylinderSection : SurfaceSection {
 
 /// Mesh of a file, read when the scene was loaded [m].
 struct LoadedMesh {
-  std::shared_ptr<const spheredecomp::MeshQuery> query;
-  double sphereRadius{}; ///< as given, or by default [m]
-  std::string note;      ///< changes that were made on reading; empty: none
-  base::Vec3d middle;    ///< centre of the bounding box in the file [m]; set for bodies
+  std::shared_ptr<const spheredecomp::MeshQuery> query; ///< null if `box` is set
+  double sphereRadius{};                                ///< as given, or by default [m]
+  std::string note;   ///< changes that were made on reading, and the exact box; empty: none
+  base::Vec3d middle; ///< centre of the bounding box, or of `box`, in the file [m]; set for bodies
+  std::optional<spheredecomp::MeshBox> box; ///< the mesh of a body if it is exactly a box and has no sphere radius
   bool operator==(const LoadedMesh&) const { return true; } // the file name is compared
 };
 

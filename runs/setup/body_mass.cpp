@@ -2,7 +2,6 @@
 #include "runs/setup/body_mass.hpp"
 
 #include "base/math.hpp"
-#include "contact/shape_points.hpp"
 #include "runs/scene/mechanism_structs.hpp"
 #include "runs/support/orientation.hpp"
 #include "spheredecomp/mesh.hpp"
@@ -26,6 +25,7 @@ contact::SurfaceGeometry geometryOf(const scene::ShapeSection& s) {
   case scene::ShapeKind::cone:
     return {SurfaceShape::cone, {*s.radius, s.tipRadius.value_or(0), 0.5 * *s.length}};
   case scene::ShapeKind::mesh:
+    if (s.loaded.box) return {SurfaceShape::box, s.loaded.box->half};
     return {SurfaceShape::box, spheredecomp::bounds(s.loaded.query->mesh()).second};
   case scene::ShapeKind::sphere:
     break;
@@ -36,7 +36,7 @@ contact::SurfaceGeometry geometryOf(const scene::ShapeSection& s) {
 base::Pose poseOf(const scene::ShapeSection& s) {
   if (s.kind == scene::ShapeKind::box || s.kind == scene::ShapeKind::mesh) {
     const base::Quat turn = support::orientationOf(s.axis, s.angle, {});
-    return {s.position + rotate(turn, s.loaded.middle), turn};
+    return {s.position + rotate(turn, s.loaded.middle), s.loaded.box ? turn * s.loaded.box->orientation : turn};
   }
   return {s.position, s.axis ? support::turnFromZ(base::normalized(*s.axis)) : base::Quat{}};
 }
@@ -123,16 +123,6 @@ SolidMoments momentsOf(const base::TriangleMesh& mesh) {
 
 double massOf(const scene::BodySection& body) {
   return body.mass ? *body.mass : *body.density * momentsOf(body).volume;
-}
-
-bool shellsOverlap(const spheredecomp::MeshQuery& query) {
-  constexpr double kRounding = 1e-3; // relative error of the sampled area
-  const double spacing = contact::meshSpacing(spheredecomp::bounds(query.mesh()).second);
-  double exposed = 0;
-  const auto inside = [&query](const Vec3d& p) { return query.inside(p); };
-  for (const contact::SurfaceSample& s : contact::meshPoints(query.mesh(), spacing, inside))
-    exposed += static_cast<double>(s.area);
-  return exposed < (1 - kRounding) * spheredecomp::area(query.mesh());
 }
 
 SolidMoments momentsOf(const scene::BodySection& body) {

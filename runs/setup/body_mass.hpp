@@ -4,7 +4,6 @@
 #include "base/sphere_set.hpp"
 #include "base/vec.hpp"
 #include "contact/surface_geometry.hpp"
-#include "spheredecomp/mesh_query.hpp"
 
 namespace grouser::scene {
 struct BodySection;
@@ -13,8 +12,8 @@ struct ShapeSection;
 
 namespace grouser::setup {
 
-/// Geometry of a shape of a [[body]] (mesh: its bounding box), and pose X_BS of the shape's frame S in the body's
-/// frame.
+/// Geometry of a shape of a [[body]] (mesh: the box that it is, else its bounding box), and pose X_BS of the shape's
+/// frame S in the body's frame.
 contact::SurfaceGeometry geometryOf(const scene::ShapeSection& shape);
 base::Pose poseOf(const scene::ShapeSection& shape);
 
@@ -33,9 +32,6 @@ SolidMoments momentsOf(const base::TriangleMesh& mesh);
 
 /// Mass of a moving body [kg]: the key `mass`, or density times the volume of its shapes.
 double massOf(const scene::BodySection& body);
-
-/// Returns true if shells of a closed mesh overlap or nest. momentsOf() counts their common volume twice.
-bool shellsOverlap(const spheredecomp::MeshQuery& mesh);
 
 /// All shapes of a body in its frame, about their common centre (Huygens-Steiner). The common volume of overlapping
 /// shapes counts for each shape.

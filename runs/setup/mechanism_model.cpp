@@ -8,6 +8,7 @@
 #include "runs/setup/body_mass.hpp"
 #include "runs/setup/mechanism_frames.hpp"
 #include "runs/support/orientation.hpp"
+#include "spheredecomp/shells.hpp"
 #include "vehicle/assembly.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -32,16 +34,28 @@ namespace {
 /// the body's size [-]; positions are typed with a few digits.
 constexpr double kCentred = 1e-3;
 
+/// Rejects a mesh whose moments are not those of its solid.
+void checkShells(const scene::ShapeSection& shape, std::size_t number) {
+  const std::optional<spheredecomp::ShellFault> fault = spheredecomp::shellFault(*shape.loaded.query);
+  if (!fault) return;
+  const bool inverted = fault->kind == spheredecomp::ShellFault::Kind::inverted;
+  const Vec3d at = fault->place + shape.loaded.middle;
+  throw support::SectionFault(
+      "",
+      fmt::format("has {} in the mesh of shape.{}, e.g. at ({:.4g}, {:.4g}, {:.4g}) m in the frame of the file "
+                  "({:.2g} % of its surface), so mass and inertia would count {}; {}, or set mass and inertia",
+                  inverted ? "a shell with inward faces outside all others" : "overlapping, nested or repeated shells",
+                  number, at.x, at.y, at.z, 100 * fault->share,
+                  inverted ? "its volume as negative" : "their common volume more than once",
+                  inverted ? "flip the faces of this shell"
+                           : "merge the shells (Boolean union in a mesh editor), delete a repeated shell, reverse "
+                             "the inner shell of a hollow mesh"));
+}
+
 /// Volume, centre and inertia of the shapes at unit density.
 SolidMoments shapesMoments(const scene::BodySection& b) {
   for (std::size_t k = 0; k < b.shapes.size(); ++k)
-    if (const auto& query = b.shapes[k].loaded.query; query && shellsOverlap(*query))
-      throw support::SectionFault(
-          "",
-          fmt::format(
-              "has overlapping or nested shells in the mesh of shape.{}, so mass and inertia would count their common "
-              "volume twice; merge the shells, reverse the inner shell of a hollow mesh, or set mass and inertia",
-              k));
+    if (b.shapes[k].loaded.query) checkShells(b.shapes[k], k);
   const SolidMoments m = momentsOf(b);
   double size = 0;
   for (const scene::ShapeSection& s : b.shapes)

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace grouser::spheredecomp {
 namespace {
@@ -126,8 +127,21 @@ TEST(ThinPart, BeyondTheBudgetAnErrorNamesPlaceAndRemedy) {
   } catch (const base::InputError& error) {
     const std::string said = error.what();
     for (const char* word : {"part: the mesh is thin or pointed at (", "more than the permitted 4e-06 m",
-                             "requires more than 100000 spheres", "set the sphere radius to 0.00707107 m"})
+                             "requires more than 100000 spheres", "set the sphere radius to "})
       EXPECT_NE(said.find(word), std::string::npos) << said;
+    // The remedy has the error that the message states, less than that of the default radius.
+    double radius = 0, protrusion = 0;
+    std::size_t spheres = 0;
+    const std::string remedy = said.substr(said.find("set the sphere radius to "));
+    ASSERT_EQ(std::sscanf(remedy.c_str(), "set the sphere radius to %lf m: %zu spheres that protrude by %lf m", &radius,
+                          &spheres, &protrusion),
+              3)
+        << said;
+    const SphereSet set = decompose(sheet(1e-4), "part", {.radius = radius, .interior = false});
+    EXPECT_EQ(set.spheres.size(), spheres);
+    EXPECT_NEAR(largestProtrusion(sheet(1e-4), set).distance, protrusion, 0.05 * protrusion) << "two digits";
+    const SphereSet plain = decompose(sheet(1e-4), "part", {.radius = diagonal(sheet(1e-4)) / 40, .interior = false});
+    EXPECT_LT(protrusion, 0.5 * largestProtrusion(sheet(1e-4), plain).distance);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "runs/setup/provenance.hpp"
 #include "runs/setup/simulation_setup.hpp"
 #include "runs/setup/step_limit.hpp"
+#include "runs/setup/vehicle_surroundings.hpp"
 #include "spheredecomp/mesh.hpp"
 #include "tests/message_of.hpp"
 #include "tests/system/scene_simulation.hpp"
@@ -81,7 +82,8 @@ std::string head(const std::string& run = {}) {
          "\n[material.glass]\nstiffness = 1e5\nrestitution = 0.4\nfriction = 0.3\nfoundation_modulus = 1e8\n";
 }
 const std::string kPlane = "[[plane]]\nnormal = [0, 0, 1]\nmaterial = \"glass\"\n";
-const std::string kCubeShape = "[[body.shape]]\nkind = \"mesh\"\nfile = \"cube.obj\"\n";
+/// With its default sphere radius as a key: without this key, the cube would be an exact box without spheres.
+const std::string kCubeShape = "[[body.shape]]\nkind = \"mesh\"\nfile = \"cube.obj\"\nsphere_radius = 0.00433\n";
 const std::string kBoxShape = "[[body.shape]]\nkind = \"box\"\nsize = [0.1, 0.1, 0.1]\n";
 
 std::string body(const std::string& name, const std::string& position, const std::string& keys,
@@ -155,7 +157,7 @@ TEST(MeshBodies, StandOnEachOtherByPointsAndSpheres) {
   folder.cube();
   folder.box("slab.obj", {-0.1, -0.1, -0.02}, {0.1, 0.1, 0.02});
   // Box on mesh, mesh on mesh, mesh on box: sample points are on the smaller one.
-  const std::string slab = "[[body.shape]]\nkind = \"mesh\"\nfile = \"slab.obj\"\n";
+  const std::string slab = "[[body.shape]]\nkind = \"mesh\"\nfile = \"slab.obj\"\nsphere_radius = 0.00714\n";
   const std::string ofSlab = "mass = 5\nbox = [0.2, 0.2, 0.04]\n";
   const auto s = folder.made(
       head() + kPlane + body("slab", "[0, 0, 0.02]", ofSlab, slab) + body("mesh", "[0, 0, 0.09]", kTwoKilograms) +
@@ -198,13 +200,15 @@ TEST(MeshBodies, MassAndInertiaAreThoseOfTheBox) {
                setup::parseScene(head() + kPlane + body("b", "[0, 0, 1]", "density = 800\n", shape), folder.scene()))
         .model.bodies()[0];
   };
-  const auto mesh = modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"brick.obj\"\nscale = 0.1\naxis = [0, 0, 1]\n"
-                            "angle = 90\nposition = [0.1, -0.05, -0.15]\n");
+  const std::string brick = "[[body.shape]]\nkind = \"mesh\"\nfile = \"brick.obj\"\nscale = 0.1\naxis = [0, 0, 1]\n"
+                            "angle = 90\nposition = [0.1, -0.05, -0.15]\n";
   const auto box = modelOf("[[body.shape]]\nkind = \"box\"\nsize = [0.2, 0.1, 0.3]\n");
-  EXPECT_NEAR(mesh.mass, 800 * 0.006, 1e-9);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      EXPECT_NEAR(mesh.inertia_B.m[i][j], box.inertia_B.m[i][j], 1e-7 * box.inertia_B.m[0][0]) << i << j;
+  for (const auto& mesh : {modelOf(brick), modelOf(brick + "sphere_radius = 0.009\n")}) {
+    EXPECT_NEAR(mesh.mass, 800 * 0.006, 1e-9);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        EXPECT_NEAR(mesh.inertia_B.m[i][j], box.inertia_B.m[i][j], 1e-7 * box.inertia_B.m[0][0]) << i << j;
+  }
   const std::string beside = messageOf([&] { modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"brick.obj\"\n"); });
   EXPECT_NE(beside.find("has its centre of mass at [0.5, 1, 1.5] m"), std::string::npos) << beside;
   // A hollow box with an inner shell that is not reversed.
@@ -212,7 +216,14 @@ TEST(MeshBodies, MassAndInertiaAreThoseOfTheBox) {
   folder.box("inner.obj", {-0.04, -0.04, -0.04}, {0.04, 0.04, 0.04});
   folder.append("nested.obj", "inner.obj");
   const std::string nested = messageOf([&] { modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"nested.obj\"\n"); });
-  EXPECT_NE(nested.find("overlapping or nested shells in the mesh of shape.0"), std::string::npos) << nested;
+  EXPECT_NE(nested.find("overlapping, nested or repeated shells in the mesh of shape.0, e.g. at ("), std::string::npos)
+      << nested;
+  // A rod and its copy, 1 mm further along it: only the ends are hidden, 1/2004 of the surface.
+  folder.box("rod.obj", {-0.5, -0.001, -0.001}, {0.5, 0.001, 0.001});
+  folder.box("copy.obj", {-0.499, -0.001, -0.001}, {0.501, 0.001, 0.001});
+  folder.append("rod.obj", "copy.obj");
+  const std::string repeated = messageOf([&] { modelOf("[[body.shape]]\nkind = \"mesh\"\nfile = \"rod.obj\"\n"); });
+  EXPECT_NE(repeated.find("repeated shells in the mesh of shape.0, e.g. at ("), std::string::npos) << repeated;
   // A tetrahedron with a vertex at the origin: integrals in closed form.
   base::TriangleMesh tetra{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}};
   const setup::SolidMoments m = setup::momentsOf(tetra);
@@ -220,6 +231,99 @@ TEST(MeshBodies, MassAndInertiaAreThoseOfTheBox) {
   EXPECT_NEAR(norm(m.centre - Vec3d{0.25, 0.25, 0.25}), 0, 1e-15);
   EXPECT_NEAR(m.inertia.m[0][0], 2 * (1.0 / 60 - 1.0 / 96), 1e-15);
   EXPECT_NEAR(m.inertia.m[0][1], -(1.0 / 120 - 1.0 / 96), 1e-15);
+}
+
+/// One grain on a fixed sheet of 0.4 x 0.4 x 0.001 m with its upper face at z = 0.
+std::string grainOn(const std::string& shape) {
+  return head() + "[[grain]]\nposition = [0.0213, 0.0371, 0.0099]\nradius = 0.01\nmaterial = \"glass\"\n" +
+         body("sheet", "[0, 0, 0]", "fixed = true", "[[body.shape]]\n" + shape);
+}
+const std::string kSheetAsBox = "kind = \"box\"\nsize = [0.4, 0.4, 0.001]\nposition = [0, 0, -0.0005]\n";
+
+TEST(MeshBodies, ThatAreBoxesMoveAsBoxesDo) {
+  const Folder folder;
+  folder.box("sheet.obj", {-0.2, -0.2, -0.001}, {0.2, 0.2, 0});
+  folder.box("sheet_mm.obj", {0, 0, -1}, {400, 400, 0});
+  folder.cube();
+  const auto box = folder.made(grainOn(kSheetAsBox));
+  const auto mesh = folder.made(grainOn("kind = \"mesh\"\nfile = \"sheet.obj\"\n"));
+  const auto scaled =
+      folder.made(grainOn("kind = \"mesh\"\nfile = \"sheet_mm.obj\"\nscale = 0.001\nposition = [-0.2, -0.2, 0]\n"));
+  EXPECT_EQ(mesh->timeStep(), box->timeStep());
+  for (const auto& s : {mesh.get(), scaled.get(), box.get()}) advanceTo(*s, 0.02);
+  EXPECT_EQ(mesh->stateHash(), box->stateHash());
+  EXPECT_EQ(scaled->stateHash(), box->stateHash());
+  EXPECT_TRUE(cutReports(*mesh).empty()) << "no spheres";
+  // On a plane and on each other.
+  const auto pile = [&](const std::string& shape) {
+    return folder.made(head() + kPlane + body("a", "[0, 0, 0.0505]", kTwoKilograms, shape) +
+                       body("b", "[0.01, 0, 0.152]", "density = 2000\nspin = [0.5, 0, 1]\n", shape));
+  };
+  const auto meshes = pile("[[body.shape]]\nkind = \"mesh\"\nfile = \"cube.obj\"\n"), boxes = pile(kBoxShape);
+  advanceTo(*meshes, 0.05), advanceTo(*boxes, 0.05);
+  EXPECT_EQ(meshes->stateHash(), boxes->stateHash());
+}
+
+TEST(MeshBodies, ThatAreBoxesAreShapesAndNotesOfBoxes) {
+  const Folder folder;
+  // The corners of a box of 0.3 x 0.2 x 0.1 m, rotated by 30 degrees about x in the file.
+  const double c = std::sqrt(0.75), s = 0.5;
+  {
+    std::ofstream file(fs::path(folder.scene()).parent_path() / "turned.obj");
+    for (int i = 0; i < 8; ++i) {
+      const double x = i & 1 ? 0.35 : 0.05, y = i & 2 ? 0.1 : -0.1, z = i & 4 ? 0.05 : -0.05;
+      file << fmt::format("v {:.6f} {:.6f} {:.6f}\n", x, c * y - s * z, s * y + c * z);
+    }
+    file << "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  }
+  const auto sceneOf = [&](const std::string& shape) {
+    return setup::parseScene(head() + kPlane + body("b", "[0, 0, 1]", kTwoKilograms, "[[body.shape]]\n" + shape),
+                             folder.scene());
+  };
+  const scene::Scene scene =
+      sceneOf("kind = \"mesh\"\nfile = \"turned.obj\"\nposition = [-0.2, 0, 0]\naxis = [1, 0, 0]\nangle = 15\n");
+  const auto shapeOf = [](const scene::Scene& of) { return setup::mechanismSetup(of).shapes.at(0); };
+  const BodyShape shape = shapeOf(scene);
+  const BodyShape box = shapeOf(sceneOf("kind = \"box\"\nsize = [0.3, 0.2, 0.1]\naxis = [1, 0, 0]\nangle = 45\n"));
+  EXPECT_EQ(shape.mesh, nullptr);
+  EXPECT_EQ(shape.shape.shape, contact::SurfaceShape::box);
+  EXPECT_LT(norm(shape.shape.half - box.shape.half), 1e-6) << "six digits of the file";
+  EXPECT_LT(norm(shape.pose_B.position - box.pose_B.position), 1e-6);
+  for (const Vec3d& p : {Vec3d{0.15, 0.1, 0.05}, {-0.15, 0.1, -0.05}})
+    EXPECT_LT(norm(shape.pose_B.toWorld(p) - box.pose_B.toWorld(p)), 3e-6);
+  EXPECT_FALSE(scene.mechanism.hasMeshes()) << "no spheres in the forecast";
+  const std::vector<std::string> notes = setup::meshNotes(scene);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("turned.obj: the mesh is a box of 0.3 x 0.2 x 0.1 m; contacts use the exact box"),
+            std::string::npos)
+      << notes[0];
+  // With the key sphere_radius it consists of spheres.
+  const scene::Scene spheres = sceneOf("kind = \"mesh\"\nfile = \"turned.obj\"\nsphere_radius = 0.005\n");
+  EXPECT_NE(shapeOf(spheres).mesh, nullptr);
+  const std::vector<std::string> advice = setup::meshNotes(spheres);
+  ASSERT_EQ(advice.size(), 1u);
+  EXPECT_NE(advice[0].find("the mesh is a box; remove sphere_radius"), std::string::npos) << advice[0];
+}
+
+TEST(MeshBodies, ThinSheetsAreAsAccurateAsTheirPartnersRequire) {
+  const Folder folder;
+  { // An angle of 1 mm sheet: profile in the x-z plane, 0.4 m long. Its own thickness does not limit its spheres.
+    std::ofstream file(fs::path(folder.scene()).parent_path() / "angle.obj");
+    for (const double y : {-0.2, 0.2})
+      for (const char* at :
+           {"-0.2 {} 0", "-0.2 {} -0.001", "0.2 {} -0.001", "0.2 {} 0.05", "0.199 {} 0.05", "0.199 {} 0"})
+        file << "v " << fmt::format(fmt::runtime(at), y) << "\n";
+    file << "f 1 2 3 4 5 6\nf 12 11 10 9 8 7\n";
+    for (int i = 1; i <= 6; ++i) file << fmt::format("f {} {} {} {}\n", i, i + 6, i % 6 + 7, i % 6 + 1);
+  }
+  const auto s = folder.made(grainOn("kind = \"mesh\"\nfile = \"angle.obj\"\n"));
+  const auto reports = cutReports(*s);
+  ASSERT_EQ(reports.size(), 1u);
+  EXPECT_DOUBLE_EQ(reports[0].limit.permitted, 0.02 * 0.01) << "a fiftieth of the grain radius";
+  EXPECT_LE(reports[0].protrusion.distance, 0.02 * 0.01);
+  EXPECT_LT(reports[0].spheres, 2e4);
+  advanceTo(*s, 0.5);
+  EXPECT_NEAR(s->ground().grains->snapshot().position[0].z, 0.01, 3e-6) << "static overlap below 2 um";
 }
 
 TEST(MeshBodies, HaveOneAnswerWhenResumedAndWithTwoThreads) {
@@ -337,8 +441,7 @@ TEST(MeshBodies, BadFilesAndKeysAreRefusedAtTheirPlace) {
 TEST(MeshBodies, TheResolvedSceneIsTheSame) {
   const Folder folder;
   folder.cube();
-  const std::string text =
-      head() + kPlane + body("cube", "[0, 0, 0.05]", "", kCubeShape + "sphere_radius = 0.004\nscale = 1\n");
+  const std::string text = head() + kPlane + body("cube", "[0, 0, 0.05]", "", kCubeShape + "scale = 1\n");
   const scene::Scene scene = setup::parseScene(text, folder.scene());
   const scene::Scene again = setup::parseScene(scene::resolvedToml(scene), "elsewhere.toml");
   EXPECT_EQ(scene.mechanism, again.mechanism);

@@ -90,8 +90,8 @@ bool keptMeshes(const scene::Scene& scene, double grains, double timeStep, stora
     mechanism = setup::mechanismSetup(scene);
     double size = grains > 0 ? setup::ContactPairs(scene).kinds.smallest : base::kInfinity;
     if (scene.vehicle) size = std::min(size, coupling::VehicleParts::contactSize(setup::vehicleSpec(scene)));
-    for (const coupling::BodyShape& s : mechanism.shapes) size = std::min(size, coupling::minFeature(s));
-    for (coupling::PartCut& cut : coupling::meshCuts(mechanism.shapes, size)) parts.push_back(std::move(cut));
+    for (coupling::PartCut& cut : coupling::meshCuts(mechanism.shapes, mechanism.model.bodies(), size))
+      parts.push_back(std::move(cut));
   }
   try {
     coupling::cutParts(parts, &kept, base::Comm(), &cuts);
