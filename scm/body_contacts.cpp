@@ -136,7 +136,9 @@ void BodyContacts::gather(std::size_t body, const Cell& cell, double k) {
   }
   if (flankWeight > 0) {
     Contact& c = flanksNow_[body].emplace_back();
-    c.i = cell.i, c.j = cell.j, c.node = cell.node, c.place = cell.toWorld(h, flankMean * (1 / flankWeight));
+    flankMean *= 1 / flankWeight;
+    c.i = cell.i, c.j = cell.j, c.node = cell.node, c.place = cell.toWorld(h, flankMean);
+    c.depth = flankMean.z - surface;
     const double force = norm(flank);
     c.face = flankArea, c.up = flank * (1 / force), c.pressure = force / flankArea, c.cohesive = 1;
   }
@@ -168,13 +170,24 @@ void BodyContacts::press(std::size_t body, const contact::PartMotion& motion, do
   for (Contact& c : flanksNow_[body]) {
     const Contact* before = formerFlanks.match(c, ended);
     c.pressure *= mobilised;
-    if (before) // the work of a flank counts as lost
-      energy.compaction -= c.face * c.pressure * dot(c.up, c.place - last.motion.toWorld(motion.toPart(c.place)));
+    pressFlank(c, before, step);
     add(c, before, step);
   }
   formerFlanks.finish(ended);
   last.motion = motion;
   std::swap(last.contacts, now_[body]), std::swap(last.flanks, flanksNow_[body]);
+}
+
+void BodyContacts::pressFlank(Contact& c, const Contact* before, const Step& step) const {
+  const SoilConstants& soil = loaded_.soil();
+  const double unloading = c.depth / (soil.elasticRatio * std::max(1.0, soil.exponent)); // p / k_u at the mean depth
+  const Vec3d moved = c.place - step.before.toWorld(step.motion.toPart(c.place));
+  if (before)
+    c.retreat = std::clamp(before->retreat + dot(moved, c.up), 0.0, unloading);
+  else if (dot(step.motion.velocityAt(c.place), c.up) > 0)
+    c.retreat = unloading;
+  c.pressure *= 1 - c.retreat / unloading;
+  if (before) step.energy.compaction -= c.face * c.pressure * dot(c.up, moved);
 }
 
 double BodyContacts::add(Contact& c, const Contact* before, const Step& step) const {
@@ -235,8 +248,9 @@ void BodyContacts::stream(NumberStream& numbers, std::vector<Last>& all) const {
     for (auto& row : m.rotation.m)
       for (double& value : row) numbers(value);
     for (std::vector<Contact>* list : {&last.contacts, &last.flanks})
-      streamContacts(numbers, *list, map_,
-                     [&](Contact& c) { numbers(c.place, c.up, c.pressure, c.cohesive, c.strength, c.shear); });
+      streamContacts(numbers, *list, map_, [&](Contact& c) {
+        numbers(c.place, c.up, c.pressure, c.retreat, c.cohesive, c.strength, c.shear);
+      });
   }
 }
 

@@ -26,7 +26,8 @@ struct BodyLoad {
 /// - Facets steeper than 60 degrees span a range of depths within a square. They become flanks, fully beyond 78
 /// degrees:
 ///   their pressure is the integral of Bekker's relation over the depth, times the mean ratio of pressure to virgin
-///   pressure of the body's other facets.
+///   pressure of the body's other facets. A flank that moves away from the soil loses its pressure along the unloading
+///   line of its mean depth.
 /// All of these are continuous in the tilt. Each contact of body and node has its own shear stress, initially zero.
 class BodyContacts {
 public:
@@ -48,6 +49,7 @@ private:
     Vec3d place;       ///< contact point [m]
     Vec3d up;          ///< unit normal into the body, world
     double pressure{}; ///< mean over `face` [Pa]
+    double retreat{};  ///< flank: distance by which it has moved away from the soil [m]; see pressFlank()
     double cohesive{}; ///< share of the face with cohesion [-]
     double strength{}; ///< tau_m [Pa]
     Vec3d shear;       ///< direction and mobilised fraction, world, in the tangent plane [-]
@@ -65,6 +67,8 @@ private:
   void gather(std::size_t body, const contact::PartMotion* motion);
   void gather(std::size_t body, const Cell& cell, double k);
   void press(std::size_t body, const contact::PartMotion& motion, double timeStep, SoilEnergy& energy);
+  /// Reduces the pressure of a flank that moves away from the soil, and adds the work of the flank to the losses.
+  void pressFlank(Contact& contact, const Contact* before, const Step& step) const;
   /// Adds the load of a contact with a known pressure, and returns its shear displacement in the step [m].
   double add(Contact& contact, const Contact* before, const Step& step) const;
   void stream(NumberStream& numbers, std::vector<Last>& all) const;

@@ -190,6 +190,8 @@ std::vector<double> sidesPressed(const coupling::MechanismSetup& mechanism, cons
 /// overlap of kDeep radii if the shape is round: K A / m for translation, K A r^2 / I for rotation.
 void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coupling::MechanismSetup& mechanism) {
   constexpr double kDeep = 0.01; // [radius]
+  // Soil damping stops a body within a few decay times. Its heat has a relative error of half a step per decay time.
+  constexpr double kSettling = 6; // [decay times]
   coupling::ContactParts parts;
   coupling::addBodyParts(parts, mechanism, mechanism.model);
   const bool meetsRigid = mechanism.foundations.ground >= 0 || scene.vehicle || !obstaclesOf(scene).empty();
@@ -228,6 +230,7 @@ void considerFoundations(StepLimit& limit, const scene::Scene& scene, const coup
   for (std::size_t b = mechanism.ofVehicle.bodies; b < bodies.size(); ++b) {
     const std::size_t section = b - mechanism.ofVehicle.bodies;
     if (bounces[b] > 0) limit.bounce = std::min(limit.bounce, base::kPi / std::sqrt(bounces[b]));
+    if (dampers[b] > 0) limit.bounce = std::min(limit.bounce, kSettling / dampers[b]);
     considerBoth(limit, springs[b], dampers[b],
                  fmt::format("body \"{}\" of {:g} kg on rigid surfaces or bodies", bodies[b].name, bodies[b].mass),
                  fmt::format("raise body.{}.mass, or lower foundation_modulus of material.{}", section,

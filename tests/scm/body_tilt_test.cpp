@@ -204,6 +204,42 @@ TEST(BodyTilt, BoxesSideBySideHaveTheWidthOfTheirPlate) {
   }
 }
 
+/// Energy [-] that a box which swings about its centre gains from the soil beyond the elastic energy at the start, at
+/// most, relative to the absolute work of the soil.
+double gainedEnergy(const Vec3d& half, double tilt, double depth, double swing) {
+  SoilMap map(0.0125, level);
+  SoilConstants soil = frictionless();
+  soil.friction = 0.5, soil.cohesion = 1000;
+  SoilContacts contacts(soil, 0.5, {}, map, {}, {solid({SurfaceShape::box, half}, 0.0125)}, 1e-3);
+  constexpr int kSteps = 300;
+  Vec3d torque;
+  double work = 0, least = 0, exchanged = 0, elastic = 0, angle = tilt;
+  for (int k = -100; k <= kSteps; ++k) {
+    const double now = tilt + (k > 0 ? swing * std::sin(2 * base::kPi * k / kSteps) : 0);
+    const double turn = (now - angle) * base::kPi / 180;
+    angle = now;
+    contact::PartMotion m = at({1.003, 0.001, half.x - depth - 0.001 * std::min(k, 0)}, turned(now));
+    m.spin = {0, turn / 1e-3, 0}, m.velocity = {0, 0, k <= 0 ? -1.0 : 0.0};
+    contacts.step(&m);
+    const Vec3d before = torque;
+    torque = contacts.bodies().loads()[0].torque;
+    if (k == 0) elastic = contacts.energy().elastic + contacts.energy().elasticShear;
+    if (k <= 0) continue;
+    const double more = -0.5 * (torque.y + before.y) * turn;
+    work += more, exchanged += std::fabs(more), least = std::min(least, work);
+  }
+  return -(least + elastic) / exchanged;
+}
+
+TEST(BodyTilt, SwingingBodiesGainNoEnergyFromTheSoil) {
+  for (const double tilt : {60.0, 75.0, 85.0, 90.0})
+    for (const double depth : {0.05, 0.15, 0.2})
+      for (const double swing : {-25.0, -2.0, 2.0, 25.0})
+        for (const double thick : {0.005, 0.05})
+          EXPECT_LT(gainedEnergy({0.2, 0.2, thick}, tilt, depth, swing), 0.03)
+              << tilt << " " << depth << " " << swing << " " << thick;
+}
+
 TEST(BodyTilt, ABlockOnASlopeSlidesAsUnderTiltedGravity) {
   SoilConstants soil = frictionless();
   soil.friction = 0.5, soil.cohesion = 500, soil.shearDisplacement = 0.005;
