@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace grouser::scm::body_tilt {
 namespace {
@@ -243,22 +244,24 @@ TEST(BodyTilt, SwingingBodiesGainNoEnergyFromTheSoil) {
 TEST(BodyTilt, ABlockOnASlopeSlidesAsUnderTiltedGravity) {
   SoilConstants soil = frictionless();
   soil.friction = 0.5, soil.cohesion = 500, soil.shearDisplacement = 0.005;
-  const Vec3d half{0.15, 0.1, 0.05};
-  for (const double slope : {0.0, 5.0, 12.0, 25.0, 35.0}) {
-    const double t = std::tan(slope * base::kPi / 180);
-    SoilMap map(0.02, [t](double x, double) { return terrain::SurfaceJet{.h = -t * x, .hx = -t, .hy = 0}; });
-    SoilContacts contacts(soil, 0.5, {}, map, {}, {solid({SurfaceShape::box, half}, 0.02)}, 1e-3);
-    const base::Mat3d r = turned(slope);
-    for (int k = 0; k <= 100; ++k) {
-      const contact::PartMotion m = at(r * Vec3d{0.003 + 1e-3 * k, 0.001, half.z - 0.02 * std::min(1.0, k / 20.0)}, r);
-      contacts.step(&m);
+  for (const double slope : {0.0, 5.0, 12.0, 25.0, 35.0})
+    for (const auto& [height, depth] : {std::pair{0.05, 0.02}, std::pair{0.005, 0.05}}) {
+      const Vec3d half{0.15, 0.1, height};
+      const double t = std::tan(slope * base::kPi / 180);
+      SoilMap map(0.02, [t](double x, double) { return terrain::SurfaceJet{.h = -t * x, .hx = -t, .hy = 0}; });
+      SoilContacts contacts(soil, 0.5, {}, map, {}, {solid({SurfaceShape::box, half}, 0.02)}, 1e-3);
+      const base::Mat3d r = turned(slope);
+      for (int k = 0; k <= 100; ++k) {
+        const contact::PartMotion m =
+            at(r * Vec3d{0.003 + 1e-3 * k, 0.001, half.z - depth * std::min(1.0, k / 20.0)}, r);
+        contacts.step(&m);
+      }
+      const Vec3d f = contacts.bodies().loads()[0].force;
+      const double down = dot(f, r * Vec3d{1, 0, 0}), normal = dot(f, r * Vec3d{0, 0, 1}), area = 4 * half.x * half.y;
+      EXPECT_NEAR(normal, kModulus * depth * area, 0.03 * normal)
+          << slope << ": plus the unloaded squares behind the block";
+      EXPECT_NEAR(down, -(0.5 * normal + 500 * area), 0.01 * normal) << slope;
     }
-    const Vec3d f = contacts.bodies().loads()[0].force;
-    const double down = dot(f, r * Vec3d{1, 0, 0}), normal = dot(f, r * Vec3d{0, 0, 1}), area = 4 * half.x * half.y;
-    EXPECT_NEAR(normal, kModulus * 0.02 * area, 0.03 * normal)
-        << slope << ": plus the unloaded squares behind the block";
-    EXPECT_NEAR(down, -(0.5 * normal + 500 * area), 0.01 * normal) << slope;
-  }
 }
 
 TEST(BodyTilt, VolumeOfARutIsThatOfTheBodyAtAnySpacingAndHeading) {
