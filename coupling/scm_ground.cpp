@@ -73,20 +73,19 @@ std::vector<scm::Facet> facetsOf(const spheredecomp::TriangleMesh& mesh, const s
 }
 
 std::vector<scm::Solid> solidsOf(const PartsOnGround& on, double spacing) {
-  using contact::SurfaceShape;
   std::vector<scm::Solid> solids;
   for (std::size_t c = 0; c < on.parts.count(); ++c) {
     const ContactPart& part = on.parts.parts[c];
     if (!part.canTouchGround || !part.ofBody) continue;
-    scm::Solid solid{.part = static_cast<int>(c), .body = static_cast<int>(part.body), .half = halfExtent(part.shape)};
-    if (part.mesh) {
-      solid.isConvex = false, solid.facets = facetsOf(part.mesh->mesh(), *part.mesh);
-    } else {
-      solid.isRound = part.shape.shape != SurfaceShape::box;
-      solid.isBall = part.shape.shape == SurfaceShape::capsule && part.shape.half.z == 0;
-      solid.facets = scm::facetsOf(part.shape, spacing);
-    }
-    solids.push_back(std::move(solid));
+    const int index = static_cast<int>(c), body = static_cast<int>(part.body);
+    if (part.mesh)
+      solids.push_back({.part = index,
+                        .body = body,
+                        .half = halfExtent(part.shape),
+                        .isConvex = false,
+                        .facets = facetsOf(part.mesh->mesh(), *part.mesh)});
+    else
+      solids.push_back(scm::solidOf(part.shape, spacing, index, body));
   }
   return solids;
 }

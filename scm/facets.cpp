@@ -96,8 +96,12 @@ std::vector<Facet> facetsOfRound(const contact::SurfaceGeometry& g, double spaci
 
 } // namespace
 
-std::vector<Facet> facetsOf(const contact::SurfaceGeometry& shape, double spacing) {
-  return shape.shape == SurfaceShape::box ? facetsOfBox(shape.half) : facetsOfRound(shape, spacing);
+Solid solidOf(const contact::SurfaceGeometry& shape, double spacing, int part, int body) {
+  const bool isBox = shape.shape == SurfaceShape::box;
+  Solid solid{.part = part, .body = body, .half = halfExtent(shape), .isRound = !isBox};
+  solid.isBall = shape.shape == SurfaceShape::capsule && shape.half.z == 0;
+  solid.facets = isBox ? facetsOfBox(shape.half) : facetsOfRound(shape, spacing);
+  return solid;
 }
 
 } // namespace grouser::scm

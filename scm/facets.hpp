@@ -27,8 +27,8 @@ struct Solid {
   std::vector<Facet> facets{}; ///< closed surface
 };
 
-/// Facets of a closed shape, other than a plane. A box is exact. Round shapes have polygons of equal area for sections
+/// Solid of a closed shape, other than a plane. A box is exact. Round shapes have polygons of equal area for sections
 /// across the axis, with sides shorter than half the `spacing` of the nodes [m] or 1/48 of the perimeter.
-std::vector<Facet> facetsOf(const contact::SurfaceGeometry& shape, double spacing);
+Solid solidOf(const contact::SurfaceGeometry& shape, double spacing, int part = 0, int body = 0);
 
 } // namespace grouser::scm

@@ -94,11 +94,13 @@ void Underside::cut(SoilMap& map, const Solid* solids, std::size_t count, const 
   if (low.z > map.topOf(firstI_, firstI_ + columns_ - 1, firstJ_, firstJ_ + rows_ - 1) + kNear) return;
   grid_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
   double leastUp = 1, top = -1e300; // over the cells
+  lowest_ = 1e300;
   for (std::int32_t j = 0; j < rows_; ++j)
     for (std::int32_t i = 0; i < columns_; ++i) {
       Cell& c = grid_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
       c.i = firstI_ + i, c.j = firstJ_ + j, c.node = &map.at(c.i, c.j), c.normal = map.normalAt(c.i, c.j);
       leastUp = std::min(leastUp, c.normal.z), top = std::max(top, c.node->height + c.node->looseThickness());
+      lowest_ = std::min(lowest_, c.node->height);
     }
   leastTurned_ = -::sqrt(std::max(0.0, 1 - leastUp * leastUp)), highest_ = top + (kRise * h + kNear) / leastUp;
   for (std::size_t s = 0; s < count; ++s)
@@ -135,17 +137,8 @@ void Underside::add(const Facet& facet, std::size_t solid, const contact::PartMo
     corners_.push_back(motion.toWorld(corner));
     low = min(low, corners_.back()), high = max(high, corners_.back());
   }
-  // Nodes whose squares the facet can reach, by the steepest normal of the grid's corners and its middle.
-  const auto at = [&](std::int32_t i, std::int32_t j) -> const Cell& {
-    return grid_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i)];
-  };
-  double aside = 0;
-  for (const Cell* c : {&at(0, 0), &at(columns_ - 1, 0), &at(0, rows_ - 1), &at(columns_ - 1, rows_ - 1),
-                        &at(columns_ / 2, rows_ / 2)}) {
-    const double lean = ::sqrt(1 - std::min(1.0, c->normal.z * c->normal.z));
-    if (!(lean > 0)) continue;
-    aside = std::max(aside, lean * (std::fabs(c->node->height - low.z) + std::fabs(c->node->height - high.z) + h));
-  }
+  // Nodes whose squares the facet can reach along the steepest normal.
+  const double aside = -leastTurned_ * (std::fabs(highest_ - low.z) + std::fabs(high.z - lowest_) + h);
   const auto limit = [](double x, std::int32_t most) {
     return static_cast<std::int32_t>(std::clamp(x, 0.0, static_cast<double>(most)));
   };

@@ -59,6 +59,7 @@ private:
   std::vector<Cell> grid_; ///< by row
   std::vector<Cell> cells_;
   double leastTurned_{};          ///< vertical component of Piece::up below which a facet faces away from all cells
+  double lowest_{};               ///< height of the lowest node [m]
   double highest_{};              ///< height above which facets cannot reach the soil [m]
   std::vector<Vec3d> corners_;    ///< corners of a facet, world
   Polygon one_, other_;           ///< scratch

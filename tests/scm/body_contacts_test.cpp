@@ -24,12 +24,7 @@ SoilConstants drySand() {
 
 terrain::SurfaceJet level(double, double) { return {}; }
 
-Solid solid(const contact::SurfaceGeometry& shape, double spacing = 0.01) {
-  Solid s{.part = 0, .half = halfExtent(shape), .isRound = shape.shape != contact::SurfaceShape::box};
-  s.isBall = shape.shape == contact::SurfaceShape::capsule && shape.half.z == 0;
-  s.facets = facetsOf(shape, spacing);
-  return s;
-}
+Solid solid(const contact::SurfaceGeometry& shape, double spacing = 0.01) { return solidOf(shape, spacing); }
 
 /// The wheel: its axis, z of the shape, is along -y; it has rotated by `turn` about +y.
 contact::PartMotion wheelAt(double x, double z, double turn, double speed, double rate) {
@@ -150,7 +145,6 @@ TEST(BodyContacts, SecondPassOfAWheelSinksSomewhatFurther) {
   EXPECT_NEAR(first, 0.04654, 0.02 * 0.04654) << "see TowedWheelSinksAndResistsAsBekkerHasIt";
   EXPECT_GT(second, 1.1 * first);
   EXPECT_LT(second, 2 * first);
-  std::printf("PASS %g %g\n", first, second);
 }
 
 TEST(BodyContacts, WidthOfALyingCylinderOrConeIsItsSmallerSideAtAnyLength) {

@@ -27,17 +27,12 @@ SoilConstants frictionless() {
 
 terrain::SurfaceJet level(double, double) { return {}; }
 
-Solid solid(const SurfaceGeometry& shape, double spacing, int part = 0) {
-  Solid s{.part = part, .half = halfExtent(shape), .isRound = shape.shape != SurfaceShape::box};
-  s.isBall = shape.shape == SurfaceShape::capsule && shape.half.z == 0;
-  s.facets = facetsOf(shape, spacing);
-  return s;
-}
+Solid solid(const SurfaceGeometry& shape, double spacing, int part = 0) { return solidOf(shape, spacing, part); }
 
 /// A box as a triangle mesh.
 Solid meshOfBox(const Vec3d& half) {
   Solid s{.half = half, .isConvex = false};
-  for (const Facet& f : facetsOf({SurfaceShape::box, half}, 1))
+  for (const Facet& f : solid({SurfaceShape::box, half}, 1).facets)
     for (const std::size_t k : {std::size_t{1}, std::size_t{2}})
       s.facets.push_back({{f.corners[0], f.corners[k], f.corners[k + 1]}, f.normal});
   return s;
@@ -99,7 +94,8 @@ TEST(BodyTilt, ForceOnABoxIsTheIntegralOverItsUndersideAtAnyTilt) {
                                 {{1.003, 0.001, z}}, turned(tilt), spacing);
         const Vec3d expected = forceOnBox(tilt, 2 * half.x, 2 * half.y, depth);
         worst = std::max(worst, norm(f - expected) / norm(expected));
-        EXPECT_LT(norm(f - expected), 55 * spacing * spacing * norm(expected)) // 0.55 % at 10 mm, of second order
+        EXPECT_LT(norm(f - expected),
+                  55 * spacing * spacing * norm(expected)) // 0.55 % at 10 mm; second-order convergence
             << tilt << " deg, " << spacing << " m, mesh " << isMesh;
       }
       std::printf("spacing %g m, mesh %d: largest error %.3g %%\n", spacing, isMesh, 100 * worst);
@@ -133,7 +129,7 @@ TEST(BodyTilt, LoadOfEveryShapeIsModulusTimesVolumeBelowTheSurface) {
     SurfaceGeometry shape;
     double tilt, height, volume;
   };
-  const double tan = 0.5; // of the half angle of the cone
+  const double coneSlope = 0.5; // radius / height of the sharp cone
   const Case cases[] = {
       // depth 50 mm
       {"box", {SurfaceShape::box, {0.15, 0.1, 0.05}}, 0, 0.05, 0.3 * 0.2 * d},
@@ -143,7 +139,7 @@ TEST(BodyTilt, LoadOfEveryShapeIsModulusTimesVolumeBelowTheSurface) {
       {"upright capsule", {SurfaceShape::capsule, {R, R, 0.1}}, 0, 0.1 + R, cap},
       {"lying capsule", {SurfaceShape::capsule, {R, R, 0.1}}, 90, R, cap + segment * 0.2},
       {"cone on its base", {SurfaceShape::cone, {R, 0.05, 0.1}}, 0, 0.1, pi * R * R * d},
-      {"cone on its tip", {SurfaceShape::cone, {0.1, 0, 0.1}}, 180, 0.1, pi * tan * tan * d * d * d / 3},
+      {"cone on its tip", {SurfaceShape::cone, {0.1, 0, 0.1}}, 180, 0.1, pi * coneSlope * coneSlope * d * d * d / 3},
   };
   for (const Case& c : cases)
     for (const double spacing : {0.005, 0.01, 0.02, 0.03})
@@ -152,7 +148,7 @@ TEST(BodyTilt, LoadOfEveryShapeIsModulusTimesVolumeBelowTheSurface) {
         const Vec3d f = pressed(frictionless(), {solid(c.shape, spacing)}, {{0.003, 0.002, c.height - d}},
                                 turned(c.tilt, yaw), spacing);
         const double expected = kModulus * c.volume;
-        const double error = (c.tilt == 180 ? 350 : 35) * spacing * spacing; // of second order
+        const double error = (c.tilt == 180 ? 350 : 35) * spacing * spacing; // second-order convergence
         EXPECT_NEAR(f.z, expected, error * expected) << c.name << " " << spacing << " " << yaw;
         EXPECT_LT(std::hypot(f.x, f.y), error * expected) << c.name << " " << spacing << " " << yaw;
       }
