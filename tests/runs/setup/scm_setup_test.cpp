@@ -5,6 +5,7 @@
 #include "base/math.hpp"
 #include "runs/scene/scene_file.hpp"
 #include "runs/scene/soil.hpp"
+#include "runs/setup/step_limit.hpp"
 #include "runs/setup/vehicle_step_limit.hpp"
 #include "tests/message_of.hpp"
 #include "vehicle/spec_file.hpp"
@@ -57,6 +58,20 @@ TEST(ScmSetup, WarnsOfNodesFartherApartThanTheDefault) {
                           "[[body.shape]]\nkind = \"box\"\nsize = [0.3, 0.2, 0.4]\n[scm]\nnode_spacing = ";
   EXPECT_EQ(warning(box + "0.025\n"), "") << "an eighth of the second smallest side";
   EXPECT_NE(warning(box + "0.04\n").find("exceeds the default, 0.025 m"), std::string::npos) << warning(box + "0.04\n");
+}
+
+/// A level plate of mass m and area A in soil with damping R stops with the rate R A / m. The heat of an explicit step
+/// has a relative error of half of step times rate.
+TEST(ScmSetup, AutomaticStepResolvesTheDampingUnderALightPlate) {
+  const double rate = 3e4 * 0.4 * 0.4 / 1;
+  const std::string text =
+      "version = 1\n[run]\nduration = 1\n[terrain]\nkind = \"scm\"\nmaterial = \"s\"\nheightmap = "
+      "\"heightmaps/flat.png\"\nsize = [8, 4]\nheight_range = [0, 0]\n[material.s]\n[scm]\nn = 1\nk_c = 0\nk_phi = "
+      "1e6\nc = 1000\nphi = 30\nK = 0.01\n[[body]]\nname = \"b\"\nmass = 1\nmaterial = \"s\"\nposition = [4, 0, "
+      "1]\n[[body.shape]]\nkind = \"box\"\nsize = [0.4, 0.4, 0.01]\n";
+  const double step = chooseTimeStep(scene::readSceneText(text, GROUSER_SOURCE_DIR "/runs/scenes/scm.toml"));
+  EXPECT_LT(0.5 * step * rate, 0.06);
+  EXPECT_GT(0.5 * step * rate, 0.01) << "no shorter than required";
 }
 
 TEST(ScmSetup, DrawsTheConstantsThatTheSceneOmits) {
