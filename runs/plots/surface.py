@@ -46,7 +46,8 @@ def soil(run):
         axes.grid(False)
     mesh = plan.pcolormesh(x, y, 1000 * sinkage, shading="nearest", cmap="YlOrBr", rasterized=True)
     for way, label in ways(run):
-        plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, marker=".", markersize=2, label=label)
+        plan.plot(way[:, 0], way[:, 1], color="black", linewidth=1.0, label=label,
+                  marker="." if numpy.ptp(way[:, :2], axis=0).max() < spacing else None)
     plan.tick_params(labelbottom=False)
     plan.set_ylabel("y [m]")
     drawing.legend_above(plan)
